@@ -1,7 +1,7 @@
-"""The command line: ``firetwin sample | info | new | maps | score | imager | build | bake | render | ...``.
+"""Command line: ``firetwin sample | info | new | maps | score | imager | build | bake | render | ...``.
 
-Results go to stdout, messages and progress to stderr. Exit status 0: done, 1: failed, 2: bad usage,
-130: Ctrl-C. Nothing heavy is imported before it is needed, so that help and mistakes answer at once.
+Results go to stdout, messages and progress to stderr. Exit status 0: done, 1: failed, 2: bad usage, 130:
+Ctrl-C. Heavy modules are imported on demand, so that help and usage errors answer at once.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit status."""
     arguments = _parser().parse_args(argv)
     if isinstance(sys.stdout, io.TextIOWrapper):
-        sys.stdout.reconfigure(errors="surrogateescape")  # names of files go out byte for byte
+        sys.stdout.reconfigure(errors="surrogateescape")  # file names are written byte for byte
     try:
         from . import commands
 
@@ -46,7 +46,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("\nfiretwin: stopped; what was finished is kept", file=sys.stderr)
         return 130
-    except BrokenPipeError:  # the reader of our output has gone, as in `firetwin info RUN | head`
+    except BrokenPipeError:  # broken pipe, as in `firetwin info RUN | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
     except Exception as error:
@@ -56,14 +56,14 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _passes() -> str:
-    """A line about each pass."""
+    """Help line of each pass."""
     from .shot import passes
 
     return "\n".join(f"  {name:<13}{text}" for name, text in passes.helps().items())
 
 
 def _report(error: Exception) -> int:
-    """One line that says what is wrong and what to do; the exit status for it."""
+    """Print an error with its remedy in one line; returns the exit status."""
     from .errors import Error, UsageError
     from .progress import say
 

@@ -1,4 +1,4 @@
-"""What each command of `cli` does; heavy modules are imported by the command that needs them."""
+"""Commands of `cli`; each imports the heavy modules that it needs."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def sample(arguments: argparse.Namespace) -> None:
 
 
 def info(arguments: argparse.Namespace) -> None:
-    """Show what is in a run, or in all runs of a scene file."""
+    """Show the contents of a run, or of all runs of a scene file."""
     from .run import info, zone
 
     if arguments.run.suffix == ".toml" and arguments.run.is_file():
@@ -77,7 +77,7 @@ def maps(arguments: argparse.Namespace) -> None:
 
 
 def score(arguments: argparse.Namespace) -> None:
-    """Compare a run with what was seen of its fire."""
+    """Compare a run with observations of its fire."""
     from . import files
     from .errors import Error, UsageError, input_error
     from .run import observations, zone
@@ -111,7 +111,7 @@ def score(arguments: argparse.Namespace) -> None:
 
 
 def imager(arguments: argparse.Namespace) -> None:
-    """Write what a satellite's imager would have measured."""
+    """Write the simulated measurements of a satellite's imager."""
     from .errors import UsageError, input_error
     from .run import times
     from .shot.satellites import geotiff
@@ -137,7 +137,7 @@ def imager(arguments: argparse.Namespace) -> None:
 
 
 def convert(arguments: argparse.Namespace) -> None:
-    """Make a run of a fire model's own files."""
+    """Convert a fire model's own files to a run."""
     from .jobs import convert
 
     reporter = Reporter("times")
@@ -175,7 +175,7 @@ def bake(arguments: argparse.Namespace) -> None:
 
 
 def render(arguments: argparse.Namespace) -> None:
-    """Render what is asked for and not finished, then the films."""
+    """Render the requested pictures that are not finished, then the films."""
     from .jobs import render
 
     asked = render.RenderRequest(
@@ -189,7 +189,7 @@ def render(arguments: argparse.Namespace) -> None:
 
 
 def track(arguments: argparse.Namespace) -> None:
-    """Write a camera's way as a GPX track."""
+    """Write a camera's path as a GPX track."""
     from . import files
     from .errors import UsageError
     from .shot import comparison
@@ -210,7 +210,7 @@ def track(arguments: argparse.Namespace) -> None:
 
 
 def cache(arguments: argparse.Namespace) -> None:
-    """List smoke volumes that are kept, or remove those used longest ago."""
+    """List cached smoke volumes, or remove the least recently used."""
     from .jobs import cache
 
     folders = cache.folders(arguments.places or [Path("cache")])
@@ -264,7 +264,7 @@ def schema(arguments: argparse.Namespace) -> None:
 
 
 def bench(arguments: argparse.Namespace) -> int:
-    """Measure, print the tables, and say whether every target is met."""
+    """Measure, print the tables, and report whether every target is met."""
     from .bench import measure
 
     say("measuring run time against error, all tools in turn")
@@ -281,7 +281,7 @@ def bench(arguments: argparse.Namespace) -> int:
 
 
 def _made(out: Path, made: RenderResult) -> dict[str, Any]:
-    """What a render made, for programs; memory in bytes, None where it is not known."""
+    """Machine-readable result of a render; memory in bytes, None where it is unknown."""
     memory = {"expected": made.expected or None, "peak": made.peak or None}
     return {"folder": str(out), "pictures": made.pictures, "files": _files(out), "memory": memory}
 
@@ -295,7 +295,7 @@ def _files(out: Path) -> list[str]:
 
 
 def _list(out: Path) -> None:
-    """Name what there is, a line per folder of pictures and per film."""
+    """List the output: a line per folder of pictures and per film."""
     from .render import manifest
 
     files = _files(out)
@@ -313,7 +313,7 @@ def _list(out: Path) -> None:
 
 
 def _runs(scene: Path) -> dict[str, Run]:
-    """All runs of a scene file by their names, the first one first."""
+    """All runs of a scene file by name, the first one first."""
     from .shot.source import ShotSource
 
     shot = ShotSource(scene=str(scene)).shot()
@@ -327,7 +327,7 @@ def _open(folder: Path) -> Run:
 
 
 def _choice(arguments: argparse.Namespace) -> ShotSource:
-    """The scene file; of a run folder one that is fitted to it and kept in the cache, for all processes."""
+    """Shot source: a scene file, or for a run folder a fitted one in the cache, shared by all processes."""
     import hashlib
 
     from . import files
@@ -346,7 +346,7 @@ def _choice(arguments: argparse.Namespace) -> ShotSource:
 def _fitted(
     run: Path, path: Path, cache: Path, asked: tuple[datetime | None, datetime | None] = (None, None)
 ) -> str:
-    """The text of a scene file `path` that fits a run from when to when is asked; what was chosen is told."""
+    """Text of a scene file `path` that fits a run within the requested times; its choices are reported."""
     from .errors import UsageError
     from .progress import READING, notify_if_slow
     from .run import times

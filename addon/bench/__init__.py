@@ -1,7 +1,7 @@
-"""``firetwin bench``: run time against error of the steps that a user waits for.
+"""Benchmarks ``firetwin bench``: run time against error of the steps that a user waits for.
 
-A subject is a module: the first line of its docstring says what is compared, and ``run(bench)`` adds rows
-(`Bench.race` lets the tools take turns) and targets. Those of developers are in ``tests/benchmarks``.
+A subject is a module: the first line of its docstring describes the comparison, and ``run(bench)`` adds rows
+(`Bench.race` runs the tools in turns) and targets. Those for developers are in ``tests/benchmarks``.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ SUBJECTS = (
     "march",
     "radiometry",
 )
-"""In the order of the report."""
+"""Subjects in the order of the report."""
 
 
 def measure(runs: int = 1, progress: Progress = silent) -> Report:
@@ -38,7 +38,7 @@ def measure(runs: int = 1, progress: Progress = silent) -> Report:
 def measure_modules(modules: Sequence[str], runs: int = 1, progress: Progress = silent) -> Report:
     """Run each module's subject `runs` times.
 
-    Several runs tell what a single one cannot: how much the figures differ from minute to minute.
+    Several runs give the variation of the figures from minute to minute.
     """
     from .harness import Bench
 

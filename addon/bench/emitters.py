@@ -1,4 +1,4 @@
-"""One moment of heat flux -> emitters (Algorithm 1), their distance levels and the nearest, beside NumPy."""
+"""Heat flux at one time -> emitters (Algorithm 1), their distance levels and the nearest, beside NumPy."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def ours(field: NDArray, position: NDArray) -> tuple[NDArray, NDArray]:
 
 
 def with_numpy(field: NDArray, position: NDArray) -> tuple[NDArray, NDArray]:
-    """The same with NumPy."""
+    """Indices of the chosen emitters and their levels, with NumPy."""
     cell = np.flatnonzero(field > 0)
     place = position.reshape(-1, 3)[cell]
     curved = np.clip(field.ravel()[cell].astype(float) / HIGHEST, 0, 1) ** 1.5
@@ -48,7 +48,7 @@ def with_numpy(field: NDArray, position: NDArray) -> tuple[NDArray, NDArray]:
 
 
 def run(bench: Bench) -> None:
-    """The model's grid, and the fuel's."""
+    """Measure on the model's grid, and on the fuel's."""
     for side in SIDES:
         field, position = burning(side)
         if not all(map(np.array_equal, ours(field, position), with_numpy(field, position))):

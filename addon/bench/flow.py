@@ -2,10 +2,10 @@
 
 In a uniform wind U and stable air (s = g / theta dtheta/dz) a plume of the buoyancy flux F settles at
 2.6 (F / (U s))^(1/3) (Briggs 1975, "Plume rise predictions", in Lectures on Air Pollution and Environmental
-Impact Analyses). That is of a point: one that begins with the radius R0 at the height h0 has its radius
+Impact Analyses). That holds for a point source. A source of radius R0 at the height h0 has the plume radius
 R0 + beta z, and the same equations give (z + R0 / beta)^3 = rise^3 + (R0 / beta)^3 above h0, beta = 0.6
 (Briggs 1984, "Plume rise and buoyancy effects", in Atmospheric Science and Power Production). R0 is that of
-the area which the wind blows through at the source: its width times twice the depth h0 that heat goes in.
+the source's cross-section to the wind: its width times twice the depth h0 over which heat is released.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ from .harness import OURS, Bench
 from .timing import Runner, threads
 
 CP, GRAVITY, THETA = 1004.7, 9.80665, 300.0
-ENTRAINMENT = 0.6  # Briggs's beta: a bent plume's radius over its rise
+ENTRAINMENT = 0.6  # Briggs's entrainment coefficient beta: a bent plume's radius over its rise
 GRADIENT = 0.01  # K/m
-LAST = 700.0  # s that a plume is followed
-STEP = 0.05  # s for each metre of the cells
+LAST = 700.0  # s of simulated time of a plume
+STEP = 0.05  # s of time step per metre of the cells
 COARSE, FINE = 200.0, 100.0  # m
-DISC = 150.0  # m, radius of the source of which the grid is varied
+DISC = 150.0  # m, radius of the source in the study of cell sizes
 THREADS = 2
 BOX, CELLS, DT = (44, 96, 96), 200.0, 10.0  # levels, rows, columns; m; s
 WIND, LAPSE = (8.0, 3.0), 0.004  # m/s, K/m
@@ -38,7 +38,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Plume:
-    """Its rise over what theory says, the height (m) below which 99 % of the smoke is, and its account."""
+    """Rise over the theoretical one, height (m) below which 99 % of the smoke is, and mass balance."""
 
     rise: float
     top: float
@@ -46,7 +46,7 @@ class Plume:
 
 
 def run(bench: Bench) -> None:
-    """Theory, grids, speed."""
+    """Measure against theory, between grids, and speed."""
     with threads(THREADS):
         promise = "a steady plume rises in stable air and 10 m/s of wind, off Briggs's height by"
         bench.target(promise, off(bent(FINE).rise), 15, "%", most=True)
@@ -78,7 +78,7 @@ def _speed(bench: Bench) -> None:
 
 
 def burning(shape: tuple[int, int, int]) -> flow.Solver:
-    """A flow under a fire that has burned for two minutes, on levels as a shot has them."""
+    """A flow over a fire that has burned for two minutes, with a shot's vertical levels."""
     k = np.arange(shape[0] + 1)
     levels = 60.0 * k + 0.5 * 210.0 / shape[0] * k * k  # m: 60 deep at the ground, 270 at the top
     theta = [300.0, 300.0 + LAPSE * levels[-1]]
@@ -95,7 +95,7 @@ def burning(shape: tuple[int, int, int]) -> flow.Solver:
 def still_air(
     shape: tuple[int, int], spacing: float, lid: float, depth: float, wind: float, **settings: Any
 ) -> flow.Solver:
-    """Air of one stability, `GRADIENT`, and one wind east, m/s, in even levels of about `depth` m."""
+    """Air of one stability, `GRADIENT`, and one eastward wind, m/s, in equal levels of about `depth` m."""
     levels = np.linspace(0, lid, round(lid / depth) + 1)
     theta = [THETA, THETA + GRADIENT * lid]
     profile = flow.Profile([0.0, lid], theta, [[wind, 0.0]] * 2)
@@ -108,7 +108,7 @@ def power_of(flux: float, solver: flow.Solver) -> float:
 
 
 def disc(radius: float) -> Array:
-    """Places (n, 2) 25 m apart within `radius` of the origin."""
+    """Points (n, 2) 25 m apart within `radius` of the origin."""
     grid = np.arange(-radius, radius + 1, 25.0)
     places = np.stack(np.meshgrid(grid, grid), -1).reshape(-1, 2)
     return places[np.hypot(*places.T) <= radius]
@@ -117,9 +117,9 @@ def disc(radius: float) -> Array:
 def bent(
     spacing: float, wind: float = 10.0, rise: float = 1000.0, depth: float = 90.0, radius: float = 0.0
 ) -> Plume:
-    """A plume of a point, which is a cell wide, or of a disc of `radius` m, in a wind; and Briggs.
+    """A bent-over plume of a point, which is a cell wide, or of a disc of `radius` m, against Briggs.
 
-    `rise` is a point's, m. Its height is the mean of the smoke from 2.5 to 4.5 km downwind.
+    `rise` is that of a point source, m. Its height is the mean of the smoke from 2.5 to 4.5 km downwind.
     """
     shape = (round(4000 / spacing), round(7600 / spacing))
     solver = still_air(shape, spacing, 2400.0, 60.0 * max(1.0, spacing / 100), wind, source_depth=depth)
@@ -139,12 +139,12 @@ def bent(
 
 
 def unbalanced(mass: dict[str, float]) -> float:
-    """Smoke that is neither in the air nor has left, over what was given off."""
+    """Mass balance error: smoke neither in the air nor advected out, over the emitted smoke."""
     return abs((mass["airborne"] + mass["left"]) / mass["emitted"] - 1.0)
 
 
 def burn(solver: flow.Solver, place: Array, flux: float) -> None:
-    """Follow the plume of a buoyancy flux that is given off evenly at these places."""
+    """Integrate the plume of a buoyancy flux that is released uniformly at these points."""
     n = len(place)
     solver.set_sources(place, np.full(n, power_of(flux, solver) / n), np.full(n, 10.0 / n))
     step = STEP * solver.spacing
@@ -152,7 +152,7 @@ def burn(solver: flow.Solver, place: Array, flux: float) -> None:
 
 
 def middles(solver: flow.Solver) -> Array:
-    """Heights (nz,) of the levels' middles, m."""
+    """Heights (nz,) of the levels' centres, m."""
     return 0.5 * (solver.levels[1:] + solver.levels[:-1])
 
 
@@ -162,11 +162,11 @@ def by_level(solver: flow.Solver, columns: Any) -> Array:
 
 
 def below(solver: flow.Solver, smoke: Array) -> float:
-    """The height below which 99 % of the smoke (nz,) is, m."""
+    """Height below which 99 % of the smoke (nz,) is, m."""
     share = np.cumsum(smoke)
     return float(np.interp(0.99, share / share[-1], solver.levels[1:]))
 
 
 def off(ratio: float) -> float:
-    """Per cent."""
+    """Deviation from 1, percent."""
     return 100.0 * abs(ratio - 1.0)

@@ -1,4 +1,4 @@
-"""The sample's relief -> a mesh: vertices and time against vertical error, beside coarser grids."""
+"""Terrain mesh of the sample's DEM: vertices and time against vertical error, beside coarser grids."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .harness import ORIGIN, OURS, Bench
 from .timing import Runner
 
 ERRORS = (2.0, 8.0)  # m
-STEPS = (4, 8)  # of the grid's points, one is kept along both axes
+STEPS = (4, 8)  # step along both axes of the grid's points that are retained
 
 
 def relief() -> NDArray[np.float32]:
@@ -32,9 +32,10 @@ def relief() -> NDArray[np.float32]:
 
 
 def off(place: NDArray, mesh: tuple[NDArray, NDArray, NDArray]) -> float:
-    """Largest vertical distance (m) of a mesh from any point of the grid: triangles of a size at once.
+    """Largest vertical distance (m) of a mesh from a point of the grid; batched by triangle size.
 
-    Counted in rows and columns, which are a little curved: so 0.2 % more than by metres.
+    It is measured in rows and columns, whose lines are slightly curved: the result is 0.2 % more than in
+    metres.
     """
     row, column = (axis.astype(np.int64) for axis in mesh[:2])
     z, corners = place[..., 2].astype(np.float64), mesh[2]
@@ -58,7 +59,7 @@ def off(place: NDArray, mesh: tuple[NDArray, NDArray, NDArray]) -> float:
 
 
 def every(place: NDArray, step: int) -> tuple[int, float]:
-    """A grid of every `step`-th point -> its vertices, and how far off it is at most (m)."""
+    """A grid of every `step`-th point -> its vertices, and its largest error (m)."""
     rows, columns = (np.unique([*range(0, count, step), count - 1]) for count in place.shape[:2])
     number = np.arange(len(rows) * len(columns)).reshape(len(rows), len(columns))
     low, right, top, left = number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]
@@ -69,7 +70,7 @@ def every(place: NDArray, step: int) -> tuple[int, float]:
 
 
 def run(bench: Bench) -> None:
-    """Two meshes, then two grids."""
+    """Measure two meshes, then two grids."""
     place = relief()
     worst = 0.0
     for most in ERRORS:

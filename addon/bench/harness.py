@@ -1,4 +1,4 @@
-"""What a benchmark is made of: rows (one tool on one case), targets, and what was left out and why."""
+"""Benchmark harness: rows (one tool on one case), targets, and skipped measurements with reasons."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ ORIGIN = (38.93, -120.55, 0.0)
 
 @dataclass(frozen=True)
 class Row:
-    """One tool on one case: the time of each repetition (s) for `items` things, its error and what it wrote.
+    """One tool on one case: the time of each repetition (s) for `items` items, its error and its output size.
 
-    `processor` has the seconds of all processors together. `times` and `processor` are empty, and `error` and
-    `bytes` are None, where they are unknown or make no sense.
+    `processor` has the CPU time, s, over all cores. `times` and `processor` are empty, and `error` and
+    `bytes` are None, where they are unknown or undefined.
     """
 
     subject: str
@@ -43,12 +43,12 @@ class Row:
 
     @property
     def seconds(self) -> float | None:
-        """The median of all repetitions."""
+        """Median wall-clock time, s."""
         return statistics.median(self.times) if self.times else None
 
     @property
     def processor_seconds(self) -> float | None:
-        """The median of all repetitions."""
+        """Median CPU time, s."""
         return statistics.median(self.processor) if self.processor else None
 
     @property
@@ -59,10 +59,10 @@ class Row:
 
 @dataclass(frozen=True)
 class Target:
-    """A promise, and what was measured in each repetition, or once where there is no chance in it.
+    """A target, with the value measured in each repetition, or once where it is deterministic.
 
-    `most`: the median may be at most the bound, else at least. Where the bound is measured too, `rival` says
-    whose it is.
+    `most`: the median may be at most the bound, else at least. A bound that is measured too is that of
+    `rival`.
     """
 
     subject: str
@@ -80,13 +80,13 @@ class Target:
 
     @property
     def met(self) -> bool:
-        """Whether the promise is kept."""
+        """Whether the target is met."""
         return self.value <= self.bound if self.most else self.value >= self.bound
 
 
 @dataclass(frozen=True)
 class Report:
-    """Everything measured, in so many runs of every subject."""
+    """All measurements, over this number of runs of every subject."""
 
     machine: dict[str, Any]
     runs: int
@@ -114,7 +114,7 @@ class Report:
 
 @dataclass
 class Bench:
-    """Collects what the subjects measure; a subject that is run again adds repetitions to what is there."""
+    """Collects the measurements of subjects; another run of a subject adds repetitions."""
 
     subject: str = ""
     runs: int = 1
@@ -125,19 +125,19 @@ class Bench:
     skipped: list[str] = field(default_factory=list)
 
     def begin(self, subject: str, what: str) -> None:
-        """Go to the next subject; `what` says in a sentence what is compared in it."""
+        """Begin the next subject; `what` describes its comparison in a sentence."""
         self.subject = subject
         self.subjects[subject] = what
 
     def time(self, runners: Sequence[Runner]) -> dict[str, Times]:
-        """Let tools take turns -> the times of each by its label."""
+        """Time the tools in turns -> the times of each by its label."""
         found = race(runners, MOST, SECONDS)
         return {runner.label: times for runner, times in zip(runners, found, strict=True)}
 
     def race(
         self, case: str, runners: Sequence[Runner], items: int, unit: str, error_unit: str = ""
     ) -> dict[str, Times]:
-        """The same, and a row for each."""
+        """Time the tools in turns, and add a row for each."""
         found = self.time(runners)
         for runner in runners:
             self.row(
@@ -165,7 +165,7 @@ class Bench:
         threads: int = 1,
         bytes: int | None = None,
     ) -> None:
-        """Keep a measurement; error is what `error_unit` says."""
+        """Add a measurement; `error` is in `error_unit`."""
         key = self.subject, case, tool, threads
         before = self.rows.get(key)
         seconds = (before.times if before else ()) + (times.seconds if times else ())
@@ -185,7 +185,7 @@ class Bench:
         most: bool = False,
         rival: str = "",
     ) -> None:
-        """Keep a promise and its measured value, or one of each repetition."""
+        """Add a target and its measured value, or one for each repetition."""
         several = tuple(map(float, values)) if isinstance(values, Sequence) else (float(values),)
         target = Target(self.subject, promise, several, float(bound), unit, most, rival)
         key = self.subject, promise
@@ -194,7 +194,7 @@ class Bench:
         self.targets[key] = target
 
     def rival(self, name: str) -> ModuleType | None:
-        """Import the package of a rival, or note that it is missing."""
+        """Import the package of a competing tool; records a skip where it is missing."""
         try:
             return importlib.import_module(name)
         except ImportError as error:
@@ -204,24 +204,24 @@ class Bench:
             return None
 
     def blender(self) -> bool:
-        """Whether Blender's module is there; notes that it is missing."""
+        """Whether Blender's module is installed; records a skip where it is missing."""
         if there := importlib.util.find_spec("bpy") is not None:
             return there
         self.skip("bpy is not installed (pip install 'firetwin[blender]')")
         return False
 
     def flip(self) -> ModuleType | None:
-        """FLIP, which compares pictures that Blender renders, where both are there."""
+        """The FLIP metric for pictures that Blender renders, where both are installed."""
         return self.rival("flip_evaluator") if self.blender() else None
 
     def skip(self, reason: str) -> None:
-        """Note what was left out."""
+        """Record a skipped measurement."""
         line = f"{self.subject}: {reason}"
         if line not in self.skipped:
             self.skipped.append(line)
 
     def report(self) -> Report:
-        """Everything measured so far."""
+        """All measurements so far."""
         return Report(
             self.machine,
             self.runs,

@@ -1,9 +1,9 @@
-"""Heat flux between model times, held against minutes that were removed; linear blending beside.
+"""Heat flux interpolated between model times, against held-out minutes; linear blending beside.
 
-Front error: of the cells that the front crosses in a gap, the percentage that is on its wrong side at the
-removed minute: its error as part of the way that it moves. The integral of F^1.5 drives size and colour of
-the flames. Its ripple is the root mean square of its departure from an even course between the kept minutes,
-which is seen as a pulse once in a model step. Times are of one moment after another.
+Front error: of the cells that the front crosses in a gap, the percentage on its wrong side at the held-out
+minute: its error as a fraction of the distance that it moves. The integral of F^1.5 drives size and colour of
+the flames. Its ripple is the root mean square of its deviation from a linear course between the retained
+minutes, which is visible as a pulse once in a model step. Times are those of consecutive frames.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def truth(minutes: int) -> NDArray:
 
 
 def write_run(folder: Path, flux: NDArray, seconds: NDArray) -> None:
-    """A run of these minutes, flux (nt, side, side), on flat ground."""
+    """A run of these minutes, flux (nt, side, side), on flat terrain."""
     side = flux.shape[1]
     latitude, longitude = axes(side, MODEL_CELL_SIZE * MODEL_CELLS / side)
     still = np.zeros((side, side), np.float32)
@@ -74,7 +74,7 @@ def departure(found: NDArray, expected: NDArray) -> float:
 
 
 def run(bench: Bench) -> None:
-    """Every way to hold out minutes, both interpolations."""
+    """Measure every way to hold out minutes, for both interpolations."""
     flux = truth(MINUTES)
     seconds = 60.0 * np.arange(len(flux))
     for case, keeps in CASES.items():

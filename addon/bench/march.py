@@ -1,8 +1,8 @@
 """Ray marching through smoke beside a quarter of its step, and a frame's passes beside Cycles' own volume.
 
-The frame is a moment of the sample run with solved smoke: picture, infrared and depth, with all that makes
-their files. Its error is the mean FLIP of the picture (Andersson et al. 2020) beside one whose smoke Cycles
-walked through in a quarter of the step, with many rays and no denoiser. Each is drawn once.
+The frame is one time of the sample run with solved smoke: picture, infrared and depth, with all
+post-processing. Its error is the mean FLIP of the picture (Andersson et al. 2020) against one whose smoke
+Cycles marched in a quarter of the step, with many samples and no denoiser. Each is rendered once.
 """
 
 from __future__ import annotations
@@ -33,16 +33,16 @@ STEPS = {OURS: 0.5, "a quarter of the step": 0.125}
 EXACT = "a quarter of the step"
 LIMIT = 0.005  # of the picture's light
 VOLUME, REFERENCE = "Cycles' volume", "reference"
-FRAME, SAMPLES, MANY = (160, 90), 3, 24  # pixels; rays, and of the reference
+FRAME, SAMPLES, MANY = (160, 90), 3, 24  # pixels; samples, and those of the reference
 MOMENT = datetime(2014, 9, 17, 23, 12, tzinfo=UTC)
 VIEW = CameraKey(0.0, 38.990, -120.5505, 600.0, "head")  # 2 km off the head of the fire
-MODEL_TIMES = 25  # of the sample; arrival times are all there
+MODEL_TIMES = 25  # of the sample; arrival times cover all
 PASSES = ("rgb", "thermal", "depth")
 _CAMERA = settings.Camera().name
 
 
 def run(bench: Bench) -> None:
-    """March, then draw frames."""
+    """Measure the ray march, then render frames."""
     _march(bench)
     _frame(bench)
 
@@ -77,7 +77,7 @@ def _smoke() -> volume.Bricks:
 
 
 def _rays() -> tuple[NDArray, NDArray, NDArray]:
-    """Of a camera that looks down on the smoke."""
+    """Rays of a camera that looks down on the smoke."""
     width, height = SIZE
     x, y = np.meshgrid(np.linspace(-0.6, 0.6, width), np.linspace(0.34, -0.34, height))
     local = np.stack([x, np.ones_like(x), y - 0.3], axis=-1).reshape(-1, 3)
@@ -134,13 +134,13 @@ def _picture(folder: Path, name: str) -> str:
     return str(folder / name / file_of(_CAMERA, "rgb", 1, "png"))
 
 
-# What follows runs in the worker process, where Blender is.
+# The following functions run in the worker process, where Blender is.
 
 
 def frames_in_blender(
     folder: str, progress: Progress = silent, tell: MessageCallback = no_message
 ) -> dict[str, list[tuple[float, float]]]:
-    """Draw a frame either way once, and its reference; the times of each."""
+    """Render a frame by both methods once, and its reference; returns the times of each."""
     import bpy
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -153,7 +153,7 @@ def frames_in_blender(
 
 
 class _Frame:
-    """A scene of the sample's smoke, for one way to draw it."""
+    """A scene of the sample's smoke, for one rendering method."""
 
     def __init__(self, folder: Path, way: str) -> None:
         from firetwin_core import run as runs
@@ -179,7 +179,7 @@ class _Frame:
         engine.apply(file, self.stage.scene)
 
     def draw(self, name: str, rays: int = 0) -> tuple[float, float]:
-        """Seconds that the frame took, and those of processors; with `rays`, of so many and short steps."""
+        """Wall-clock and CPU seconds of the frame; with `rays`, of this number of samples and short steps."""
         from ..render import pictures
         from ..render.picture import Picture
         from ..render.sharing import open_session

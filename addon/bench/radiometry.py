@@ -28,19 +28,19 @@ def picture() -> NDArray[np.float32]:
 
 
 def with_numpy(radiance: NDArray[np.float32]) -> NDArray[np.float64]:
-    """Temperatures by straight lines between 4,096 knots of a table."""
+    """Temperatures by linear interpolation between 4,096 knots of a table."""
     knots = np.geomspace(150.0, 3000.0, 4096)
     return np.interp(radiance, sensor.radiance(knots, BAND), knots)
 
 
 def ours_on_files(exr: Path, png: Path, table: sensor.PlanckTable) -> None:
-    """Radiance in, white-hot picture out."""
+    """EXR radiance in, white-hot PNG out."""
     kelvin = table.brightness_temperature(sensor.read_image(exr)[..., 0])
     sensor.write_image(png, sensor.colour(kelvin, LOW, HIGH, "ironbow", KNEE))
 
 
 def numpy_on_files(exr: Path, png: Path, stops: NDArray[np.float64]) -> None:
-    """The same with NumPy between the same reader and writer."""
+    """EXR radiance in, white-hot PNG out, with NumPy between the same reader and writer."""
     kelvin = with_numpy(sensor.read_image(exr)[..., 0])
     above = np.clip(kelvin - LOW, 0.0, HIGH - LOW)
     place = np.log1p(above / KNEE) / np.log1p((HIGH - LOW) / KNEE)
@@ -50,7 +50,7 @@ def numpy_on_files(exr: Path, png: Path, stops: NDArray[np.float64]) -> None:
 
 
 def run(bench: Bench) -> None:
-    """The table beside the integral and NumPy, then files."""
+    """Measure the table beside the integral and NumPy, then files."""
     radiance = picture()
     exact = sensor.brightness_temperature(radiance, BAND)
     pixels = radiance.size
@@ -72,6 +72,6 @@ def run(bench: Bench) -> None:
 
 
 def _runner(name: str, work: partial, exact: NDArray[np.float64]) -> Runner:
-    """One that takes two threads, and its largest error, mK."""
+    """A runner on two threads, and its largest error, mK."""
     error = 1e3 * float(np.abs(work() - exact).max())
     return Runner(name, work, threads=1 if name == "NumPy" else 2, error=error)

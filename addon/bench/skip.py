@@ -1,9 +1,9 @@
-"""What a shot leaves out -> cost against error: a drone's picture built and drawn, beside all that there is.
+"""Culling of a shot -> cost against error: a drone's picture built and rendered, beside the unculled scene.
 
-Each is built and drawn in a process of its own, without smoke, with as many trees in reach. Times are of the
-processor, memory is the most that the process held less what starting Blender takes, and the error is the
-mean FLIP (Andersson et al. 2020) against the picture of all; beside it stands what another grain makes of
-that. At real sizes, for a lookout and a satellite too, `tests/benchmarks/skipping.py` measures the same.
+Each is built and rendered in a process of its own, without smoke, with the same trees in reach. Times are CPU
+times. Memory is the process's peak less that of starting Blender. The error is the mean FLIP (Andersson et
+al. 2020) against the unculled picture; beside it stands that of another noise seed.
+`tests/benchmarks/skipping.py` measures the same at full size, also for a lookout and a satellite.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ from .timing import Stopwatch, Times
 
 MOMENT = datetime(2014, 9, 17, 23, 12, tzinfo=UTC)
 VIEW = CameraKey(0.0, 38.977, -120.572, 150.0, "head")
-RESOLUTION, SAMPLES, CLEAN = (160, 90), 4, 128  # as it is timed, and as it is compared, with little grain
-REACH = 500.0  # m to which trees stand: all of a forest's within more would not fit into a minute
-MODEL_TIMES = 3  # of the sample; arrival times are all there
+RESOLUTION, SAMPLES, CLEAN = (160, 90), 4, 128  # settings for timing, and for comparison, with little noise
+REACH = 500.0  # m, drawing distance of trees: the whole forest within more would take over a minute
+MODEL_TIMES = 3  # of the sample; arrival times cover all
 ALL, GRAIN = "all there is", "all there is, other grain"
-TIMES, LESS, ERROR = 3.0, 3.0, 0.02  # wanted: so much faster, in so much less memory, FLIP at most
+TIMES, LESS, ERROR = 3.0, 3.0, 0.02  # targets: speed-up, memory ratio, FLIP at most
 
 
 def run(bench: Bench) -> None:
-    """Build and draw both, then compare."""
+    """Build and render both, then compare."""
     flip = bench.flip()
     if flip is None:
         return
@@ -70,12 +70,12 @@ def run(bench: Bench) -> None:
 
 
 def picture(folder: str, tool: str) -> str:
-    """Where a tool's picture is written."""
+    """Path of a tool's picture."""
     return str(Path(folder) / f"{tool.replace(' ', '_').replace(',', '')}.png")
 
 
 def scene_file(folder: Path, skip: bool) -> settings.Settings:
-    """One frame of the sample from a drone, with or without what it cannot see."""
+    """Scene file of one frame of the sample from a drone, with or without culling."""
     return settings.Settings(
         path=folder / "scene.toml",
         run=folder / "run",
@@ -88,13 +88,13 @@ def scene_file(folder: Path, skip: bool) -> settings.Settings:
     )
 
 
-# What follows runs in the worker process, where Blender is.
+# The following functions run in the worker process, where Blender is.
 
 
 def draw(
     folder: str, skip: bool, tool: str, progress: Progress = silent, tell: MessageCallback = no_message
 ) -> dict[str, float]:
-    """Build and draw a scene -> processor seconds of both, and bytes; all there is also with other grain."""
+    """Build and render a scene -> CPU seconds of both, and bytes; the unculled one also with another seed."""
     import bpy
     from firetwin_core import run as runs
 

@@ -1,7 +1,7 @@
-"""Smoke of one moment -> OpenVDB: fields of a box and puffs; time, size of the file and error of its mass.
+"""Smoke at one time -> OpenVDB: fields of a box and puffs; time, size of the file and error of its mass.
 
-Puffs' mass is that of the file, read back with the openvdb module that Blender brings along, where there is
-one; else that which the core reports from before rounding to half precision.
+Puffs' mass is that of the file, read back with Blender's bundled openvdb module, where it exists. Otherwise
+it is the mass reported by the core before rounding to half precision.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ from .harness import OURS, Bench
 from .timing import Runner
 
 SIDE, VOXEL = 288, 20.0  # m
-CELLS = 100  # of the front that gives off puffs
+CELLS = 100  # of the front that emits puffs
 VOXELS = (200.0, 100.0)  # m
 MANY, FINE = 1000, 50.0  # such cells; m
 MEGAVOXELS = 45.0  # a second
 
 
 def bundled_openvdb(bench: Bench) -> ModuleType | None:
-    """The openvdb module of Blender's Python, which is beside `bpy`, not on the path."""
+    """The openvdb module of Blender's Python, which is bundled with `bpy` outside of the path."""
     spec = find_spec("bpy")
     if spec and spec.submodule_search_locations:
         places = Path(next(iter(spec.submodule_search_locations))).glob("*/python/lib/python*/site-packages")
@@ -64,7 +64,7 @@ def mass_in(openvdb: ModuleType, path: str, grid: str, unit: float) -> float:
 
 
 def run(bench: Bench) -> None:
-    """Three fields of a box as a solved flow gives them, then puffs at voxels of several sizes."""
+    """Measure three fields of a box as a solved flow gives them, then puffs at several voxel sizes."""
     openvdb = bundled_openvdb(bench)
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "smoke.vdb")
@@ -74,7 +74,7 @@ def run(bench: Bench) -> None:
 
 
 def _box(bench: Bench, path: str, openvdb: ModuleType | None) -> None:
-    """The voxels of all fields are counted."""
+    """Measure a box; the voxels of all fields count."""
     density = ring(SIDE)
     warm = np.where(density > 0, 300 + 1e5 * density, 0).astype(np.float32)
     fields = {"density": density, "tint": density * np.float32(5e3), "temperature": warm}
@@ -93,7 +93,7 @@ def _box(bench: Bench, path: str, openvdb: ModuleType | None) -> None:
 
 
 def with_openvdb(openvdb: ModuleType, path: str, fields: dict[str, NDArray]) -> None:
-    """The same with the openvdb module."""
+    """Write the same fields with the openvdb module."""
     grids = []
     for name, values in fields.items():
         grid = openvdb.FloatGrid()
@@ -126,7 +126,7 @@ def _voxel_sizes(bench: Bench, path: str, openvdb: ModuleType | None) -> None:
 
 
 def _many(bench: Bench, path: str) -> None:
-    """A whole frame, whose voxels are counted once."""
+    """Measure a whole frame, whose voxels count once."""
     smoke = puffs(MANY)
     write = partial(volume.write_smoke, path, smoke, FINE)
     frame = write()

@@ -1,4 +1,4 @@
-"""The report as text for a terminal and as Markdown."""
+"""Benchmark report as text for a terminal and as Markdown."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .timing import LEAST
 
 
 def number(value: float) -> str:
-    """Three digits, no exponent where it can be read without: ``0.00312``, ``36.5``, ``1.2e-09``."""
+    """Number with three digits, with an exponent only if needed: ``0.00312``, ``36.5``, ``1.2e-09``."""
     return f"{value:.3g}" if value == 0 or 1e-4 <= abs(value) < 1000 else _large(value)
 
 
@@ -39,7 +39,7 @@ def times(row: Row) -> str:
 
 
 def found(target: Target) -> str:
-    """What was measured: ``4.6 x (4.2 to 5.1)``, or ``24 %, linear blending 47 %``."""
+    """Measured value: ``4.6 x (4.2 to 5.1)``, or ``24 %, linear blending 47 %``."""
     text = _with_range(target.value, target.values, target.unit)
     return f"{text}, {target.rival} {number(target.bound)} {target.unit}" if target.rival else text
 
@@ -61,7 +61,7 @@ def verdict(target: Target) -> str:
 
 
 def bound(target: Target) -> str:
-    """What must be reached: ``at least 4 x``, ``at most linear blending's``."""
+    """Bound of a target: ``at least 4 x``, ``at most linear blending's``."""
     what = f"{target.rival}" if target.rival else f"{number(target.bound)} {target.unit}".rstrip()
     return f"{'at most' if target.most else 'at least'} {what}"
 
@@ -81,7 +81,7 @@ def _method(report: Report) -> str:
 
 
 def page(report: Report) -> str:
-    """Everything, for a terminal."""
+    """The whole report, for a terminal."""
     lines = [_machine(report), _method(report)]
     subject = ""
     for row in report.rows:
@@ -105,7 +105,7 @@ def page(report: Report) -> str:
 
 
 def markdown(report: Report) -> str:
-    """Two tables: the targets, and run time against error beside the rivals."""
+    """Two tables: the targets, and run time against error beside competing tools."""
     lines = [
         "| step | what is compared | measured | must be | |",
         "|---|---|--:|--:|---|",

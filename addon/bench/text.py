@@ -33,7 +33,7 @@ def grid_text(side: int) -> str:
 
 
 def hard_text() -> str:
-    """Numbers a hair beside the middle between two float32: wrong when rounded by way of a float64."""
+    """Decimal numbers close to the midpoint of two float32: double rounding by way of a float64 is wrong."""
     rng = np.random.default_rng(8)
     values = rng.lognormal(8, 3, HARD).astype(np.float32)
     with localcontext(prec=60):
@@ -59,7 +59,7 @@ def _is_wrong(word: str, value: np.float32) -> bool:
 
 
 def run(bench: Bench) -> None:
-    """A grid of the King Fire's fuel; errors are of numbers that are hard to round."""
+    """Measure a grid of the King Fire's fuel; errors are those of numbers that are hard to round."""
     with tempfile.TemporaryDirectory() as folder:
         hard, grid = Path(folder) / "hard.txt", Path(folder) / "grid.txt"
         hard.write_text(hard_text())
@@ -71,7 +71,7 @@ def run(bench: Bench) -> None:
 
 
 def tools(bench: Bench, path: Path) -> list[Runner]:
-    """What reads this file, each in its two forms."""
+    """Readers of this file, each in its two forms."""
     cast, direct = RIVALS["numpy.loadtxt"]
     found = [
         Runner(OURS, lambda: read_grid(path)),
@@ -101,5 +101,5 @@ def race(bench: Bench, path: Path, side: int, wrong: dict[str, float]) -> None:
 
 
 def _best(found: dict[str, Times], forms: tuple[str, ...]) -> Times | None:
-    """The quicker of a rival's forms."""
+    """The faster of a competing tool's forms."""
     return min((found[form] for form in forms if form in found), key=lambda times: times.median, default=None)

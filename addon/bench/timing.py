@@ -1,4 +1,4 @@
-"""Run times that repeat: tools take turns, so that what disturbs the machine disturbs all of them alike."""
+"""Reproducible run times: tools run in turns, so that disturbances of the machine affect all alike."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from typing import Any
 import firetwin_core as core
 
 LEAST = 5
-"""Repetitions that are measured at least, however long one takes."""
+"""Minimum number of repetitions, however long one takes."""
 MOST, SECONDS = 9, 0.5
-"""More than the least are measured, up to so many, until all tools have taken so many seconds."""
+"""Maximum number of repetitions, and total time in s of all tools after which only the minimum is run."""
 SAMPLE = 2e-3
-"""s that a repetition lasts at least: what is quicker is called several times and the mean kept."""
+"""s, minimum duration of a repetition: a faster call is repeated and its mean is recorded."""
 
 
 @dataclass(frozen=True)
 class Runner:
-    """One tool of a race: what to call, on how many threads of the core, and the error it makes.
+    """One tool of a race: the function to call, its number of threads, and its error.
 
-    `before` gets things ready for each call, while no clock runs.
+    `before` prepares each call, outside of the timing.
     """
 
     tool: str
@@ -45,41 +45,41 @@ def label(tool: str, threads: int) -> str:
 
 @dataclass(frozen=True)
 class Times:
-    """Seconds by the clock, and of all processors together, of each repetition of one tool, in order."""
+    """Wall-clock and CPU seconds of each repetition of one tool, in order."""
 
     seconds: tuple[float, ...]
     processor: tuple[float, ...] = ()
 
     @property
     def median(self) -> float:
-        """The one to report: half of the repetitions were quicker."""
+        """Median of the repetitions, for reports."""
         return statistics.median(self.seconds)
 
     def speed(self, items: float) -> tuple[float, ...]:
-        """Items a second of each repetition."""
+        """Items per second in each repetition."""
         return tuple(items / seconds for seconds in self.seconds)
 
     def faster_than(self, other: Times) -> tuple[float, ...]:
-        """How many times as fast this was in each round as `other` was in the same round."""
+        """Speed-up over `other` in each round."""
         return tuple(b / a for a, b in zip(self.seconds, other.seconds, strict=True))
 
 
 @dataclass(frozen=True)
 class Spent:
-    """Seconds by the clock, and of this process on all processors together."""
+    """Wall-clock seconds, and CPU seconds of this process."""
 
     seconds: float
     processor: float
 
 
 class Stopwatch:
-    """Begins when it is made."""
+    """Stopwatch that starts when it is created."""
 
     def __init__(self) -> None:
         self._seconds, self._processor = time.perf_counter(), time.process_time()
 
     def read(self) -> Spent:
-        """What was spent since."""
+        """Time since the start."""
         return Spent(time.perf_counter() - self._seconds, time.process_time() - self._processor)
 
 
@@ -97,7 +97,7 @@ class threads:  # noqa: N801 - reads as a statement
 
 
 def race(runners: Sequence[Runner], most: int, budget: float) -> list[Times]:
-    """Call every runner once unmeasured, then all in turn, LEAST to `most` times, as `budget` (s) allows."""
+    """Call every runner once to warm up, then all in turn, LEAST to `most` times, as `budget` (s) allows."""
     often = [_often(runner) for runner in runners]
     found: list[list[Spent]] = [[] for _ in runners]
     begun = time.perf_counter()
@@ -110,7 +110,7 @@ def race(runners: Sequence[Runner], most: int, budget: float) -> list[Times]:
 
 
 def _often(runner: Runner) -> int:
-    """How many calls make a sample; the first call of all meets cold caches and does not count."""
+    """Number of calls in a sample; the first call has cold caches and does not count."""
     seconds = _sample(runner, 1).seconds
     if runner.before:
         return 1

@@ -1,6 +1,6 @@
-"""The one place that knows how Blender versions differ (4.5 LTS to 5.2 LTS).
+"""Compatibility layer for Blender 4.5 LTS to 5.2 LTS; the only module that depends on the version.
 
-Features are looked for, version numbers are not compared.
+It tests for features and does not compare version numbers.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def eevee_id() -> str:
 
 
 def new_fcurve(datablock: bpy.types.ID, data_path: str, index: int = 0) -> bpy.types.FCurve:
-    """An empty F-curve on `datablock`, which gets an action of its own when it has none.
+    """A new F-curve on `datablock`, which gets an action of its own when it has none.
 
     Legacy actions (`action.fcurves`) are gone in 5.0; slotted ones work from 4.4 on.
     """
@@ -47,7 +47,7 @@ def _action_name(datablock: bpy.types.ID) -> str:
 
 
 def animate(datablock: bpy.types.ID, data_path: str, index: int, frames: Numbers, values: Numbers) -> None:
-    """Make a property go through `values` at `frames`, both (n,), in straight lines."""
+    """Animate a property through `values` at `frames`, both (n,), with linear interpolation."""
     curve = new_fcurve(datablock, data_path, index)
     curve.keyframe_points.add(len(frames))
     pairs = [number for pair in zip(frames, values, strict=True) for number in pair]
@@ -65,10 +65,10 @@ def animate_smoothly(
     values: Numbers,
     slopes: Numbers,
 ) -> None:
-    """Make a property go through `values` at `frames` with `slopes` (per frame), all (n,), in smooth curves.
+    """Animate a property through `values` at `frames` with `slopes` (per frame), all (n,), in Bezier curves.
 
-    Handles are aligned and reach a third of the way to the next key, so each piece is the cubic with these
-    ends and slopes.
+    Handles are aligned and reach a third of the way to the next keyframe, so each segment is the cubic
+    Hermite curve of these ends and slopes.
     """
     curve = new_fcurve(datablock, data_path, index)
     points = curve.keyframe_points
@@ -125,9 +125,9 @@ def node_tree(owner: bpy.types.Material | bpy.types.World | bpy.types.Light) -> 
 
 
 def find_socket(sockets: bpy.types.bpy_prop_collection, name: str | int) -> bpy.types.NodeSocket:
-    """The enabled socket called `name`, else the one with that identifier, else that place in the row.
+    """The enabled socket called `name`, else the one with that identifier, else the one at that index.
 
-    Indexing by name would return hidden sockets in 4.5 and not find them in 5.2. Factor and Fac are one name.
+    Lookup by name would return hidden sockets in 4.5 and fail on them in 5.2. Factor and Fac are one name.
     """
     usable = [socket for socket in sockets if socket.enabled]
     if isinstance(name, int):
@@ -141,7 +141,7 @@ def find_socket(sockets: bpy.types.bpy_prop_collection, name: str | int) -> bpy.
 
 
 def set_sky(node: bpy.types.ShaderNodeTexSky, elevation: float, rotation: float, dust: float) -> None:
-    """Make a sky texture a physical sky of singly scattered light, seen from sea level, without sun disc.
+    """Set a sky texture to a physical sky with single scattering, from sea level, without sun disc.
 
     Nishita's model, which 4.5 calls by that name, is single scattering from 5.0 on.
 
@@ -165,14 +165,14 @@ _COMPOSITOR = "Firetwin Compositor"
 
 
 def compositor(scene: bpy.types.Scene) -> bpy.types.NodeTree | None:
-    """The scene's compositor tree: from 5.0 it is a node group, before that the scene's own."""
+    """The scene's compositor tree: from 5.0 on a node group, before that the scene's own tree."""
     if hasattr(scene, "compositing_node_group"):
         return scene.compositing_node_group
     return scene.node_tree
 
 
 def new_compositor(scene: bpy.types.Scene) -> bpy.types.NodeTree:
-    """An empty compositor tree of ours for a scene that has none."""
+    """A new empty compositor tree of ours for a scene that has none."""
     if hasattr(scene, "compositing_node_group"):
         tree = bpy.data.node_groups.new(_COMPOSITOR, "CompositorNodeTree")
         scene.compositing_node_group = tree
@@ -184,11 +184,11 @@ def new_compositor(scene: bpy.types.Scene) -> bpy.types.NodeTree:
 
 
 def no_compositor(scene: bpy.types.Scene) -> None:
-    """Leave a scene without its empty compositor, which goes if nothing else shows it."""
+    """Remove a scene's empty compositor; it is deleted if it has no other users."""
     if hasattr(scene, "compositing_node_group"):
         tree = scene.compositing_node_group
         scene.compositing_node_group = None
-        if not bpy.data.user_map(subset=[tree])[tree]:  # in files of 4.5 it has a user too many
+        if not bpy.data.user_map(subset=[tree])[tree]:  # files of 4.5 count one user too many
             bpy.data.node_groups.remove(tree)
     else:
         scene.use_nodes = False
@@ -196,11 +196,11 @@ def no_compositor(scene: bpy.types.Scene) -> None:
 
 
 END = "CompositorNodeComposite" if hasattr(bpy.types, "CompositorNodeComposite") else "NodeGroupOutput"
-"""The node of a compositor that shows and saves its picture."""
+"""Type of the compositor's output node."""
 
 
 def composite(tree: bpy.types.NodeTree, image: bpy.types.NodeSocket) -> bpy.types.Node:
-    """Make `image` the picture that a new compositor shows and saves; returns the node that does it."""
+    """Connect `image` to the output of a new compositor; returns the output node."""
     if END == "NodeGroupOutput":
         tree.interface.new_socket("Image", in_out="OUTPUT", socket_type="NodeSocketColor")
     output = tree.nodes.new(END)
@@ -223,7 +223,7 @@ def bloom(tree: bpy.types.NodeTree, image: bpy.types.NodeSocket, **settings: flo
 
 
 def whole_pixels(translate: bpy.types.Node) -> bpy.types.Node:
-    """Make a Translate node of the compositor move whole pixels, without blending neighbours by rounding."""
+    """Set a Translate node of the compositor to whole pixels, so that rounding blends no neighbours."""
     if hasattr(translate, "interpolation"):
         translate.interpolation = "NEAREST"
     else:
@@ -234,7 +234,7 @@ def whole_pixels(translate: bpy.types.Node) -> bpy.types.Node:
 def exr_output(
     tree: bpy.types.NodeTree, name: str, image: bpy.types.NodeSocket, grey: bool, bits: int
 ) -> bpy.types.Node:
-    """A File Output node called `name` that writes `image` as EXR; `exr_output_path` says where."""
+    """A File Output node called `name` that writes `image` as EXR; `exr_output_path` sets its path."""
     node = tree.nodes.new("CompositorNodeOutputFile")
     node.name = node.label = name
     if hasattr(node, "file_output_items"):
@@ -250,14 +250,14 @@ def exr_output(
 
 @contextmanager
 def raw_file(scene: bpy.types.Scene, path: Path) -> Iterator[None]:
-    """Within, renders write all that view layers record into a multilayer EXR of 32 bits, uncompressed.
+    """Context: renders write all passes of view layers into a multilayer EXR of 32 bits, uncompressed.
 
-    No compositor touches it. Where a scene has two eyes, ``_L`` and ``_R`` are added to the file's name.
+    The compositor is bypassed. Stereo scenes add ``_L`` and ``_R`` to the file's name.
     """
     render, file = scene.render, scene.render.image_settings
     media = getattr(file, "media_type", None)
     names = ["file_format", "color_depth", "exr_codec", "views_format"]
-    if hasattr(file, "use_exr_interleave"):  # else 5.2 writes a part of the file for each pass
+    if hasattr(file, "use_exr_interleave"):  # otherwise 5.2 writes a part of the file for each pass
         names.append("use_exr_interleave")
     before = {name: getattr(file, name) for name in names}
     compositing, place = render.use_compositing, render.filepath
@@ -279,14 +279,14 @@ def raw_file(scene: bpy.types.Scene, path: Path) -> Iterator[None]:
 
 
 def over_under(file: bpy.types.ImageFormatSettings) -> None:
-    """Where a scene has two eyes, put both into one file of twice the height, the left one above."""
+    """In stereo scenes, write both eyes into one file of twice the height, the left one above."""
     file.views_format = "STEREO_3D"
     file.stereo_3d_format.display_mode = "TOPBOTTOM"
     file.stereo_3d_format.use_squeezed_frame = False
 
 
 def exr_output_path(node: bpy.types.Node, folder: str, stem: str) -> None:
-    """Make an `exr_output` node write ``<folder>/<stem><frame, six digits>.exr``."""
+    """Set an `exr_output` node to write ``<folder>/<stem><frame, six digits>.exr``."""
     if hasattr(node, "file_output_items"):
         node.directory, node.file_name = folder, stem
         node.file_output_items[0].name = "######"
@@ -296,14 +296,14 @@ def exr_output_path(node: bpy.types.Node, folder: str, stem: str) -> None:
 
 
 def lost_files(node: bpy.types.Node) -> bool:
-    """Whether an `exr_output` node has lost what it writes: 4.5 reads files of 5.0 and later so."""
+    """Whether an `exr_output` node lost its file items, as 4.5 reads files of 5.0 and later."""
     if node.bl_idname != "CompositorNodeOutputFile":
         return False
     return not (node.file_output_items if hasattr(node, "file_output_items") else node.file_slots)
 
 
 def drop_copies() -> None:
-    """Remove our compositors that 4.5, where they are the scenes' own, finds in files of 5.0 and later."""
+    """Remove duplicates of our compositors, which 4.5 creates in files of 5.0 and later."""
     if "compositing_node_group" not in bpy.types.Scene.bl_rna.properties:
         for name in ("Compositing Node Tree", _COMPOSITOR):
             tree = bpy.data.node_groups.get(name)
@@ -322,29 +322,29 @@ def new_strip(
 
 
 def march_through_volumes(cycles: bpy.types.PropertyGroup) -> None:
-    """Make Cycles march through volumes in steps, as 4.5 always does; 5.0 has an unbiased way beside it."""
+    """Set Cycles to biased ray marching of volumes, as in 4.5; 5.0 also has unbiased sampling."""
     if hasattr(cycles, "volume_biased"):
         cycles.volume_biased = True
 
 
 def volume_shift(cycles: bpy.types.PropertyGroup, voxel: float) -> float:
-    """How far (m) along each axis a volume must be moved to be drawn where its grids say.
+    """Offset (m) along each axis that draws a volume at the position of its grids.
 
-    4.5 draws grids half a voxel too far along +x, +y and +z, in both engines; 5.0, whose new way through
-    volumes `volume_biased` switches off, draws them in their place with either.
+    4.5 draws grids half a voxel too far along +x, +y and +z, in both engines. 5.0 draws them in their place,
+    with `volume_biased` on or off.
     """
     return 0.0 if hasattr(cycles, "volume_biased") else -0.5 * voxel
 
 
 def still_settings(render: bpy.types.RenderSettings) -> None:
-    """Make a render write one PNG file per frame; from 5.0 that is not possible while films are chosen."""
+    """Set a render to write one PNG file per frame; from 5.0 on the media type must not be video."""
     if hasattr(render.image_settings, "media_type"):
         render.image_settings.media_type = "IMAGE"
     render.image_settings.file_format = "PNG"
 
 
 def typeface() -> bpy.types.VectorFont | None:
-    """Blender's own typeface from its file, or None where that is not installed.
+    """Blender's typeface from its file, or None where that is not installed.
 
     The built-in one is the same, but 5.2 loses it when it opens a second file without a window.
     """
@@ -353,19 +353,19 @@ def typeface() -> bpy.types.VectorFont | None:
 
 
 def film_settings(render: bpy.types.RenderSettings) -> None:
-    """Make a render write one film file with Blender's own FFmpeg."""
+    """Set a render to write one film file with Blender's own FFmpeg."""
     if hasattr(render.image_settings, "media_type"):
         render.image_settings.media_type = "VIDEO"
     render.image_settings.file_format = "FFMPEG"
 
 
 def set_denoising(cycles: Any, wanted: bool) -> None:
-    """Have Cycles denoise with OpenImageDenoise; a Blender built without it, such as Debian's, cannot.
+    """Denoise with OpenImageDenoise, if `wanted`; not available in some builds of Blender, such as Debian's.
 
-    Balanced quality takes less than half of high quality's time, 2.6 instead of 6 s of the processor for
-    640x360 pixels. Pictures of 3 samples differ by FLIP 0.03, by another grain 0.045; with smoke by 0.04 and
-    0.075. What it knows of surfaces is made less grainy the fast way: 0.7 s less than the accurate way, and
-    trees and flames stay sharper. Not at all would be as fast, and leave grain.
+    Balanced quality takes less than half of high quality's time, 2.6 instead of 6 s of CPU time for 640x360
+    pixels. Pictures of 3 samples differ by FLIP 0.03, and by 0.045 for another noise seed; with smoke by 0.04
+    and 0.075. Guiding passes are prefiltered by the fast method: 0.7 s less than the accurate one, and trees
+    and flames stay sharper. No prefiltering would be as fast, and leave noise.
     """
     try:
         cycles.denoiser, cycles.denoising_prefilter = "OPENIMAGEDENOISE", "FAST"
@@ -376,6 +376,7 @@ def set_denoising(cycles: Any, wanted: bool) -> None:
 
 
 def stored(datablock: bpy.types.ID) -> Any:
-    """Values of registered properties as the file has them, by name, also those that no property reads."""
-    system = getattr(datablock, "bl_system_properties_get", None)  # 5.0: apart from custom properties
+    """Stored values of registered properties by name, including those that no property reads any more."""
+    # 5.0 stores them apart from custom properties
+    system = getattr(datablock, "bl_system_properties_get", None)
     return (system() if system else datablock) or {}

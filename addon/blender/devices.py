@@ -1,4 +1,4 @@
-"""What Cycles renders on: the processor, or a GPU by OptiX, CUDA, HIP, oneAPI or Metal."""
+"""Render devices of Cycles: CPU, or GPU by OptiX, CUDA, HIP, oneAPI or Metal."""
 
 from __future__ import annotations
 
@@ -6,23 +6,23 @@ import bpy
 
 from ..errors import Error
 
-KINDS = ("OPTIX", "CUDA", "HIP", "ONEAPI", "METAL")  # the fastest of those that a GPU has comes first
+KINDS = ("OPTIX", "CUDA", "HIP", "ONEAPI", "METAL")  # ordered by speed
 _NAMES = {"OPTIX": "OptiX", "CUDA": "CUDA", "HIP": "HIP", "ONEAPI": "oneAPI", "METAL": "Metal"}
 
 
 def take(wanted: str, scene: bpy.types.Scene) -> str:
-    """Have a scene rendered on what is `wanted` ("auto", "cpu" or "gpu"), in a Blender of our own.
+    """Set the device ("auto", "cpu" or "gpu") of a scene, in a Blender process of our own.
 
-    Changes Blender's preferences, so never for an artist's: see `follow`.
+    It changes Blender's preferences, so it must not run in an artist's Blender: see `follow`.
 
     Returns
     -------
-    What was taken, in words.
+    Description of the device.
 
     Raises
     ------
     Error
-        A GPU is wanted and there is none.
+        A GPU is requested and there is none.
     """
     kind, names = ("NONE", []) if wanted == "cpu" else _gpus()
     if wanted == "gpu" and not names:
@@ -42,18 +42,18 @@ def take(wanted: str, scene: bpy.types.Scene) -> str:
 
 
 def follow(wanted: str, scene: bpy.types.Scene) -> None:
-    """Have a scene rendered on what the preferences of an artist's Blender say: its processor at first."""
+    """Set the device of a scene in an artist's Blender, within its preferences; CPU by default."""
     scene.cycles.device = "CPU" if wanted == "cpu" else "GPU"
 
 
 def _preferences() -> bpy.types.AddonPreferences | None:
-    """Preferences of Cycles; None where that is switched off."""
+    """Preferences of Cycles; None where it is disabled."""
     addon = bpy.context.preferences.addons.get("cycles")
     return addon.preferences if addon else None
 
 
 def _gpus() -> tuple[str, list[str]]:
-    """The first kind of device that there are GPUs of, and their names."""
+    """The first device type with GPUs, and their names."""
     preferences = _preferences()
     if preferences is None:
         return "NONE", []

@@ -1,19 +1,19 @@
-"""Where nodes lie: each frame a box of columns, inputs left of what they go into, boxes side by side."""
+"""Node layout: each frame is a box of columns, inputs left of the nodes that use them, boxes side by side."""
 
 from __future__ import annotations
 
 import bpy
 
-WIDE, GAP = 200.0, 40.0  # from column to column, and between boxes and nodes
+WIDE, GAP = 200.0, 40.0  # spacing of columns, and between boxes and nodes
 
 
 def arrange(tree: bpy.types.NodeTree) -> None:
-    """Place the nodes of a tree whose nodes were added after those that they are linked from."""
+    """Arrange the nodes of a tree in which each node was added after its inputs."""
     boxes: dict[str, list[bpy.types.Node]] = {}
     for node in tree.nodes:
         if node.bl_idname != "NodeFrame":
             boxes.setdefault(node.parent.name if node.parent else "", []).append(node)
-    if "" in boxes:  # what comes of all the frames
+    if "" in boxes:  # nodes after all frames
         boxes[""] = boxes.pop("")
     feeds: dict[str, list[bpy.types.Node]] = {}
     for link in tree.links:
@@ -28,13 +28,13 @@ def arrange(tree: bpy.types.NodeTree) -> None:
             place[node.name] = left + WIDE * (deepest - column), below[column]
             below[column] -= height(node) + GAP
         left += WIDE * (deepest + 1) + 2.0 * GAP
-    # All at once: after each that is set by itself Blender would look through the whole tree.
+    # In bulk: after each single assignment Blender would update the whole tree.
     flat = [at for node in tree.nodes for at in place.get(node.name, (0.0, 0.0))]
     tree.nodes.foreach_set("location", flat)
 
 
 def height(node: bpy.types.Node) -> float:
-    """About how tall a node is drawn: Blender tells it only once it has drawn it."""
+    """Estimated height of a node: Blender computes it only when it draws the node."""
     outputs = [socket for socket in node.outputs if socket.enabled and not socket.hide]
     inputs = [socket for socket in node.inputs if socket.enabled and not socket.hide]
     vectors = [s for s in inputs if s.type in ("VECTOR", "ROTATION") and not s.is_linked and not s.hide_value]
@@ -43,7 +43,7 @@ def height(node: bpy.types.Node) -> float:
 
 
 def _columns(box: list[bpy.types.Node], feeds: dict[str, list[bpy.types.Node]]) -> dict[str, int]:
-    """Column of each node, counted from the right: one more than of all that it goes into in its box."""
+    """Column of each node, counted from the right: one more than those of its users in its box."""
     columns: dict[str, int] = {}
     for node in reversed(box):
         after = [columns[to.name] + 1 for to in feeds.get(node.name, ()) if to.name in columns]

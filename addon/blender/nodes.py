@@ -1,4 +1,4 @@
-"""The one way node trees are made: formulas on sockets, looked up by name.
+"""Node tree builder: arithmetic on sockets, with lookup by name.
 
 ground, tree = nodes.material("Firetwin Ground", (0.30, 0.26, 0.17))
 colour = tree.input("Ember Colour", (1.0, 0.11, 0.012), "Of spots that glow in the ash", "Fire")
@@ -7,7 +7,7 @@ with tree.frame("Embers"):
     embers = (age / -3600.0).exp()
 tree.surface(nodes.thermal_switch(tree, tree.emission(colour, embers), radiance))
 
-A material is one group node with named, explained inputs; what is in the group is laid out in its frames.
+A material is one group node with named inputs and tooltips. The nodes in the group are laid out in frames.
 """
 
 from __future__ import annotations
@@ -31,10 +31,10 @@ MASKS = "firetwin_masks"
 SURFACE = "Firetwin Surface"
 FLAMES = "Firetwin Flames"
 WARMTH = "Firetwin Warmth"
-"""AOVs: of what is solid, see `thermal_switch`; and of flames, see `flames`. Those of all flames before
-what is solid add up, not dimmed by one another (Cycles 4.5)."""
+"""AOVs of solid surfaces, see `thermal_switch`; and of flames, see `flames`. Those of all flames in front of
+a solid surface add up, without mutual attenuation (Cycles 4.5)."""
 FIRE = "Firetwin Fire"
-"""Light group of all that gives these AOVs of flames."""
+"""Light group of all objects that write the flames' AOVs."""
 
 
 class Value:
@@ -85,7 +85,7 @@ class Value:
         return self.tree.math("POWER", self, exponent)
 
     def clamp(self) -> Value:
-        """This value held between 0 and 1."""
+        """This value clamped between 0 and 1."""
         return self.tree.math("ADD", self, 0.0, clamp=True)
 
     def smoothstep(self, low: Any, high: Any) -> Value:
@@ -97,7 +97,7 @@ class Value:
         )
 
     def ramp(self, low: Any, high: Any, start: Any = 0.0, end: Any = 1.0) -> Value:
-        """Straight line from `start` at `low` to `end` at `high`, held outside."""
+        """Linear ramp from `start` at `low` to `end` at `high`, clamped outside."""
         return self.tree.output(
             "ShaderNodeMapRange",
             {"Value": self, "From Min": low, "From Max": high, "To Min": start, "To Max": end},
@@ -106,9 +106,9 @@ class Value:
 
 
 class Tree:
-    """A node tree being written; sockets, nodes, `Value`s and numbers may all be given as inputs.
+    """A node tree under construction; inputs may be sockets, nodes, `Value`s or numbers.
 
-    The tree of a material is the group that `material` shows.
+    The tree of a material is the group that `material` uses.
     """
 
     def __init__(self, node_tree: bpy.types.NodeTree, material: bpy.types.Material | None = None) -> None:
@@ -117,7 +117,7 @@ class Tree:
 
     @contextmanager
     def frame(self, label: str) -> Iterator[None]:
-        """Nodes that are added within lie in a frame with this label; in a frame within, in that one."""
+        """Context: new nodes go into a frame with this label; frames can be nested."""
         before, self._frame = self._frame, self.node_tree.nodes.new("NodeFrame")
         self._frame.label = label
         try:
@@ -134,14 +134,14 @@ class Tree:
         least: float | None = 0.0,
         most: float | None = None,
     ) -> Value:
-        """An input of this group, made with its first use: a (whole) number, or a colour of three or four.
+        """An input of this group, created on first use: a (whole) number, or a colour of three or four.
 
         Parameters
         ----------
         help
             One line for the tooltip, without trailing period.
         panel
-            The panel that it lies in.
+            Name of its panel.
         least, most
             Bounds of a number; None: none.
         """
@@ -167,7 +167,7 @@ class Tree:
         if self._frame is not None:
             node.parent = self._frame
         for name, value in properties.items():
-            if getattr(node, name) != value:  # Blender looks over the whole tree after every change
+            if getattr(node, name) != value:  # Blender updates the whole tree after every change
                 setattr(node, name, value)
         pairs = inputs.items() if isinstance(inputs, Mapping) else enumerate(inputs)
         for socket, value in pairs:
@@ -239,13 +239,13 @@ class Tree:
         return self.output("ShaderNodeAddShader", [a, b])
 
     def emission(self, colour: Any, strength: Any = 1.0) -> Value:
-        """A glowing surface or volume."""
+        """An emissive surface or volume."""
         return self.output("ShaderNodeEmission", {"Color": colour, "Strength": strength})
 
     def colours(self, place: Any, stops: Sequence[Sequence[float]] | NDArray[np.float64]) -> Value:
-        """Colours at equal steps of `place` from 0 to 1, linear between and held outside.
+        """Colours at equal steps of `place` from 0 to 1, linear between and clamped outside.
 
-        A Color Ramp looks them up in 257 steps in some releases, off by 0.003 at its stops.
+        A Color Ramp uses a table of 257 steps in some releases, with errors of 0.003 at its stops.
         """
         pieces = len(stops) - 1
         total: Any = tuple(stops[0])
@@ -278,11 +278,11 @@ class Tree:
         return self.output("ShaderNodeTexVoronoi", inputs, name, **properties)
 
     def aov(self, name: str, value: Any, colour: bool = True) -> None:
-        """Give a colour (or a number) to the view layers that have an AOV of this name."""
+        """Write a colour (or a number) to the AOV of this name, in view layers that have it."""
         self.node("ShaderNodeOutputAOV", {"Color" if colour else "Value": value}, aov_name=name)
 
     def surface(self, shader: Any) -> None:
-        """Make `shader` the surface of this material or world."""
+        """Connect `shader` to the surface output of this material or world."""
         if self.material is not None:
             self._show("Surface", shader)
             return
@@ -290,11 +290,11 @@ class Tree:
         layout.arrange(self.node_tree)
 
     def volume(self, shader: Any) -> None:
-        """Make `shader` the volume of this material."""
+        """Connect `shader` to the volume output of this material."""
         self._show("Volume", shader)
 
     def geometry(self, value: Any) -> None:
-        """Make this the geometry that comes out of a geometry node group."""
+        """Connect the output of a geometry node group."""
         self.finish({"Geometry": value})
 
     def _show(self, what: str, shader: Any) -> None:
@@ -307,7 +307,7 @@ class Tree:
         output.location = 2.0 * layout.WIDE, 0.0
 
     def finish(self, outputs: Mapping[str, Any]) -> None:
-        """Make these the outputs of a group, by name, and lay out its nodes."""
+        """Connect the outputs of a group, by name, and lay out its nodes."""
         self.node("NodeGroupOutput", outputs)
         for node in self.node_tree.nodes:
             if node.bl_idname == "NodeGroupInput":
@@ -325,7 +325,7 @@ def _is_panel(item: bpy.types.NodeTreeInterfaceItem, name: str) -> bool:
 
 
 def material(name: str, colour: tuple[float, float, float] | None = None) -> tuple[bpy.types.Material, Tree]:
-    """A new material of ours called `name`, and the empty tree of the group that it will show.
+    """A new material of ours called `name`, and the empty tree of its group.
 
     Parameters
     ----------
@@ -354,7 +354,7 @@ def geometry(name: str) -> tuple[Tree, bpy.types.Node]:
 
 
 def compositor(name: str, help: str, outputs: Mapping[str, str]) -> Tree:
-    """A new compositor node group of ours, for people to use: what it does shows under the pointer.
+    """A new compositor node group of ours, for users, with a tooltip.
 
     Parameters
     ----------
@@ -377,7 +377,7 @@ def model_time(tree: Tree) -> Value:
 
 
 def switch(tree: Tree, kind: str, shader: Any, other: Any) -> Value:
-    """`shader`, but `other` in view layers whose property `kind` (`THERMAL`, `MASKS`) is 1."""
+    """Use `other` in place of `shader` in view layers whose property `kind` (`THERMAL`, `MASKS`) is 1."""
     return tree.mix_shader(tree.attribute(kind, "VIEW_LAYER"), shader, other)
 
 
@@ -392,10 +392,10 @@ def thermal_switch(tree: Tree, shader: Any, value: Any) -> Value:
 
 
 def flames(tree: Tree, light: Any, emissivity: Any, warmth: Any) -> None:
-    """Give the AOVs of flames what one adds.
+    """Write a flame's contribution to the AOVs of flames.
 
-    `FLAMES` is the red of its light, that times its distance (m), and its emissivity; `WARMTH` its emissivity
-    times the radiance (W m-2 sr-1) of a black body as hot.
+    `FLAMES` is the red of its light, that times its distance (m), and its emissivity. `WARMTH` is its
+    emissivity times the radiance (W m-2 sr-1) of a black body of its temperature.
     """
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
     tree.aov(FLAMES, tree.combine(light, light * distance, emissivity))
@@ -403,16 +403,17 @@ def flames(tree: Tree, light: Any, emissivity: Any, warmth: Any) -> None:
 
 
 def over(tree: Tree, shader: Any) -> Value:
-    """`shader` of what lies on a surface, too little clear to see that through it, but depth and AOVs do."""
+    """`shader` of an overlay on a surface, slightly transparent, so that depth and AOVs pass through it."""
     trace = tree.output("ShaderNodeBsdfTransparent", {"Color": 3 * (1.0e-3,)})
     return tree.add_shader(shader, trace)
 
 
 def mask_switch(tree: Tree, shader: Any, kind: Any, number: Any = 0.0) -> Value:
-    """`shader`, but its class and the number of its instance in view layers with `firetwin_masks` = 1.
+    """`shader`, but its class and its instance number in view layers with `firetwin_masks` = 1.
 
-    A pixel is then (number mod 4096, 1, class + 8 floor(number / 4096)), all times what smoke before it lets
-    through: the ratios are whole numbers that 32 bits hold exactly. What has none is (0, 1, class).
+    A pixel is then (number mod 4096, 1, class + 8 floor(number / 4096)), all times the transmittance of smoke
+    in front of it: the ratios are whole numbers that 32 bits represent exactly. A surface without a number is
+    (0, 1, class).
     """
     if isinstance(number, Value):
         low = tree.math("MODULO", number, 4096.0)

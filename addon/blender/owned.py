@@ -1,8 +1,8 @@
-"""Which data is ours: what carries our mark, under one root collection per scene.
+"""Ownership of Blender data: data-blocks with Firetwin's mark, under one root collection per scene.
 
-Nothing else is changed or removed: not what an artist added to our collections, not other scenes, not linked
-data. Engine, world, view layers and compositor belong to a scene as a whole, so they are set only on a scene
-that is our own.
+Other data are never changed or removed: an artist's objects in our collections, other scenes, linked data.
+Engine, world, view layers and compositor belong to a scene as a whole, so they are set only in a scene of our
+own.
 """
 
 from __future__ import annotations
@@ -15,27 +15,27 @@ import bpy
 
 from ..errors import Error
 
-MARK = "firetwin_part"  # not "firetwin": the panel keeps its choices there
-NAME = "firetwin_name"  # of an object as it was made: copies have it too
+MARK = "firetwin_part"  # not "firetwin", which holds the panel's settings
+NAME = "firetwin_name"  # of an object when it was built: copies have it too
 ROOT = "Firetwin"
-MADE = "made"  # a scene that was not there before
+MADE = "made"  # a scene that Firetwin created
 
 
 def mark(block: Any, what: str = "") -> Any:
-    """Make a data-block, view layer or node ours; `what` tells ours from one another."""
+    """Mark a data-block, view layer or node as ours; `what` identifies it."""
     block[MARK] = what or True
     return block
 
 
 def unmark(block: Any) -> None:
-    """Make it the artist's."""
+    """Remove the mark: it is the artist's from then on."""
     for name in (MARK, NAME):
         if name in block:
             del block[name]
 
 
 def ours(block: Any, what: str = "") -> bool:
-    """Whether we made it (and, unless empty, as `what`); what is linked from another file is not ours."""
+    """Whether it has our mark (and this `what`, unless empty); linked data are not ours."""
     linked = getattr(block, "library", None) or getattr(block, "override_library", None)
     if linked is not None or MARK not in block:
         return False
@@ -44,7 +44,7 @@ def ours(block: Any, what: str = "") -> bool:
 
 @dataclass(frozen=True)
 class Stage:
-    """Our part of a scene: its root collection and what is in it."""
+    """Our part of a scene: its root collection and its contents."""
 
     scene: bpy.types.Scene
     root: bpy.types.Collection
@@ -55,7 +55,7 @@ class Stage:
         return ours(self.scene)
 
     def part(self, name: str, keep: Collection[bpy.types.Object] = ()) -> bpy.types.Collection:
-        """The collection "Firetwin <name>" with nothing of ours but what to keep; what is not ours stays."""
+        """The collection "Firetwin <name>", emptied of our objects except `keep`; other objects stay."""
         found = next((child for child in self.root.children if ours(child, name)), None)
         if found is not None:
             _clear(found, keep)
@@ -69,29 +69,29 @@ class Stage:
         return [thing for child in found for thing in child.all_objects if ours(thing)]
 
     def evaluated(self, block: Any) -> Any:
-        """A data-block as it is at the scene's frame, also where another scene is the current one."""
+        """A data-block evaluated at the scene's frame, also where another scene is the current one."""
         layers = self.scene.view_layers
         layer = next((each for each in layers if ours(each)), layers[0])
         return block.evaluated_get(layer.depsgraph) if layer.depsgraph else block
 
     def camera(self, name: str) -> bpy.types.Object | None:
-        """The object of the camera called `name` in the scene file, whatever it is called by now."""
+        """The object of the camera called `name` in the scene file, also after the object was renamed."""
         found = [thing for thing in self.root.all_objects if ours(thing, f"camera {name}")]
         return min(found, key=_originality, default=None)
 
 
 def built(scene: bpy.types.Scene) -> bool:
-    """Whether there is anything of ours in a scene."""
+    """Whether a scene has any data of ours."""
     return ours(scene) or _root(scene) is not None
 
 
 def scene(uid: int) -> bpy.types.Scene:
-    """The scene with this `session_uid`, which it keeps when it is renamed, and through undo.
+    """The scene with this `session_uid`, which is constant through renaming and undo.
 
     Raises
     ------
     Error
-        It is gone.
+        The scene no longer exists.
     """
     found = next((each for each in bpy.data.scenes if each.session_uid == uid), None)
     if found is None:
@@ -102,31 +102,31 @@ def scene(uid: int) -> bpy.types.Scene:
 
 
 def stage(scene: bpy.types.Scene) -> Stage:
-    """Our part of a scene, made where it is missing."""
+    """Our part of a scene, created where it is missing."""
     root = _root(scene)
     return Stage(scene, root if root is not None else child(scene.collection, ""))
 
 
 def new_scene() -> bpy.types.Scene:
-    """A new scene of our own, "Firetwin", marked as `MADE`: it may be deleted when nothing is in it."""
+    """A new scene of our own, "Firetwin", marked as `MADE`: it may be deleted when it is empty."""
     made = bpy.data.scenes.new(ROOT)
     adopt(made, MADE)
     return made
 
 
 def adopt(scene: bpy.types.Scene, what: str = "") -> Stage:
-    """Our part of a scene that is ours as a whole from now on: a new one, or one that held nothing."""
+    """Mark a whole scene as ours, a new or an empty one; returns our part."""
     if not ours(scene):
         mark(scene, what)
-        if len(scene.view_layers) == 1:  # the one that every new scene has
+        if len(scene.view_layers) == 1:  # the default one of every new scene
             mark(scene.view_layers[0], "spare")
     return stage(scene)
 
 
 def remove(scene: bpy.types.Scene) -> None:
-    """Take away all that we made in a scene, and no more.
+    """Remove all our data from a scene, and nothing else.
 
-    A collection that holds something of an artist's stays, and what another scene shows too stays there.
+    A collection with an artist's objects stays, and so do data that another scene uses.
     """
     root = _root(scene)
     if root is not None and any(root in set(other.collection.children) for other in _others(scene)):
@@ -150,7 +150,7 @@ def child(parent: bpy.types.Collection, name: str) -> bpy.types.Collection:
 
 
 def library(name: str) -> bpy.types.Collection:
-    """A new collection of ours, "Firetwin <name>", that is in no scene."""
+    """A new collection of ours, "Firetwin <name>", outside of all scenes."""
     return mark(bpy.data.collections.new(f"{ROOT} {name}".strip()), name or "root")
 
 
@@ -167,7 +167,7 @@ def add(
 
 
 def purge() -> None:
-    """Delete what is ours and used by nothing, with what only that used."""
+    """Delete our data-blocks without users, and those that only they used."""
     while unused := [block for block in _blocks() if block.users == 0 and ours(block)]:
         bpy.data.batch_remove(unused)
 
@@ -181,7 +181,7 @@ def _others(scene: bpy.types.Scene) -> list[bpy.types.Scene]:
 
 
 def _clear(collection: bpy.types.Collection, keep: Collection[bpy.types.Object] = ()) -> None:
-    """Delete our things in a collection but some, and our collections in it that are empty then."""
+    """Delete our objects in a collection except `keep`, and our collections that are empty then."""
     for inner in list(collection.children):
         if ours(inner):
             _clear(inner, keep)
@@ -194,7 +194,7 @@ def _clear(collection: bpy.types.Collection, keep: Collection[bpy.types.Object] 
 
 
 def _originality(thing: bpy.types.Object) -> tuple[bool, int]:
-    """Of an object and the copies that people made of it, the original comes first."""
+    """Sort key that puts an object before its copies by the user."""
     return thing.name != thing.get(NAME), thing.session_uid
 
 
@@ -204,7 +204,7 @@ def _drop(collection: bpy.types.Collection) -> None:
 
 
 def _blocks() -> Iterator[bpy.types.ID]:
-    """Every data-block in the file but scenes."""
+    """Every data-block in the file except scenes."""
     for prop in bpy.data.bl_rna.properties:
         if prop.type == "COLLECTION" and prop.identifier not in ("scenes", "libraries", "screens"):
             yield from getattr(bpy.data, prop.identifier)

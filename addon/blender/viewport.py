@@ -1,35 +1,35 @@
-"""The 3D views of Blender's window: what they must be set to for a world of a hundred kilometres to show."""
+"""Viewport settings of 3D views for a scene a hundred kilometres wide: clipping and colours."""
 
 from __future__ import annotations
 
 import bpy
 import numpy as np
 
-# m. Blender's own 1000 m show nothing of such a world; nearer than 20 m, depths are too coarse to tell far
-# smoke from the ground.
+# m. Blender's default of 1000 m is too short for such a scene; below 20 m, depth precision is too low to
+# separate distant smoke from the ground.
 NEAR, FAR = 20.0, 500_000.0
 
 
 def usual() -> tuple[float, float]:
-    """Between which distances (m) Blender's views show things, unless they are set."""
+    """Default clipping range (m) of Blender's views."""
     known = bpy.types.SpaceView3D.bl_rna.properties
     return known["clip_start"].default, known["clip_end"].default
 
 
 def clip(space: bpy.types.SpaceView3D, before: tuple[float, float], after: tuple[float, float]) -> None:
-    """Change the clipping of a view, where it is `before`: one that an artist has set stays."""
+    """Change the clipping range of a view from `before` to `after`; an artist's own range stays."""
     if np.allclose((space.clip_start, space.clip_end), before, rtol=1.0e-6, atol=0.0):
         space.clip_start, space.clip_end = after
 
 
 def coloured(space: bpy.types.SpaceView3D) -> None:
-    """Have the solid view show colours of the meshes, where it shows one colour for each material."""
+    """Show colour attributes in the solid view, where it shows material colours."""
     if space.shading.color_type == "MATERIAL":
         space.shading.color_type = "VERTEX"
 
 
 def prepare_file() -> None:
-    """Set every view of the file that is open, as it will be saved, to show its scene through the camera."""
+    """Set every view of the open file, as it will be saved, to show its scene through the camera."""
     for screen in bpy.data.screens:
         for area in screen.areas:
             for space in area.spaces:

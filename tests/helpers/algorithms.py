@@ -1,7 +1,7 @@
-"""Algorithms 1 and 2 of the FIRETWIN paper, transcribed plainly and slowly, as oracles.
+"""Reference implementations (oracles) of Algorithms 1 and 2 of the FIRETWIN paper, plain and slow.
 
-Nothing here uses firetwin_core. Positions come as latitude, longitude and height; `geodesy.enu` takes them
-to local metres.
+They do not use firetwin_core. Positions are latitude, longitude and height; `geodesy.enu` converts them to
+local metres.
 """
 
 import math
@@ -44,7 +44,7 @@ def philox(counter: tuple[int, int, int, int], key: tuple[int, int]) -> tuple[in
 
 
 def _multiply(a: int, b: NDArray) -> tuple[NDArray, NDArray]:
-    """Upper and lower 64 bits of a 64 x 64 bit product, by halves."""
+    """Upper and lower 64 bits of a 64 x 64 bit product, by long multiplication."""
     half = np.uint64(32)
     low_mask = np.uint64(0xFFFFFFFF)
     a_high, a_low = np.uint64(a >> 32), np.uint64(a & 0xFFFFFFFF)
@@ -55,7 +55,7 @@ def _multiply(a: int, b: NDArray) -> tuple[NDArray, NDArray]:
 
 
 def uniform(seed: int, cells: NDArray, use: int) -> NDArray:
-    """Four numbers in [0, 1) per cell -> (n, 4): the same Philox over all cells at once."""
+    """Four uniform numbers in [0, 1) per cell -> (n, 4): the same Philox over all cells at once."""
     c0 = cells.astype(np.uint64)
     c1, c2, c3 = np.full_like(c0, use), np.zeros_like(c0), np.zeros_like(c0)
     k0, k1 = seed, 0
@@ -87,7 +87,7 @@ def _jittered(axis: list[float], index: int, random: float, jitter: float) -> fl
 
 
 def _between(axis: list[float], index: int, value: float) -> tuple[int, float]:
-    """The interval next to `index` that holds value, and where in it."""
+    """Interval next to `index` that contains the value, and its fraction within it."""
     sign = 1 if axis[1] > axis[0] else -1
     lower = index if sign * value >= sign * axis[index] else index - 1
     lower = min(max(lower, 0), len(axis) - 2)
@@ -129,7 +129,7 @@ def algorithm2(
     seed: int,
     jitter: float = 1.0,
 ) -> tuple[list[Plant], list[Plant]]:
-    """Algorithm 2 -> trees and grass in the order of their cells; grass before its 0.70 m down."""
+    """Algorithm 2 -> trees and grass in the order of their cells; grass before it is lowered by 0.70 m."""
     rows, columns = canopy.shape
     cells = np.arange(rows * columns)
     place, tree, clump = (uniform(seed, cells, use).tolist() for use in (PLACE, TREE, GRASS))

@@ -1,4 +1,4 @@
-"""Any settings that the schema allows, for hypothesis."""
+"""Hypothesis strategies for any valid settings of the schema."""
 
 import typing
 from datetime import UTC, datetime

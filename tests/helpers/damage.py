@@ -1,6 +1,7 @@
-"""Damaged files of fire models, each converted in a process of its own: a run, or one polite line.
+"""Fuzzing of fire models' files: damaged files, each converted in a process of its own to a run or an error.
 
-``python damage.py KIND FOLDER COUNT SEED`` writes a line of JSON for each.
+``python damage.py KIND FOLDER COUNT SEED`` writes a line of JSON for each. An error must be one readable
+line.
 """
 
 import contextlib
@@ -27,17 +28,17 @@ import small_run
 
 KINDS = ("wrf", "cfbm", "forefire", "landscape", "tiff", "ascii", "lcp", "npz", "cf", "folder")
 CUTS = (0.0, 0.01, 0.3, 0.6, 0.9, 0.999)
-"""Of its length."""
+"""Fractions of the file's length."""
 
-MEMORY = 6 << 30  # bytes that a process may take
-SECONDS = 20  # of the processor, after which a conversion counts as one that never ends
+MEMORY = 6 << 30  # memory limit of a process, bytes
+SECONDS = 20  # s of CPU time after which a conversion counts as an endless loop
 SILENT = 10  # s of those without a heartbeat: a library hangs, and `convert.PATIENCE` ends that
 
-_heartbeat = mmap.mmap(-1, 8)  # the last one in processor seconds; shared with the processes forked
+_heartbeat = mmap.mmap(-1, 8)  # the last one in CPU seconds; shared with the forked processes
 
 
 class End(NamedTuple):
-    """What came of a damaged file: what refused it, the signal that ended it, and what is wrong with that."""
+    """Result of a damaged file: what refused it, the signal that ended it, and its fault."""
 
     way: str
     said: str
@@ -46,7 +47,7 @@ class End(NamedTuple):
 
 
 def files_of(kind, folder):
-    """A small file of each kind, and what has to be said of it."""
+    """A small file of each kind, and the options that it needs."""
     arrival = np.hypot(*np.mgrid[-8:9, -8:9]) * 30.0
     dated = {"start": "2020-07-01"}
     if kind == "wrf":
@@ -92,7 +93,7 @@ def _run(folder):
 
 
 def tried(kind, folder, count, seed):
-    """What comes of so many damaged files of a kind, made and converted in other processes."""
+    """Results of `count` damaged files of a kind, created and converted in other processes."""
     command = [sys.executable, __file__, kind, str(folder), str(count), str(seed)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         for line in process.stdout:
@@ -102,7 +103,7 @@ def tried(kind, folder, count, seed):
 
 
 def _damaged(whole, count, rng, cuts):
-    """Ways to damage bytes, and what is left of them."""
+    """Descriptions of damage to bytes, and the damaged bytes."""
     for share in cuts[:count]:
         yield f"cut to {share}", whole[: int(share * len(whole))]
     odd = {b"PK": odd_netcdf.archive, b"CD": odd_netcdf.netcdf, b"\x89H": odd_netcdf.netcdf}.get(whole[:2])
@@ -169,7 +170,7 @@ WAYS = tuple(_DAMAGE)
 
 
 def _convert(paths, options, folder):
-    """Convert, and read all that was made; what refused it."""
+    """Convert, and read the whole run; returns what refused it."""
     from firetwin import cli
     from firetwin.jobs import convert
     from firetwin.run import info, readers, zone
@@ -196,19 +197,19 @@ def _beat():
 
 
 def _hangs(kind, used):
-    """What is wrong with a conversion that never ended; its parent ends one without a heartbeat."""
+    """Fault of a conversion in an endless loop; its parent ends one without a heartbeat."""
     silent = used - struct.unpack("d", _heartbeat)[0]
     return "" if kind != "folder" and silent > SILENT else "hangs"
 
 
 def _main(kind, folder, count, seed):
-    """Damage one of the files at a time, convert them in a fork, and mend it again."""
+    """Damage one of the files at a time, convert them in a fork, and restore the file."""
     import polite
     from firetwin.run.readers import MODELS
 
     warnings.simplefilter("ignore")
     for name in ("netCDF4", "rasterio", "pyproj", "firetwin.run.models.write", "firetwin.run.info"):
-        importlib.import_module(name)  # once, for all that are forked
+        importlib.import_module(name)  # once, for all forks
     for name in MODELS:
         importlib.import_module(f"firetwin.run.readers.{name}")
     paths, options = files_of(kind, folder)
@@ -236,7 +237,7 @@ def _main(kind, folder, count, seed):
 
 
 def _forked(paths, options, folder):
-    """What was said in a process of its own, and how that ended."""
+    """Error of a conversion in a forked process, and how the process ended."""
     _heartbeat[:] = bytes(8)
     ear, mouth = os.pipe()
     pid = os.fork()

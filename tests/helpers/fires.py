@@ -1,4 +1,4 @@
-"""Round fires on small grids, and files of what was seen of them, for tests of scores."""
+"""Circular fires on small grids, and files of their observations, for tests of scores."""
 
 import json
 from pathlib import Path
@@ -11,13 +11,13 @@ NORTH, EAST = areas.metres_per_degree(LATITUDE)
 
 
 def axes(n=120, cell=50.0):
-    """Middles (n,) of square cells about the place, degrees north and east."""
+    """Centres (n,) of square cells about the place, degrees north and east."""
     metres = (np.arange(n) - (n - 1) / 2) * cell
     return LATITUDE + metres / NORTH, LONGITUDE + metres / EAST
 
 
 def round_fire(latitude, longitude, speed=0.5, east=0.0, north=0.0):
-    """Arrival times (s) of a fire that grows as a circle from a point (m from the place)."""
+    """Arrival times (s) of a fire that spreads as a circle from a point (m from the place)."""
     x = (longitude - LONGITUDE) * EAST - east
     y = (latitude - LATITUDE) * NORTH - north
     return np.hypot(*np.meshgrid(x, y)) / speed

@@ -1,4 +1,4 @@
-"""A moment of a flow: smoke on a small box of cells, for detail below them."""
+"""Snapshot of a flow: smoke on a small box of cells, for subgrid detail."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ N, SPACING, DEPTH, VOXEL = 12, 100.0, 80.0, 25.0
 
 
 def moment(**changed):
-    """Smoke in the middle of a box, that is old, calm and cool."""
+    """A snapshot with smoke in the middle of a box: old, calm and cool."""
     z, y, x = np.meshgrid(*(np.arange(N) - (N - 1) / 2,) * 3, indexing="ij")
     levels = (np.arange(N) + 0.5) * DEPTH
     fields = {

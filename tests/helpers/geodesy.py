@@ -32,7 +32,7 @@ def enu(lat: NDArray, lon: NDArray, h: NDArray, origin: tuple[float, float, floa
 
 
 def enu_exact(lat: float, lon: float, h: float, origin: tuple[float, float, float]) -> list[mpmath.mpf]:
-    """The same for one point with 50 digits."""
+    """Local coordinates of one point, with 50 digits."""
     with mpmath.workdps(50):
         f = 1 / mpmath.mpf("298.257223563")
         e2 = f * (2 - f)

@@ -1,4 +1,4 @@
-"""Files of exactly each fire model's structure, for tests: a front that moves east at an even speed."""
+"""Test files in the exact structure of each fire model: a front that moves east at a constant speed."""
 
 from datetime import datetime, timedelta
 
@@ -16,10 +16,10 @@ def wrf(
     folder, *, times=(60, 120, 180), per_file=2, turn=0.0, ideal=False, seed=1, without=(),
     shape=(NY, NX), cell=40.0, came=lambda x, y: x / SPEED, touched=False, **attributes,
 ):  # fmt: skip
-    """wrfout files: staggering, subgrid, junk edge, grid turned by `turn` degrees.
+    """wrfout files: staggering, subgrid, unused border, grid rotated by `turn` degrees.
 
-    `came` is when (s) the front comes to a place (m); TIGN_G is that of a cell's middle, or if `touched`
-    of the first touch. FIRE_AREA is the burned share of the cell.
+    `came` gives the arrival time (s) at a point (m). TIGN_G is that of a cell's centre, or if `touched` of
+    the first contact. FIRE_AREA is the burned fraction of the cell.
     """
     rng = np.random.default_rng(seed)
     NY, NX = shape  # noqa: N806
@@ -138,7 +138,7 @@ def wrf(
 
 
 def cfbm(folder, *, count=4, step=30, shape=(20, 30), cell=10.0, turn=0.0, seed=2):
-    """fire_output files: (ny, nx) float32 without any attribute, the time in the name only."""
+    """fire_output files: (ny, nx) float32 without any attribute, with the time only in the name."""
     rng = np.random.default_rng(seed)
     ny, nx = shape
     x, y = np.meshgrid((np.arange(nx) + 0.5) * cell, (np.arange(ny) + 0.5) * cell)
@@ -171,7 +171,7 @@ def cfbm(folder, *, count=4, step=30, shape=(20, 30), cell=10.0, turn=0.0, seed=
 
 
 def forefire(path, arrival, *, lx=3000.0, ly=1000.0, west=0.0, south=0.0, year=2020, day=200):
-    """What `save[]` writes: float64, -9999 where unburned without saying so, no coordinates."""
+    """Output of `save[]`: float64, an undeclared fill value -9999 where unburned, no coordinates."""
     with netCDF4.Dataset(path, "w") as f:
         f.createDimension("DIMX", arrival.shape[1])
         f.createDimension("DIMY", arrival.shape[0])
@@ -192,7 +192,7 @@ def forefire(path, arrival, *, lx=3000.0, ly=1000.0, west=0.0, south=0.0, year=2
 
 
 def landscape(path, fuel, altitude, *, size, box, wind=None, **domain):
-    """ForeFire's data: netCDF-3, (NT, NZ, NY, NX) layers with dimensions of their own."""
+    """ForeFire's data file: netCDF-3, (NT, NZ, NY, NX) layers with dimensions of their own."""
     with netCDF4.Dataset(path, "w", format="NETCDF3_CLASSIC") as f:
         layers = [("fuel", "f", fuel), ("altitude", "n", altitude)]
         layers += zip(("windU", "windV"), "uv", wind or (), strict=False)
@@ -208,7 +208,7 @@ def landscape(path, fuel, altitude, *, size, box, wind=None, **domain):
 
 
 def lcp(path, layers, *, cell=30.0, west=0.0, north=3000.0, height_unit=3, density_unit=3):
-    """A landscape of eight 16-bit layers, pixel by pixel, rows from the north (GDAL, lcpdataset.cpp)."""
+    """A landscape of eight 16-bit layers, pixel-interleaved, rows from the north (GDAL, lcpdataset.cpp)."""
     ny, nx, bands = layers.shape
     assert bands == 8
     head = bytearray(7316)
@@ -224,7 +224,7 @@ def lcp(path, layers, *, cell=30.0, west=0.0, north=3000.0, height_unit=3, densi
 
 
 def ascii_grid(path, values, *, cell=30.0, west=0.0, south=0.0):
-    """Esri's: rows from the north, -9999 for none."""
+    """Esri ASCII grid: rows from the north, no-data value -9999."""
     lines = [
         f"ncols {values.shape[1]}",
         f"nrows {values.shape[0]}",

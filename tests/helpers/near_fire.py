@@ -1,4 +1,4 @@
-"""Cameras near the fire, and the sun where a test wants it."""
+"""Cameras close to the fire, and a fixed position of the sun."""
 
 from dataclasses import replace
 from datetime import timedelta
@@ -22,7 +22,7 @@ def close(settings):
 
 
 def moved(settings, **place):
-    """Settings whose camera stands still elsewhere."""
+    """Settings whose camera stands at another place."""
     camera = settings.cameras[0]
     key = replace(camera.rig.keys[0], **place)
     return replace(settings, cameras=(replace(camera, rig=replace(camera.rig, keys=(key,))),))
@@ -30,7 +30,7 @@ def moved(settings, **place):
 
 @pytest.fixture
 def sun_at(monkeypatch):
-    """Put the sun at a height (degrees) for lamps and light alike."""
+    """Set the sun's elevation (degrees) for lamps and light alike."""
 
     def place(height):
         monkeypatch.setattr(sun, "position", lambda run, time: (200.0, height))
@@ -40,10 +40,10 @@ def sun_at(monkeypatch):
 
 @pytest.fixture
 def near(settings):
-    """A camera near the front of the second frame."""
+    """A camera close to the front of the second frame."""
     return from_height(settings, 150.0)
 
 
 def from_height(settings, height):
-    """Settings with one camera that high over the front of the second frame."""
+    """Settings with one camera at a height over the front of the second frame."""
     return moved(settings, latitude=38.8395, height=height)

@@ -1,4 +1,4 @@
-"""netCDF files and NumPy archives that are whole, and in which one thing is not as the model writes it."""
+"""Fuzzing of netCDF files and NumPy archives: valid files with one deviation from the model's."""
 
 import io
 import tempfile
@@ -23,7 +23,7 @@ WORDS = (
 
 
 def netcdf(whole, rng):
-    """The bytes of a netCDF file copied with one variable, dimension or attribute changed; how it was."""
+    """Bytes of a netCDF file with one variable, dimension or attribute changed, and a description."""
     with tempfile.TemporaryDirectory() as folder:
         before, after = Path(folder, "before"), Path(folder, "after")
         before.write_bytes(whole)
@@ -43,7 +43,7 @@ def _copy(old, new, rng):
         name = str(rng.choice(list(sizes)))
         least = (
             0 if old.data_model == "NETCDF4" else 1
-        )  # none is one without end, which older files have once
+        )  # size 0 is an unlimited dimension, of which netCDF-3 allows one
         sizes[name] = int(rng.choice([least, 1, 2, sizes[name] + 1]))
     for each, size in sizes.items():
         new.createDimension(each, size or None)
@@ -98,7 +98,7 @@ def _odd(attributes, rng):
 
 
 def archive(whole, rng):
-    """The bytes of a .npz with one array changed; how it was."""
+    """Bytes of a .npz with one array changed, and a description."""
     arrays = dict(np.load(io.BytesIO(whole)))
     name = str(rng.choice(list(arrays)))
     values = arrays.pop(name)

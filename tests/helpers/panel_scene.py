@@ -1,4 +1,4 @@
-"""A small scene that the panel builds, and what an artist could lose of the file that is open."""
+"""A small scene built by the panel, and the state of the open file that an artist could lose."""
 
 import shutil
 
@@ -28,7 +28,7 @@ keys = [
 
 
 def build(run, folder):
-    """Build it by the panel from the run, and save it as `folder`/scene.blend; returns that path."""
+    """Build a scene by the panel from the run, and save it as `folder`/scene.blend; returns that path."""
     bpy.ops.wm.read_factory_settings()
     firetwin.register()
     (folder / "scene.toml").write_text(SCENE.format(run=run))
@@ -41,13 +41,13 @@ def build(run, folder):
 
 
 def build_with_run(run, folder):
-    """The same from a copy of the run in `folder`, which may vanish."""
+    """Build it from a copy of the run in `folder`, which may vanish."""
     shutil.copytree(run, folder / "run")
     return build(folder / "run", folder)
 
 
 def opened(blend):
-    """Open such a file; yields its panel, and puts all away afterwards."""
+    """Context: open such a file; yields its panel, and closes it afterwards."""
     firetwin.register()
     bpy.ops.wm.open_mainfile(filepath=str(blend))
     yield bpy.context.scene.firetwin
@@ -56,7 +56,7 @@ def opened(blend):
 
 
 def settings(scene):
-    """What the panel of a scene says, as a scene file, or why it cannot be one."""
+    """Scene file text of a scene's panel, or its error."""
     try:
         return file.text(scene_file.settings(scene))
     except Error as error:
@@ -64,7 +64,7 @@ def settings(scene):
 
 
 def state():
-    """What an artist could lose: blocks, places, curves, constraints, lenses, settings; not what is seen."""
+    """State that an artist could lose: blocks, positions, curves, constraints, lenses, settings."""
     blocks = {
         (prop.identifier, block.name_full, block.session_uid)
         for prop in bpy.data.bl_rna.properties

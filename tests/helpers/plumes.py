@@ -1,4 +1,4 @@
-"""Burning cells, their smoke, and smoke files read by Blender's own OpenVDB."""
+"""Burning cells, their smoke, and smoke files read by Blender's OpenVDB."""
 
 import numpy as np
 import pytest
@@ -27,14 +27,14 @@ def steady(power=2.0e10, until=7200.0):
 
 
 def briggs(power, wind10, stability):
-    """Final rise, transcribed from Briggs (1984) with the constants of the documentation."""
+    """Final plume rise, transcribed from Briggs (1984) with the constants of the documentation."""
     flux = 9.80665 * 0.7 * power / (np.pi * 1005.0 * 1.2 * 290.0)
     wind = wind10 * (300.0 / 10.0) ** 0.1
     return 2.6 * (flux / (wind * stability)) ** (1.0 / 3.0)
 
 
 def read(path):
-    """Name -> dense array and lowest voxel, through Blender's own OpenVDB."""
+    """Read name -> dense array and lowest voxel, with Blender's OpenVDB."""
     bpy = pytest.importorskip("bpy")
     bpy.utils.expose_bundled_modules()
     import openvdb

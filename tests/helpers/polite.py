@@ -1,8 +1,8 @@
-"""What the command line says where it refuses something: one line that a person can read."""
+"""Error messages of the command line: one line that a person can read."""
 
 
 def rude(line):
-    """What is wrong with what `cli` says of an error, or an empty text."""
+    """Fault of an error message of `cli`, or an empty text."""
     if not line:
         return ""
     text = line.removesuffix("\n")

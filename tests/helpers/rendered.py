@@ -1,4 +1,4 @@
-"""What a scene file says, rendered in this process as the worker does."""
+"""Render a scene file in this process, as the worker does."""
 
 from firetwin.jobs import render
 from firetwin.progress import no_message, silent
@@ -8,7 +8,7 @@ from firetwin.shot.source import ShotSource
 
 
 def everything(folder, text):
-    """All files of a scene file of this text, written to folder/out: (its shot, that folder)."""
+    """Render all files of a scene file of this text into folder/out: (its shot, that folder)."""
     (folder / "scene.toml").write_text(text)
     choice, out = ShotSource(scene=str(folder / "scene.toml")), folder / "out"
     pictures = plan.pictures(choice.shot())

@@ -1,4 +1,4 @@
-"""Scene files with one or two keys set to anything, and what comes of them: a scene, or one polite line."""
+"""Fuzzing of scene files: one or two keys set to any value give a scene, or one readable error line."""
 
 import contextlib
 import datetime
@@ -127,7 +127,7 @@ def plain(kind):
 
 
 def _places(kind, values, where=()):
-    """Where each key of a dataclass stands in nested tables, and the key; the last table of a list."""
+    """Position of each key of a dataclass in nested tables, and the key; the last table of a list."""
     for part in schema.fields(kind):
         here = (*where, part.name)
         if part.key.variants:
@@ -147,7 +147,7 @@ def _places(kind, values, where=()):
 
 @st.composite
 def values(draw, part):
-    """A value for a key: in its bounds, at them, just and far outside, of other types, hostile."""
+    """Strategy for a value of a key: inside, at and outside of its bounds, of other types, hostile."""
     way = draw(st.integers(0, 9))
     known, listed = part.key, typing.get_origin(part.type) is tuple
     bounds = [each for each in (known.at_least, known.above, known.at_most) if each is not None]
@@ -181,7 +181,7 @@ class _Raw(str):
 
 @st.composite
 def scenes(draw, kind=None):
-    """Text of a scene file: one that is fine, with a camera of a kind, and one or two keys changed."""
+    """Strategy for a scene file: a valid one with a camera of a kind, and one or two keys changed."""
     tables = plain(kind or draw(st.sampled_from(sorted(kinds()))))
     if draw(st.booleans()):
         method = draw(st.sampled_from(("flow", "puffs")))
@@ -189,7 +189,7 @@ def scenes(draw, kind=None):
     for _ in range(draw(st.integers(1, 2))):
         try:
             known = list(_places(Settings, tables))
-        except (KeyError, TypeError, AttributeError):  # the first change left no place for another
+        except (KeyError, TypeError, AttributeError):  # the first change removed the place of another
             break
         where, part = draw(st.sampled_from(known))
         put = draw(values(part))
@@ -226,12 +226,12 @@ def written(value):
 
 
 def outcome(path, build=None):
-    """Check, plan and perhaps build a scene file: the stage it came to, and the line that refused it, if any.
+    """Check, plan and perhaps build a scene file: the last stage reached, and the error line, if any.
 
     Parameters
     ----------
     build
-        Builds a shot.
+        Function that builds a shot.
     """
     stage = "check"
     try:

@@ -1,4 +1,4 @@
-"""Parts of scene files that tests share: what makes a scene quick to build and to render."""
+"""Shared sections of scene files for tests: settings that build and render fast."""
 
 BARE = """\
 [terrain]

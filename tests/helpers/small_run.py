@@ -1,4 +1,4 @@
-"""A run of a few cells, with an invented fire, for tests."""
+"""A run of a few cells, with a synthetic fire, for tests."""
 
 from pathlib import Path
 
@@ -45,7 +45,7 @@ def small_fields() -> dict[str, NDArray]:
 
 
 def write_text(path: Path, values: NDArray) -> None:
-    """One row per line, with enough digits to give back each value."""
+    """One row per line, with enough digits to restore each value."""
     digits = "%.9g" if values.dtype == np.float32 else "%.17g"
     np.savetxt(path, np.atleast_2d(values), fmt=digits)
 

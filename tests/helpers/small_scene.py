@@ -1,4 +1,4 @@
-"""A small run, settings and a shot of it, and a clean Blender for every test that needs one."""
+"""A small run, its settings and shot, and a clean Blender for every test that needs one."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def run(run_folder):
 
 @pytest.fixture
 def settings(run_folder, tmp_path):
-    """A drone over the run's middle, three frames over an hour, no relief or stand, a small apron."""
+    """A drone over the run's centre, three frames over an hour, flat, without a stand, with a small apron."""
     return _settings(run_folder, tmp_path)
 
 
@@ -135,7 +135,7 @@ def _settings(run_folder, folder):
 
 @pytest.fixture
 def near_settings(settings):
-    """The same with a detailed ground and a stand."""
+    """The settings with a detailed terrain mesh and a stand."""
     return replace(
         settings,
         terrain=replace(settings.terrain, near_radius=1500.0),
@@ -155,20 +155,20 @@ def near_shot(near_settings, run):
 
 @pytest.fixture(scope="session")
 def factory():
-    """Blender's preferences and add-ons as from the factory."""
+    """Blender's preferences and add-ons reset to factory settings."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
 
 
 @pytest.fixture(autouse=True)
 def scene(factory):
-    """Blender as from the factory, with an empty scene."""
+    """Blender reset to factory settings, with an empty scene."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     return bpy.context.scene
 
 
 @pytest.fixture
 def stage(scene):
-    """The scene as one of our own."""
+    """The scene, adopted as one of our own."""
     return owned.adopt(scene)
 
 
@@ -186,13 +186,13 @@ def built_file(factory, run_folder, run, tmp_path_factory):
 
 @pytest.fixture
 def built(scene, built_file):
-    """Our part of that file's scene; opening it makes the `scene` of before invalid."""
+    """Our part of that file's scene; opening it invalidates an earlier `scene`."""
     bpy.ops.wm.open_mainfile(filepath=str(built_file))
     return owned.stage(bpy.context.scene)
 
 
 def _plain(name, shot, stage, images=None, *_, **__):
-    """A material that shows images, if it is given any, and white light in haze."""
+    """A material that shows images, if there are any, and white light in haze."""
     material, tree = nodes.material(f"Firetwin {name}")
     for image in (images or {}).values():
         tree.node("ShaderNodeTexImage", image=image)
@@ -202,13 +202,13 @@ def _plain(name, shot, stage, images=None, *_, **__):
 
 @pytest.fixture
 def plain_ground(monkeypatch):
-    """The ground has a plain material: its nodes are what takes longest to build."""
+    """Give the ground a plain material: its nodes take longest to build."""
     monkeypatch.setattr(ground_material, "build", functools.partial(_plain, "Ground"))
 
 
 @pytest.fixture
 def plain_looks(plain_ground, monkeypatch):
-    """Ground, plants and fire have plain materials."""
+    """Give ground, plants and fire plain materials."""
     for name in ("foliage", "bark", "rock", "grass"):
         monkeypatch.setattr(tree_material, name, functools.partial(_plain, name.title()))
     monkeypatch.setattr(flame_material, "build", functools.partial(_plain, "Flames"))
@@ -246,13 +246,13 @@ def shoot(tmp_path):
 
 @pytest.fixture
 def whole_forest(monkeypatch):
-    """The viewport, which tests look at, shows the forest as renders draw it, however large it is."""
+    """Show the full forest in the viewport, as renders draw it, at any size."""
     monkeypatch.setattr(preview, "MOST", 10**9)
 
 
 @pytest.fixture
 def few_cells(monkeypatch):
-    """A flow of smoke on few, large cells, with a nest that begins late."""
+    """A smoke flow on few, large cells, with a nest that begins late."""
     monkeypatch.setattr(domains, "_LEVELS", (150.0, 600.0, 10))
     monkeypatch.setattr(domains, "_NEST_LEVELS", (120.0, 400.0, 11))
     monkeypatch.setattr(domains, "_NEST", 72)
@@ -279,7 +279,7 @@ def plate(scene):
 
 @pytest.fixture
 def panel():
-    """The panel of a new file, as Blender starts with."""
+    """The panel of a new file, in Blender's startup state."""
     bpy.ops.wm.read_factory_settings()
     firetwin.register()
     yield bpy.context.scene.firetwin

@@ -1,4 +1,4 @@
-"""Runs of any size and place, with fires that grow as ellipses, for tests of what is fitted to a fire."""
+"""Runs of any size and place, with elliptical fires, for tests of automatic framing."""
 
 from pathlib import Path
 
@@ -35,13 +35,13 @@ def write(
     Parameters
     ----------
     fires
-        Where each begins, m east and north of the middle, and when, s.
+        Ignitions: m east and north of the centre, and time, s.
     speed
-        Of the head, m/s; the back is a fifth of it where there is wind.
+        Rate of spread of the head, m/s; that of the rear is a fifth of it in wind.
     height
-        Of the ground: a function of metres east and north; left out, sea level.
+        Terrain elevation: a function of metres east and north; default: sea level.
     arrival
-        Whether the run says when the front comes; else its heat flux alone does.
+        Whether the run has arrival times; otherwise only heat flux.
     """
     north, east = areas.metres_per_degree(at[0])
     metres = (np.arange(cells) - (cells - 1) / 2) * cell
@@ -71,7 +71,7 @@ def write(
 
 
 def _travel(x, y, speed, wind):
-    """Seconds from the origin to places: a circle without wind, else an ellipse from near its back."""
+    """Seconds from the origin to points: a circle without wind, else an ellipse from near its rear."""
     if wind is None or not np.any(wind):
         return np.hypot(x, y) / speed
     along = np.array(wind) / np.hypot(*wind)
