@@ -56,9 +56,9 @@ def new(arguments: argparse.Namespace) -> None:
     from .errors import UsageError
 
     if arguments.out.suffix != ".toml":
-        raise UsageError(f"-o: {arguments.out} does not end in .toml")
+        raise UsageError(f"-o: {arguments.out} does not end in .toml; name a .toml file")
     if arguments.out.exists() and not arguments.overwrite:
-        raise UsageError(f"-o: {arguments.out} is there; choose another name, or add --overwrite")
+        raise UsageError(f"-o: {arguments.out} exists already; choose another name, or add --overwrite")
     asked = arguments.start, arguments.end
     text = _fitted(arguments.run, arguments.out, arguments.out.parent / "cache", asked)
     files.write(arguments.out, lambda part: part.write_text(text, encoding="utf-8"))
@@ -92,12 +92,12 @@ def score(arguments: argparse.Namespace) -> None:
         named = arguments.against or observations.beside(arguments.run)
     runs = [_open(Path(each)) for each in named if not observations.is_one(each)]
     if len(runs) > 1:
-        raise UsageError("--against: one other run at a time")
+        raise UsageError("--against: takes one other run; leave the rest out")
     if arguments.report and arguments.report.suffix.lower() != ".html":
-        raise UsageError(f"--report: {arguments.report} does not end in .html")
+        raise UsageError(f"--report: {arguments.report} does not end in .html; name an .html file")
     seen = observations.read(each for each in named if observations.is_one(each))
     if seen.heat and not (seen.perimeters or seen.detections or runs):
-        raise input_error(named[0], 0, 0, "holds heat but no perimeter, so there is nothing to compare with")
+        raise input_error(named[0], 0, 0, "has detections but no perimeter; name a file with a perimeter")
     found = scores.score(run, seen, runs[0] if runs else None, zone=zone.time_zone(run))
     result(json.dumps(found, indent=1) if arguments.json else page.page(found))
     if arguments.report:
@@ -158,7 +158,7 @@ def build(arguments: argparse.Namespace) -> None:
     from .jobs import build
 
     if arguments.out.suffix != ".blend":
-        raise UsageError(f"-o: {arguments.out} does not end in .blend")
+        raise UsageError(f"-o: {arguments.out} does not end in .blend; name a .blend file")
     build.run(_choice(arguments), arguments.out, Reporter(), say)
     result(arguments.out)
 
@@ -196,11 +196,11 @@ def track(arguments: argparse.Namespace) -> None:
     from .shot.cameras import track_xml
 
     if arguments.out.suffix.lower() != ".gpx":
-        raise UsageError(f"--out: {arguments.out} does not end in .gpx")
+        raise UsageError(f"--out: {arguments.out} does not end in .gpx; name a .gpx file")
     shot = _choice(arguments).shot()
     names = [camera.name for camera in shot.settings.cameras]
     if not names:
-        raise UsageError(f"{arguments.scene} has no [[cameras]], so there is no way to write")
+        raise UsageError(f"{arguments.scene} has no [[cameras]]; add one to write its path")
     alone = comparison.for_view(shot, arguments.camera or names[0])
     (view,) = alone.paths
     moments = [alone.utc(frame) for frame in range(1, alone.frames.count + 1)]
@@ -223,7 +223,7 @@ def cache(arguments: argparse.Namespace) -> None:
     gone = cache.prune(volumes, arguments.limit, arguments.dry_run)
     _volumes(gone)
     freed = sum(each.bytes for each in gone)
-    left = sum(each.bytes for each in volumes) - freed
+    left = sum(volume.bytes for volume in volumes) - freed
     word = "would free" if arguments.dry_run else "freed"
     say(f"{word} {size(freed)}; {size(left)} of smoke volumes stay in {where}")
 

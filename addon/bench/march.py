@@ -191,7 +191,7 @@ class _Frame:
         out = self.folder / name
         out.mkdir(exist_ok=True)
         wanted = [Picture(_CAMERA, 1, each) for each in (PASSES[:1] if rays else PASSES)]
-        with open_session(out, {(_CAMERA, each): {"pass": each} for each in PASSES}) as here:
+        with open_session(out, {(_CAMERA, name): {"pass": name} for name in PASSES}) as here:
             watch = Stopwatch()
             pictures.render(self.shot, self.stage, here, wanted, ready=lambda _frame, _after: self.smoke)
             spent = watch.read()

@@ -63,10 +63,10 @@ class Stage:
             return found
         return child(self.root, name)
 
-    def things(self, name: str) -> list[bpy.types.Object]:
+    def objects_of(self, name: str) -> list[bpy.types.Object]:
         """Our objects of a part."""
         found = (child for child in self.root.children if ours(child, name))
-        return [thing for child in found for thing in child.all_objects if ours(thing)]
+        return [obj for child in found for obj in child.all_objects if ours(obj)]
 
     def evaluated(self, block: Any) -> Any:
         """A data-block evaluated at the scene's frame, also where another scene is the current one."""
@@ -76,7 +76,7 @@ class Stage:
 
     def camera(self, name: str) -> bpy.types.Object | None:
         """The object of the camera called `name` in the scene file, also after the object was renamed."""
-        found = [thing for thing in self.root.all_objects if ours(thing, f"camera {name}")]
+        found = [obj for obj in self.root.all_objects if ours(obj, f"camera {name}")]
         return min(found, key=_originality, default=None)
 
 
@@ -95,9 +95,7 @@ def scene(uid: int) -> bpy.types.Scene:
     """
     found = next((each for each in bpy.data.scenes if each.session_uid == uid), None)
     if found is None:
-        raise Error(
-            "the scene is gone: it was deleted, undone, or another file was opened; nothing more is done"
-        )
+        raise Error("the scene is gone: it was deleted, undone, or another file was opened; build it again")
     return found
 
 
@@ -158,12 +156,12 @@ def add(
     collection: bpy.types.Collection, name: str, data: bpy.types.ID | None, what: str = ""
 ) -> bpy.types.Object:
     """A new object of ours, "Firetwin <name>", with `data` (ours too) in `collection`."""
-    thing = mark(bpy.data.objects.new(f"{ROOT} {name}", data), what)
-    thing[NAME] = thing.name
+    obj = mark(bpy.data.objects.new(f"{ROOT} {name}", data), what)
+    obj[NAME] = obj.name
     if data is not None:
         mark(data)
-    collection.objects.link(thing)
-    return thing
+    collection.objects.link(obj)
+    return obj
 
 
 def purge() -> None:
@@ -187,15 +185,15 @@ def _clear(collection: bpy.types.Collection, keep: Collection[bpy.types.Object] 
             _clear(inner, keep)
             _drop(inner)
     originals: dict[str, bpy.types.Object] = {}
-    for thing in sorted(filter(ours, collection.objects), key=_originality):
-        if originals.setdefault(thing.get(NAME), thing) != thing:
-            unmark(thing)  # an artist's copy
-    bpy.data.batch_remove([thing for thing in originals.values() if thing not in keep])
+    for obj in sorted(filter(ours, collection.objects), key=_originality):
+        if originals.setdefault(obj.get(NAME), obj) != obj:
+            unmark(obj)  # an artist's copy
+    bpy.data.batch_remove([obj for obj in originals.values() if obj not in keep])
 
 
-def _originality(thing: bpy.types.Object) -> tuple[bool, int]:
+def _originality(obj: bpy.types.Object) -> tuple[bool, int]:
     """Sort key that puts an object before its copies by the user."""
-    return thing.name != thing.get(NAME), thing.session_uid
+    return obj.name != obj.get(NAME), obj.session_uid
 
 
 def _drop(collection: bpy.types.Collection) -> None:

@@ -58,9 +58,9 @@ def in_process(
         tell(text)
     shots = [shot] if together else [for_view(shot, view) for view in scene_runs.views(shot.settings)]
     places = {bake.folder(each, progress): each for each in shots}
-    for each in places.values():
-        if cost := sources.select(each).cost():
+    for place in places.values():
+        if cost := sources.select(place).cost():
             tell(cost.describe())
-    made = [str(bake.bake(each, progress)) for each in places.values()]
+    made = [str(bake.bake(place, progress)) for place in places.values()]
     tell(plume_mass.describe(shot))
     return made

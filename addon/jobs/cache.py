@@ -29,7 +29,7 @@ def folders(places: Iterable[Path]) -> list[Path]:
 def kept(places: Iterable[Path]) -> list[CachedVolumes]:
     """Volumes in these folders, most recently used first."""
     return sorted(
-        (each for place in places for each in cache.list_volumes(place)), key=lambda each: -each.used
+        (volume for place in places for volume in cache.list_volumes(place)), key=lambda volume: -volume.used
     )
 
 

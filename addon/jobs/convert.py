@@ -88,7 +88,7 @@ def beside(
     inputs = _fingerprint([path.absolute() for path in gathered(paths)], [start, at, projection, 0.0, "", ""])
     folder = next((each for each in folders if os.access(_existing(each), os.W_OK)), None)
     if folder is None:
-        raise Error(f"{paths[0]}: nothing can be written beside it; choose an output folder first")
+        raise Error(f"{paths[0]}: its folder cannot be written to; choose an output folder first")
     for number in itertools.count(1):
         out = folder / f"{paths[0].stem}_run{f'_{number}' if number > 1 else ''}"
         if not out.exists():
@@ -144,7 +144,7 @@ def _convert(files: list[Path], out: Path, options: list, progress: Progress, te
         raise Error(f"{files[0]}: memory ran out; it is damaged, or its grid is too large") from None
     except Exception as error:
         why = " ".join(f"{type(error).__name__}: {error}".split())
-        raise Error(f"{files[0]}: what it holds makes no sense; it is damaged ({why})") from error
+        raise Error(f"{files[0]}: its contents are invalid; it is damaged ({why})") from error
 
 
 def _fingerprint(files: list[Path], options: list) -> str:

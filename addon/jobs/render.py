@@ -134,7 +134,7 @@ def following(out: Path, progress: Progress, tell: MessageCallback) -> Progress:
         nonlocal told
         if note and done < total and not told:
             told = True
-            tell(f"the first picture is there: {out / note}; the film goes on")
+            tell(f"first picture: {out / note}; rendering continues")
         progress(done, total, what, f"last: {out / note}" if note else "")
 
     return follow

@@ -45,7 +45,9 @@ def run(
 
     shot = choice.shot()
     planned = plan.pictures(shot, asked.frames, asked.camera, asked.passes)
-    wanted = [each for each in planned if "@" not in each.camera and not passes.compares(each.name)]
+    wanted = [
+        picture for picture in planned if "@" not in picture.camera and not passes.compares(picture.name)
+    ]
     with blend.open("rb") as file:
         digest = hashlib.file_digest(file, "sha256").hexdigest()
     made_with = _made_with(digest, wanted)
@@ -59,7 +61,7 @@ def run(
             "made_with": [[*pair, values] for pair, values in made_with.items()],
             "after": before,
         }
-        tell(f"rendering {count(len(undone), 'picture')} of {blend.name} as it stands")
+        tell(f"rendering {count(len(undone), 'picture')} of {blend.name} in its current state")
         make(f"{__name__}:in_blender", task, undone, store, shot, progress, tell, stop)
     return len(undone)
 

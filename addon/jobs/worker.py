@@ -138,7 +138,7 @@ def run(
         if "error" in answer:
             raise Error(answer["error"])
         if watch.over:
-            raise EndedError(f"made no headway for {duration(patience)}, so it was ended")
+            raise EndedError(f"made no progress for {duration(patience)} and was ended")
         raise EndedError(_stopped(child.returncode))
     if "error" in answer:
         raise Error(f"{answer['error']} (the log of Blender is {log.name})")

@@ -51,7 +51,7 @@ def size(settings: Settings, scene: bpy.types.Scene) -> None:
     render = scene.render
     render.resolution_x, render.resolution_y = settings.render.resolution
     render.resolution_percentage = 100
-    render.use_multiview = bool(settings.cameras) and all(each.rig.around for each in settings.cameras)
+    render.use_multiview = bool(settings.cameras) and all(camera.rig.around for camera in settings.cameras)
     if render.use_multiview:
         render.resolution_y //= 2
         render.views_format = "STEREO_3D"

@@ -26,7 +26,7 @@ def missing(shot: Shot, store: Store, made_with: Fingerprints) -> Iterator[Film]
     """
     if not shot.settings.render.video:
         return
-    filmed = [each.name for each in passes.known().values() if each.film]
+    filmed = [known_pass.name for known_pass in passes.known().values() if known_pass.film]
     for camera in scene_runs.views(shot.settings):
         for name in filmed:
             if (camera, name) not in made_with:

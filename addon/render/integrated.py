@@ -45,13 +45,13 @@ class Drawing:
         self.image = _show(self.scene)
         _prepare(self.scene)
         self.shadow = _shadow(shot, stage) if shot.settings.smoke.enabled else None
-        for volume_object in stage.things("Smoke"):
+        for volume_object in stage.objects_of("Smoke"):
             volume_object.hide_render = True
         layers.exclude(self.scene, shadow.NAME.lower(), but="rgb")
 
     def of(self, smoke: Sequence[volume.Bricks], part: Path) -> Callable[[list[Picture]], None]:
         """Function that renders a frame's pictures with its smoke into a folder, before their `finish`."""
-        return lambda pictures: self._draw({each.name: each for each in pictures}, smoke, part)
+        return lambda pictures: self._draw({picture.name: picture for picture in pictures}, smoke, part)
 
     def _draw(self, pictures: dict[str, Picture], smoke: Sequence[volume.Bricks], part: Path) -> None:
         if self.shadow and "rgb" in pictures:
@@ -161,18 +161,18 @@ def _prepare(scene: bpy.types.Scene) -> None:
     masks = layers.of_pass(scene, "masks")
     masks.use_pass_z = True
     groups = layers.of_pass(scene, "rgb").lightgroups
-    if nodes.FIRE not in {each.name for each in groups}:
+    if nodes.FIRE not in {group.name for group in groups}:
         groups.add(name=nodes.FIRE)
 
 
 def _shadow(shot: Shot, stage: Stage) -> shadow.Shadow | None:
     """Rebuild the shadow caster of the shot's smoke; None without fires."""
-    for old in [each for each in stage.root.children if owned.ours(each, shadow.NAME)]:
+    for old in [child for child in stage.root.children if owned.ours(child, shadow.NAME)]:
         for caster in list(old.objects):
             bpy.data.objects.remove(caster)
         bpy.data.collections.remove(old)
     owned.purge()
-    boxes = [each.box for each in sources.select(shot).domains]
+    boxes = [domain.box for domain in sources.select(shot).domains]
     return shadow.build(shot, stage, boxes) if boxes else None
 
 

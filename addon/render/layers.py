@@ -32,16 +32,16 @@ def build(settings: Settings, stage: Stage) -> None:
     if not stage.own:
         return
     mend(stage.scene)
-    for each in _rendered():
-        layer = _layer(stage.scene, each)
-        layer[nodes.THERMAL] = 0.0 if each.shading == "light" else 1.0
-        layer[nodes.MASKS] = 1.0 if each.shading == "masks" else 0.0
-        layer.cycles.use_denoising = each.shading == "light" and settings.render.denoise
-        if each.layer_property:
-            setattr(layer, each.layer_property, True)
-        layer.use = still(each) or each.name in settings.render.passes
-        layer.samples = each.samples or 0
-        _leave_out(layer, each, None)
+    for rendered_pass in _rendered():
+        layer = _layer(stage.scene, rendered_pass)
+        layer[nodes.THERMAL] = 0.0 if rendered_pass.shading == "light" else 1.0
+        layer[nodes.MASKS] = 1.0 if rendered_pass.shading == "masks" else 0.0
+        layer.cycles.use_denoising = rendered_pass.shading == "light" and settings.render.denoise
+        if rendered_pass.layer_property:
+            setattr(layer, rendered_pass.layer_property, True)
+        layer.use = still(rendered_pass) or rendered_pass.name in settings.render.passes
+        layer.samples = rendered_pass.samples or 0
+        _leave_out(layer, rendered_pass, None)
     _compositor(stage.scene)
 
 
@@ -58,8 +58,8 @@ def complete(settings: Settings, stage: Stage, parts: Collection[str]) -> None:
     if any(f"pass {each.name}" not in there for each in _rendered()):
         build(settings, stage)
         return
-    for each in _rendered():
-        _leave_out(_layer(stage.scene, each), each, parts)
+    for rendered_pass in _rendered():
+        _leave_out(_layer(stage.scene, rendered_pass), rendered_pass, parts)
 
 
 def remove(scene: bpy.types.Scene) -> None:
@@ -128,7 +128,7 @@ def plain(scene: bpy.types.Scene, names: Iterable[str]) -> Iterator[None]:
     """
     shapes = {f"pass {name}" for name in names if _geometry_only(name)}
     found = [layer for layer in scene.view_layers if layer.get(owned.MARK) in shapes]
-    if not found or not all(owned.ours(each) for each in bpy.data.materials if each.users):
+    if not found or not all(owned.ours(material) for material in bpy.data.materials if material.users):
         yield
         return
     black, tree = nodes.material("Firetwin Plain")
@@ -171,7 +171,7 @@ def rendered(name: str) -> RenderedPass:
 
 def _rendered() -> list[RenderedPass]:
     """Passes with a view layer."""
-    return [each for each in passes.known().values() if isinstance(each, RenderedPass)]
+    return [known_pass for known_pass in passes.known().values() if isinstance(known_pass, RenderedPass)]
 
 
 def _geometry_only(name: str) -> bool:

@@ -53,12 +53,12 @@ def load(shot: Shot, stage: Stage, frames: Iterable[int] = ()) -> Load | None:
     smoky = list(frames)
     if smoky and not sources.is_integrated(shot):
         return None
-    drawn = [thing for thing in stage.scene.objects if thing.type == "MESH" and not thing.hide_render]
-    forest = {thing.data for thing in stage.things("Forest") if thing in drawn}
+    drawn = [obj for obj in stage.scene.objects if obj.type == "MESH" and not obj.hide_render]
+    forest = {obj.data for obj in stage.objects_of("Forest") if obj in drawn}
     return Load(
         pixels=math.prod(shot.resolution(camera)),
         plants=sum(len(mesh.vertices) for mesh in forest),
-        faces=sum(len(mesh.polygons) for mesh in {thing.data for thing in drawn}),
+        faces=sum(len(mesh.polygons) for mesh in {obj.data for obj in drawn}),
         **_smoke(shot, smoky),
     )
 
@@ -69,7 +69,7 @@ def _smoke(shot: Shot, frames: list[int]) -> dict[str, int]:
     source = sources.select(shot)
     prepared = all(map(source.is_prepared, frames))
     return {
-        "cells": 0 if prepared else sum(each.cells for each in source.domains),
+        "cells": 0 if prepared else sum(domain.cells for domain in source.domains),
         "voxels": source.painted_voxels(),
     }
 

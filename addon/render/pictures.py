@@ -52,7 +52,7 @@ def render(
     Number of frames that this render finished.
     """
     engine.label(shot.run, stage.scene)
-    total, made, note = len({(each.camera, each.frame) for each in wanted}), 0, ""
+    total, made, note = len({(picture.camera, picture.frame) for picture in wanted}), 0, ""
     marched = integrated.wanted(shot, stage.scene) and bool(plan.rendered(shot, wanted))
     drawing = integrated.Drawing(shot, stage) if marched else None
     with session.leases.part_folder() as part, session.queue(wanted) as queue:
@@ -98,7 +98,7 @@ def _frame(
 
 def _preview(pictures: list[Picture]) -> str:
     """A frame's file to report as its preview, relative to the output folder: a PNG if there is one."""
-    names = [name for each in pictures for name in each.files()]
+    names = [name for picture in pictures for name in picture.files()]
     return next((name for name in names if name.endswith(".png")), names[0])
 
 
@@ -132,25 +132,31 @@ class _Frame:
         store, made_with = self.session.store, self.session.made_with
         lacking = {need for need in own - set(names) if plan.missing(store, [self.pictures[need]], made_with)}
         drawn = [known[name] for name in known if name in names or name in lacking]
-        made = {self.pictures[each.name] for each in drawn}
-        self.draw([self.pictures[each.name] for each in drawn if isinstance(each, passes.RenderedPass)])
-        for each in drawn:
-            if each.finish:
-                pairs = taken.get(each.name, {})
+        made = {self.pictures[drawn_pass.name] for drawn_pass in drawn}
+        self.draw(
+            [
+                self.pictures[drawn_pass.name]
+                for drawn_pass in drawn
+                if isinstance(drawn_pass, passes.RenderedPass)
+            ]
+        )
+        for drawn_pass in drawn:
+            if drawn_pass.finish:
+                pairs = taken.get(drawn_pass.name, {})
                 there = {
                     need: self.files(Picture(c, self.frame, name), made) for need, (c, name) in pairs.items()
                 }
-                mine = self.files(self.pictures[each.name], made)
-                with writing(mine[each.files[0]]):
-                    each.finish(mine, there, self.shot, self.camera, self.frame)
+                mine = self.files(self.pictures[drawn_pass.name], made)
+                with writing(mine[drawn_pass.files[0]]):
+                    drawn_pass.finish(mine, there, self.shot, self.camera, self.frame)
         return [self.pictures[name] for name in names]
 
     def draw_layers(self, pictures: list[Picture]) -> None:
         """Render the view layers of these passes, with smoke."""
         kinds = defaultdict(list)
-        for each in pictures:
-            known = layers.rendered(each.name)
-            kinds[known.pixel_centres, known.through_smoke].append(each)
+        for picture in pictures:
+            known = layers.rendered(picture.name)
+            kinds[known.pixel_centres, known.through_smoke].append(picture)
         for (centres, through_smoke), group in sorted(kinds.items()):
             names = [each.name for each in group]
             layers.select(self.scene, names)

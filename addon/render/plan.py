@@ -49,7 +49,7 @@ def pictures(
     if camera is not None:
         shot.camera(camera)  # its error lists the cameras
     elif not settings.cameras:
-        raise UsageError(f"{settings.path} has no [[cameras]], so there is nothing to render")
+        raise UsageError(f"{settings.path} has no [[cameras]]; add one to render pictures")
     views = [
         view for view in scene_runs.views(shot.settings) if camera in (None, view, view.partition("@")[0])
     ]
@@ -69,7 +69,7 @@ def pictures(
         drawn += [Picture(view, frame, name) for frame in listed for name in made]
         compared += [Picture(view, frame, name) for frame in listed for name in last]
     if not drawn:
-        raise UsageError(f"--frames {frames}: {' and '.join(views)} has none of these frames")
+        raise UsageError(f"--frames {frames}: {' and '.join(views)} has none of these frames; name its own")
     return _with_inputs(shot, drawn) + compared
 
 
@@ -83,17 +83,21 @@ def _split_comparisons(asked: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[s
 
 def rounds(shot: Shot, wanted: list[Picture]) -> list[list[Picture]]:
     """Rounds of rendering: first the pictures without inputs from other cameras, then those with them."""
-    last = {each.camera for each in wanted if _inputs_of_other_cameras(shot, each.camera, each.name)}
-    parts = [[each for each in wanted if (each.camera in last) is second] for second in (False, True)]
+    last = {
+        picture.camera for picture in wanted if _inputs_of_other_cameras(shot, picture.camera, picture.name)
+    }
+    parts = [
+        [picture for picture in wanted if (picture.camera in last) is second] for second in (False, True)
+    ]
     return [part for part in parts if part]
 
 
 def rendered(shot: Shot, wanted: list[Picture]) -> set[tuple[str, str]]:
     """Cameras and passes that Blender renders for these pictures; the others are composed from files."""
-    pairs = {(each.camera, each.name) for each in wanted}
+    pairs = {(picture.camera, picture.name) for picture in wanted}
     for camera, name in list(pairs):
         pairs |= set(mount.taken(shot.settings, shot.cameras, camera, passes.known()[name]).values())
-    own = {each.camera for each in wanted}
+    own = {picture.camera for picture in wanted}
     rendered = {name for name, each in passes.known().items() if isinstance(each, passes.RenderedPass)}
     return {(camera, name) for camera, name in pairs if camera in own and name in rendered}
 

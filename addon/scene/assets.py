@@ -73,8 +73,8 @@ def build(shot: Shot, identify: Identify, progress: Progress = silent) -> int:
     _materials(identify)
     for group in filter(owned.ours, bpy.data.node_groups):
         _mark(group, identify(_KINDS[group.bl_idname]), _inputs(group))
-    for thing in (thing for thing in stage.root.all_objects if thing.type == "CAMERA"):
-        _mark(thing, identify("Cameras"), "A camera of the shot, with its path")
+    for obj in (obj for obj in stage.root.all_objects if obj.type == "CAMERA"):
+        _mark(obj, identify("Cameras"), "A camera of the shot, with its path")
     blocks = (bpy.data.objects, bpy.data.materials, bpy.data.node_groups)
     return sum(block.asset_data is not None for kind in blocks for block in kind)
 
@@ -87,28 +87,28 @@ def _trees(made: bpy.types.Collection, identify: Identify, progress: Progress) -
         studio = _Studio(Path(folder))
         for k, model in enumerate(every):
             progress(k, len(every), "drawing the trees")
-            thing = made.objects[f"Firetwin Tree {k:02d} 0"]
+            obj = made.objects[f"Firetwin Tree {k:02d} 0"]
             high = HEIGHTS[model.kind] > _HIGH or (model.kind, model.state) == ("brush", "living")
             what = _name(model)
             if model.state == "snag":
                 what = f"{what} Snag" if high else f"Burned {what}"
             count[what] += 1
-            thing.name = f"{what} {count[what]}"
+            obj.name = f"{what} {count[what]}"
             for name, value in _ALONE.items():
-                thing[name] = value
-            _mark(thing, identify("Trees" if high else "Undergrowth"), _about(model, high))
-            thing.scale = (HEIGHTS[model.kind],) * 3
-            studio.draw(thing)
+                obj[name] = value
+            _mark(obj, identify("Trees" if high else "Undergrowth"), _about(model, high))
+            obj.scale = (HEIGHTS[model.kind],) * 3
+            studio.draw(obj)
         studio.close()
 
 
 def _materials(identify: Identify) -> None:
     """Mark all materials; each gets the preview of an asset that shows it with few other materials."""
-    things = [thing for thing in bpy.data.objects if thing.asset_data and thing.type == "MESH"]
-    things.sort(key=lambda thing: len(thing.data.materials))
+    objects = [obj for obj in bpy.data.objects if obj.asset_data and obj.type == "MESH"]
+    objects.sort(key=lambda obj: len(obj.data.materials))
     for material in filter(owned.ours, bpy.data.materials):
         _mark(material, identify("Materials"), f"{material.name}: see the inputs of its node group")
-        made = next((thing for thing in things if material.name in thing.data.materials), None)
+        made = next((obj for obj in objects if material.name in obj.data.materials), None)
         if made is not None:
             pixels = np.empty(_PICTURE * _PICTURE * 4, np.float32)
             made.preview.image_pixels_float.foreach_get(pixels)
@@ -170,14 +170,14 @@ class _Studio:
         self._camera = bpy.data.objects.new("Studio Camera", self._eye)
         self._camera.rotation_euler = (np.radians(80.0), 0.0, 0.0)
         scene.camera = self._camera
-        for thing in (lamp, self._camera):
-            scene.collection.objects.link(thing)
+        for obj in (lamp, self._camera):
+            scene.collection.objects.link(obj)
 
-    def draw(self, thing: bpy.types.Object) -> None:
+    def draw(self, obj: bpy.types.Object) -> None:
         """Render an object and set the picture as its preview."""
         scene = self._scene
-        scene.collection.objects.link(thing)
-        corners = np.array(thing.bound_box) * np.array(thing.scale)
+        scene.collection.objects.link(obj)
+        corners = np.array(obj.bound_box) * np.array(obj.scale)
         size, middle = np.ptp(corners, axis=0), corners.mean(axis=0)
         self._eye.ortho_scale = float(max(size.max(), 0.1) * 1.1)
         away = np.array([0.0, -np.sin(np.radians(80.0)), np.cos(np.radians(80.0))]) * 300.0
@@ -186,9 +186,9 @@ class _Studio:
         picture = bpy.data.images.load(str(self._path))
         pixels = np.empty(_PICTURE * _PICTURE * 4, np.float32)
         picture.pixels.foreach_get(pixels)
-        _show(thing, pixels)
+        _show(obj, pixels)
         bpy.data.images.remove(picture)
-        scene.collection.objects.unlink(thing)
+        scene.collection.objects.unlink(obj)
 
     def close(self) -> None:
         """Remove the scene."""

@@ -67,17 +67,17 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
             way = targets.follow(target, shot.bare_ground, shot.frames.times, _ABOVE)
         yield "turning the camera"
         scene = owned.scene(uid)
-        thing = scene.objects[name]
-        _unhook(thing, AIM)
+        obj = scene.objects[name]
+        _unhook(obj, AIM)
         if target == "none":
             return f"{name} looks in the direction of its keys"
         empty = other
         if target != "object":
             assert way is not None
             empty = _empty(scene, at if target == "station" else target, way)
-        if empty is None or empty == thing:
+        if empty is None or empty == obj:
             return "Select another object as the target first"
-        hook = thing.constraints.new("TRACK_TO")
+        hook = obj.constraints.new("TRACK_TO")
         hook.name, hook.target = AIM, empty
         hook.track_axis, hook.up_axis = "TRACK_NEGATIVE_Z", "UP_Y"
         return f"{name} looks at {empty.name}"
@@ -97,9 +97,9 @@ def _empty(scene: bpy.types.Scene, target: str, way: np.ndarray) -> bpy.types.Ob
     return empty
 
 
-def _unhook(thing: bpy.types.Object, name: str) -> None:
-    for each in [each for each in thing.constraints if each.name == name]:
-        thing.constraints.remove(each)
+def _unhook(obj: bpy.types.Object, name: str) -> None:
+    for each in [constraint for constraint in obj.constraints if constraint.name == name]:
+        obj.constraints.remove(each)
 
 
 class FIRETWIN_OT_camera_path(bpy.types.Operator):
@@ -123,41 +123,41 @@ class FIRETWIN_OT_camera_path(bpy.types.Operator):
 
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
-        scene, thing, chosen = context.scene, context.scene.camera, context.active_object
+        scene, obj, chosen = context.scene, context.scene.camera, context.active_object
         if chosen is not None and chosen.type == "CURVE" and chosen.select_get():
             curve, factors = chosen, {1: 0.0, scene.firetwin.frames: 1.0}
         else:
-            keyed = _keyed(scene, thing)
+            keyed = _keyed(scene, obj)
             if len(keyed) < 2:
                 self.report({"WARNING"}, "Set two keys of the camera, or select a curve, first")
                 return {"CANCELLED"}
-            curve, factors = _drawn(scene, thing, keyed)
+            curve, factors = _drawn(scene, obj, keyed)
         curve.data.use_path = True
-        compat.remove_fcurves(thing, ("location",))
-        thing.location = (0.0, 0.0, 0.0)
-        hook = thing.constraints.new("FOLLOW_PATH")
+        compat.remove_fcurves(obj, ("location",))
+        obj.location = (0.0, 0.0, 0.0)
+        hook = obj.constraints.new("FOLLOW_PATH")
         hook.name, hook.target, hook.use_fixed_location = PATH, curve, True
-        thing.constraints.move(len(thing.constraints) - 1, 0)
+        obj.constraints.move(len(obj.constraints) - 1, 0)
         for frame, factor in factors.items():
             hook.offset_factor = factor
-            thing.keyframe_insert(f'constraints["{PATH}"].offset_factor', frame=frame)
-        self.report({"INFO"}, f"{thing.name} follows {curve.name}")
+            obj.keyframe_insert(f'constraints["{PATH}"].offset_factor', frame=frame)
+        self.report({"INFO"}, f"{obj.name} follows {curve.name}")
         return {"FINISHED"}
 
 
-def _keyed(scene: bpy.types.Scene, thing: bpy.types.Object) -> dict[int, Vector]:
+def _keyed(scene: bpy.types.Scene, obj: bpy.types.Object) -> dict[int, Vector]:
     """Positions of a camera at the frames of its location keyframes."""
-    curves = [curve for curve in compat.fcurves(thing) if curve.data_path == "location"]
+    curves = [curve for curve in compat.fcurves(obj) if curve.data_path == "location"]
     frames = sorted({round(point.co[0]) for curve in curves for point in curve.keyframe_points})
     at = {curve.array_index: curve for curve in curves}
-    return {f: Vector(at[i].evaluate(f) if i in at else thing.location[i] for i in range(3)) for f in frames}
+    return {f: Vector(at[i].evaluate(f) if i in at else obj.location[i] for i in range(3)) for f in frames}
 
 
 def _drawn(
-    scene: bpy.types.Scene, thing: bpy.types.Object, keyed: dict[int, Vector]
+    scene: bpy.types.Scene, obj: bpy.types.Object, keyed: dict[int, Vector]
 ) -> tuple[bpy.types.Object, dict[int, float]]:
     """A new curve through points, and the camera's offset along it at their frames."""
-    data = bpy.data.curves.new(f"Path of {thing.name}", "CURVE")
+    data = bpy.data.curves.new(f"Path of {obj.name}", "CURVE")
     data.dimensions, data.resolution_u = "3D", 32
     spline = data.splines.new("BEZIER")
     spline.bezier_points.add(len(keyed) - 1)

@@ -85,7 +85,7 @@ def _words(error: Exception) -> str:
 
 def chosen(operator: bpy.types.Operator) -> list[Path]:
     """The selected files, file or folder."""
-    names = [each.name for each in operator.files if each.name]
+    names = [file.name for file in operator.files if file.name]
     if names and operator.directory:
         return [Path(operator.directory, name) for name in names]
     return [Path(bpy.path.abspath(operator.filepath or operator.directory))]

@@ -59,8 +59,8 @@ def place(scene: bpy.types.Scene, text: str) -> Vector | None:
         ground = ground_raycast.up(stage, (east, north))
         return None if ground is None else Vector((east, north, ground))
     wanted = text.strip().lower()
-    found = [thing for thing in scene.objects if wanted and wanted in thing.name.lower()]
-    found.sort(key=lambda thing: (thing.name.lower() != wanted, len(thing.name)))
+    found = [obj for obj in scene.objects if wanted and wanted in obj.name.lower()]
+    found.sort(key=lambda obj: (obj.name.lower() != wanted, len(obj.name)))
     return found[0].matrix_world.translation.copy() if found else None
 
 

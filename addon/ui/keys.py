@@ -214,7 +214,7 @@ def _listed(part: Field, text: str) -> tuple[Any, ...]:
         raise Error(f'{label(part.name)}: "{text}" is no list; write numbers with commas') from None
     kind = typing.get_args(part.type)[0]
     if not all(type(each) in ((int, float) if kind is float else (kind,)) for each in found):
-        raise Error(f'{label(part.name)}: "{text}" does not list what it should: {part.key.described()}')
+        raise Error(f'{label(part.name)}: "{text}" is no valid list: {part.key.described()}')
     return tuple(kind(each) for each in found)
 
 

@@ -80,11 +80,11 @@ def filming(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     """Whether the scene has an editable camera; otherwise sets the poll message."""
     if not working.editable(cls, context):
         return False
-    thing = context.scene.camera
-    if thing is None or thing.type != "CAMERA":
+    obj = context.scene.camera
+    if obj is None or obj.type != "CAMERA":
         cls.poll_message_set("Add a camera first")
         return False
-    if thing.library is not None or thing.data.library is not None:
+    if obj.library is not None or obj.data.library is not None:
         cls.poll_message_set("This camera is linked from another file: change it there, or make it local")
         return False
     return True
@@ -162,40 +162,40 @@ class FIRETWIN_OT_camera_key(bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         if not flown(cls, context) or not filming(cls, context):
             return False
-        thing = context.scene.camera
-        if any(each.type == "FOLLOW_PATH" for each in thing.constraints) or thing.parent:
+        obj = context.scene.camera
+        if any(constraint.type == "FOLLOW_PATH" for constraint in obj.constraints) or obj.parent:
             cls.poll_message_set("The camera follows a curve or has a parent: move that object instead")
             return False
         return True
 
     @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
-        scene, thing = context.scene, context.scene.camera
+        scene, obj = context.scene, context.scene.camera
         stage, matrix = owned.stage(scene), eye(context)[0]
         lifted = ground_raycast.lift(stage, matrix.translation, self.clearance)
         turn = matrix.to_quaternion()
-        if thing.rotation_mode == "QUATERNION":
-            turn.make_compatible(thing.rotation_quaternion)
+        if obj.rotation_mode == "QUATERNION":
+            turn.make_compatible(obj.rotation_quaternion)
         else:
-            compat.remove_fcurves(thing, ("rotation_euler", "rotation_axis_angle"))
-            thing.rotation_mode = "QUATERNION"
-        thing.location = matrix.translation + Vector((0.0, 0.0, lifted))
-        thing.rotation_quaternion = turn
-        turned = () if thing.constraints else ("rotation_quaternion",)  # the target constraint rotates it
+            compat.remove_fcurves(obj, ("rotation_euler", "rotation_axis_angle"))
+            obj.rotation_mode = "QUATERNION"
+        obj.location = matrix.translation + Vector((0.0, 0.0, lifted))
+        obj.rotation_quaternion = turn
+        turned = () if obj.constraints else ("rotation_quaternion",)  # the target constraint rotates it
         for name in ("location", *turned):
-            thing.keyframe_insert(name, frame=scene.frame_current)
+            obj.keyframe_insert(name, frame=scene.frame_current)
         if self.lens:
-            thing.data.keyframe_insert("lens", frame=scene.frame_current)
-        words = f"Keyed {thing.name} at frame {scene.frame_current}"
+            obj.data.keyframe_insert("lens", frame=scene.frame_current)
+        words = f"Keyed {obj.name} at frame {scene.frame_current}"
         self.report({"INFO"}, words + (f", {lifted:,.0f} m higher than the view" if lifted else ""))
-        self._warn(stage, thing)
+        self._warn(stage, obj)
         return {"FINISHED"}
 
-    def _warn(self, stage: owned.Stage, thing: bpy.types.Object) -> None:
+    def _warn(self, stage: owned.Stage, obj: bpy.types.Object) -> None:
         """Warn of frames between keyframes at which the terrain is too close."""
         frames = stage.scene.firetwin.frames
         size = stage.scene.render.resolution_x, stage.scene.render.resolution_y
-        places = read_edits.flown(stage.scene, thing, frames, size).place
+        places = read_edits.flown(stage.scene, obj, frames, size).place
         short = [ground_raycast.lift(stage, place, self.clearance) for place in places]
         if max(short) > 0.5:
             worst = int(np.argmax(short))

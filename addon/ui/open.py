@@ -62,7 +62,7 @@ class FIRETWIN_OT_open(foreign.Said, bpy.types.Operator, ImportHelper):
     def _convert(self, panel: bpy.types.PropertyGroup) -> set[str]:
         """Convert a fire model's own files to a run."""
         words = {name: getattr(self, name) for name in ("filepath", "directory", "start", "at", "projection")}
-        files = [{"name": each.name} for each in self.files]
+        files = [{"name": file.name} for file in self.files]
         try:
             return bpy.ops.firetwin.convert("INVOKE_DEFAULT", files=files, **words)
         except RuntimeError as error:

@@ -205,8 +205,8 @@ def clear() -> None:
         bpy.app.timers.unregister(_tick)
     while items:
         remove(items[0])
-    for each in _pictures.values():
-        bpy.utils.previews.remove(each)
+    for picture in _pictures.values():
+        bpy.utils.previews.remove(picture)
     _pictures.clear()
 
 

@@ -32,7 +32,7 @@ class FIRETWIN_PT_report(bpy.types.Panel):
             labelled(column, "Run", 0.4).label(text=area)
         if Job.last is not None:
             column = layout.box().column(align=True)
-            lines = [each.text for each in Job.last.told]
+            lines = [message.text for message in Job.last.told]
             for line in lines:
                 paragraph(context, column, keys.sentence(line))
             working.copy_button(column, "\n".join((Job.last.name, *lines)))

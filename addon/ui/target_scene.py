@@ -58,7 +58,7 @@ def _startup(scene: bpy.types.Scene) -> bool:
     cube = scene.objects.get("Cube")
     return (
         not bpy.data.filepath
-        and {thing.name for thing in scene.collection.all_objects} == _STARTUP
+        and {obj.name for obj in scene.collection.all_objects} == _STARTUP
         and cube.type == "MESH"
         and len(cube.data.vertices) == 8
         and cube.matrix_world.is_identity
@@ -81,12 +81,12 @@ def _plain(world: bpy.types.World | None) -> bool:
 
 def _clear(scene: bpy.types.Scene) -> bool:
     """Remove the startup objects and world of a vacant scene; returns whether there were such objects."""
-    things = list(scene.collection.all_objects)
-    bpy.data.batch_remove(things)
+    objects = list(scene.collection.all_objects)
+    bpy.data.batch_remove(objects)
     world, scene.world = scene.world, None
     if world is not None and world.users == 0:
         bpy.data.worlds.remove(world)
-    return bool(things)
+    return bool(objects)
 
 
 def _show(before: bpy.types.Scene, after: bpy.types.Scene) -> None:

@@ -172,8 +172,8 @@ class Working:
         """Report the messages, and store them for the panel."""
         told = tuple({each.text: each for each in (*work.said, last) if each.text}.values())  # each once
         Job.last = JobResult(work.name, told, bpy.data.filepath)
-        for each in told:
-            self.report({each.level}, each.text)
+        for message in told:
+            self.report({message.level}, message.text)
 
     def _failed(self, work: Job, error: Exception, back: bool = False) -> set[str]:
         if isinstance(error, StoppedError):
@@ -236,9 +236,9 @@ def messages(
     if Job.current is not None and Job.current.name == operator.bl_label:
         text.paragraph(context, column, "Stop, or Esc with the pointer here, ends the task")
     elif Job.current is None:
-        for each in last_messages(operator):
-            text.paragraph(context, column, keys.sentence(each.text), _ICONS[each.level])
-        if wrong := [each.text for each in last_messages(operator) if each.level == "ERROR"]:
+        for message in last_messages(operator):
+            text.paragraph(context, column, keys.sentence(message.text), _ICONS[message.level])
+        if wrong := [message.text for message in last_messages(operator) if message.level == "ERROR"]:
             copy_button(column, "\n".join(wrong))
 
 

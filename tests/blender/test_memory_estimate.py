@@ -15,17 +15,17 @@ def _smoky(settings, **smoke):
 def test_what_is_drawn_is_counted(shot, built):
     found = memory_estimate.load(shot, built)
     assert found.pixels == 64 * 36
-    (grass,) = (each for each in built.things("Forest") if each.name == "Firetwin Grass")
-    (trees,) = (each for each in built.things("Forest") if each.name == "Firetwin Trees")
+    (grass,) = (each for each in built.objects_of("Forest") if each.name == "Firetwin Grass")
+    (trees,) = (each for each in built.objects_of("Forest") if each.name == "Firetwin Trees")
     assert len(trees.data.vertices) > 100
     assert found.plants == len(grass.data.vertices) + len(trees.data.vertices), "not what the viewport shows"
-    assert found.faces >= len(built.things("Terrain")[0].data.polygons)
+    assert found.faces >= len(built.objects_of("Terrain")[0].data.polygons)
     assert (found.cells, found.voxels) == (0, 0)
 
 
 def test_what_is_hidden_is_not_counted(shot, built):
     whole = memory_estimate.load(shot, built)
-    (trees,) = (each for each in built.things("Forest") if each.name == "Firetwin Trees")
+    (trees,) = (each for each in built.objects_of("Forest") if each.name == "Firetwin Trees")
     trees.hide_render = True
     assert memory_estimate.load(shot, built).plants == whole.plants - len(trees.data.vertices)
 

@@ -47,7 +47,7 @@ def _copy(old, new, rng):
         sizes[name] = int(rng.choice([least, 1, 2, sizes[name] + 1]))
     for each, size in sizes.items():
         new.createDimension(each, size or None)
-    attributes = {each: old.getncattr(each) for each in old.ncattrs()}
+    attributes = {ncattr: old.getncattr(ncattr) for ncattr in old.ncattrs()}
     new.setncatts(_odd(attributes, rng) if way == "attributes" else attributes)
     for each, variable in old.variables.items():
         if (way, each) != ("gone", name):
@@ -63,7 +63,7 @@ def _variable(new, old, sizes, way, rng):
         )
     if way in ("type", "words"):
         kind = np.dtype("S1") if way == "words" or (kind != "S1" and rng.integers(0, 2)) else np.dtype("i4")
-    attributes = {each: old.getncattr(each) for each in old.ncattrs()}
+    attributes = {ncattr: old.getncattr(ncattr) for ncattr in old.ncattrs()}
     fill = (
         attributes.pop("_FillValue", None)
         if kind == old.dtype
@@ -72,7 +72,7 @@ def _variable(new, old, sizes, way, rng):
     made = new.createVariable(old.name, kind, dimensions, fill_value=fill)
     made.set_auto_maskandscale(False)
     made.setncatts(_odd(attributes, rng) if way == "attribute" else attributes)
-    shape = tuple(sizes[each] or 0 for each in dimensions)
+    shape = tuple(sizes[dimension] or 0 for dimension in dimensions)
     if 0 in shape:
         return
     values = np.resize(old[...], shape)

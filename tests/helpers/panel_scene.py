@@ -71,14 +71,14 @@ def state():
         if prop.type == "COLLECTION" and prop.identifier not in ("screens", "window_managers")
         for block in getattr(bpy.data, prop.identifier)
     }
-    things = {
-        thing.name: (
-            *(value for row in thing.matrix_basis for value in row),
-            *((each.name, getattr(each.target, "name", "")) for each in thing.constraints),
-            *((curve.data_path, len(curve.keyframe_points)) for curve in compat.fcurves(thing)),
-            (thing.data.lens, thing.data.sensor_width) if thing.type == "CAMERA" else None,
+    objects = {
+        obj.name: (
+            *(value for row in obj.matrix_basis for value in row),
+            *((constraint.name, getattr(constraint.target, "name", "")) for constraint in obj.constraints),
+            *((curve.data_path, len(curve.keyframe_points)) for curve in compat.fcurves(obj)),
+            (obj.data.lens, obj.data.sensor_width) if obj.type == "CAMERA" else None,
         )
-        for thing in bpy.data.objects
+        for obj in bpy.data.objects
     }
     scenes = {
         scene.name: (
@@ -90,4 +90,4 @@ def state():
         )
         for scene in bpy.data.scenes
     }
-    return blocks, things, scenes
+    return blocks, objects, scenes

@@ -14,8 +14,8 @@ def everything(folder, text):
     pictures = plan.pictures(choice.shot())
     with Store(out, create=True):
         pass
-    listed = [[each.camera, each.frame, each.name] for each in pictures]
-    pairs = sorted({(each.camera, each.name) for each in pictures})
+    listed = [[picture.camera, picture.frame, picture.name] for picture in pictures]
+    pairs = sorted({(picture.camera, picture.name) for picture in pictures})
     render.in_blender(
         choice.plain(), str(out), listed, [list(pair) for pair in pairs], "me", 0, silent, no_message
     )

@@ -121,7 +121,7 @@ def test_all_files_are_made_named_and_listed(film):
 def test_the_first_picture_is_told_and_lines_name_the_last(film):
     out, (_, said) = film
     lines = said.splitlines()
-    first = f"firetwin: the first picture is there: {out}/drone/rgb/drone_rgb_000001.png; the film goes on"
+    first = f"firetwin: first picture: {out}/drone/rgb/drone_rgb_000001.png; rendering continues"
     assert lines.count(first) == 1
     assert not any("the first picture" in line for line in lines if line != first)
     (end,) = (line for line in lines if line.startswith("firetwin: rendering: 4 of 4"))

@@ -114,7 +114,7 @@ def test_a_process_that_hangs_is_one_line(tmp_path, monkeypatch, capfd):
     monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{':'.join(sys.path)}")
     assert cli.main(["convert", str(paths[0]), "--out", str(tmp_path / "out")]) == 1
     (line,) = capfd.readouterr().err.strip().splitlines()
-    assert f"{paths[0]}: reading it made no headway for 1 s" in line
+    assert f"{paths[0]}: reading it made no progress for 1 s" in line
     assert not (tmp_path / "out").exists()
 
 

@@ -182,4 +182,4 @@ def test_heat_alone_is_nothing_to_compare_with(make_run, tmp_path, capsys):
         json.dumps({"type": "Feature", "properties": {"class": "isolated", "time": FLOWN}, "geometry": spot})
     )
     assert cli.main(["score", str(make_run()), "--against", str(path)]) == 1
-    assert "ir.geojson: holds heat but no perimeter" in capsys.readouterr().err
+    assert "ir.geojson: has detections but no perimeter" in capsys.readouterr().err

@@ -70,7 +70,7 @@ def test_the_first_picture_of_a_film_is_told_once(tmp_path):
     for done in (1, 2, 3):
         follow(done, 3, "rendering", f"drone/rgb/drone_rgb_{done:06d}.png")
     first, last = (tmp_path / f"drone/rgb/drone_rgb_00000{done}.png" for done in (1, 3))
-    assert told == [f"the first picture is there: {first}; the film goes on"]
+    assert told == [f"first picture: {first}; rendering continues"]
     assert shown[1] == (0, 3, "rendering", "")
     assert shown[-1] == (3, 3, "rendering", f"last: {last}")
 

@@ -28,7 +28,7 @@ def build(shot: Shot, stage: Stage) -> list[bpy.types.Object]:
     Blender may truncate the name: `stage.camera(name)` finds the object.
     """
     names = [view.camera.name for view in shot.paths]
-    there = {name: thing for name in names if (thing := stage.camera(name)) is not None}
+    there = {name: obj for name in names if (obj := stage.camera(name)) is not None}
     collection = stage.part("Cameras", keep=there.values())
     read_edits.place(stage, shot.local_frame)
     built = [_camera(view, collection, shot, there.get(view.camera.name)) for view in shot.paths]
@@ -49,17 +49,17 @@ def _tolerance(view: Path, shot: Shot) -> tuple[float, float, float]:
 
 
 def _camera(
-    view: Path, collection: bpy.types.Collection, shot: Shot, thing: bpy.types.Object | None
+    view: Path, collection: bpy.types.Collection, shot: Shot, obj: bpy.types.Object | None
 ) -> bpy.types.Object:
     name = f"Camera {view.camera.name}"
-    data = bpy.data.cameras.new(f"{owned.ROOT} {name}") if thing is None else thing.data
-    if thing is None:
-        thing = owned.add(collection, name, data, what=f"camera {view.camera.name}")
+    data = bpy.data.cameras.new(f"{owned.ROOT} {name}") if obj is None else obj.data
+    if obj is None:
+        obj = owned.add(collection, name, data, what=f"camera {view.camera.name}")
     data.clip_start, data.clip_end = clip(view, shot.ground)
-    if not read_edits.rigged(thing):
-        _set(view, shot, thing)
-    edit_detection.remember(thing)
-    return thing
+    if not read_edits.rigged(obj):
+        _set(view, shot, obj)
+    edit_detection.remember(obj)
+    return obj
 
 
 def _see_around(data: bpy.types.Camera, apart: float) -> None:
@@ -70,12 +70,12 @@ def _see_around(data: bpy.types.Camera, apart: float) -> None:
     stereo.interocular_distance, stereo.convergence_mode, stereo.pivot = apart, "PARALLEL", "CENTER"
 
 
-def _set(view: Path, shot: Shot, thing: bpy.types.Object) -> None:
+def _set(view: Path, shot: Shot, obj: bpy.types.Object) -> None:
     """Set the animation and the lens of a camera object from a path."""
-    data = thing.data
+    data = obj.data
     moved, turned, zoomed = _tolerance(view, shot)
     compat.remove_fcurves(data, edit_detection.LENS)
-    compat.remove_fcurves(thing, edit_detection.POSE)
+    compat.remove_fcurves(obj, edit_detection.POSE)
     data.sensor_fit, data.sensor_width = "HORIZONTAL", view.sensor
     if view.around:
         _see_around(data, view.apart)
@@ -85,10 +85,10 @@ def _set(view: Path, shot: Shot, thing: bpy.types.Object) -> None:
         _animate(data, "lens", lens, zoomed * lens.min())
     else:
         data.type, data.ortho_scale = "ORTHO", 2.0 * view.half[0]
-    thing.rotation_mode, thing.scale = "QUATERNION", (1.0, 1.0, 1.0)
-    _animate(thing, "location", view.position, moved)
+    obj.rotation_mode, obj.scale = "QUATERNION", (1.0, 1.0, 1.0)
+    _animate(obj, "location", view.position, moved)
     quaternions = rotation.quaternions(view.rotation)
-    _animate(thing, "rotation_quaternion", quaternions, 0.5 * turned)  # unit quaternions hold half the angle
+    _animate(obj, "rotation_quaternion", quaternions, 0.5 * turned)  # unit quaternions hold half the angle
 
 
 def _animate(block: bpy.types.ID, what: str, values: NDArray[np.float64], tolerance: float) -> None:

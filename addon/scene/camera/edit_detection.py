@@ -16,27 +16,30 @@ LENS = ("lens", "sensor_width", "sensor_height", "ortho_scale")
 _MADE = "firetwin_made"  # property of an object: its state when it was built
 
 
-def remember(thing: bpy.types.Object) -> None:
+def remember(obj: bpy.types.Object) -> None:
     """Store the current state of an object, for a later `changed`."""
-    thing[owned.NAME] = thing.name
-    thing[_MADE] = json.dumps(_state(thing))
+    obj[owned.NAME] = obj.name
+    obj[_MADE] = json.dumps(_state(obj))
 
 
-def changed(thing: bpy.types.Object) -> set[str]:
+def changed(obj: bpy.types.Object) -> set[str]:
     """Which of "name", "pose" and "lens" an artist changed since an object was built."""
-    if _MADE not in thing:
+    if _MADE not in obj:
         return set()
-    before, now = json.loads(thing[_MADE]), _state(thing)
+    before, now = json.loads(obj[_MADE]), _state(obj)
     return {part for part in now if now[part] != before.get(part)}
 
 
-def _state(thing: bpy.types.Object) -> dict[str, str]:
+def _state(obj: bpy.types.Object) -> dict[str, str]:
     """Hash of each part of an object over all frames."""
-    hangs = [thing.parent.name if thing.parent else "", [_constraint(each) for each in thing.constraints]]
+    hangs = [
+        obj.parent.name if obj.parent else "",
+        [_constraint(constraint) for constraint in obj.constraints],
+    ]
     return {
-        "name": thing.name,
-        "pose": _digest([thing.rotation_mode, _values(thing, POSE), hangs]),
-        "lens": _digest([thing.data.type, thing.data.sensor_fit, _values(thing.data, LENS)]),
+        "name": obj.name,
+        "pose": _digest([obj.rotation_mode, _values(obj, POSE), hangs]),
+        "lens": _digest([obj.data.type, obj.data.sensor_fit, _values(obj.data, LENS)]),
     }
 
 

@@ -30,7 +30,7 @@ def height(stage: Stage, places: NDArray[np.float64]) -> float:
 
 def hit(stage: Stage, origin: ArrayLike, direction: ArrayLike) -> Vector | None:
     """Intersection of a ray in the scene with the terrain; None without one."""
-    ground = next((thing for thing in stage.root.all_objects if _ground(thing)), None)
+    ground = next((obj for obj in stage.root.all_objects if _ground(obj)), None)
     if ground is None:
         return None
     inverse = ground.matrix_world.inverted()
@@ -56,5 +56,5 @@ def lift(stage: Stage, place: Sequence[float] | NDArray[np.float64], clearance: 
     return 0.0 if ground is None else float(max(ground + clearance - np.asarray(place)[2], 0.0))
 
 
-def _ground(thing: bpy.types.Object) -> bool:
-    return thing.type == "MESH" and owned.ours(thing) and thing.get(owned.NAME) == f"{owned.ROOT} Ground"
+def _ground(obj: bpy.types.Object) -> bool:
+    return obj.type == "MESH" and owned.ours(obj) and obj.get(owned.NAME) == f"{owned.ROOT} Ground"

@@ -52,13 +52,13 @@ def built_frame(stage: Stage) -> geo.LocalFrame:
     return frame
 
 
-def rigged(thing: bpy.types.Object) -> bool:
+def rigged(obj: bpy.types.Object) -> bool:
     """Whether a rig of the artist (parent, constraint, driver) moves an object; its pose then stays."""
-    data = thing.animation_data
+    data = obj.animation_data
     return bool(
-        thing.parent
-        or any(not each.mute for each in thing.constraints)
-        or any((*thing.delta_location, *thing.delta_rotation_euler))
+        obj.parent
+        or any(not constraint.mute for constraint in obj.constraints)
+        or any((*obj.delta_location, *obj.delta_rotation_euler))
         or (data is not None and (data.drivers or data.nla_tracks))
     )
 
@@ -86,7 +86,7 @@ class Flown:
     keyed: tuple[int, ...]
 
 
-def flown(scene: bpy.types.Scene, thing: bpy.types.Object, frames: int, size: tuple[int, int]) -> Flown:
+def flown(scene: bpy.types.Scene, obj: bpy.types.Object, frames: int, size: tuple[int, int]) -> Flown:
     """Evaluate an object's path in each frame, however it is animated.
 
     Parameters
@@ -94,21 +94,21 @@ def flown(scene: bpy.types.Scene, thing: bpy.types.Object, frames: int, size: tu
     size
         Width and height of its pictures, pixels.
     """
-    place, quaternion = _through_frames(scene, thing, frames) if rigged(thing) else _by_curves(thing, frames)
-    (lens,) = _curves(thing.data, "lens", frames).T
-    return Flown(place, turning.matrices(quaternion), lens, _sensor(thing.data, size), _keyed(thing, frames))
+    place, quaternion = _through_frames(scene, obj, frames) if rigged(obj) else _by_curves(obj, frames)
+    (lens,) = _curves(obj.data, "lens", frames).T
+    return Flown(place, turning.matrices(quaternion), lens, _sensor(obj.data, size), _keyed(obj, frames))
 
 
-def _by_curves(thing: bpy.types.Object, frames: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _by_curves(obj: bpy.types.Object, frames: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Positions (frames, 3) and quaternions (frames, 4) of an object that only its own F-curves move."""
-    place = _curves(thing, "location", frames)
-    if thing.rotation_mode == "QUATERNION":
-        return place, _curves(thing, "rotation_quaternion", frames)
-    if thing.rotation_mode == "AXIS_ANGLE":
-        turns = (Quaternion(row[1:], row[0]) for row in _curves(thing, "rotation_axis_angle", frames))
+    place = _curves(obj, "location", frames)
+    if obj.rotation_mode == "QUATERNION":
+        return place, _curves(obj, "rotation_quaternion", frames)
+    if obj.rotation_mode == "AXIS_ANGLE":
+        turns = (Quaternion(row[1:], row[0]) for row in _curves(obj, "rotation_axis_angle", frames))
     else:
-        rows = _curves(thing, "rotation_euler", frames)
-        turns = (Euler(row, thing.rotation_mode).to_quaternion() for row in rows)
+        rows = _curves(obj, "rotation_euler", frames)
+        turns = (Euler(row, obj.rotation_mode).to_quaternion() for row in rows)
     return place, np.array([tuple(turn) for turn in turns], np.float64)
 
 
@@ -123,7 +123,7 @@ def _curves(block: bpy.types.ID, name: str, frames: int) -> NDArray[np.float64]:
 
 
 def _through_frames(
-    scene: bpy.types.Scene, thing: bpy.types.Object, frames: int
+    scene: bpy.types.Scene, obj: bpy.types.Object, frames: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Positions (frames, 3) and quaternions (frames, 4) of an object that a rig moves, by stepping frames."""
     before, layer = (scene.frame_current, scene.frame_subframe), scene.view_layers[0]
@@ -131,15 +131,15 @@ def _through_frames(
     try:
         for frame in range(1, frames + 1):
             scene.frame_set(frame)
-            found.append(pose_of(thing.evaluated_get(layer.depsgraph).matrix_world))
+            found.append(pose_of(obj.evaluated_get(layer.depsgraph).matrix_world))
     finally:
         scene.frame_set(before[0], subframe=before[1])
     place, turn = (np.array(column) for column in zip(*found, strict=True))
     return place, turning.quaternions(turn)
 
 
-def _keyed(thing: bpy.types.Object, frames: int) -> tuple[int, ...]:
-    curves = (*compat.fcurves(thing), *compat.fcurves(thing.data))
+def _keyed(obj: bpy.types.Object, frames: int) -> tuple[int, ...]:
+    curves = (*compat.fcurves(obj), *compat.fcurves(obj.data))
     found = {round(point.co[0]) - 1 for curve in curves for point in curve.keyframe_points}
     return tuple(sorted(frame for frame in found if 0 <= frame < frames))
 
@@ -208,38 +208,33 @@ def pull(
     if not owned.built(scene):
         return tuple(found)
     stage = owned.stage(scene)
-    frame, taken = local_frame(stage), {each.name for each in cameras}
+    frame, taken = local_frame(stage), {camera.name for camera in cameras}
     for i, before in enumerate(cameras):
-        thing = stage.camera(before.name)
-        if (
-            frame is None
-            or thing is None
-            or thing.type != "CAMERA"
-            or not (what := edit_detection.changed(thing))
-        ):
+        obj = stage.camera(before.name)
+        if frame is None or obj is None or obj.type != "CAMERA" or not (what := edit_detection.changed(obj)):
             continue
-        name = _name(thing.name, before.name, taken - {before.name}) if "name" in what else before.name
+        name = _name(obj.name, before.name, taken - {before.name}) if "name" in what else before.name
         taken.add(name)
-        found[i], words = _pulled(stage, thing, replace(found[i], name=name), what, frames, size)
-        owned.mark(thing, f"camera {name}")
+        found[i], words = _pulled(stage, obj, replace(found[i], name=name), what, frames, size)
+        owned.mark(obj, f"camera {name}")
         found = [_following(each, before.name, name) for each in found]
         if words:
             tell(f'camera "{name}": {words}')
         else:
-            edit_detection.remember(thing)
+            edit_detection.remember(obj)
     return tuple(found)
 
 
 def _pulled(
     stage: Stage,
-    thing: bpy.types.Object,
+    obj: bpy.types.Object,
     before: Camera,
     what: set[str],
     frames: int,
     size: tuple[int, int],
 ) -> tuple[Camera, str]:
     """The camera with its edits, and the edits that settings cannot express."""
-    data, size = thing.data, before.resolution or size
+    data, size = obj.data, before.resolution or size
     if not what & {"pose", "lens"}:
         return before, ""
     if data.type == "ORTHO" and "pose" not in what and hasattr(before.rig, "swath"):
@@ -251,7 +246,7 @@ def _pulled(
     if what & {"pose", "lens"} == {"lens"} and still and isinstance(before.rig, _lens.Lens):
         lens = {"focal_length": _short(data.lens), "sensor_width": _short(_sensor(data, size))}
         return replace(before, rig=replace(before.rig, **lens)), words
-    seen = flown(stage.scene, thing, frames, size)
+    seen = flown(stage.scene, obj, frames, size)
     near = 0.5 * ground_raycast.height(stage, seen.place[:: max(len(seen.place) // 50, 1)])
     rig = poses_of(seen, built_frame(stage), size[0], near)
     return replace(before, rig=rig), words

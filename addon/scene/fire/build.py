@@ -30,14 +30,14 @@ def build(shot: Shot, stage: Stage, grown: Stand | None = None) -> bpy.types.Obj
     if not shot.settings.fire.flames:
         return None
     points = flames.cells(shot) if shot.settings.fire.emitters == "cells" else flames.front(shot, grown)
-    thing = owned.add(collection, "Flames", _mesh(points))
-    modifier = thing.modifiers.new("Firetwin Flames", "NODES")
+    obj = owned.add(collection, "Flames", _mesh(points))
+    modifier = obj.modifiers.new("Firetwin Flames", "NODES")
     modifier.node_group = node_group(shot, cards(shot, stage))
-    thing.color = SHOWN
-    _light_only(thing)
+    obj.color = SHOWN
+    _light_only(obj)
     firebrand_nodes.build(shot, stage, points, collection)
     lamp_objects.build(shot, collection)
-    return thing
+    return obj
 
 
 def _mesh(points: flames.Points) -> bpy.types.Mesh:
@@ -53,10 +53,10 @@ def _mesh(points: flames.Points) -> bpy.types.Mesh:
     return mesh
 
 
-def _light_only(thing: bpy.types.Object) -> None:
+def _light_only(obj: bpy.types.Object) -> None:
     """Restrict flames to camera rays: they cast no shadow and do not appear in other light paths."""
-    thing.visible_shadow = thing.visible_diffuse = thing.visible_volume_scatter = False
-    thing.lightgroup = nodes.FIRE
+    obj.visible_shadow = obj.visible_diffuse = obj.visible_volume_scatter = False
+    obj.lightgroup = nodes.FIRE
 
 
 def cards(shot: Shot, stage: Stage) -> bpy.types.Collection:
@@ -68,9 +68,9 @@ def cards(shot: Shot, stage: Stage) -> bpy.types.Collection:
         mesh.from_pydata(vertices, [], faces)
         mesh.attributes.new("card", "FLOAT_VECTOR", "POINT").data.foreach_set("vector", np.ravel(cards))
         mesh.materials.append(flame)
-        thing = owned.add(collection, f"Flame Card {index}", mesh)
-        thing.color = SHOWN
-        _light_only(thing)
+        obj = owned.add(collection, f"Flame Card {index}", mesh)
+        obj.color = SHOWN
+        _light_only(obj)
     return collection
 
 

@@ -37,18 +37,18 @@ def build(
         values = np.repeat(getattr(found, name), each).astype(np.float32)
         mesh.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values)
     mesh.update()
-    thing = owned.add(collection, "Firebrands", mesh)
-    modifier = thing.modifiers.new("Firetwin Firebrands", "NODES")
+    obj = owned.add(collection, "Firebrands", mesh)
+    modifier = obj.modifiers.new("Firetwin Firebrands", "NODES")
     modifier.node_group = _node_group(shot, stage, found, shot.pixel[0])
-    _seen_only(thing)
-    return thing
+    _seen_only(obj)
+    return obj
 
 
-def _seen_only(thing: bpy.types.Object) -> None:
+def _seen_only(obj: bpy.types.Object) -> None:
     """Make streaks visible to camera rays only."""
-    thing.visible_shadow = thing.visible_diffuse = thing.visible_glossy = False
-    thing.visible_volume_scatter = False
-    thing.lightgroup = nodes.FIRE
+    obj.visible_shadow = obj.visible_diffuse = obj.visible_glossy = False
+    obj.visible_volume_scatter = False
+    obj.lightgroup = nodes.FIRE
 
 
 def _node_group(shot: Shot, stage: Stage, found: firebrands.Flights, pixel: float) -> bpy.types.NodeTree:
@@ -136,7 +136,7 @@ def _streak(shot: Shot, stage: Stage) -> bpy.types.Object:
     sides = [(2 + k, 2 + (k + 1) % 4) for k in range(4)]
     mesh.from_pydata(ends + waist, [], [(b, a, 0) for a, b in sides] + [(a, b, 1) for a, b in sides])
     mesh.materials.append(firebrand_material.build(shot, stage))
-    thing = owned.mark(bpy.data.objects.new(name, mesh))
-    thing.color = 1.0, 0.42, 0.10, 1.0  # in the solid view
-    _seen_only(thing)
-    return thing
+    obj = owned.mark(bpy.data.objects.new(name, mesh))
+    obj.color = 1.0, 0.42, 0.10, 1.0  # in the solid view
+    _seen_only(obj)
+    return obj

@@ -24,10 +24,10 @@ def build(shot: Shot, stage: Stage, collection: bpy.types.Collection) -> None:
         return
     colours = fronts.colours(shot.full)
     for name, run in shot.full.other_runs().items():
-        thing = owned.add(collection, f"Front {name}", _mesh(shot, name, run))
-        thing.data.materials.append(_material(shot, stage, name, colours[name]))
-        thing.modifiers.new("Firetwin Front", "NODES").node_group = _at_current_time(shot, name)
-        observed.seen_only(thing)
+        obj = owned.add(collection, f"Front {name}", _mesh(shot, name, run))
+        obj.data.materials.append(_material(shot, stage, name, colours[name]))
+        obj.modifiers.new("Firetwin Front", "NODES").node_group = _at_current_time(shot, name)
+        observed.seen_only(obj)
 
 
 def _mesh(shot: Shot, name: str, run: Run) -> bpy.types.Mesh:

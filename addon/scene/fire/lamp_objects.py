@@ -23,10 +23,10 @@ def build(shot: Shot, parent: bpy.types.Collection) -> list[bpy.types.Object]:
     frames = 1.0 + (found.time - first) / (shot.frames.step or 1.0)
     made = []
     for i, (position, radius) in enumerate(zip(found.position, found.radius, strict=True)):
-        thing = _lamp(collection, f"Lamp {i:02d}", position, radius, frames, strength * found.heat[:, i])
+        obj = _lamp(collection, f"Lamp {i:02d}", position, radius, frames, strength * found.heat[:, i])
         # EEVEE would render six shadow maps for each
-        thing.data.use_shadow = shot.settings.render.engine == "cycles"
-        made.append(thing)
+        obj.data.use_shadow = shot.settings.render.engine == "cycles"
+        made.append(obj)
     return made
 
 
@@ -42,9 +42,9 @@ def _lamp(
     data.color, data.energy = COLOUR, float(energy[0])
     data.shadow_soft_size = float(radius)
     data.volume_factor = 0.0  # EEVEE
-    thing = owned.add(collection, name, data)
-    thing.location = position
-    thing.visible_camera = thing.visible_glossy = thing.visible_volume_scatter = False
+    obj = owned.add(collection, name, data)
+    obj.location = position
+    obj.visible_camera = obj.visible_glossy = obj.visible_volume_scatter = False
     if len(frames) > 1 and np.ptp(energy) > 0.0:
         compat.animate(data, "energy", 0, frames, energy)
-    return thing
+    return obj

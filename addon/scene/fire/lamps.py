@@ -91,7 +91,7 @@ def place(shot: Shot) -> Lamps:
     spread = np.sqrt(
         (share * gap * weight[:, None]).sum(0) / np.maximum((share * weight[:, None]).sum(0), 1e-300)
     )
-    low, high = (max(size(each), _LOWEST) for each in _HEIGHTS)
+    low, high = (max(size(height), _LOWEST) for height in _HEIGHTS)
     above = np.clip(0.5 * spread, low, high)
     up = np.maximum(shot.ground.up(centre[:, 0], centre[:, 1]), centre[:, 2]) + above
     small, large = map(size, _RADII)

@@ -32,15 +32,15 @@ def build(shot: Shot, stage: Stage, collection: bpy.types.Collection) -> bpy.typ
     lines = observed.lines(shot)
     if not lines:
         return None
-    thing = owned.add(collection, "Observed", _mesh(lines, shot.settings.fire.observed_width))
-    thing.data.materials.append(_material(shot, stage))
-    seen_only(thing)
-    return thing
+    obj = owned.add(collection, "Observed", _mesh(lines, shot.settings.fire.observed_width))
+    obj.data.materials.append(_material(shot, stage))
+    seen_only(obj)
+    return obj
 
 
-def seen_only(thing: bpy.types.Object) -> None:
+def seen_only(obj: bpy.types.Object) -> None:
     """Make lines visible to camera rays only."""
-    thing.visible_shadow = thing.visible_diffuse = thing.visible_glossy = thing.visible_volume_scatter = False
+    obj.visible_shadow = obj.visible_diffuse = obj.visible_glossy = obj.visible_volume_scatter = False
 
 
 def _mesh(lines: list[Line], width: float) -> bpy.types.Mesh:

@@ -186,10 +186,10 @@ def _object(
             attribute = data.attributes.new(key, "INT" if whole else "FLOAT", "POINT")
             attribute.data.foreach_set("value", values.astype(np.int32 if whole else np.float32))
     data.update()
-    thing = owned.add(collection, name, data)
-    modifier = thing.modifiers.new("Firetwin Instances", "NODES")
+    obj = owned.add(collection, name, data)
+    modifier = obj.modifiers.new("Firetwin Instances", "NODES")
     modifier.node_group = group
-    return thing
+    return obj
 
 
 def _drawn(tree: nodes.Tree, shot: Shot) -> nodes.Value | bool:

@@ -132,5 +132,5 @@ def _ball(turns: int) -> tuple[Array, NDArray[np.int64]]:
         points = np.concatenate([points, middle / np.linalg.norm(middle, axis=1, keepdims=True)])
         i, j, k = faces.T
         parts = ((i, x, z), (x, j, y), (z, y, k), (x, y, z))
-        faces = np.concatenate([np.stack(each, axis=-1) for each in parts])
+        faces = np.concatenate([np.stack(part, axis=-1) for part in parts])
     return points, faces

@@ -150,14 +150,14 @@ def _artists() -> dict[Kind, dict[int, list[bpy.types.Mesh]]]:
     """
     found: dict[Kind, dict[int, list[bpy.types.Mesh]]] = defaultdict(lambda: defaultdict(list))
     collection = bpy.data.collections.get(ARTISTS)
-    things = collection.all_objects if collection is not None else ()
-    for thing in sorted(things, key=lambda thing: thing.name):
-        if "class" in thing:
-            kind, state, level = thing["class"], thing.get("state", "living"), thing.get("level", 0)
-            _check(thing.name, "class", kind, models.KINDS)
-            _check(thing.name, "state", state, _STATES)
-            _check(thing.name, "level", level, range(LEVELS))
-            found[kind, state][level].append(_copy(thing))
+    objects = collection.all_objects if collection is not None else ()
+    for obj in sorted(objects, key=lambda obj: obj.name):
+        if "class" in obj:
+            kind, state, level = obj["class"], obj.get("state", "living"), obj.get("level", 0)
+            _check(obj.name, "class", kind, models.KINDS)
+            _check(obj.name, "state", state, _STATES)
+            _check(obj.name, "level", level, range(LEVELS))
+            found[kind, state][level].append(_copy(obj))
     return found
 
 
@@ -169,7 +169,7 @@ def _check(name: str, key: str, value: object, known: tuple[str, ...] | range) -
         )
 
 
-def _copy(thing: bpy.types.Object) -> bpy.types.Mesh:
+def _copy(obj: bpy.types.Object) -> bpy.types.Mesh:
     """Copy an artist's object as evaluated to a mesh on the ground, a metre tall.
 
     Raises
@@ -178,7 +178,7 @@ def _copy(thing: bpy.types.Object) -> bpy.types.Mesh:
         It has no surface, or no height.
     """
     graph = bpy.context.evaluated_depsgraph_get()
-    seen = thing.evaluated_get(graph)
+    seen = obj.evaluated_get(graph)
     try:
         data = bpy.data.meshes.new_from_object(seen, preserve_all_data_layers=True, depsgraph=graph)
     except RuntimeError:
@@ -186,11 +186,13 @@ def _copy(thing: bpy.types.Object) -> bpy.types.Mesh:
     points = np.empty((0 if data is None else len(data.vertices), 3), np.float32)
     if len(points):
         data.vertices.foreach_get("co", points.ravel())
-        turn = np.array(thing.matrix_world.to_3x3(), np.float32)
+        turn = np.array(obj.matrix_world.to_3x3(), np.float32)
         points = points @ turn.T
     height = float(np.ptp(points[:, 2])) if len(points) else 0.0
     if height <= 0.0:
-        raise Error(f'the object "{thing.name}" in the collection "{ARTISTS}" is no tree: it has no height')
+        raise Error(
+            f'the object "{obj.name}" in the collection "{ARTISTS}" has no height; scale it, or take it out'
+        )
     points[:, 2] -= points[:, 2].min()
     data.vertices.foreach_set("co", (points / height).ravel())
     data.update()

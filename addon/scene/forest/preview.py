@@ -61,7 +61,7 @@ def used(title: str, library: bpy.types.Collection, points: Points) -> bpy.types
     for key, values in zip(both, np.split(number, 2), strict=True):
         points[key] = values
     few = owned.library(f"Models of {title}")
-    known = sorted(library.objects, key=lambda thing: thing.name)  # indices as the geometry nodes count them
+    known = sorted(library.objects, key=lambda obj: obj.name)  # indices as the geometry nodes count them
     for k in kept:
         few.objects.link(known[int(k)])
     return few
@@ -70,5 +70,5 @@ def used(title: str, library: bpy.types.Collection, points: Points) -> bpy.types
 def stand_in(full: bpy.types.Object, shown: list[bpy.types.Object]) -> None:
     """Show these objects in the viewport in place of an object that renders draw."""
     full.hide_viewport = bool(shown)
-    for thing in shown:
-        thing.hide_render = True
+    for obj in shown:
+        obj.hide_render = True

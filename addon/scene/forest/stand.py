@@ -184,7 +184,7 @@ def _of_species(
     """Models, heights and widths of a biome's species, which grow in patches."""
     ground, seed = shot.ground, shot.settings.seed
     elevation = bilinear(ground.fields.elevation, *ground.under(position))
-    share = np.array([_share(each, elevation) for each in sorts])
+    share = np.array([_share(sort, elevation) for sort in sorts])
     part = np.cumsum(share, axis=0) / np.maximum(share.sum(axis=0), 1.0e-9)
     own = noise.uniform(key[:, 0], key[:, 1], seed + 222)
     lot = stand_structure.clustered_uniform(position, _PATCH, own, seed + 340)
@@ -194,7 +194,7 @@ def _of_species(
         [sorts[k].models[int(u * len(sorts[k].models))] for k, u in zip(number, which, strict=True)], np.int64
     )
     taller, wider = (
-        np.array([getattr(each, name) for each in sorts])[number] for name in ("height", "width")
+        np.array([getattr(sort, name) for sort in sorts])[number] for name in ("height", "width")
     )
     return model, height * taller, width * wider
 

@@ -42,11 +42,11 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
             _seen_only(owned.add(library, f"Place {k:03d}", mesh))
     data = bpy.data.meshes.new("Firetwin Labels")
     data.from_pydata(found.position.tolist(), [], [])
-    thing = owned.add(collection, "Places", data)
-    _seen_only(thing)
-    modifier = thing.modifiers.new("Firetwin Labels", "NODES")
+    obj = owned.add(collection, "Places", data)
+    _seen_only(obj)
+    modifier = obj.modifiers.new("Firetwin Labels", "NODES")
     modifier.node_group = _node_group(shot, library)
-    return thing
+    return obj
 
 
 def _tiers(shot: Shot, position: NDArray[np.float64]) -> NDArray[np.int64]:
@@ -59,10 +59,10 @@ def _tiers(shot: Shot, position: NDArray[np.float64]) -> NDArray[np.int64]:
     return tiers
 
 
-def _seen_only(thing: bpy.types.Object) -> None:
+def _seen_only(obj: bpy.types.Object) -> None:
     """Make labels visible to camera rays only."""
-    thing.visible_shadow = thing.visible_diffuse = thing.visible_glossy = False
-    thing.visible_volume_scatter = thing.visible_transmission = False
+    obj.visible_shadow = obj.visible_diffuse = obj.visible_glossy = False
+    obj.visible_volume_scatter = obj.visible_transmission = False
 
 
 @contextmanager
@@ -100,11 +100,11 @@ def _letters(
     curve.body, curve.align_x, curve.offset, curve.resolution_u = text, "CENTER", offset, 3
     if font is not None:
         curve.font = font
-    thing = bpy.data.objects.new("Firetwin Letters", curve)
-    mesh = thing.to_mesh()
+    obj = bpy.data.objects.new("Firetwin Letters", curve)
+    mesh = obj.to_mesh()
     points = [(v.co.x, v.co.y + stem, front) for v in mesh.vertices]
     faces = [list(polygon.vertices) for polygon in mesh.polygons]
-    bpy.data.objects.remove(thing)
+    bpy.data.objects.remove(obj)
     bpy.data.curves.remove(curve)
     return points, faces
 

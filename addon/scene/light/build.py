@@ -60,9 +60,9 @@ def moments(shot: Shot) -> tuple[NDArray[np.float64], list[State]]:
 def _lamp(collection: bpy.types.Collection, frames: NDArray[np.float64], states: list[State]) -> None:
     lamp = bpy.data.lights.new("Firetwin Sun", "SUN")
     lamp.angle = np.radians(0.53)
-    thing = owned.add(collection, "Sun", lamp)
-    thing.rotation_mode = "QUATERNION"
-    key(thing, "rotation_quaternion", frames, np.array([_facing(s.direction) for s in states]))
+    obj = owned.add(collection, "Sun", lamp)
+    obj.rotation_mode = "QUATERNION"
+    key(obj, "rotation_quaternion", frames, np.array([_facing(s.direction) for s in states]))
     key(lamp, "energy", frames, np.array([s.power for s in states]))
     key(lamp, "color", frames, np.array([s.colour for s in states]))
 
@@ -151,26 +151,26 @@ def _colours(view: bpy.types.ColorManagedViewSettings) -> list[str]:
     ]
 
 
-def _set(thing: bpy.types.bpy_struct, name: str, choice: str) -> bool:
+def _set(obj: bpy.types.bpy_struct, name: str, choice: str) -> bool:
     """Set a property to one of its choices; False where that choice is missing."""
     try:
-        setattr(thing, name, choice)
+        setattr(obj, name, choice)
     except TypeError:
         return False
     return True
 
 
-def key(thing: bpy.types.ID, data_path: str, frames: NDArray[np.float64], values: NDArray) -> None:
+def key(obj: bpy.types.ID, data_path: str, frames: NDArray[np.float64], values: NDArray) -> None:
     """Keyframe a property (or set it, for a single keyframe): values (n,) or (n, channels)."""
     columns = values.reshape(len(frames), -1)
     owner, _, name = data_path.rpartition(".")
-    target = thing.path_resolve(owner) if owner else thing
+    target = obj.path_resolve(owner) if owner else obj
     setattr(target, name, columns[0] if values.ndim > 1 else float(columns[0, 0]))
-    animated = any(curve.data_path == data_path for curve in compat.fcurves(thing))
+    animated = any(curve.data_path == data_path for curve in compat.fcurves(obj))
     if len(frames) == 1 and not animated:
         return
     for index in range(columns.shape[1]):
-        curve = compat.new_fcurve(thing, data_path, index)
+        curve = compat.new_fcurve(obj, data_path, index)
         curve.keyframe_points.add(len(frames))
         for point, frame, value in zip(curve.keyframe_points, frames, columns[:, index], strict=True):
             point.co = (frame, value)

@@ -56,10 +56,10 @@ def _hang(
     volume.display.density = layer.extinction  # in the solid view, like the render's
     volume.display.wireframe_type = "NONE"
     volume.materials.append(look)
-    thing = owned.add(collection, name, volume)
+    obj = owned.add(collection, name, volume)
     shift = compat.volume_shift(stage.scene.cycles, layer.voxel)
-    thing.location = (shift, shift, shift)
-    return thing
+    obj.location = (shift, shift, shift)
+    return obj
 
 
 def relative(blend: Path) -> None:

@@ -84,9 +84,9 @@ def build(shot: Shot, stage: Stage, boxes: Sequence[Box]) -> Shadow:
     )
     material = _material(image, low, texel * np.array([len(x), len(y)]))
     collection = owned.child(stage.root, NAME)
-    thing = owned.add(collection, NAME, _mesh(places[::_MESH, ::_MESH], material))
+    obj = owned.add(collection, NAME, _mesh(places[::_MESH, ::_MESH], material))
     for ray in ("camera", "diffuse", "glossy", "transmission", "volume_scatter"):
-        setattr(thing, f"visible_{ray}", False)
+        setattr(obj, f"visible_{ray}", False)
     return Shadow(image, material, places)
 
 
