@@ -193,18 +193,20 @@ def _parser() -> argparse.ArgumentParser:
     )
     score.add_argument("--json", action="store_true", help="write JSON")
 
-    seen = command("imager", "simulate a satellite imager's measurements of a run", IMAGER)
-    seen.add_argument("run", metavar="RUN", type=_path, help="run folder")
-    seen.add_argument("--out", metavar="DIR", type=_path, required=True, help="folder for the GeoTIFF files")
-    seen.add_argument("--instrument", choices=("abi", "viirs"), default="abi", help="instrument (abi)")
-    seen.add_argument(
+    imager = command("imager", "simulate a satellite imager's measurements of a run", IMAGER)
+    imager.add_argument("run", metavar="RUN", type=_path, help="run folder")
+    imager.add_argument(
+        "--out", metavar="DIR", type=_path, required=True, help="folder for the GeoTIFF files"
+    )
+    imager.add_argument("--instrument", choices=("abi", "viirs"), default="abi", help="instrument (abi)")
+    imager.add_argument(
         "--longitude",
         metavar="DEG",
         type=_longitude,
         default=-137.0,
         help="longitude of abi's geostationary orbit, degrees east (-137)",
     )
-    seen.add_argument(
+    imager.add_argument(
         "--every", metavar="SECONDS", type=_count, default=900, help="model time between pictures, s (900)"
     )
 

@@ -71,8 +71,8 @@ def maps(arguments: argparse.Namespace) -> None:
     say("drawing the fuel map and the fire intensity map")
     from .run import maps, observations, zone
 
-    seen = observations.read(arguments.against or observations.beside(arguments.run))
-    for path in maps.draw(run, arguments.out, zone.time_zone(run), seen):
+    observed = observations.read(arguments.against or observations.beside(arguments.run))
+    for path in maps.draw(run, arguments.out, zone.time_zone(run), observed):
         result(path)
 
 
@@ -95,15 +95,15 @@ def score(arguments: argparse.Namespace) -> None:
         raise UsageError("--against: takes one other run; leave the rest out")
     if arguments.report and arguments.report.suffix.lower() != ".html":
         raise UsageError(f"--report: {arguments.report} does not end in .html; name an .html file")
-    seen = observations.read(each for each in named if observations.is_one(each))
-    if seen.heat and not (seen.perimeters or seen.detections or runs):
+    observed = observations.read(each for each in named if observations.is_one(each))
+    if observed.heat and not (observed.perimeters or observed.detections or runs):
         raise input_error(named[0], 0, 0, "has detections but no perimeter; name a file with a perimeter")
-    found = scores.score(run, seen, runs[0] if runs else None, zone=zone.time_zone(run))
+    found = scores.score(run, observed, runs[0] if runs else None, zone=zone.time_zone(run))
     result(json.dumps(found, indent=1) if arguments.json else page.page(found))
     if arguments.report:
         from .run.score import report
 
-        text = report.html(run, found, seen, *runs)
+        text = report.html(run, found, observed, *runs)
         files.write(arguments.report, lambda part: part.write_text(text, encoding="utf-8"))
         say(f"wrote {arguments.report}")
     if not runs and (none := used.nothing(found["uses"])):
@@ -114,24 +114,23 @@ def imager(arguments: argparse.Namespace) -> None:
     """Write the simulated measurements of a satellite's imager."""
     from .errors import UsageError, input_error
     from .run import times
-    from .shot.satellites import geotiff
-    from .shot.satellites import imager as seen
+    from .shot.satellites import geotiff, imager
 
     run = _open(arguments.run)
-    instrument = seen.INSTRUMENTS[arguments.instrument]
-    moments = seen.times(run, arguments.every)
+    instrument = imager.INSTRUMENTS[arguments.instrument]
+    moments = imager.times(run, arguments.every)
     report = Reporter("pictures")
     try:
-        for done, (time, picture) in enumerate(seen.film(instrument, run, arguments.longitude, moments)):
+        for done, (time, picture) in enumerate(imager.film(instrument, run, arguments.longitude, moments)):
             report(done, len(moments))
             moment = times.utc(run, time)
             path = arguments.out / f"{instrument.name}_{moment:%Y%m%dT%H%M}Z.tif"
             geotiff.write(path, picture, instrument, run.name, moment)
             result(path)
-    except seen.HorizonError as error:
+    except imager.HorizonError as error:
         raise UsageError(f"--longitude: {error}") from None
-    except seen.NothingSeenError as error:
-        finer = "; --instrument viirs has finer ones" if instrument is seen.ABI else ""
+    except imager.NothingSeenError as error:
+        finer = "; --instrument viirs has finer ones" if instrument is imager.ABI else ""
         raise input_error(arguments.run, 0, 0, f"{error}{finer}") from None
     report(len(moments), len(moments))
 

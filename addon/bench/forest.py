@@ -60,8 +60,8 @@ def stand(grid: Grid, kept: NDArray, views: lod.ViewSet) -> tuple[forest.Stems, 
     canopy, _, latitude, longitude, elevation = grid
     frame = LocalFrame(*ORIGIN)
     stems = forest.stand(canopy, latitude, longitude, elevation, frame, seed=5, retained=kept)
-    seen = lod.visible_mask(stems.position, 0.6 * stems.scale, views)
-    return stems, lod.levels(lod.distance(stems.position[seen], views))
+    visible = lod.visible_mask(stems.position, 0.6 * stems.scale, views)
+    return stems, lod.levels(lod.distance(stems.position[visible], views))
 
 
 def run(bench: Bench) -> None:

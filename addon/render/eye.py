@@ -47,8 +47,8 @@ class Eye:
 
     def picture(self) -> Array:
         """Radiance (h, w, 3) of surfaces behind smoke."""
-        seen = self._surfaces()
-        at = composite.taps(seen)
+        rendered = self._surfaces()
+        at = composite.taps(rendered)
         marched = np.zeros((*at.shape, 4), np.float32)
         marched[..., 3] = not self.smoke
         if self.smoke:
@@ -56,7 +56,7 @@ class Eye:
             for place in _PLACES:
                 found = volume.march(self.smoke, *_lines(self._through(at=place)), ends, light, _STEP)
                 marched += found.reshape(marched.shape) / np.float32(len(_PLACES))
-        return composite.picture(seen, at, marched)
+        return composite.picture(rendered, at, marched)
 
     def radiance(self, frame: int) -> Array:
         """Infrared radiance (h, w) of surfaces, air and smoke, W m-2 sr-1."""

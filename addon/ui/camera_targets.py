@@ -43,7 +43,7 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return navigation.flown(cls, context) and navigation.filming(cls, context)
+        return navigation.can_navigate(cls, context) and navigation.has_editable_camera(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Find the target, then create the empty and the constraint."""
@@ -114,7 +114,7 @@ class FIRETWIN_OT_camera_path(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not navigation.flown(cls, context) or not navigation.filming(cls, context):
+        if not navigation.can_navigate(cls, context) or not navigation.has_editable_camera(cls, context):
             return False
         if context.scene.camera.constraints.get(PATH):
             cls.poll_message_set("The camera follows a curve: edit the curve, or remove the constraint")

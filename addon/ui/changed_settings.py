@@ -26,18 +26,20 @@ _ELSEWHERE = ("path", "cache")
 
 def digests(panel: bpy.types.PropertyGroup) -> dict[str, str]:
     """Digests of the panel's values of every section, of the run and of the cameras."""
-    found = {part.name: _seen(panel, part) for part in fields(Settings) if part.name not in _ELSEWHERE}
+    found = {
+        part.name: _shown_values(panel, part) for part in fields(Settings) if part.name not in _ELSEWHERE
+    }
     return {name: hashlib.sha256(repr(value).encode()).hexdigest()[:16] for name, value in found.items()}
 
 
-def _seen(panel: bpy.types.PropertyGroup, part: Field) -> object:
+def _shown_values(panel: bpy.types.PropertyGroup, part: Field) -> object:
     if part.name == "cameras":
         return [(item.name, item.table) for item in panel.cameras]
     if part.tables or part.name == "run":
         return getattr(panel, part.name)
     if part.table:
         group = getattr(panel, part.name)
-        return [_seen(group, inner) for inner in fields(part.table)]
+        return [_shown_values(group, inner) for inner in fields(part.table)]
     use, value = keys.stored_value(panel, part)
     return use, sorted(value) if isinstance(value, set) else value
 

@@ -14,7 +14,7 @@ from ..blender import owned
 from ..escaped import escaped
 from ..scene.camera import ground_raycast, read_edits
 from . import place_names, run, working
-from .navigation import flown, space
+from .navigation import can_navigate, space
 
 _NUMBER = r"\s*(-?\d+(?:\.\d*)?)\s*°?\s*"
 _PAIR = re.compile(rf"{_NUMBER}([NS]?)[\s,;]*(?<=[\sNSns,;]){_NUMBER}([EW]?)\s*", re.IGNORECASE)
@@ -81,7 +81,7 @@ class FIRETWIN_OT_go(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return flown(cls, context)
+        return can_navigate(cls, context)
 
     @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:

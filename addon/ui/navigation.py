@@ -67,7 +67,7 @@ def view(stage: owned.Stage, matrix: Matrix, lens: float, sensor: float) -> View
     )
 
 
-def flown(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+def can_navigate(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     """Whether there is a built scene to navigate; otherwise sets the poll message."""
     if not working.editable(cls, context):
         return False
@@ -76,7 +76,7 @@ def flown(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     return bool(context.scene.firetwin.first_time)
 
 
-def filming(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+def has_editable_camera(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     """Whether the scene has an editable camera; otherwise sets the poll message."""
     if not working.editable(cls, context):
         return False
@@ -112,7 +112,7 @@ class FIRETWIN_OT_camera_add(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return flown(cls, context) and run.ready(cls, context)
+        return can_navigate(cls, context) and run.ready(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Write its table, then rebuild the cameras."""
@@ -160,7 +160,7 @@ class FIRETWIN_OT_camera_key(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not flown(cls, context) or not filming(cls, context):
+        if not can_navigate(cls, context) or not has_editable_camera(cls, context):
             return False
         obj = context.scene.camera
         if any(constraint.type == "FOLLOW_PATH" for constraint in obj.constraints) or obj.parent:
@@ -195,7 +195,7 @@ class FIRETWIN_OT_camera_key(bpy.types.Operator):
         """Warn of frames between keyframes at which the terrain is too close."""
         frames = stage.scene.firetwin.frames
         size = stage.scene.render.resolution_x, stage.scene.render.resolution_y
-        places = read_edits.flown(stage.scene, obj, frames, size).place
+        places = read_edits.evaluate_path(stage.scene, obj, frames, size).place
         short = [ground_raycast.lift(stage, place, self.clearance) for place in places]
         if max(short) > 0.5:
             worst = int(np.argmax(short))
@@ -225,7 +225,7 @@ class FIRETWIN_OT_camera_lens(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not filming(cls, context):
+        if not has_editable_camera(cls, context):
             return False
         if context.scene.camera.data.type != "PERSP":
             cls.poll_message_set("Choose a perspective camera as the scene's camera first")

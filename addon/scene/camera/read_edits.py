@@ -64,7 +64,7 @@ def rigged(obj: bpy.types.Object) -> bool:
 
 
 @dataclass(frozen=True)
-class Flown:
+class EvaluatedPath:
     """Evaluated path of a camera object over all frames of the shot.
 
     Attributes
@@ -86,7 +86,9 @@ class Flown:
     keyed: tuple[int, ...]
 
 
-def flown(scene: bpy.types.Scene, obj: bpy.types.Object, frames: int, size: tuple[int, int]) -> Flown:
+def evaluate_path(
+    scene: bpy.types.Scene, obj: bpy.types.Object, frames: int, size: tuple[int, int]
+) -> EvaluatedPath:
     """Evaluate an object's path in each frame, however it is animated.
 
     Parameters
@@ -96,7 +98,9 @@ def flown(scene: bpy.types.Scene, obj: bpy.types.Object, frames: int, size: tupl
     """
     place, quaternion = _through_frames(scene, obj, frames) if rigged(obj) else _by_curves(obj, frames)
     (lens,) = _curves(obj.data, "lens", frames).T
-    return Flown(place, turning.matrices(quaternion), lens, _sensor(obj.data, size), _keyed(obj, frames))
+    return EvaluatedPath(
+        place, turning.matrices(quaternion), lens, _sensor(obj.data, size), _keyed(obj, frames)
+    )
 
 
 def _by_curves(obj: bpy.types.Object, frames: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -154,7 +158,7 @@ def _sensor(data: bpy.types.Camera, size: tuple[int, int]) -> float:
     return data.sensor_width
 
 
-def poses_of(seen: Flown, frame: geo.LocalFrame, width: int, near: float = 0.0) -> poses.Poses:
+def poses_of(path: EvaluatedPath, frame: geo.LocalFrame, width: int, near: float = 0.0) -> poses.Poses:
     """Rig of few poses that reproduces the path of a camera object within the tolerance.
 
     Parameters
@@ -164,21 +168,21 @@ def poses_of(seen: Flown, frame: geo.LocalFrame, width: int, near: float = 0.0) 
     near
         Distance of the nearest terrain, m, which decides the tolerance.
     """
-    pixel = seen.sensor / seen.lens.max() / width
+    pixel = path.sensor / path.lens.max() / width
     values = np.hstack(
         [
-            seen.place / max(_PIXEL * pixel * near, _LEAST),
+            path.place / max(_PIXEL * pixel * near, _LEAST),
             # unit quaternions hold half the angle
-            turning.quaternions(seen.rotation) / (0.5 * _PIXEL * pixel),
-            np.log(seen.lens)[:, None] / (_PIXEL * 2.0 / width),
+            turning.quaternions(path.rotation) / (0.5 * _PIXEL * pixel),
+            np.log(path.lens)[:, None] / (_PIXEL * 2.0 / width),
         ]
     )
     still = np.ptp(values, axis=0).max() < 0.1
-    kept = np.zeros(1, np.int64) if still else sparse_keys.fit(values, 1.0, seen.keyed)
-    at = kept / max(len(seen.lens) - 1, 1)
-    lens = np.array([_short(each) for each in seen.lens[kept]])
-    keys = poses.keyed(frame, at, seen.place[kept], seen.rotation[kept], lens)
-    return poses.Poses(_short(seen.lens[0]), _short(seen.sensor), keys)
+    kept = np.zeros(1, np.int64) if still else sparse_keys.fit(values, 1.0, path.keyed)
+    at = kept / max(len(path.lens) - 1, 1)
+    lens = np.array([_short(each) for each in path.lens[kept]])
+    keys = poses.keyed(frame, at, path.place[kept], path.rotation[kept], lens)
+    return poses.Poses(_short(path.lens[0]), _short(path.sensor), keys)
 
 
 def _short(value: float) -> float:
@@ -246,9 +250,9 @@ def _pulled(
     if what & {"pose", "lens"} == {"lens"} and still and isinstance(before.rig, _lens.Lens):
         lens = {"focal_length": _short(data.lens), "sensor_width": _short(_sensor(data, size))}
         return replace(before, rig=replace(before.rig, **lens)), words
-    seen = flown(stage.scene, obj, frames, size)
-    near = 0.5 * ground_raycast.height(stage, seen.place[:: max(len(seen.place) // 50, 1)])
-    rig = poses_of(seen, built_frame(stage), size[0], near)
+    path = evaluate_path(stage.scene, obj, frames, size)
+    near = 0.5 * ground_raycast.height(stage, path.place[:: max(len(path.place) // 50, 1)])
+    rig = poses_of(path, built_frame(stage), size[0], near)
     return replace(before, rig=rig), words
 
 

@@ -286,8 +286,8 @@ def _candidates(shot: Shot) -> tuple[Array, Array, Array, Array, NDArray[np.int6
     if len(cells_lit) == 0 or not near:
         return empty, empty, empty, empty, np.empty((0, 2), np.int64)
     centre = ground.point(*ground.places(cells_lit[:, 0].astype(float), cells_lit[:, 1].astype(float)))
-    seen = shot.visibility.visible_mask(centre, max(ground.cell) + _AROUND, reach=SIGHT)
-    cells_lit, distance = cells_lit[seen], _drawn_for(shot, centre[seen])
+    visible = shot.visibility.visible_mask(centre, max(ground.cell) + _AROUND, reach=SIGHT)
+    cells_lit, distance = cells_lit[visible], _drawn_for(shot, centre[visible])
     parts = []
     before, close = 0.0, _closeness(shot)
     for limit, wanted in _SPACING:

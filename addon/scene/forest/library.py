@@ -178,9 +178,9 @@ def _copy(obj: bpy.types.Object) -> bpy.types.Mesh:
         It has no surface, or no height.
     """
     graph = bpy.context.evaluated_depsgraph_get()
-    seen = obj.evaluated_get(graph)
+    evaluated = obj.evaluated_get(graph)
     try:
-        data = bpy.data.meshes.new_from_object(seen, preserve_all_data_layers=True, depsgraph=graph)
+        data = bpy.data.meshes.new_from_object(evaluated, preserve_all_data_layers=True, depsgraph=graph)
     except RuntimeError:
         data = None
     points = np.empty((0 if data is None else len(data.vertices), 3), np.float32)

@@ -248,8 +248,8 @@ def _finish(
     Trees have an instance number. An `alight` tree is of the class fire, also between the tongues of its
     flames, which are smaller than pixels from afar. The understorey counts as ground.
     """
-    seen = infrared.through_air(tree, shot, stage, warmth)
-    shader = nodes.thermal_switch(tree, haze.apply(tree, shader, stage), seen)
+    at_camera = infrared.through_air(tree, shot, stage, warmth)
+    shader = nodes.thermal_switch(tree, haze.apply(tree, shader, stage), at_camera)
     # Not "Fac", the mean of three equal components: it is rounded, and instance numbers need all 24 bits.
     number, _, _ = tree.separate(tree.attribute("number", "INSTANCER", "Vector"))
     below = (_age(tree) > 0.0) * (masks.BURNED - masks.GROUND) + masks.GROUND

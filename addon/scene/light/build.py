@@ -95,10 +95,10 @@ def _world(stage: Stage, frames: NDArray[np.float64], states: list[State]) -> No
     dark = tree.vector("SCALE", tuple(NIGHT_SKY), _airglow(tree, up)) if night else tuple(NIGHT_SKY)
     light = tree.vector("ADD", light, dark)
     light = haze.before_sky(tree, stage, light, up)
-    seen = tree.output("ShaderNodeBackground", {"Color": light, "Strength": 1.0})
+    background = tree.output("ShaderNodeBackground", {"Color": light, "Strength": 1.0})
     cold = tree.output("ShaderNodeBackground", {"Color": (1.0, 1.0, 1.0), "Strength": 0.0})
     cold.socket.node.name = "Thermal Sky"
-    shader = nodes.switch(tree, nodes.THERMAL, seen, cold)
+    shader = nodes.switch(tree, nodes.THERMAL, background, cold)
     none = tree.output("ShaderNodeBackground", {"Color": (0.0, 1.0, float(masks.SKY)), "Strength": 1.0})
     tree.surface(nodes.switch(tree, nodes.MASKS, shader, none))
     _fill(world, frames, states)

@@ -58,9 +58,9 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     density = tree.attribute("density") * thick
     albedo = tree.mix_colour(tree.attribute("fresh"), old, fresh)
     thinner = density * tree.input("Light Density", _LIGHT, "Part of the smoke that dims light", "Light")
-    seen = density * (1.0 + tree.attribute("hidden") * _hiding(tree, thick))
+    extinction = density * (1.0 + tree.attribute("hidden") * _hiding(tree, thick))
     lit = _solved if shot.settings.smoke.lighting == "solved" else _traced
-    visible = lit(tree, shot, stage, _Smoke(seen, thinner, albedo, even))
+    visible = lit(tree, shot, stage, _Smoke(extinction, thinner, albedo, even))
     shader = infrared.smoke(tree, shot, stage, visible, density)
     # A mix by 0 or 1 evaluates one side only, and more than half of all steps are outside of smoke.
     clear = tree.output("ShaderNodeVolumeAbsorption", {"Density": 0.0})
@@ -76,13 +76,13 @@ def _solved(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.
     light = sunlit.source(tree, shot, smoke.albedo, smoke.even)
     if glow := _glow(tree, shot, smoke.density):
         light = tree.vector("ADD", light, tree.vector("SCALE", *glow))
-    seen = tree.add_shader(
+    emission = tree.add_shader(
         _black(tree, smoke.density), tree.emission(tree.mix_colour(part, light, air), smoke.density)
     )
     # Reflections in lakes count too. Other rays gather 0.02/255 of the example's picture from emission.
     path = tree.node("ShaderNodeLightPath")
     looks = tree.math("MAXIMUM", *(tree.pick(path, name) for name in ("Is Camera Ray", "Is Glossy Ray")))
-    return tree.mix_shader(looks, _black(tree, smoke.thinner), seen)
+    return tree.mix_shader(looks, _black(tree, smoke.thinner), emission)
 
 
 def _traced(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.Value:

@@ -78,14 +78,14 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     shine, bright = glow_inputs(tree, shot)
     glow = tree.attribute("glow") * (1.0 - part) * bright
 
-    def seen(density: nodes.Value) -> nodes.Value:
+    def shaded(density: nodes.Value) -> nodes.Value:
         lit = glow * glowing(density) * density
         light = tree.add_shader(tree.emission(air, part * density), tree.emission(shine, lit))
         return tree.add_shader(smoke(tree, density, scattered, even), light)
 
     # A mix by 0 or 1 evaluates one side only: deep inside, noise has no effect and is not evaluated.
     deep = depth > _EDGE[1] + _AMPLITUDE * _MEAN_BILLOW
-    detailed = tree.mix_shader(deep, seen(density), seen(full))
+    detailed = tree.mix_shader(deep, shaded(density), shaded(full))
     # Most steps belong to light rays through the smoke. They need no detail: one grid is enough.
     plain = smoke(tree, _extinction(tree.attribute("shade"), opacity, drawn.extinction), middle, even)
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")

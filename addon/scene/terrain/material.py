@@ -43,14 +43,14 @@ def build(
     with tree.frame("Fields"):
         known = fields.Fields(tree, images)
         lake = known["water"] > 0.5
-    seen = _seen(tree, shot, stage, known, lake, photos, biome, maps or {})
+    visible = _visible(tree, shot, stage, known, lake, photos, biome, maps or {})
     warmth, kind = _data(tree, shot, stage, known, lake)
-    tree.surface(nodes.mask_switch(tree, nodes.thermal_switch(tree, seen, warmth), kind))
+    tree.surface(nodes.mask_switch(tree, nodes.thermal_switch(tree, visible, warmth), kind))
     material.cycles.emission_sampling = "NONE"  # sampled as a lamp, its small emitters would be noise
     return material
 
 
-def _seen(
+def _visible(
     tree: nodes.Tree,
     shot: Shot,
     stage: Stage,

@@ -248,13 +248,13 @@ def _tracks(tree: nodes.Tree, place: Spot, land: OpenLand, colour: nodes.Value) 
     for turn, apart, wide, strong in ((0.5, land.tracks, _TRACK, 0.85), (1.9, 0.37 * land.tracks, 0.5, 0.5)):
         along = x * math.cos(turn) + y * math.sin(turn) + wander * 1500.0
         off = tree.math("PINGPONG", along, 0.5 * apart)
-        seen = tree.math("MAXIMUM", place.pixel * 0.7, 0.5 * wide)
-        line = off.smoothstep(seen * 1.2, seen * 0.6)
+        resolved = tree.math("MAXIMUM", place.pixel * 0.7, 0.5 * wide)
+        line = off.smoothstep(resolved * 1.2, resolved * 0.6)
         if wide > 2.0 * _RUT:
             ruts = tree.math("ABSOLUTE", off - (0.5 * wide - 0.5 * _RUT)).smoothstep(_RUT, 0.4 * _RUT)
             line = tree.mix(place.pixel.ramp(0.25, 0.8), ruts, line * 0.8)
         broken = place.grain.noise(210.0, 3.0, 0.6).smoothstep(0.33, 0.43)
-        thin = tree.math("MINIMUM", 0.5 * wide / seen, 1.0)
+        thin = tree.math("MINIMUM", 0.5 * wide / resolved, 1.0)
         colour = tree.mix_colour(line * thin * broken * place.free * strong, colour, soil)
     return colour
 

@@ -40,24 +40,24 @@ def far(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.
     """Colour and height (m) where trees are part of the ground."""
     grain = place.grain
     fine, patch, groups = _fine(grain), _patch(grain), _groups(grain)
-    seen = crowns(tree, place, here.biome.crown, groups)
+    crown = crowns(tree, place, here.biome.crown, groups)
     cover = place.canopy + (patch - 0.5) * 0.9 + (groups - 0.5) * 1.6 + (fine - 0.5) * 0.6
     # Fuel patches on the apron are as large as its cells: noise turns them into edges of all sizes. Existing
     # noise is reused, as bump mapping evaluates each noise three times.
     cover = cover + (patch - 0.5) * (place.beyond * place.canopy.smoothstep(0.0, 0.2)) * 3.6
     hills = (patch - 0.5) * (place.beyond * place.relief)  # finer than its mesh
     if here.biome.open_land is None:
-        cover = tree.math("MAXIMUM", cover.smoothstep(0.0, 0.7), seen.alone * 0.85)
+        cover = tree.math("MAXIMUM", cover.smoothstep(0.0, 0.7), crown.alone * 0.85)
     else:  # lone trees are too sparse to be visible
         cover = cover.smoothstep(0.0, 0.7) * place.canopy.smoothstep(0.01, 0.1)
-    canopy = tree.mix_colour(seen.dark, _canopy(tree, grain, seen.tint, here), here.biome.between)
+    canopy = tree.mix_colour(crown.dark, _canopy(tree, grain, crown.tint, here), here.biome.between)
     if here.biome.open_land is not None:
         open_ground, height = lands.look(tree, place, here)
-        wooded = cover * (1.0 - seen.dark) * (0.7 * here.biome.crown)
+        wooded = cover * (1.0 - crown.dark) * (0.7 * here.biome.crown)
         height = wooded + (1.0 - cover) * height + fine * 0.5 + hills
         return tree.mix_colour(cover, open_ground, canopy), height
-    open_ground = _open_ground(tree, place, fine, patch, seen.tint, here)
-    height = cover * (1.0 - seen.dark) * 9.0 + fine * 2.0 + hills
+    open_ground = _open_ground(tree, place, fine, patch, crown.tint, here)
+    height = cover * (1.0 - crown.dark) * 9.0 + fine * 2.0 + hills
     return tree.mix_colour(cover, open_ground, canopy), height
 
 
@@ -67,10 +67,10 @@ def on_rock(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, no
     They have cells of their own, so that these are evaluated on rock only.
     """
     biome = here.biome
-    seen = crowns(tree, place, biome.crown + _ON_ROCK, _groups(place.grain))
-    lit = tree.mix_colour(0.5, _needles(tree, seen.tint, here), biome.shade)
-    where = seen.alone * 0.8 * (1.0 - place.burned)
-    return tree.mix_colour(seen.dark, lit, biome.between), where
+    crown = crowns(tree, place, biome.crown + _ON_ROCK, _groups(place.grain))
+    lit = tree.mix_colour(0.5, _needles(tree, crown.tint, here), biome.shade)
+    where = crown.alone * 0.8 * (1.0 - place.burned)
+    return tree.mix_colour(crown.dark, lit, biome.between), where
 
 
 def close(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.Value]:
