@@ -72,4 +72,4 @@ def test_the_note_is_the_picture_that_people_look_at(film):
 
 
 def test_data_alone_is_noted_too():
-    assert pictures._shown([Picture("drone", 3, "depth")]) == "drone/depth/drone_depth_000003.exr"
+    assert pictures._preview([Picture("drone", 3, "depth")]) == "drone/depth/drone_depth_000003.exr"
