@@ -164,9 +164,7 @@ def _rising(path: Path, points: Sequence[Point]) -> list[Point]:
     kept = [points[0]]
     for point in points[1:]:
         if isinstance(point.moment, datetime) != dated:
-            reason = (
-                "some points have a time and others a part of the shot (at); give all the same"
-            )
+            reason = "some points have a time and others a part of the shot (at); give all the same"
             raise input_error(path, point.line, 0, reason)
         last = kept[-1]
         if _number(point.moment) > _number(last.moment):
