@@ -44,6 +44,25 @@ def test_the_start_page_is_short():
     assert len(text.split()) <= 1000
 
 
+def test_the_start_pages_pictures_are_small():
+    links = re.findall(r"!\[.+?\]\((.+?)\)", (ROOT / "README.md").read_text("utf-8"))
+    sizes = {link: (ROOT / link).stat().st_size for link in links}
+    assert len(sizes) >= 8
+    assert sizes["docs/pictures/film.webp"] < 3_000_000
+    assert sum(sizes.values()) < 4_000_000
+
+
+@pytest.mark.parametrize("page", sorted((DOCS / "how").glob("*.md")), ids=lambda page: page.stem)
+def test_a_page_of_how_it_works_has_a_diagram(page):
+    """One that is drawn without a script or a font from elsewhere."""
+    links = re.findall(r"!\[.+?\]\((.+?\.svg)\)", page.read_text("utf-8"))
+    assert links
+    for link in links:
+        drawing = (page.parent / link).read_text("utf-8")
+        assert "<title>" in drawing
+        assert not re.search(r"<script|@import|href=", drawing)
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
 def test_links_lead_to_files(page):
     links = re.findall(r"\]\((?!https?:|#)([^)#]+)", page.read_text("utf-8"))

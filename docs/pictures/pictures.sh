@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# Makes the film and the small pictures of README.md from renders of the synthetic sample run, into this folder.
+# Takes 15 minutes on two cores the first time; run again, it renders only what is missing.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+../../examples/sample.sh
+firetwin=../../.venv/bin/firetwin
+out=../../examples/out
+
+"$firetwin" render ../../examples/king_fire.toml --out "$out/film" --frames 2-48:2 --resume
+"$firetwin" render forest.toml --out "$out/forest" --resume
+[[ -f $out/maps/intensity.png ]] || "$firetwin" maps "$out/sample" --out "$out/maps"
+../../.venv/bin/python pictures.py "$out" .
