@@ -1,7 +1,7 @@
 """Air near the ground over the fire: warmed by it and drawn towards it. Scaling laws, not a flow model."""
 
 import numpy as np
-from firetwin_core.particles import GRAVITY
+from firetwin_core.constants import GRAVITY
 from numpy.typing import NDArray
 
 from .grid import MODEL_CELL_SIZE, MODEL_CELLS

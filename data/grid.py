@@ -4,10 +4,10 @@ Both have evenly spaced WGS84 latitudes (ascending) and longitudes; a cell is 37
 centre.
 """
 
-from math import cos, radians, sin, sqrt
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from ..run import areas
 
 CENTRE_LATITUDE = 38.93
 CENTRE_LONGITUDE = -120.52
@@ -17,30 +17,17 @@ FUEL_CELLS = 720
 FUEL_CELL_SIZE = 74.0  # m
 REFINEMENT = FUEL_CELLS // MODEL_CELLS
 
-_A, _E2 = 6378137.0, 6.69437999014e-3  # WGS84 semi-major axis (m) and squared eccentricity
-
-
-def metres_per_degree() -> tuple[float, float]:
-    """Length of a degree of latitude and of longitude at the centre.
-
-    Radii of curvature of the WGS84 ellipsoid: Snyder, Map Projections (USGS PP 1395), eqs. 4-18 and 4-20.
-    """
-    w = sqrt(1 - _E2 * sin(radians(CENTRE_LATITUDE)) ** 2)
-    north = _A * (1 - _E2) / w**3 * radians(1)
-    east = _A / w * cos(radians(CENTRE_LATITUDE)) * radians(1)
-    return north, east
-
 
 def axes(cells: int, cell_size: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Latitudes and longitudes (cells,) of the centres of square cells of `cell_size` metres."""
     offset = (np.arange(cells) - (cells - 1) / 2) * cell_size
-    north, east = metres_per_degree()
+    north, east = areas.metres_per_degree(CENTRE_LATITUDE)
     return CENTRE_LATITUDE + offset / north, CENTRE_LONGITUDE + offset / east
 
 
 def local(latitude: ArrayLike, longitude: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Metres east and north of the centre on the flat grid (the sample's own map, not the tangent plane)."""
-    north, east = metres_per_degree()
+    north, east = areas.metres_per_degree(CENTRE_LATITUDE)
     x = (np.asarray(longitude, dtype=float) - CENTRE_LONGITUDE) * east
     y = (np.asarray(latitude, dtype=float) - CENTRE_LATITUDE) * north
     return x, y

@@ -9,12 +9,12 @@ closed form, so heat summed over output times is exact however short they are.
 from dataclasses import dataclass
 
 import numpy as np
+from firetwin_core import constants
 from numpy.typing import NDArray
 
 from .grid import FUEL_CELL_SIZE, FUEL_CELLS, MODEL_CELLS, REFINEMENT
 from .stored import Sample
 
-HEAT_OF_COMBUSTION = 17.433e6  # J/kg, as in WRF-SFIRE
 CANOPY_SHARE = np.array([0.0, 0.5, 0.95])  # of canopy fuel consumed by surface, passive and active crown fire
 BURN_OUT_SURFACE = (120.0, 300.0)  # s: grass, and what each kg/m2 adds (timber litter and wood burn for long)
 BURN_OUT_CANOPY = 90.0  # s
@@ -56,7 +56,7 @@ def burns(sample: Sample) -> Burns:
     arrival = sample.arrival[burned]
     surface, canopy = sample.surface[burned].astype(float), sample.canopy[burned].astype(float)
     consumed = canopy * CANOPY_SHARE[sample.crown[burned]]
-    joules = HEAT_OF_COMBUSTION * FUEL_CELL_SIZE**2
+    joules = constants.HEAT_OF_COMBUSTION * FUEL_CELL_SIZE**2
     crowns = consumed > 0
     parts = Burns(
         np.concatenate([cell, cell[crowns]]),

@@ -15,13 +15,13 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from firetwin_core import flow
+from firetwin_core import constants, flow
 from numpy.typing import NDArray
 
 from .harness import OURS, Bench
 from .timing import Runner, threads
 
-CP, GRAVITY, THETA = 1004.7, 9.80665, 300.0
+CP, GRAVITY, THETA = constants.SPECIFIC_HEAT, constants.GRAVITY, 300.0
 ENTRAINMENT = 0.6  # Briggs's entrainment coefficient beta: a bent plume's radius over its rise
 GRADIENT = 0.01  # K/m
 LAST = 700.0  # s of simulated time of a plume

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from firetwin_core import constants
 from numpy.typing import ArrayLike, NDArray
 
-A = 6_378_137.0  # semi-major axis, m
-E2 = 0.00669437999014  # first eccentricity squared
+A, E2 = constants.SEMI_MAJOR_AXIS, constants.ECCENTRICITY_SQUARED
 _ALONE = 100.0  # m, side of a cell that nothing says the size of
 
 
@@ -41,7 +41,7 @@ def area_factors(
 
 
 def metres_per_degree(latitude: float) -> tuple[float, float]:
-    """Metres per degree of latitude and of longitude (from the radii of curvature M and N)."""
+    """Metres per degree of latitude and longitude: radii of curvature (Snyder 1987, eqs. 4-18 and 4-20)."""
     sine = np.sin(np.radians(latitude))
     w = np.sqrt(1.0 - E2 * sine * sine)
     degree = np.pi / 180.0

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+from firetwin_core import constants
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
 from . import areas, blocks, burned_fraction
-from .models.fuels import HEAT
 
 _MUCH = 1.1  # times the fuel's heat: fluxes at some moments give the whole to about a tenth
 
@@ -30,7 +30,7 @@ def of_fuel(run: Run) -> float:
     for first, end in blocks.rows(run):
         load = sum(np.nan_to_num(run.fuel_rows(f"{each}_fuel", first, end)) for each in ("surface", "canopy"))
         total += float(strip[first:end] @ ((load * burned(first, end)) @ width))
-    return HEAT * total
+    return constants.HEAT_OF_COMBUSTION * total
 
 
 def _burned(run: Run, time: float) -> Callable[[int, int], NDArray]:

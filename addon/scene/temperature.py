@@ -18,13 +18,13 @@ from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
+from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ..blender import compat, nodes, owned
 from ..blender.owned import Stage
 from ..shot import air_temperature, sun
 from ..shot.shot import Shot
-from ..shot.terrain.terrain import bilinear
 
 FLAME_LOW, FLAME_HIGH = 1000.0, 1200.0  # K
 EMBER = 850.0  # K, ground full of glowing embers (assumed)

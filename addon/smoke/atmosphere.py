@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from firetwin_core import constants
 from numpy.typing import NDArray
 
 from ..shot.terrain import noise
@@ -18,9 +19,7 @@ _WARM = 312.0  # K, potential temperature of the mixed layer: 27 degrees C over 
 _MIXED = 3300.0  # m, depth of the layer that a dry September day mixes (assumed)
 # K/m, potential temperature gradient: mixed layer, free atmosphere, nocturnal valley inversion
 _DAY, _ALOFT, _NIGHT = 0.3e-3, 4.5e-3, 12e-3
-STABILITY = 9.81 / _WARM * _DAY  # 1/s2, squared buoyancy frequency of the daytime mixed layer
-# m4/s3 per W, buoyancy flux of a plume in air of 1.1 kg/m3 and 300 K
-BUOYANCY = 9.81 / (np.pi * 1005.0 * 1.1 * 300.0)
+STABILITY = constants.GRAVITY / _WARM * _DAY  # 1/s2, squared buoyancy frequency of the daytime mixed layer
 _INVERSION = 600.0  # m, depth of the inversion (assumed)
 _HEIGHTS = np.array([0.0, 10, 30, 100, 300, 600, 1000, 1800, 2600, 3300, 4000, 4800, 6000, 9000])
 # m, kg/kg: water vapour at a fifth of saturation at the ground, constant in the mixed layer, less above

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path as FilePath
 
 import numpy as np
+from firetwin_core import constants
 from numpy.typing import NDArray
 
 from ..shot.cameras.path import Path
@@ -205,7 +206,7 @@ def _height_fraction(shot: Shot) -> float:
     times = np.linspace(shot.frames.first, shot.frames.last, 5)
     power = max(float(shot.fire.sources(time).power.sum()) for time in times)
     wind = max(atmosphere.WIND * float(np.hypot(*shot.wind)), _CALM)
-    rise = 2.6 * np.cbrt(atmosphere.BUOYANCY * power / (wind * atmosphere.STABILITY))
+    rise = 2.6 * np.cbrt(constants.BUOYANCY_FLUX * power / (wind * atmosphere.STABILITY))
     lowest, growth, count = _LEVELS
     return min((_TOP[0] + _TOP[1] * rise) / ((lowest + 0.5 * growth) * count), 1.0)
 

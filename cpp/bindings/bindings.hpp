@@ -12,6 +12,7 @@ namespace firetwin::bindings {
 pybind11::str readable(const std::string& bytes);
 
 void init_errors(Module& module);
+void init_constants(Module module);
 void init_geo(Module module);
 void init_run(Module module);
 void init_flux(Module module);

@@ -46,6 +46,7 @@ PYBIND11_MODULE(firetwin_core, whole) {
   module.def("set_threads", &set_threads, py::arg("threads"));
   module.def("build_info", &build_info);
   bindings::init_errors(module);
+  bindings::init_constants(module.def_submodule("constants"));
   bindings::init_geo(module.def_submodule("geo"));
   bindings::init_run(module.def_submodule("run"));
   bindings::init_flux(module.def_submodule("flux"));

@@ -1,5 +1,5 @@
 #include "arrays.hpp"
-#include "base/gravity.hpp"
+#include "base/constants.hpp"
 #include "bindings.hpp"
 #include "broadcast.hpp"
 #include "particles/advance.hpp"
@@ -80,7 +80,6 @@ Array<double> vectors(const py::object& self) {
 } // namespace
 
 void init_particles(Module module) {
-  module.attr("GRAVITY") = gravity;
   Class<ParticleKind>(module, "ParticleKind")
       .def(py::init<double, particles::Range, particles::Range, particles::Range,
                     particles::Range>(),
@@ -103,9 +102,10 @@ void init_particles(Module module) {
                                return column<&ParticleCloud::landed>(self).attr("view")("bool");
                              })
       .def("__len__", [](const ParticleCloud& cloud) { return cloud.source.size(); });
-  module.def("lift", &particles::lift, py::arg("density"), py::arg("air_density") = 1.2);
+  module.def("lift", &particles::lift, py::arg("density"),
+             py::arg("air_density") = constants::air_density);
   module.def("advance", &advance, py::arg("position"), py::arg("velocity"), py::arg("wind"),
-             py::arg("step"), py::arg("relaxation"), py::arg("lift") = -gravity,
+             py::arg("step"), py::arg("relaxation"), py::arg("lift") = -constants::gravity,
              py::arg("wind_end") = py::none(), py::arg("wind_middle") = py::none(),
              py::arg("landed") = false, py::arg("ground") = py::none());
   module.def("state", &state, py::arg("time"), py::arg("position"), py::arg("start"),

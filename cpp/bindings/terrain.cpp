@@ -1,6 +1,7 @@
 #include "arrays.hpp"
+#include "base/interpolation.hpp"
+#include "base/noise.hpp"
 #include "bindings.hpp"
-#include "terrain/bilinear.hpp"
 #include "terrain/mesh.hpp"
 #include "terrain/surface.hpp"
 
@@ -10,6 +11,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <tuple>
@@ -94,24 +96,91 @@ Array<double> perlin(const py::object& x, const py::object& y, std::int64_t seed
   return result;
 }
 
-/// Values (n,) of a field (ny, nx) between its points, beyond its ends as between the last two.
+/// Values of a field [ny nx bands] between its points at n places -> [n bands]; beyond its ends as
+/// between the last two.
+template <class T>
+void interpolate(const Array<T>& field, std::span<const double> row, std::span<const double> column,
+                 std::span<double> out) {
+  const std::int64_t height = field.shape(0), width = field.shape(1);
+  const std::int64_t bands = field.ndim() > 2 ? field.shape(2) : 1;
+  const T* known = field.data();
+  const py::gil_scoped_release release;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, row.size(), 4096), [&](const auto& range) {
+    for (std::size_t k = range.begin(); k < range.end(); ++k) {
+      const auto y = interval_extended(row[k], height), x = interval_extended(column[k], width);
+      for (std::int64_t band = 0; band < bands; ++band) {
+        const auto corner = [&](int j, int i) {
+          const std::int64_t point = (j ? y.high : y.low) * width + (i ? x.high : x.low);
+          return double{known[point * bands + band]};
+        };
+        out[k * static_cast<std::size_t>(bands) + static_cast<std::size_t>(band)] =
+            firetwin::bilinear<ExactLerp>(corner, y.part, x.part);
+      }
+    }
+  });
+}
+
+/// Of a field (ny, nx) or (ny, nx, bands), at rows and columns that broadcast to one shape.
 Array<double> bilinear(const py::object& field, const py::object& row, const py::object& column) {
-  const auto values = to_array<double>(field, "field", {-1, -1});
-  const auto rows = to_array<double>(row, "row", {-1});
-  const auto columns = to_array<double>(column, "column", {rows.size()});
-  if (values.size() == 0) {
-    wrong("field", "must have a row and a column or more");
-  }
-  auto result = new_array<double>({rows.size()});
-  const auto i = view(rows), j = view(columns);
+  const auto together =
+      py::module_::import("numpy").attr("broadcast_arrays")(row, column).cast<py::sequence>();
+  const auto rows = to_array<double>(together[0], "row");
+  const auto columns = to_array<double>(together[1], "column");
+  const py::array any = py::array::ensure(field);
+  const bool single = any && any.dtype().is(py::dtype::of<float>());
+  const auto values = [&](const auto& array) {
+    if ((array.ndim() != 2 && array.ndim() != 3) || array.size() == 0) {
+      wrong("field", "must have a row and a column or more, not shape " + shape_text(array));
+    }
+    std::vector<py::ssize_t> shape(rows.shape(), rows.shape() + rows.ndim());
+    if (array.ndim() == 3) {
+      shape.push_back(array.shape(2));
+    }
+    auto result = new_array<double>(shape);
+    interpolate(array, view(rows), view(columns), writable(result));
+    return result;
+  };
+  return single ? values(to_array<float>(field, "field"))
+                : values(to_array<double>(field, "field"));
+}
+
+/// Random numbers 0..1 of integers x and y (broadcast) and the seed.
+Array<double> uniform(const py::object& x, const py::object& y, std::int64_t seed) {
+  const auto together =
+      py::module_::import("numpy").attr("broadcast_arrays")(x, y).cast<py::sequence>();
+  const auto across = to_array<std::int64_t>(together[0], "x");
+  const auto up = to_array<std::int64_t>(together[1], "y");
+  auto result = new_array<double>({across.shape(), across.shape() + across.ndim()});
+  const auto i = view(across), j = view(up);
   const auto out = writable(result);
-  const auto height = static_cast<std::size_t>(values.shape(0));
-  const auto width = static_cast<std::size_t>(values.shape(1));
-  const double* known = values.data();
+  const py::gil_scoped_release release;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    out[k] = static_cast<double>(lattice_hash(i[k], j[k], seed)) * 0x1p-32;
+  }
+  return result;
+}
+
+/// Gradient noise of space at places (n, 3), with Jenkins's hash.
+Array<double> perlin_in_space(const py::object& place) {
+  const auto places = to_array<double>(place, "place", {-1, 3});
+  auto result = new_array<double>({places.shape(0)});
+  const auto p = view(places);
+  const auto out = writable(result);
   const py::gil_scoped_release release;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.size(), 4096), [&](const auto& range) {
-    for (std::size_t k = range.begin(); k < range.end(); ++k) {
-      out[k] = terrain::bilinear(known, height, width, i[k], j[k]);
+    for (std::size_t n = range.begin(); n < range.end(); ++n) {
+      std::array<std::uint32_t, 3> low{};
+      std::array<double, 3> off{};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double whole = std::floor(p[3 * n + axis]);
+        low[axis] = static_cast<std::uint32_t>(static_cast<std::int64_t>(whole));
+        off[axis] = p[3 * n + axis] - whole;
+      }
+      const auto rise = [&](std::uint32_t k, std::uint32_t j, std::uint32_t i) {
+        return cube_rise(jenkins_hash(low[0] + i, low[1] + j, low[2] + k), off[0] - i, off[1] - j,
+                         off[2] - k);
+      };
+      out[n] = gradient_noise(rise, off[2], off[1], off[0]);
     }
   });
   return result;
@@ -149,6 +218,8 @@ Made mesh(const py::object& place, const py::object& tolerance, const py::object
 
 void init_terrain(Module module) {
   module.def("perlin", &perlin, py::arg("x"), py::arg("y"), py::arg("seed"));
+  module.def("perlin_in_space", &perlin_in_space, py::arg("place"));
+  module.def("uniform", &uniform, py::arg("x"), py::arg("y"), py::arg("seed"));
   module.def("bilinear", &bilinear, py::arg("field"), py::arg("row"), py::arg("column"));
   Class<Surface, std::shared_ptr<Surface>>(module, "Surface")
       .def(py::init(&surface), py::arg("elevation"), py::arg("steep"), py::arg("dry"),

@@ -97,19 +97,21 @@ Ambient::Ambient(const Lattice& lattice, const Terrain& ground, const Profile& p
 /// Hydrostatic balance: d(Exner function) / dz = -g / (cp theta).
 void Ambient::weigh(const Lattice& lattice, const Profile& p) {
   const auto theta = [&](double z) { return interpolated(p.height, p.potential_temperature, z); };
-  double exner = std::pow(p.pressure / reference_pressure, gas_constant / heat_capacity);
+  double exner = std::pow(p.pressure / constants::reference_pressure,
+                          constants::gas_constant / constants::specific_heat);
   double height = 0.0;
   const auto rise_to = [&](double z) {
     const double mean = 0.5 * (theta(height) + theta(z));
-    exner -= gravity * (z - height) / (heat_capacity * mean);
+    exner -= constants::gravity * (z - height) / (constants::specific_heat * mean);
     height = z;
     if (!(exner > 0.05)) {
       throw std::invalid_argument("levels reach above the air");
     }
-    return reference_pressure * std::pow(exner, heat_capacity / gas_constant);
+    return constants::reference_pressure *
+           std::pow(exner, constants::specific_heat / constants::gas_constant);
   };
   const auto dense = [&](double pressure, double z) {
-    return pressure / (gas_constant * exner * theta(z));
+    return pressure / (constants::gas_constant * exner * theta(z));
   };
   for (std::size_t k = 0; k < lattice.face.size(); ++k) {
     air_.face.push_back(static_cast<float>(dense(rise_to(lattice.face[k]), lattice.face[k])));

@@ -12,7 +12,7 @@ namespace {
 FIRETWIN_CLONES("avx512f", "avx2")
 void weigh_row(Index n, const float* __restrict theta, const float* __restrict rest,
                float reference, float* __restrict force) {
-  constexpr auto g = static_cast<float>(gravity);
+  constexpr auto g = static_cast<float>(constants::gravity);
   for (Index i = 0; i < n; ++i) {
     force[i] = g * (theta[i] - rest[i]) / (rest[i] + reference);
   }
@@ -22,7 +22,7 @@ void weigh_row(Index n, const float* __restrict theta, const float* __restrict r
 FIRETWIN_CLONES("avx512f", "avx2")
 void outweigh_row(Index n, const float* __restrict here, const float* __restrict rest,
                   float* __restrict force) {
-  constexpr auto g = static_cast<float>(gravity);
+  constexpr auto g = static_cast<float>(constants::gravity);
   for (Index i = 0; i < n; ++i) {
     force[i] = g * ((here[i] - rest[i]) / rest[i]);
   }

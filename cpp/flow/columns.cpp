@@ -2,7 +2,7 @@
 
 #include "base/catmull_rom.hpp"
 #include "base/clones.hpp"
-#include "flow/linear_interpolator.hpp"
+#include "base/interpolation.hpp"
 #include "flow/parallel.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ void mix_columns(const std::array<const float*, 4>& from, std::array<float, 2> p
   const float north = part[0], east = part[1];
   for (Index k = 0; k < n; k += lanes) {
     for (Index l = k; l < k + lanes; ++l) {
-      out[l] = mix(mix(a[l], b[l], east), mix(c[l], d[l], east), north);
+      out[l] = lerp(lerp(a[l], b[l], east), lerp(c[l], d[l], east), north);
     }
   }
 }
@@ -39,7 +39,7 @@ void mix_levels(const std::int32_t* __restrict low, const float* __restrict part
                 const float* __restrict levels, float* __restrict out) {
   for (Index i = 0; i < n; i += lanes) {
     for (Index l = i; l < i + lanes; ++l) {
-      out[l] = mix(levels[low[l]], levels[low[l] + 1], part[l]);
+      out[l] = lerp(levels[low[l]], levels[low[l] + 1], part[l]);
     }
   }
 }
@@ -59,13 +59,12 @@ void curve_levels(const std::int32_t* __restrict low, const float* __restrict pa
 /// Cells round a place along an axis, and their weights.
 void stand(float at, Index count, std::array<Index, 2>& near, float& part,
            std::array<Index, 4>& wide, std::array<float, 4>& weight) {
-  const float held = std::clamp(at, 0.0F, static_cast<float>(count - 1));
-  const Index low = std::min(static_cast<Index>(held), std::max(count - 2, Index{0}));
-  part = held - static_cast<float>(low);
-  near = {low, std::min(low + 1, count - 1)};
+  const auto interval = interval_within(at, count);
+  part = interval.part;
+  near = {interval.low, interval.high};
   weight = catmull_rom(part);
   for (Index i = 0; i < 4; ++i) {
-    wide[static_cast<std::size_t>(i)] = std::clamp(low + i - 1, Index{0}, count - 1);
+    wide[static_cast<std::size_t>(i)] = std::clamp(interval.low + i - 1, Index{0}, count - 1);
   }
 }
 

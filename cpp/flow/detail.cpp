@@ -1,7 +1,7 @@
 #include "flow/detail.hpp"
 
+#include "base/interpolation.hpp"
 #include "base/smoothstep.hpp"
-#include "flow/linear_interpolator.hpp"
 #include "flow/parallel.hpp"
 
 #include <algorithm>
@@ -150,7 +150,7 @@ void Detail::find_reach(const SmokeSnapshot& m, const Values& amount) {
   for (std::size_t n = 0; n < reach.size(); ++n) {
     const float steep = square[n] / std::max(reach[n], 1.0e-6F);
     const float thick = densest[n] + cloud_amount * capped(m.heights[n]);
-    const float most = mix(crisp_reach[0], crisp_reach[1], ramp(whole[0], whole[1], thick));
+    const float most = lerp(crisp_reach[0], crisp_reach[1], ramp(whole[0], whole[1], thick));
     solid[n] = ramp(core[0], core[1], thick);
     reach[n] =
         std::clamp(lump_slope * static_cast<float>(settings_.size) * steep, crisp_reach[0], most);

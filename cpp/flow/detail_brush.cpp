@@ -1,7 +1,7 @@
 #include "flow/detail_brush.hpp"
 
+#include "base/interpolation.hpp"
 #include "base/smoothstep.hpp"
-#include "flow/linear_interpolator.hpp"
 #include "flow/parallel.hpp"
 
 #include <algorithm>
@@ -134,7 +134,7 @@ void Detail::Brush::add_voxel(Index voxel, float height, std::size_t k, float wa
   const float held = std::max(way, 0.0F), level = static_cast<float>(k) + held;
   const Index low = std::min(static_cast<Index>(level), detail_.shape_.nz - 2);
   const float part = level - static_cast<float>(low);
-  if (mix(amount[low], amount[low + 1], part) < least) {
+  if (lerp(amount[low], amount[low + 1], part) < least) {
     return;
   }
   const auto n = static_cast<std::size_t>(places_.count++);
@@ -143,7 +143,7 @@ void Detail::Brush::add_voxel(Index voxel, float height, std::size_t k, float wa
   voxel_[n] = voxel;
   high_up_[n] = height;
   above_[n] = way < 0.0F ? std::max(height - brick_.surface[column_], 0.0F)
-                         : mix(detail_.levels_[k], detail_.levels_[k + 1], held);
+                         : lerp(detail_.levels_[k], detail_.levels_[k + 1], held);
 }
 
 /// Values at the voxels, between levels linear.
@@ -186,7 +186,7 @@ void Detail::Brush::find_amount() {
   cubic_between(places_, levels, amount_.data());
   for (std::size_t n = 0; n < count; ++n) {
     amount_[n] = std::max(amount_[n], 0.0F) + cloud_amount * cloud_[n];
-    reach_[n] = mix(soft_reach, reach_[n], vigour_[n]);
+    reach_[n] = lerp(soft_reach, reach_[n], vigour_[n]);
   }
 }
 
@@ -200,7 +200,7 @@ void Detail::Brush::wait() {
   }
   for (std::size_t n = 0; n < static_cast<std::size_t>(places_.count); ++n) {
     const float thin = vigour_[n] * (1.0F - solid_[n]);
-    const float low = mix(soft_cut[0], crisp_cut[0], vigour_[n]);
+    const float low = lerp(soft_cut[0], crisp_cut[0], vigour_[n]);
     if (amount_[n] + most_noise * reach_[n] >= low ||
         (thin >= 0.02F && amount_[n] + most_noise * soft_reach >= soft_cut[0])) {
       wait_for(n);
@@ -220,7 +220,7 @@ void Detail::Brush::wait_for(std::size_t n) {
   w.solid[lane] = solid_[n];
   const auto low = static_cast<std::size_t>(places_.low[n]);
   const auto moved = [&](std::size_t part) {
-    return mix(drift_[part][low], drift_[part][low + 1], places_.part[n]);
+    return lerp(drift_[part][low], drift_[part][low + 1], places_.part[n]);
   };
   for (std::size_t p = 0; p < Drift::phases; ++p) {
     if (detail_.shows(p)) {
@@ -258,13 +258,13 @@ float Detail::Brush::extinction(std::size_t n, float raise) const {
     const float left = gain * smoothstep(low, high, raised);
     return left > 0.0F ? std::exp(held) * left : 0.0F;
   };
-  const float low = mix(soft_cut[0], crisp_cut[0], v), high = mix(soft_cut[1], crisp_cut[1], v);
+  const float low = lerp(soft_cut[0], crisp_cut[0], v), high = lerp(soft_cut[1], crisp_cut[1], v);
   const float raised = amount + waiting_.reach[n] * raise, veiled = amount + soft_reach * raise;
-  const float held = mix(raised, std::max(amount, mix(core[0], core[1], solid)), v);
-  const float lumps = dense(low, high, raised, held, mix(soft_gain, crisp_gain, v));
+  const float held = lerp(raised, std::max(amount, lerp(core[0], core[1], solid)), v);
+  const float lumps = dense(low, high, raised, held, lerp(soft_gain, crisp_gain, v));
   const float veil =
       dense(soft_cut[0], soft_cut[1], veiled, veiled, veil_gain * v * (1.0F - solid));
-  const float rooted = mix(
+  const float rooted = lerp(
       root, 1.0F,
       smoothstep(root_heights[0], root_heights[1], waiting_.above[n] / detail_.settings_.scale));
   const DetailSettings& settings = detail_.settings_;

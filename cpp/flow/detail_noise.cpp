@@ -1,7 +1,7 @@
 #include "flow/detail_noise.hpp"
 
 #include "base/clones.hpp"
-#include "flow/linear_interpolator.hpp"
+#include "base/interpolation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,7 @@ void add_ridges(float share, const Row& perlin, Row& crisp) {
 FIRETWIN_CLONES("avx512f", "avx2")
 void blend(const Row& soft, const Row& crisp, const Row& vigour, Row& noise) {
   for (std::size_t n = 0; n < noise.size(); ++n) {
-    noise[n] = mix(soft[n], vigour[n] > calm ? crisp[n] : 0.0F, vigour[n]);
+    noise[n] = lerp(soft[n], vigour[n] > calm ? crisp[n] : 0.0F, vigour[n]);
   }
 }
 

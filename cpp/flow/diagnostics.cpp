@@ -89,7 +89,7 @@ void velocity(const Solver& solver, std::span<float> out) {
 
 void temperature_excess(const Solver& solver, std::span<float> out) {
   const Ambient& ambient = solver.ambient();
-  constexpr double warming = latent_heat / heat_capacity;
+  constexpr double warming = latent_heat / constants::specific_heat;
   fill_rows(solver, out, [&](Index k, Index j, float* to) {
     const auto cloud = cloud_row(solver, solver.state().theta, solver.state().water, k, j);
     const auto rest = cloud_row(solver, ambient.theta(), ambient.water(), k, j);

@@ -1,11 +1,11 @@
 #include "flow/filters.hpp"
 
 #include "base/clones.hpp"
+#include "base/simd.hpp"
 #include "flow/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <span>
 
 namespace firetwin::flow {
@@ -14,7 +14,7 @@ namespace {
 /// Rows of numbers round one, of the same length, from the first to the last.
 using Rows = std::span<const float* const>;
 
-using Wide = float __attribute__((vector_size(static_cast<std::size_t>(lanes) * sizeof(float))));
+using Wide = Simd<float, static_cast<std::size_t>(lanes)>;
 
 /// Sums stay in registers while the rows are gone through: half the time of adding one whole row
 /// after the other. The last two Wides overlap those before.
@@ -34,13 +34,13 @@ void weighted(Rows rows, const float* weight, Index n, float* to) {
     Wide sum{}, more{};
     for (std::size_t r = 0; r < rows.size(); ++r) {
       Wide from, beyond;
-      std::memcpy(&from, rows[r] + i, sizeof from);
-      std::memcpy(&beyond, rows[r] + i + lanes, sizeof beyond);
+      load(rows[r] + i, from);
+      load(rows[r] + i + lanes, beyond);
       sum += weight[r] * from;
       more += weight[r] * beyond;
     }
-    std::memcpy(to + i, &sum, sizeof sum);
-    std::memcpy(to + i + lanes, &more, sizeof more);
+    store(sum, to + i);
+    store(more, to + i + lanes);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "flow/nest_interpolator.hpp"
 
+#include "base/interpolation.hpp"
 #include "flow/parallel.hpp"
 
 #include <algorithm>
@@ -23,10 +24,6 @@ void near_sides(const Lattice& l, Index j, Index reach, const Function& f) {
     f(begin, reach - begin);
     f(l.nx - reach, end - (l.nx - reach));
   }
-}
-
-float between(float a, float b, float part) {
-  return a + (b - a) * part;
 }
 
 } // namespace
@@ -81,12 +78,9 @@ void NestInterpolator::level(const Axes& axes, const Part& part, Index k, Index 
   for (Index j = -halo; j < to_.ny + halo; ++j) {
     const Knot y = axes.y[static_cast<std::size_t>(j + halo)];
     const auto value = [&](const Field& field, const Knot& x) {
-      const auto along = [&](Index up, Index back) {
-        const float* row = field.row(z.low + up, y.low + back);
-        return between(row[x.low], row[x.low + 1], x.part);
-      };
-      return between(between(along(0, 0), along(0, 1), y.part),
-                     between(along(1, 0), along(1, 1), y.part), z.part);
+      return trilinear([&](int up, int north,
+                           int east) { return field.row(z.low + up, y.low + north)[x.low + east]; },
+                       z.part, y.part, x.part);
     };
     near_sides(to_, j, reach, [&](Index first, Index n) {
       float* out = part.to->row(k, j);
@@ -105,7 +99,7 @@ float NestInterpolator::wind_change(Index k, std::size_t axis) const {
   const auto low = static_cast<std::size_t>(z.low);
   const auto& have = from_ambient_.wind();
   return to_ambient_.wind()[static_cast<std::size_t>(k)][axis] -
-         between(have[low][axis], have[low + 1][axis], z.part);
+         lerp(have[low][axis], have[low + 1][axis], z.part);
 }
 
 void NestInterpolator::interpolate(const State& from, State& to, Index reach) const {

@@ -1,27 +1,18 @@
 #include "flow/noise.hpp"
 
 #include "base/clones.hpp"
+#include "base/interpolation.hpp"
 #include "base/noise.hpp"
-#include "flow/linear_interpolator.hpp"
+#include "base/simd.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace firetwin::flow {
 namespace {
 
 constexpr std::uint32_t along_x = 0x9E3779B1U, along_y = 0x85EBCA77U, along_z = 0xC2B2AE3DU,
                         of_seed = 0x27D4EB2FU;
-
-/// Slope times place, of one of twelve slopes along the diagonals of a cube's faces.
-inline float slope(std::uint32_t h, float x, float y, float z) {
-  const std::uint32_t which = h & 15U;
-  const float u = which < 8 ? x : y;
-  const float w = (which & 13U) == 12 ? x : z;
-  const float v = which < 4 ? y : w;
-  return ((which & 1U) != 0 ? -u : u) + ((which & 2U) != 0 ? -v : v);
-}
 
 inline float share(std::uint32_t h, std::uint32_t shift) {
   return static_cast<float>(static_cast<std::int32_t>(h >> shift & 1023U)) * (1.0F / 1023.0F);
@@ -30,20 +21,17 @@ inline float share(std::uint32_t h, std::uint32_t shift) {
 inline float perlin_at(float x, float y, float z, std::uint32_t seed) {
   const float x0 = std::floor(x), y0 = std::floor(y), z0 = std::floor(z);
   const float a = x - x0, b = y - y0, c = z - z0;
-  const std::uint32_t i = static_cast<std::uint32_t>(static_cast<std::int32_t>(x0)) * along_x,
-                      j = static_cast<std::uint32_t>(static_cast<std::int32_t>(y0)) * along_y,
-                      k = static_cast<std::uint32_t>(static_cast<std::int32_t>(z0)) * along_z;
-  const std::uint32_t i1 = i + along_x, j1 = j + along_y;
-  const float u = fade(a), v = fade(b);
-  const auto level = [&](std::uint32_t kk, float cc) {
-    const float front = mix(slope(murmur_finalizer(i ^ j ^ kk), a, b, cc),
-                            slope(murmur_finalizer(i1 ^ j ^ kk), a - 1.0F, b, cc), u);
-    const float back = mix(slope(murmur_finalizer(i ^ j1 ^ kk), a, b - 1.0F, cc),
-                           slope(murmur_finalizer(i1 ^ j1 ^ kk), a - 1.0F, b - 1.0F, cc), u);
-    return mix(front, back, v);
+  const auto lattice = [](float at, std::uint32_t along) {
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(at)) * along;
   };
-  const std::uint32_t own = seed * of_seed;
-  return mix(level(k ^ own, c), level((k + along_z) ^ own, c - 1.0F), fade(c));
+  const std::array<std::uint32_t, 2> i{lattice(x0, along_x), lattice(x0, along_x) + along_x},
+      j{lattice(y0, along_y), lattice(y0, along_y) + along_y},
+      k{lattice(z0, along_z) ^ seed * of_seed, (lattice(z0, along_z) + along_z) ^ seed * of_seed};
+  const std::array<float, 2> u{a, a - 1.0F}, v{b, b - 1.0F}, w{c, c - 1.0F};
+  const auto rise = [&](std::size_t up, std::size_t north, std::size_t east) {
+    return cube_rise(murmur_finalizer(i[east] ^ j[north] ^ k[up]), u[east], v[north], w[up]);
+  };
+  return gradient_noise(rise, c, b, a);
 }
 
 /// The cubes round one, each as many times along x, y and z; the last have no points.
@@ -102,15 +90,15 @@ void thin_out(const std::array<float, Worley::points>& farther, Worley::Points& 
   }
 }
 
-using Lanes = float __attribute__((vector_size(8 * sizeof(float))));
+using Lanes = Simd<float, 8>;
 
 inline float nearest(const Worley::Points& points, float x, float y, float z) {
   Lanes least = Lanes{} + 9.0F;
   for (std::size_t n = 0; n < points.count; n += 8) {
     Lanes dx, dy, dz;
-    std::memcpy(&dx, points.x.data() + n, sizeof dx);
-    std::memcpy(&dy, points.y.data() + n, sizeof dy);
-    std::memcpy(&dz, points.z.data() + n, sizeof dz);
+    load(points.x.data() + n, dx);
+    load(points.y.data() + n, dy);
+    load(points.z.data() + n, dz);
     dx -= x;
     dy -= y;
     dz -= z;

@@ -185,7 +185,7 @@ void Solver::add_to_level(const Deposit& deposit, double dt, Index k) {
   const auto at = static_cast<std::size_t>(k);
   const double air = ambient_.density(k) * lattice_.depth[at] * lattice_.spacing * lattice_.spacing;
   const double part = dt * shares_[at] / air;
-  const double warming = part / (heat_capacity * ambient_.exner(k));
+  const double warming = part / (constants::specific_heat * ambient_.exner(k));
   for (Index j = 0; j < lattice_.ny; ++j) {
     for (Index i = 0; i < lattice_.nx; ++i) {
       const auto column = static_cast<std::size_t>(j * lattice_.nx + i);
@@ -287,7 +287,7 @@ HeatBudget Solver::heat() const {
              sum_row(lattice_.nx, ambient_.theta().row(k, j));
     }
     return sum * static_cast<double>(ambient_.air().cell[static_cast<std::size_t>(k)]) * area *
-           heat_capacity;
+           constants::specific_heat;
   });
   return result;
 }

@@ -1,5 +1,6 @@
 #include "flow/sources.hpp"
 
+#include "base/interpolation.hpp"
 #include "base/random.hpp"
 #include "base/smoothstep.hpp"
 
@@ -88,9 +89,10 @@ Deposit deposit(const Sources& sources, const Lattice& lattice, const std::array
     }
     const auto i = static_cast<Index>(x), j = static_cast<Index>(y);
     const double a = x - static_cast<double>(i), b = y - static_cast<double>(j);
-    for (Index corner = 0; corner < 4; ++corner) {
-      const Index right = corner & 1, up = corner >> 1;
-      const double weight = (right ? a : 1.0 - a) * (up ? b : 1.0 - b);
+    const auto weights = bilinear_weights(b, a);
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      const double weight = weights[corner];
+      const auto right = static_cast<Index>(corner % 2), up = static_cast<Index>(corner / 2);
       const auto column = static_cast<std::size_t>((j + up) * lattice.nx + i + right);
       result.heat[column] += weight * heat[n];
       result.smoke[column] += weight * smoke[n];

@@ -77,7 +77,7 @@ void SubgridMixing::level(const State& state, Index k, Field& out) const {
   const Spans spans{static_cast<float>(1.0 / lattice_.spacing),
                     static_cast<float>(1.0 / depth),
                     static_cast<float>(1.0 / span),
-                    static_cast<float>(3.0 * gravity / (theta * span)),
+                    static_cast<float>(3.0 * constants::gravity / (theta * span)),
                     shear(0),
                     shear(1),
                     static_cast<float>(strength_ * strength_ * d * d)};

@@ -12,7 +12,7 @@ constexpr float freezing = 273.15F;
 constexpr float steepness = 17.625F;
 constexpr float offset = 243.04F; // degrees Celsius
 constexpr float molar_ratio = 0.622F;
-constexpr auto warming = static_cast<float>(latent_heat / heat_capacity);
+constexpr auto warming = static_cast<float>(latent_heat / constants::specific_heat);
 constexpr int rounds = 4; // of Newton's method
 
 /// exp(x) for |x| < 80, within 2e-7: powers of 2 and a Taylor polynomial. Lanes can follow it.

@@ -1,16 +1,13 @@
 #pragma once
 
-#include "base/gravity.hpp"
+#include "base/constants.hpp"
 #include "flow/lattice.hpp"
 
 /// Thermodynamics of moist air.
 namespace firetwin::flow {
 
-inline constexpr double heat_capacity = 1004.7;   // of air at constant pressure, J/kg/K
-inline constexpr double gas_constant = 287.05;    // of dry air, J/kg/K
 inline constexpr double latent_heat = 2.5e6;      // of vapour, J/kg
 inline constexpr double vapour_lightness = 0.608; // of virtual temperature
-inline constexpr double reference_pressure = 1e5; // of potential temperature, Pa
 
 /// Reference values of one level.
 struct LevelReference {

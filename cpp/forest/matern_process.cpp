@@ -87,10 +87,10 @@ MaternProcess::MarkedPoint MaternProcess::Octave::point(double column, double ro
 
 FIRETWIN_CLONES("avx512f", "avx2")
 void MaternProcess::Octave::points(double row, std::size_t n, const double* column,
-                                   const std::uint64_t* key, double* x, double* y, double* mark,
-                                   std::uint64_t* bits) const {
+                                   const std::uint64_t* key, double* __restrict x,
+                                   double* __restrict y, double* __restrict mark,
+                                   std::uint64_t* __restrict bits) const {
   const double across = side, first = begin, more = end - begin;
-#pragma GCC ivdep
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint64_t found = mix(key[i]);
     bits[i] = found;

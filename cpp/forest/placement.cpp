@@ -1,6 +1,7 @@
 #include "forest/placement.hpp"
 
 #include "base/clones.hpp"
+#include "base/interpolation.hpp"
 #include "geo/axis.hpp"
 
 #include <algorithm>
@@ -38,7 +39,7 @@ double or_zero(double height) {
 FIRETWIN_CLONES("avx512f", "avx2")
 void place_row(const Cells& all, const RowOf& row, const geo::Origin& origin, double jitter) {
   const Cells c = all;
-#pragma GCC ivdep
+  double* __restrict x = c.x, * __restrict y = c.y, * __restrict z = c.z;
   for (std::size_t i = c.begin; i < c.end; ++i) {
     const double spread_x = c.first[i] + c.east[i] * c.width[i];
     const double spread_y = row.first + c.north[i] * row.width;
@@ -58,17 +59,18 @@ void place_row(const Cells& all, const RowOf& row, const geo::Origin& origin, do
     const double left_corner = up ? c.above[i] : c.below[i];
     const double right_corner = up ? c.above[i + 2] : c.below[i + 2];
     const double h11 = right ? right_corner : left_corner;
-    const double w00 = known(h00, (1.0 - v) * (1.0 - u)), w01 = known(h01, (1.0 - v) * u);
-    const double w10 = known(h10, v * (1.0 - u)), w11 = known(h11, v * u);
+    const auto weight = bilinear_weights(v, u);
+    const double w00 = known(h00, weight[0]), w01 = known(h01, weight[1]);
+    const double w10 = known(h10, weight[2]), w11 = known(h11, weight[3]);
     const double height =
         (w00 * or_zero(h00) + w01 * or_zero(h01) + (w10 * or_zero(h10) + w11 * or_zero(h11))) /
         (w00 + w01 + (w10 + w11));
     const geo::SineCosine parallel = geo::turned(row.parallel, dy);
     const geo::SineCosine meridian = geo::turned({c.sine[i], c.cosine[i]}, dx);
     const auto p = origin.to_local(parallel, geo::radii(parallel.sine), meridian, height);
-    c.x[i] = p[0];
-    c.y[i] = p[1];
-    c.z[i] = p[2];
+    x[i] = p[0];
+    y[i] = p[1];
+    z[i] = p[2];
   }
 }
 

@@ -1,6 +1,7 @@
 #include "forest/scatter.hpp"
 
 #include "base/check.hpp"
+#include "base/interpolation.hpp"
 #include "forest/allometry.hpp"
 #include "forest/placement.hpp"
 
@@ -36,10 +37,6 @@ struct Class {
 /// Indexed by SizeClass.
 constexpr std::array<Class, 3> classes = {
     {{least_canopy_fuel, 0.7, 1.0, 4}, {0.8, 0.9, 1.2, 4}, {1.6, 1.1, 1.4, 2}}};
-
-double lerp(double low, double high, double t) {
-  return low + t * (high - low);
-}
 
 SizeClass size_class(double fuel) {
   return fuel >= classes[large_tree].least_fuel    ? large_tree

@@ -1,6 +1,7 @@
 #include "forest/stand.hpp"
 
 #include "base/clones.hpp"
+#include "base/interpolation.hpp"
 #include "forest/allometry.hpp"
 #include "forest/matern_process.hpp"
 #include "forest/placement.hpp"
@@ -77,10 +78,11 @@ public:
         weight += w;
       }
     };
-    add(4, (1.0 - v) * (1.0 - u));
-    add(4 + i, (1.0 - v) * u);
-    add(4 + j, v * (1.0 - u));
-    add(4 + j + i, v * u);
+    const auto [here, beside, next, across] = bilinear_weights(v, u);
+    add(4, here);
+    add(4 + i, beside);
+    add(4 + j, next);
+    add(4 + j + i, across);
     return sum / weight;
   }
 
@@ -91,7 +93,7 @@ public:
     const double next = v > 0.0 ? value_[7] : value_[1], across = v > 0.0 ? above : below;
     v = std::abs(v);
     u = std::abs(u);
-    const double w = (1.0 - v) * (1.0 - u), w_u = (1.0 - v) * u, w_v = v * (1.0 - u), w_uv = v * u;
+    const auto [w, w_u, w_v, w_uv] = bilinear_weights(v, u);
     return (w * value_[4] + w_u * beside + w_v * next + w_uv * across) / (w + w_u + w_v + w_uv);
   }
 
@@ -154,12 +156,12 @@ private:
 /// Without branches, for many at once.
 FIRETWIN_CLONES("avx512f", "avx2")
 void Judged::judge(const Rule& rule, std::size_t n, const double* x, const double* y,
-                   const double* mark, double* fuel, double* retained, double* latest) {
+                   const double* mark, double* __restrict fuel, double* __restrict retained,
+                   double* __restrict latest) {
   const Patch fuels = rule.cell.fuel, parts = rule.cell.retained;
   const std::array<double, 4> end = rule.cell.latest, steady = rule.cell.steady,
                               rising = rule.cell.rising;
   const Across east = rule.x, north = rule.y;
-#pragma GCC ivdep
   for (std::size_t i = 0; i < n; ++i) {
     const double u = east.towards(east.degrees(x[i])), v = north.towards(north.degrees(y[i]));
     const auto quarter = [&](const std::array<double, 4>& of) {
@@ -186,7 +188,7 @@ public:
         meridian_(geo::meridians(site.longitude, site.frame->longitude())) {
     const auto middle = geo::parallel(0.5 * (site.latitude.front() + site.latitude.back()));
     const auto radii = geo::radii(middle.sine);
-    north_ = degree * std::pow(radii.normal / geo::semi_major, 2.0) * radii.normal_polar;
+    north_ = degree * std::pow(radii.normal / constants::semi_major_axis, 2.0) * radii.normal_polar;
     cosine_ = std::max(middle.cosine, 1.0e-6);
     east_ = degree * radii.normal * cosine_;
   }

@@ -1,5 +1,7 @@
 #include "geo/axis.hpp"
 
+#include "base/interpolation.hpp"
+
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -65,9 +67,7 @@ double between(std::span<const T> values, std::size_t columns, const Bracket& y,
   const std::array<double, 4> corner = {
       double{values[y.lower * columns + x.lower]}, double{values[y.lower * columns + x.upper]},
       double{values[y.upper * columns + x.lower]}, double{values[y.upper * columns + x.upper]}};
-  const std::array<double, 4> weight = {(1.0 - y.fraction) * (1.0 - x.fraction),
-                                        (1.0 - y.fraction) * x.fraction,
-                                        y.fraction * (1.0 - x.fraction), y.fraction * x.fraction};
+  const auto weight = bilinear_weights(y.fraction, x.fraction);
   const std::size_t nearest = (y.fraction > 0.5 ? 2U : 0U) + (x.fraction > 0.5 ? 1U : 0U);
   if (std::isnan(corner[nearest]) || std::isnan(weight[0])) {
     return std::numeric_limits<double>::quiet_NaN();

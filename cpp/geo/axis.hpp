@@ -30,8 +30,9 @@ struct Extent {
 /// The only cell of an axis has no width.
 Extent cell_extent(std::span<const double> axis, std::size_t index);
 
-/// Bilinear interpolation of values[rows x columns] between the corners (y, x). Corners that are
-/// NaN are left out (the others' weights grow); where the nearest corner is NaN the result is NaN.
+/// Bilinear interpolation of values[rows x columns] between the corners (y, x), for fields with
+/// missing values (firetwin::bilinear gives NaN beside one): corners that are NaN are left out, and
+/// the others' weights grow; where the nearest corner is NaN the result is NaN.
 double bilinear(std::span<const float> values, std::size_t columns, const Bracket& y,
                 const Bracket& x);
 double bilinear(std::span<const double> values, std::size_t columns, const Bracket& y,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/constants.hpp"
 #include "base/vector.hpp"
 
 #include <cmath>
@@ -21,15 +22,12 @@ struct Radii {
   double normal_polar; ///< N (1 - e^2), m
 };
 
-/// Semi-major axis (m) and squared eccentricity of WGS84 (NIMA TR8350.2).
-constexpr double semi_major = 6378137.0;
-constexpr double flattening = 1.0 / 298.257223563;
-constexpr double eccentricity2 = flattening * (2.0 - flattening);
-
 /// @param sine of the latitude
 inline Radii radii(double sine) {
-  const double normal = semi_major / std::sqrt(1.0 - eccentricity2 * sine * sine);
-  return {normal, normal * (1.0 - eccentricity2)};
+  constexpr double rest = 1.0 - constants::eccentricity_squared;
+  const double normal =
+      constants::semi_major_axis / std::sqrt(1.0 - constants::eccentricity_squared * sine * sine);
+  return {normal, normal * rest};
 }
 
 /// @param latitude degrees, NaN beyond 90

@@ -1,6 +1,6 @@
 #include "particles/motion.hpp"
 
-#include "base/gravity.hpp"
+#include "base/constants.hpp"
 
 #include <cmath>
 
@@ -39,7 +39,7 @@ Phi phi(double s) {
 } // namespace
 
 double lift(double density, double air_density) {
-  return gravity * (air_density / density - 1.0);
+  return constants::gravity * (air_density / density - 1.0);
 }
 
 Motion::State Motion::at(double t) const {

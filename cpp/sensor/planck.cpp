@@ -1,5 +1,7 @@
 #include "sensor/planck.hpp"
 
+#include "base/constants.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,23 +12,21 @@
 namespace firetwin::sensor {
 namespace {
 
-// Exact in the SI of 2019.
-constexpr double planck_constant = 6.62607015e-34;  // J s
-constexpr double light_speed = 299792458.0;         // m/s
-constexpr double boltzmann_constant = 1.380649e-23; // J/K
 /// h c / k in um K: x = second / (lambda T).
-constexpr double second = planck_constant * light_speed / boltzmann_constant * 1e6;
+constexpr double second =
+    constants::planck * constants::speed_of_light / constants::boltzmann * 1e6;
 
 /// 2 k^4 / (h^3 c^2) in W m-2 sr-1 K-4: radiance = first T^4 (integral of x^3 / (e^x - 1) over x).
 double first() {
-  const double k = boltzmann_constant, h = planck_constant, c = light_speed;
+  const double k = constants::boltzmann, h = constants::planck, c = constants::speed_of_light;
   return 2.0 * (k / h) * (k / h) * (k / h) * k / (c * c);
 }
 
 /// 2 h c^2 / lambda^5 in W m-2 sr-1 um-1, for lambda in um.
 double scale(double wavelength) {
   const double square = wavelength * wavelength;
-  return 2.0 * planck_constant * light_speed * light_speed * 1e24 / (square * square * wavelength);
+  return 2.0 * constants::planck * constants::speed_of_light * constants::speed_of_light * 1e24 /
+         (square * square * wavelength);
 }
 
 /// x^3 / (e^x - 1)

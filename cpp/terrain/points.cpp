@@ -1,5 +1,6 @@
 #include "terrain/points.hpp"
 
+#include "base/interpolation.hpp"
 #include "base/smoothstep.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -83,12 +84,14 @@ double Points::weight(const Vector& p) const {
 }
 
 Vector Points::between(std::size_t row, std::size_t column, double v, double u) const {
-  const float* low = &survey_.place[3 * (row * survey_.columns + column)];
-  const float* high = low + 3 * survey_.columns;
+  const float* first = &survey_.place[3 * (row * survey_.columns + column)];
   Vector place;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double below = double{low[k]} * (1.0 - u) + double{low[3 + k]} * u;
-    place[k] = below * (1.0 - v) + (double{high[k]} * (1.0 - u) + double{high[3 + k]} * u) * v;
+    place[k] = bilinear<ExactLerp>(
+        [&](std::size_t j, std::size_t i) {
+          return double{first[3 * (j * survey_.columns + i) + k]};
+        },
+        v, u);
   }
   return place;
 }

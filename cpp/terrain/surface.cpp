@@ -2,6 +2,7 @@
 
 #include "base/catmull_rom.hpp"
 #include "base/check.hpp"
+#include "base/interpolation.hpp"
 #include "base/noise.hpp"
 
 #include <algorithm>
@@ -12,20 +13,8 @@
 #include <utility>
 
 namespace firetwin::terrain {
-namespace {
-
-/// Mixes lattice coordinates into 32 bits.
-std::uint32_t hash(std::int64_t x, std::int64_t y, std::int64_t seed) {
-  std::uint32_t h =
-      static_cast<std::uint32_t>(x) * 0x9E3779B1U ^ static_cast<std::uint32_t>(y) * 0x85EBCA77U;
-  h ^= static_cast<std::uint32_t>(seed) * 0x27D4EB2FU + 0x165667B1U;
-  return murmur_finalizer(h);
-}
-
-} // namespace
-
 Wave::Slope Wave::slope(std::int64_t column, std::int64_t row) const {
-  const double angle = hash(column, row, seed_) * (2.0 * std::numbers::pi / 4294967296.0);
+  const double angle = lattice_hash(column, row, seed_) * (2.0 * std::numbers::pi / 4294967296.0);
   return {std::cos(angle), std::sin(angle)};
 }
 
@@ -44,14 +33,11 @@ double Wave::operator()(double x, double y) {
     row_ = row;
     known_ = true;
   }
-  const auto rise = [&](std::size_t corner) {
-    const auto [east, north] = slopes_[corner];
-    return east * (u - static_cast<double>(corner % 2)) +
-           north * (v - static_cast<double>(corner / 2));
+  const auto rise = [&](std::size_t j, std::size_t i) {
+    const auto [east, north] = slopes_[2 * j + i];
+    return east * (u - static_cast<double>(i)) + north * (v - static_cast<double>(j));
   };
-  const double below = rise(0) + fade(u) * (rise(1) - rise(0));
-  const double above = rise(2) + fade(u) * (rise(3) - rise(2));
-  return 1.41 * (below + fade(v) * (above - below));
+  return 1.41 * gradient_noise(rise, v, u);
 }
 
 /// The cell that a place is in, and how far it is in it.
@@ -60,10 +46,9 @@ struct Surface::Place {
   double v, u;
 
   template <class T> double bilinear(const std::vector<T>& field, std::size_t columns) const {
-    const T* low = &field[row * columns + column];
-    const T* high = low + columns;
-    const double below = double{low[0]} * (1.0 - u) + double{low[1]} * u;
-    return below * (1.0 - v) + (double{high[0]} * (1.0 - u) + double{high[1]} * u) * v;
+    const T* first = &field[row * columns + column];
+    return firetwin::bilinear<ExactLerp>(
+        [&](std::size_t j, std::size_t i) { return double{first[j * columns + i]}; }, v, u);
   }
 };
 
@@ -89,15 +74,9 @@ Surface::Surface(Grid<double> elevation, std::vector<float> steep, std::vector<f
 }
 
 Surface::Place Surface::place(double row, double column, std::size_t rows, std::size_t columns) {
-  const auto split = [](double at, std::size_t count, double& part) {
-    const double whole = std::clamp(std::floor(at), 0.0, static_cast<double>(count - 2));
-    part = at - whole;
-    return static_cast<std::size_t>(whole);
-  };
-  Place found{};
-  found.row = split(row, rows, found.v);
-  found.column = split(column, columns, found.u);
-  return found;
+  const auto y = interval_extended(row, static_cast<std::int64_t>(rows));
+  const auto x = interval_extended(column, static_cast<std::int64_t>(columns));
+  return {static_cast<std::size_t>(y.low), static_cast<std::size_t>(x.low), y.part, x.part};
 }
 
 double Surface::smooth(const Place& at) const {

@@ -1,6 +1,7 @@
 #include "volume/grid_resampler.hpp"
 
 #include "base/clones.hpp"
+#include "base/interpolation.hpp"
 
 #include <algorithm>
 
@@ -42,15 +43,13 @@ GridResampler::GridResampler(const OwnedVoxelGrid& of, const std::array<Index, 3
     : values_(of.values.data()), shape_(of.shape) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Axis& a = axes_[axis];
-    const double last = static_cast<double>(shape_[axis] - 1);
     for (Index n = 0; n < shape[axis] + lanes; ++n) {
       const auto voxels = static_cast<double>(std::min(n, shape[axis] - 1));
       const double place = origin[axis] + voxel * voxels + shift[axis];
-      const double at = std::clamp((place - of.origin[axis]) / of.voxel, 0.0, last);
-      const Index low = std::min(static_cast<Index>(at), std::max(shape_[axis] - 2, Index{0}));
-      a.low.push_back(static_cast<std::int32_t>(low));
-      a.high.push_back(static_cast<std::int32_t>(std::min(low + 1, shape_[axis] - 1)));
-      a.part.push_back(static_cast<float>(at - static_cast<double>(low)));
+      const auto at = interval_within((place - of.origin[axis]) / of.voxel, shape_[axis]);
+      a.low.push_back(static_cast<std::int32_t>(at.low));
+      a.high.push_back(static_cast<std::int32_t>(at.high));
+      a.part.push_back(static_cast<float>(at.part));
     }
   }
 }
@@ -60,12 +59,9 @@ void GridResampler::row(Index x, Index y, Index z, float* out) const {
              k = static_cast<std::size_t>(z);
   const std::array<Index, 2> columns{axes_[0].low[i], axes_[0].high[i]},
       rows{axes_[1].low[j], axes_[1].high[j]};
-  const std::array<float, 2> along_x{1.0F - axes_[0].part[i], axes_[0].part[i]},
-      along_y{1.0F - axes_[1].part[j], axes_[1].part[j]};
-  Rows four{};
+  Rows four{{}, bilinear_weights(axes_[1].part[j], axes_[0].part[i])};
   for (std::size_t n = 0; n < 4; ++n) {
     four.values[n] = values_ + (columns[n % 2] * shape_[1] + rows[n / 2]) * shape_[2];
-    four.weight[n] = along_x[n % 2] * along_y[n / 2];
   }
   const Axis& up = axes_[2];
   mix_rows(four, up.low.data() + k, up.high.data() + k, up.part.data() + k, out);

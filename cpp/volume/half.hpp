@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 
 /// Half floats that are not negative, without the processor's own instructions for them: any
 /// processor gives the same numbers.
@@ -24,12 +23,11 @@ inline float from_half(std::uint16_t half) {
 
 /// Eight of them.
 __attribute__((always_inline)) inline void from_halves(const std::uint16_t* halves, Lanes& out) {
-  using Halves = std::uint16_t __attribute__((vector_size(lane_count * sizeof(std::uint16_t))));
-  using Words = std::uint32_t __attribute__((vector_size(lane_count * sizeof(std::uint32_t))));
-  Halves packed;
-  std::memcpy(&packed, halves, sizeof packed);
+  using Words = Simd<std::uint32_t, lane_count>;
+  Simd<std::uint16_t, lane_count> packed;
+  load(halves, packed);
   const Words words = __builtin_convertvector(packed, Words) << 13;
-  std::memcpy(&out, &words, sizeof out);
+  load(&words, out);
   out *= 0x1p112F;
 }
 

@@ -1,12 +1,14 @@
 #pragma once
 
+#include "base/simd.hpp"
+
 #include <cstddef>
 
 /// Vectors of numbers that processors work on at once.
 namespace firetwin::volume {
 
 constexpr std::size_t lane_count = 8;
-using Lanes = float __attribute__((vector_size(lane_count * sizeof(float))));
-using WideLanes = double __attribute__((vector_size(4 * sizeof(double))));
+using Lanes = Simd<float, lane_count>;
+using WideLanes = Simd<double, 4>;
 
 } // namespace firetwin::volume

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/interpolation.hpp"
 #include "geo/axis.hpp"
 #include "volume/levels.hpp"
 
@@ -67,8 +68,7 @@ public:
     cells_ = {cell, cell + 1, cell + columns_, cell + columns_ + 1};
     const double north = row_.fraction();
     const double east = column_.fraction();
-    weights_ = {(1.0 - north) * (1.0 - east), (1.0 - north) * east, north * (1.0 - east),
-                north * east};
+    weights_ = bilinear_weights(north, east);
     return find_level(place[2]);
   }
 
@@ -83,8 +83,7 @@ public:
 private:
   /// Linear between the levels below and above.
   template <class Field> double between(const Field& field) const {
-    const double low = on_level(field, level_);
-    return low + part_ * (on_level(field, level_ + 1) - low);
+    return lerp(on_level(field, level_), on_level(field, level_ + 1), part_);
   }
 
   template <class Field> double on_level(const Field& field, std::size_t level) const {

@@ -1,6 +1,7 @@
 #include "volume/march.hpp"
 
 #include "base/clones.hpp"
+#include "base/simd.hpp"
 #include "volume/half.hpp"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr float never = std::numeric_limits<float>::max();
 
-using Four = float __attribute__((vector_size(16)));
+using Four = Simd<float, 4>;
 
 Four four(const Colour& colour, float factor = 1.0F) {
   return Four{colour[0], colour[1], colour[2], 0.0F} * factor;
@@ -56,7 +57,8 @@ __attribute__((always_inline)) inline void mix(const Lanes& a, const Lanes& b, f
   out = a + (b - a) * part;
 }
 
-/// All channels, linear between voxels.
+/// All channels, linear between voxels: firetwin::trilinear, but of vectors, which functions for
+/// several processors hand on by reference alone.
 __attribute__((always_inline)) inline void sample(const Crossing& crossing, const Segment& segment,
                                                   float distance, Lanes& out) {
   constexpr std::size_t z = Bricks::channels, y = Bricks::wide * z, x = Bricks::wide * y;

@@ -1,28 +1,18 @@
 #include "volume/plume.hpp"
 
-#include "base/gravity.hpp"
+#include "base/constants.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace firetwin::volume {
 namespace {
 
-constexpr double heat_of_air = 1005.0;    // J/(kg K)
-constexpr double air_density = 1.2;       // kg/m3
-constexpr double air_temperature = 290.0; // K
-constexpr double convective_part = 0.7;   // part of the heat that is not radiated away
+constexpr double convective_part = 0.7; // part of the heat that is not radiated away
 constexpr double briggs_height = 300.0;
 constexpr double least_wind = 0.5; // m/s; less counts as a calm, as in EMRISE
 constexpr double wind_exponent = 0.1;
 constexpr int drift_steps = 12; // of the drift integral: within 0.2 % of the limit
-
-/// Of a fire of `power` W, m4/s3.
-double buoyancy_flux(double power) {
-  return gravity * convective_part * power /
-         (std::numbers::pi * heat_of_air * air_density * air_temperature);
-}
 
 /// Wind at `height` m above the ground for a wind of `wind10` m/s at 10 m.
 double wind_at(double wind10, double height) {
@@ -32,8 +22,8 @@ double wind_at(double wind10, double height) {
 } // namespace
 
 Plume::Plume(double power, double wind, double stability)
-    : flux_(buoyancy_flux(std::max(power, 0.0))), wind_(std::max(wind, 0.0)),
-      wind_aloft_(std::max(wind_at(wind_, briggs_height), least_wind)) {
+    : flux_(constants::buoyancy_flux * convective_part * std::max(power, 0.0)),
+      wind_(std::max(wind, 0.0)), wind_aloft_(std::max(wind_at(wind_, briggs_height), least_wind)) {
   const double windy = 2.6 * std::cbrt(flux_ / (wind_aloft_ * stability));
   const double calm = 5.3 * std::pow(flux_, 0.25) * std::pow(stability, -0.375);
   final_rise_ = std::min(windy, calm);

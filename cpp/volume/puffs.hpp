@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/constants.hpp"
+
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,16 +18,16 @@ struct Burn {
 };
 
 struct PuffSettings {
-  double interval = 60.0;               ///< s of emission gathered in one puff
-  double max_age = 5400.0;              ///< s
-  double burn_time = 600.0;             ///< s over which a cell burns out, at an even rate
-  double stability = 1.0e-4;            ///< 1/s2, square of the buoyancy frequency
-  double block = 400.0;                 ///< m, side of the squares whose cells share a puff
-  double merge_radius = 2000.0;         ///< m, distance over which plumes rise as one
-  double smallest = 50.0;               ///< m, no surface ball is smaller than this
-  double turbulence = 1.0;              ///< 0 keeps every puff on its plume's axis
-  double smoke_fraction = 0.02;         ///< of burned fuel (WRF-SFIRE's fire_tracer_smoke)
-  double heat_of_combustion = 17.433e6; ///< J/kg (WRF-SFIRE's cmbcnst)
+  double interval = 60.0;       ///< s of emission gathered in one puff
+  double max_age = 5400.0;      ///< s
+  double burn_time = 600.0;     ///< s over which a cell burns out, at an even rate
+  double stability = 1.0e-4;    ///< 1/s2, square of the buoyancy frequency
+  double block = 400.0;         ///< m, side of the squares whose cells share a puff
+  double merge_radius = 2000.0; ///< m, distance over which plumes rise as one
+  double smallest = 50.0;       ///< m, no surface ball is smaller than this
+  double turbulence = 1.0;      ///< 0 keeps every puff on its plume's axis
+  double smoke_fraction = 0.02; ///< of burned fuel (WRF-SFIRE's fire_tracer_smoke)
+  double heat_of_combustion = constants::heat_of_combustion; ///< J/kg
   std::uint64_t seed = 0;
 };
 

@@ -42,7 +42,7 @@ FIRETWIN_CLONES("avx2")
 void add_puffs(const Puff* puffs, std::size_t count, const Ticks& at, Nodes& sum) {
   std::array<WideLanes, row_count> rows{};
   WideLanes up;
-  std::memcpy(&up, at[2].data(), sizeof up);
+  load(at[2].data(), up);
   for (std::size_t i = 0; i < count; ++i) {
     const Puff& puff = puffs[i];
     const WideLanes dz = up - puff.position[2];
@@ -62,7 +62,7 @@ void add_puffs(const Puff* puffs, std::size_t count, const Ticks& at, Nodes& sum
 /// x -> exp(-x) for x >= 0 within 3e-7: a power of two times a polynomial of the rest.
 /// (Coefficients: Taylor's, of 2^f for |f| <= 1/2.)
 inline void exp_negative(Lanes& x) {
-  using Integers = std::int32_t __attribute__((vector_size(sizeof(Lanes))));
+  using Integers = Simd<std::int32_t, lane_count>;
   const Lanes y = x * std::numbers::log2e_v<float>;
   const Integers whole = __builtin_convertvector(y + 0.5F, Integers);
   const Lanes f = __builtin_convertvector(whole, Lanes) - y;
@@ -74,7 +74,7 @@ inline void exp_negative(Lanes& x) {
   power = power * f + 1.0F;
   const Integers bits = (127 - whole) << 23; // 2^-whole
   Lanes scale;
-  std::memcpy(&scale, &bits, sizeof scale);
+  load(&bits, scale);
   x = power * scale;
 }
 

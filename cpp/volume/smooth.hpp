@@ -52,7 +52,7 @@ Nodes glow_at_nodes(const std::array<float, 3>& corner, float voxel_size, const 
 /// Largest value at a node.
 double largest(const Nodes& nodes);
 
-/// Trilinear values in between.
+/// Trilinear values in between, at quarters of the way alone: axis after axis for whole rows.
 void interpolate(const Nodes& nodes, LeafValues& values);
 
 } // namespace firetwin::volume

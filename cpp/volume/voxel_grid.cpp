@@ -1,6 +1,7 @@
 #include "volume/voxel_grid.hpp"
 
 #include "base/check.hpp"
+#include "base/interpolation.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -24,24 +25,18 @@ void check(const VoxelGrid& brick) {
 }
 
 float sample(const VoxelGrid& brick, const Vector& place) {
-  std::array<Index, 3> low{};
-  std::array<float, 3> part{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double last = static_cast<double>(brick.shape[axis] - 1);
-    const double at = std::clamp((place[axis] - brick.origin[axis]) / brick.voxel, 0.0, last);
-    low[axis] = std::min(static_cast<Index>(at), std::max(brick.shape[axis] - 2, Index{0}));
-    part[axis] = static_cast<float>(at - static_cast<double>(low[axis]));
-  }
+  const auto along = [&](std::size_t axis) {
+    return interval_within((place[axis] - brick.origin[axis]) / brick.voxel, brick.shape[axis]);
+  };
+  const auto x = along(0), y = along(1), z = along(2);
+  const auto weights = bilinear_weights(static_cast<float>(y.part), static_cast<float>(x.part));
+  const auto up = static_cast<float>(z.part);
   float sum = 0.0F;
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    float weight = 1.0F;
-    std::array<Index, 3> at = low;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const bool high = (corner >> axis & 1U) != 0;
-      weight *= high ? part[axis] : 1.0F - part[axis];
-      at[axis] = std::min(at[axis] + (high ? 1 : 0), brick.shape[axis] - 1);
-    }
-    const Index n = (at[0] * brick.shape[1] + at[1]) * brick.shape[2] + at[2];
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    const bool east = corner % 2 != 0, north = corner / 2 % 2 != 0, high = corner / 4 != 0;
+    const float weight = weights[corner % 4] * (high ? up : 1.0F - up);
+    const Index row = (east ? x.high : x.low) * brick.shape[1] + (north ? y.high : y.low);
+    const Index n = row * brick.shape[2] + (high ? z.high : z.low);
     sum += weight > 0.0F ? weight * brick.values[static_cast<std::size_t>(n)] : 0.0F;
   }
   return sum;

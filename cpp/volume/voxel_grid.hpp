@@ -31,7 +31,7 @@ struct OwnedVoxelGrid {
 /// @throws std::invalid_argument unless there are as many values as voxels, and they have a size
 void check(const VoxelGrid& brick);
 
-/// Trilinear interpolation, constant outside.
+/// Trilinear interpolation, constant outside: a sum of weighted voxels, as GridResampler has it.
 float sample(const VoxelGrid& brick, const Vector& place);
 
 /// Mask of voxels with smoke in them or in one of their 26 neighbours: 1 or 0.

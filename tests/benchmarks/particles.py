@@ -10,12 +10,12 @@ from functools import partial
 import numpy as np
 from firetwin.bench.harness import OURS, Bench
 from firetwin.bench.timing import Runner
-from firetwin_core import particles
+from firetwin_core import constants, particles
 from numpy.typing import NDArray
 
 SECONDS = 10.0
 PARTICLES = 1000
-RELAXATION, LIFT = 0.25, -particles.GRAVITY  # s, m/s2
+RELAXATION, LIFT = 0.25, -constants.GRAVITY  # s, m/s2
 GUST, TURN = np.array([12.0, 5.0, 1.0]), 1.3  # m/s, rad/s
 VELOCITY = np.array([3.0, -1.0, 20.0])  # m/s at the start
 PAPER = 24_000  # steps a second

@@ -14,20 +14,20 @@ from functools import partial
 import numpy as np
 from firetwin.bench.harness import OURS, Bench
 from firetwin.bench.timing import Runner
-from firetwin_core import particles, volume
+from firetwin_core import constants, volume
 from numpy.typing import NDArray
 
 POWERS = (1e8, 1e9, 1e10)  # W
 WIND = np.array([6.0, 8.0])  # m/s east and north, 10 m up
 STABILITY, ENTRAINMENT = 1e-4, 0.6  # 1/s2
-COMBUSTION, CONVECTIVE, BURN_TIME = 17.433e6, 0.7, 1e4  # J/kg, share of the heat, s
+CONVECTIVE, BURN_TIME = 0.7, 1e4  # share of the heat, s
 AGE = 5400.0  # s, by when a plume has settled
 EULER_STEPS = (10.0, 1.0, 0.1)  # s
 
 
 def buoyancy(power: float) -> float:
     """Fb = g c Q / (pi cp rho T) in m4/s3 of a fire of `power` W."""
-    return particles.GRAVITY * CONVECTIVE * power / (np.pi * 1005 * 1.2 * 290)
+    return constants.BUOYANCY_FLUX * CONVECTIVE * power
 
 
 def wind_aloft() -> float:
@@ -52,7 +52,7 @@ def column(power: float) -> tuple[NDArray, NDArray]:
 
     Without the first, which has gathered less than a whole interval of heat.
     """
-    fuel = power * BURN_TIME / COMBUSTION
+    fuel = power * BURN_TIME / constants.HEAT_OF_COMBUSTION
     smoke = volume.puffs(
         AGE + 1,
         [0.0],

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 from firetwin.run import areas, burned_fraction, info, maps, released
-from firetwin.run.models import fuels
 from firetwin.run.models.arrival import from_share, held
 from firetwin.run.models.grid import Grid
 from firetwin.run.score import grid as score_grid
 from firetwin.run.score.overlap import Overlap
 from firetwin.shot.fire import fuel
+from firetwin_core import constants
 from firetwin_core import run as runs
 from hypothesis import given
 from hypothesis import strategies as st
@@ -49,7 +49,9 @@ def test_areas_are_sums_of_shares(run):
     assert facts["burned"]["from"] == "burned_fraction"
     assert "burned fraction of each cell" in info.page(facts)
     load = (np.asarray(run.surface_fuel, float) + run.canopy_fuel) * shares()[-1]
-    assert released.of_fuel(run) == pytest.approx((load * cell).sum() * fuels.HEAT, rel=1e-6)
+    assert released.of_fuel(run) == pytest.approx(
+        (load * cell).sum() * constants.HEAT_OF_COMBUSTION, rel=1e-6
+    )
 
 
 @pytest.mark.parametrize("time", [0.0, 45.0, 120.0, 500.0])

@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
-from firetwin.shot.fire import burning, emissions, heat_release
+from firetwin.shot.fire import emissions, heat_release
 from firetwin.shot.fire.fire import Fire
+from firetwin_core import constants
 from firetwin_core import run as runs
 from small_run import FX, FY, NT, NX, NY, RUN_TOML
 
@@ -43,7 +44,9 @@ def test_the_number_of_a_fuel_model_says_more_than_loads():
 def test_smoke_is_emission_factor_times_fuel_burned(make_run, load, kind):
     """Of open fuels both phases have one factor: the run's whole heat says how much there is."""
     fire = fire_of(make_run, load)
-    burned = sum(fire.sources(time).power.sum() for time in np.arange(1.0, 300.0)) / emissions.HEAT
+    burned = (
+        sum(fire.sources(time).power.sum() for time in np.arange(1.0, 300.0)) / constants.HEAT_OF_COMBUSTION
+    )
     smoke = sum(fire.sources(time).smoke.sum() for time in np.arange(1.0, 300.0))
     assert burned > 100.0
     assert smoke == pytest.approx(kind.smoke[0] * burned, rel=0.01)
@@ -101,7 +104,7 @@ def test_only_a_strong_column_of_timber_hides_more_than_its_mass():
 def test_smouldering_gives_more_smoke_and_less_heat():
     for kind in emissions.KINDS:
         assert kind.smoke[1] >= kind.smoke[0]
-        assert kind.heat[1] <= kind.heat[0] == burning.HEAT
+        assert kind.heat[1] <= kind.heat[0] == constants.HEAT_OF_COMBUSTION
     assert LITTER.heat[1] == pytest.approx(15.68e6, rel=1e-3)
 
 

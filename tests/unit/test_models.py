@@ -12,6 +12,7 @@ from firetwin.errors import Error, InputError
 from firetwin.jobs import convert
 from firetwin.run import areas, info, released
 from firetwin.run.models import fuels, heat_from_intensity
+from firetwin_core import constants
 from firetwin_core import run as runs
 
 START = made.START.replace(tzinfo=UTC)
@@ -256,7 +257,9 @@ def test_forefire(tmp_path, converted):
     np.testing.assert_allclose(np.diff(run.longitude) * east, 30.0, rtol=1e-6)  # cells are not square
     np.testing.assert_allclose(np.diff(run.latitude) * north, 20.0, rtol=1e-6)
     burned = (arrival > -9999).sum() * 600.0
-    assert released.energy(run) == pytest.approx(burned * fuels.HEAT, rel=3e-3)  # 1 kg/m2, as is said
+    assert released.energy(run) == pytest.approx(
+        burned * constants.HEAT_OF_COMBUSTION, rel=3e-3
+    )  # 1 kg/m2, as is said
     assert "1 kg/m2" in said(run)
 
 
@@ -366,13 +369,13 @@ def test_elmfire(tmp_path, converted):
     assert set(np.unique(run.fuel_rows("fuel_category", 0, len(run.fuel_latitude)))) <= {102, 165, 98}
     assert run.elevation.max() == 900
     burns = np.isfinite(arrival)
-    joules = (fuels.loads(number) + 1.2)[burns].mean() * fuels.HEAT  # a m2
+    joules = (fuels.loads(number) + 1.2)[burns].mean() * constants.HEAT_OF_COMBUSTION  # a m2
     own = float(re.search(r"heat per area is ([\d.e+]+) times", said(run))[1])
     assert own == pytest.approx(500e3 / 0.5 / joules, rel=5e-3)  # kW/m over ft/min
     cell = areas.cell_areas(run.latitude, run.longitude)
     burned = np.isfinite(run.fuel_arrival_time())
     fuel = (np.asarray(run.surface_fuel) + np.asarray(run.canopy_fuel)) * burned * cell
-    assert released.energy(run) == pytest.approx(fuel.sum() * fuels.HEAT, rel=1e-3)
+    assert released.energy(run) == pytest.approx(fuel.sum() * constants.HEAT_OF_COMBUSTION, rel=1e-3)
     place = run.latitude[-1], run.longitude[0]  # a corner, by PROJ
     from pyproj import Transformer
 
@@ -398,7 +401,7 @@ def test_heat_is_that_of_the_fuel_burned(tmp_path, converted):
     fuel = (np.asarray(run.surface_fuel, np.float64) + np.asarray(run.canopy_fuel)) * burned * cell
     step = np.diff(run.times)
     released = sum(float((run.heat_flux(i + 1) * cell).sum()) * step[i] for i in range(len(step)))
-    assert released == pytest.approx(fuel.sum() * fuels.HEAT, rel=1e-5)
+    assert released == pytest.approx(fuel.sum() * constants.HEAT_OF_COMBUSTION, rel=1e-5)
     assert np.unique(run.canopy_fuel) == pytest.approx([1.2])
 
 
@@ -411,7 +414,10 @@ def two_fires(folder, *, speed=True, fuel=True):
     number[:, 35] = 98
     burned, case = (arrival < 5000) & (number != 98), "0000001_0005000"
     pace = 0.5 * np.random.default_rng(1).uniform(0.3, 1.5, x.shape)
-    layers = {"time_of_arrival": arrival, "flin": 0.3 * fuels.loads(number) * fuels.HEAT * pace / 1e3}
+    layers = {
+        "time_of_arrival": arrival,
+        "flin": 0.3 * fuels.loads(number) * constants.HEAT_OF_COMBUSTION * pace / 1e3,
+    }
     layers |= {"vs": pace / 0.3048 * 60} if speed else {}
     folder.mkdir()
     paths = [
@@ -438,7 +444,7 @@ def test_no_cell_releases_more_than_its_fuel(tmp_path, converted, speed, fuel):
     run = converted(paths, start="2020-07-01T20:00:00Z")
     burned = np.isfinite(run.fuel_arrival_time())
     own = np.asarray(run.surface_fuel, np.float64) + run.canopy_fuel
-    assert (run.heat_released() <= 1.001 * own * fuels.HEAT)[burned].all()
+    assert (run.heat_released() <= 1.001 * own * constants.HEAT_OF_COMBUSTION)[burned].all()
     assert released.energy(run) == pytest.approx(released.of_fuel(run), rel=1e-3)
     assert released.warnings(released.energy(run), released.of_fuel(run)) == []
     if fuel:

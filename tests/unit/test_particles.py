@@ -4,7 +4,7 @@ import firetwin_core as core
 import mpmath
 import numpy as np
 import pytest
-from firetwin_core import particles
+from firetwin_core import constants, particles
 from firetwin_core.geo import HeightField
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
@@ -213,6 +213,6 @@ def test_impossible_steps(options, message):
 
 
 def test_lift():
-    assert particles.lift(0.3, 1.2) == pytest.approx(3 * particles.GRAVITY)
+    assert particles.lift(0.3, 1.2) == pytest.approx(3 * constants.GRAVITY)
     assert particles.lift(1.2) == 0
     assert particles.lift(200.0) < -9.7

@@ -12,8 +12,8 @@ from firetwin.shot.satellites import geotiff, imager
 from firetwin.shot.satellites.grid import ORBIT, EvenGrid, FixedGrid, pixel_areas
 from firetwin.shot.settings.settings import Camera, Render, Settings, Time
 from firetwin.shot.shot import Shot
+from firetwin_core import constants, sensor
 from firetwin_core import run as runs
-from firetwin_core import sensor
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -90,7 +90,7 @@ def test_a_pixel_shows_the_radiance_mean_of_fire_and_ground(burning):
     run = burning(5.0e3)
     found = seen(run, "abi")
     hot = np.unravel_index(found.short.argmax(), found.short.shape)
-    part = imager.RADIATED * found.heat / (imager.STEFAN_BOLTZMANN * 1000.0**4) / found.area[hot]
+    part = imager.RADIATED * found.heat / (constants.STEFAN_BOLTZMANN * 1000.0**4) / found.area[hot]
     assert 0.001 < part < 0.02
     for wave, shown, most in zip((3.9, 11.2), (found.short, found.long), imager.ABI.saturation, strict=True):
         fire, ground = sensor.spectral_radiance([1000.0, 300.0], wave)
@@ -147,7 +147,7 @@ def test_the_power_of_a_wide_pixel_is_shared_among_those_that_show_fire(row, col
             rows, columns = ((first + np.arange(n)) // 2 for first, n in ((row, 5), (column, 6)))
             mine = np.outer(rows == y, columns == x)
             if (mine & fire).any():
-                whole = part[mine].sum() * 375.0**2 * imager.STEFAN_BOLTZMANN / 2.88e-9 * above
+                whole = part[mine].sum() * 375.0**2 * constants.STEFAN_BOLTZMANN / 2.88e-9 * above
                 assert power[mine & fire] == pytest.approx(whole / (mine & fire).sum(), rel=1e-9)
 
 
@@ -157,7 +157,7 @@ def test_a_wide_pixel_that_is_saturated_is_counted():
     power, limited = imager._power(imager.VIIRS.power, kelvin, part, area, part > 0.0, blocks)
     above = float(np.diff(sensor.spectral_radiance([300.0, 634.0], 4.05))[0])
     assert limited == 1
-    assert power.sum() == pytest.approx(4.0 * 375.0**2 * imager.STEFAN_BOLTZMANN / 2.88e-9 * above)
+    assert power.sum() == pytest.approx(4.0 * 375.0**2 * constants.STEFAN_BOLTZMANN / 2.88e-9 * above)
 
 
 def test_warmer_air_is_a_warmer_background(burning):

@@ -202,6 +202,42 @@ def test_values_between_points_are_bilinear_and_go_on_beyond_the_ends():
         terrain.bilinear(np.empty((0, 3)), [0.0], [0.0])
 
 
+def test_bilinear_takes_bands_and_crossings_of_rows_and_columns():
+    rng = np.random.default_rng(6)
+    field = rng.normal(size=(7, 5, 3)).astype(np.float32)
+    row, column = rng.uniform(-1.0, 8.0, 11), rng.uniform(-1.0, 6.0, 13)
+    found = terrain.bilinear(field, row[:, None], column)
+    assert found.shape == (11, 13, 3)
+    rows, columns = (each.ravel() for each in np.meshgrid(row, column, indexing="ij"))
+    for band in range(3):
+        alone = terrain.bilinear(field[..., band].astype(np.float64), rows, columns)
+        assert np.array_equal(found[..., band].ravel(), alone)
+    assert terrain.bilinear(field, 2.0, 3.0) == pytest.approx(field[2, 3], abs=0)
+    with pytest.raises(ValueError, match="field"):
+        terrain.bilinear(np.zeros(3), [0.0], [0.0])
+
+
+def test_noise_in_space_is_gradient_noise():
+    rng = np.random.default_rng(7)
+    place = rng.uniform(-40.0, 40.0, (20000, 3))
+    found = terrain.perlin_in_space(place)
+    assert np.array_equal(terrain.perlin_in_space(np.floor(place)), np.zeros(len(place)))
+    assert 0.9 < np.abs(found).max() <= 1.1
+    assert abs(found.mean()) < 0.01
+    step = 1e-6 * rng.normal(size=place.shape)
+    assert np.abs(terrain.perlin_in_space(place + step) - found).max() < 1e-4
+
+
+def test_uniform_numbers_depend_on_places_and_seed_alone():
+    x, y = np.arange(-300, 300), np.arange(500)[:, None]
+    found = terrain.uniform(x, y, 5)
+    assert found.shape == (500, 600)
+    assert 0.0 <= found.min() < 1e-4 < 1.0 - 1e-4 < found.max() < 1.0
+    assert np.histogram(found, 10)[0] == pytest.approx(30000, rel=0.03)
+    assert np.array_equal(terrain.uniform(x[7], y[9], 5), found[9, 7])
+    assert not np.array_equal(terrain.uniform(x, y, 6), found)
+
+
 def test_the_surface_is_smooth_with_ridges_of_gradient_noise():
     rows, columns = 12, 15
     height, _ = surface(rows, columns, 5)

@@ -6,8 +6,8 @@ from firetwin.scene.forest import visibility, visible_cells
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.settings.settings import Camera, Ground, Settings
 from firetwin.shot.shot import Shot
-from firetwin.shot.terrain.terrain import bilinear
 from firetwin_core import run as runs
+from firetwin_core.terrain import bilinear
 
 TALL, REACH = 40.0, 9_000.0
 ROWS, COLUMNS = 61, 83

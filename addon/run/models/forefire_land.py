@@ -65,9 +65,7 @@ class _Places:
             np.clip(share * count - 0.5, 0, count - 1)
             for share, count in zip((self.up, self.across), values.shape, strict=True)
         )
-        places = np.meshgrid(row, column, indexing="ij")
-        found = terrain.bilinear(values.astype(np.float64), *(each.ravel() for each in places))
-        return found.reshape(places[0].shape).astype(np.float32)
+        return terrain.bilinear(values, row[:, None], column).astype(np.float32)
 
 
 def take(

@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
+from firetwin_core import constants
 from numpy.typing import NDArray
 
 from ...errors import Error, input_error
@@ -135,7 +136,7 @@ def _fuel(maps: Maps, grid: Grid, land: Land, projection: str, told: list[str]) 
     category = maps.category if maps.category is not None else land.category(grid, projection)
     canopy = np.nan_to_num(maps.canopy if maps.canopy is not None else land.canopy(grid, projection))
     burned, own = np.isfinite(maps.arrival), _own_heat(maps, grid, told)
-    by_heat = None if own is None else np.maximum(own / fuels.HEAT - canopy, 0.0)
+    by_heat = None if own is None else np.maximum(own / constants.HEAT_OF_COMBUSTION - canopy, 0.0)
     if maps.surface is not None:
         surface, known = np.nan_to_num(maps.surface), np.isfinite(maps.surface)
     elif category is not None:
@@ -161,7 +162,7 @@ def _own_heat(maps: Maps, grid: Grid, told: list[str]) -> NDArray | None:
     """The model's heat per area (J/m2), no more than of the heaviest fuel; None: it says none."""
     if maps.per_area is not None:
         heats = np.nan_to_num(np.asarray(maps.per_area, np.float64))
-        return np.minimum(heats, fuels.HEAT * fuels.HEAVIEST)
+        return np.minimum(heats, constants.HEAT_OF_COMBUSTION * fuels.HEAVIEST)
     if maps.intensity is None:
         return None
     whence = ", by the time of arrival at the neighbours that it came from" if maps.speed is None else ""

@@ -5,8 +5,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-HEAT = 17.433e6  # J/kg, WRF-SFIRE's cmbcnst (phys/module_fr_sfire_phys.F)
-
 SFIRE = (0.166, 0.897, 0.675, 2.468, 0.785, 1.345, 1.092, 1.121, 0.780, 2.694, 2.582, 7.749, 13.024)
 """kg/m2 of Anderson's models 1 to 13 in WRF-SFIRE and CFBM (fgi of namelist.fire)."""
 

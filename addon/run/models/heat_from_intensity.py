@@ -10,10 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from firetwin_core import constants
 from numpy.typing import NDArray
 
 from ...errors import Error
-from .fuels import HEAT, HEAVIEST
+from .fuels import HEAVIEST
 
 _STEPS = (1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 10800, 21600, 43200, 86400)
 _FRAMES = 300
@@ -84,7 +85,7 @@ class Release:
 
 def of_fuel(fuel: NDArray) -> NDArray[np.float64]:
     """J/m2 of fuel (kg/m2) that burns completely."""
-    return HEAT * np.nan_to_num(np.asarray(fuel, np.float64))
+    return constants.HEAT_OF_COMBUSTION * np.nan_to_num(np.asarray(fuel, np.float64))
 
 
 def of_intensity(
@@ -99,7 +100,10 @@ def of_intensity(
         heat = np.asarray(intensity, np.float64) / (spread(arrival, cell) if speed is None else speed)
     known = np.isfinite(heat) & (heat > 0)
     middle = float(np.median(heat[known])) if known.any() else 0.0
-    return np.minimum(np.where(known, heat, np.where(np.isfinite(arrival), middle, 0.0)), HEAT * HEAVIEST)
+    return np.minimum(
+        np.where(known, heat, np.where(np.isfinite(arrival), middle, 0.0)),
+        constants.HEAT_OF_COMBUSTION * HEAVIEST,
+    )
 
 
 def spread(arrival: NDArray, cell: tuple[float, float]) -> NDArray[np.float64]:

@@ -16,6 +16,7 @@ from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
+from firetwin_core import terrain
 from numpy.typing import NDArray
 
 from ...errors import Error
@@ -88,13 +89,11 @@ class _Wrf:
 
     def spread(self, coarse: NDArray) -> NDArray:
         """The atmosphere's values on the fire's cells, bilinear, and even beyond the outer middles."""
-        for axis, (count, step) in enumerate(((self.ny, self.sy), (self.nx, self.sx))):
-            at = np.clip((np.arange(count * step) + 0.5) / step - 0.5, 0, count - 1)
-            low = np.minimum(at.astype(np.int64), max(count - 2, 0))
-            part = (at - low).reshape((-1, 1) if axis == 0 else (1, -1))
-            high = np.minimum(low + 1, count - 1)
-            coarse = coarse.take(low, axis) * (1 - part) + coarse.take(high, axis) * part
-        return coarse
+        row, column = (
+            np.clip((np.arange(count * step) + 0.5) / step - 0.5, 0, count - 1)
+            for count, step in ((self.ny, self.sy), (self.nx, self.sx))
+        )
+        return terrain.bilinear(coarse, row[:, None], column)
 
 
 def read(paths: list[Path], options: Options) -> Model:

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields
 
 import numpy as np
-from firetwin_core import geo, particles
+from firetwin_core import constants, geo, particles
 from numpy.typing import NDArray
 
 from ...shot.fire import burning
@@ -28,7 +28,7 @@ _FALL = (1.0, 4.0)  # m/s, terminal velocity of the smallest and largest (assume
 _STEP = 0.5  # s between the points of a trajectory
 _MOMENT = 0.4  # s; part of a trajectory that is stored when frames are further apart than lives
 _PLUME = 90.0, 6.0  # m of height and s in which the updraft falls to 1/e: pieces fall out of the plume
-_AIR = 1.2 * 1005.0 * 300.0  # J/m3, density times heat capacity times temperature
+_AIR = constants.AIR_DENSITY * constants.SPECIFIC_HEAT * constants.AIR_TEMPERATURE  # J/m3
 
 Array = NDArray[np.float64]
 
@@ -87,7 +87,7 @@ def updraft(intensity: Array) -> Array:
     It does not depend on height (Yokoi 1960; Lee and Emmons 1961, J. Fluid Mech. 11, 353). On the axis of the
     plume it is about twice that (assumed).
     """
-    return np.cbrt(particles.GRAVITY * np.asarray(intensity, np.float64) * 1000.0 / _AIR)
+    return np.cbrt(constants.GRAVITY * np.asarray(intensity, np.float64) * 1000.0 / _AIR)
 
 
 def fly(shot: Shot, points: flames.Points) -> Flights | None:
@@ -195,7 +195,7 @@ def _paths(launched: Launches, wind: Array, floor: geo.HeightField) -> NDArray[n
             velocity,
             air(position, age),
             _STEP,
-            fall / particles.GRAVITY,
+            fall / constants.GRAVITY,
             wind_end=air(position + velocity * _STEP, age + _STEP),
             landed=landed,
             ground=floor,

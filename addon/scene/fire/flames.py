@@ -9,14 +9,14 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 import numpy as np
-from firetwin_core import flux, lod, particles
+from firetwin_core import constants, flux, lod
+from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...shot.cameras.path import Path
 from ...shot.fire import burning
 from ...shot.shot import Shot
 from ...shot.terrain import noise
-from ...shot.terrain.terrain import bilinear
 from ..forest import fire_effects
 from ..forest.stand import Stand
 
@@ -102,7 +102,7 @@ def flame_length(intensity: Array, formula: str = "thomas", crowns: NDArray[np.b
 def tilt(wind: float, length: Array) -> Array:
     """Flame tilt from the vertical (radians): tan A = 1.22 U / sqrt(g L) (Albini 1981), at most 60."""
     return np.minimum(
-        np.arctan(1.22 * wind / np.sqrt(particles.GRAVITY * np.maximum(length, 0.1))), np.pi / 3.0
+        np.arctan(1.22 * wind / np.sqrt(constants.GRAVITY * np.maximum(length, 0.1))), np.pi / 3.0
     )
 
 
@@ -138,7 +138,7 @@ def front(shot: Shot, grown: Stand | None = None) -> Points:
     )
     random = random[:, lit]
     place = ground.point(*ground.places(row, column)) if len(row) else np.empty((0, 3))
-    intensity = burning.HEAT / 1000.0 * fuel * speed
+    intensity = constants.HEAT_OF_COMBUSTION / 1000.0 * fuel * speed
     uneven = np.exp(_SIZES * noise.normal(random[0], random[1]))
     crowns = bilinear(ground.fields.canopy_fuel, row, column) > _CROWNS
     even = flame_length(intensity, settings.fire.flame_length, crowns)
@@ -179,7 +179,7 @@ def _closeness(shot: Shot) -> float:
     if not passed.any():
         return 1.0
     fuel, canopy = ground.fields.surface_fuel[passed], ground.fields.canopy_fuel[passed]
-    intensity = burning.HEAT / 1000.0 * (fuel + canopy) * front.speed[passed]
+    intensity = constants.HEAT_OF_COMBUSTION / 1000.0 * (fuel + canopy) * front.speed[passed]
     length = flame_length(intensity, shot.settings.fire.flame_length, canopy > _CROWNS)
     return float(np.clip(np.percentile(length, 90.0) / _TALL, _FINEST, 1.0))
 
@@ -222,7 +222,7 @@ def torches(shot: Shot, grown: Stand) -> Points:
     row, column, size = row[chosen], column[chosen], size[chosen]
     height = grown.height[near[chosen]]
     length = np.clip(height * (1.1 + 0.9 * size), *_LENGTHS)
-    intensity = burning.HEAT / 1000.0 * canopy[chosen] * ground.spread(row, column)
+    intensity = constants.HEAT_OF_COMBUSTION / 1000.0 * canopy[chosen] * ground.spread(row, column)
     return Points(
         grown.position[near[chosen]],
         arrival[chosen],

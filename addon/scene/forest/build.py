@@ -11,6 +11,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 from firetwin_core import forest as core
+from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...blender import compat, nodes, owned
@@ -19,7 +20,7 @@ from ...shot.cameras.rigs.satellite import HEIGHT
 from ...shot.passes import masks
 from ...shot.shot import Shot
 from ...shot.terrain import noise
-from ...shot.terrain.terrain import NEVER, bilinear
+from ...shot.terrain.terrain import NEVER
 from .. import clock
 from . import fire_effects, models, preview, stand_structure, understorey, visibility, visible_cells
 from .library import drawn, grass_models, levelled, tree_models

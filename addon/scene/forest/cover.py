@@ -9,12 +9,13 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 from firetwin_core.run import Run
+from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...run import fuel_category
 from ...shot.shot import Shot
 from ...shot.terrain import land_use, noise
-from ...shot.terrain.terrain import Ground, bilinear
+from ...shot.terrain.terrain import Ground
 from . import biomes, patterns
 
 _REACH = 180.0  # m, half-width of the moving means that a hollow lies below (by eye)

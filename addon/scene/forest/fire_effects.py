@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from firetwin_core import constants
+from firetwin_core.terrain import bilinear
 from numpy.typing import ArrayLike, NDArray
 
-from ...shot.fire import burning
 from ...shot.shot import Shot
 from ...shot.terrain import noise
-from ...shot.terrain.terrain import bilinear
 
 _UNEVEN = 0.4  # standard deviation of the logarithm of intensity between trees (assumed)
 _BASE = 0.1  # canopy base height over tree height, with ladder fuels (assumed)
@@ -51,7 +51,7 @@ def surface_intensity(shot: Shot, row: Array, column: Array) -> Array:
     """Surface fireline intensity (kW/m): H w R with the surface fuel w (Byram 1959)."""
     ground = shot.ground
     fuel = bilinear(ground.fields.surface_fuel, row, column)
-    return burning.HEAT / 1000.0 * fuel * ground.spread(row, column)
+    return constants.HEAT_OF_COMBUSTION / 1000.0 * fuel * ground.spread(row, column)
 
 
 def scorch_height(intensity: ArrayLike) -> Array:

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from firetwin_core.geo import LocalFrame
+from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...run import areas, fuel_category
 from ...shot.shot import Shot
-from ...shot.terrain.elevation import between
 from . import stand_structure, visible_cells
 
 _CELL = 74.0  # m, least size of a cell beyond the run; its fuels have larger patches
@@ -90,7 +90,8 @@ def _beyond(shot: Shot, height: float, reach: float) -> Plot | None:
     latitude, longitude = axes
     row, column = _lines(shot, latitude, longitude)
     fuel, elevation = (
-        between(field, row, column).astype(np.float32) for field in (fields.canopy_fuel, fields.elevation)
+        bilinear(field, row[:, None], column).astype(np.float32)
+        for field in (fields.canopy_fuel, fields.elevation)
     )
     out = ~(inside[0][:, None] & inside[1][None, :])
     mask = visible_cells.visible_cells(shot, height, reach, latitude, longitude, elevation, out)

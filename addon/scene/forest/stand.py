@@ -11,11 +11,12 @@ from typing import NamedTuple
 
 import numpy as np
 from firetwin_core import forest as core
+from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...shot.shot import Shot
 from ...shot.terrain import noise
-from ...shot.terrain.terrain import bilinear, widened
+from ...shot.terrain.terrain import widened
 from . import biomes, models, plot, stand_structure, visibility
 from .plot import Plot
 

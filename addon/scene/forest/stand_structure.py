@@ -8,11 +8,12 @@ them. Sizes and shares are chosen by eye. The mean position of an edge is that o
 from __future__ import annotations
 
 import numpy as np
+from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...shot.shot import Shot
 from ...shot.terrain import land_use, noise
-from ...shot.terrain.terrain import bilinear, box, widened
+from ...shot.terrain.terrain import box, widened
 from . import biomes, cover, field_lines
 
 LONE_FUEL = 0.02  # kg/m2; canopy fuel assumed for trees of cells without any: 57 stems a hectare, up to 15 m

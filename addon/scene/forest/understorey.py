@@ -10,11 +10,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 
 import numpy as np
+from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...shot.shot import Shot
 from ...shot.terrain import land_use, noise
-from ...shot.terrain.terrain import bilinear
 from . import biomes, cover, field_lines, models
 
 _PIXELS = 2.0  # least height in pixels of what is drawn; at this height a half of it is

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
+from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...shot.shot import Shot
-from ...shot.terrain.terrain import bilinear
 from ..forest import biomes
 
 NAME = "solid_view"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from firetwin_core import constants
 from numpy.typing import NDArray
 
 from ..fire import emissions
@@ -12,8 +13,8 @@ from ..terrain.terrain import NEVER, Ground
 
 _LONG = 3.0  # burn-out times after which a cell counts as cold
 _WIDE = 0.4  # half-width of a plume over the way it has drifted (by eye)
-# m4/s3 of buoyancy flux for a kg/s of fuel: g / (pi cp rho T) of its heat.
-_BUOYANCY = 8.8e-6 * emissions.HEAT
+# m4/s3 of buoyancy flux for a kg/s of fuel.
+_BUOYANCY = constants.BUOYANCY_FLUX * constants.HEAT_OF_COMBUSTION
 _BRIGGS = 1.6  # of the bent-over plume: it is 1.6 F^(1/3) x^(2/3) / U high at x m (Briggs 1971)
 _RISES = (0.2, 2.0)  # height over the way, of straight plumes that stand for bent ones (assumed)
 _WEAK = 2.0  # m/s; weaker winds count as so strong: fires draw air in

@@ -6,6 +6,7 @@ import zlib
 from dataclasses import dataclass
 
 import numpy as np
+from firetwin_core import constants
 from numpy.typing import NDArray
 
 from ..terrain import noise
@@ -16,7 +17,6 @@ from .path import Array
 _APART = 5.0  # m between terrain samples along a path
 _PLACES = 400_000  # samples at most
 _STILL = 0.05  # m per frame; slower motion keeps its heading
-_GRAVITY = 9.80665  # m/s2
 _STEEPEST = np.radians(60.0)  # largest bank angle
 
 
@@ -121,7 +121,7 @@ def bank(position: Array, step: float) -> Array:
         return np.zeros(len(position))
     speed = np.hypot(*np.gradient(position[:, :2], step, axis=0).T)
     turning = np.gradient(heading(position), step)
-    return np.clip(np.arctan(speed * turning / _GRAVITY), -_STEEPEST, _STEEPEST)
+    return np.clip(np.arctan(speed * turning / constants.GRAVITY), -_STEEPEST, _STEEPEST)
 
 
 def rolled(rotation: Array, angle: Array) -> Array:

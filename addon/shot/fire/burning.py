@@ -8,13 +8,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...run import areas
 from ...run.frame import local_frame
-from . import emissions
 
 BURN_TIME = 600.0  # s, burn-out time of a cell's fuel
 CROSSING = (60.0, 3600.0)  # s
 # m, cell size from which `CROSSING` is the least crossing time; s, the least on the finest cells
 _COARSE, _QUICK = 60.0, 2.0
-HEAT = emissions.HEAT  # J/kg
 _WIND_STEP = 600.0  # s between wind samples
 
 Array = NDArray[np.float64]

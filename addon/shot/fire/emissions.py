@@ -12,18 +12,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from firetwin_core import constants
 from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
 from ...run import fuel_category
-from ...run.models import fuels
 
-HEAT = fuels.HEAT  # J/kg, heat of combustion of all fuels, with which runs' heat is made
 _OF_CO = 10.1e6  # J/kg, heat of combustion of carbon monoxide
 # m2/kg, mass extinction of fresh smoke in green light (Reid et al. 2005, doi 10.5194/acp-5-799-2005)
 EXTINCTION = 4000.0
 _PLAIN = 0.02  # kg/kg, PM2.5 emission factor of unknown fuel (WRF-SFIRE's fire_tracer_smoke)
-PLAIN = _PLAIN / HEAT
+PLAIN = _PLAIN / constants.HEAT_OF_COMBUSTION
 """kg/J, reference smoke per heat. The look of a solved flow's smoke was tuned by eye with it."""
 
 GRASS, SHRUB, LITTER, CROWN = range(4)
@@ -74,7 +73,7 @@ class Kind:
     @property
     def heat(self) -> tuple[float, float]:
         """Heat of combustion, J per kg of fuel: flaming, smouldering."""
-        return HEAT, HEAT - _OF_CO * self.monoxide
+        return constants.HEAT_OF_COMBUSTION, constants.HEAT_OF_COMBUSTION - _OF_CO * self.monoxide
 
 
 # Emission factors: litter that burns behind the front is half prescribed fire of western forest and half

@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from firetwin_core.run import Run
+from firetwin_core.terrain import bilinear
 from numpy.typing import ArrayLike, NDArray
 
 from ...run import areas, times
 from ...run.score.grid import Grid
 from ...run.score.shapes import mirrored, wider
-from ..terrain.terrain import bilinear
 from .observed import ABOVE
 
 if TYPE_CHECKING:

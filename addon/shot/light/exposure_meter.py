@@ -11,6 +11,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from firetwin_core import constants
+from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ..cameras import panorama as sphere
@@ -18,7 +20,6 @@ from ..cameras.path import Path
 from ..fire import heat_release
 from ..shot import Shot
 from ..terrain import noise
-from ..terrain.terrain import bilinear
 from . import sky
 
 _RAYS = 16, 9
@@ -40,8 +41,9 @@ _TIMES = np.array([30.0, 90.0, 180.0, 300.0, 480.0, 720.0, 1080.0, 1600.0])
 _HIDES, _FRONT = 0.3, 1.5  # optical depth of a parcel that hides much; its radii from there to its middle
 _THROUGH = 0.5  # of smoke's depth counts for the light on it: `smoke.flow_material`
 _TOP = 3500.0  # m above the fire that smoke rises to at most
-_BRIGGS = 1.6, 6.9e-6  # rise is 1.6 F^(1/3) x^(2/3) / u; F in m4/s3 of a W: g / (pi cp rho T), 0.7 convected
-_EXTINCTION = 4000.0 * 0.02 / 17.4e6  # m2/J: 4 m2/g of the smoke that is a fiftieth of the fuel
+_BRIGGS = 1.6, 0.7 * constants.BUOYANCY_FLUX  # rise is 1.6 F^(1/3) x^(2/3) / u; 0.7 of the heat is convected
+# m2/J: 4 m2/g of the smoke that is a fiftieth of the fuel.
+_EXTINCTION = 4000.0 * 0.02 / constants.HEAT_OF_COMBUSTION
 
 
 Array = NDArray[np.float64]

@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from firetwin_core.terrain import bilinear
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.colors import LightSource
@@ -18,7 +19,6 @@ from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
 from ..fire import fronts
-from ..terrain.terrain import bilinear
 
 if TYPE_CHECKING:
     from ..cameras.path import Path

@@ -25,10 +25,10 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     """Add the gradient of the model's temperature to the picture."""
     import numpy as np
     from firetwin_core import sensor
+    from firetwin_core.terrain import bilinear
 
     from .. import air_temperature
     from ..cameras import pixel_rays
-    from ..terrain.terrain import bilinear
 
     now = float(shot.frames.time(frame))
     above, _ = air_temperature.warmth(shot.run, now - shot.air.averaged, now)

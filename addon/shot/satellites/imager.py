@@ -29,19 +29,18 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from firetwin_core import sensor
+from firetwin_core import constants, sensor
 from firetwin_core.run import Run
+from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from .. import air_temperature
 from ..fire import burning
 from ..fire.fire import Fire
-from ..terrain.terrain import bilinear
 from .grid import Array, EvenGrid, FixedGrid, Grid, pixel_areas
 
 FIRE = 1000.0  # K
 RADIATED = 0.14  # of the heat
-STEFAN_BOLTZMANN = 5.670374419e-8  # W m-2 K-4
 NONE, BURNING, SATURATED = 0, 10, 11  # of the mask, as in GOES-R's fire product
 _WARMER = 10.0  # K that a fire shows more in the short band than in the long (assumed)
 _PARTS = 6  # points along a pixel's sides at which the background is looked up
@@ -200,7 +199,7 @@ def _power(
     whole, most = total(area), float(sensor.spectral_radiance(band.saturation, band.wave))
     seen = total(area * radiance) / whole
     above = np.minimum(seen, most) - total(area * background) / whole
-    found = whole * STEFAN_BOLTZMANN / band.a * np.maximum(above, 0.0)
+    found = whole * constants.STEFAN_BOLTZMANN / band.a * np.maximum(above, 0.0)
     shared = found / np.maximum(total(fire.astype(np.float64)), 1.0)
     return np.where(fire, shared[blocks], 0.0), int((seen > most).sum())
 
@@ -260,7 +259,7 @@ def _burning(
     inside = (row >= 0) & (row < len(rows)) & (column >= 0) & (column < len(columns))
     flat = row[inside] * len(columns) + column[inside]
     heat = np.bincount(flat, sources.power[inside], area.size).reshape(area.shape)
-    flames = RADIATED * heat / (STEFAN_BOLTZMANN * FIRE**4)
+    flames = RADIATED * heat / (constants.STEFAN_BOLTZMANN * FIRE**4)
     return np.minimum(flames / area, 1.0), float(heat.sum())
 
 

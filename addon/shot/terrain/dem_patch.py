@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from .apron import Fields
-from .elevation import Elevation, between, ramp
+from .elevation import Elevation, ramp
 
 _FINEST = 2.0  # m, smallest point spacing
 _MOST = 6_000_000  # points at most
@@ -68,10 +69,11 @@ def patch(
         np.linspace(axis[part.start], axis[part.stop - 1], (part.stop - part.start - 1) * parts + 1)
         for axis, part in zip((fields.latitude, fields.longitude), place, strict=True)
     ]
-    index = [np.arange(len(axis)) / parts for axis in axes]
-    offset = relief.read(*axes) - between(fields.elevation[place].astype(np.float32), *index)
+    row, column = (np.arange(len(axis)) / parts for axis in axes)
+    index = row[:, None], column
+    offset = relief.read(*axes) - bilinear(fields.elevation[place], *index).astype(np.float32)
     known = np.isfinite(offset)
-    counts = ramp(known, _FADE) * between(share[place].astype(np.float32), *index)
+    counts = ramp(known, _FADE) * bilinear(share[place], *index).astype(np.float32)
     return Patch(place[0].start, place[1].start, parts, np.where(known, offset, np.float32(0.0)), counts)
 
 

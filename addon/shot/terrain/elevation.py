@@ -10,6 +10,7 @@ from functools import cached_property
 
 import numpy as np
 from firetwin_core.run import Run
+from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...run import areas
@@ -71,7 +72,7 @@ class Elevation:
         for axis, places in ((run.latitude, run.air_latitude), (run.longitude, run.air_longitude)):
             rising = np.argsort(axis)
             at.append(np.interp(places, axis[rising], rising.astype(np.float64)))
-        own = between(run.elevation, *at).astype(np.float32)
+        own = bilinear(run.elevation, at[0][:, None], at[1]).astype(np.float32)
         return self.mixed(run.air_latitude, run.air_longitude, own)[0]
 
     def rows(self, first: int, last: int) -> NDArray[np.float32]:
@@ -105,7 +106,7 @@ class Elevation:
         )
         if all(np.abs(at - np.round(at)).max() < 1.0e-6 for at in (row, column)):
             return found[np.ix_(np.round(row).astype(int), np.round(column).astype(int))]
-        return between(found, row, column)
+        return bilinear(found, row[:, None], column).astype(np.float32)
 
 
 def resolve(settings: Settings, run: Run) -> Elevation:
@@ -214,15 +215,6 @@ def _even(axis: Array) -> Array:
     if len(axis) != count:
         count = min(count, max(_APRON, len(axis)))
     return np.linspace(low, high, count)
-
-
-def between(field: NDArray, row: Array, column: Array) -> NDArray:
-    """Bilinear values at all crossings of fractional rows and columns; NaN beside what is not known."""
-    for axis, at in enumerate((row, column)):
-        low = np.clip(np.floor(at).astype(int), 0, field.shape[axis] - 2)
-        part = (at - low).astype(np.float32).reshape((-1, 1) if axis == 0 else (1, -1))
-        field = field.take(low, axis) * (1.0 - part) + field.take(low + 1, axis) * part
-    return field
 
 
 def _own(run: Run, latitude: Array, longitude: Array) -> Array:

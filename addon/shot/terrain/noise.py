@@ -7,19 +7,9 @@ from firetwin_core import terrain
 from numpy.typing import ArrayLike, NDArray
 
 
-def _hash(x: NDArray[np.int64], y: NDArray[np.int64], seed: int) -> NDArray[np.uint32]:
-    """Mix lattice coordinates into 32 bits (the finaliser of MurmurHash3)."""
-    h = x.astype(np.uint32) * np.uint32(0x9E3779B1) ^ y.astype(np.uint32) * np.uint32(0x85EBCA77)
-    h ^= np.uint32((seed * 0x27D4EB2F + 0x165667B1) & 0xFFFFFFFF)
-    h = (h ^ (h >> np.uint32(16))) * np.uint32(0x85EBCA6B)
-    h = (h ^ (h >> np.uint32(13))) * np.uint32(0xC2B2AE35)
-    return h ^ (h >> np.uint32(16))
-
-
 def uniform(x: ArrayLike, y: ArrayLike, seed: int) -> NDArray[np.float64]:
     """Random numbers 0..1 that depend on integers (x, y) and the seed alone."""
-    x, y = np.broadcast_arrays(np.asarray(x, np.int64), np.asarray(y, np.int64))
-    return _hash(x, y, seed) / 2.0**32
+    return terrain.uniform(np.asarray(x, np.int64), np.asarray(y, np.int64), seed)
 
 
 def normal(first: ArrayLike, second: ArrayLike) -> NDArray[np.float64]:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from firetwin_core import sensor
 from firetwin_core.run import Run
+from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...errors import InputError, input_error
@@ -21,7 +22,7 @@ from ...progress import Progress, silent
 from ...run import areas, content
 from ..settings import scene_file
 from ..settings.settings import Settings
-from .elevation import between, ramp
+from .elevation import ramp
 from .raster import Array, Raster, extent, overlap, said
 
 if TYPE_CHECKING:
@@ -152,7 +153,7 @@ class _Places:
     def __call__(self, east: Array, north: Array) -> list[Array]:
         """Degrees (n, m) at n norths and m easts."""
         row, column = (north - self.low[1]) / self.step[1], (east - self.low[0]) / self.step[0]
-        return [between(field, row, column) for field in self.fields]
+        return [bilinear(field, row[:, None], column) for field in self.fields]
 
 
 class _Source:
@@ -203,7 +204,7 @@ class _Tiff(_Source):
         row, column = (
             (v - axis[0]) / (axis[1] - axis[0]) for v, axis in zip((latitude, longitude), axes, strict=True)
         )
-        return _rgba(_bilinear(np.moveaxis(found, 0, -1), row, column))
+        return _rgba(_colours(np.moveaxis(found, 0, -1), row, column))
 
 
 class _Plain(_Source):
@@ -262,7 +263,7 @@ class _Plain(_Source):
         north = latitude - self.affine[1, 2]
         column, row = (inverse[k, 0] * east + inverse[k, 1] * north for k in (0, 1))
         size = max(int(step / self.resolution), 1)
-        return _rgba(_bilinear(self._thinned(size), (row + 0.5) / size - 0.5, (column + 0.5) / size - 0.5))
+        return _rgba(_colours(self._thinned(size), (row + 0.5) / size - 0.5, (column + 0.5) / size - 0.5))
 
     def _thinned(self, size: int) -> NDArray[np.float32]:
         """Average blocks of size x size pixels."""
@@ -286,19 +287,12 @@ def _axis(values: Array, step: float) -> Array:
     return np.linspace(low, high, max(int(np.ceil((high - low) / step)), 1) + 1)
 
 
-def _bilinear(field: NDArray[np.float32], row: Array, column: Array) -> NDArray[np.float32]:
-    """Bilinear values (h, w, bands) between pixels; NaN beyond the outer edge."""
-    height, width, bands = field.shape
-    inside = (row >= -0.5) & (row <= height - 0.5) & (column >= -0.5) & (column <= width - 0.5)
-    low, left = (np.clip(np.floor(at), 0, max(n - 2, 0)) for at, n in ((row, height), (column, width)))
-    v, u = (np.clip(at, 0.0, 1.0).astype(np.float32)[..., None] for at in (row - low, column - left))
-    first = (low * width + left).astype(np.int32)
-    right, down = min(1, width - 1), min(1, height - 1) * width
-    flat = np.ascontiguousarray(field).reshape(-1, bands)
-    below = flat.take(first, axis=0) * (1 - u) + flat.take(first + right, axis=0) * u
-    above = flat.take(first + down, axis=0) * (1 - u) + flat.take(first + down + right, axis=0) * u
-    found = below * (1 - v) + above * v
-    found[~inside] = np.nan
+def _colours(field: NDArray[np.float32], row: Array, column: Array) -> NDArray[np.float32]:
+    """Bilinear values (h, w, bands) between pixels; NaN beyond the edges of the outermost pixels."""
+    height, width, _ = field.shape
+    outside = (row < -0.5) | (row > height - 0.5) | (column < -0.5) | (column > width - 0.5)
+    found = bilinear(field, np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)).astype(np.float32)
+    found[outside] = np.nan
     return found
 
 

@@ -85,7 +85,7 @@ class Raster:
             self.count, self.unit = source.count, (source.units[0] or "").strip().lower()
             self.types, self.nodata = source.dtypes, source.nodata
         south, north = bounds[1], bounds[3]
-        metres = 111_200.0 * np.array([north - south, (bounds[2] - bounds[0]) * np.cos(np.radians(south))])
+        metres = np.array([north - south, bounds[2] - bounds[0]]) * areas.metres_per_degree(south)
         self.resolution = float(np.min(metres / self.shape))
 
     def error(self, reason: str) -> InputError:

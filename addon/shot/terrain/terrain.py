@@ -8,6 +8,7 @@ import functools
 import numpy as np
 from firetwin_core import terrain
 from firetwin_core.run import Run
+from firetwin_core.terrain import bilinear
 from numpy.typing import ArrayLike, NDArray
 
 from ...run import areas, fuel_category
@@ -393,9 +394,3 @@ def widened(field: NDArray, reach: int) -> NDArray:
         windows = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1, axis)
         field = functools.reduce(np.maximum, np.moveaxis(windows, -1, 0))
     return field
-
-
-def bilinear(field: Array, row: ArrayLike, column: ArrayLike) -> Array:
-    """Interpolate `field` (ny, nx) between its points, bilinear."""
-    row, column = np.broadcast_arrays(np.asarray(row, np.float64), np.asarray(column, np.float64))
-    return terrain.bilinear(field, row.ravel(), column.ravel()).reshape(row.shape)

@@ -6,7 +6,7 @@ import functools
 from pathlib import Path
 from typing import Any
 
-from firetwin_core import volume
+from firetwin_core import constants, volume
 
 from ...shot import sun
 from ...shot.fire import burning
@@ -44,7 +44,7 @@ class PuffSource(SingleVolume):
             cells.area,
             max_age=self.shot.settings.smoke.max_age,
             burn_time=burning.BURN_TIME,
-            smoke_fraction=self.shot.fire.smoke.per_heat * burning.HEAT,
+            smoke_fraction=self.shot.fire.smoke.per_heat * constants.HEAT_OF_COMBUSTION,
             stability=stability.under(sun.position(self.shot.run, time)[1]),
             interval=scale.time(_INTERVAL),
             block=scale.length(_BLOCK),

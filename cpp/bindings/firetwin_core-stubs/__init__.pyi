@@ -1,5 +1,6 @@
 """The numbers behind Firetwin: NumPy arrays in, NumPy arrays out."""
 
+from . import constants as constants
 from . import flow as flow
 from . import flux as flux
 from . import forest as forest

@@ -5,8 +5,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from .geo import HeightField
 
-GRAVITY: float
-
 def lift(density: float, air_density: float = 1.2) -> float:
     """Weight less buoyancy of a particle, upwards, m/s2: g (air_density / density - 1)."""
 

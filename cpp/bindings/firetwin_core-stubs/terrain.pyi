@@ -11,10 +11,21 @@ def perlin(x: ArrayLike, y: ArrayLike, seed: int) -> NDArray[np.float64]:
     Quickest where neighbours in the list are neighbours on the plane.
     """
 
-def bilinear(field: ArrayLike, row: ArrayLike, column: ArrayLike) -> NDArray[np.float64]:
-    """Values (n,) of a field (ny, nx) between its points, at fractional rows and columns (n,).
+def perlin_in_space(place: ArrayLike) -> NDArray[np.float64]:
+    """Gradient noise (n,) of wavelength 1 at places (n, 3), about -1..1 (Perlin 2002).
 
-    Beyond its ends it goes on as between the last two points; a single row or column goes on level.
+    Its slopes are chosen by the hash of Jenkins (lookup3, 2006), as in the noise texture of Cycles.
+    """
+
+def uniform(x: ArrayLike, y: ArrayLike, seed: int) -> NDArray[np.float64]:
+    """Random numbers 0..1 that depend on integers x and y, which broadcast, and the seed alone."""
+
+def bilinear(field: ArrayLike, row: ArrayLike, column: ArrayLike) -> NDArray[np.float64]:
+    """Values of a field (ny, nx) or (ny, nx, bands) between its points, at fractional rows and columns.
+
+    Rows and columns broadcast: `row[:, None], column` are all crossings. The result has their shape, followed
+    by the bands. Beyond its ends the field goes on as between the last two points; a single row or column
+    goes on level. Beside a missing value (NaN) the result is NaN.
     """
 
 class Surface:
