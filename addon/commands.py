@@ -213,7 +213,7 @@ def cache(arguments: argparse.Namespace) -> None:
     from .jobs import cache
 
     folders = cache.folders(arguments.places or [Path("cache")])
-    volumes = cache.kept(folders)
+    volumes = cache.by_last_use(folders)
     where = " and ".join(map(str, folders))
     if not arguments.prune:
         _volumes(volumes)

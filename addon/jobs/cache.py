@@ -26,7 +26,7 @@ def folders(places: Iterable[Path]) -> list[Path]:
     return list(dict.fromkeys(place.absolute() for place in found))
 
 
-def kept(places: Iterable[Path]) -> list[CachedVolumes]:
+def by_last_use(places: Iterable[Path]) -> list[CachedVolumes]:
     """Volumes in these folders, most recently used first."""
     return sorted(
         (volume for place in places for volume in cache.list_volumes(place)), key=lambda volume: -volume.used

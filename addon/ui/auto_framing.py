@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 _WINDOW = ("start", "end")
 
 
-def found(run: Run, start: datetime | None = None, end: datetime | None = None) -> dict[str, Any]:
+def frame_run(run: Run, start: datetime | None = None, end: datetime | None = None) -> dict[str, Any]:
     """Framing of a run, as JSON: cameras, values of [time], and messages about both.
 
     Parameters
@@ -33,13 +33,13 @@ def found(run: Run, start: datetime | None = None, end: datetime | None = None) 
     """
     from ..run import content
 
-    return _found(
+    return _frame_folder(
         run.path, content.fingerprint({"files": content.stamps(run), "start": run.start}), start, end
     )
 
 
 @functools.lru_cache(maxsize=8)
-def _found(folder: str, stamps: str, start: datetime | None, end: datetime | None) -> dict[str, Any]:
+def _frame_folder(folder: str, stamps: str, start: datetime | None, end: datetime | None) -> dict[str, Any]:
     """Framing of the run in a folder, in its current state."""
     from ..run import readers
     from ..shot import auto_framing
@@ -79,7 +79,7 @@ def again(uid: int) -> Steps:
     first, last = (times.utc(run, float(run.times[i])) for i in (0, -1))
     if time.validate() or any(moment and not first <= moment <= last for moment in (time.start, time.end)):
         return ""  # what reads the settings reports it
-    fits = yield InThread("placing the cameras", lambda **_: found(run, time.start, time.end))
+    fits = yield InThread("placing the cameras", lambda **_: frame_run(run, time.start, time.end))
     panel = owned.scene(uid).firetwin
     camera_list.fill(panel, camera_list.listed(fits["cameras"]))
     kept = {"cameras": fits["cameras"], "lines": fits["lines"], "placed_for": window}

@@ -120,7 +120,7 @@ def facts(folder: Path) -> tuple[dict[str, Any], maps.Images]:
         "moments": _moments(found),
         "burned": _burned(found),
         "places": labels.known(run),
-        "fits": auto_framing.found(run),
+        "fits": auto_framing.frame_run(run),
     }
     return told, thumbnails.draw(run)
 

@@ -52,7 +52,7 @@ def places(shot, columns, rows=(1.0, FY - 2.0), count=20_000):
 
 def test_gaps_take_a_small_part_of_the_forest(shot):
     film = shot(np.ones((FY, FX)))
-    part = stand_structure.kept(film, places(film, (1.0, FX - 2.0)))
+    part = stand_structure.retained(film, places(film, (1.0, FX - 2.0)))
     assert 0.80 < part.mean() < 0.95
     assert np.mean(part > 0.99) > 0.7
     assert np.mean(part < 0.2) > 0.03
@@ -61,7 +61,7 @@ def test_gaps_take_a_small_part_of_the_forest(shot):
 def test_edges_stand_where_the_cells_do_and_are_ragged(shot):
     film = shot()
     inside, border, beyond = (
-        stand_structure.kept(film, places(film, ends))
+        stand_structure.retained(film, places(film, ends))
         for ends in ((1.0, HALF - 1.1), (HALF - 0.52, HALF - 0.48), (HALF + 0.1, FX - 2.0))
     )
     assert border.mean() == pytest.approx(0.5 * (inside.mean() + beyond.mean()), abs=0.08)

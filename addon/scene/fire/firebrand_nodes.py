@@ -40,11 +40,11 @@ def build(
     obj = owned.add(collection, "Firebrands", mesh)
     modifier = obj.modifiers.new("Firetwin Firebrands", "NODES")
     modifier.node_group = _node_group(shot, stage, found, shot.pixel[0])
-    _seen_only(obj)
+    _camera_rays_only(obj)
     return obj
 
 
-def _seen_only(obj: bpy.types.Object) -> None:
+def _camera_rays_only(obj: bpy.types.Object) -> None:
     """Make streaks visible to camera rays only."""
     obj.visible_shadow = obj.visible_diffuse = obj.visible_glossy = False
     obj.visible_volume_scatter = False
@@ -138,5 +138,5 @@ def _streak(shot: Shot, stage: Stage) -> bpy.types.Object:
     mesh.materials.append(firebrand_material.build(shot, stage))
     obj = owned.mark(bpy.data.objects.new(name, mesh))
     obj.color = 1.0, 0.42, 0.10, 1.0  # in the solid view
-    _seen_only(obj)
+    _camera_rays_only(obj)
     return obj

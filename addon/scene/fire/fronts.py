@@ -27,7 +27,7 @@ def build(shot: Shot, stage: Stage, collection: bpy.types.Collection) -> None:
         obj = owned.add(collection, f"Front {name}", _mesh(shot, name, run))
         obj.data.materials.append(_material(shot, stage, name, colours[name]))
         obj.modifiers.new("Firetwin Front", "NODES").node_group = _at_current_time(shot, name)
-        observed.seen_only(obj)
+        observed.camera_rays_only(obj)
 
 
 def _mesh(shot: Shot, name: str, run: Run) -> bpy.types.Mesh:

@@ -34,11 +34,11 @@ def build(shot: Shot, stage: Stage, collection: bpy.types.Collection) -> bpy.typ
         return None
     obj = owned.add(collection, "Observed", _mesh(lines, shot.settings.fire.observed_width))
     obj.data.materials.append(_material(shot, stage))
-    seen_only(obj)
+    camera_rays_only(obj)
     return obj
 
 
-def seen_only(obj: bpy.types.Object) -> None:
+def camera_rays_only(obj: bpy.types.Object) -> None:
     """Make lines visible to camera rays only."""
     obj.visible_shadow = obj.visible_diffuse = obj.visible_glossy = obj.visible_volume_scatter = False
 

@@ -74,7 +74,7 @@ def grow(shot: Shot) -> Stand:
     fade = _fade(distance, reach) if shot.pixel[1] > visibility.PIXEL else 1.0
     there = (noise.uniform(key[:, 0], key[:, 1], settings.seed + 202) < fade) & (distance > CLEARING)
     stands = noise.uniform(key[there, 0], key[there, 1], settings.seed + 203)
-    there[there] = stands < stand_structure.kept(shot, position[there])
+    there[there] = stands < stand_structure.retained(shot, position[there])
     there[there] = visibility.visible(shot, position[there], found.scale[there], reach, found.width[there])
     chosen = np.flatnonzero(there)
     model = np.array([models.FIRST_MODEL[k] for k in (0, 1, 2)])[found.size_class[chosen]]

@@ -54,7 +54,7 @@ def with_lone(
     return fuel
 
 
-def kept(shot: Shot, position: Array) -> Array:
+def retained(shot: Shot, position: Array) -> Array:
     """Probability (n,) 0..1 that stems at points (n, 3) are retained."""
     ground, seed = shot.ground, shot.settings.seed
     x, y = position[:, 0], position[:, 1]

@@ -39,11 +39,11 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
             mesh = _label(f"Firetwin Place {k:03d}", name, _STEM + _TIER * int(tier), font)
             for look in looks:
                 mesh.materials.append(look)
-            _seen_only(owned.add(library, f"Place {k:03d}", mesh))
+            _camera_rays_only(owned.add(library, f"Place {k:03d}", mesh))
     data = bpy.data.meshes.new("Firetwin Labels")
     data.from_pydata(found.position.tolist(), [], [])
     obj = owned.add(collection, "Places", data)
-    _seen_only(obj)
+    _camera_rays_only(obj)
     modifier = obj.modifiers.new("Firetwin Labels", "NODES")
     modifier.node_group = _node_group(shot, library)
     return obj
@@ -59,7 +59,7 @@ def _tiers(shot: Shot, position: NDArray[np.float64]) -> NDArray[np.int64]:
     return tiers
 
 
-def _seen_only(obj: bpy.types.Object) -> None:
+def _camera_rays_only(obj: bpy.types.Object) -> None:
     """Make labels visible to camera rays only."""
     obj.visible_shadow = obj.visible_diffuse = obj.visible_glossy = False
     obj.visible_volume_scatter = obj.visible_transmission = False
