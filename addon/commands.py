@@ -362,7 +362,7 @@ def _fitted(
     if wrong := window.validate():
         raise UsageError(f"--end: {wrong[1]}")
     with notify_if_slow(READING):
-        found = auto_framing.fit_folder(run, path, cache, window)
-    for line in found.lines:
+        fitted = auto_framing.fit_folder(run, path, cache, window)
+    for line in fitted.lines:
         say(line)
-    return found.text
+    return fitted.text

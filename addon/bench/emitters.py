@@ -59,9 +59,9 @@ def run(bench: Bench) -> None:
             Runner(OURS, mine, threads=2),
             Runner("NumPy", partial(with_numpy, field, position)),
         ]
-        found = bench.race(f"{side} x {side}", tools, side * side, "cell")
+        times = bench.race(f"{side} x {side}", tools, side * side, "cell")
         if side == 144:
-            milliseconds = [1e3 * seconds for seconds in found[OURS].seconds]
+            milliseconds = [1e3 * seconds for seconds in times[OURS].seconds]
             bench.target(
                 "emitters, distance levels and the nearest 1,000 of 144 x 144 cells take",
                 milliseconds,

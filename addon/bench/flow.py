@@ -72,8 +72,8 @@ def _speed(bench: Bench) -> None:
     levels, rows, columns = BOX
     step, cells = partial(burning(BOX).step, DT), levels * rows * columns
     tools = [Runner(OURS, step), Runner(OURS, step, threads=2)]
-    found = bench.race(f"step of {rows} x {columns} x {levels} cells", tools, cells, "cell step")
-    speed = found[OURS].speed(cells / 1e6)
+    times = bench.race(f"step of {rows} x {columns} x {levels} cells", tools, cells, "cell step")
+    speed = times[OURS].speed(cells / 1e6)
     bench.target("steps of a flow are solved, on one thread, at", speed, 1.0, "Mcell/s")
 
 

@@ -131,26 +131,26 @@ class Bench:
 
     def time(self, runners: Sequence[Runner]) -> dict[str, Times]:
         """Time the tools in turns -> the times of each by its label."""
-        found = race(runners, MOST, SECONDS)
-        return {runner.label: times for runner, times in zip(runners, found, strict=True)}
+        measured = race(runners, MOST, SECONDS)
+        return {runner.label: times for runner, times in zip(runners, measured, strict=True)}
 
     def race(
         self, case: str, runners: Sequence[Runner], items: int, unit: str, error_unit: str = ""
     ) -> dict[str, Times]:
         """Time the tools in turns, and add a row for each."""
-        found = self.time(runners)
+        measured = self.time(runners)
         for runner in runners:
             self.row(
                 case,
                 runner.tool,
-                found[runner.label],
+                measured[runner.label],
                 items,
                 unit,
                 error=runner.error,
                 error_unit=error_unit,
                 threads=runner.threads,
             )
-        return found
+        return measured
 
     def row(
         self,

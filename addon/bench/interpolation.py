@@ -120,12 +120,12 @@ def _errors(
     bright = _even(flux, kept, removed)
     errors = {}
     for tool, call in tools.items():
-        found = [call(seconds[i]) for i in removed]
+        fields = [call(seconds[i]) for i in removed]
         fronts = []
-        for f, i in zip(found, removed, strict=True):
+        for f, i in zip(fields, removed, strict=True):
             before, after = kept[kept < i][-1], kept[kept > i][0]
             fronts.append(front_error(f, flux[i], flux[before], flux[after]))
-        ripple = departure(np.array([brightness(f) for f in found]), bright)
+        ripple = departure(np.array([brightness(f) for f in fields]), bright)
         errors[tool] = float(np.mean(fronts)), ripple
     runners = [
         Runner(tool, partial(_next, call, itertools.cycle(seconds[removed])), error=errors[tool][0])

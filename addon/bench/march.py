@@ -111,10 +111,10 @@ def _frame(bench: Bench) -> None:
         return
     with tempfile.TemporaryDirectory() as folder:
         task = {"folder": folder}
-        found = worker.run(f"{__name__}:frames_in_blender", task)
+        results = worker.run(f"{__name__}:frames_in_blender", task)
         exact = _picture(Path(folder), REFERENCE)
-        errors = {name: flip.evaluate(exact, _picture(Path(folder), name), "LDR")[1] for name in found}
-    for name, spent in found.items():
+        errors = {name: flip.evaluate(exact, _picture(Path(folder), name), "LDR")[1] for name in results}
+    for name, spent in results.items():
         bench.row(
             f"a frame of {FRAME[0]} by {FRAME[1]} pixels, {len(PASSES)} passes",
             name,

@@ -39,7 +39,7 @@ def run(bench: Bench) -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         sample.write(folder / "run", MODEL_TIMES, "npy")
-        found = {
+        results = {
             tool: worker.run(f"{__name__}:draw", {"folder": name, "skip": tool == OURS, "tool": tool})
             for tool in (OURS, ALL)
         }
@@ -48,7 +48,7 @@ def run(bench: Bench) -> None:
         }
     size = f"{RESOLUTION[0]} x {RESOLUTION[1]} pixels"
     for step in ("build", "render"):
-        for tool, each in found.items():
+        for tool, each in results.items():
             bench.row(
                 f"{size}: {step}",
                 tool,
@@ -60,7 +60,7 @@ def run(bench: Bench) -> None:
                 threads=os.cpu_count() or 1,
                 bytes=round(each["bytes"]) or None if step == "render" else None,
             )
-    ours, whole = found[OURS], found[ALL]
+    ours, whole = results[OURS], results[ALL]
     seconds = [each["build"] + each["render"] for each in (whole, ours)]
     bench.target("building and drawing takes less than of all there is", seconds[0] / seconds[1], TIMES, "x")
     if ours["bytes"]:  # known
@@ -108,7 +108,7 @@ def draw(
     stage.scene.camera = stage.camera("drone")
     stage.scene.frame_set(1)
     bpy.ops.render.render(scene=stage.scene.name)
-    found = {
+    results = {
         "build": built,
         "render": watch.read().processor - built,
         "bytes": memory.peak() - before,
@@ -118,4 +118,4 @@ def draw(
         stage.scene.cycles.seed = seed
         stage.scene.render.filepath = picture(folder, name)
         bpy.ops.render.render(write_still=True, scene=stage.scene.name)
-    return found
+    return results

@@ -55,11 +55,11 @@ def puffs(cells: int) -> volume.Puffs:
 
 def mass_in(openvdb: ModuleType, path: str, grid: str, unit: float) -> float:
     """Sum of a grid of the file times the volume of a voxel times `unit`."""
-    found = openvdb.read(path, grid)
-    low, high = found.evalActiveVoxelBoundingBox()
+    density = openvdb.read(path, grid)
+    low, high = density.evalActiveVoxelBoundingBox()
     values = np.zeros([b - a + 1 for a, b in zip(low, high, strict=True)], np.float32)
-    found.copyToArray(values, ijk=low)
-    voxel = np.prod(found.transform.voxelSize())
+    density.copyToArray(values, ijk=low)
+    voxel = np.prod(density.transform.voxelSize())
     return float(values.sum(dtype=float)) * float(voxel) * unit
 
 
@@ -85,8 +85,8 @@ def _box(bench: Bench, path: str, openvdb: ModuleType | None) -> None:
     if openvdb:
         tools.append(Runner("openvdb (Python)", partial(with_openvdb, openvdb, path, fields)))
     case = f"{len(fields)} fields of {SIDE} x {SIDE} x {SIDE // 3}"
-    found = bench.race(case, tools, frame.voxels, "voxel", "of the mass")
-    speed = found[tools[1].label].speed(frame.voxels / 1e6)
+    times = bench.race(case, tools, frame.voxels, "voxel", "of the mass")
+    speed = times[tools[1].label].speed(frame.voxels / 1e6)
     promise = "several fields of one box are built and written, on two threads, at"
     bench.target(promise, speed, MEGAVOXELS, "Mvoxel/s")
     bench.target("mass of a box off by", wrong, 1e-6, "", most=True)
@@ -133,7 +133,7 @@ def _many(bench: Bench, path: str) -> None:
     wrong = abs(frame.mass / float(np.sum(smoke.mass)) - 1)
     tools = [Runner(OURS, write, threads, wrong) for threads in (1, 2)]
     case = f"puffs of {MANY:,} cells at {FINE:g} m"
-    found = bench.race(case, tools, frame.active_voxels, "voxel", "of the mass")
-    speed = found[tools[1].label].speed(frame.active_voxels / 1e6)
+    times = bench.race(case, tools, frame.active_voxels, "voxel", "of the mass")
+    speed = times[tools[1].label].speed(frame.active_voxels / 1e6)
     bench.target("a frame of puffs is built and written, on two threads, at", speed, MEGAVOXELS, "Mvoxel/s")
     bench.target("mass of puffs off by", wrong, 1e-6, "", most=True)

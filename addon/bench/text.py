@@ -47,8 +47,8 @@ def hard_text() -> str:
 def wrong_share(text: str, values: NDArray) -> float:
     """Percent of `values` that are not the float32 nearest to their text, by exact arithmetic."""
     words = text.split()
-    found = np.asarray(values).ravel().astype(np.float32)
-    return 100 * sum(_is_wrong(word, value) for word, value in zip(words, found, strict=True)) / len(words)
+    rounded = np.asarray(values).ravel().astype(np.float32)
+    return 100 * sum(_is_wrong(word, value) for word, value in zip(words, rounded, strict=True)) / len(words)
 
 
 def _is_wrong(word: str, value: np.float32) -> bool:
@@ -73,7 +73,7 @@ def run(bench: Bench) -> None:
 def tools(bench: Bench, path: Path) -> list[Runner]:
     """Readers of this file, each in its two forms."""
     cast, direct = RIVALS["numpy.loadtxt"]
-    found = [
+    readers = [
         Runner(OURS, lambda: read_grid(path)),
         Runner(cast, lambda: np.loadtxt(path).astype(np.float32)),
         Runner(direct, lambda: np.loadtxt(path, np.float32)),
@@ -81,23 +81,23 @@ def tools(bench: Bench, path: Path) -> list[Runner]:
     if pandas := bench.rival("pandas"):
         read = pandas.read_csv
         cast, direct = RIVALS["pandas"]
-        found += [
+        readers += [
             Runner(cast, lambda: read(path, sep=" ", header=None).to_numpy(np.float32)),
             Runner(direct, lambda: read(path, sep=" ", header=None, dtype=np.float32).to_numpy()),
         ]
-    return found
+    return readers
 
 
 def race(bench: Bench, path: Path, side: int, wrong: dict[str, float]) -> None:
     """Read `side` x `side` values of a file with every tool; `wrong` is the error (%) of each."""
     case = f"{side} x {side}"
     runners = [Runner(tool.tool, tool.call, error=wrong[tool.label]) for tool in tools(bench, path)]
-    found = bench.race(case, runners, side * side, "value", "% of hard numbers wrong")
-    bench.target(f"{case} text is read at", found[OURS].speed(path.stat().st_size / 1e6), MEGABYTES, "MB/s")
+    times = bench.race(case, runners, side * side, "value", "% of hard numbers wrong")
+    bench.target(f"{case} text is read at", times[OURS].speed(path.stat().st_size / 1e6), MEGABYTES, "MB/s")
     for rival, forms in RIVALS.items():
-        if best := _best(found, forms):
+        if best := _best(times, forms):
             promise = f"speed of reading {case} text, over {rival}'s in the quicker of its two forms"
-            bench.target(promise, found[OURS].faster_than(best), BOUNDS[rival], "x")
+            bench.target(promise, times[OURS].faster_than(best), BOUNDS[rival], "x")
 
 
 def _best(found: dict[str, Times], forms: tuple[str, ...]) -> Times | None:

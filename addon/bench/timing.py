@@ -99,14 +99,14 @@ class threads:  # noqa: N801 - reads as a statement
 def race(runners: Sequence[Runner], most: int, budget: float) -> list[Times]:
     """Call every runner once to warm up, then all in turn, LEAST to `most` times, as `budget` (s) allows."""
     often = [_often(runner) for runner in runners]
-    found: list[list[Spent]] = [[] for _ in runners]
+    measured: list[list[Spent]] = [[] for _ in runners]
     begun = time.perf_counter()
     for done in range(most):
         if done >= LEAST and time.perf_counter() - begun > budget:
             break
-        for runner, number, spent in zip(runners, often, found, strict=True):
+        for runner, number, spent in zip(runners, often, measured, strict=True):
             spent.append(_sample(runner, number))
-    return [Times(tuple(s.seconds for s in spent), tuple(s.processor for s in spent)) for spent in found]
+    return [Times(tuple(s.seconds for s in spent), tuple(s.processor for s in spent)) for spent in measured]
 
 
 def _often(runner: Runner) -> int:

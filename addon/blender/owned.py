@@ -56,17 +56,17 @@ class Stage:
 
     def part(self, name: str, keep: Collection[bpy.types.Object] = ()) -> bpy.types.Collection:
         """The collection "Firetwin <name>", emptied of our objects except `keep`; other objects stay."""
-        found = next((child for child in self.root.children if ours(child, name)), None)
-        if found is not None:
-            _clear(found, keep)
+        collection = next((child for child in self.root.children if ours(child, name)), None)
+        if collection is not None:
+            _clear(collection, keep)
             purge()
-            return found
+            return collection
         return child(self.root, name)
 
     def objects_of(self, name: str) -> list[bpy.types.Object]:
         """Our objects of a part."""
-        found = (child for child in self.root.children if ours(child, name))
-        return [obj for child in found for obj in child.all_objects if ours(obj)]
+        collections = (child for child in self.root.children if ours(child, name))
+        return [obj for child in collections for obj in child.all_objects if ours(obj)]
 
     def evaluated(self, block: Any) -> Any:
         """A data-block evaluated at the scene's frame, also where another scene is the current one."""
@@ -76,8 +76,8 @@ class Stage:
 
     def camera(self, name: str) -> bpy.types.Object | None:
         """The object of the camera called `name` in the scene file, also after the object was renamed."""
-        found = [obj for obj in self.root.all_objects if ours(obj, f"camera {name}")]
-        return min(found, key=_originality, default=None)
+        matches = [obj for obj in self.root.all_objects if ours(obj, f"camera {name}")]
+        return min(matches, key=_originality, default=None)
 
 
 def built(scene: bpy.types.Scene) -> bool:
@@ -93,10 +93,10 @@ def scene(uid: int) -> bpy.types.Scene:
     Error
         The scene no longer exists.
     """
-    found = next((each for each in bpy.data.scenes if each.session_uid == uid), None)
-    if found is None:
+    match = next((each for each in bpy.data.scenes if each.session_uid == uid), None)
+    if match is None:
         raise Error("the scene is gone: it was deleted, undone, or another file was opened; build it again")
-    return found
+    return match
 
 
 def stage(scene: bpy.types.Scene) -> Stage:

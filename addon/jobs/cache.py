@@ -19,11 +19,11 @@ def folders(places: Iterable[Path]) -> list[Path]:
     UsageError
         A folder is missing.
     """
-    found = [scene_file.read(place).cache if place.suffix == ".toml" else place for place in places]
-    for place, named in zip(found, places, strict=True):
+    caches = [scene_file.read(place).cache if place.suffix == ".toml" else place for place in places]
+    for place, named in zip(caches, places, strict=True):
         if place == named and not place.is_dir():
             raise UsageError(f"cache: there is no folder {place}; name a cache folder or a scene file")
-    return list(dict.fromkeys(place.absolute() for place in found))
+    return list(dict.fromkeys(place.absolute() for place in caches))
 
 
 def by_last_use(places: Iterable[Path]) -> list[CachedVolumes]:

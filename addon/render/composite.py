@@ -162,10 +162,10 @@ def _without_edges(colour: Array, near: Array, edge: NDArray[np.bool_]) -> Array
     Without such neighbours the pixel takes the darkest colour of its 3 x 3: bright outliers are fire behind
     smoke.
     """
-    found = colour.copy()
+    cleaned = colour.copy()
     rows, columns = np.nonzero(edge)
     if len(rows) == 0:
-        return found
+        return cleaned
     height, width = edge.shape
     darkest = np.stack([_around(colour[..., channel], np.minimum) for channel in range(3)], axis=-1)
     total, weight = np.zeros((len(rows), 3), np.float32), np.zeros(len(rows), np.float32)
@@ -180,5 +180,5 @@ def _without_edges(colour: Array, near: Array, edge: NDArray[np.bool_]) -> Array
             total += part[:, None] * colour[row, column]
             weight += part
     mean = total / np.maximum(weight, 1.0e-9)[:, None]
-    found[rows, columns] = np.where(weight[:, None] > 0.0, mean, darkest[rows, columns])
-    return found
+    cleaned[rows, columns] = np.where(weight[:, None] > 0.0, mean, darkest[rows, columns])
+    return cleaned

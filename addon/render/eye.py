@@ -70,8 +70,8 @@ class Eye:
         if not self.smoke:
             return bare
         air = illumination.warm(self.shot, self.stage, frame)
-        found = volume.march_infrared(self.smoke, *_lines(self.rays), self.distance.ravel(), **air)
-        light, through = np.moveaxis(found.reshape(*self.shape, 2), -1, 0)
+        marched = volume.march_infrared(self.smoke, *_lines(self.rays), self.distance.ravel(), **air)
+        light, through = np.moveaxis(marched.reshape(*self.shape, 2), -1, 0)
         return bare * through + light
 
     def transmittance(self) -> Array:

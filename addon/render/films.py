@@ -36,9 +36,9 @@ def missing(shot: Shot, store: Store, made_with: Fingerprints) -> Iterator[Film]
             if store.note(path) == state:
                 continue
             frames = set(shot.frames_of(shot.camera(camera)))
-            found = store.pictures(camera, name, key, ".png")
+            hashes = store.pictures(camera, name, key, ".png")
             made_from = _made_from(
-                shot, camera, name, [[frame, found[frame]] for frame in found if frame in frames]
+                shot, camera, name, [[frame, hashes[frame]] for frame in hashes if frame in frames]
             )
             if len(made_from["frames"]) > 1 and not store.intact(fingerprint(made_from), [path]):
                 yield camera, name, made_from

@@ -125,12 +125,12 @@ def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silen
         label: comparison.for_run(shot, label) for label in {view.partition("@")[2] for view, _ in pairs}
     }
     runs = {label: own.input_hashes(progress=progress) | more for label, own in shots.items()}
-    found = {}
+    made_with = {}
     for view, name in sorted(pairs):
         label = view.partition("@")[2]
-        found[view, name] = of_picture(shots[label].settings, runs[label], view, name)
-        found[view, name] |= _other_runs(shots[label], name, progress)
-    return found
+        made_with[view, name] = of_picture(shots[label].settings, runs[label], view, name)
+        made_with[view, name] |= _other_runs(shots[label], name, progress)
+    return made_with
 
 
 def _other_runs(shot: Shot, name: str, progress: Progress) -> dict[str, Any]:
@@ -139,5 +139,5 @@ def _other_runs(shot: Shot, name: str, progress: Progress) -> dict[str, Any]:
     if not passes.compares(name) and not (shot.settings.fire.fronts and "fire" in each.all_aspects):
         return {}
     cache = shot.settings.cache
-    found = {label: content.inputs(run, cache, (), progress) for label, run in shot.other_runs().items()}
-    return {"beside": found} if found else {}
+    hashes = {label: content.inputs(run, cache, (), progress) for label, run in shot.other_runs().items()}
+    return {"beside": hashes} if hashes else {}

@@ -127,18 +127,20 @@ def plain(scene: bpy.types.Scene, names: Iterable[str]) -> Iterator[None]:
     artist.
     """
     shapes = {f"pass {name}" for name in names if _geometry_only(name)}
-    found = [layer for layer in scene.view_layers if layer.get(owned.MARK) in shapes]
-    if not found or not all(owned.ours(material) for material in bpy.data.materials if material.users):
+    geometry_layers = [layer for layer in scene.view_layers if layer.get(owned.MARK) in shapes]
+    if not geometry_layers or not all(
+        owned.ours(material) for material in bpy.data.materials if material.users
+    ):
         yield
         return
     black, tree = nodes.material("Firetwin Plain")
     tree.surface(tree.emission((0.0, 0.0, 0.0)))
-    for layer in found:
+    for layer in geometry_layers:
         layer.material_override = black
     try:
         yield
     finally:
-        for layer in found:
+        for layer in geometry_layers:
             layer.material_override = None
         bpy.data.materials.remove(black)
         bpy.data.node_groups.remove(tree.node_tree)

@@ -28,15 +28,15 @@ def read(out: Path) -> dict[str, Any]:
     """
     path = out / NAME
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
+        content = json.loads(path.read_text(encoding="utf-8"))
     except (FileNotFoundError, NotADirectoryError):
         return {"format": _FORMAT, "settings": {}, "files": {}}
     except (OSError, ValueError) as error:
         place = getattr(error, "lineno", 0), getattr(error, "colno", 0)
         raise input_error(path, *place, BROKEN.format("a manifest")) from None
-    if not isinstance(found, dict) or found.get("format") != _FORMAT:
+    if not isinstance(content, dict) or content.get("format") != _FORMAT:
         raise input_error(path, 0, 0, BROKEN.format("a manifest"))
-    return found
+    return content
 
 
 def write(out: Path, settings: dict[str, Any], entries: dict[str, Any]) -> None:

@@ -52,12 +52,12 @@ def draw(
 
 def _read(path: Path, names: Collection[str]) -> dict[str, Channels]:
     """Read the channels of a multilayer EXR, and delete the file."""
-    found: dict[str, dict[str, list[tuple[str, NDArray[np.float32]]]]] = {name: {} for name in names}
+    channels: dict[str, dict[str, list[tuple[str, NDArray[np.float32]]]]] = {name: {} for name in names}
     for channel, values in sensor.read_channels(path).items():
         layer, name, *_, part = channel.split(".")
-        found[layer].setdefault(name, []).append((part, values))
+        channels[layer].setdefault(name, []).append((part, values))
     path.unlink()
-    return {layer: {name: _stacked(each) for name, each in all_.items()} for layer, all_ in found.items()}
+    return {layer: {name: _stacked(each) for name, each in all_.items()} for layer, all_ in channels.items()}
 
 
 def _stacked(parts: list[tuple[str, NDArray[np.float32]]]) -> NDArray[np.float32]:

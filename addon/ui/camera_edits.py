@@ -16,8 +16,8 @@ def pull(scene: bpy.types.Scene) -> list[str]:
         return told
     before = camera_list.cameras(panel)
     size = tuple(panel.render.resolution)
-    found = read_edits.pull(scene, before, size, panel.frames, told.append)
-    for item, old, new in zip(panel.cameras, before, found, strict=True):
+    cameras = read_edits.pull(scene, before, size, panel.frames, told.append)
+    for item, old, new in zip(panel.cameras, before, cameras, strict=True):
         if new != old:
             camera_list.put(item, new)
     return told

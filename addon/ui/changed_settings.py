@@ -26,10 +26,10 @@ _ELSEWHERE = ("path", "cache")
 
 def digests(panel: bpy.types.PropertyGroup) -> dict[str, str]:
     """Digests of the panel's values of every section, of the run and of the cameras."""
-    found = {
+    values = {
         part.name: _shown_values(panel, part) for part in fields(Settings) if part.name not in _ELSEWHERE
     }
-    return {name: hashlib.sha256(repr(value).encode()).hexdigest()[:16] for name, value in found.items()}
+    return {name: hashlib.sha256(repr(value).encode()).hexdigest()[:16] for name, value in values.items()}
 
 
 def _shown_values(panel: bpy.types.PropertyGroup, part: Field) -> object:

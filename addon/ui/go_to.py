@@ -24,19 +24,19 @@ _SECONDS, _STEP = 1.5, 1.0 / 30.0  # s of the flight, and between its redraws
 
 def coordinates(text: str) -> tuple[float, float] | None:
     """Parse latitude and longitude, degrees north and east; None if the text has none."""
-    found = _PAIR.fullmatch(text)
-    if found is None:
+    match = _PAIR.fullmatch(text)
+    if match is None:
         return None
-    latitude = float(found[1]) * (-1.0 if found[2].upper() == "S" else 1.0)
-    longitude = float(found[3]) * (-1.0 if found[4].upper() == "W" else 1.0)
+    latitude = float(match[1]) * (-1.0 if match[2].upper() == "S" else 1.0)
+    longitude = float(match[3]) * (-1.0 if match[4].upper() == "W" else 1.0)
     return (latitude, longitude) if abs(latitude) <= 90.0 and abs(longitude) <= 360.0 else None
 
 
 def parse_time(panel: bpy.types.PropertyGroup, text: str) -> datetime | None:
     """Parse a time: date and time, or words of a reported event."""
-    if found := _DATE.fullmatch(text):
-        zone = UTC if found[3] else zoneinfo.ZoneInfo(panel.zone)
-        return datetime.fromisoformat(f"{found[1]} {found[2]:0>5}").replace(tzinfo=zone).astimezone(UTC)
+    if match := _DATE.fullmatch(text):
+        zone = UTC if match[3] else zoneinfo.ZoneInfo(panel.zone)
+        return datetime.fromisoformat(f"{match[1]} {match[2]:0>5}").replace(tzinfo=zone).astimezone(UTC)
     wanted, moments = text.strip().lower(), run.read(panel.facts)["moments"] if panel.facts else []
     reported = (time for time, words in moments if wanted and wanted in words.lower())
     return next(map(datetime.fromisoformat, reported), None)
@@ -59,9 +59,9 @@ def place(scene: bpy.types.Scene, text: str) -> Vector | None:
         ground = ground_raycast.up(stage, (east, north))
         return None if ground is None else Vector((east, north, ground))
     wanted = text.strip().lower()
-    found = [obj for obj in scene.objects if wanted and wanted in obj.name.lower()]
-    found.sort(key=lambda obj: (obj.name.lower() != wanted, len(obj.name)))
-    return found[0].matrix_world.translation.copy() if found else None
+    matches = [obj for obj in scene.objects if wanted and wanted in obj.name.lower()]
+    matches.sort(key=lambda obj: (obj.name.lower() != wanted, len(obj.name)))
+    return matches[0].matrix_world.translation.copy() if matches else None
 
 
 class FIRETWIN_OT_go(bpy.types.Operator):

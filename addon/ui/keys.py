@@ -209,23 +209,23 @@ def _shortest(value: Any) -> Any:
 def _listed(part: Field, text: str) -> tuple[Any, ...]:
     """Parse a typed list such as ``1, 2.5``."""
     try:
-        found = json.loads(f"[{text}]")
+        listed = json.loads(f"[{text}]")
     except ValueError:
         raise Error(f'{label(part.name)}: "{text}" is no list; write numbers with commas') from None
     kind = typing.get_args(part.type)[0]
-    if not all(type(each) in ((int, float) if kind is float else (kind,)) for each in found):
+    if not all(type(each) in ((int, float) if kind is float else (kind,)) for each in listed):
         raise Error(f'{label(part.name)}: "{text}" is no valid list: {part.key.described()}')
-    return tuple(kind(each) for each in found)
+    return tuple(kind(each) for each in listed)
 
 
 def _moment(part: Field, text: str) -> datetime:
     """Parse a typed time; UTC without a zone."""
     try:
-        found = datetime.fromisoformat(text.strip())
+        moment = datetime.fromisoformat(text.strip())
     except ValueError:
         reason = f'"{text}" is no date and time; write it as 2014-09-17 21:30'
         raise Error(f"{label(part.name)}: {reason}") from None
-    return found.astimezone(UTC) if found.tzinfo else found.replace(tzinfo=UTC)
+    return moment.astimezone(UTC) if moment.tzinfo else moment.replace(tzinfo=UTC)
 
 
 def _choice(part: Field, first: tuple[str, str, str] | None) -> dict[str, Any]:

@@ -15,8 +15,8 @@ from . import run
 def known(panel: bpy.types.PropertyGroup) -> tuple[labels.Label, ...]:
     """All place names; empty if the user's list cannot be read, which building the labels reports."""
     if not panel.labels.file:
-        found = run.read(panel.facts).get("places", ()) if panel.facts else ()
-        return tuple(labels.Label(*each) for each in found)
+        places = run.read(panel.facts).get("places", ()) if panel.facts else ()
+        return tuple(labels.Label(*each) for each in places)
     path = Path(bpy.path.abspath(panel.labels.file))
     try:
         return _read(path, path.stat().st_mtime_ns)
@@ -32,8 +32,8 @@ def _read(path: Path, changed: int) -> tuple[labels.Label, ...]:
 def find(panel: bpy.types.PropertyGroup, text: str) -> labels.Label | None:
     """The place of this name, or the first whose name contains it."""
     wanted = text.strip().lower()
-    found = [place for place in known(panel) if wanted and wanted in place.name.lower()]
-    return min(found, key=lambda place: place.name.lower() != wanted, default=None)
+    matches = [place for place in known(panel) if wanted and wanted in place.name.lower()]
+    return min(matches, key=lambda place: place.name.lower() != wanted, default=None)
 
 
 class FIRETWIN_MT_named(bpy.types.Menu):
@@ -43,11 +43,11 @@ class FIRETWIN_MT_named(bpy.types.Menu):
     bl_label = "Look at a Place"
 
     def draw(self, context: bpy.types.Context) -> None:
-        found = known(context.scene.firetwin)
-        for place in found:
+        places = known(context.scene.firetwin)
+        for place in places:
             aim = self.layout.operator("firetwin.camera_aim", text=place.name)
             aim.target, aim.place = "station", place.name
-        if not found:
+        if not places:
             self.layout.label(text="No places are known: choose a file under Labels", icon="INFO")
 
 

@@ -112,7 +112,7 @@ class FIRETWIN_OT_preset(AddPresetBase, bpy.types.Operator):
     @property
     def preset_values(self) -> list[str]:
         """Values of a preset: every setting except those of a run."""
-        found = ["firetwin.seed"]
+        saved = ["firetwin.seed"]
         for section in sections.sections():
             names = [
                 part.name
@@ -124,8 +124,8 @@ class FIRETWIN_OT_preset(AddPresetBase, bpy.types.Operator):
                 for part in fields(section.table)
                 if part.name in names and keys.switched(part)
             ]
-            found += [f"firetwin.{section.name}.{name}" for name in (*switches, *names)]
-        return found
+            saved += [f"firetwin.{section.name}.{name}" for name in (*switches, *names)]
+        return saved
 
 
 class FIRETWIN_MT_presets(bpy.types.Menu):

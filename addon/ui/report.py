@@ -22,10 +22,10 @@ class FIRETWIN_PT_report(bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.firetwin
-        found = run.read(settings.facts) if settings.facts else None
-        if found is None:
+        facts = run.read(settings.facts) if settings.facts else None
+        if facts is None:
             layout.label(text="Open a run first", icon="INFO")
-        for time, reported, area in found["burned"] if found else ():
+        for time, reported, area in facts["burned"] if facts else ():
             column = layout.column(align=True)
             column.label(text=time)
             labelled(column, "Reported", 0.4).label(text=reported)

@@ -108,17 +108,17 @@ def facts(folder: Path) -> tuple[dict[str, Any], maps.Images]:
     from ..run import info, labels, thumbnails, zone
 
     run = readers.open(folder)
-    found = info.gather(run, zone.time_zone(run))
+    report = info.gather(run, zone.time_zone(run))
     told = {
-        "name": found["name"],
-        "synthetic": found["synthetic"],
-        "rows": info.brief(found),
-        "warnings": found["warnings"],
-        "first": found["times"]["first"],
-        "last": found["times"]["last"],
-        "zone": found["zone"],
-        "moments": _moments(found),
-        "burned": _burned(found),
+        "name": report["name"],
+        "synthetic": report["synthetic"],
+        "rows": info.brief(report),
+        "warnings": report["warnings"],
+        "first": report["times"]["first"],
+        "last": report["times"]["last"],
+        "zone": report["zone"],
+        "moments": _moments(report),
+        "burned": _burned(report),
         "places": labels.known(run),
         "fits": auto_framing.frame_run(run),
     }
@@ -211,12 +211,12 @@ class FIRETWIN_PT_facts(bpy.types.Panel):
         return bool(context.scene.firetwin.facts)
 
     def draw(self, context: bpy.types.Context) -> None:
-        found = read(context.scene.firetwin.facts)
+        facts = read(context.scene.firetwin.facts)
         column = self.layout.column(align=True)
-        paragraph(context, column, found["name"])
-        for label, text in found["rows"]:
+        paragraph(context, column, facts["name"])
+        for label, text in facts["rows"]:
             labelled(column, label).label(text=text)
-        for warning in found["warnings"]:
+        for warning in facts["warnings"]:
             paragraph(context, column, warning, "ERROR")
         for line in auto_framing.lines(context.scene.firetwin):
             paragraph(context, column, f"{line[:1].upper()}{line[1:]}")

@@ -33,8 +33,8 @@ def settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Setting
     cameras, runs = camera_list.cameras(panel), other_runs.runs(panel)
     whole = Settings(path=path, run=run, cache=cache, cameras=cameras, runs=runs)
     whole = sections.take(panel, sections.single() + sections.sections(), whole)
-    if found := validate(whole):
-        raise Error(keys.sentence(found[1]))
+    if mistake := validate(whole):
+        raise Error(keys.sentence(mistake[1]))
     return whole
 
 

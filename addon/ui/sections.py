@@ -30,25 +30,25 @@ def sections() -> tuple[Field, ...]:
 
 def single() -> tuple[Field, ...]:
     """Keys before all sections, and lists of tables, without those that the panel stores in its own way."""
-    found = (part for part in fields(Settings) if not part.table or part.tables)
-    return tuple(part for part in found if part.name not in NOT_HERE)
+    parts = (part for part in fields(Settings) if not part.table or part.tables)
+    return tuple(part for part in parts if part.name not in NOT_HERE)
 
 
 def properties(known: tuple[Field, ...], kind: type) -> dict[str, Any]:
     """Property annotations of a group for keys of a dataclass."""
-    found: dict[str, Any] = {"exact": bpy.props.StringProperty(options={"HIDDEN"})}
+    annotations: dict[str, Any] = {"exact": bpy.props.StringProperty(options={"HIDDEN"})}
     for part in known:
         if part.tables:
-            found[part.name] = bpy.props.StringProperty(
+            annotations[part.name] = bpy.props.StringProperty(
                 name=keys.label(part.name), options={"HIDDEN"}, update=changed_settings.note
             )
         elif part.table:
-            found[part.name] = bpy.props.PointerProperty(type=group(part.table))
+            annotations[part.name] = bpy.props.PointerProperty(type=group(part.table))
         else:
-            found[part.name] = keys.prop(kind, part.name, update=changed_settings.note)
+            annotations[part.name] = keys.prop(kind, part.name, update=changed_settings.note)
             if keys.switched(part):
-                found[keys.USE + part.name] = keys.switch(part, update=changed_settings.note)
-    return found
+                annotations[keys.USE + part.name] = keys.switch(part, update=changed_settings.note)
+    return annotations
 
 
 _groups: dict[type, type[bpy.types.PropertyGroup]] = {}
@@ -99,13 +99,13 @@ def take(group: bpy.types.PropertyGroup, known: tuple[Field, ...], values: Any) 
     Error
         A typed text is invalid.
     """
-    found: dict[str, Any] = {}
+    taken: dict[str, Any] = {}
     for part in known:
         if part.tables:
-            found[part.name] = from_text(part, getattr(group, part.name))
+            taken[part.name] = from_text(part, getattr(group, part.name))
         elif part.table:
             inner = getattr(values, part.name)
-            found[part.name] = take(getattr(group, part.name), fields(part.table), inner)
+            taken[part.name] = take(getattr(group, part.name), fields(part.table), inner)
         else:
-            found[part.name] = keys.take(group, part)
-    return replace(values, **found)
+            taken[part.name] = keys.take(group, part)
+    return replace(values, **taken)

@@ -29,17 +29,17 @@ def price(uid: int) -> Steps:
     if not panel.smoke.enabled or not better:
         return ""
     chosen = replace(choice.from_panel(panel), smoke=better)
-    found = yield InThread("estimating the cost of the smoke", lambda **_: _cost(chosen))
-    owned.scene(uid).firetwin.smoke_cost = found
-    return found
+    cost = yield InThread("estimating the cost of the smoke", lambda **_: _cost(chosen))
+    owned.scene(uid).firetwin.smoke_cost = cost
+    return cost
 
 
 def _cost(chosen: ShotSource) -> str:
     """Time and disk space as a short text; empty where the run includes its smoke, or nothing burns."""
     from ..smoke import sources
 
-    found = sources.select(chosen.shot()).cost()
-    return found.brief() if found else ""
+    cost = sources.select(chosen.shot()).cost()
+    return cost.brief() if cost else ""
 
 
 def draw(layout: bpy.types.UILayout, panel: bpy.types.PropertyGroup) -> None:

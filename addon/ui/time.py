@@ -163,10 +163,10 @@ def _local(moment: datetime, zone: str) -> str:
 def _end(text: str, other: str) -> datetime | None:
     """Start or end of the time window: the typed time, else the run's; None without either."""
     try:
-        found = datetime.fromisoformat((text or other).strip())
+        moment = datetime.fromisoformat((text or other).strip())
     except ValueError:
         return None
-    return found if found.tzinfo else found.replace(tzinfo=UTC)
+    return moment if moment.tzinfo else moment.replace(tzinfo=UTC)
 
 
 class FIRETWIN_PT_time(bpy.types.Panel):

@@ -24,8 +24,8 @@ def up(stage: Stage, place: Sequence[float] | NDArray[np.float64]) -> float | No
 
 def height(stage: Stage, places: NDArray[np.float64]) -> float:
     """Least height (m) of points (n, 3) above the terrain, at least 0; 0 without terrain."""
-    found = [float(place[2]) - z for place in places if (z := up(stage, place)) is not None]
-    return max(min(found), 0.0) if len(found) else 0.0
+    heights = [float(place[2]) - z for place in places if (z := up(stage, place)) is not None]
+    return max(min(heights), 0.0) if len(heights) else 0.0
 
 
 def hit(stage: Stage, origin: ArrayLike, direction: ArrayLike) -> Vector | None:

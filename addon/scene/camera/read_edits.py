@@ -119,11 +119,11 @@ def _by_curves(obj: bpy.types.Object, frames: int) -> tuple[NDArray[np.float64],
 def _curves(block: bpy.types.ID, name: str, frames: int) -> NDArray[np.float64]:
     """A property of a data-block in every frame (frames, channels)."""
     still = np.atleast_1d(np.array(getattr(block, name), np.float64))
-    found = np.repeat(still[None], frames, axis=0)
+    values = np.repeat(still[None], frames, axis=0)
     for curve in compat.fcurves(block):
         if curve.data_path == name and not curve.mute:
-            found[:, curve.array_index] = [curve.evaluate(frame) for frame in range(1, frames + 1)]
-    return found
+            values[:, curve.array_index] = [curve.evaluate(frame) for frame in range(1, frames + 1)]
+    return values
 
 
 def _through_frames(
@@ -144,8 +144,8 @@ def _through_frames(
 
 def _keyed(obj: bpy.types.Object, frames: int) -> tuple[int, ...]:
     curves = (*compat.fcurves(obj), *compat.fcurves(obj.data))
-    found = {round(point.co[0]) - 1 for curve in curves for point in curve.keyframe_points}
-    return tuple(sorted(frame for frame in found if 0 <= frame < frames))
+    keyed = {round(point.co[0]) - 1 for curve in curves for point in curve.keyframe_points}
+    return tuple(sorted(frame for frame in keyed if 0 <= frame < frames))
 
 
 def _sensor(data: bpy.types.Camera, size: tuple[int, int]) -> float:
@@ -208,9 +208,9 @@ def pull(
     tell
         Receives a message for each edit that settings cannot express.
     """
-    found = list(cameras)
+    edited = list(cameras)
     if not owned.built(scene):
-        return tuple(found)
+        return tuple(edited)
     stage = owned.stage(scene)
     frame, taken = local_frame(stage), {camera.name for camera in cameras}
     for i, before in enumerate(cameras):
@@ -219,14 +219,14 @@ def pull(
             continue
         name = _name(obj.name, before.name, taken - {before.name}) if "name" in what else before.name
         taken.add(name)
-        found[i], words = _pulled(stage, obj, replace(found[i], name=name), what, frames, size)
+        edited[i], words = _pulled(stage, obj, replace(edited[i], name=name), what, frames, size)
         owned.mark(obj, f"camera {name}")
-        found = [_following(each, before.name, name) for each in found]
+        edited = [_following(each, before.name, name) for each in edited]
         if words:
             tell(f'camera "{name}": {words}')
         else:
             edit_detection.remember(obj)
-    return tuple(found)
+    return tuple(edited)
 
 
 def _pulled(
@@ -274,5 +274,5 @@ def _name(text: str, before: str, taken: set[str]) -> str:
 
 def pose_of(matrix: Matrix) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Position (3,) and rotation matrix (3, 3) of a Blender matrix, without scale."""
-    found = np.array(matrix, np.float64)
-    return found[:3, 3], found[:3, :3] / np.linalg.norm(found[:3, :3], axis=0)
+    pose = np.array(matrix, np.float64)
+    return pose[:3, 3], pose[:3, :3] / np.linalg.norm(pose[:3, :3], axis=0)

@@ -26,20 +26,20 @@ def build(
     Vertex i k + j is point j of the trajectory of firebrand i. All have the float attributes `start`,
     `birth`, `life` (s after the first frame, s) and `size` (m).
     """
-    found = firebrands.fly(shot, points)
-    if found is None:
+    flights = firebrands.fly(shot, points)
+    if flights is None:
         return None
-    count, each = found.place.shape[:2]
+    count, each = flights.place.shape[:2]
     mesh = bpy.data.meshes.new("Firetwin Firebrands")
     mesh.vertices.add(count * each)
-    mesh.vertices.foreach_set("co", found.place.ravel())
+    mesh.vertices.foreach_set("co", flights.place.ravel())
     for name in ("start", "birth", "life", "size"):
-        values = np.repeat(getattr(found, name), each).astype(np.float32)
+        values = np.repeat(getattr(flights, name), each).astype(np.float32)
         mesh.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values)
     mesh.update()
     obj = owned.add(collection, "Firebrands", mesh)
     modifier = obj.modifiers.new("Firetwin Firebrands", "NODES")
-    modifier.node_group = _node_group(shot, stage, found, shot.pixel[0])
+    modifier.node_group = _node_group(shot, stage, flights, shot.pixel[0])
     _camera_rays_only(obj)
     return obj
 

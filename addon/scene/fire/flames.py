@@ -248,14 +248,14 @@ def cells(shot: Shot) -> Points:
     width = float(np.sqrt(burning.cell_area(run) * run.surface_fuel.size / run.elevation.size))
     parts = []
     for time in shot.built_times:
-        found = flux.emitters(shot.fire.flux.at(float(time)), position, low, high)
-        count = len(found.cell)
-        length = found.scale / 100.0 * _CELL_FLAME
-        intensity = found.flux.astype(np.float64) * width / 1000.0
-        seed = (found.cell * 0.6180339887498949) % 1.0  # of the cell: the same in every frame
+        emitters = flux.emitters(shot.fire.flux.at(float(time)), position, low, high)
+        count = len(emitters.cell)
+        length = emitters.scale / 100.0 * _CELL_FLAME
+        intensity = emitters.flux.astype(np.float64) * width / 1000.0
+        seed = (emitters.cell * 0.6180339887498949) % 1.0  # of the cell: the same in every frame
         parts.append(
             Points(
-                found.position,
+                emitters.position,
                 np.full(count, time - 0.5 * step),
                 np.full(count, step),
                 intensity,

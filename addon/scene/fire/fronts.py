@@ -31,13 +31,15 @@ def build(shot: Shot, stage: Stage, collection: bpy.types.Collection) -> None:
 
 
 def _mesh(shot: Shot, name: str, run: Run) -> bpy.types.Mesh:
-    found = fronts.lines(shot, run)
-    count = len(found.points)
+    front_lines = fronts.lines(shot, run)
+    count = len(front_lines.points)
     before = np.empty(count, np.int64)
-    before[found.after] = np.arange(count)
-    corners = observed.band(found.points, before, found.after, shot.settings.fire.observed_width)
+    before[front_lines.after] = np.arange(count)
+    corners = observed.band(front_lines.points, before, front_lines.after, shot.settings.fire.observed_width)
     here = np.arange(count)
-    faces = np.column_stack([here, found.after, found.after + count, here + count]).astype(np.int32)
+    faces = np.column_stack([here, front_lines.after, front_lines.after + count, here + count]).astype(
+        np.int32
+    )
     mesh = bpy.data.meshes.new(f"Firetwin Front {name}")
     mesh.vertices.add(2 * count)
     mesh.vertices.foreach_set("co", corners.ravel())
@@ -46,7 +48,7 @@ def _mesh(shot: Shot, name: str, run: Run) -> bpy.types.Mesh:
     mesh.polygons.add(count)
     mesh.polygons.foreach_set("loop_start", np.arange(0, 4 * count, 4, dtype=np.int32))
     for which in ("start", "end"):
-        values = np.tile(getattr(found, which), 2).clip(-1e12, 1e12).astype(np.float32)
+        values = np.tile(getattr(front_lines, which), 2).clip(-1e12, 1e12).astype(np.float32)
         mesh.attributes.new(f"seen_{which}", "FLOAT", "POINT").data.foreach_set("value", values)
     mesh.update(calc_edges=True)
     return mesh

@@ -18,12 +18,12 @@ def build(shot: Shot, parent: bpy.types.Collection) -> list[bpy.types.Object]:
     first, last = shot.frames.first, shot.frames.last
     if shot.settings.light.lamps == 0 or np.all(lamps.darkness(shot, np.linspace(first, last, 9)) == 0.0):
         return []
-    found = lamps.place(shot)
-    strength = lamps.LIGHT * lamps.darkness(shot, found.time)
-    frames = 1.0 + (found.time - first) / (shot.frames.step or 1.0)
+    placed = lamps.place(shot)
+    strength = lamps.LIGHT * lamps.darkness(shot, placed.time)
+    frames = 1.0 + (placed.time - first) / (shot.frames.step or 1.0)
     made = []
-    for i, (position, radius) in enumerate(zip(found.position, found.radius, strict=True)):
-        obj = _lamp(collection, f"Lamp {i:02d}", position, radius, frames, strength * found.heat[:, i])
+    for i, (position, radius) in enumerate(zip(placed.position, placed.radius, strict=True)):
+        obj = _lamp(collection, f"Lamp {i:02d}", position, radius, frames, strength * placed.heat[:, i])
         # EEVEE would render six shadow maps for each
         obj.data.use_shadow = shot.settings.render.engine == "cycles"
         made.append(obj)

@@ -60,7 +60,7 @@ def algorithm2(shot: Shot) -> dict[str, NDArray]:
     """
     run, seed, reach = shot.run, shot.settings.seed, shot.settings.forest.draw_distance
     axes = run.fuel_latitude, run.fuel_longitude
-    found = core.trees(
+    trees = core.trees(
         run.canopy_fuel,
         *axes,
         shot.relief.fuel,
@@ -68,14 +68,14 @@ def algorithm2(shot: Shot) -> dict[str, NDArray]:
         seed=seed,
         mask=visible_cells.visible_cells(shot, _TALLEST, reach, *axes, shot.relief.fuel),
     )
-    position = visibility.settled(shot.ground, found.position)
-    kept = np.flatnonzero(visibility.visible(shot, position, found.scale, reach))
-    cell = found.cell[kept]
-    first = np.array([models.FIRST_MODEL[k] for k in (0, 1, 2)])[found.size_class[kept]]
-    model = first + found.model[kept]
+    position = visibility.settled(shot.ground, trees.position)
+    kept = np.flatnonzero(visibility.visible(shot, position, trees.scale, reach))
+    cell = trees.cell[kept]
+    first = np.array([models.FIRST_MODEL[k] for k in (0, 1, 2)])[trees.size_class[kept]]
+    model = first + trees.model[kept]
     width = np.ones(len(cell))
     points = _points(
-        shot, position[kept], found.scale[kept], width, found.rotation[kept], model, cell, cell * 0
+        shot, position[kept], trees.scale[kept], width, trees.rotation[kept], model, cell, cell * 0
     )
     return {**points, "number": masks.numbers(cell, cell * 0)}
 
@@ -104,15 +104,15 @@ def _grass(shot: Shot) -> dict[str, NDArray]:
     run, ground, seed = shot.run, shot.ground, shot.settings.seed
     axes = run.fuel_latitude, run.fuel_longitude
     mask = visible_cells.visible_cells(shot, _GRASS, GRASS_DISTANCE, *axes, shot.relief.fuel)
-    found = core.grass(run.surface_fuel, *axes, shot.relief.fuel, ground.frame, seed=seed, mask=mask)
-    position = visibility.settled(ground, found.position)
-    moved = np.abs(position[:, 2] - found.position[:, 2]) > 0.0
+    clumps = core.grass(run.surface_fuel, *axes, shot.relief.fuel, ground.frame, seed=seed, mask=mask)
+    position = visibility.settled(ground, clumps.position)
+    moved = np.abs(position[:, 2] - clumps.position[:, 2]) > 0.0
     position[moved, 2] -= 0.7
     kept = np.flatnonzero(visibility.visible(shot, position, _GRASS, GRASS_DISTANCE))
-    cell, position = found.cell[kept], position[kept]
+    cell, position = clumps.cell[kept], position[kept]
     model = (noise.uniform(cell, 7, seed) < 0.5).astype(np.int64)
-    scale, width = found.scale[kept], np.ones(len(cell))
-    points = _points(shot, position, scale, width, found.rotation[kept], model, cell, cell * 0 + 1)
+    scale, width = clumps.scale[kept], np.ones(len(cell))
+    points = _points(shot, position, scale, width, clumps.rotation[kept], model, cell, cell * 0 + 1)
     return points | {"snag_model": model}
 
 

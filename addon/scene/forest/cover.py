@@ -41,10 +41,10 @@ def shrubs(shot: Shot) -> Array:
 
 def _shrubs(shot: Shot) -> Array:
     here = biomes.choose(shot)
-    found = _by_load(shot.ground, here)
+    share = _by_load(shot.ground, here)
     if shot.run.has(fuel_category.FIELD):
-        found = np.where(np.isnan(said := _by_category(shot, here)), found, said)
-    return found
+        share = np.where(np.isnan(said := _by_category(shot, here)), share, said)
+    return share
 
 
 def _by_load(ground: Ground, here: biomes.Here) -> Array:
@@ -64,8 +64,8 @@ def _by_category(shot: Shot, here: biomes.Here) -> Array:
     for name, bushy in _BUSHY.items():
         share[fuel_category.NAMES.index(name)] = bushy
     share[fuel_category.UNBURNABLE] = 0.0
-    found = np.where((number > 120) & (number < 125), _AMONG_GRASS, share[kind])
-    return np.where(kind == fuel_category.UNBURNABLE, found, _beside(here, found))
+    shrub_cover = np.where((number > 120) & (number < 125), _AMONG_GRASS, share[kind])
+    return np.where(kind == fuel_category.UNBURNABLE, shrub_cover, _beside(here, shrub_cover))
 
 
 def mapped(shot: Shot) -> Array:
@@ -87,11 +87,11 @@ def on_ground(shot: Shot, field: NDArray) -> Array:
             (shot.ground.fields.longitude, run.fuel_longitude),
         )
     )
-    found = np.full((len(row), len(column)), np.nan)
+    resampled = np.full((len(row), len(column)), np.nan)
     inside = np.ix_(np.isfinite(row), np.isfinite(column))
     at = (np.rint(v[np.isfinite(v)]).astype(int) for v in (row, column))
-    found[inside] = field[np.ix_(*at)]
-    return found
+    resampled[inside] = field[np.ix_(*at)]
+    return resampled
 
 
 def _ascending(axis: Array) -> tuple[Array, Array]:

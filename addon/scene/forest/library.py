@@ -148,7 +148,7 @@ def _artists() -> dict[Kind, dict[int, list[bpy.types.Mesh]]]:
     Error
         An object's property has an unknown value.
     """
-    found: dict[Kind, dict[int, list[bpy.types.Mesh]]] = defaultdict(lambda: defaultdict(list))
+    models_of: dict[Kind, dict[int, list[bpy.types.Mesh]]] = defaultdict(lambda: defaultdict(list))
     collection = bpy.data.collections.get(ARTISTS)
     objects = collection.all_objects if collection is not None else ()
     for obj in sorted(objects, key=lambda obj: obj.name):
@@ -157,8 +157,8 @@ def _artists() -> dict[Kind, dict[int, list[bpy.types.Mesh]]]:
             _check(obj.name, "class", kind, models.KINDS)
             _check(obj.name, "state", state, _STATES)
             _check(obj.name, "level", level, range(LEVELS))
-            found[kind, state][level].append(_copy(obj))
-    return found
+            models_of[kind, state][level].append(_copy(obj))
+    return models_of
 
 
 def _check(name: str, key: str, value: object, known: tuple[str, ...] | range) -> None:

@@ -67,28 +67,28 @@ def grow(shot: Shot) -> Stand:
     settings = shot.settings
     reach = settings.forest.draw_distance
     plots = plot.plots(shot, TALLEST, reach) if settings.forest.density == "stand" else []
-    found = _planted(shot, plots)
-    position = visibility.settled(shot.ground, found.position)
-    key = np.stack([found.key >> 32, found.key & 0xFFFFFFFF], axis=-1)
+    stems = _planted(shot, plots)
+    position = visibility.settled(shot.ground, stems.position)
+    key = np.stack([stems.key >> 32, stems.key & 0xFFFFFFFF], axis=-1)
     distance = shot.visibility.distance(position)
     fade = _fade(distance, reach) if shot.pixel[1] > visibility.PIXEL else 1.0
     there = (noise.uniform(key[:, 0], key[:, 1], settings.seed + 202) < fade) & (distance > CLEARING)
     stands = noise.uniform(key[there, 0], key[there, 1], settings.seed + 203)
     there[there] = stands < stand_structure.retained(shot, position[there])
-    there[there] = visibility.visible(shot, position[there], found.scale[there], reach, found.width[there])
+    there[there] = visibility.visible(shot, position[there], stems.scale[there], reach, stems.width[there])
     chosen = np.flatnonzero(there)
-    model = np.array([models.FIRST_MODEL[k] for k in (0, 1, 2)])[found.size_class[chosen]]
-    height = found.scale[chosen].astype(float)
-    width: NDArray[np.floating] = found.width[chosen]
+    model = np.array([models.FIRST_MODEL[k] for k in (0, 1, 2)])[stems.size_class[chosen]]
+    height = stems.scale[chosen].astype(float)
+    width: NDArray[np.floating] = stems.width[chosen]
     if sorts := biomes.choose(shot).biome.species:
         model, height, width = _of_species(shot, sorts, position[chosen], height, width, key[chosen])
     else:
-        model, height = _with_oaks(shot, position[chosen], model + found.model[chosen], height, key[chosen])
+        model, height = _with_oaks(shot, position[chosen], model + stems.model[chosen], height, key[chosen])
     return Stand(
         position[chosen],
         height,
         width,
-        found.rotation[chosen],
+        stems.rotation[chosen],
         model,
         key[chosen],
         distance[chosen],

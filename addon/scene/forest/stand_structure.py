@@ -79,15 +79,15 @@ def _scattered(shot: Shot, part: float, position: Array) -> Array:
     x, y = position[:, :2].T
     groups = noise.fractal(x, y, 4.0 * _GAP, 3, shot.settings.seed + 430)
     hollow = bilinear(cover.hollows(shot.ground), *shot.ground.under(position))
-    found = part / _FULL * np.exp(_GROUPED * groups + _HOLLOW * hollow - _MEAN)
+    density = part / _FULL * np.exp(_GROUPED * groups + _HOLLOW * hollow - _MEAN)
     land = biomes.choose(shot).biome.open_land
     if land is not None and land.draws:
-        found = found * (_BESIDE + (_ALONG - _BESIDE) * cover.draws(land, position))
+        density = density * (_BESIDE + (_ALONG - _BESIDE) * cover.draws(land, position))
     if land is not None and land.hedge > 0.0:
         off = field_lines.fields(field_lines.NUMPY, x, y, land.field)[0]
-        found = np.where(off < land.hedge, _ALONG, _AMID) * found
-        found[land_use.mapped(shot, position)] = 0.0
-    return found
+        density = np.where(off < land.hedge, _ALONG, _AMID) * density
+        density[land_use.mapped(shot, position)] = 0.0
+    return density
 
 
 def clustered_uniform(position: Array, size: float, chance: Array, seed: int) -> Array:

@@ -29,19 +29,19 @@ _FULL = 0.5  # fraction of the distance at which labels vanish, up to which they
 def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
     """Build "Firetwin Labels"; nothing where labels are off or no place is known."""
     collection = stage.part("Labels")
-    found = labels.find(shot)
-    if not found.names:
+    places = labels.find(shot)
+    if not places.names:
         return None
     looks = [material.build(shot, name, colour) for name, colour in material.COLOURS.items()]
     library = owned.library("Place Names")
     with _typeface() as font:
-        for k, (name, tier) in enumerate(zip(found.names, _tiers(shot, found.position), strict=True)):
+        for k, (name, tier) in enumerate(zip(places.names, _tiers(shot, places.position), strict=True)):
             mesh = _label(f"Firetwin Place {k:03d}", name, _STEM + _TIER * int(tier), font)
             for look in looks:
                 mesh.materials.append(look)
             _camera_rays_only(owned.add(library, f"Place {k:03d}", mesh))
     data = bpy.data.meshes.new("Firetwin Labels")
-    data.from_pydata(found.position.tolist(), [], [])
+    data.from_pydata(places.position.tolist(), [], [])
     obj = owned.add(collection, "Places", data)
     _camera_rays_only(obj)
     modifier = obj.modifiers.new("Firetwin Labels", "NODES")

@@ -95,10 +95,10 @@ def warm(shot: Shot, stage: Stage, frame: int) -> dict[str, Any]:
 
 def _group(stage: Stage) -> tuple[bpy.types.Node, bpy.types.NodeTree]:
     """Group node of the smoke's material, and its node tree."""
-    found = material(stage)
-    if found is None:
+    smoke_material = material(stage)
+    if smoke_material is None:
         raise KeyError("no smoke")
-    tree = stage.evaluated(found).node_tree
+    tree = stage.evaluated(smoke_material).node_tree
     node = next(node for node in tree.nodes if node.type == "GROUP")
     return node, node.node_tree
 

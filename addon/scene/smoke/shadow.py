@@ -154,8 +154,8 @@ def _material(image: bpy.types.Image, low: Array, size: Array) -> bpy.types.Mate
     geometry = tree.node("ShaderNodeNewGeometry")
     place = tree.vector("SUBTRACT", tree.pick(geometry, "Position"), (*low, 0.0))
     place = tree.vector("MULTIPLY", place, (*(1.0 / size), 0.0))
-    found = tree.node("ShaderNodeTexImage", {"Vector": place}, image=image, extension="EXTEND")
-    direct, around, _ = tree.separate(tree.pick(found))
+    texture = tree.node("ShaderNodeTexImage", {"Vector": place}, image=image, extension="EXTEND")
+    direct, around, _ = tree.separate(tree.pick(texture))
     toward = tree.node("ShaderNodeCombineXYZ")
     toward.name = "Towards the Sun"
     along = tree.vector("DOT_PRODUCT", tree.pick(geometry, "Incoming"), toward, name="Value")

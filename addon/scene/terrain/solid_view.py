@@ -24,8 +24,8 @@ _DENSE = 1.2  # kg/m2 of canopy fuel that hides the grass
 def paint(shot: Shot, data: bpy.types.Mesh, row: NDArray[np.float64], column: NDArray[np.float64]) -> None:
     """Set the mesh's active colour attribute, for points at fractional rows and columns (n,)."""
     painted = data.attributes.new(NAME, "BYTE_COLOR", "POINT")
-    found = colours(shot, row, column)
-    painted.data.foreach_set("color", np.pad(found, [(0, 0), (0, 1)], constant_values=1.0).ravel())
+    rgb = colours(shot, row, column)
+    painted.data.foreach_set("color", np.pad(rgb, [(0, 0), (0, 1)], constant_values=1.0).ravel())
     data.color_attributes.active_color = data.color_attributes[NAME]
 
 
