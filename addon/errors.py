@@ -1,4 +1,4 @@
-"""Errors for people: made here so that Python and C++ raise the very same type."""
+"""Error types and messages, shared by Python and C++."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _NO_ROOM = (errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC))
 
 
 def input_error(path: str | PathLike[str], line: int, column: int, reason: str) -> InputError:
-    """An InputError at 1-based `line` and `column` (0: none applies), worded as the core words its own."""
+    """InputError at 1-based `line` and `column` (0: none), in the format of the core's messages."""
     place = str(path)
     if line > 0:
         place += f":{line}" + (f":{column}" if column > 0 else "")
@@ -30,12 +30,12 @@ def input_error(path: str | PathLike[str], line: int, column: int, reason: str) 
 
 @contextmanager
 def writing(path: str | PathLike[str]) -> Iterator[None]:
-    """While `path` is written: what goes wrong names it and says what to do.
+    """Convert errors while `path` is written to messages that name it and the remedy.
 
     Raises
     ------
     InputError
-        In place of an OSError, or of the core's own error of a full disk.
+        Replaces an OSError, and the core's own error of a full disk.
     """
     try:
         yield
@@ -50,7 +50,7 @@ def writing(path: str | PathLike[str]) -> Iterator[None]:
 
 
 def disk_is_full(error: BaseException) -> bool:
-    """Whether an error says that there is no room left: Python's, NumPy's, the core's or SQLite's."""
+    """Whether an error of Python, NumPy, the core or SQLite means that the disk is full."""
     if isinstance(error, OSError) and error.errno is not None:
         return error.errno in _NO_ROOM
     text = str(error)
@@ -58,7 +58,7 @@ def disk_is_full(error: BaseException) -> bool:
 
 
 def no_room(path: Path) -> bool:
-    """Whether the disk of a file that was written is as good as full: Blender does not always say so."""
+    """Whether the disk of a written file is almost full, which Blender does not always report."""
     try:
         return shutil.disk_usage(path.parent).free < _LITTLE
     except OSError:
@@ -70,4 +70,4 @@ def _words(error: OSError) -> str:
 
 
 class UsageError(Exception):
-    """The command line asks for something that is not there."""
+    """Invalid command line arguments."""

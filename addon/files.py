@@ -1,4 +1,4 @@
-"""Files that are whole or not there: they get their names once all of them has reached the disk."""
+"""Atomic file writes: a file gets its name once all its content has reached the disk."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .errors import writing
 
 
 def publish(part: Path, path: Path) -> None:
-    """Give a finished temporary file of the same disk its name, once what is in it has reached the disk.
+    """Rename a finished temporary file into place, after its content has reached the disk (fsync).
 
     Raises
     ------
@@ -21,19 +21,19 @@ def publish(part: Path, path: Path) -> None:
     """
     with writing(path):
         path.parent.mkdir(parents=True, exist_ok=True)
-        with part.open("r+b") as file:  # Windows brings nothing to the disk through a handle for reading
+        with part.open("r+b") as file:  # Windows flushes no file through a read-only handle
             os.fsync(file.fileno())
         part.replace(path)
         _sync_folder(path.parent)
 
 
 def part_of(path: Path) -> Path:
-    """Name for `path` while it is made: beside it, of the same kind, and of no other thread or process."""
+    """Temporary name for `path`: in the same folder, with the same extension, unique to this call."""
     return path.with_name(f".{path.stem}.{uuid.uuid4().hex[:12]}.part{path.suffix}")
 
 
 def write(path: Path, put: Callable[[Path], object]) -> None:
-    """Have ``put(part)`` write a temporary file and publish it.
+    """Write a file atomically: ``put(part)`` writes a temporary file, which is then renamed.
 
     Raises
     ------
@@ -52,7 +52,7 @@ def write(path: Path, put: Callable[[Path], object]) -> None:
 
 
 def _sync_folder(folder: Path) -> None:
-    """Bring a folder's names to the disk, where the system can: Windows opens no folders."""
+    """Flush a folder's entries to the disk, where the system supports it; Windows does not."""
     with contextlib.suppress(OSError):
         handle = os.open(folder, os.O_RDONLY)
         try:

@@ -1,11 +1,10 @@
-"""Who works on what: processes, also of several machines, that share the work in a folder.
+"""Leases: mutual exclusion and work sharing between processes, also of several machines.
 
-- `alone`: one process at a time does a piece of work. It holds SQLite's lock of an empty database, which
-  every system has and which ends with the process, however that ends.
-- `Claims`: processes of several machines each take pieces of the work, in a database in the shared folder.
-  An owner gives signs of life; one that gives none for `PATIENCE` seconds has lost what it held. Signs are
-  counted, not dated, as clocks differ: the seconds are those of whoever waits.
-- `signs`: signs of life from a thread.
+- `alone`: a lock for one piece of work at a time. It is SQLite's lock of an empty database, which all systems
+support and which ends with the process in any case. - `Claims`: leases on pieces of work, for processes of
+several machines, in a database in the shared folder. An owner sends heartbeats. Without one for `PATIENCE`
+seconds its leases expire. Heartbeats are counters without dates, as clocks differ; the waiting process
+measures the seconds. - `signs`: heartbeats from a thread.
 """
 
 from __future__ import annotations
@@ -22,21 +21,21 @@ from pathlib import Path
 from .database import Database
 from .errors import Error, writing
 
-BEAT = 3.0  # s between two signs of life of an owner
-PATIENCE = 16.0  # s
+BEAT = 3.0  # s between heartbeats of an owner
+PATIENCE = 16.0  # s without a heartbeat after which leases expire
 TABLES = """
 CREATE TABLE owners (owner TEXT PRIMARY KEY, beat INTEGER);
 CREATE TABLE claims (name TEXT PRIMARY KEY, owner TEXT);
 """
-"""Of the database that `Claims` are in."""
+"""Tables of the database that holds `Claims`."""
 
-_LOOK = 0.5  # s between two looks of who waits
+_LOOK = 0.5  # s between polls of a waiting process
 _PART = ".part-"
 
 
 @contextlib.contextmanager
 def signs(every: float, give: Callable[[], None]) -> Iterator[None]:
-    """Call `give` from a thread every so many seconds; what it fails at is tried again the next time."""
+    """Call `give` from a thread every so many seconds; a failed call is repeated at the next one."""
     over = threading.Event()
 
     def live() -> None:
@@ -55,14 +54,14 @@ def signs(every: float, give: Callable[[], None]) -> Iterator[None]:
 
 @contextlib.contextmanager
 def alone(path: Path, done: Callable[[], bool], wait: Callable[[], None]) -> Iterator[bool]:
-    """Hold the file `path`; False, and not held, if the work turns out done while another has it.
+    """Lock the file `path`; False, without the lock, if the work is done while another process has it.
 
-    Where a file system knows no locks, everybody works: they do the same twice.
+    On a file system without locks all processes proceed: the work is done twice with the same result.
 
     Parameters
     ----------
     wait
-        Called now and then while another works; what it raises ends the waiting.
+        Called periodically while another process works; an exception from it ends the waiting.
 
     Raises
     ------
@@ -81,7 +80,7 @@ def alone(path: Path, done: Callable[[], bool], wait: Callable[[], None]) -> Ite
 
 
 def _lock(database: sqlite3.Connection) -> bool:
-    """Whether a database is ours now."""
+    """Whether the lock of a database was acquired."""
     try:
         database.execute("BEGIN EXCLUSIVE")
     except sqlite3.Error as error:
@@ -90,12 +89,12 @@ def _lock(database: sqlite3.Connection) -> bool:
 
 
 class Claims:
-    """What one process, the `owner`, holds; it gives signs of life from a thread until it is closed.
+    """Leases of one process, the `owner`; a thread sends heartbeats until it is closed.
 
     Parameters
     ----------
     data
-        With the `TABLES`; its folder is the shared one.
+        Database with the `TABLES`, in the shared folder.
     """
 
     def __init__(self, data: Database, owner: str) -> None:
@@ -104,7 +103,7 @@ class Claims:
         _beat(data, owner)
         sweep(data)
         self._life = contextlib.ExitStack()
-        self._life.enter_context(signs(BEAT, self._sign))
+        self._life.enter_context(signs(BEAT, self._send_heartbeat))
 
     def __enter__(self) -> Claims:
         return self
@@ -114,29 +113,29 @@ class Claims:
         leave(self.data, self.owner)
 
     def take(self, name: str) -> bool:
-        """Claim something; False where another has it."""
+        """Acquire a lease; False if another owner has it."""
         with self.data.change():
             self.data.do("INSERT OR IGNORE INTO owners VALUES (?, 0)", self.owner)
             self.data.do("INSERT OR IGNORE INTO claims VALUES (?, ?)", name, self.owner)
         return self.held(name)
 
     def held(self, name: str) -> bool:
-        """Whether it is ours; who slept for long may have lost it."""
+        """Whether the lease is still ours; it may have expired while the machine slept."""
         return self.data.one("SELECT owner FROM claims WHERE name = ?", name) == (self.owner,)
 
     def give(self, name: str) -> None:
-        """Give it back."""
+        """Release a lease."""
         self.data.do("DELETE FROM claims WHERE name = ? AND owner = ?", name, self.owner)
 
     def of_others(self) -> set[str]:
-        """What others hold; the dead are buried before."""
-        self._bury()
+        """Leases of other owners, after expired ones are removed."""
+        self._expire()
         rows = self.data.all("SELECT name FROM claims WHERE owner != ?", self.owner)
         return {name for (name,) in rows}
 
     @contextlib.contextmanager
     def part_folder(self) -> Iterator[Path]:
-        """A folder for files in the making, inside the shared folder so that they can be renamed."""
+        """Temporary folder within the shared folder, so that files can be renamed into place."""
         part = self.data.path.parent / f"{_PART}{self.owner}"
         with writing(part):
             part.mkdir(exist_ok=True)
@@ -145,7 +144,7 @@ class Claims:
         finally:
             shutil.rmtree(part, ignore_errors=True)
 
-    def _bury(self) -> None:
+    def _expire(self) -> None:
         now, beats = time.monotonic(), _beats(self.data)
         for owner, beat in beats.items():
             known, since = self._seen.get(owner, (None, now))
@@ -154,18 +153,18 @@ class Claims:
             elif owner != self.owner and now - since > PATIENCE:
                 leave(self.data, owner, beat)
 
-    def _sign(self) -> None:
+    def _send_heartbeat(self) -> None:
         with contextlib.closing(self.data.again()) as data:
             _beat(data, self.owner)
 
 
 def new_owner() -> str:
-    """A name that no other process has."""
+    """Unique owner name of this process."""
     return uuid.uuid4().hex[:12]
 
 
 def leave(data: Database, owner: str, beat: int | None = None) -> None:
-    """End an owner, unless it lived on after `beat`: what it held is free, what it left unfinished goes."""
+    """Remove an owner, its leases and its unfinished files, unless it sent a heartbeat after `beat`."""
     with data.change():
         if beat is not None and _beats(data).get(owner) != beat:
             return
@@ -175,7 +174,7 @@ def leave(data: Database, owner: str, beat: int | None = None) -> None:
 
 
 def sweep(data: Database) -> None:
-    """Remove what those have left unfinished that are no more."""
+    """Remove unfinished files of owners that no longer exist."""
     left = list(data.path.parent.glob(f"{_PART}*"))
     alive = _beats(data)
     for part in left:

@@ -1,4 +1,4 @@
-"""Memory of this process: how much it had at most, and how what is free goes back to the system."""
+"""Process memory: peak use, and return of freed memory to the system."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from collections.abc import Callable
 
 _ARENAS = "MALLOC_ARENA_MAX"
 _MOST = "1"
-"""Arenas of a process. Left alone, glibc makes up to eight for each processor, and each keeps what is free.
+"""Arenas of a process. By default glibc makes up to eight for each processor; each keeps its freed memory.
 
-Two take 0.17 GB more than one for the example's film.
+Two arenas take 0.17 GB more than one for the example's film.
 """
 
 
 def few_arenas() -> dict[str, str]:
-    """Variables for the environment of a process that works with many threads, which people's own go before.
+    """Environment variables for a process with many threads; the user's own take precedence.
 
-    None where the C library is another than glibc, which has no such thing to bound.
+    Empty unless the C library is glibc, which alone has this setting.
     """
     return {_ARENAS: _MOST} if _glibc() and _ARENAS not in os.environ else {}
 
@@ -27,12 +27,12 @@ def few_arenas() -> dict[str, str]:
 def _glibc() -> bool:
     try:
         return (os.confstr("CS_GNU_LIBC_VERSION") or "").startswith("glibc")
-    except (AttributeError, ValueError, OSError):  # systems without the function, or without the name
+    except (AttributeError, ValueError, OSError):  # systems without the function or the name
         return False
 
 
 def give_back() -> None:
-    """Give what is free to the system, between one large work and another; does nothing without glibc."""
+    """Return freed memory to the system between large tasks; does nothing without glibc."""
     trim = _trim()
     if trim is not None:
         trim(0)
@@ -44,7 +44,7 @@ def _trim() -> Callable[[int], int] | None:
 
 
 def peak() -> int:
-    """Bytes that this process had at most, 0 where the system does not say it."""
+    """Peak memory of this process, bytes; 0 if the system does not report it."""
     with contextlib.suppress(OSError), open("/proc/self/status", encoding="ascii") as file:
         return next((1024 * int(line.split()[1]) for line in file if line.startswith("VmHWM")), 0)
     return 0

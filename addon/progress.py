@@ -1,4 +1,4 @@
-"""Progress on stderr: a bar on a terminal, plain lines with the time left everywhere else."""
+"""Progress on stderr: a bar on a terminal, else plain lines with the remaining time."""
 
 from __future__ import annotations
 
@@ -15,28 +15,28 @@ if TYPE_CHECKING:
     from tqdm import tqdm
 
 Progress = Callable[..., None]
-"""Called as ``progress(done, total, "what is done", "a note")`` while work goes on; texts may be left out."""
+"""Called as ``progress(done, total, "what is done", "a note")`` during work; the texts are optional."""
 
 READING = "reading the scene file and its run"
 
 MessageCallback = Callable[[str], None]
-"""Called with a sentence that a person should read."""
+"""Called with a sentence for the user."""
 
 
 def say(text: str) -> None:
-    """Tell the person at the keyboard; stdout is kept for results."""
+    """Print a message on stderr; stdout is reserved for results."""
     print(f"firetwin: {message(text)}", file=sys.stderr, flush=True)
 
 
 def result(text: object) -> None:
-    """Give lines of results on stdout; names of files stay as they are unless a terminal shows them."""
+    """Print results on stdout; file names are escaped only on a terminal."""
     lines = str(text).split("\n")
     print("\n".join(map(escaped, lines)) if sys.stdout.isatty() else "\n".join(lines))
 
 
 @contextlib.contextmanager
 def notify_if_slow(text: str, seconds: float = 1.0) -> Iterator[None]:
-    """Say what goes on within once it has taken so long: what is quick or wrong says nothing else."""
+    """Print what is under way once it takes longer than `seconds`; nothing if it ends or fails earlier."""
     timer = threading.Timer(seconds, say, [text])
     timer.daemon = True
     timer.start()
@@ -47,11 +47,11 @@ def notify_if_slow(text: str, seconds: float = 1.0) -> Iterator[None]:
 
 
 def silent(done: int, total: int, what: str = "", note: str = "") -> None:
-    """Report nothing."""
+    """Progress callback without output."""
 
 
 def share(progress: Progress, before: int, of: int, work: str) -> Progress:
-    """Progress of some of `of` pieces of a work, `before` of which are done; other work counts alone."""
+    """Progress of some of `of` parts of a work, `before` of which are done; other work is passed through."""
 
     def counted(here: int, total: int, what: str = "", note: str = "") -> None:
         progress(*((before + here, of) if what == work else (here, total)), what, note)
@@ -60,7 +60,7 @@ def share(progress: Progress, before: int, of: int, work: str) -> Progress:
 
 
 class Reporter:
-    """Shows progress; work that changes its name ends one bar and begins another."""
+    """Progress display; a new name of the work ends one bar and begins another."""
 
     def __init__(self, what: str = "working") -> None:
         self.what = what
@@ -74,7 +74,7 @@ class Reporter:
         self.shown.update(done, total, note)
 
     def close(self) -> None:
-        """Leave the last bar as it is."""
+        """Keep the last bar as it is."""
         if isinstance(self.shown, _Bar):
             self.shown.close()
         self.shown = None
@@ -92,7 +92,7 @@ class _Bar:
             count = "{n_fmt}/{total_fmt} [{elapsed}, {remaining} left{postfix}]"
             shape = "{desc}: {percentage:3.0f}%|{bar}| " + count
             self.bar = tqdm(total=total, desc=self.what, initial=done, bar_format=shape, dynamic_ncols=True)
-        self.bar.set_postfix_str(note, refresh=False)  # which puts a comma before it
+        self.bar.set_postfix_str(note, refresh=False)  # tqdm puts a comma before it
         self.bar.update(done - self.bar.n)
         if done >= total:
             self.bar.close()
@@ -127,21 +127,21 @@ class _Lines:
 
 
 def no_message(text: str) -> None:
-    """Tell nobody."""
+    """Message callback without output."""
 
 
 def count(number: int, noun: str) -> str:
-    """``1 picture``, ``1,200 pictures``."""
+    """Format a count: ``1 picture``, ``1,200 pictures``."""
     return f"{number:,} {noun}" + ("" if number == 1 else "s")
 
 
 def size(count: float) -> str:
-    """Bytes in words: ``120 MB``, ``1.2 GB``."""
+    """Format bytes: ``120 MB``, ``1.2 GB``."""
     return f"{count / 1e9:.1f} GB" if count >= 0.9995e9 else f"{count / 1e6:.0f} MB"
 
 
 def duration(seconds: float) -> str:
-    """Time in words: ``8 s``, ``2 min 5 s``, ``1 h 20 min``."""
+    """Format a duration: ``8 s``, ``2 min 5 s``, ``1 h 20 min``."""
     whole = round(seconds)
     if whole < 60:
         return f"{whole} s"

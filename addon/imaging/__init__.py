@@ -1,1 +1,1 @@
-"""Pictures drawn from arrays: colour bar, sheet of panels, split screen."""
+"""Pictures drawn from arrays: colour bar, panel sheet, and split screen."""

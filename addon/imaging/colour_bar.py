@@ -1,4 +1,4 @@
-"""A bar of temperatures at the right edge of a picture, with its numbers in K; lines of text at its top."""
+"""Temperature colour bar at the right edge of a picture, with tick labels in K, and text at its top."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 from firetwin_core import sensor
 from numpy.typing import NDArray
 
-# Three by five points for each sign, row by row from the top.
+# Bitmap font, 3 x 5 pixels per character, row by row from the top.
 _SIGNS = {
     "0": "111101101101111",
     "1": "010110010010111",
@@ -50,16 +50,16 @@ _SIGNS = {
     " ": "000000000000000",
 }
 _STEPS = (1000, 500, 100, 50, 10, 5, 2, 1)
-_ENOUGH = 5  # marks; steps under 10 K are for scales that have fewer
+_ENOUGH = 5  # tick marks; scales with fewer use steps below 10 K
 
 
 def draw(picture: NDArray[np.float32], low: float, high: float, palette: str, knee: float) -> None:
-    """Draw into a picture (h, w, 3): the palette as `sensor.colour` uses it, hot at the top, and marks.
+    """Draw a colour bar into a picture (h, w, 3): the palette of `sensor.colour`, hot at the top, with ticks.
 
-    Pictures too small for it stay as they are.
+    Pictures that are too small are left unchanged.
     """
     height, width = picture.shape[:2]
-    size = max(height // 240, 1)  # pixels to a point of a sign
+    size = max(height // 240, 1)  # pixels per font pixel
     if height < 90 or width < 90:
         return
     top, bottom = int(0.08 * height), int(0.92 * height)
@@ -76,7 +76,7 @@ def draw(picture: NDArray[np.float32], low: float, high: float, palette: str, kn
 
 
 def title(picture: NDArray[np.float32], lines: list[str]) -> None:
-    """Write capital letters, digits and . - : into the upper left corner of a picture (h, w, 3)."""
+    """Write text of capital letters, digits and . - : into the upper left corner of a picture (h, w, 3)."""
     height, width = picture.shape[:2]
     size = max(height // 240, 1)
     for number, line in enumerate(lines):
@@ -86,25 +86,25 @@ def title(picture: NDArray[np.float32], lines: list[str]) -> None:
 
 
 def marks(low: float, high: float, knee: float, most: float) -> list[float]:
-    """Round temperatures (K) between the ends, at most about so many, none too near another on the scale."""
-    found: list[float] = []
+    """Tick values: round temperatures (K) between the ends, about `most` at most, well apart on the scale."""
+    ticks: list[float] = []
     for step in _STEPS:
-        if step < 10 and len(found) >= _ENOUGH:
+        if step < 10 and len(ticks) >= _ENOUGH:
             break
         for kelvin in np.arange(np.ceil(low / step) * step, high + 1e-9, step):
-            places = [place(each, low, high, knee) for each in (*found, kelvin)]
+            places = [place(tick, low, high, knee) for tick in (*ticks, kelvin)]
             if all(abs(place - places[-1]) >= 1.0 / most for place in places[:-1]):
-                found.append(float(kelvin))
-    return sorted(found)
+                ticks.append(float(kelvin))
+    return sorted(ticks)
 
 
 def place(kelvin: float, low: float, high: float, knee: float) -> float:
-    """Where a temperature is on the scale, 0..1."""
+    """Position of a temperature on the scale, 0..1."""
     return float(np.log1p((kelvin - low) / knee) / np.log1p((high - low) / knee))
 
 
 def _write(picture: NDArray[np.float32], text: str, right: int, middle: int, size: int) -> None:
-    """White signs on black, their right end at `right` and their middle in row `middle`."""
+    """Write white characters on black, right-aligned at `right` and centred on the row `middle`."""
     signs = [np.array(list(_SIGNS[sign]), np.float32).reshape(5, 3) for sign in text]
     line = np.concatenate([np.pad(sign, ((1, 1), (1, 0))) for sign in signs], axis=1)
     line = np.kron(np.pad(line, ((0, 0), (0, 1))), np.ones((size, size), np.float32))

@@ -1,6 +1,7 @@
-"""A sheet of four panels with what is told beside them, drawn by matplotlib in its own typeface.
+"""Panel sheet: four panels and a column of facts, drawn by matplotlib in its own typeface.
 
-Sizes are in units of a hundredth of the picture's height (of 16:9), so a sheet looks alike in any size.
+Lengths are in units of a hundredth of the picture's height (at 16:9), so a sheet has the same look in any
+size.
 """
 
 from __future__ import annotations
@@ -22,17 +23,17 @@ from numpy.typing import NDArray
 from . import colour_bar
 
 PAPER, INK, QUIET = "#14171b", "#f2f3f4", "#9aa3ad"
-NEAREST, FARTHEST = 50.0, 50_000.0  # m, ends of the scale of distances
-_SIDE, _GAP, _BAR = 30.5, 1.5, 1.6  # beside the panels, between them, a colour bar
-_COLUMN = 17.5  # of what is told at the right
+NEAREST, FARTHEST = 50.0, 50_000.0  # m, ends of the depth scale
+_SIDE, _GAP, _BAR = 30.5, 1.5, 1.6  # margin at the sides, gap between panels, colour bar
+_COLUMN = 17.5  # width of the fact column at the right
 _DPI = 100.0
-Part = tuple[float, float]  # of the view, across and up, round its middle
+Part = tuple[float, float]  # fraction of the view, across and up, around its centre
 WHOLE: Part = (1.0, 1.0)
 _DEPTHS = matplotlib.colormaps["viridis_r"]
 
 
 class Sheet:
-    """A sheet of `width` by `height` pixels; panels are 0 and 1 above, 2 and 3 below."""
+    """Sheet of `width` by `height` pixels; panels 0 and 1 are above, 2 and 3 below."""
 
     def __init__(self, width: int, height: int) -> None:
         self.width, self.height = width, height
@@ -49,7 +50,7 @@ class Sheet:
         self.canvas = FigureCanvasAgg(self.figure)
 
     def head(self, title: str, facts: list[tuple[str, list[str]]]) -> None:
-        """The title and the time above, everything else at the right."""
+        """Draw title and time at the top, and the other facts at the right."""
         (_, (local, utc)), *others = facts
         middle, right = 0.5 * self.top, self.width / self.unit - _GAP
         clock = [
@@ -70,7 +71,7 @@ class Sheet:
             down += 2.6
 
     def panel(self, place: int, name: str) -> Axes:
-        """The empty axes of a panel, named in its corner."""
+        """Create the empty axes of a panel, labelled in its corner."""
         row, column = divmod(place, 2)
         x, y = _GAP + column * (self.wide + _GAP), self.top + row * (self.high + _GAP)
         axes = self._axes(x, y, self.wide, self.high)
@@ -87,7 +88,7 @@ class Sheet:
         part: Part = WHOLE,
         outlined: Mapping[Part, str] | None = None,
     ) -> None:
-        """A panel with pixels (h, w, 3) 0..1 of a part of the view; smaller parts are outlined and named."""
+        """Draw pixels (h, w, 3), 0..1, of a part of the view; smaller parts are outlined and labelled."""
         axes = self.panel(place, name)
         wide, high = part
         axes.imshow(
@@ -122,7 +123,7 @@ class Sheet:
         knee: float,
         part: Part = WHOLE,
     ) -> None:
-        """Brightness temperatures (h, w) K and their bar, with the palette as `sensor.colour` uses it."""
+        """Draw brightness temperatures (h, w), K, and their bar, with the palette of `sensor.colour`."""
         self.picture(place, "THERMAL", sensor.colour(kelvin, low, high, palette, knee), part)
         bar = sensor.colour(np.linspace(high, low, 256)[:, None], low, high, palette)
         marks = colour_bar.marks(low, high, knee, 0.5 * self.high / 2.0)
@@ -131,39 +132,39 @@ class Sheet:
         )
 
     def depth(self, place: int, metres: NDArray, sky: float, part: Part = WHOLE) -> None:
-        """Distances (h, w) m and their bar, logarithmic; the sky has none."""
+        """Draw depth (h, w), m, and its bar, on a logarithmic scale; the sky has no colour."""
         share = np.log(np.maximum(metres, 1.0e-3) / NEAREST) / np.log(FARTHEST / NEAREST)
         shown = _DEPTHS(np.clip(share, 0.0, 1.0))[..., :3]
         shown[metres > sky] = 0.16
         self.picture(place, "DEPTH", shown, part)
         marks = [step * 10.0**power for power in range(1, 5) for step in (1, 2, 5)]
-        kept = [mark for mark in marks if NEAREST <= mark <= FARTHEST]
-        places = [np.log(mark / NEAREST) / np.log(FARTHEST / NEAREST) for mark in kept]
-        names = [f"{mark:g} m" if mark < 1000.0 else f"{mark / 1e3:g} km" for mark in kept]
+        ticks = [mark for mark in marks if NEAREST <= mark <= FARTHEST]
+        places = [np.log(mark / NEAREST) / np.log(FARTHEST / NEAREST) for mark in ticks]
+        names = [f"{mark:g} m" if mark < 1000.0 else f"{mark / 1e3:g} km" for mark in ticks]
         bar = _DEPTHS(np.linspace(1.0, 0.0, 256))[:, None, :3]
         self._scale(place, bar, list(zip(names, places, strict=True)), "")
 
     def text(self, x: float, y: float, text: str, size: float, colour: str = INK, **more: Any) -> Text:
-        """Text at (x, y) units from the upper left corner, `size` units high."""
+        """Draw text at (x, y) units from the upper left corner, `size` units high."""
         at = x * self.unit / self.width, 1.0 - y * self.unit / self.height
         return self.figure.text(*at, text, size=self.points(size), color=colour, family="DejaVu Sans", **more)
 
     def length(self, text: Text) -> float:
-        """Units that a text is wide."""
+        """Width of a text, units."""
         return text.get_window_extent(self.canvas.get_renderer()).width / self.unit
 
     def fit(self, text: Text, room: float) -> None:
-        """Make a text smaller that is wider than its room, units."""
+        """Shrink a text that is wider than its room, units."""
         wide = self.length(text)
         if wide > room:
             text.set_fontsize(float(text.get_fontsize()) * room / wide)
 
     def points(self, units: float) -> float:
-        """Units as typographic points."""
+        """Convert units to typographic points."""
         return units * self.unit * 72.0 / _DPI
 
     def pixels(self) -> NDArray[np.float32]:
-        """The finished sheet (h, w, 3) 0..1."""
+        """Render the sheet to pixels (h, w, 3), 0..1."""
         self.canvas.draw()
         return np.asarray(self.canvas.buffer_rgba())[..., :3].astype(np.float32) / 255.0
 
@@ -172,7 +173,7 @@ class Sheet:
         return self.figure.add_axes((x * u, 1.0 - (y + high) * v, wide * u, high * v))
 
     def _scale(self, place: int, bar: NDArray, marks: list[tuple[str, float]], unit: str) -> None:
-        """A colour bar right of a panel of the right column."""
+        """Draw a colour bar to the right of a panel of the right column."""
         x, y = 2.0 * (self.wide + _GAP) + 0.8, self.top + (place // 2) * (self.high + _GAP)
         first, high = y + (3.0 if unit else 0.0), self.high - (3.0 if unit else 0.0)
         axes = self._axes(x, first, _BAR, high)

@@ -1,4 +1,4 @@
-"""Pictures of several runs in one: where each stands, its name, a thin line between, and the time."""
+"""Split screen: pictures of several runs in one, with names, dividing lines and the time."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
 _DPI = 100.0
-_EMPTY = 0.07  # of a quarter without a picture
+_EMPTY = 0.07  # grey level of a quarter without a picture
 _EDGE = "#000000c0"
 Key = tuple[str, str]
-"""A colour and what it stands for."""
+"""Legend entry: a colour and its meaning."""
 
 
 def sheet(pictures: list[NDArray], keys: list[list[Key]], foot: list[str]) -> NDArray[np.float32]:
-    """One picture of as many pixels as each of `pictures` (h, w, 3), of which there are one to four.
+    """Compose one to four `pictures` (h, w, 3) into one picture of the same size.
 
-    Two share it as halves, each with the middle of its picture; of three or four each has a quarter, all of
-    it half as large. `keys` stand in their upper left corners, `foot` line by line in the lower left one.
+    Two are halves with the central half of their picture. Three or four are quarters with the whole picture
+    at half size. `keys` are drawn in their upper left corners, the lines of `foot` in the lower left corner.
     """
     height, width = pictures[0].shape[:2]
-    sheet, corners = _arranged([np.clip(each[..., :3], 0.0, 1.0) for each in pictures])
+    sheet, corners = _arranged([np.clip(picture[..., :3], 0.0, 1.0) for picture in pictures])
     figure = Figure(figsize=(width / _DPI, height / _DPI), dpi=_DPI)
     canvas = FigureCanvasAgg(figure)
     figure.figimage(np.round(255.0 * sheet[::-1]).astype(np.uint8), origin="lower")
@@ -44,7 +44,7 @@ def sheet(pictures: list[NDArray], keys: list[list[Key]], foot: list[str]) -> ND
 
 
 def _arranged(pictures: list[NDArray]) -> tuple[NDArray, list[tuple[int, int]]]:
-    """Pictures in their places with lines between, and the upper left corners (x, y) of these."""
+    """Arrange pictures with dividing lines; also return their upper left corners (x, y)."""
     height, width = pictures[0].shape[:2]
     if len(pictures) == 1:
         return pictures[0], [(0, 0)]
@@ -52,13 +52,13 @@ def _arranged(pictures: list[NDArray]) -> tuple[NDArray, list[tuple[int, int]]]:
     half, across = width // 2, slice(width // 2 - line // 2 - line % 2, width // 2 + line // 2)
     if len(pictures) == 2:
         middle = slice(width // 4, width // 4 + half)
-        sheet = np.concatenate([each[:, middle] for each in pictures], axis=1)
+        sheet = np.concatenate([picture[:, middle] for picture in pictures], axis=1)
         sheet[:, across] = 1.0
         return sheet, [(0, 0), (half, 0)]
     sheet = np.full((height, width, 3), _EMPTY, np.float32)
     corners = [(0, 0), (half, 0), (0, height // 2), (half, height // 2)][: len(pictures)]
-    for (x, y), each in zip(corners, pictures, strict=True):
-        small = each.reshape(height // 2, 2, half, 2, 3).mean((1, 3))
+    for (x, y), place in zip(corners, pictures, strict=True):
+        small = place.reshape(height // 2, 2, half, 2, 3).mean((1, 3))
         sheet[y : y + height // 2, x : x + half] = small
     sheet[:, across] = 1.0
     sheet[height // 2 - line // 2 - line % 2 : height // 2 + line // 2] = 1.0
@@ -66,7 +66,7 @@ def _arranged(pictures: list[NDArray]) -> tuple[NDArray, list[tuple[int, int]]]:
 
 
 def _text(figure: Figure, x: float, y: float, text: str, size: float) -> None:
-    """Text `size` pixels high whose middle is at y (pixels from above), beginning at x."""
+    """Draw text `size` pixels high, vertically centred on y (pixels from the top), from x on."""
     width, height = figure.get_size_inches() * _DPI
     said = figure.text(
         x / width, 1.0 - y / height, text, size=size * 72.0 / _DPI, color="white", family="DejaVu Sans",

@@ -1,4 +1,4 @@
-"""Areas and sizes of grid cells on the WGS84 ellipsoid."""
+"""Cell areas and sizes of latitude-longitude grids on the WGS84 ellipsoid."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from firetwin_core import constants
 from numpy.typing import ArrayLike, NDArray
 
 A, E2 = constants.SEMI_MAJOR_AXIS, constants.ECCENTRICITY_SQUARED
-_ALONE = 100.0  # m, side of a cell that nothing says the size of
+_ALONE = 100.0  # m, side of a single cell of unknown size
 
 
 def edges(axis: ArrayLike) -> NDArray[np.float64]:
-    """Edges (n + 1,) of the cells whose centres are `axis` (n,): half-way, and as far out at both ends."""
+    """Cell edges (n + 1,) from cell centres `axis` (n,): midpoints, extrapolated at both ends."""
     axis = np.asarray(axis, dtype=np.float64)
     if axis.size == 1:
-        return np.array([axis[0], axis[0]])  # one centre alone does not say how wide its cell is
+        return np.array([axis[0], axis[0]])  # a single centre has no cell width
     middle = (axis[1:] + axis[:-1]) / 2
     return np.concatenate([[2 * axis[0] - middle[0]], middle, [2 * axis[-1] - middle[-1]]])
 
@@ -28,7 +28,7 @@ def cell_areas(latitude: ArrayLike, longitude: ArrayLike) -> NDArray[np.float64]
 def area_factors(
     latitude: ArrayLike, longitude: ArrayLike
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Factors of the area (m2) of each cell: one of its row (ny,), one of its column (nx,).
+    """Separable cell areas (m2): factors of the rows (ny,) and of the columns (nx,).
 
     Exact for the ellipsoid: between two parallels lie a^2/2 (q_high - q_low) per radian of longitude, where q
     is that of the authalic latitude (Snyder, Map Projections, USGS Professional Paper 1395, 1987, eq. 3-12).
@@ -49,18 +49,18 @@ def metres_per_degree(latitude: float) -> tuple[float, float]:
 
 
 def turned(longitude: ArrayLike, middle: float) -> NDArray[np.float64]:
-    """The same meridians (degrees east) within half a turn of `middle`; those that are keep their bits.
+    """Wrap longitudes (degrees east) to within 180 degrees of `middle`; unwrapped values keep their bits.
 
-    A run over the antimeridian counts on past 180, and who asks it about a place may not.
+    A run across the antimeridian counts beyond 180 degrees, but coordinates given to it may not.
     """
     longitude = np.asarray(longitude, np.float64)
     return longitude - 360.0 * np.round((longitude - middle) / 360.0)
 
 
 def spacing(latitude: ArrayLike, longitude: ArrayLike, at: float | None = None) -> tuple[float, float]:
-    """Mean width and height (m) of a cell at the parallel `at`, else at the middle of the grid.
+    """Mean cell width and height (m) at the parallel `at`, by default at the grid's centre.
 
-    An axis of one value does not say how wide its cell is: 0.
+    An axis with a single value has no cell width: 0.
     """
     latitude, longitude = np.asarray(latitude, np.float64), np.asarray(longitude, np.float64)
     north, east = metres_per_degree((latitude[0] + latitude[-1]) / 2 if at is None else at)
@@ -75,10 +75,10 @@ def cell_size(
     at: float | None = None,
     within: tuple[ArrayLike, ArrayLike] | None = None,
 ) -> tuple[float, float]:
-    """Width and height (m) of a cell to build with, `spacing` where there are two values or more.
+    """Cell width and height (m) for building a mesh: `spacing` where an axis has two or more values.
 
-    An axis of one value takes the size of the other; a single cell takes those of the coarser grid `within`
-    (latitude, longitude) which it is part of, else it is 100 m wide and high.
+    An axis with a single value takes the size of the other axis. A single cell takes the cell size of the
+    coarser grid `within` (latitude, longitude) that contains it, else 100 m.
     """
     width, height = spacing(latitude, longitude, at)
     if within is not None and width == height == 0.0:

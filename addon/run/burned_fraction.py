@@ -1,7 +1,7 @@
-"""The burned fraction of fuel cells (0..1), of models that say how much of each cell has burned.
+"""Burned fraction of fuel cells (0..1), for models that report partial burning of a cell.
 
-A front on a coarse grid burns cells in part: whole cells counted once the front has touched them make a young
-fire far too large.
+On a coarse grid a front burns cells in part. Counting whole cells from first contact would make a young fire
+far too large.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ FIELD = "burned_fraction"
 
 
 def at(run: Run, time: float) -> NDArray[np.float32]:
-    """(fy, fx) at a model time (s): linear between the run's times, 0 before and held after them."""
+    """Burned fraction (fy, fx) at a model time (s): linear between run times, 0 before, constant after."""
     known = np.asarray(run.times)
     after = int(np.searchsorted(known, time))
     if time < known[0]:
@@ -30,18 +30,18 @@ def at(run: Run, time: float) -> NDArray[np.float32]:
 def areas(
     run: Run, moments: Sequence[float] | NDArray[np.float64], strip: NDArray, width: NDArray
 ) -> list[float]:
-    """Burned area (m2) by each of these model times (s), linear between the run's times.
+    """Burned area (m2) at model times (s), linear between the run's times.
 
     Parameters
     ----------
     strip, width
-        Factors (fy,) and (fx,) of the cells' areas, as of `areas.area_factors`.
+        Area factors (fy,) and (fx,), as `areas.area_factors` returns them.
     """
     known = np.asarray(run.times)
     after = np.clip(np.searchsorted(known, moments), 0, len(known) - 1)
     wanted = np.unique([after, np.maximum(after - 1, 0)])
-    found = [float(strip @ (_frame(run, int(index)) @ width)) for index in wanted]
-    return np.interp(moments, known[wanted], found, left=0.0).tolist()
+    burned = [float(strip @ (_frame(run, int(index)) @ width)) for index in wanted]
+    return np.interp(moments, known[wanted], burned, left=0.0).tolist()
 
 
 def _frame(run: Run, index: int) -> NDArray[np.float32]:

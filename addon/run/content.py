@@ -1,7 +1,7 @@
-"""What is in files: hashes by which baked and rendered files know their inputs again.
+"""Content hashes of input files, by which baked and rendered files are matched to their inputs.
 
-A run may hold gigabytes, so the hashes of its files are remembered: in the run's folder where that can be
-written, else in the cache. A file is read again when its size, times or place on the disk are others.
+A run may hold gigabytes, so hashes are cached: in the run's folder if that is writable, else in the cache. A
+file is hashed again when its size, timestamps or inode change.
 """
 
 from __future__ import annotations
@@ -23,24 +23,24 @@ from ..progress import Progress, silent
 REMEMBERED = ".firetwin-hashes.json"
 _AXES = ("latitude", "longitude", "fuel_latitude", "fuel_longitude")
 _STEP = 1 << 22  # bytes
-_YOUNG = 2.0  # s; a file changed just now may change once more without another time of change
+_YOUNG = 2.0  # s; a file modified this recently may change again within the same timestamp
 
 Stamp = tuple[int, ...]
 _read: dict[tuple[Path, Stamp], str] = {}
 
 
 def sha256(path: Path, step: Callable[[int], None] = lambda size: None) -> str:
-    """SHA-256 of a file, in hexadecimal; `step` is told how many bytes more were read."""
-    found = hashlib.sha256()
+    """SHA-256 of a file, in hexadecimal; `step` is called with the number of bytes read."""
+    digest = hashlib.sha256()
     with path.open("rb") as file:
         while block := file.read(_STEP):
-            found.update(block)
+            digest.update(block)
             step(len(block))
-    return found.hexdigest()
+    return digest.hexdigest()
 
 
 def fingerprint(settings: dict[str, Any]) -> str:
-    """Short hash of settings: equal exactly where their JSON is."""
+    """Short hash of settings, equal exactly if their JSON is equal."""
     text = json.dumps(settings, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
@@ -48,82 +48,82 @@ def fingerprint(settings: dict[str, Any]) -> str:
 def inputs(
     run: Run, cache: Path, leave_out: Collection[str] = (), progress: Progress = silent
 ) -> dict[str, str]:
-    """SHA-256 of each field of a run; of a field with one file per time, that of all their hashes.
+    """SHA-256 of each field of a run. A field with one file per time has the hash of all their hashes.
 
-    Only the run's own files count, whatever else lies in its folder.
+    Only the run's own files count; other files in its folder are ignored.
 
     Parameters
     ----------
     cache
-        Folder where hashes are remembered if not in the run's own.
+        Folder of the hash cache if the run's folder is read-only.
     leave_out
-        Fields that do not matter.
+        Fields to skip.
     """
     folder = Path(run.path)
     fields = {path.name: _files(path) for path in _fields(run, leave_out)}
     places = folder / REMEMBERED, cache / f"run-{fingerprint({'run': str(folder.resolve())})}.json"
     hashes = _hashes(folder, [path for files in fields.values() for path in files], places, progress)
-    found = {}
+    result = {}
     for name, files in fields.items():
         lines = [f"{path.name} {hashes[path]}" for path in files]
         whole = (folder / name).is_dir()
-        found[name] = hashlib.sha256("\n".join(lines).encode()).hexdigest() if whole else hashes[files[0]]
-    return found
+        result[name] = hashlib.sha256("\n".join(lines).encode()).hexdigest() if whole else hashes[files[0]]
+    return result
 
 
 def of_file(path: Path, cache: Path, progress: Progress = silent) -> str:
-    """SHA-256 of a file that is no part of a run; remembered in the cache, as its folder is not ours."""
+    """SHA-256 of a file outside of a run, cached in `cache`, as the file's folder is not ours."""
     place = cache / f"file-{fingerprint({'file': str(path.resolve())})}.json"
     return _hashes(path.parent, [path], (place,), progress)[path]
 
 
 def stamp(path: Path) -> Stamp:
-    """What changes when a file does: size, time of change of content and of anything, place on the disk."""
+    """Change stamp of a file: size, modification and change time, inode."""
     state = path.stat()
     return state.st_size, state.st_mtime_ns, state.st_ctime_ns, state.st_ino
 
 
 def stamps(run: Run) -> dict[str, Stamp]:
-    """The stamps of all files of a run, by their names in its folder."""
+    """Change stamps of all files of a run, by name relative to its folder."""
     folder = Path(run.path)
-    found = (path for field in _fields(run, ()) for path in _files(field))
-    return {path.relative_to(folder).as_posix(): stamp(path) for path in found}
+    paths = (path for field in _fields(run, ()) for path in _files(field))
+    return {path.relative_to(folder).as_posix(): stamp(path) for path in paths}
 
 
-def settled(found: Iterable[Stamp]) -> bool:
-    """Whether files have not changed so lately that they could change again without another stamp."""
-    return max(max(each[1:3]) for each in found) < time.time_ns() - int(_YOUNG * 1e9)
+def settled(stamps: Iterable[Stamp]) -> bool:
+    """Whether files are old enough that a further change would change their stamps."""
+    return max(max(known[1:3]) for known in stamps) < time.time_ns() - int(_YOUNG * 1e9)
 
 
 def _fields(run: Run, leave_out: Collection[str]) -> list[Path]:
-    """The description of a run, and the file or folder of each field."""
+    """Description file of a run, and the file or folder of each field."""
     folder = Path(run.path)
     names = sorted({*_AXES, *run.fields} - {*leave_out})
     ends = (".npy", ".txt", "")
-    found = (next((p for end in ends if (p := folder / f"{n}{end}").exists()), None) for n in names)
-    return [folder / "run.toml", *(path for path in found if path is not None)]
+    present = (next((p for end in ends if (p := folder / f"{n}{end}").exists()), None) for n in names)
+    return [folder / "run.toml", *(path for path in present if path is not None)]
 
 
 def _files(path: Path) -> list[Path]:
     if not path.is_dir():
         return [path]
-    return sorted(each for each in path.iterdir() if each.suffix in (".npy", ".txt") and each.name[0] != ".")
+    return sorted(file for file in path.iterdir() if file.suffix in (".npy", ".txt") and file.name[0] != ".")
 
 
 def _hashes(folder: Path, paths: list[Path], places: tuple[Path, ...], progress: Progress) -> dict[Path, str]:
     stamps = {path: stamp(path) for path in paths}
     if any((path, stamps[path]) not in _read for path in paths):
-        _remember(folder, places)
+        _load(folder, places)
         lacking = {path: stamps[path] for path in paths if (path, stamps[path]) not in _read}
         _read_all(lacking, progress)
         if lacking:
-            _keep(folder, places)
+            _save(folder, places)
     return {path: _read[path, stamps[path]] for path in paths}
 
 
 def _read_all(lacking: dict[Path, Stamp], progress: Progress) -> None:
-    """Read these files, several at once, and tell how many megabytes were read."""
-    total = sum(found[0] for found in lacking.values())
+    """Hash files in parallel and report the megabytes read."""
+    total = sum(file_stamp[0] for file_stamp in lacking.values())
     sizes: list[int] = []
     with ThreadPoolExecutor() as pool:
         tasks = {path: pool.submit(sha256, path, sizes.append) for path in lacking}
@@ -135,20 +135,20 @@ def _read_all(lacking: dict[Path, Stamp], progress: Progress) -> None:
     _read.update({(path, lacking[path]): task.result() for path, task in tasks.items()})
 
 
-def _remember(folder: Path, places: Iterable[Path]) -> None:
-    """Take over what was written down; a damaged file counts for nothing."""
+def _load(folder: Path, places: Iterable[Path]) -> None:
+    """Load cached hashes; damaged cache files are ignored."""
     for place in places:
         with contextlib.suppress(OSError, ValueError, TypeError, AttributeError):
             for name, (digest, *found) in json.loads(place.read_text(encoding="utf-8")).items():
                 _read.setdefault((folder / name, tuple(found)), str(digest))
 
 
-def _keep(folder: Path, places: Iterable[Path]) -> None:
-    """Write down what is known of a run's files, in the first of these places that can be written."""
+def _save(folder: Path, places: Iterable[Path]) -> None:
+    """Save the hashes of a run's files in the first writable place."""
     known = {
         path.relative_to(folder).as_posix(): [digest, *found]
         for (path, found), digest in _read.items()
-        if path.is_relative_to(folder) and settled([found]) and _still(path, found)
+        if path.is_relative_to(folder) and settled([found]) and _unchanged(path, found)
     }
     for place in places:
         part = place.with_name(f"{place.name}.{uuid.uuid4().hex}")
@@ -163,8 +163,8 @@ def _keep(folder: Path, places: Iterable[Path]) -> None:
             return
 
 
-def _still(path: Path, found: Stamp) -> bool:
+def _unchanged(path: Path, known: Stamp) -> bool:
     try:
-        return stamp(path) == found
+        return stamp(path) == known
     except OSError:
         return False

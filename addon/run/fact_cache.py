@@ -1,4 +1,4 @@
-"""Facts of a run that stay in its folder, so that nobody finds them twice."""
+"""Fact cache: derived properties of a run, stored in its folder."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ NAME = ".firetwin-info.json"
 
 
 def facts(run: Run, about: str, find: Callable[[], dict[str, Any]]) -> dict[str, Any]:
-    """What `find` says, which JSON can hold; not asked again while the run's files and the program stay.
+    """Result of `find` (JSON data), cached while the run's files and the program are unchanged.
 
-    Where the folder cannot be written nothing is remembered, nor of files that may still change.
+    Nothing is stored if the folder is read-only or files may still change.
     """
     place = Path(run.path) / NAME
     stamps = content.stamps(run)
@@ -31,16 +31,16 @@ def facts(run: Run, about: str, find: Callable[[], dict[str, Any]]) -> dict[str,
         known = json.loads(place.read_text(encoding="utf-8"))
         if known["key"] == key:
             return dict(known["facts"])
-    found = find()
+    result = find()
     if content.settled(stamps.values()) and content.stamps(run) == stamps:
-        text = json.dumps({"key": key, "facts": found})
+        text = json.dumps({"key": key, "facts": result})
         with contextlib.suppress(OSError, InputError):
             files.write(place, lambda part: part.write_text(text, encoding="utf-8"))
-    return found
+    return result
 
 
 def _program() -> dict[str, content.Stamp]:
-    """What the facts are found by."""
+    """Change stamps of the program's files that compute the facts."""
     events, code = Path(history.__file__), Path(__file__).parent.glob("*.py")
     parts = [Path(firetwin_core.__file__), events, *events.parent.glob("*.toml"), *code]
     return {path.name: content.stamp(path) for path in sorted(parts)}

@@ -1,4 +1,4 @@
-"""The scene's one local frame: Blender's x, y, z are east, north, up in metres."""
+"""Local scene frame: Blender's x, y, z are east, north, up in metres."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""What the numbers of fuel models say of the fuel: grass, shrub, litter, slash or what does not burn.
+"""Fuel categories: kind of fuel (grass, shrub, litter, slash, unburnable) by fuel model number.
 
-Numbers are those of Anderson 1982 (GTR INT-122), 1 to 13, and of Scott and Burgan 2005 (RMRS-GTR-153) as
-LANDFIRE gives them, 91 to 204. 14 is what WRF-SFIRE calls its category without fuel.
+Numbers 1 to 13 are Anderson's (1982, GTR INT-122). Numbers 91 to 204 are Scott and Burgan's (2005,
+RMRS-GTR-153) as LANDFIRE writes them. 14 is WRF-SFIRE's category without fuel.
 """
 
 from __future__ import annotations
@@ -17,32 +17,32 @@ from . import blocks
 FIELD = "fuel_category"
 UNKNOWN, GRASS, SHRUB, LITTER, SLASH, UNBURNABLE = range(6)
 NAMES = ("unknown", "grass", "shrub", "litter", "slash", "unburnable")
-"""By kind. A litter's fuel is dead leaves and needles under trees, with or without an understorey."""
+"""Names by kind. Litter is dead leaves and needles under trees, with or without an understorey."""
 
 URBAN, SNOW, FARMLAND, WATER, BARE = 91, 92, 93, 98, 99
-"""Scott and Burgan's numbers of what does not burn."""
+"""Scott and Burgan's numbers of unburnable ground."""
 
 NUMBERS = {
-    GRASS: ((1, 3), (101, 109), (121, 124)),  # GR, and GS where grass carries the fire among shrubs
+    GRASS: ((1, 3), (101, 109), (121, 124)),  # GR, and GS, in which grass carries the fire among shrubs
     SHRUB: ((4, 7), (141, 149)),
     LITTER: ((8, 10), (161, 165), (181, 189)),  # TU and TL
     SLASH: ((11, 13), (201, 204)),
     UNBURNABLE: ((14, 14), (URBAN, BARE)),
 }
-"""First and last numbers of each kind."""
+"""Ranges of fuel model numbers of each kind."""
 
-IMPLIED = 0.8  # kg/m2 of canopy fuel over litter, where a model brings none: a middling stand (assumed)
+IMPLIED = 0.8  # kg/m2, canopy fuel over litter if a model has none: an average stand (assumed)
 _LARGEST = 255
-_CANOPY = 0.01  # kg/m2, less is none
+_CANOPY = 0.01  # kg/m2; less counts as none
 
 
 def kinds(category: NDArray) -> NDArray[np.uint8]:
-    """Kind of each number of a fuel model, of whatever shape; UNKNOWN where it is none that is known.
+    """Kind of each fuel model number, of any shape; UNKNOWN for other numbers.
 
     Parameters
     ----------
     category
-        Numbers of fuel models, NaN where there is none.
+        Fuel model numbers, NaN without data.
     """
     table = np.full(_LARGEST + 1, UNKNOWN, np.uint8)
     for kind, spans in NUMBERS.items():
@@ -53,25 +53,25 @@ def kinds(category: NDArray) -> NDArray[np.uint8]:
 
 
 def rows(run: Run) -> Iterator[tuple[int, int, NDArray[np.uint8]]]:
-    """First and last rows, and the kinds (rows, fx) there, of a run with categories; part by part."""
+    """Blocks of a run with categories: first and last rows, and the kinds (rows, fx) there."""
     for first, end in blocks.rows(run):
         yield first, end, kinds(run.fuel_rows(FIELD, first, end))
 
 
 def shares(run: Run) -> dict[str, float] | None:
-    """Part of the fuel grid's cells that each kind has, by name; None: the run has no categories."""
+    """Fraction of fuel cells of each kind, by name; None if the run has no categories."""
     if not run.has(FIELD):
         return None
     count = np.zeros(len(NAMES))
-    for _, _, found in rows(run):
-        count += np.bincount(found.ravel(), minlength=len(NAMES))
+    for _, _, block in rows(run):
+        count += np.bincount(block.ravel(), minlength=len(NAMES))
     return dict(zip(NAMES, (count / max(count.sum(), 1.0)).tolist(), strict=True))
 
 
 def canopy(run: Run) -> NDArray[np.float32]:
-    """Canopy fuel (fy, fx), kg/m2, that trees are drawn by: the run's, and `IMPLIED` over litter without any.
+    """Canopy fuel (fy, fx), kg/m2, for drawing trees: the run's, and `IMPLIED` over litter without any.
 
-    Litter is of trees. Where some of the run's litter has canopy, that without it is a clearing.
+    Litter implies trees. If some of the run's litter has canopy fuel, litter without it is a clearing.
     """
     known = run.canopy_fuel
     if not run.has(FIELD):

@@ -1,4 +1,4 @@
-"""What is in a run, as data (for programs) and as a page of text (for people)."""
+"""Run summary, as data (for programs) and as a page of text (for people)."""
 
 from __future__ import annotations
 
@@ -20,25 +20,25 @@ ACRE = history.SQUARE_METRES_PER_ACRE
 
 
 def gather(run: Run, zone: str) -> dict[str, Any]:
-    """Everything `firetwin info` shows; lengths in m, areas in m2, power and energy in W and J.
+    """All facts that `firetwin info` shows; lengths in m, areas in m2, power and energy in W and J.
 
-    What was found once is remembered in the run's folder.
+    Results are cached in the run's folder.
     """
-    found = fact_cache.facts(run, zone, lambda: _find(run, zone))
-    return found | {"path": run.path, "source": _source(Path(run.path))}
+    facts = fact_cache.facts(run, zone, lambda: _find(run, zone))
+    return facts | {"path": run.path, "source": _source(Path(run.path))}
 
 
 def _source(folder: Path) -> dict[str, Any]:
-    """What run.toml says that the run was made from: model, version, projection, files and assumptions."""
+    """Provenance from run.toml: model, version, projection, files and assumptions."""
     try:
         return tomllib.loads((folder / "run.toml").read_text(encoding="utf-8-sig")).get("source", {})
-    except (OSError, ValueError):  # the core reads what it needs, and says what is wrong
+    except (OSError, ValueError):  # the core reports errors in run.toml
         return {}
 
 
 def _find(run: Run, zone: str) -> dict[str, Any]:
     reports = _reports(run)
-    at = [float(run.times[0]), float(run.times[-1]), *(times.seconds(run, each.time) for each in reports)]
+    at = [float(run.times[0]), float(run.times[-1]), *(times.seconds(run, report.time) for report in reports)]
     first, last, *then = burned(run, at)
     low, high = run.flux_range()
     seconds, heat, fuel = run.times, released.energy(run), released.of_fuel(run)
@@ -75,13 +75,13 @@ def _find(run: Run, zone: str) -> dict[str, Any]:
 
 
 def burned(run: Run, moments: Sequence[float] | NDArray[np.float64]) -> list[float]:
-    """Area (m2) burned by each of these model times (s).
+    """Burned area (m2) at model times (s).
 
-    Burned shares of cells where the run has them (`burned_fraction`), linear between its times; else the fuel
-    cells whose middle the fire has reached. Without the run's own arrival times the front is estimated from
-    heat fluxes, within cells of the model grid: of the sample's, 370 m wide, the area burned in the end comes
-    out 10 % too large (no flux tells of unburned islands in a cell); 27 % if every cell with flux counted
-    whole.
+    It is the sum of burned fractions if the run has them (`burned_fraction`), linear between its times; else
+    the area of fuel cells whose centre the fire has reached. Without the run's own arrival times the front is
+    estimated from heat fluxes within cells of the model grid. For the sample's cells of 370 m the final
+    burned area is then 10 % too large, as no flux shows unburned islands in a cell. It would be 27 % if every
+    cell with flux counted whole.
     """
     strip, width = areas.area_factors(run.fuel_latitude, run.fuel_longitude)
     if run.has(burned_fraction.FIELD):
@@ -89,28 +89,28 @@ def burned(run: Run, moments: Sequence[float] | NDArray[np.float64]) -> list[flo
     arrival = blocks.arrival(run)
     order = np.argsort(moments)
     ordered = np.asarray(moments, np.float64)[order]
-    since = np.zeros(len(ordered) + 1)  # by the first moment that is not earlier
+    since = np.zeros(len(ordered) + 1)  # by the first time that is not earlier
     for first, end in blocks.rows(run):
         time = arrival(first, end)
         row, column = np.divmod(np.flatnonzero(time <= ordered[-1]), time.shape[1])
         index = np.searchsorted(ordered, time[row, column].astype(np.float64))
         since += np.bincount(index, strip[first + row] * width[column], len(since))
-    found = np.empty(len(ordered))
-    found[order] = np.cumsum(since[:-1])
-    return found.tolist()
+    areas_then = np.empty(len(ordered))
+    areas_then[order] = np.cumsum(since[:-1])
+    return areas_then.tolist()
 
 
 def burned_from(run: Run) -> str:
-    """The field that burned areas are found from."""
+    """Field from which burned areas are computed."""
     known = (burned_fraction.FIELD, "fuel_arrival_time")
     return next((name for name in known if run.has(name)), "heat_flux")
 
 
 def reported(run: Run) -> list[dict[str, Any]]:
-    """The dated acreages (m2) of the fire that the run depicts, beside the run's own."""
+    """Reported acreages (m2) of the real fire, next to the run's own."""
     if not (reports := _reports(run)):
         return []
-    return _reported(run, reports, burned(run, [times.seconds(run, each.time) for each in reports]))
+    return _reported(run, reports, burned(run, [times.seconds(run, report.time) for report in reports]))
 
 
 def _grid(latitude: np.ndarray, longitude: np.ndarray) -> dict[str, Any]:
@@ -129,7 +129,7 @@ def _range(values: np.ndarray) -> dict[str, float]:
 
 
 def _fuel(run: Run, field: str, above: float) -> dict[str, float]:
-    """Share of the finite values that are above `above`, their mean and their range."""
+    """Fraction of the finite values above a threshold, with their mean and range."""
     count, more, total, low, high = 0, 0, 0.0, np.inf, -np.inf
     for first, end in blocks.rows(run):
         finite = run.fuel_rows(field, first, end)
@@ -145,12 +145,12 @@ def _fuel(run: Run, field: str, above: float) -> dict[str, float]:
 
 
 def _reports(run: Run) -> list[history.Acreage]:
-    """The dated acreages of the fire that the run depicts."""
+    """Reported acreages of the real fire."""
     return list(history.load(run.event).acreages) if run.event and run.event in history.events() else []
 
 
 def _reported(run: Run, reports: list[history.Acreage], areas_then: list[float]) -> list[dict[str, Any]]:
-    """The reports beside the run's own areas (m2) at their times, where the run covers them."""
+    """Reported acreages next to the run's own areas (m2) at their times, where the run covers them."""
     rows = []
     for report, area in zip(reports, areas_then, strict=True):
         row = {"time": times.iso(report.time), "reported": report.acres * ACRE, "source": report.source}
@@ -163,7 +163,7 @@ def _reported(run: Run, reports: list[history.Acreage], areas_then: list[float])
 
 
 def page(info: dict[str, Any]) -> str:
-    """The text that `firetwin info` prints."""
+    """Page of text that `firetwin info` prints."""
     return "\n".join(
         escaped(line)
         for line in [
@@ -189,7 +189,7 @@ def _made_of(source: dict[str, Any]) -> list[str]:
 
 
 def brief(info: dict[str, Any]) -> list[tuple[str, str]]:
-    """The most important facts in short: labels and texts for a narrow panel."""
+    """Key facts for a narrow panel: labels and texts."""
     grid, fuel, when = info["grid"], info["fuel_grid"], info["times"]
     burned = [info["burned"][key] / ACRE for key in ("first", "last")]
     return [
@@ -214,7 +214,7 @@ def _cells(grid: dict[str, Any]) -> str:
 
 
 def _interval(when: dict[str, Any]) -> str:
-    """How far apart the times are."""
+    """Interval between the times."""
     if when["interval"] is None:
         return ""
     least, most = when["interval"]["min"], when["interval"]["max"]
@@ -253,7 +253,7 @@ def _facts(info: dict[str, Any]) -> list[tuple[str, str]]:
 
 
 def _areas_from(info: dict[str, Any]) -> str:
-    """What is said of burned areas that are not those of whole fuel cells."""
+    """Note on how burned areas are computed, if not from whole fuel cells."""
     if info["burned"]["from"] == "burned_fraction":
         return "sums of the burned fraction of each cell, as the model gives it"
     grid = info["grid"]

@@ -1,4 +1,4 @@
-"""Places with names: those that are known of a run's fire, and lists of the user's own."""
+"""Labels: named places, built in for known fires or from a user's list."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ _NAMES = {
     "longitude": {"longitude", "lon", "lng", "long"},
 }
 _COLUMNS = "name, latitude and longitude (degrees)"
-_LONGEST = 60  # letters of a name
+_LONGEST = 60  # characters of a name
 
 
 class Label(NamedTuple):
-    """A name, and degrees north and east."""
+    """A place: its name, and degrees north and east."""
 
     name: str
     latitude: float
@@ -31,7 +31,7 @@ class Label(NamedTuple):
 
 
 def known(run: Run) -> list[Label]:
-    """Towns, lakes and summits whose positions are published, of the fire that a run depicts."""
+    """Built-in labels of a run's fire: towns, lakes and summits with published positions."""
     if not run.event or run.event not in history.events():
         return []
     places = history.load(run.event).places
@@ -43,14 +43,14 @@ def known(run: Run) -> list[Label]:
 
 
 def read(path: Path) -> list[Label]:
-    """Labels of a GeoJSON file's points, or of a CSV file with columns name, latitude and longitude.
+    """Read labels from a GeoJSON file's points, or a CSV file with columns name, latitude and longitude.
 
     Raises
     ------
     InputError
-        It cannot be read, or holds something else.
+        The file cannot be read or has another format.
     """
-    if path.exists() and not path.is_file():  # a pipe would be waited for
+    if path.exists() and not path.is_file():  # opening a pipe would block
         raise input_error(path, 0, 0, "is no file; name a CSV or GeoJSON")
     try:
         text = path.read_text(encoding="utf-8-sig")
@@ -62,8 +62,8 @@ def read(path: Path) -> list[Label]:
 
 
 def _csv(path: Path, text: str) -> list[Label]:
-    found = tables.rows(path, iter(text.splitlines()), _NAMES, _NAMES, _COLUMNS)
-    return [_label(path, line, **value) for line, value in found]
+    rows = tables.rows(path, iter(text.splitlines()), _NAMES, _NAMES, _COLUMNS)
+    return [_label(path, line, **value) for line, value in rows]
 
 
 def _geojson(path: Path, text: str) -> list[Label]:
@@ -73,7 +73,7 @@ def _geojson(path: Path, text: str) -> list[Label]:
         raise input_error(path, error.lineno, error.colno, f"is no JSON: {error.msg}") from None
     except (KeyError, TypeError, ValueError, RecursionError):
         raise input_error(path, 0, 0, "is no GeoJSON FeatureCollection") from None
-    found = []
+    labels = []
     for number, feature in enumerate(features if isinstance(features, list) else [], 1):
         try:
             if feature["geometry"]["type"] != "Point":
@@ -84,10 +84,10 @@ def _geojson(path: Path, text: str) -> list[Label]:
             reason = f'feature {number} has no name or no coordinates; give it a property "name" and a Point'
             raise input_error(path, 0, 0, reason) from None
         try:
-            found.append(_label(path, 0, name, latitude, longitude))
+            labels.append(_label(path, 0, name, latitude, longitude))
         except InputError as error:
             raise input_error(path, 0, 0, f"feature {number}: {error.reason}") from None
-    return found
+    return labels
 
 
 def _label(path: Path, line: int, name: Any, latitude: Any, longitude: Any) -> Label:

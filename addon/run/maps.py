@@ -1,4 +1,4 @@
-"""Printed maps of a run: its fuels, and the strongest heat flux of the whole run over the relief."""
+"""Maps of a run: fuel load, and maximum heat flux over hill shading."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ DPI = 160
 
 
 def draw(run: Run, out: Path, zone: str, seen: Observations = NOTHING) -> list[Path]:
-    """Write ``fuel.png`` and ``intensity.png``, with what was seen of the fire, into the folder `out`.
+    """Write ``fuel.png`` and ``intensity.png``, with the observations of the fire, into the folder `out`.
 
     Returns
     -------
@@ -54,7 +54,7 @@ def draw(run: Run, out: Path, zone: str, seen: Observations = NOTHING) -> list[P
 
 
 def fuel_map(run: Run) -> Figure:
-    """Surface and canopy fuel together (kg/m2), greener where denser; cells without any are sand-coloured."""
+    """Fuel load map: surface and canopy fuel (kg/m2), greener where denser, sand-coloured without fuel."""
     fuel = np.nan_to_num(run.surface_fuel) + np.nan_to_num(run.canopy_fuel)
     figure, axes = _page(run, "Fuel load", "surface and canopy fuel")
     image = _show(axes, run.fuel_latitude, run.fuel_longitude, fuel, FUEL, Normalize(0, fuel.max() or 1))
@@ -65,7 +65,7 @@ def fuel_map(run: Run) -> Figure:
 
 
 def intensity_map(run: Run, zone: str, seen: Observations = NOTHING) -> Figure:
-    """Largest heat flux (kW/m2) of each model cell of the whole run, over the relief; what was seen."""
+    """Fire intensity map: maximum heat flux (kW/m2) of model cells over hill shading, and observations."""
     flux = np.ma.masked_less(thumbnails.strongest(run), thumbnails.FIRE) / 1e3
     first, last = (times.text(times.utc(run, float(run.times[i])), zone) for i in (0, -1))
     figure, axes = _page(run, "Fire intensity", f"strongest heat flux, {first} to {last}")
@@ -81,18 +81,18 @@ def intensity_map(run: Run, zone: str, seen: Observations = NOTHING) -> Figure:
 
 
 def _seen(axes: Axes, run: Run, zone: str, seen: Observations) -> None:
-    """Outline what was seen burned, each date in a blue of its own, and infrared flights' heat by class."""
+    """Outline observed perimeters, each date in its own blue, and infrared heat by class."""
     if not seen.perimeters and not seen.heat:
         return
     before, bounds = axes.get_legend(), (axes.get_xlim(), axes.get_ylim())
     lines: list[Artist] = []
-    for i, each in enumerate(seen.perimeters):
+    for i, perimeter in enumerate(seen.perimeters):
         style = {"edgecolor": SEEN((i + 1) / len(seen.perimeters)), "linewidth": 1.1, "zorder": 4}
-        lines.append(_outline(axes, run, each.polygons, style))
-        lines[-1].set_label(times.text(each.time, zone))
+        lines.append(_outline(axes, run, perimeter.polygons, style))
+        lines[-1].set_label(times.text(perimeter.time, zone))
     for kind in KINDS:
-        if found := [each for each in seen.heat if each.kind == kind]:
-            lines.append(_heat(axes, run, kind, found))
+        if heat := [perimeter for perimeter in seen.heat if perimeter.kind == kind]:
+            lines.append(_heat(axes, run, kind, heat))
     axes.set(xlim=bounds[0], ylim=bounds[1])
     box = {"framealpha": 0.78, "edgecolor": "none", "fontsize": 8, "title_fontsize": 8}
     axes.legend(handles=lines, title="seen burned by" if seen.perimeters else "seen", loc="upper left", **box)
@@ -101,7 +101,7 @@ def _seen(axes: Axes, run: Run, zone: str, seen: Observations) -> None:
 
 
 def _outline(axes: Axes, run: Run, polygons: Sequence[Polygons], style: dict) -> PathPatch:
-    """Rings of polygons as lines of one patch, so that holes are none of it."""
+    """Draw rings of polygons as lines of one patch, with holes left open."""
     middle = float(run.longitude[0] + run.longitude[-1]) / 2
     paths = []
     for polygon in polygons:
@@ -116,14 +116,14 @@ def _outline(axes: Axes, run: Run, polygons: Sequence[Polygons], style: dict) ->
     return patch
 
 
-def _heat(axes: Axes, run: Run, kind: str, found: Sequence[Heat]) -> Artist:
-    """One class of heat of all flights: hatched as the map symbols of the NWCG are, or dots."""
-    polygons = [polygon for each in found for polygon in each.polygons]
+def _heat(axes: Axes, run: Run, kind: str, heat: Sequence[Heat]) -> Artist:
+    """Draw one class of infrared heat of all flights: hatched like the map symbols of the NWCG, or dots."""
+    polygons = [polygon for mapped in heat for polygon in mapped.polygons]
     if polygons:
         hatch = {"intense": "////", "scattered": "...."}.get(kind)
         style = {"edgecolor": HEAT[kind], "linewidth": 0.7, "hatch": hatch, "zorder": 4}
         drawn: Artist = _outline(axes, run, polygons, style)
-    points = np.concatenate([each.points for each in found])
+    points = np.concatenate([mapped.points for mapped in heat])
     if len(points):
         middle = float(run.longitude[0] + run.longitude[-1]) / 2
         x, y = areas.turned(points[:, 0], middle), points[:, 1]
@@ -134,7 +134,7 @@ def _heat(axes: Axes, run: Run, kind: str, found: Sequence[Heat]) -> Artist:
 
 
 def _burned_before(axes: Axes, run: Run) -> None:
-    """Hatch what had burned when the run began: it released no heat in it."""
+    """Hatch the area that burned before the run began, which released no heat in it."""
     if run.has(burned_fraction.FIELD):
         before = burned_fraction.at(run, run.times[0])
     else:
@@ -156,7 +156,7 @@ def _burned_before(axes: Axes, run: Run) -> None:
 
 
 def _places(axes: Axes, run: Run) -> None:
-    """Name towns, summits and lakes of the fire that the run depicts, as far as their positions are known."""
+    """Label towns, summits and lakes of the fire that the run depicts, where positions are published."""
     if run.event not in history.events():
         return
     (west, east), (south, north) = axes.get_xlim(), axes.get_ylim()
@@ -184,7 +184,7 @@ def _places(axes: Axes, run: Run) -> None:
 
 
 def _page(run: Run, title: str, subtitle: str) -> tuple[Figure, Axes]:
-    """A figure whose map keeps true proportions at the middle of the run."""
+    """Figure with true proportions at the centre of the run."""
     matplotlib.rcParams.update({"font.size": 9, "axes.linewidth": 0.8, "svg.hashsalt": "firetwin"})
     dx, dy = areas.spacing(run.latitude, run.longitude)
     width, height = dx * len(run.longitude), dy * len(run.latitude)
@@ -205,14 +205,14 @@ def _page(run: Run, title: str, subtitle: str) -> tuple[Figure, Axes]:
         axis.set_major_formatter(_degrees(axis.get_majorticklocs(), negative, positive))
     axes.tick_params(direction="out", length=3, color="#444444")
     axes.grid(color="black", alpha=0.14, linewidth=0.5, linestyle=(0, (4, 3)), zorder=5)
-    if width > 0:  # a single cell does not say how wide it is
+    if width > 0:  # a single cell has no width
         _scale_bar(axes, width)
     _north_arrow(axes)
     return figure, axes
 
 
 def _degrees(ticks: NDArray[np.float64], negative: str, positive: str) -> FuncFormatter:
-    """Labels such as ``120.6°W`` with as many digits as tell the ticks apart."""
+    """Tick labels such as ``120.6°W`` with as many digits as they need to differ."""
     step = float(np.min(np.diff(ticks))) if len(ticks) > 1 else 0.1
     digits = max(1, int(np.ceil(-np.log10(step) - 1e-9)))
     digits += round(step * 10**digits, 6) % 1 > 0  # such as steps of 0.25
@@ -244,12 +244,12 @@ def _show(
 
 
 def _wide(edges: NDArray[np.float64]) -> NDArray[np.float64]:
-    """A single cell has no width of its own: give it some to be seen."""
+    """Give a single cell a visible width."""
     return edges if edges[0] != edges[-1] else edges + np.array([-0.01, 0.01])
 
 
 def _relief(axes: Axes, run: Run, strength: float) -> None:
-    """Hill shading, light from the north-west as on printed maps."""
+    """Hill shading, lit from the north-west."""
     elevation = np.nan_to_num(run.elevation.astype(np.float64))
     if min(elevation.shape) < 3:
         return
@@ -283,7 +283,7 @@ def _colour_bar(figure: Figure, axes: Axes, image: QuadMesh, label: str, extend:
 
 
 def _scale_bar(axes: Axes, width: float) -> None:
-    """A bar of a round number of kilometres, about a fifth of the map, in the lower left corner."""
+    """Scale bar of a round number of kilometres, about a fifth of the map, in the lower left corner."""
     target = width / 1e3 / 5
     unit = 10.0 ** np.floor(np.log10(target))
     length = max(step for step in (1, 2, 5) if step * unit <= target) * unit

@@ -1,4 +1,4 @@
-"""The heat that a run releases, beside that of the fuel that burns in it."""
+"""Energy budget: heat that a run releases, compared with the heat of the fuel that burns."""
 
 from __future__ import annotations
 
@@ -11,30 +11,32 @@ from numpy.typing import NDArray
 
 from . import areas, blocks, burned_fraction
 
-_MUCH = 1.1  # times the fuel's heat: fluxes at some moments give the whole to about a tenth
+_MUCH = 1.1  # times the fuel's heat; fluxes at discrete times give the total to about a tenth
 
 
 def energy(run: Run) -> float:
-    """Heat released over the run (J): flux times cell area, integrated over time by the trapezoidal rule."""
+    """Released heat of the run (J): flux times cell area, integrated over time by the trapezoidal rule."""
     return float(np.sum(run.heat_released() * areas.cell_areas(run.latitude, run.longitude)))
 
 
 def of_fuel(run: Run) -> float:
-    """Heat (J) of all surface and canopy fuel where it burned by the run's end, at 17.433 MJ/kg.
+    """Heat (J) of all surface and canopy fuel that burned by the run's end, at 17.433 MJ/kg.
 
-    Of cells that burned in part that part counts, where the run has their burned fraction.
+    If the run has burned fractions, a partly burned cell counts in part.
     """
     strip, width = areas.area_factors(run.fuel_latitude, run.fuel_longitude)
     last, total = float(run.times[-1]), 0.0
     burned = _burned(run, last)
     for first, end in blocks.rows(run):
-        load = sum(np.nan_to_num(run.fuel_rows(f"{each}_fuel", first, end)) for each in ("surface", "canopy"))
+        load = sum(
+            np.nan_to_num(run.fuel_rows(f"{layer}_fuel", first, end)) for layer in ("surface", "canopy")
+        )
         total += float(strip[first:end] @ ((load * burned(first, end)) @ width))
     return constants.HEAT_OF_COMBUSTION * total
 
 
 def _burned(run: Run, time: float) -> Callable[[int, int], NDArray]:
-    """What reads how far some rows of cells have burned by a time (s), 0 to 1."""
+    """Reader of the burned fraction (0..1) of rows of cells by a time (s)."""
     if run.has(burned_fraction.FIELD):
         share = burned_fraction.at(run, time)
         return lambda first, end: share[first:end]
@@ -43,7 +45,7 @@ def _burned(run: Run, time: float) -> Callable[[int, int], NDArray]:
 
 
 def warnings(released: float, fuel: float) -> list[str]:
-    """What is wrong where a run releases more than its fuel (J each)."""
+    """Warning if a run releases more heat than its fuel holds (J each)."""
     if released <= _MUCH * fuel or fuel <= 0.0:
         return []
     return [

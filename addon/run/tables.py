@@ -1,4 +1,4 @@
-"""Tables of text: a line of names, then one for each row, with commas, semicolons or tabs between values."""
+"""Text tables: a header line, then rows with commas, semicolons or tabs between values."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from ..errors import input_error
 def rows(
     path: Path, lines: Iterator[str], names: Mapping[str, set[str]], needed: Collection[str], help: str
 ) -> Iterator[tuple[int, dict[str, str]]]:
-    """Number of the line, and values by what they are, of each row that holds anything.
+    """Rows that are not empty: line number, and values by the meaning of their column.
 
     Parameters
     ----------
     names
-        Names that a column may have, small letters, by what is in it; a unit in brackets is no part of one.
+        Accepted column names in lower case, by meaning; a unit in brackets is ignored.
     needed
-        What there must be columns of.
+        Required meanings.
     help
-        Ends the message where there are none.
+        Ends the error message about a missing column.
 
     Raises
     ------
     InputError
-        A column lacks, or it is no such table.
+        A column is missing, or the file is no such table.
     """
     header = next(lines, "")
     comma = max(",;\t", key=header.count)
@@ -44,7 +44,7 @@ def rows(
 
 
 def _columns(header: list[str], names: Mapping[str, set[str]]) -> dict[str, int]:
-    """Number of the first column of each kind that is there."""
+    """Index of the first column of each meaning in the header."""
     plain = [name.partition("(")[0].partition("[")[0].strip().lower() for name in header]
     known = {what: next((k for k, n in enumerate(plain) if n in of), -1) for what, of in names.items()}
     return {what: k for what, k in known.items() if k >= 0}

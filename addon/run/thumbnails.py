@@ -1,4 +1,4 @@
-"""Small pictures of a run's fuel and fire, without axes and without matplotlib, which Blender lacks."""
+"""Thumbnails of a run's fuel and fire intensity, without axes and without matplotlib, which Blender lacks."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from numpy.typing import NDArray
 
 FUEL = ("#f4efe1", "#dfe5b4", "#b4d184", "#7cb45c", "#438f45", "#1f6a36", "#0c4426")
 INTENSITY = ("#fff7b0", "#ffe566", "#ffc81e", "#ff9a0a", "#f4560b", "#cf1710", "#8b0010")
-"""Colours of the maps, from little to much."""
+"""Colours of the maps, from low to high values."""
 
 SIDE = 192
-"""Pixels of a thumbnail, across and up."""
+"""Thumbnail width and height, pixels."""
 
-FIRE = 1.0  # W/m2, as where arrival times are estimated: real files hold fluxes of 1e-38
-_BARE = (0.45, 0.43, 0.40)  # where nothing burned
+FIRE = 1.0  # W/m2, as in the estimate of arrival times: model files hold fluxes of 1e-38
+_BARE = (0.45, 0.43, 0.40)  # where it is unburned
 
 
 def draw(run: Run) -> dict[str, NDArray[np.float32]]:
-    """The maps of fuel and of intensity, each (SIDE, SIDE, 4): sRGB and coverage from 0 to 1, south first."""
+    """Maps of fuel and intensity, each (SIDE, SIDE, 4): sRGB and alpha from 0 to 1, south first."""
     fuel = np.nan_to_num(run.surface_fuel) + np.nan_to_num(run.canopy_fuel)
     share = fuel / max(float(fuel.max()), 1.0e-6)
     flux = strongest(run)
@@ -35,7 +35,7 @@ def draw(run: Run) -> dict[str, NDArray[np.float32]]:
 
 
 def strongest(run: Run) -> NDArray[np.float32]:
-    """Largest heat flux (W/m2) of each model cell over the whole run, (ny, nx); 0 where there is none."""
+    """Maximum heat flux (W/m2) of each model cell over the whole run, (ny, nx); 0 without any."""
     flux = run.heat_flux(0).copy()
     for index in range(1, len(run.times)):
         np.fmax(flux, run.heat_flux(index), out=flux)
@@ -43,7 +43,7 @@ def strongest(run: Run) -> NDArray[np.float32]:
 
 
 def coloured(share: NDArray[np.floating], colours: Sequence[str]) -> NDArray[np.float32]:
-    """Values from 0 to 1, (h, w), as colours between the first and the last, (h, w, 3)."""
+    """Map values from 0 to 1, (h, w), to a colour ramp, (h, w, 3)."""
     table = np.array([[int(c[i : i + 2], 16) / 255 for i in (1, 3, 5)] for c in colours])
     at = np.linspace(0.0, 1.0, len(table))
     return np.stack([np.interp(share, at, table[:, i]) for i in range(3)], -1).astype(np.float32)
@@ -52,7 +52,7 @@ def coloured(share: NDArray[np.floating], colours: Sequence[str]) -> NDArray[np.
 def _square(
     picture: NDArray[np.float32], latitude: NDArray[np.float64], longitude: NDArray[np.float64]
 ) -> NDArray[np.float32]:
-    """A map turned north up and fitted into a square in true proportions, clear beside it."""
+    """Orient a map north up and fit it into a square in true proportions, transparent outside."""
     if latitude[0] > latitude[-1]:
         picture = picture[::-1]
     if longitude[0] > longitude[-1]:
@@ -64,8 +64,8 @@ def _square(
         ((np.arange(count) + 0.5) * size / count).astype(int)
         for count, size in zip((rows, columns), picture.shape, strict=False)
     )
-    found = np.zeros((SIDE, SIDE, 4), np.float32)
+    square = np.zeros((SIDE, SIDE, 4), np.float32)
     low, left = (SIDE - rows) // 2, (SIDE - columns) // 2
-    found[low : low + rows, left : left + columns, :3] = picture[np.ix_(row, column)]
-    found[low : low + rows, left : left + columns, 3] = 1.0
-    return found
+    square[low : low + rows, left : left + columns, :3] = picture[np.ix_(row, column)]
+    square[low : low + rows, left : left + columns, 3] = 1.0
+    return square

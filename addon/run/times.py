@@ -1,4 +1,4 @@
-"""Moments and model times (seconds since the run began)."""
+"""Conversion between UTC and model time (seconds since the run began)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from firetwin_core.run import Run
 
 
 def seconds(run: Run, moment: datetime) -> float:
-    """Model time of a moment; one without a time zone is UTC."""
+    """Model time of a date and time; without a time zone it is UTC."""
     moment = moment if moment.tzinfo else moment.replace(tzinfo=UTC)
     return (moment - _start(run)).total_seconds()
 
@@ -20,12 +20,12 @@ def utc(run: Run, time: float) -> datetime:
 
 
 def iso(when: datetime) -> str:
-    """A moment in UTC as programs write it: ``2014-09-17T22:42:00Z``."""
+    """Format a time as ISO 8601 in UTC: ``2014-09-17T22:42:00Z``."""
     return when.strftime("%Y-%m-%dT%H:%M:%SZ")
 
 
 def text(when: datetime, zone: str) -> str:
-    """A moment as people write it there: ``17 Sep 2014 15:42 PDT``."""
+    """Format a time for people, in a time zone: ``17 Sep 2014 15:42 PDT``."""
     local = when.astimezone(ZoneInfo(zone))
     return f"{local.day} {local:%b %Y %H:%M} {local.tzname()}"
 

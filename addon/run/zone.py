@@ -1,4 +1,4 @@
-"""The time zone in which a run is told."""
+"""Time zone of a run."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from ..errors import input_error
 
 
 def time_zone(run: Run) -> str:
-    """That which run.toml says; else of the fire that it depicts, of the start's offset, or by longitude.
+    """Time zone from run.toml; else of the fire that it depicts, of the start's offset, or by longitude.
 
     Raises
     ------
     InputError
-        run.toml says one that is not known.
+        run.toml names an unknown zone.
     """
     if run.zone and not known(run.zone):
         raise input_error(Path(run.path, "run.toml"), 0, 0, f'zone = "{run.zone}" {NOT_KNOWN}')
@@ -32,11 +32,11 @@ def time_zone(run: Run) -> str:
     return of_hours(int(np.round(((middle + 180.0) % 360.0 - 180.0) / 15.0)))
 
 
-NOT_KNOWN = 'is not a time zone; say one such as "Europe/Paris", or "Etc/GMT-2" for two hours east of UTC'
+NOT_KNOWN = 'is not a time zone; give one such as "Europe/Paris", or "Etc/GMT-2" for two hours east of UTC'
 
 
 def known(name: str) -> bool:
-    """Whether it is the name of a time zone."""
+    """Whether a name is a known time zone."""
     try:
         zoneinfo.ZoneInfo(name)
     except (zoneinfo.ZoneInfoNotFoundError, ValueError, OSError):
@@ -45,10 +45,10 @@ def known(name: str) -> bool:
 
 
 def of_offset(minutes: int) -> str:
-    """The zone of an offset east of UTC, the nearest of whole hours."""
+    """Time zone of an offset east of UTC (minutes), rounded to whole hours."""
     return of_hours(round(minutes / 60))
 
 
 def of_hours(east: int) -> str:
-    """The zone of whole hours east of UTC; Etc/GMT zones count westward: Etc/GMT+8 is eight hours behind."""
+    """Time zone of whole hours east of UTC. Etc/GMT zones count westward: Etc/GMT+8 is eight hours behind."""
     return f"Etc/GMT{-east:+d}" if east else "Etc/GMT"

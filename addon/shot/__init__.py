@@ -1,1 +1,1 @@
-"""What is filmed, and how: settings, the file they are written in, kinds of camera and passes."""
+"""Shots: settings, scene files, cameras, passes, terrain, fire and light. Needs no Blender."""

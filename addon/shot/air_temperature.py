@@ -1,4 +1,4 @@
-"""Temperature of the air near the ground: that of the run, or an assumed day where it has none."""
+"""Air temperature near the ground: the run's, or an assumed diurnal range if it has none."""
 
 from __future__ import annotations
 
@@ -13,18 +13,20 @@ from . import sun
 from .fire import emissions
 from .settings.protocols import Frames
 
-PULSE = emissions.KINDS[emissions.LITTER].residence  # s that the front heats the ground under timber
+# s, time for which the front heats the ground under timber
+PULSE = emissions.KINDS[emissions.LITTER].residence
 COOLING = 2.0 * 20_000.0 / (600.0 * np.sqrt(np.pi))
-"""K s-1/2: q = 20 kW/m2, and the thermal effusivity e = 600 J m-2 K-1 s-1/2 of dry soil (assumed)."""
+"""K s-1/2, with q = 20 kW/m2 and the thermal effusivity e = 600 J m-2 K-1 s-1/2 of dry soil (assumed)."""
 
-BARE = 30.0  # W m-2 K-1 that bare ground passes on (assumed)
-ABSORBED, LOSS = 0.85, 70.0  # part of sunlight; W/m2 of net long-wave radiation into a clear sky (assumed)
-SKY = 250.0  # K, brightness temperature of a clear sky (assumed, the same all over)
-STONE = 0.94  # emissivity of stone, the least of any ground (assumed)
+BARE = 30.0  # W m-2 K-1, heat transfer coefficient of bare ground (assumed)
+# absorbed fraction of sunlight; W/m2, net long-wave loss to a clear sky (assumed)
+ABSORBED, LOSS = 0.85, 70.0
+SKY = 250.0  # K, brightness temperature of a clear sky (assumed, uniform)
+STONE = 0.94  # emissivity of stone, the lowest of any ground (assumed)
 
 _FIRE = 1.0  # W/m2; less is no fire (see `firetwin_core.flux.at_time`)
 LAPSE = 6.5e-3  # K/m, the standard atmosphere
-_SAMPLES = 25  # times of a shot at most at which its air is looked at
+_SAMPLES = 25  # times of a shot at most at which its air is sampled
 _AVERAGED = 600.0  # s
 _DAY, _NIGHT = 304.0, 292.0  # K at sea level under a sun 20 degrees high, and without one (assumed)
 
@@ -32,7 +34,7 @@ Array = NDArray[np.float64]
 
 
 def at(run: Run, time: float) -> Array:
-    """(ny, nx) K at a model time (s), linear between the run's times and held beyond them."""
+    """Air temperature (ny, nx), K, at a model time (s), linear between the run's times, constant beyond."""
     if not run.has("temperature"):
         day = float(np.clip(sun.position(run, time)[1] / 20.0, 0.0, 1.0))
         return _NIGHT + day * (_DAY - _NIGHT) - LAPSE * np.nan_to_num(run.elevation.astype(np.float64))
@@ -46,7 +48,7 @@ def at(run: Run, time: float) -> Array:
 
 
 def mean(run: Run, start: float, end: float) -> Array:
-    """(ny, nx) K, mean over the run's times from `start` to `end` (s), or at `end` where there is none."""
+    """Mean air temperature (ny, nx), K, over the run's times from `start` to `end` (s), or at `end` alone."""
     inside = np.flatnonzero((run.times >= start) & (run.times <= end))
     if len(inside) == 0 or not run.has("temperature"):
         return at(run, end)
@@ -57,11 +59,11 @@ def mean(run: Run, start: float, end: float) -> Array:
 
 
 def warmth(run: Run, start: float, end: float) -> tuple[Array, float]:
-    """(ny, nx) K that mean air from `start` to `end` (s) is warmer than unburned air as high, and the noise.
+    """Temperature excess (ny, nx), K, of the mean air over unburned air of the same elevation, and the noise.
 
-    Unburned air is a straight line through temperature against the model's elevation, by least squares over
-    the cells without heat flux in that time: height and time of day are not warmth. A hundredth of those
-    cells lie above the noise (K), as beside the fire and where wind and slope make other air.
+    Unburned air is a linear fit of temperature against the model's elevation, by least squares over the cells
+    without heat flux in that time. So height and time of day do not count as excess. One percent of those
+    cells exceed the noise (K), for instance next to the fire and where wind and slope alter the air.
     """
     kelvin = mean(run, start, end)
     inside = np.flatnonzero((run.times >= start) & (run.times <= end))
@@ -77,30 +79,30 @@ def warmth(run: Run, start: float, end: float) -> tuple[Array, float]:
 
 
 def coldest(run: Run, time: float) -> float:
-    """K that a tenth of the run's air is colder than at a time (s)."""
+    """Tenth percentile of the run's air temperature at a time (s), K."""
     return float(np.percentile(at(run, time), 10.0))
 
 
 def coldest_ground(run: Run, time: float, band: tuple[float, float]) -> float:
-    """Brightness temperature (K) over a band (um) of the coldest that level ground or air is at a time (s).
+    """Brightness temperature (K) in a band (um) of the coldest of level ground and air at a time (s).
 
-    Air is that of `coldest`. Level bare ground is warmer by what the sun gives it over what it loses, as in
-    the thermal view: by night 2.3 K colder. Stone, which mirrors 6 % of the cold sky, looks colder still, by
-    2 K between 8 and 14 um. Under a sun higher than some ten degrees the air is the coldest.
+    Air is at the temperature of `coldest`. Level bare ground is warmer by solar gain minus long-wave loss, as
+    in the thermal view: by night 2.3 K colder. Stone, which reflects 6 % of the cold sky, is colder still, by
+    2 K between 8 and 14 um. Under a sun above about ten degrees the air is the coldest.
     """
     air, (_, height) = coldest(run, time), sun.position(run, time)
     ground = air + (ABSORBED * sun.direct(height) * np.sin(np.radians(height)) - LOSS) / BARE
-    seen = STONE * sensor.radiance(ground, band) + (1.0 - STONE) * sensor.radiance(SKY, band)
-    return min(air, float(sensor.brightness_temperature(seen, band)))
+    stone = STONE * sensor.radiance(ground, band) + (1.0 - STONE) * sensor.radiance(SKY, band)
+    return min(air, float(sensor.brightness_temperature(stone, band)))
 
 
 class OverShot:
-    """The run's air over the frames of a shot: what scales of pictures need to know of all of it.
+    """Air temperature over all frames of a shot, for the scales of pictures.
 
     Attributes
     ----------
     averaged
-        Seconds over which the model's temperature is averaged: ten minutes, or from frame to frame.
+        Averaging time of the model's temperature, s: ten minutes, or the frame step if that is longer.
     """
 
     def __init__(self, run: Run, frames: Frames) -> None:
@@ -110,21 +112,21 @@ class OverShot:
 
     @cached_property
     def coldest(self) -> float:
-        """K that a tenth of the run's air is colder than, in the coldest of 25 times of the shot."""
+        """Lowest tenth percentile of air temperature in up to 25 times of the shot, K."""
         return min(coldest(self._run, float(time)) for time in self._times)
 
     @cached_property
     def warmest(self) -> tuple[float, float]:
-        """K that the air the fire warms is over unburned air, least and most, in 25 times of the shot."""
-        found = [warmth(self._run, time - self.averaged, time) for time in self._times]
-        low, high = max(noise for _, noise in found), max(float(above.max()) for above, _ in found)
+        """Temperature excess of air warmed by the fire, least and most, in up to 25 times of the shot, K."""
+        excess = [warmth(self._run, time - self.averaged, time) for time in self._times]
+        low, high = max(noise for _, noise in excess), max(float(above.max()) for above, _ in excess)
         return low, max(high, low + 1.0)
 
 
 def cooling(age: ArrayLike, pulse: ArrayLike = PULSE) -> Array:
-    """K that ground is warmer `age` s after the front came than it was, without flames or embers.
+    """Temperature excess (K) of ground `age` s after the front's arrival, without flames or embers.
 
-    That of a thick body which took in a flux q for the time p, `pulse` (H. S. Carslaw and J. C. Jaeger 1959,
+    Semi-infinite solid with a heat flux q for a time p, `pulse` (H. S. Carslaw and J. C. Jaeger 1959,
     "Conduction of Heat in Solids", 2.9): 2 q / (e sqrt(pi)) (sqrt(t) - sqrt(t - p)).
     """
     age = np.maximum(np.asarray(age, np.float64), 0.0)
@@ -132,12 +134,12 @@ def cooling(age: ArrayLike, pulse: ArrayLike = PULSE) -> Array:
 
 
 def indices(run: Run, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
-    """Fractional row and column of the run's grid at places (degrees), held inside it."""
+    """Fractional row and column of the run's grid at points (degrees), clamped to it."""
     return index(run.latitude, latitude), index(run.longitude, longitude)
 
 
 def index(axis: NDArray, value: ArrayLike) -> Array:
-    """Fractional index of values on an axis that rises or falls, held inside it."""
+    """Fractional index of values on an ascending or descending axis, clamped to it."""
     order = slice(None, None, -1) if axis[0] > axis[-1] else slice(None)
     return np.interp(
         np.asarray(value, np.float64), axis[order], np.arange(len(axis), dtype=np.float64)[order]
@@ -145,7 +147,7 @@ def index(axis: NDArray, value: ArrayLike) -> Array:
 
 
 def _filled(field: NDArray) -> Array:
-    """A field with its mean where it is not known."""
+    """Fill NaN of a field by its mean."""
     known = np.isfinite(field)
     field = field.astype(np.float64)
     return field if known.all() else np.where(known, field, field[known].mean() if known.any() else _DAY)

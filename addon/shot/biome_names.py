@@ -1,4 +1,4 @@
-"""Names of the biomes that there are: the modules of ``scene/forest/biomes``, which are not loaded here."""
+"""Names of the biomes: the modules of ``scene/forest/biomes``, which are not imported here."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ _FOLDER = Path(__file__).parents[1] / "scene" / "forest" / "biomes"
 
 @functools.cache
 def names() -> dict[str, str]:
-    """A few words about each, of its docstring, by name."""
+    """Short description of each biome, from its docstring, by name."""
     return {path.stem: _about(path) for path in sorted(_FOLDER.glob("[a-z]*.py"))}
 
 
 def choices() -> dict[str, str]:
-    """What the setting may be."""
+    """Choices of the setting, by name."""
     return {"auto": "by place and fuel"} | names()
 
 

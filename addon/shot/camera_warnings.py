@@ -1,4 +1,4 @@
-"""What an artist should know of cameras: ridges before their targets, headsets with one eye."""
+"""Camera warnings: ridges in front of targets, and mono rendering of headset cameras."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .settings.settings import Settings
 
 
 def mono_vr(settings: Settings) -> list[str]:
-    """Cameras for headsets whose second eye is missing in a scene that they share with others."""
+    """Warn of headset cameras that lack the second eye in a scene shared with other cameras."""
     around = [camera.name for camera in settings.cameras if camera.rig.around]
     if not around or len(around) == len(settings.cameras):
         return []
@@ -22,7 +22,7 @@ def mono_vr(settings: Settings) -> list[str]:
 
 
 def ridges(shot: ShotView) -> list[str]:
-    """What ridges between cameras and their targets have done, or hide."""
+    """Warn of ridges that raised a camera or that occlude its target."""
     return [text for view in shot.paths if (text := _ridges(shot, view))]
 
 

@@ -1,8 +1,8 @@
-"""Which of our own code makes an aspect of a product: so that files know what made them.
+"""Code fingerprint: hashes of the code that makes a product, so that files record it.
 
-The rule: the code of an aspect is the folder of its name in ``scene``, and beside it where there is one.
-Whatever is made, so do the modules that lie loose in ``scene``, what is in `EVERYWHERE`, the cameras' rigs,
-and the compiled core. With them come the files that the rigs read.
+The code of an aspect is the folder of its name in ``scene``, and next to it where there is one. Common to all
+aspects are the modules directly in ``scene``, those in `EVERYWHERE`, the cameras' rigs with the files that
+they read, and the compiled core.
 """
 
 from __future__ import annotations
@@ -38,12 +38,12 @@ PACKAGE = Path(__file__).parents[1]
 
 
 def hashes(aspects: Iterable[str], cameras: Iterable[Camera], *more: str | Path) -> dict[str, str]:
-    """Hashes of the code that makes these aspects as these cameras see them, by folder or file.
+    """Hashes of the code that makes these aspects for these cameras, by folder or file.
 
     Parameters
     ----------
     more
-        Further files of the package, such as "render/engine.py", or of other places.
+        Further files: of the package, such as "render/engine.py", or of other places.
     """
     cameras = list(cameras)
     wanted = [place for name in sorted(aspects) for place in (name, f"scene/{name}")]
@@ -55,21 +55,21 @@ def hashes(aspects: Iterable[str], cameras: Iterable[Camera], *more: str | Path)
 
 
 def _modules(rig: type) -> set[str]:
-    """Files of a rig and of the other rigs that its module names."""
+    """Files of a rig and of other rigs that its module imports."""
     mine = sys.modules[rig.__module__]
-    others = (getattr(thing, "__module__", None) or "" for thing in vars(mine).values())
+    others = (getattr(member, "__module__", None) or "" for member in vars(mine).values())
     names = {name for name in others if name.startswith(f"{rigs.__name__}.")}
     return {inspect.getfile(sys.modules[name]) for name in {rig.__module__, *names}}
 
 
 @functools.cache
 def _hash(place: Path) -> tuple[str, str]:
-    """Name and hash of a file, or of a folder's modules without those in its folders; on any system alike."""
+    """Name and hash of a file, or of a folder's own modules; the same on all systems."""
     name = place.relative_to(PACKAGE).as_posix() if place.is_relative_to(PACKAGE) else place.name
-    found = hashlib.sha256()
+    digest = hashlib.sha256()
     for path in sorted(place.glob("*.py")) if place.is_dir() else [place]:
-        found.update(path.name.encode() + b"\0" + path.read_bytes().replace(b"\r\n", b"\n") + b"\0")
-    return name, found.hexdigest()[:16]
+        digest.update(path.name.encode() + b"\0" + path.read_bytes().replace(b"\r\n", b"\n") + b"\0")
+    return name, digest.hexdigest()[:16]
 
 
 @functools.cache

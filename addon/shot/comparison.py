@@ -1,8 +1,8 @@
-"""The other runs of a scene file: each is a shot of its own, with the first one's cameras and clock.
+"""Comparison runs of a scene file: each is a shot of its own with the first run's cameras and clock.
 
-A camera is where it is by the first run's ground and fire; in another run it is at the same place of the
-Earth at the same moment of UTC, whatever that run's grid, start and projection are. Heights count from the
-datum of each run's elevations, so they are best given in one.
+Camera paths follow the first run's terrain and fire. In another run a camera has the same position on the
+Earth at the same UTC, for any grid, start and projection of that run. Heights refer to the datum of each
+run's elevations, so the runs should share one.
 """
 
 from __future__ import annotations
@@ -28,23 +28,23 @@ if TYPE_CHECKING:
     from .terrain.terrain import Ground
 
 _AXES = 1000.0 * np.vstack([np.zeros(3), np.eye(3)])  # m
-_BURIED = 1.0  # m under another run's ground, from which on it is told
+_BURIED = 1.0  # m below another run's ground, from which on a warning is given
 
 
 class ComparisonShot(Shot):
-    """A shot of another run: its cameras fly as those of `first` do, and are named ``camera@run``.
+    """Shot of another run. Its cameras follow the paths of `first` and are named ``camera@run``.
 
     Attributes
     ----------
     first
-        The shot of the first run, of the same cameras.
+        Shot of the first run, with the same cameras.
     """
 
     def __init__(self, first: Shot, label: str) -> None:
         self.first, self._label = first, label
         settings, shown = first.settings, first.frames
         begin, end = (times.utc(first.run, time) for time in (shown.first, shown.last))
-        own = next(each for each in settings.runs if each.name == label)
+        own = next(run for run in settings.runs if run.name == label)
         super().__init__(
             replace(
                 settings,
@@ -60,18 +60,18 @@ class ComparisonShot(Shot):
         self.others = first.others
 
     def input_hashes(self, leave_out: Collection[str] = (), progress: Progress = silent) -> dict[str, str]:
-        """Those of its own run, and of the first, by which the cameras fly."""
+        """Hashes of its own run's inputs, and of the first run's, which decide the camera paths."""
         flown = self.first.input_hashes((), progress)
         return super().input_hashes(leave_out, progress) | {
-            f"first {name}": each for name, each in flown.items()
+            f"first {name}": digest for name, digest in flown.items()
         }
 
     def for_camera(self, name: str) -> Shot:
-        """The same shot with this camera alone."""
+        """A shot with this camera alone."""
         return ComparisonShot(self.first.for_camera(name.partition("@")[0]), self.label)
 
     def other_runs(self) -> dict[str, Run]:
-        """The runs that this one stands beside, by name."""
+        """Comparison runs of this shot, by name."""
         return {name: run for name, run in super().other_runs().items() if name != self.label} | {
             self.first.label: self.first.run
         }
@@ -86,10 +86,10 @@ class ComparisonShot(Shot):
         return [carried(path, camera, self.first.local_frame, self.local_frame) for path, camera in pairs]
 
     def warnings(self) -> list[str]:
-        """What an artist should know of this run beside the first."""
-        found = []
+        """Warnings about this run in comparison with the first."""
+        messages = []
         if self.run.vertical != self.first.run.vertical:
-            found.append(
+            messages.append(
                 f'heights of run "{self.label}" are {self.run.vertical}, those of the first '
                 f"{self.first.run.vertical}: cameras are as far off over its ground as the geoid is"
             )
@@ -97,25 +97,25 @@ class ComparisonShot(Shot):
             ground = self.ground.up(*view.position[:, :2].T)
             depth = float(np.max(ground - view.position[:, 2]))
             if depth > _BURIED:
-                found.append(f'camera "{view.camera.name}" is up to {depth:,.0f} m under the ground there')
-        return found
+                messages.append(f'camera "{view.camera.name}" is up to {depth:,.0f} m under the ground there')
+        return messages
 
 
 def for_view(shot: Shot, view: str) -> Shot:
-    """The shot of one camera: of the first run, or as ``camera@run`` of another."""
+    """Shot of one camera: of the first run, or ``camera@run`` of another."""
     name, _, label = view.partition("@")
     return for_run(shot.for_camera(name), label)
 
 
 def for_run(shot: Shot, label: str) -> Shot:
-    """The shot, with all its cameras, of the run of this name; of none: itself."""
+    """Shot with all its cameras of the run with this name; itself without a name."""
     return ComparisonShot(shot, label) if label else shot
 
 
 def carried(path: Path, camera: Camera, here: geo.LocalFrame, there: geo.LocalFrame) -> Path:
-    """A path in another local frame: the same places of the Earth and the same directions."""
+    """Transform a path to another local frame, with positions and directions fixed to the Earth."""
     corners = there.forward(*here.reverse(_AXES))
-    turn = (corners[1:] - corners[0]).T / 1000.0  # columns: where the axes of `here` point to
+    turn = (corners[1:] - corners[0]).T / 1000.0  # columns: axes of `here` in `there`
 
     def moved(points: NDArray[np.float64]) -> NDArray[np.float64]:
         return corners[0] + points @ turn.T
@@ -131,7 +131,7 @@ def carried(path: Path, camera: Camera, here: geo.LocalFrame, there: geo.LocalFr
 
 
 def _renamed(camera: Camera, label: str) -> Camera:
-    """A camera, and the one that it follows, as they are called in another run."""
+    """Rename a camera, and the one that it follows, for another run."""
     follows = getattr(camera.rig, "follows", "")
     rig = replace(camera.rig, follows=passes.view_of(follows, label)) if follows else camera.rig
     name = passes.view_of(camera.name, label)
@@ -139,12 +139,12 @@ def _renamed(camera: Camera, label: str) -> Camera:
 
 
 def _alone(names: tuple[str, ...]) -> tuple[str, ...]:
-    """Passes with what those that compare runs are made from in their place."""
+    """Replace passes that compare runs by the passes that they are made from."""
     return passes.in_other_runs(names) or names
 
 
 def caption(shot: Shot, frame: int) -> list[str]:
-    """The time of a frame, and whether any of the runs is synthetic."""
+    """Caption: time of a frame, and a note on synthetic runs."""
     runs = [shot.run, *shot.others.values()]
     made_up = sum(run.synthetic for run in runs)
     note = ["synthetic" if made_up == len(runs) else f"{made_up} of {len(runs)} runs synthetic"]

@@ -1,16 +1,16 @@
-"""How large one fire is, where several burn."""
+"""Extent of the largest of several fires."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-_BLOCKS = 96  # along the longer side: patches of fire less than a block apart are one fire
+_BLOCKS = 96  # blocks along the longer side; patches less than a block apart are one fire
 _BESIDE = [(row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) if row or column]
 
 
 def largest(burned: NDArray[np.bool_], cell: tuple[float, float]) -> float:
-    """Diagonal (m) of the fire with most cells among `burned` (ny, nx); 0 where nothing is.
+    """Diagonal (m) of the fire with the most cells among `burned` (ny, nx); 0 without fire.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def largest(burned: NDArray[np.bool_], cell: tuple[float, float]) -> float:
 
 
 def _joined(blocks: list[tuple[int, int]]) -> list[int]:
-    """Number of the fire that each block belongs to: that of the blocks beside it."""
+    """Connected components: number of the fire of each block, with adjacent blocks joined."""
     number: dict[tuple[int, int], int] = {}
     known, fire = set(blocks), -1
     for first in blocks:

@@ -1,4 +1,4 @@
-"""The places of a shot that get a label, and where they are in the scene."""
+"""Labels of a shot: named places and their positions in the scene."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ from .shot import Shot
 
 
 class Labels(NamedTuple):
-    """Names, and the ground there: (n, 3) scene metres."""
+    """Names, and positions (n, 3) on the ground, scene metres."""
 
     names: list[str]
     position: NDArray[np.float64]
 
 
 def find(shot: Shot) -> Labels:
-    """The user's places, or else those that are known of the fire, as far as there is ground under them."""
+    """Labels from the user's list, or else built in for the fire, where there is terrain."""
     settings, ground = shot.settings.labels, shot.ground
     if not settings.enabled:
         return Labels([], np.empty((0, 3)))
-    found = labels.read(settings.file) if settings.file else labels.known(shot.run)
+    places = labels.read(settings.file) if settings.file else labels.known(shot.run)
     axes = ground.fields.latitude, ground.fields.longitude
     inside = [
         place
-        for place in found
+        for place in places
         if all(axis.min() <= at <= axis.max() for axis, at in zip(axes, place[1:], strict=True))
     ]
     if not inside:
@@ -39,6 +39,6 @@ def find(shot: Shot) -> Labels:
 
 
 def inputs(settings: Settings) -> dict[str, str]:
-    """Hash of the user's file, where labels come from it."""
+    """Hash of the user's file of labels, if there is one."""
     places = settings.labels
     return {"labels": sha256(places.file)[:16]} if places.enabled and places.file else {}

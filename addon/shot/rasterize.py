@@ -1,4 +1,4 @@
-"""Polygons and lines as pixels, in NumPy: Blender brings nothing that draws them."""
+"""Rasterization of polygons and lines in NumPy, as Blender has no library for it."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 Covered = tuple[tuple[slice, slice], NDArray[np.float64]]
-"""Rows and columns of a picture, and how far (0..1) each of their pixels is covered."""
+"""Rows and columns of a picture, and coverage (0..1) of these pixels."""
 
 
 def filled(rings: Sequence[Array], shape: tuple[int, int]) -> Covered | None:
-    """What a polygon covers: pixels whose middles lie in it, by the even-odd rule.
+    """Coverage of a polygon: pixels with their centre inside, by the even-odd rule.
 
     Parameters
     ----------
     rings
-        (n, 2) x and y in pixels, y from the first row on; holes are rings as well.
+        (n, 2) x and y in pixels, y from the first row on; holes are rings too.
     shape
-        Rows and columns of the picture. None is returned where nothing of it is covered.
+        Rows and columns of the picture. The result is None if none of it is covered.
     """
     window = _window(np.concatenate(list(rings)), 0.0, shape)
     if window is None:
@@ -40,7 +40,7 @@ def filled(rings: Sequence[Array], shape: tuple[int, int]) -> Covered | None:
 
 
 def stroked(line: Array, width: float, shape: tuple[int, int]) -> Covered | None:
-    """What a line (n, 2) of a width covers, all in pixels: soft edges of a pixel."""
+    """Coverage of a line (n, 2) with a width, all in pixels, with anti-aliased edges; None if none."""
     half = 0.5 * width
     window = _window(line, half + 1.0, shape)
     if window is None or len(line) < 2:
@@ -56,14 +56,14 @@ def stroked(line: Array, width: float, shape: tuple[int, int]) -> Covered | None
         t = ((x - a[0]) * along[0] + (y - a[1]) * along[1]) / max(float(along @ along), 1.0e-12)
         t = np.clip(t, 0.0, 1.0)
         off = np.hypot(x - a[0] - t * along[0], y - a[1] - t * along[1])
-        near = np.clip(half + 0.5 - off, 0.0, min(1.0, width))  # thinner than a pixel: as much less of it
+        near = np.clip(half + 0.5 - off, 0.0, min(1.0, width))  # thinner than a pixel: partial coverage
         inner = tuple(slice(p.start - w.start, p.stop - w.start) for p, w in zip(part, window, strict=True))
         cover[inner] = np.maximum(cover[inner], near)
     return window, cover
 
 
 def _window(points: Array, more: float, shape: tuple[int, int]) -> tuple[slice, slice] | None:
-    """Rows and columns that points and so much round them reach."""
+    """Rows and columns around points with a margin, clipped to the picture."""
     slices = []
     for axis, count in ((1, shape[0]), (0, shape[1])):
         first = max(int(np.floor(points[:, axis].min() - more)), 0)

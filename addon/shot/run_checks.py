@@ -1,4 +1,4 @@
-"""Do settings fit their run? What can only be said when both are known."""
+"""Checks of settings against their run."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .terrain import elevation, land_use, orthophoto
 
 
 def check(settings: Settings, run: Run) -> None:
-    """Check the time window, the cameras' places, what else they say of the run, and the user's own files.
+    """Check time window, camera positions, other run-dependent settings, and the user's own files.
 
     Raises
     ------
@@ -31,9 +31,9 @@ def check(settings: Settings, run: Run) -> None:
     for index, camera in enumerate(settings.cameras):
         for where, latitude, longitude in camera.rig.coordinates():
             _near(settings, run, ("cameras", index, *where), camera.name, latitude, longitude)
-        if found := camera.rig.validate_against(run, frames.resolve(settings.time, run)):
-            reason = f'camera "{camera.name}" {found[1]}'
-            raise scene_file.error_at(settings.path, ("cameras", index, *found[0]), reason)
+        if invalid := camera.rig.validate_against(run, frames.resolve(settings.time, run)):
+            reason = f'camera "{camera.name}" {invalid[1]}'
+            raise scene_file.error_at(settings.path, ("cameras", index, *invalid[0]), reason)
 
 
 def _window(settings: Settings, run: Run) -> None:
@@ -54,7 +54,7 @@ def _near(
     latitude: float,
     longitude: float,
 ) -> None:
-    """Raise where a point is beyond the ground that is drawn."""
+    """Raise an error if a point lies beyond the terrain."""
     middle = [float(axis[0] + axis[-1]) / 2 for axis in (run.latitude, run.longitude)]
     place = float(areas.turned(longitude, middle[1]))
     if -90 < latitude < 90:

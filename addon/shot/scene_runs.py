@@ -1,4 +1,4 @@
-"""The runs of a scene file: its first, and others that are compared with it."""
+"""Runs of a scene file: the first run, and comparison runs."""
 
 from __future__ import annotations
 
@@ -17,43 +17,43 @@ from .terrain import elevation
 
 
 def views(settings: Settings) -> list[str]:
-    """All cameras by name, in the first run and then in the others (see `passes.view_of`)."""
+    """Names of all views: cameras in the first run, then in the others (see `passes.view_of`)."""
     names = [camera.name for camera in settings.cameras]
-    labels = [each.name for each in settings.runs]
+    labels = [run.name for run in settings.runs]
     return names + [passes.view_of(name, label) for label in labels for name in names]
 
 
 def of_view(shot: ShotView, view: str) -> Run:
-    """The run that a view of a shot is of."""
+    """Run of a view."""
     return shot.others.get(view.partition("@")[2], shot.run)
 
 
 def open_others(settings: Settings) -> dict[str, Run]:
-    """The other runs by their names.
+    """Open the comparison runs, by name.
 
     Raises
     ------
     InputError
-        Names the line of the scene file and what is wrong with the run.
+        The error names the line of the scene file and what is wrong with the run.
     """
-    found = {}
-    for i, each in enumerate(settings.runs):
+    runs = {}
+    for i, other in enumerate(settings.runs):
         try:
-            found[each.name] = readers.open(each.path)
+            runs[other.name] = readers.open(other.path)
         except InputError as error:
             if not settings.path.is_file():
                 raise
             raise scene_file.error_at(settings.path, ("runs", i, "path"), f"runs.path: {error}") from None
-    return found
+    return runs
 
 
 def check(settings: Settings, run: Run, others: Mapping[str, Run]) -> None:
-    """See whether every run has every moment of the shot.
+    """Check that every run covers the time window of the shot.
 
     Raises
     ------
     InputError
-        Names the line of the run that has not, and the window that all have.
+        The error names the line of the run that does not, and the common time window.
     """
     if not others:
         return

@@ -32,10 +32,10 @@ from .terrain.elevation import Elevation
 from .terrain.terrain import Ground
 from .visibility import Visibility
 
-_BEFORE = 3600.0  # s before the first frame; ground that burned in this time still counts as burning
+_BURNING_BEFORE = 3600.0  # s before the first frame; ground that burned in this time still counts as burning
 WIDE_LENS = 28.0  # mm, reference focal length at which orthographic views are compared with perspective ones
 _SPIN_UP = 1800.0  # s, spin-up of a fire 15 km across
-_NOWHERE = 20_000.0  # m, fire distance of a shot without cameras or without fire
+_NO_FIRE_DISTANCE = 20_000.0  # m, fire distance of a shot without cameras or without fire
 
 
 class Shot:
@@ -70,9 +70,9 @@ class Shot:
     def input_hashes(self, leave_out: Collection[str] = (), progress: Progress = silent) -> dict[str, str]:
         """SHA-256 of each input: the run's fields except `leave_out`, and the elevation model."""
         settings = self.settings
-        found = content.inputs(self.run, settings.cache, leave_out, progress)
+        hashes = content.inputs(self.run, settings.cache, leave_out, progress)
         model = settings.terrain.elevation
-        return found | (
+        return hashes | (
             {"elevation model": content.of_file(model, settings.cache, progress)} if model else {}
         )
 
@@ -94,14 +94,14 @@ class Shot:
 
     def _history(self, key: str) -> float:
         """Time before the first frame, s, of a key of [smoke]; its default scales with the fire's size."""
-        told = getattr(self.settings.smoke, key)
-        return self.scale.time(_SPIN_UP) if told is None else told
+        value = getattr(self.settings.smoke, key)
+        return self.scale.time(_SPIN_UP) if value is None else value
 
     @cached_property
     def fire(self) -> Fire:
         """The fire from the first frame to the last, with the history that smoke needs."""
         since = self._history(SMOKE_METHODS[self.settings.smoke.method].history)
-        before = max(since + burning.BURN_TIME, _BEFORE)
+        before = max(since + burning.BURN_TIME, _BURNING_BEFORE)
         span = self.frames.first, self.frames.last, before
         return Fire(self.run, *span, self.relief, self.arrival, self.scale.length(DETAIL))
 
@@ -126,7 +126,7 @@ class Shot:
         """
         camera = self.camera(name)
         render = replace(self.settings.render, resolution=self.resolution(camera))
-        shot = self._sharing(replace(self.settings, cameras=(camera,), render=render))
+        shot = self._with_settings(replace(self.settings, cameras=(camera,), render=render))
         shot.others = self.others
         return shot
 
@@ -137,11 +137,11 @@ class Shot:
         """
         (camera,) = self.settings.cameras
         camera = replace(camera, frames=",".join(map(str, listed)))
-        shot = self._sharing(replace(self.settings, cameras=(camera,)))
+        shot = self._with_settings(replace(self.settings, cameras=(camera,)))
         shot.full, shot.paths = self, [replace(self.paths[0], camera=camera)]
         return shot
 
-    def _sharing(self, settings: Settings) -> Shot:
+    def _with_settings(self, settings: Settings) -> Shot:
         """A shot with other settings that shares terrain, fire and scale with this one."""
         shot = Shot(settings, self.run)
         shot.relief, shot.fire, shot.bare_ground = self.relief, self.fire, self.bare_ground
@@ -268,7 +268,7 @@ class Shot:
         """Distance of the cameras to the fire, m: 10th percentile of the cells in the closest frame."""
         cells = self.fire.cells(self.frames.first - 1800.0, self.frames.last + 1.0)
         if not self.paths or len(cells.arrival) == 0:
-            return _NOWHERE
+            return _NO_FIRE_DISTANCE
         return min(
             float(np.percentile(self.visibility.distance_from(view, cells.position[::5]), 10.0))
             if view.perspective

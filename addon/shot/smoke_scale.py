@@ -1,8 +1,8 @@
-"""How fine air is solved and smoke is drawn: cells, and lengths and times that go with them.
+"""Smoke scale: cell size of the flow solver and of drawn smoke, with the lengths and times that follow it.
 
-All that was chosen for a fire of 15 km, on cells of `REFERENCE` m, grows and shrinks with the cells. Lengths
-do so evenly; times as those of eddies, whose speed goes with the cube root of their size (A. N. Kolmogorov
-1941, "The local structure of turbulence", Dokl. Akad. Nauk SSSR 30).
+Parameters were tuned for a fire of 15 km on cells of `REFERENCE` m and scale with the cells. Lengths scale
+linearly. Times scale as those of eddies, whose speed is proportional to the cube root of their size (A. N.
+Kolmogorov 1941, "The local structure of turbulence", Dokl. Akad. Nauk SSSR 30).
 """
 
 from __future__ import annotations
@@ -17,23 +17,24 @@ from .fire import burning
 from .settings.settings import Smoke
 
 REFERENCE = 200.0  # m
-FINER = 3  # cells of the nest along one of the box's
+FINER = 3  # nest cells along a cell of the outer domain
 _BUDGET = Smoke.cell_budget
 _CELLS = np.array(
     [5, 6.5, 8, 10, 13, 16, 20, 25, 32, 40, 50, 65, 80, 100, 130, 160, 200, 250, 320, 400, 640, 1000, 1600.0]
 )
-_ACROSS = 75.0  # cells along what burns: a column of a few cells has no turrets
-_FUEL = 3.0  # cells of the flow in one of the fuel, at most: heat is known no finer
-_ROUND = 125.0, 50.0  # cells of air before and behind, and beside
-_SLIM = 0.7  # width of what burns over its length (assumed, for the cost alone)
-LEVELS = 48, 56  # of the box and of the nest
+_ACROSS = 75.0  # cells along the burning area; a plume of a few cells resolves no turrets
+_FUEL = 3.0  # flow cells in a fuel cell at most; heat is resolved no finer
+_ROUND = 125.0, 50.0  # cells of margin along the wind, and across it
+_SLIM = 0.7  # width of the burning area over its length (assumed, for the cost alone)
+LEVELS = 48, 56  # levels of the outer domain and of the nest
 NEST = 180  # cells along a side of the nest
-_COVERED = 45.0  # of its 60 cells of the box, along what burns: all cameras of a small fire share a nest
-_MOST = 8.0e6  # cells of the box: 1 GB
-_STEP = 10.0  # s
-_BEFORE = 1800.0  # s before the first frame that count as part of it
-_SHARE = 0.01  # of what burns that may lie outside, on each side
-_NOTHING = 15_000.0  # m, of a run in which nothing burns
+# of the 60 outer cells that a nest spans, for the burning area; cameras of a small fire then share a nest
+_COVERED = 45.0
+_MOST = 8.0e6  # cells of the outer domain at most: 1 GB
+_STEP = 10.0  # s, time step of the outer domain
+_BEFORE = 1800.0  # s before the first frame that count as part of the shot
+_SHARE = 0.01  # fraction of burning cells that may lie outside, on each side
+_NOTHING = 15_000.0  # m, extent of a run without fire
 
 
 @dataclass(frozen=True)
@@ -43,9 +44,9 @@ class Scale:
     Attributes
     ----------
     cell
-        Of the outer box, m.
+        Cell size of the outer domain, m.
     nested
-        Whether there is time for cells a third as wide where cameras look.
+        Whether the budget allows a nest with cells a third as wide where cameras look.
     """
 
     cell: float = REFERENCE
@@ -53,32 +54,32 @@ class Scale:
 
     @property
     def ratio(self) -> float:
-        """Cells over those that everything was chosen for."""
+        """Cell size relative to `REFERENCE`."""
         return self.cell / REFERENCE
 
     def length(self, metres: float) -> float:
-        """What is so long (m) at cells of `REFERENCE`."""
+        """Scale a length (m) given for cells of `REFERENCE`."""
         return metres * self.ratio
 
     def time(self, seconds: float) -> float:
-        """What takes so long (s) at cells of `REFERENCE`."""
+        """Scale a time (s) given for cells of `REFERENCE`."""
         return seconds * self.ratio ** (2.0 / 3.0)
 
     @property
     def step(self) -> float:
-        """Of the box's time, s."""
+        """Time step of the outer domain, s."""
         return self.time(_STEP)
 
 
 def choose(extent: float, fuel_cell: float, budget: float = _BUDGET) -> Scale:
-    """The finest scale whose cells a budget pays for.
+    """Finest scale within a budget of cells.
 
     Parameters
     ----------
     extent, fuel_cell
-        Length of what burns, and of a fuel cell, m.
+        Length of the burning area, and of a fuel cell, m.
     budget
-        Cells solved for each second of the fire, millions.
+        Million cell updates per second of fire time.
     """
     finest = np.clip(extent / _ACROSS, _CELLS[0], REFERENCE) * (_BUDGET / budget) ** 0.25
     finest = max(float(finest), fuel_cell / _FUEL)
@@ -95,12 +96,12 @@ def choose(extent: float, fuel_cell: float, budget: float = _BUDGET) -> Scale:
 
 
 def extent(run: Run, arrival: NDArray, first: float, last: float) -> float:
-    """Length (m) of what burns between two model times (s): the longer side of a box round all but a little.
+    """Extent (m) of the fire between two model times (s): longer side of its bounds without outliers.
 
     Parameters
     ----------
     arrival
-        (fy, fx) s, NaN where never.
+        Arrival time (fy, fx), s, NaN where never.
     """
     burns = (arrival > first - _BEFORE) & (arrival <= last)
     if not burns.any():

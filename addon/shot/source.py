@@ -1,4 +1,4 @@
-"""What to work on: a scene file, a run folder on its own, or a scene file with other folders or engine."""
+"""Shot source: a scene file or a run folder, with command line overrides."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ShotSource:
-    """Plain text, so that it can be handed to another process; an empty one leaves the scene file's word.
+    """Overrides as plain text, which can be passed to another process; empty values keep the scene file's.
 
     Attributes
     ----------
     scene
-        Scene file. Without one settings are fitted to the run (see `auto_framing`).
+        Scene file. Without one, settings are fitted to the run (see `auto_framing`).
     run, cache
-        Folders in place of the scene file's.
+        Folders that override the scene file's.
     engine, device
-        Render engine and what Cycles renders on, in place of the scene file's.
+        Render engine and Cycles device that override the scene file's.
     smoke
-        `smoke.method`, in place of the scene file's.
+        Override of `smoke.method`.
     beside
-        Name of one of the scene file's other runs, which is shown in place of the first.
+        Name of a comparison run to show in place of the first run.
     """
 
     scene: str = ""
@@ -40,38 +40,38 @@ class ShotSource:
     beside: str = ""
 
     def plain(self) -> dict[str, str]:
-        """The choice as `ShotSource(**plain)` takes it."""
+        """Plain form, which `ShotSource(**plain)` takes."""
         return asdict(self)
 
     def settings(self) -> Settings:
-        """The scene file, or what fits the run, with what stands in for it."""
+        """Settings of the scene file, or fitted to the run, with the overrides applied."""
         from . import auto_framing
 
         if self.scene:
-            found = scene_file.read(self.scene)
+            settings = scene_file.read(self.scene)
         else:
-            found = auto_framing.fit_folder(Path(self.run), Path(self.run), Path("cache")).settings
+            settings = auto_framing.fit_folder(Path(self.run), Path(self.run), Path("cache")).settings
         return replace(
-            found,
-            run=Path(self.run) if self.run else found.run,
-            cache=Path(self.cache) if self.cache else found.cache,
+            settings,
+            run=Path(self.run) if self.run else settings.run,
+            cache=Path(self.cache) if self.cache else settings.cache,
             render=replace(
-                found.render,
-                engine=self.engine or found.render.engine,
-                device=self.device or found.render.device,
+                settings.render,
+                engine=self.engine or settings.render.engine,
+                device=self.device or settings.render.device,
             ),
-            smoke=replace(found.smoke, method=self.smoke or found.smoke.method),
+            smoke=replace(settings.smoke, method=self.smoke or settings.smoke.method),
         )
 
     def shot(self) -> Shot:
-        """The settings and their run, which fit each other.
+        """Resolve settings and run to a shot, with all checks.
 
         Raises
         ------
         InputError
-            Names the file, line and column of what is wrong, and what to do.
+            The error names the file, line and column, what is wrong and what to do.
         UsageError
-            The scene file has no other run of the name.
+            The scene file has no comparison run with the name.
         """
         from ..errors import UsageError
         from ..run import readers

@@ -1,4 +1,4 @@
-"""Where sun and moon are, and how bright the moon is, at a place and time."""
+"""Solar and lunar position, and irradiance of sun and moon, at a place and time."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from numpy.typing import NDArray
 
 from ..run import times
 
-NIGHT = -1.0  # degrees of the sun under which the moon shines
-_STARS = (150.0, 40.0)  # degrees of bearing and height; where what light there is comes from without a moon
-_MONTH = 28.0  # days, of astral's phase of the moon
-_HAZE = 0.2  # optical depth of air for moonlight, at the zenith (assumed)
+NIGHT = -1.0  # degrees, solar elevation below which the moon shines
+_STARS = (150.0, 40.0)  # degrees, bearing and elevation of the residual light on a night without moon
+_MONTH = 28.0  # days, cycle of astral's moon phase
+_HAZE = 0.2  # optical depth of the atmosphere for moonlight, at the zenith (assumed)
 
 
 @dataclass(frozen=True)
 class Moon:
-    """The moon: bearing and height (degrees), and its light on level ground facing it over a full moon's."""
+    """Moon: bearing and elevation (degrees), and irradiance relative to a full moon at normal incidence."""
 
     bearing: float
     height: float
@@ -33,18 +33,18 @@ NO_MOON = Moon(*_STARS, 0.0)
 
 
 def angles(latitude: float, longitude: float, moment: datetime) -> tuple[float, float]:
-    """Bearing clockwise from north and height over the horizon with refraction, degrees (NOAA)."""
+    """Solar bearing, clockwise from north, and elevation with refraction, degrees (NOAA)."""
     observer = Observer(latitude, longitude, 0.0)
     return azimuth(observer, moment), elevation(observer, moment)
 
 
 def air_mass(height: float) -> float:
-    """Air between us and a sun at `height` degrees, 1 at the zenith (Kasten and Young 1989)."""
+    """Relative air mass at a solar elevation (degrees), 1 at the zenith (Kasten and Young 1989)."""
     return float(1.0 / (np.sin(np.radians(height)) + 0.50572 * (height + 6.07995) ** -1.6364))
 
 
 def direct(height: float) -> float:
-    """Direct sunlight (W/m2) square to a sun at this height (degrees); 0 below the horizon.
+    """Direct normal irradiance (W/m2) at a solar elevation (degrees); 0 below the horizon.
 
     1353 x 0.7^(m^0.678) through m masses of air (A. B. Meinel and M. P. Meinel 1976, "Applied Solar Energy").
     """
@@ -58,7 +58,7 @@ def direction(bearing: float, height: float) -> NDArray[np.float64]:
 
 
 def shadow_direction(bearing: float, height: float, night: Moon = NO_MOON) -> NDArray[np.float64]:
-    """Unit vector towards what throws shadows: the sun at this bearing and height (degrees), or the moon."""
+    """Unit vector towards the shadow-casting light: the sun at these angles (degrees), or the moon."""
     if height > NIGHT:
         return direction(bearing, max(height, 0.5))
     return direction(night.bearing, night.height) if night.light > 0.0 else direction(*_STARS)
@@ -81,16 +81,16 @@ def moon(run: Run, time: float) -> Moon:
 
 
 def position(run: Run, time: float) -> tuple[float, float]:
-    """Bearing and height (degrees) at the middle of the run's grid at a model time (s)."""
+    """Solar bearing and elevation (degrees) at the centre of the run's grid at a model time (s)."""
     return angles(*_middle(run), times.utc(run, time))
 
 
 def toward_light(run: Run, time: float) -> NDArray[np.float64]:
-    """Unit vector to the sun, by night to the moon, over the run at a model time (s)."""
+    """Unit vector towards the sun, by night the moon, over the run at a model time (s)."""
     return shadow_direction(*position(run, time), moon(run, time))
 
 
 def _middle(run: Run) -> tuple[float, float]:
-    """Latitude and longitude of the middle of the run's grid, degrees."""
+    """Latitude and longitude of the centre of the run's grid, degrees."""
     latitude, longitude = (float(axis[0] + axis[-1]) / 2.0 for axis in (run.latitude, run.longitude))
     return latitude, longitude

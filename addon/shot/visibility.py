@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 _HALF_SPACE = 1.0e9  # tangent of 90 degrees, half the angle of a hemisphere
-_ONE_PLACE = 0.5  # m; with eyes farther apart terrain is no occluder: one eye may see past its edge
+_ONE_POINT = 0.5  # m; with eyes farther apart terrain is no occluder: one eye may see past its edge
 
 
 class Visibility:
@@ -64,17 +64,17 @@ class Visibility:
         perspective
             Whether perspective cameras count.
         """
-        showing = self._showing(pixel, perspective)
+        showing = self._counted_cameras(pixel, perspective)
         if self.unculled:
             flat = any(not self.shot.paths[number].perspective for number in showing)
             near = perspective and self.distance(position) - np.asarray(radius) <= reach
             return np.broadcast_to(near | flat, len(np.asarray(position)))
-        views = self._of(showing)
+        views = self._views_of(showing)
         return lod.visible_mask(position, radius, views, max_distance=reach, margin=margin, shadows=shadows)
 
     def distance(self, position: ArrayLike) -> NDArray[np.float64]:
         """Distance (n,) from points (n, 3) to the nearest perspective camera, m; infinite without one."""
-        return lod.distance(position, self._of(self._showing(0.0)))
+        return lod.distance(position, self._views_of(self._counted_cameras(0.0)))
 
     def lod_distance(self, position: ArrayLike) -> NDArray[np.float64]:
         """Distance (n,) that sets the level of detail of objects at points (n, 3), m; 0 with culling off."""
@@ -82,14 +82,14 @@ class Visibility:
 
     def distance_from(self, path: Path, position: ArrayLike) -> NDArray[np.float64]:
         """Smallest distance (n,) from points (n, 3) to the path of one perspective camera, m."""
-        return lod.distance(position, self._made([path]))
+        return lod.distance(position, self._build([path]))
 
     def view_set(self, frame: int) -> lod.ViewSet | None:
         """View set of all cameras that film a frame; None without such a camera or with culling off."""
         if self.unculled:
             return None
         paths = self._filming(frame)
-        return self._made(paths, frame - 1) if paths else None
+        return self._build(paths, frame - 1) if paths else None
 
     def eyes(self, frame: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Viewpoints of a frame: eye points (n, 3), m, and unit vectors (m, 3) to orthographic cameras.
@@ -104,7 +104,7 @@ class Visibility:
     def _filming(self, frame: int) -> list[Path]:
         return [path for path in self.shot.paths if frame - 1 in self.shot.filmed(path)]
 
-    def _showing(self, pixel: float, perspective: bool = True) -> tuple[int, ...]:
+    def _counted_cameras(self, pixel: float, perspective: bool = True) -> tuple[int, ...]:
         """Indices of the cameras that count: perspective ones if wanted, orthographic ones by pixel size."""
         return tuple(
             number
@@ -112,23 +112,23 @@ class Visibility:
             if (perspective if path.perspective else path.pixel < pixel)
         )
 
-    def _of(self, numbers: tuple[int, ...]) -> lod.ViewSet:
+    def _views_of(self, numbers: tuple[int, ...]) -> lod.ViewSet:
         if numbers not in self._known:
-            self._known[numbers] = self._made([self.shot.paths[number] for number in numbers])
+            self._known[numbers] = self._build([self.shot.paths[number] for number in numbers])
         return self._known[numbers]
 
-    def _made(self, paths: list[Path], frame: int | None = None) -> lod.ViewSet:
+    def _build(self, paths: list[Path], frame: int | None = None) -> lod.ViewSet:
         """View set of some cameras, over all frames that they film or in one frame (from 0)."""
         shot = self.shot
         filmed = [shot.filmed(path) if frame is None else np.array([frame]) for path in paths]
         looks = [
             (path, frames, *look)
             for path, frames in zip(paths, filmed, strict=True)
-            for look in _looks(path, frames)
+            for look in _frusta(path, frames)
         ]
         counts = [len(frames) for _, frames, _, _ in looks]
         position = _joined([path.position[frames] for path, frames, _, _ in looks], (3,))
-        one = np.repeat([path.apart <= _ONE_PLACE for path, *_ in looks], counts).astype(bool)
+        one = np.repeat([path.apart <= _ONE_POINT for path, *_ in looks], counts).astype(bool)
         if self._ground is None:
             self._ground, self._floor = _occluder(shot)
         return lod.ViewSet(
@@ -149,7 +149,7 @@ class Visibility:
         return np.array([sun.toward_light(self.shot.run, float(t)) for t in times]).reshape(-1, 3)[number]
 
 
-def _looks(path: Path, frames: NDArray[np.int64]) -> list[tuple[NDArray, NDArray]]:
+def _frusta(path: Path, frames: NDArray[np.int64]) -> list[tuple[NDArray, NDArray]]:
     """View frusta of a camera: rotations (n, 3, 3) and `half` (n, 2). A panorama has two: ahead, behind."""
     rotation = path.rotation[frames]
     if not path.around:

@@ -14,18 +14,22 @@ from . import stability
 WIND = 0.75  # factor on the run's near-surface wind, which includes the fire's own inflow (assumed)
 _SHEAR = 0.1  # exponent of the wind power law, over rough ground by day
 _VEER = 10.0, 4000.0  # degrees of veering to the right, up to this height, m
-_HIGH = 1.2  # times that height, above which wind turns no further
-_WARM = 312.0  # K, potential temperature of the mixed layer: 27 degrees C over ground at 1200 m (assumed)
+_VEER_LIMIT = 1.2  # times that height, above which wind turns no further
+_MIXED_THETA = (
+    312.0  # K, potential temperature of the mixed layer: 27 degrees C over ground at 1200 m (assumed)
+)
 _MIXED = 3300.0  # m, depth of the layer that a dry September day mixes (assumed)
 # K/m, potential temperature gradient: mixed layer, free atmosphere, nocturnal valley inversion
 _DAY, _ALOFT, _NIGHT = 0.3e-3, 4.5e-3, 12e-3
-STABILITY = constants.GRAVITY / _WARM * _DAY  # 1/s2, squared buoyancy frequency of the daytime mixed layer
+STABILITY = (
+    constants.GRAVITY / _MIXED_THETA * _DAY
+)  # 1/s2, squared buoyancy frequency of the daytime mixed layer
 _INVERSION = 600.0  # m, depth of the inversion (assumed)
 _HEIGHTS = np.array([0.0, 10, 30, 100, 300, 600, 1000, 1800, 2600, 3300, 4000, 4800, 6000, 9000])
 # m, kg/kg: water vapour at a fifth of saturation at the ground, constant in the mixed layer, less above
 # (assumed)
 _WATER = [0.0, 3300.0, 4500.0, 9000.0], [5.2e-3, 5.2e-3, 1.5e-3, 0.1e-3]
-_MOIST = 0.8  # upper limit of relative humidity: the sky is clear (assumed)
+_MAX_HUMIDITY = 0.8  # upper limit of relative humidity: the sky is clear (assumed)
 
 Array = NDArray[np.float64]
 
@@ -49,8 +53,10 @@ def air(sun: float, ground: float) -> Air:
     )
     warmer = np.concatenate([[0.0], np.cumsum(gradient * np.diff(_HEIGHTS))])
     # nights are colder near the ground, not warmer aloft
-    theta = _WARM + warmer - np.interp(_MIXED, _HEIGHTS, warmer)
-    water = np.minimum(np.interp(_HEIGHTS, *_WATER), _MOIST * _held(theta, _pressure(ground + _HEIGHTS)))
+    theta = _MIXED_THETA + warmer - np.interp(_MIXED, _HEIGHTS, warmer)
+    water = np.minimum(
+        np.interp(_HEIGHTS, *_WATER), _MAX_HUMIDITY * _held(theta, _pressure(ground + _HEIGHTS))
+    )
     return Air(_HEIGHTS, theta, water, float(_pressure(ground)))
 
 
@@ -70,6 +76,6 @@ def wind(near_ground: tuple[float, float]) -> Array:
     """Wind profile (n, 2), m/s, from the wind at 10 m: a power law that veers with height."""
     speed = WIND * np.hypot(*near_ground) * (np.maximum(_HEIGHTS, 10.0) / 10.0) ** _SHEAR
     degrees, height = _VEER
-    turned = np.radians(degrees) * np.clip(_HEIGHTS / height, 0.0, _HIGH)
+    turned = np.radians(degrees) * np.clip(_HEIGHTS / height, 0.0, _VEER_LIMIT)
     angle = np.arctan2(near_ground[1], near_ground[0]) - turned
     return np.stack([speed * np.cos(angle), speed * np.sin(angle)], axis=-1)

@@ -187,8 +187,8 @@ class _Volumes(Line):
         self._begin(frame)
         after = self.frames[self.frames.index(frame) + 1 :]
         if ahead is not None:
-            after = [each for each in ahead if each in self.frames]
-        following = next((each for each in after if not _in(self.place, each).exists()), None)
+            after = [number for number in ahead if number in self.frames]
+        following = next((number for number in after if not _in(self.place, number).exists()), None)
         if following is not None:
             self._begin(following)
         task = self.tasks.get(frame)
@@ -241,24 +241,26 @@ def _key(shot: Shot, progress: Progress) -> str:
     """Cache key: hash of all inputs of the volumes."""
     settings, complete = shot.settings, shot.settings.smoke.complete
     source = sources.select(shot)
-    found = schema.select(settings, {"time", "smoke"} if complete else {"time", "smoke", "camera", "terrain"})
+    inputs = schema.select(
+        settings, {"time", "smoke"} if complete else {"time", "smoke", "camera", "terrain"}
+    )
     leaders = [each for camera in settings.cameras if (each := camera.rig.followed(shot.cameras))]
     for name in (*_NOT_IN_FILES, *source.unused_settings):
-        del found["smoke"][name]
-    found |= source.inputs()
+        del inputs["smoke"][name]
+    inputs |= source.inputs()
     if not complete:  # what is culled depends on the cameras and their frames
         width, height = settings.render.resolution
-        for camera in found.get("cameras", ()):
+        for camera in inputs.get("cameras", ()):
             del camera["frames"]  # normalised form
-        found["sight"] = [height / width, [shot.frames_of(camera) for camera in settings.cameras]]
-        found["leaders"] = [repr(each) for each in leaders]
+        inputs["sight"] = [height / width, [shot.frames_of(camera) for camera in settings.cameras]]
+        inputs["leaders"] = [repr(leader) for leader in leaders]
     return content.fingerprint(
         {
             "sources": code_fingerprint.hashes(
                 {"smoke"}, [*settings.cameras, *leaders], *source.code_files()
             ),
             "run": shot.input_hashes(("temperature",), progress),
-            "settings": found,
+            "settings": inputs,
             "voxel": source.voxels(),
             "grids": None if complete else SHOWN,
         }

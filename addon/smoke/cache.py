@@ -14,7 +14,7 @@ from .. import files, leases
 from ..errors import Error, input_error, writing
 
 IN_USE = 600.0  # s since the last heartbeat; also the age at which an unfinished file is abandoned
-_SIGN = 60.0  # s between heartbeats
+_HEARTBEAT = 60.0  # s between heartbeats
 _MAGIC = b" BDV\0\0\0\0"
 _OURS = re.compile(r"\.?((smoke|far|moment)_\d{6,}|state)(\.[0-9a-f]{12}\.part)?\.(vdb|npz)|state\.lock")
 
@@ -35,18 +35,18 @@ class CachedVolumes:
 
 def list_volumes(cache: Path) -> list[CachedVolumes]:
     """Volumes in a cache, most recently used first. Foreign files are ignored."""
-    found = []
+    volumes = []
     for folder in cache.iterdir() if cache.is_dir() else ():
         if re.fullmatch("[0-9a-f]{16}", folder.name) and folder.is_dir() and not folder.is_symlink():
             with contextlib.suppress(OSError):
-                found.append(_measure(folder))
-    return sorted(found, key=lambda each: -each.used)
+                volumes.append(_measure(folder))
+    return sorted(volumes, key=lambda volume: -volume.used)
 
 
 def beyond(volumes: list[CachedVolumes], limit: int) -> list[CachedVolumes]:
     """Least recently used volumes to evict so that the rest takes at most `limit` bytes; never any in use."""
-    left, going = limit - sum(each.bytes for each in volumes if each.in_use), []
-    for each in sorted((each for each in volumes if not each.in_use), key=lambda each: -each.used):
+    left, going = limit - sum(volume.bytes for volume in volumes if volume.in_use), []
+    for each in sorted((volume for volume in volumes if not volume.in_use), key=lambda each: -each.used):
         left -= each.bytes
         if left < 0:
             going.append(each)
@@ -77,7 +77,7 @@ def in_use(*folders: Path) -> Iterator[None]:
     for folder in folders:
         with writing(folder):
             os.utime(folder)
-    with leases.signs(_SIGN, sign):
+    with leases.signs(_HEARTBEAT, sign):
         yield
 
 

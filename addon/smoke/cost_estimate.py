@@ -41,9 +41,11 @@ class Cost:
 
 
 def estimate(flow: Flow) -> Cost | None:
-    """Cost of what is still to be solved of a flow; None if nothing is."""
+    """Cost of the remaining solution of a flow; None if it is complete."""
     shot, frames = flow.shot, flow.shot.frames
-    missing = [each for each in flow.domains if not each.snapshot_path(frames.count).exists()]
+    missing = [
+        domain_left for domain_left in flow.domains if not domain_left.snapshot_path(frames.count).exists()
+    ]
     if not missing:
         return None
     work = 0.0
@@ -52,12 +54,12 @@ def estimate(flow: Flow) -> Cost | None:
         if domain is not flow.domains[0]:
             begin, step = max(begin, frames.first - shot.scale.time(domains.LEAD)), step / FINER
         work += domain.cells * math.ceil((frames.last - begin) / step)
-    room = _KEPT * frames.count * sum(each.cells for each in missing)
+    room = _KEPT * frames.count * sum(domain_left.cells for domain_left in missing)
     folder = flow.domains[-1].folder.parent
     return Cost(frames.last - flow.begin, work / _SPEED, room, _widths(flow.domains), folder)
 
 
 def _widths(solved: list[Domain]) -> str:
     """Cell widths of the domain and of the nested domain if there is one."""
-    outer, *inner = (f"{each.box.spacing:.3g} m" for each in solved)
-    return outer + "".join(f", {each} where cameras look" for each in inner)
+    outer, *inner = (f"{domain.box.spacing:.3g} m" for domain in solved)
+    return outer + "".join(f", {domain} where cameras look" for domain in inner)

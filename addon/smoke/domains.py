@@ -29,13 +29,13 @@ _DOWNWIND = (6000.0, 15_000.0)  # m, downwind extent, least and most
 _WIDEST = 130_000.0  # m, side limit; smoke of more distant burning cells is left out
 _SHARE = 0.01  # fraction of the heat that may lie outside of the bounds on each side
 _NEST = NEST  # cells along a side: 12 km
-_COVERED = 0.8  # fraction of a nest's side up to which the fire's extent lets the nest centre on it
+_MAX_COVERED = 0.8  # fraction of a nest's side up to which the fire's extent lets the nest centre on it
 _NEST_ROUND = 6000.0  # m; radius of the heat on which the nest is centred, near the camera's target
 _NEST_SEEN = 60_000.0  # m; for cameras farther away the nest adds no visible detail
 _NEST_SWATH = 20_000.0  # m; wider pictures from above show more of the domain than of the nest
 _SNAP = 1000.0  # m; a nest stays in place under small camera changes
 _TOP = 600.0, 2.0  # m, and factor on the plume rise: least height of the box
-_CALM = 1.0  # m/s, lower limit of the wind in the plume rise
+_LEAST_WIND = 1.0  # m/s, lower limit of the wind in the plume rise
 _EVEN = (1, 2, 3, 5)  # factors of the side lengths, for the fast transforms
 
 Array = NDArray[np.float64]
@@ -112,10 +112,10 @@ def whole(shot: Shot) -> Box | None:
     length, cell = shot.scale.length, shot.scale.cell
     begin = shot.frames.first - shot.spin_up
     bounds = [_bounds(shot.fire, time) for time in np.linspace(begin, shot.frames.last, 5)]
-    found = np.array([each for each in bounds if each is not None])
-    if len(found) == 0:
+    extents = np.array([each for each in bounds if each is not None])
+    if len(extents) == 0:
         return None
-    low, high = found[:, 0].min(axis=0) - length(_MARGIN), found[:, 1].max(axis=0) + length(_MARGIN)
+    low, high = extents[:, 0].min(axis=0) - length(_MARGIN), extents[:, 1].max(axis=0) + length(_MARGIN)
     middle = np.array(shot.wind)
     speed = float(np.hypot(*middle))
     if speed > 0.0:
@@ -126,7 +126,7 @@ def whole(shot: Shot) -> Box | None:
     middle, half = 0.5 * (low + high), np.minimum(0.5 * (high - low), 0.5 * length(_WIDEST))
     low, high = middle - half, middle + half
     corner = np.floor(low / cell) * cell
-    columns, rows = (_even(int(np.ceil(side / cell))) for side in high - corner)
+    columns, rows = (_fast_size(int(np.ceil(side / cell))) for side in high - corner)
     levels = _levels(_LEVELS, shot.scale.ratio, _height_fraction(shot))
     return Box(levels, (rows, columns), cell, (float(corner[0]), float(corner[1])))
 
@@ -143,8 +143,8 @@ def nest(shot: Shot, around: Box) -> Box | None:
     fine, snap = around.spacing / FINER, length(_SNAP)
     side = _NEST * fine
     low, high = _burning(shot)
-    covered = bool(np.all(high - low < _COVERED * side))
-    middle = 0.5 * (low + high) if covered else _looked_at(shot, np.mean(near, axis=0)[:2])
+    covered = bool(np.all(high - low < _MAX_COVERED * side))
+    middle = 0.5 * (low + high) if covered else _heat_centre(shot, np.mean(near, axis=0)[:2])
     if middle is None:
         return None
     room = 4.0 * around.spacing
@@ -173,13 +173,13 @@ def smooth_ground(shot: Shot, box: Box, smoothings: int) -> Array:
 def _burning(shot: Shot) -> tuple[Array, Array]:
     """Bounds (x, y) of the shot's heat without outliers, lowest and highest, m; unbounded without heat."""
     bounds = [_bounds(shot.fire, time) for time in np.linspace(shot.frames.first, shot.frames.last, 5)]
-    found = np.array([each for each in bounds if each is not None])
-    if len(found) == 0:
+    extents = np.array([each for each in bounds if each is not None])
+    if len(extents) == 0:
         return np.zeros(2), np.full(2, np.inf)
-    return found[:, 0].min(axis=0), found[:, 1].max(axis=0)
+    return extents[:, 0].min(axis=0), extents[:, 1].max(axis=0)
 
 
-def _looked_at(shot: Shot, target: Array) -> Array | None:
+def _heat_centre(shot: Shot, target: Array) -> Array | None:
     """Centre (x, y) of the heat around the source nearest to `target`; None without heat."""
     sources = shot.fire.sources(shot.frames.middle)
     if len(sources.power) == 0:
@@ -205,7 +205,7 @@ def _height_fraction(shot: Shot) -> float:
     """
     times = np.linspace(shot.frames.first, shot.frames.last, 5)
     power = max(float(shot.fire.sources(time).power.sum()) for time in times)
-    wind = max(atmosphere.WIND * float(np.hypot(*shot.wind)), _CALM)
+    wind = max(atmosphere.WIND * float(np.hypot(*shot.wind)), _LEAST_WIND)
     rise = 2.6 * np.cbrt(constants.BUOYANCY_FLUX * power / (wind * atmosphere.STABILITY))
     lowest, growth, count = _LEVELS
     return min((_TOP[0] + _TOP[1] * rise) / ((lowest + 0.5 * growth) * count), 1.0)
@@ -235,7 +235,7 @@ def _bounds(fire: Fire, time: float) -> Array | None:
     return np.array(sides).T
 
 
-def _even(cells: int) -> int:
+def _fast_size(cells: int) -> int:
     """Next even cell count of at least 48 with prime factors 2, 3 and 5 only, for fast transforms."""
     for count in range(max(cells, 48), 10 * max(cells, 48)):
         left = count

@@ -19,8 +19,8 @@ Array = NDArray[np.float64]
 
 def luminous(fire: Fire, time: float, scale: Scale) -> tuple[Array, Array]:
     """Lights of the flames in smoke: positions (n, 3), m, and luminous powers (n,), W."""
-    found = heat_release.lights(fire.sources(time).luminous(), scale.length(_BLOCK), _COUNT)
-    return found.position + np.array([0.0, 0.0, scale.length(_FLAME_HEIGHT)]), found.power
+    lights = heat_release.lights(fire.sources(time).luminous(), scale.length(_BLOCK), _COUNT)
+    return lights.position + np.array([0.0, 0.0, scale.length(_FLAME_HEIGHT)]), lights.power
 
 
 def glow(
@@ -35,21 +35,21 @@ def glow(
         (low + (at + 0.5) * spacing).astype(np.float32)
         for low, at in zip(corner[::-1], every[1:], strict=True)
     )
-    found = np.zeros(z.shape, np.float32)
+    sums = np.zeros(z.shape, np.float32)
     for place, watts in zip(places.astype(np.float32), power, strict=True):
         flat = (x - place[0])[None, None, :] ** 2 + (y - place[1])[None, :, None] ** 2
         square = flat + (z - place[2]) ** 2
-        found += (
+        sums += (
             np.float32(watts / (_POWER * scale.ratio**2))
             * np.exp(-np.sqrt(square) / reach)
             / (1.0 + square / core)
         )
     for axis, (at, count) in enumerate(zip(every, heights.shape, strict=True)):
-        found = _stretched(found, at, count, axis)
-    return found
+        sums = _interpolated(sums, at, count, axis)
+    return sums
 
 
-def _stretched(values: NDArray, at: NDArray[np.int64], count: int, axis: int) -> NDArray[np.float32]:
+def _interpolated(values: NDArray, at: NDArray[np.int64], count: int, axis: int) -> NDArray[np.float32]:
     """Interpolate linearly along an axis from indices `at` to all of its `count` indices."""
     place = np.interp(np.arange(count), at, np.arange(len(at)))
     low = np.minimum(place.astype(np.int64), max(len(at) - 2, 0))

@@ -63,11 +63,11 @@ class Flow:
         ground = domains.smooth_ground(self.shot, box, 2)
         scale = self.shot.scale
         mean, top = float(ground.mean()), box.levels[-1]
-        found = [Domain(box, ground, mean, top, self._folder([box]), scale)]
+        result = [Domain(box, ground, mean, top, self._folder([box]), scale)]
         if fine is not None:
             ground = domains.smooth_ground(self.shot, fine, 8)
-            found.append(Domain(fine, ground, mean, top, self._folder([box, fine]), scale))
-        return found
+            result.append(Domain(fine, ground, mean, top, self._folder([box, fine]), scale))
+        return result
 
     def key(self) -> list[str]:
         """Folder names of its snapshots."""
@@ -153,7 +153,7 @@ class Flow:
     def _folder(self, boxes: list[Box]) -> Path:
         """Snapshot folder of the innermost of these nested boxes, named by a hash of all inputs."""
         shot = self.shot
-        found = {
+        inputs = {
             "sources": code_fingerprint.hashes((), (), *_MADE_BY),
             "run": shot.input_hashes(("temperature", "smoke_3d")),
             "time": schema.select(shot.settings, {"time"}),
@@ -162,4 +162,4 @@ class Flow:
             "seed": shot.settings.seed,
             "boxes": [box.plain() for box in boxes],
         }
-        return shot.settings.cache.absolute() / content.fingerprint(found)
+        return shot.settings.cache.absolute() / content.fingerprint(inputs)

@@ -41,12 +41,12 @@ _NEAR = (20.0, 36.0)  # m, smallest and largest voxels of the nest
 _PIXELS = 4.0  # pixels per voxel between these limits: finer smoke shows no better and costs more
 _FAR = 80.0  # m, voxels outside of the nest
 _ALONE = 60.0  # m, smallest voxels without a nest
-_LUMPS = {True: (340.0, (3.5, 2.5, 2.5)), False: (1100.0, (2.5, 1.5, 1.5))}  # m; blur of the drift, cells
+_NOISE = {True: (340.0, (3.5, 2.5, 2.5)), False: (1100.0, (2.5, 1.5, 1.5))}  # m; blur of the drift, cells
 _SURFACE_STEP = 40.0  # m
 _INSIDE, _FADE = 600.0, (700.0, 4000.0)  # m from a box's side where smoke ends, and over which it fades
 _TORN, _TEARS, _EDGE = 0.8, 6000.0, 1.4  # of that way, m: how ragged smoke ends; and how steeply at the side
 _THINNING = 6  # exponent of the fade at the far end: dense smoke stays opaque down to a hundredth
-_SEEN = 1e-9  # kg/m3; thinner smoke is skipped
+_SKIPPED = 1e-9  # kg/m3; thinner smoke is skipped
 _THIN = 5.0e-5  # 1/m; thinner smoke is not stored
 _AGES = 20.0, 600.0  # s, ages of dark and of white smoke
 _BLOCK, _ROUND = 16, 300.0  # voxels of a culling block; m of margin for multiply scattered light
@@ -96,17 +96,20 @@ class Layer:
 
 def layers(shot: Shot, solved: Flow) -> list[Layer]:
     """Volume layers of a shot's smoke. The last one is written last and is named "smoke"."""
-    found = solved.domains
-    if not found:
+    domains = solved.domains
+    if not domains:
         return []
     wanted, length = shot.settings.smoke.voxel_size, shot.scale.length
     far = length(_FAR)
-    if len(found) == 1:
+    if len(domains) == 1:
         near = min(max(_PIXELS * _pixel(shot), length(_ALONE)), far)
-        return [Layer("smoke", found[0], wanted or near, False)]
+        return [Layer("smoke", domains[0], wanted or near, False)]
     least, most = map(length, _NEAR)
     near = float(np.clip(_PIXELS * _pixel(shot), least, most))
-    return [Layer("far", found[0], max(wanted, far), False), Layer("smoke", found[1], wanted or near, True)]
+    return [
+        Layer("far", domains[0], max(wanted, far), False),
+        Layer("smoke", domains[1], wanted or near, True),
+    ]
 
 
 def _pixel(shot: Shot) -> float:
@@ -149,7 +152,7 @@ class Painter:
         eyes: Eyes | None = None,
         beyond: Beyond | None = None,
     ) -> tuple[volume.VdbSummary, Beyond]:
-        """Write a frame's volume, culled to what is visible.
+        """Write a frame's volume, culled to visible blocks.
 
         Parameters
         ----------
@@ -245,7 +248,7 @@ class Painter:
         heights = self._heights[1:, snapshot.low[1] : snapshot.low[1] + rows, snapshot.low[0] :][
             :, :, :columns
         ]
-        seen = snapshot.fields["smoke"] > _SEEN
+        seen = snapshot.fields["smoke"] > _SKIPPED
         lowest = float(surface.min())
         base = np.floor(lowest / voxel) * voxel
         top = float(heights[: len(seen)][seen].max(initial=lowest)) + 2.0 * box.spacing
@@ -295,7 +298,7 @@ class Painter:
         west, south = snapshot.low
         heights = self._heights[: nz + 1, south : south + rows, west : west + columns]
         corner = box.corner[0] + west * box.spacing, box.corner[1] + south * box.spacing
-        size, blur = _LUMPS[self.layer.fine]
+        size, blur = _NOISE[self.layer.fine]
         mix = shot.fire.smoke
         # Thresholds apply to a crown fire's smoke; they are lower for thinner smoke of equal temperature.
         fields = snapshot.fields | {"smoke": snapshot.fields["smoke"] / np.float32(mix.dilution)}

@@ -24,7 +24,7 @@ from .domains import Domain
 STATE = "state.npz"
 WORK = "the smoke's flow"
 CONVECTED = 0.7  # convective fraction of the heat; the rest is radiated (Freeborn et al. 2008)
-_BURN = 30.0  # s between updates of the heat sources
+_SOURCE_STEP = 30.0  # s between updates of the heat sources
 _RAMP = 300.0  # s in which the fire ramps up; a sudden start would send out a pressure wave
 # Gusts of the sources: standard deviation of the logarithm, correlation length (m) and time (s).
 _GUSTS = 0.6, 400.0, 90.0
@@ -59,7 +59,7 @@ class Integrator:
         self.shot, self.domains, self.stop = shot, nested, stop
         self.begin = shot.frames.first - shot.spin_up
         self.scale = shot.scale
-        self.lead, self.slots = _nested_lead(shot), shot.scale.time(_BURN)
+        self.lead, self.slots = _nested_lead(shot), shot.scale.time(_SOURCE_STEP)
         self.step, self.frame = 0, 0
         self.steps, self.frame_of = _schedule(shot)
         self.work = self._work()
@@ -69,7 +69,7 @@ class Integrator:
         self.solvers = [self._outer(nested[0])]
         self.drifts: list[flow.Drift] = []
         self._resume(self._step_of(frame))
-        self._widen()
+        self._start_nest()
 
     @property
     def now(self) -> float:
@@ -80,15 +80,15 @@ class Integrator:
         """Solve up to a frame and save its snapshots. `progress` counts the work up to the frame `last`."""
         end, total = self._step_of(frame), int(self.work[self._step_of(last)])
         with cache.in_use(self.domains[-1].folder):
-            self._keep()
+            self._save_snapshots()
             while self.step < end:
                 progress(int(self.work[self.step]), total, WORK)
                 if self.stop.is_set():
                     raise StoppedError
                 self._advance(self.steps[self.step])
                 self.step += 1
-                self._widen()
-                self._keep()
+                self._start_nest()
+                self._save_snapshots()
                 if time.monotonic() - self.saved > _SAVE:
                     self._save()
             progress(int(self.work[end]), total, WORK)
@@ -96,7 +96,7 @@ class Integrator:
                 (self.domains[-1].folder / STATE).unlink(missing_ok=True)
 
     def _step_of(self, frame: int) -> int:
-        return next(step for step, each in self.frame_of.items() if each == frame)
+        return next(step for step, reached in self.frame_of.items() if reached == frame)
 
     def _work(self) -> NDArray[np.int64]:
         """Cumulative work of the steps, in steps of the outer domain."""
@@ -109,14 +109,14 @@ class Integrator:
         return np.round(np.concatenate([[0.0], np.cumsum(cost)])).astype(np.int64)
 
     def _advance(self, dt: float) -> None:
-        self._burn()
+        self._update_sources()
         for number, solver in enumerate(self.solvers):
             count = 1 if number == 0 else _count(dt, self.scale)
             solver.step(dt / count, count)
         for drift in self.drifts:
             drift.advance()
 
-    def _widen(self) -> None:
+    def _start_nest(self) -> None:
         """Start the nest and the detail's drift when they are due."""
         left = self.shot.frames.first - self.now
         if len(self.domains) > len(self.solvers) and left <= self.lead + 1e-6:
@@ -125,20 +125,22 @@ class Integrator:
         if left <= self.scale.time(_DRIFT) + 1e-6:
             self.drifts += [self._drift(solver) for solver in self.solvers[len(self.drifts) :]]
 
-    def _burn(self) -> None:
+    def _update_sources(self) -> None:
         """Update heat and smoke sources and the ambient wind."""
         slot = math.floor(self.solvers[0].time / self.slots + 1e-6)
         if slot == self.slot:
             return
         time = self.begin + slot * self.slots
         self.solvers[0].set_wind(atmosphere.wind(self.winds[min(slot, len(self.winds) - 1)]))
-        found = self.shot.fire.sources(time)
-        ramp = min(1.0, (slot + 1) * _BURN / _RAMP)
+        sources = self.shot.fire.sources(time)
+        ramp = min(1.0, (slot + 1) * _SOURCE_STEP / _RAMP)
         for solver in self.solvers:
-            solver.set_sources(found.position[:, :2], CONVECTED * ramp * found.power, ramp * found.smoke)
+            solver.set_sources(
+                sources.position[:, :2], CONVECTED * ramp * sources.power, ramp * sources.smoke
+            )
         self.slot = slot
 
-    def _keep(self) -> None:
+    def _save_snapshots(self) -> None:
         frame = self.frame_of.get(self.step)
         if frame is None:
             return
@@ -151,27 +153,27 @@ class Integrator:
         self.saved = time.monotonic()
         if self.step <= self.saved_step:  # the saved checkpoint is later
             return
-        kept: dict[str, NDArray[Any]] = {"step": np.array([self.step])}
+        arrays: dict[str, NDArray[Any]] = {"step": np.array([self.step])}
         for number, solver in enumerate(self.solvers):
-            kept |= {f"{number}_{name}": values for name, values in solver.state().items()}
+            arrays |= {f"{number}_{name}": values for name, values in solver.state().items()}
         for number, drift in enumerate(self.drifts):
-            kept |= {f"{number}_drift": drift.values(), f"{number}_drift_time": np.array([drift.time])}
+            arrays |= {f"{number}_drift": drift.values(), f"{number}_drift_time": np.array([drift.time])}
         path = self.domains[-1].folder / STATE
-        files.write(path, lambda part: snapshots.write(part, kept))
+        files.write(path, lambda part: snapshots.write(part, arrays))
         self.saved, self.saved_step = time.monotonic(), self.step
 
     def _resume(self, end: int) -> None:
         """Resume from a checkpoint if it is complete and not later than requested."""
         path = self.domains[-1].folder / STATE
         try:
-            kept = snapshots.read(path)
-            step = int(kept["step"][0])
+            arrays = snapshots.read(path)
+            step = int(arrays["step"][0])
             if not 0 <= step <= len(self.steps):
                 raise ValueError
             if step > end:
                 self.saved_step = step
                 return
-            self._restore(kept)
+            self._restore(arrays)
         except FileNotFoundError:
             return
         except (snapshots.BrokenError, LookupError, TypeError, ValueError):
@@ -182,11 +184,11 @@ class Integrator:
         self.step = self.saved_step = step
         self.frame = max((f for step, f in self.frame_of.items() if step <= self.step), default=0)
 
-    def _restore(self, kept: dict[str, NDArray[Any]]) -> None:
-        if "1_u" in kept:
+    def _restore(self, arrays: dict[str, NDArray[Any]]) -> None:
+        if "1_u" in arrays:
             self.solvers.append(self._inner(self.domains[1]))
         for number, solver in enumerate(self.solvers):
-            mine = {name[2:]: values for name, values in kept.items() if name[:2] == f"{number}_"}
+            mine = {name[2:]: values for name, values in arrays.items() if name[:2] == f"{number}_"}
             solver.restore(mine)
             if "drift" in mine:
                 self.drifts.append(self._drift(solver))
@@ -253,7 +255,7 @@ def _schedule(shot: Shot) -> tuple[list[float], dict[int, int]]:
 
 def _winds(shot: Shot, begin: float) -> list[tuple[float, float]]:
     """The run's near-surface wind at every source update."""
-    slot = shot.scale.time(_BURN)
+    slot = shot.scale.time(_SOURCE_STEP)
     count = max(1, math.ceil((shot.frames.last - begin) / slot) + 1)
-    found = burning.wind_at(shot.run, begin + slot * np.arange(count), shot.fire.surroundings)
-    return [(float(east), float(north)) for east, north in np.nan_to_num(found)]
+    winds = burning.wind_at(shot.run, begin + slot * np.arange(count), shot.fire.surroundings)
+    return [(float(east), float(north)) for east, north in np.nan_to_num(winds)]

@@ -16,9 +16,9 @@ from ..shot.shot import Shot
 from . import snapshots, sources
 from .domains import Domain
 
-_WIDE = 1000.0  # m, averaging width, about that of satellites and photometers
+_AVERAGING = 1000.0  # m, averaging width, about that of satellites and photometers
 _SMOKY = 0.1  # optical depth from which a column belongs to the plume
-_LOOKS = 3  # snapshots at most that are measured
+_MAX_SNAPSHOTS = 3  # snapshots at most that are measured
 
 # Over burning savanna in Zambia, at 440 nm (Eck et al. 2003, doi 10.1029/2002JD002321). Of wildfires in the
 # western United States, at 550 nm, where photometers measured 0.5 to 3 (Ye et al. 2022, doi
@@ -52,39 +52,41 @@ def measure(shot: Shot) -> Plume:
     """Measure the plume of a shot from the flow's snapshots that exist."""
     frames = shot.frames
     made = shot.fire.smoke_made(frames.first, frames.last)
-    looks = np.unique(np.linspace(1, frames.count, min(_LOOKS, frames.count)).round().astype(int)).tolist()
-    found = [
+    looks = np.unique(
+        np.linspace(1, frames.count, min(_MAX_SNAPSHOTS, frames.count)).round().astype(int)
+    ).tolist()
+    depths_of = [
         [_depths(domain, frame) for frame in looks if domain.has(frame)]
         for domain in sources.select(shot).domains
     ]  # domains, outermost first; a nest does not contain all of the plume
-    if not found or not found[0]:
+    if not depths_of or not depths_of[0]:
         return Plume(made)
-    deepest, wide = (max(depths[k] for each in found for depths in each) for k in (0, 1))
-    return Plume(made, deepest, wide, max(depths[2] for depths in found[0]))
+    deepest, wide = (max(depths[k] for depths_in in depths_of for depths in depths_in) for k in (0, 1))
+    return Plume(made, deepest, wide, max(depths[2] for depths in depths_of[0]))
 
 
 def describe(shot: Shot) -> str:
     """Describe the smoke of a shot in words: mass, fuels and optical depth."""
-    found, mix = measure(shot), shot.fire.smoke
+    plume, mix = measure(shot), shot.fire.smoke
     shares = [
         f"{round(100.0 * share)} % {kind.name}"
         for kind, share in zip(emissions.KINDS, mix.shares, strict=True)
         if share >= 0.005
     ]
-    text = f"{_mass(found.made)} of smoke in {_minutes(shot)}, from {', '.join(shares)}"
-    if found.deepest is None:
+    text = f"{_mass(plume.made)} of smoke in {_minutes(shot)}, from {', '.join(shares)}"
+    if plume.deepest is None:
         return text
     where, low, high, source = _PUBLISHED[bool(mix.dark > 0.75)]
     return (
-        f"{text}; optical depth from above {found.deepest:.2g} where it is deepest, {found.wide:.2g} over a "
-        f"kilometre, {found.mean:.2g} over the plume (smoke {where}, spread: {low:g} to {high:g}, {source})"
+        f"{text}; optical depth from above {plume.deepest:.2g} where it is deepest, {plume.wide:.2g} over a "
+        f"kilometre, {plume.mean:.2g} over the plume (smoke {where}, spread: {low:g} to {high:g}, {source})"
     )
 
 
 def _depths(domain: Domain, frame: int) -> tuple[float, float, float]:
-    """Optical depths of a snapshot: maximum of a column, maximum over `_WIDE`, and mean of the plume."""
+    """Optical depths of a snapshot: maximum of a column, maximum over `_AVERAGING`, and mean of the plume."""
     depth = columns(domain, *snapshots.load_smoke(domain.snapshot_path(frame)))
-    side = max(1, round(_WIDE / domain.box.spacing))
+    side = max(1, round(_AVERAGING / domain.box.spacing))
     padded = np.pad(depth, [(0, -count % side) for count in depth.shape])
     blocks = padded.reshape(padded.shape[0] // side, side, padded.shape[1] // side, side)
     plume = depth[depth > _SMOKY]

@@ -80,7 +80,7 @@ class _Bricks(bake.Line):
         for old in set(self.tasks) - {frame, following}:
             self.tasks.pop(old).cancel()
         self.progress(0, 1, "smoke of the first picture")
-        found = self.tasks.pop(frame).result()
+        smoke = self.tasks.pop(frame).result()
         self.progress(1, 1, "smoke of the first picture")
         self.progress, self.tell = silent, no_message
-        return found
+        return smoke

@@ -23,30 +23,30 @@ def frames(shot: Shot, wanted: Iterable[int]) -> list[tuple[Shot, list[int]]]:
     if len(cameras) < 2 or shot.settings.smoke.complete or not shot.settings.render.cull:
         return []
     filmed = {camera.name: set(shot.frames_of(camera)) for camera in cameras}
-    count = Counter(frame for each in filmed.values() for frame in each)
+    count = Counter(frame for listed_frames in filmed.values() for frame in listed_frames)
     own = {
-        name: [frame for frame in wanted if count[frame] == 1 and frame in each]
-        for name, each in filmed.items()
+        name: [frame for frame in wanted if count[frame] == 1 and frame in listed_frames]
+        for name, listed_frames in filmed.items()
     }
     shots = [(shot.for_camera(name), listed) for name, listed in own.items() if listed]
-    drawn = _drawn(shot) if shots else None
-    return [(one, listed) for one, listed in shots if _drawn(one) == drawn]
+    drawn = _resolution_inputs(shot) if shots else None
+    return [(one, listed) for one, listed in shots if _resolution_inputs(one) == drawn]
 
 
 def link(source: Path, place: Path, listed: Iterable[int]) -> None:
     """Hard-link volumes into another cache folder; copy where the file system has no links."""
     for path in (path for frame in listed for path in sorted(source.glob(f"*_{frame:06d}.vdb"))):
-        files.write(place / path.name, functools.partial(_same, path))
+        files.write(place / path.name, functools.partial(_link_or_copy, path))
 
 
-def _same(path: Path, part: Path) -> None:
+def _link_or_copy(path: Path, part: Path) -> None:
     try:
         os.link(path, part)
     except OSError:
         shutil.copyfile(path, part)
 
 
-def _drawn(shot: Shot) -> list[object]:
+def _resolution_inputs(shot: Shot) -> list[object]:
     """Camera-dependent inputs that decide the smoke's resolution."""
     source = sources.select(shot)
     return [source.inputs(), source.voxels()]

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from .. import files
 
-_NONE = 1e-15  # kg/m3; thinner smoke is not stored
-_UNSEEN = 3e-10  # kg/m3; other fields of thinner smoke are not stored
+_CLEAR = 1e-15  # kg/m3; thinner smoke is not stored
+_THIN = 3e-10  # kg/m3; other fields of thinner smoke are not stored
 _DRIFT_STEP = 4.0  # m, quantization of drift
 _PACKING = 1  # zlib level: three times as fast as the default, files a tenth larger
 
@@ -56,27 +56,27 @@ class Snapshot:
 def save(path: Path, solver: flow.Solver, drift: flow.Drift) -> None:
     """Write a snapshot of a flow's present state."""
     smoke = solver.smoke()
-    there = smoke > _NONE
+    there = smoke > _CLEAR
     block = tuple(_range(there.any(axis=axes)) for axes in ((1, 2), (0, 2), (0, 1)))
     block = (slice(0, max(block[0].stop, 2)), *(slice(part.start // 2 * 2, part.stop) for part in block[1:]))
-    unseen = smoke[block] < _UNSEEN
-    kept: Fields = {"smoke": smoke[block]}
-    for name, found in (
+    unseen = smoke[block] < _THIN
+    arrays: Fields = {"smoke": smoke[block]}
+    for name, values in (
         ("age", solver.age()),
         ("rise", solver.velocity()[..., 2]),
         ("temperature_excess", solver.temperature_excess()),
     ):
-        kept[name] = np.where(unseen, 0.0, np.clip(found[block], -6e4, 6e4)).astype(np.float16)
+        arrays[name] = np.where(unseen, 0.0, np.clip(values[block], -6e4, 6e4)).astype(np.float16)
     moved = drift.values()[tuple(slice(part.start // 2, part.stop // 2 + 1) for part in block)]
-    kept["drift"] = (np.round(moved / _DRIFT_STEP) * _DRIFT_STEP).astype(np.float16)
+    arrays["drift"] = (np.round(moved / _DRIFT_STEP) * _DRIFT_STEP).astype(np.float16)
     mass = solver.mass()
-    kept |= {
+    arrays |= {
         "low": np.array([block[2].start, block[1].start]),
         "weights": np.array(drift.weights),
         "turns": np.array(drift.turns),
         "mass": np.array([mass[name] for name in sorted(mass)]),
     }
-    files.write(path, lambda part: write(part, kept, _PACKING))
+    files.write(path, lambda part: write(part, arrays, _PACKING))
 
 
 def load(path: Path) -> Snapshot:
@@ -87,23 +87,25 @@ def load(path: Path) -> Snapshot:
     BrokenError
         The file is not complete.
     """
-    kept = read(path)
+    arrays = read(path)
     try:
-        smoke, drift = kept["smoke"], kept["drift"].astype(np.float32)
+        smoke, drift = arrays["smoke"], arrays["drift"].astype(np.float32)
         for axis, count in enumerate(smoke.shape):
-            drift = _doubled(drift, axis, count)
+            drift = _upsampled(drift, axis, count)
         fields = {
-            name: kept[name].astype(np.float32) for name in ("smoke", "age", "rise", "temperature_excess")
+            name: arrays[name].astype(np.float32) for name in ("smoke", "age", "rise", "temperature_excess")
         }
         names = sorted(("initial", "emitted", "entered", "left", "airborne", "rounding"))
-        if drift.shape != (*smoke.shape, 2, 3) or any(each.shape != smoke.shape for each in fields.values()):
+        if drift.shape != (*smoke.shape, 2, 3) or any(
+            field.shape != smoke.shape for field in fields.values()
+        ):
             raise BrokenError(path)
         return Snapshot(
-            (int(kept["low"][0]), int(kept["low"][1])),
+            (int(arrays["low"][0]), int(arrays["low"][1])),
             fields | {"drift": drift},
-            (float(kept["weights"][0]), float(kept["weights"][1])),
-            (int(kept["turns"][0]), int(kept["turns"][1])),
-            dict(zip(names, map(float, kept["mass"]), strict=True)),
+            (float(arrays["weights"][0]), float(arrays["weights"][1])),
+            (int(arrays["turns"][0]), int(arrays["turns"][1])),
+            dict(zip(names, map(float, arrays["mass"]), strict=True)),
         )
     except (LookupError, TypeError, ValueError) as error:
         raise BrokenError(path) from error
@@ -177,15 +179,15 @@ def write(path: Path, arrays: Fields, packing: int = 0) -> None:
             file.writestr(zipfile.ZipInfo(f"{name}.npy"), part.getbuffer(), way, packing or None)
 
 
-def _doubled(values: NDArray[np.float32], axis: int, count: int) -> NDArray[np.float32]:
+def _upsampled(values: NDArray[np.float32], axis: int, count: int) -> NDArray[np.float32]:
     """Upsample every second of `count` points to all of them along an axis, linearly."""
     values = np.moveaxis(values, axis, 0)
-    found = np.repeat(values, 2, 0)
-    found[1:-1:2] = 0.5 * (values[:-1] + values[1:])
-    return np.moveaxis(found[:count], 0, axis)
+    doubled = np.repeat(values, 2, 0)
+    doubled[1:-1:2] = 0.5 * (values[:-1] + values[1:])
+    return np.moveaxis(doubled[:count], 0, axis)
 
 
 def _range(there: NDArray[np.bool_]) -> slice:
     """Slice from the first to the last true element; one element if there is none."""
-    found = np.flatnonzero(there)
-    return slice(int(found[0]), int(found[-1]) + 1) if len(found) else slice(0, 1)
+    indices = np.flatnonzero(there)
+    return slice(int(indices[0]), int(indices[-1]) + 1) if len(indices) else slice(0, 1)

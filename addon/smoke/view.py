@@ -46,7 +46,7 @@ def resolution(shot: Shot) -> Resolution:
 
 def _voxel(shot: Shot) -> float:
     """Voxel size of puffs (m): coarser with distance and with the fire's size."""
-    least, most = (shot.scale.length(each) for each in _VOXELS)
+    least, most = (shot.scale.length(limit) for limit in _VOXELS)
     return float(np.clip(70.0 * (shot.fire_distance / 4000.0) ** 0.4, least, most))
 
 
@@ -66,10 +66,10 @@ def shot_frames(shot: Shot) -> list[int]:
 
 def _shows_smoke(settings: Settings, camera: Camera) -> bool:
     """Whether a camera's passes, or the passes that they are composed of, show smoke."""
-    return any(_sees_smoke(each) for each in passes.of_camera(settings, camera))
+    return any(_sees_smoke(recorded) for recorded in passes.of_camera(settings, camera))
 
 
-def _sees_smoke(each: passes.Pass) -> bool:
-    if isinstance(each, passes.RenderedPass):
-        return "smoke" not in each.excludes
-    return any(_sees_smoke(passes.known()[name]) for name in each.made_from)
+def _sees_smoke(recorded: passes.Pass) -> bool:
+    if isinstance(recorded, passes.RenderedPass):
+        return "smoke" not in recorded.excludes
+    return any(_sees_smoke(passes.known()[name]) for name in recorded.made_from)

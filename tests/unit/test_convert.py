@@ -166,7 +166,7 @@ def test_the_command(tmp_path, capfd):
         "Made from Community Fire Behavior Model\n  - times are those of the files" in capfd.readouterr().out
     )
     assert cli.main(["convert", *map(str, paths), "--out", str(out)]) == 1
-    assert "is there already" in capfd.readouterr().err
+    assert "already exists" in capfd.readouterr().err
     assert cli.main(["convert", str(paths[0]), "--out", str(tmp_path / "b"), "--at", "north"]) == 2
     assert cli.main(["info", str(paths[0])]) == 1
     assert "firetwin convert" in capfd.readouterr().err
@@ -241,7 +241,7 @@ def test_a_missing_package_is_one_line(tmp_path, monkeypatch):
     [
         (np.full((5, 5), -9999.0), "nothing burns"),
         (np.full((5, 5), np.nan), "nothing burns"),
-        (np.full((5, 5), 1e300), "its times make no sense"),
+        (np.full((5, 5), 1e300), "its times are invalid"),
     ],
 )
 def test_absurd_arrivals(tmp_path, values, reason):
@@ -300,8 +300,8 @@ def test_what_is_no_models_output_is_told_apart(tmp_path):
 
     for name, words in {
         "empty": "folder without files", "zero.nc": "is empty", "text.nc": "does not begin as a .nc",
-        "c.npz": "does not begin as a .npz", "notes.txt": "no fire model that is known: WRF-SFIRE",
-        "b.npz": "no array time_of_arrival", "d.lcp": "a landscape alone", "fire.asc": "does not say what",
+        "c.npz": "does not begin as a .npz", "notes.txt": "no known fire model: WRF-SFIRE",
+        "b.npz": "no array time_of_arrival", "d.lcp": "a landscape alone", "fire.asc": "identified by name",
         "x_arrival.asc": "x_arrival.asc:7:5: 'abc' is no number", cut.name: "cannot be read as netCDF",
         absurd.name: "nothing burns in it",
     }.items():  # fmt: skip

@@ -69,14 +69,14 @@ def test_of_winds_without_their_time_the_first_is_used_and_that_is_said(make):
     u = np.arange(1.0, 4.0).reshape(3, 1, 1, 1)
     run = make(wind=(u, 0 * u))
     assert (run.wind(len(run.times) - 1)[0] == 1.0).all()
-    assert "does not say how long its 3 winds last" in said(run)
+    assert "has 3 winds without their duration" in said(run)
 
 
 def test_what_answers_to_a_wind_that_is_not_there_is_no_wind(make):
     u = np.ones((1, 2, 1, 1))
     run = make(wind=(u, u))
     assert not (Path(run.path) / "wind_east.npy").exists()
-    assert "answer to a wind that no file says" in said(run)
+    assert "are the response to an unspecified wind" in said(run)
 
 
 def test_halves_of_a_wind_have_to_fit(make):

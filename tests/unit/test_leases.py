@@ -186,7 +186,7 @@ class Sharing(RuleBasedStateMachine):
     def live_on(self, owner):
         """Who gave a sign of life since the last look is not buried."""
         beat = leases._beats(self.data).get(owner)
-        self.claims[owner]._sign()
+        self.claims[owner]._send_heartbeat()
         leases.leave(self.data, owner, beat)
 
     @invariant()

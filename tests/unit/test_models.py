@@ -218,8 +218,8 @@ def test_what_is_assumed_where_fuel_and_height_are_not_said_is_said(tmp_path, co
             file.renameVariable("nfuel_cat", "a")
             file.renameVariable("zsf", "b")
     assumed = said(converted(paths))
-    assert "1 kg/m2 of surface fuel everywhere" in assumed
-    assert "it is flat, at 0 m" in assumed
+    assert "1 kg/m2 of surface fuel is assumed everywhere" in assumed
+    assert "the ground is flat, at 0 m" in assumed
 
 
 def test_cfbm_turned_wind(tmp_path, converted):
@@ -449,7 +449,7 @@ def test_no_cell_releases_more_than_its_fuel(tmp_path, converted, speed, fuel):
     assert released.warnings(released.energy(run), released.of_fuel(run)) == []
     if fuel:
         assert np.median(run.surface_fuel[burned]) == pytest.approx(np.median(load))
-        assert "fbfm40.tif, which lies beside it" in said(run)
+        assert "fbfm40.tif, a companion raster" in said(run)
     elif speed:
         assert own[burned].mean() == pytest.approx(0.3 * load.mean(), rel=0.02)
     assert own.max() < 1.01 * load.max() + 1.2
@@ -459,7 +459,7 @@ def test_fuels_that_lie_elsewhere_are_not_used(tmp_path, converted):
     paths, _ = two_fires(tmp_path / "elmfire", fuel=False)
     made.tiff(tmp_path / "elmfire/fbfm40.tif", np.full((60, 80), 102, np.int16), west=300_000.0)
     run = converted(paths, start="2020-07-01T20:00:00Z")
-    assert "fbfm40.tif lies nowhere on the model's grid" in said(run)
+    assert "fbfm40.tif does not overlap the model's grid" in said(run)
     assert np.asarray(run.surface_fuel).min() > 0.0
 
 
@@ -612,5 +612,5 @@ def test_a_start_that_nothing_says_is_asked_for(tmp_path, converted):
     path = made.ascii_grid(tmp_path / "x_Arrival Time.asc", arrival / 60)
     with pytest.raises(InputError, match="--start"):
         converted([path])
-    with pytest.raises(Error, match="a raster does not say what it holds"):
+    with pytest.raises(Error, match="rasters are identified by name"):
         converted([made.ascii_grid(tmp_path / "other.asc", arrival)])

@@ -137,7 +137,7 @@ def test_moments_in_the_ways_that_files_write_them(tmp_path, properties, stem, u
         assert dates.parse(path, feature, assumptions) == WHEN
         assert bool(assumptions) == assumed
     else:
-        with pytest.raises(InputError, match=r"feature 1: nothing says when.*@2014-09-18T04:00-07:00"):
+        with pytest.raises(InputError, match=r"feature 1: has no date.*@2014-09-18T04:00-07:00"):
             dates.parse(path, feature, assumptions)
 
 

@@ -126,11 +126,11 @@ def test_what_is_built_follows_the_pixels_of_each_camera(run):
 @pytest.mark.parametrize(
     ("old", "new", "line", "words"),
     [
-        ('"cycles"', '"eevee"', 6, "sees all round, which EEVEE cannot; render it with Cycles"),
+        ('"cycles"', '"eevee"', 6, "is a panorama, which EEVEE cannot render; use Cycles"),
         ("[512, 512]", "[640, 360]", 5, "needs a square resolution, such as [2048, 2048]"),
         ("keys = ", "# ", 5, "has no [[cameras.keys]] and no track; one key puts it in a place"),
         ("interocular = 0.1", "interocular = -1", 8, "must be from 0 to 100"),
-        ("interocular", 'passes = ["rgb", "fused"]\ninterocular', 8, "sees all round, which has no fused"),
+        ("interocular", 'passes = ["rgb", "fused"]\ninterocular', 8, "is a panorama and cannot record fused"),
     ],
 )
 def test_what_it_cannot_be_is_said(tmp_path, old, new, line, words):

@@ -53,7 +53,7 @@ def test_what_is_converted_is_told_as_asked(start, asked, name):
 
 
 def test_a_zone_that_is_asked_for_has_to_be_known():
-    with pytest.raises(UsageError, match=r"--zone: 'CEST' is not a time zone; say one such as"):
+    with pytest.raises(UsageError, match=r"--zone: 'CEST' is not a time zone; give one such as"):
         Options.of("", "", "", 0.0, [], "", "CEST")
 
 

@@ -1,1 +1,1 @@
-"""What all readers of fire models' files share: grids on the Earth, rasters, fuels, heat, and the writer."""
+"""Shared parts of fire model readers: georeferenced grids, rasters, fuels, heat flux, and the run writer."""

@@ -1,4 +1,4 @@
-"""Time of arrival from a series that changes where the fire comes: a level function, or a burned share."""
+"""Arrival time from a time series of a level set function or of a burned fraction."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 def from_levels(
     times: NDArray[np.float64], level: Callable[[int], NDArray], shape: tuple[int, ...]
 ) -> NDArray[np.float64]:
-    """Time (s) at which a level function falls below 0, NaN where never.
+    """Arrival time (s) from a level set function, negative in burned cells; NaN where never.
 
-    Linear in time between two of its maps: a front of even speed is exact, as the level function is its
-    distance. A cell lit between a map without any fire (the same value everywhere) and the next has no
-    distance: the middle of the two times, off by half their interval at most.
+    Interpolation is linear in time between two maps. For a front of constant speed it is exact, as the level
+    set function is the distance to the front. A cell that ignites between a map without fire (constant
+    everywhere) and the next has no distance; it takes the mean of both times, with an error of half their
+    interval at most.
     """
     arrival = np.full(shape, np.nan)
     before = None
@@ -37,20 +38,20 @@ def from_levels(
 def from_share(
     times: NDArray[np.float64], share: Callable[[int], NDArray], shape: tuple[int, ...]
 ) -> NDArray[np.float64]:
-    """Time (s) at which half of a cell is burned, linear between two maps; NaN where never."""
+    """Arrival time (s) from burned fractions: when half a cell has burned, linear between; NaN: never."""
     return from_levels(times, lambda index: 0.5 - share(index), shape)
 
 
 def held(
     arrival: NDArray, times: NDArray[np.float64], share: Callable[[int], NDArray]
 ) -> NDArray[np.float64]:
-    """A model's own times of arrival (s), held to when half of each cell burned; NaN where less has.
+    """Constrain a model's own arrival times (s) by when half of each cell burned; NaN where less has.
 
-    A time that is not between the last map with less than half of a cell burned and the first with more is
-    that of something else, of the first touch for instance: such cells have the time of `from_share`.
+    A valid time lies between the last map with less than half of a cell burned and the first with more. Any
+    other is the time of another event, such as first contact; such cells take the time of `from_share`.
     """
     by_share = from_share(times, share, arrival.shape)
-    late = np.searchsorted(times, by_share)  # beyond the last where there is none
+    late = np.searchsorted(times, by_share)  # beyond the last index where it is NaN
     early = np.concatenate([[-np.inf], times])[late]
     within = (arrival > early) & (arrival <= np.concatenate([times, [-np.inf]])[late])
     return np.where(within, arrival, by_share)

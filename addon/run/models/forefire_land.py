@@ -1,7 +1,7 @@
-"""ForeFire's landscape, a netCDF-3 file: fuel, altitude and wind on the places of a map.
+"""Landscape of ForeFire, a netCDF-3 file: fuel, altitude and wind, sampled at the points of a map.
 
-Each of its variables is (NT, NZ, NY, NX) with dimensions of its own, all of them on its domain, which may be
-larger than the map. The middle of a cell bears its value.
+Each variable is (NT, NZ, NY, NX) with dimensions of its own. All cover the domain, which may be larger than
+the map. A value belongs to its cell's centre.
 """
 
 from __future__ import annotations
@@ -23,17 +23,17 @@ DOMAIN = ("SWx", "SWy", "Lx", "Ly", "refYear", "refDay", "BBoxWSEN", "t0", "Lt")
 
 
 def find(paths: list[Path], besides: Path) -> Path | None:
-    """The landscape among files."""
+    """Landscape file among files; None without one."""
     return next((each for each in paths if each != besides and is_one(each)), None)
 
 
 def is_one(path: Path) -> bool:
-    """Whether it is a landscape, by its variables."""
+    """Whether a file is a landscape, by its variables."""
     return bool(netcdf.names(path)[1] & {"fuel", "altitude", "windU"})
 
 
 def domain(path: Path | None) -> dict[str, Any]:
-    """Corner, size and degrees of a landscape; empty where it does not say its size."""
+    """Corner, size and geographic box of a landscape; empty if it has no size."""
     if path is None:
         return {}
     file = netcdf.File(path)
@@ -46,13 +46,13 @@ def domain(path: Path | None) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class _Places:
-    """Where a map's rows and columns lie, as shares of a landscape's height and width."""
+    """Rows and columns of a map as fractions of a landscape's height and width."""
 
     up: NDArray
     across: NDArray
 
     def nearest(self, values: NDArray) -> NDArray:
-        """The values of the cells that the places lie in."""
+        """Nearest-neighbour values at the points."""
         row, column = (
             np.clip(np.floor(share * count), 0, count - 1).astype(int)
             for share, count in zip((self.up, self.across), values.shape, strict=True)
@@ -60,7 +60,7 @@ class _Places:
         return values[row[:, None], column[None, :]]
 
     def between(self, values: NDArray) -> NDArray[np.float32]:
-        """Bilinear between the middles of cells; those at the edge go on outwards."""
+        """Bilinear values at the points; constant beyond the outermost cell centres."""
         row, column = (
             np.clip(share * count - 0.5, 0, count - 1)
             for share, count in zip((self.up, self.across), values.shape, strict=True)
@@ -69,12 +69,12 @@ class _Places:
 
 
 def take(
-    path: Path, paths: list[Path], x: NDArray, y: NDArray, maps: from_arrival_time.Maps, told: list[str]
+    path: Path, paths: list[Path], x: NDArray, y: NDArray, maps: from_arrival_time.Maps, notes: list[str]
 ) -> None:
-    """Put a landscape's fuel, altitude and wind at places (m) into maps, and say what came from where."""
+    """Sample a landscape's fuel, altitude and wind at points (m), and record their origin in `notes`."""
     box = domain(path)
     if not box:
-        told.append(f"{path.name} does not say its size: it is taken as that of the map")
+        notes.append(f"{path.name} has no size: that of the map is assumed")
         box = {"SWx": 1.5 * x[0] - 0.5 * x[1], "SWy": 1.5 * y[0] - 0.5 * y[1]}
         box |= {"Lx": len(x) * (x[1] - x[0]), "Ly": len(y) * (y[1] - y[0])}
     places = _Places((y - box["SWy"]) / box["Ly"], (x - box["SWx"]) / box["Lx"])
@@ -84,7 +84,7 @@ def take(
             values = _first(file, "altitude")
             maps.elevation = places.between(values)
             whole = ", whole metres there" if np.issubdtype(values.dtype, np.integer) else ""
-            told.append(f"elevation is altitude of {path.name}, bilinear between its cells{whole}")
+            notes.append(f"elevation is altitude of {path.name}, bilinear between its cells{whole}")
         table = next((each for each in paths if _is_table(each)), None)
         if "fuel" in file and table:
             loads = _loads(table)
@@ -92,10 +92,10 @@ def take(
             maps.surface = np.zeros(maps.arrival.shape, np.float32)
             for number, load in loads.items():
                 maps.surface[index == number] = load
-            told.append(
+            notes.append(
                 f"surface fuel is Sigmad, the dead load, of {table.name}, by the nearest fuel of {path.name}"
             )
-        maps.wind = _wind(file, box, places, told)
+        maps.wind = _wind(file, box, places, notes)
     finally:
         file.close()
 
@@ -105,38 +105,38 @@ def _first(file: netcdf.File, name: str) -> NDArray:
     return file.read(name, *[0] * (len(file.shape(name)) - 2))
 
 
-def _wind(file: netcdf.File, box: dict[str, Any], places: _Places, told: list[str]) -> Wind | None:
-    """WindU and windV, m/s; several times share the domain's Lt seconds from t0 evenly, as in the model."""
+def _wind(file: netcdf.File, box: dict[str, Any], places: _Places, notes: list[str]) -> Wind | None:
+    """Wind from WindU and WindV, m/s; several times divide the domain's Lt seconds from t0 evenly."""
     name = file.path.name
     if not {"windU", "windV"} <= set(file.variables):
         if "wind" in file:
-            told.append(f"wind of {name} is how the air answers to a wind that no file says: not used")
+            notes.append(f"wind of {name} is the response to an unspecified wind: not used")
         return None
-    shapes = [file.shape(each) for each in ("windU", "windV")]
+    shapes = [file.shape(component) for component in ("windU", "windV")]
     if shapes[0] != shapes[1] or not 2 <= len(shapes[0]) <= 4:
         raise file.error(f"has windU {shapes[0]} and windV {shapes[1]}, not both (NT, NZ, NY, NX)")
     times, levels = (*[1] * (4 - len(shapes[0])), *shapes[0])[:2]
     if levels > 1:
-        told.append(f"windU and windV of {name} answer to a wind that no file says: not used")
+        notes.append(f"windU and windV of {name} are the response to an unspecified wind: not used")
         return None
     begin, lasts = float(box.get("t0") or 0.0), float(box.get("Lt") or 0.0)
     if times > 1 and not 0 < lasts < np.inf:
-        told.append(f"{name} does not say how long its {times} winds last (Lt): the first is used")
+        notes.append(f"{name} has {times} winds without their duration (Lt): the first is used")
         times = 1
     leading = len(shapes[0]) - 2
     u, v = (
         [
-            places.between(file.read(each, *(index, 0)[2 - leading :] if leading else ()))
+            places.between(file.read(component, *(index, 0)[2 - leading :] if leading else ()))
             for index in range(times)
         ]
-        for each in ("windU", "windV")
+        for component in ("windU", "windV")
     )
-    told.append(f"wind is windU and windV of {name} (m/s), bilinear between its cells")
+    notes.append(f"wind is windU and windV of {name} (m/s), bilinear between its cells")
     return given_wind.steps(np.stack(u), np.stack(v), begin, lasts / times)
 
 
 def _is_table(path: Path) -> bool:
-    """Whether it is a table of fuels: fronts and scripts of the model end in .ff too."""
+    """Whether a file is a fuels table; fronts and scripts of the model have the ending .ff too."""
     if path.suffix.lower() not in (".ff", ".csv"):
         return False
     with path.open(encoding="utf-8", errors="replace") as file:

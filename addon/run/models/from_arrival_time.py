@@ -1,4 +1,4 @@
-"""A run of models that give one map of arrival times: its heat flux is made here."""
+"""Run from a map of arrival times: heat flux is computed from fuel and arrival time."""
 
 from __future__ import annotations
 
@@ -21,18 +21,19 @@ from .model import Model, Moving, Options
 
 @dataclass
 class Maps:
-    """What the files say, on one grid.
+    """Maps of a model's files, on one grid.
 
     Attributes
     ----------
     arrival
-        (ny, nx) s since the start, NaN where never.
+        Arrival time (ny, nx), s since the start, NaN where never.
     intensity, speed, per_area
-        W/m, m/s and J/m2 where the fire came; None: not said.
+        Fireline intensity, W/m, rate of spread, m/s, and heat per area, J/m2, in burned cells; None: no such
+        map.
     surface, canopy, elevation, category
-        kg/m2, kg/m2, m and numbers of fuel models; None: what lies beside says it.
+        kg/m2, kg/m2, m and fuel model numbers; None: companion rasters supply them.
     wind
-        m/s along columns and rows at a time (s); None: not said.
+        Wind along columns and rows at a time (s), m/s; None: no wind.
     """
 
     arrival: NDArray
@@ -47,20 +48,20 @@ class Maps:
 
 
 def model(
-    maps: Maps, grid: Grid, land: Land, options: Options, source: str, files: list[Path], told: list[str]
+    maps: Maps, grid: Grid, land: Land, options: Options, source: str, files: list[Path], notes: list[str]
 ) -> Model:
-    """A run of these maps; the start is the option's (`begun`)."""
+    """Build a model from maps; the start is the option's (`begun`)."""
     if maps.arrival.shape != grid.shape:
         raise input_error(files[0], 0, 0, f"has arrival times {maps.arrival.shape} on a grid of {grid.shape}")
     for name in ("intensity", "speed", "per_area"):
         values = getattr(maps, name)
         if values is not None and values.shape != grid.shape:
             raise input_error(files[0], 0, 0, f"has {name} {values.shape} on a grid of {grid.shape}")
-    fuel = _fuel(maps, grid, land, options.projection, told)
+    fuel = _fuel(maps, grid, land, options.projection, notes)
     category = fuel.category
     lasts = fuels.burn_out(category if category is not None else np.full(grid.shape, np.nan))
-    told.append("heat flux is made of fuel and arrival: all surface and canopy fuel burns, at 17.433 MJ/kg")
-    told.append(
+    notes.append("heat flux is made of fuel and arrival: all surface and canopy fuel burns, at 17.433 MJ/kg")
+    notes.append(
         "a spot's heat comes out at a rate that falls evenly to 0 at three mean burning times of its fuel"
     )
     try:
@@ -88,12 +89,12 @@ def model(
         moving={"heat_flux": release.flux, **_blowing(maps.wind, grid, release.times)},
         files=files,
         projection=options.projection,
-        assumptions=told + land.assumptions,
+        assumptions=notes + land.assumptions,
     )
 
 
 def _blowing(wind: Wind | None, grid: Grid, times: NDArray[np.float64]) -> dict[str, Moving]:
-    """The fields of a run for a wind."""
+    """Wind fields of a run."""
     if wind is None:
         return {}
 
@@ -104,7 +105,7 @@ def _blowing(wind: Wind | None, grid: Grid, times: NDArray[np.float64]) -> dict[
 
 
 def begun(options: Options, path: Path) -> datetime:
-    """The moment that times count from, which only the user knows.
+    """Time origin, which only the user can give.
 
     Raises
     ------
@@ -112,30 +113,30 @@ def begun(options: Options, path: Path) -> datetime:
         `--start` is not given.
     """
     if options.start is None:
-        reason = "does not say when the fire began; say it: --start 2014-09-17T04:45:00Z"
+        reason = "has no start time; give it: --start 2014-09-17T04:45:00Z"
         raise input_error(path, 0, 0, reason)
     return options.start
 
 
 def with_start(options: Options, start: datetime) -> Options:
-    """The same options, of a start that files say, unless the user says one."""
+    """Options with a start from files, unless the user gives one."""
     return options if options.start else replace(options, start=start)
 
 
 @dataclass(frozen=True)
 class _Fuel:
-    """kg/m2 and numbers of fuel models of each cell; None: nothing says the numbers."""
+    """Fuel loads, kg/m2, and fuel model numbers of each cell; None without numbers."""
 
     surface: NDArray
     canopy: NDArray
     category: NDArray | None
 
 
-def _fuel(maps: Maps, grid: Grid, land: Land, projection: str, told: list[str]) -> _Fuel:
-    """What the maps or what lies beside say; else by the model's heat per area, else the same everywhere."""
+def _fuel(maps: Maps, grid: Grid, land: Land, projection: str, notes: list[str]) -> _Fuel:
+    """Fuel from the maps or companion rasters; else by the model's heat per area, else constant."""
     category = maps.category if maps.category is not None else land.category(grid, projection)
     canopy = np.nan_to_num(maps.canopy if maps.canopy is not None else land.canopy(grid, projection))
-    burned, own = np.isfinite(maps.arrival), _own_heat(maps, grid, told)
+    burned, own = np.isfinite(maps.arrival), _own_heat(maps, grid, notes)
     by_heat = None if own is None else np.maximum(own / constants.HEAT_OF_COMBUSTION - canopy, 0.0)
     if maps.surface is not None:
         surface, known = np.nan_to_num(maps.surface), np.isfinite(maps.surface)
@@ -143,38 +144,38 @@ def _fuel(maps: Maps, grid: Grid, land: Land, projection: str, told: list[str]) 
         surface = fuels.loads(category) if maps.category is not None else land.surface(grid, projection)
         known = np.isfinite(category)
     elif by_heat is not None:
-        told.append("surface fuel is heat per area over 17.433 MJ/kg where it burned, their mean elsewhere")
+        notes.append("surface fuel is heat per area over 17.433 MJ/kg where it burned, their mean elsewhere")
         surface = np.where(burned, by_heat, by_heat[burned].mean() if burned.any() else 0.0)
         return _Fuel(surface.astype(np.float32), canopy, None)
     else:
         return _Fuel(land.surface(grid, projection), canopy, None)
     lacks = burned & ~known
     if by_heat is not None and lacks.any():
-        told.append(
+        notes.append(
             f"{lacks.sum():,} burned cells of no known fuel have it by heat per area over 17.433 MJ/kg"
         )
         surface = np.where(lacks, by_heat, surface)
-    _compare(own, (surface + canopy)[burned], burned, told)
+    _compare(own, (surface + canopy)[burned], burned, notes)
     return _Fuel(surface.astype(np.float32), canopy, category)
 
 
-def _own_heat(maps: Maps, grid: Grid, told: list[str]) -> NDArray | None:
-    """The model's heat per area (J/m2), no more than of the heaviest fuel; None: it says none."""
+def _own_heat(maps: Maps, grid: Grid, notes: list[str]) -> NDArray | None:
+    """The model's heat per area (J/m2), at most that of the heaviest fuel; None if it has none."""
     if maps.per_area is not None:
         heats = np.nan_to_num(np.asarray(maps.per_area, np.float64))
         return np.minimum(heats, constants.HEAT_OF_COMBUSTION * fuels.HEAVIEST)
     if maps.intensity is None:
         return None
     whence = ", by the time of arrival at the neighbours that it came from" if maps.speed is None else ""
-    told.append(f"heat per area is fireline intensity over rate of spread{whence}")
+    notes.append(f"heat per area is fireline intensity over rate of spread{whence}")
     return heat_from_intensity.of_intensity(maps.arrival, maps.intensity, maps.speed, grid.cell)
 
 
-def _compare(own: NDArray | None, load: NDArray, burned: NDArray, told: list[str]) -> None:
-    """Say how the model's own heat compares with the fuel's, which is what the run releases."""
+def _compare(own: NDArray | None, load: NDArray, burned: NDArray, notes: list[str]) -> None:
+    """Record the ratio of the model's own heat to the fuel's, which the run releases."""
     total = float(heat_from_intensity.of_fuel(load).sum())
     if own is not None and total > 0:
-        told.append(f"the model's heat per area is {float(own[burned].sum()) / total:.3g} times its fuel's")
+        notes.append(f"the model's heat per area is {float(own[burned].sum()) / total:.3g} times its fuel's")
     without = int((load <= 0).sum())
     if without:
-        told.append(f"{without:,} burned cells have no fuel on the map and release no heat")
+        notes.append(f"{without:,} burned cells have no fuel on the map and release no heat")

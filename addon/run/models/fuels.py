@@ -1,4 +1,4 @@
-"""Fuel loads and burning times of the numbered fuel models."""
+"""Fuel models: fuel load and burn-out time by number."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 SFIRE = (0.166, 0.897, 0.675, 2.468, 0.785, 1.345, 1.092, 1.121, 0.780, 2.694, 2.582, 7.749, 13.024)
-"""kg/m2 of Anderson's models 1 to 13 in WRF-SFIRE and CFBM (fgi of namelist.fire)."""
+"""Fuel load, kg/m2, of Anderson's models 1 to 13 in WRF-SFIRE and CFBM (fgi of namelist.fire)."""
 
 _WEIGHT = (7, 7, 7, 180, 100, 100, 100, 900, 900, 900, 900, 900, 900)
-"""s, the same models' `weight` there: fuel left falls by e each weight / 0.85 seconds."""
+"""s, `weight` of the same models there: remaining fuel falls by e in weight / 0.85 seconds."""
 
 # Sum of dead (1, 10, 100 h) and live loads, kg/m2: Anderson 1982 (GTR INT-122) and Scott and Burgan 2005
 # (RMRS-GTR-153), tables of loads in lb/ft2 times 4.88243.
@@ -24,21 +24,21 @@ _LOAD = {
 }
 
 HEAVIEST = max(_LOAD.values())
-"""kg/m2 of the standard model that has most fuel, Anderson's 13."""
+"""Largest fuel load of a standard model, kg/m2: Anderson's 13."""
 
 
 def loads(category: NDArray, table: str = "standard") -> NDArray[np.float32]:
-    """kg/m2 of fuel models by number; 0 for those that do not burn. `table`: "sfire" or "standard"."""
+    """Fuel load (kg/m2) by fuel model number; 0 if unburnable. `table`: "sfire" or "standard"."""
     known = dict(enumerate(SFIRE, 1)) if table == "sfire" else _LOAD
     return _look_up(category, known, 0.0)
 
 
 def burn_out(category: NDArray) -> NDArray[np.float32]:
-    """Seconds from the front's arrival until a spot has burned out, by fuel model.
+    """Burn-out time (s) by fuel model: from the front's arrival until a spot has burned out.
 
-    The form is that of `heat_from_intensity`. Three mean burning times of WRF-SFIRE (weight /
-    0.85): that form's mean is a third of its end. Scott and Burgan's models take those of Anderson's of the
-    same kind: grass 7, shrubs 100, timber and slash 900 s.
+    The release has the form of `heat_from_intensity`, whose mean time is a third of its end. So it is three
+    mean burning times of WRF-SFIRE (weight / 0.85). Scott and Burgan's models take the weight of Anderson's
+    of the same kind: grass 7, shrubs 100, timber and slash 900 s.
     """
     weight = dict(enumerate(_WEIGHT, 1))
     kinds = {10: 7, 12: 7, 14: 100, 16: 900, 18: 900, 20: 900}

@@ -1,4 +1,4 @@
-"""Wind that a model was given, at the times of a run."""
+"""Prescribed wind: input wind of a fire model, at the times of a run."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Wind = Callable[[float], tuple[NDArray, NDArray]]
 
 
 def steps(u: NDArray, v: NDArray, begin: float, lasts: float) -> Wind:
-    """Wind that keeps each of its values (nt, ny, nx) for so many seconds, the first and last beyond."""
+    """Piecewise constant wind: each value (nt, ny, nx) lasts `lasts` seconds, the end values longer."""
 
     def at(time: float) -> tuple[NDArray, NDArray]:
         index = int(np.clip((time - begin) // lasts, 0, len(u) - 1)) if len(u) > 1 else 0

@@ -1,8 +1,8 @@
-"""Cells of a model on the Earth, and the axes of latitude and longitude that a run has.
+"""Model grids on the Earth, and their resampling to the latitude and longitude axes of a run.
 
-A grid whose rows and columns do not follow parallels and meridians keeps its cells where that moves none by
-more than half a cell. Else each cell of an even grid of latitudes and longitudes takes the value of the
-nearest of the model's cells: no value is changed, and how far values lie from their place is said.
+A grid that does not follow parallels and meridians keeps its cells if this moves none by more than half a
+cell. Else each cell of a regular latitude-longitude grid takes the value of the nearest model cell: no value
+changes, and the largest position error is reported.
 """
 
 from __future__ import annotations
@@ -18,32 +18,32 @@ from ..areas import area_factors, metres_per_degree
 from . import optional_packages
 
 Array = NDArray[np.float64]
-_ROWS = 256  # of the new grid that are looked up at once
+_ROWS = 256  # rows of the new grid that are looked up at once
 _LARGEST = 1 << 28  # cells
 _WIDE = 8
 
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """Middles of cells in degrees: (ny,) and (nx,), or both (ny, nx); rows run north or south."""
+    """Cell centres in degrees: (ny,) and (nx,), or both (ny, nx); rows run north or south."""
 
     latitude: Array
     longitude: Array
 
     @classmethod
     def metres(cls, x: Array, y: Array, at: tuple[float, float]) -> Grid:
-        """Cells at metres east (nx,) and north (ny,) of a place: the degrees of its own parallel."""
+        """Grid from metres east (nx,) and north (ny,) of a point, with degrees of the point's parallel."""
         north, east = metres_per_degree(at[0])
         return cls(at[0] + np.asarray(y, np.float64) / north, at[1] + np.asarray(x, np.float64) / east)
 
     @classmethod
     def projected(cls, x: Array, y: Array, projection: str) -> Grid:
-        """Cells at coordinates (nx,) and (ny,) of a projection.
+        """Grid from coordinates (nx,) and (ny,) in a projection.
 
         Raises
         ------
         Error
-            PROJ does not know it, or pyproj is missing.
+            PROJ does not know the projection, or pyproj is missing.
         """
         transformer = _pyproj(projection)
         if transformer.source_crs.is_geographic:
@@ -61,13 +61,13 @@ class Grid:
 
     @cached_property
     def cell(self) -> tuple[float, float]:
-        """Width and height of a cell about the middle, m."""
+        """Width and height of a cell near the centre, m."""
         north, east = metres_per_degree(float(np.mean(self.latitude)))
         sides = []
         for axis in (1, 0):
             steps = [np.diff(each, axis=min(axis, each.ndim - 1)) for each in self._both(axis)]
-            found = np.hypot(steps[0] * north, steps[1] * east)
-            sides.append(float(np.median(found)) if found.size else 0.0)
+            lengths = np.hypot(steps[0] * north, steps[1] * east)
+            sides.append(float(np.median(lengths)) if lengths.size else 0.0)
         width, height = sides
         return width or height or 100.0, height or width or 100.0
 
@@ -79,7 +79,7 @@ class Grid:
 
     @cached_property
     def turn(self) -> tuple[NDArray[np.float32], NDArray[np.float32]] | None:
-        """Cosine and sine (ny, nx) of the angle from east to the direction of rows; None: rows run east."""
+        """Grid convergence: cosine and sine (ny, nx) of the angle from east to rows; None if it is 0."""
         if self.latitude.ndim == 1:
             return None
         east = _slope(self.longitude, 1) * np.cos(np.radians(self.latitude))
@@ -88,7 +88,7 @@ class Grid:
         return (east / size).astype(np.float32), (north / size).astype(np.float32)
 
     def east_north(self, u: NDArray, v: NDArray) -> tuple[NDArray, NDArray]:
-        """Wind along rows and columns (..., ny, nx) as wind to the east and to the north."""
+        """Rotate wind along rows and columns (..., ny, nx) to east and north."""
         if self.turn is None:
             return u, v
         cosine, sine = self.turn
@@ -96,7 +96,7 @@ class Grid:
 
     @cached_property
     def areas(self) -> Array:
-        """Area (ny, nx) of each cell in m2, of a grid with both places (ny, nx)."""
+        """Cell areas (ny, nx), m2, of a grid with 2-D latitude and longitude."""
         latitude, longitude = self.latitude, self.longitude
         down, across = (np.stack([_slope(each, axis) for each in (latitude, longitude)]) for axis in (0, 1))
         middle = float(latitude.mean())
@@ -106,16 +106,16 @@ class Grid:
 
     @cached_property
     def placed(self) -> Placed:
-        """Axes of a run for these cells.
+        """Resample the grid to the axes of a run.
 
         Raises
         ------
         Error
-            The places make no sense.
+            The positions are invalid.
         """
         for values, limit, name in ((self.latitude, 90.0, "latitude"), (self.longitude, 540.0, "longitude")):
             if values.size == 0 or values.size > _LARGEST:
-                raise Error(f"a grid of {' x '.join(map(str, self.shape))} cells makes no sense")
+                raise Error(f"a grid of {' x '.join(map(str, self.shape))} cells is invalid")
             if not np.isfinite(values).all() or np.abs(values).max() > limit:
                 raise Error(f"its {name}s are no places on the Earth; the file is damaged or in other units")
         return Placed(self.latitude, self.longitude) if self.latitude.ndim == 1 else _place(self)
@@ -123,16 +123,17 @@ class Grid:
 
 @dataclass(frozen=True, eq=False)
 class Placed:
-    """The axes, and which of the grid's cells each of theirs is (None: the same).
+    """Run axes, and the grid cell of each run cell (None: the same cells).
 
     Attributes
     ----------
     index, outside
-        (ny, nx) of the run's cells: the grid's cell (flat), and whether none lies there.
+        (ny, nx) of the run's cells: flat index of the grid cell, and whether the cell lies outside of the
+        grid.
     areas
-        m2 of each of the grid's cells, where cells are not the same.
+        Area of each grid cell, m2, if cells differ.
     error
-        How far values are from their places, in words; empty where they are not.
+        Position error in words; empty without one.
     """
 
     latitude: Array
@@ -148,32 +149,32 @@ class Placed:
         return len(self.latitude), len(self.longitude)
 
     def put(self, values: NDArray, fill: float | None) -> NDArray[np.float32]:
-        """Values (..., grid) on the run's cells as float32; `fill` (None: the nearest) where none lies."""
+        """Resample values (..., grid) to run cells as float32; `fill` (None: nearest) outside of the grid."""
         values = np.asarray(values, np.float32)
         if self.index is None:
             return np.ascontiguousarray(values)
         flat = values.reshape(*values.shape[:-2], -1)
-        found = np.take(flat, self.index, axis=-1)
+        resampled = np.take(flat, self.index, axis=-1)
         if fill is not None:
-            found[..., self.outside] = fill
-        return found
+            resampled[..., self.outside] = fill
+        return resampled
 
     def put_share(self, share: NDArray) -> NDArray[np.float32]:
-        """Shares (0..1) of the grid's cells on the run's: together as much area, to a float's rounding.
+        """Resample fractions (0..1) to run cells with the total area conserved, to float rounding.
 
-        What the nearest cells have more or less of it, cells that are neither 0 nor 1 make up for.
+        The area error of nearest-neighbour resampling is corrected in cells that are neither 0 nor 1.
         """
         share = np.nan_to_num(share)
-        found = self.put(share, 0.0)
+        resampled = self.put(share, 0.0)
         if self.areas is None:
-            return found
+            return resampled
         strip, width = area_factors(self.latitude, self.longitude)
-        area = np.where((found > 0) & (found < 1), strip[:, None] * width, 0.0)
-        lacks = float((share * self.areas).sum()) - float(strip @ (found.astype(np.float64) @ width))
-        room = (1 - found if lacks > 0 else found).astype(np.float64)
+        area = np.where((resampled > 0) & (resampled < 1), strip[:, None] * width, 0.0)
+        lacks = float((share * self.areas).sum()) - float(strip @ (resampled.astype(np.float64) @ width))
+        room = (1 - resampled if lacks > 0 else resampled).astype(np.float64)
         most = float((room * area).sum())
         part = np.clip(lacks / most, -1.0, 1.0) if most > 0 else 0.0
-        return (found + part * room * (area > 0)).astype(np.float32)
+        return (resampled + part * room * (area > 0)).astype(np.float32)
 
 
 def _place(grid: Grid) -> Placed:
@@ -215,7 +216,7 @@ def _place(grid: Grid) -> Placed:
 
 
 class _Nearest:
-    """The nearest cell of a smooth grid, by Newton's steps through its own derivatives."""
+    """Nearest cell of a smooth grid, by Newton's method on its own derivatives."""
 
     def __init__(self, latitude: Array, longitude: Array) -> None:
         self.place = latitude, longitude
@@ -247,7 +248,7 @@ class _Nearest:
 
 
 def _slope(values: Array, axis: int) -> Array:
-    """Change per cell, over some each way: 32-bit longitudes are 0.65 m coarse, and cells may be small."""
+    """Gradient per cell over several cells: 32-bit longitudes resolve 0.65 m, and cells may be small."""
     count = values.shape[axis]
     at = np.arange(count)
     low, high = np.maximum(at - _WIDE, 0), np.minimum(at + _WIDE, count - 1)
@@ -269,7 +270,7 @@ def _pyproj(projection: str):  # noqa: ANN202
 
 
 def project(projection: str, latitude: Array, longitude: Array) -> tuple[Array, Array]:
-    """Coordinates x and y of places in a projection."""
+    """Coordinates x and y in a projection."""
     transformer = _pyproj(projection)
     if transformer.source_crs.is_geographic:
         return longitude, latitude

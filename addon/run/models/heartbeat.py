@@ -1,4 +1,4 @@
-"""Signs that reading goes on, for whoever waits: a damaged file can keep a library busy for ever."""
+"""Heartbeat of a reader process: a damaged file can keep a library busy without end."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-_OFTEN = 1.0  # s between two signs
+_OFTEN = 1.0  # s between heartbeats
 
 _to: list[Callable[[], None]] = []
 _last = 0.0
@@ -14,7 +14,7 @@ _last = 0.0
 
 @contextmanager
 def to(say: Callable[[], None]) -> Iterator[None]:
-    """Within, signs call this function."""
+    """Context in which heartbeats call this function."""
     _to.append(say)
     try:
         yield
@@ -23,7 +23,7 @@ def to(say: Callable[[], None]) -> Iterator[None]:
 
 
 def sign() -> None:
-    """A part of a file has been read, or is about to be."""
+    """Send a heartbeat: a part of a file was read, or is next."""
     global _last
     now = time.monotonic()
     if _to and now - _last >= _OFTEN:

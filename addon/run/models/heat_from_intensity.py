@@ -1,8 +1,8 @@
-"""Heat flux of a model that writes none, from the time that the fire arrived and the fuel that burned.
+"""Heat flux from arrival time and fuel or fireline intensity, for models that write none.
 
-A spot releases its heat from the arrival on at a rate that falls evenly to nothing at the burn-out time T:
-of its heat 1 - (1 - s/T)^2 is out after s seconds. Each flux is the mean over its interval, the difference of
-that share at both ends, so that all intervals together give the heat of the fuel that burned, to rounding.
+After arrival a spot's heat release rate falls linearly to zero at the burn-out time T: the fraction 1 - (1 -
+s/T)^2 of its heat is released after s seconds. Each flux is the mean over its interval, the difference of
+that fraction at both ends. So all intervals together release the heat of the burned fuel, to rounding.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ _MOST = 20_000
 
 @dataclass(frozen=True, eq=False)
 class Release:
-    """Flux (W/m2) of cells with an arrival time (s, NaN where never), heat (J/m2) and burn-out time (s).
+    """Heat flux (W/m2) from arrival time (s, NaN where never), heat (J/m2) and burn-out time (s) of cells.
 
     Attributes
     ----------
     times
-        (nt,) s: from before the first arrival until all has burned out.
+        (nt,) s, from before the first arrival until all fuel has burned out.
     """
 
     shape: tuple[int, int]
@@ -40,7 +40,7 @@ class Release:
 
     @classmethod
     def of(cls, arrival: NDArray, heat: NDArray, burn_out: NDArray, interval: float) -> Release:
-        """From maps; an `interval` of 0 is chosen so that there are 300 times at most.
+        """Release from maps; an `interval` of 0 selects one that gives 300 times at most.
 
         Raises
         ------
@@ -71,30 +71,30 @@ class Release:
         )
 
     def flux(self, index: int) -> NDArray[np.float32]:
-        """(ny, nx) W/m2, mean over the interval that ends at a time."""
-        found = np.zeros(self.shape, np.float32)
+        """Mean heat flux (ny, nx), W/m2, over the interval that ends at a time."""
+        mean_flux = np.zeros(self.shape, np.float32)
         if index == 0:
-            return found
+            return mean_flux
         before, now = self.times[index - 1 : index + 1]
         first = int(np.searchsorted(self.arrival, before - self.burn_out.max()))
         part = slice(first, int(np.searchsorted(self.arrival, now)))
         left = [np.clip(1 - (t - self.arrival[part]) / self.burn_out[part], 0, 1) ** 2 for t in (before, now)]
-        found.ravel()[self.cell[part]] = self.heat[part] * (left[0] - left[1]) / (now - before)
-        return found
+        mean_flux.ravel()[self.cell[part]] = self.heat[part] * (left[0] - left[1]) / (now - before)
+        return mean_flux
 
 
 def of_fuel(fuel: NDArray) -> NDArray[np.float64]:
-    """J/m2 of fuel (kg/m2) that burns completely."""
+    """Heat per area, J/m2, of fuel (kg/m2) that burns completely."""
     return constants.HEAT_OF_COMBUSTION * np.nan_to_num(np.asarray(fuel, np.float64))
 
 
 def of_intensity(
     arrival: NDArray, intensity: NDArray, speed: NDArray | None, cell: tuple[float, float]
 ) -> NDArray[np.float64]:
-    """J/m2 that a front of an intensity (W/m) and speed (m/s) releases: I / R (Byram 1959).
+    """Heat per area, J/m2, from fireline intensity (W/m) and rate of spread (m/s): I / R (Byram 1959).
 
-    Without a speed it is that of the arrival times (s), on cells (width, height) in m. Where nothing says it
-    the median of the others, and nowhere more than of the heaviest fuel model.
+    Without `speed`, rate of spread comes from arrival times (s) on cells (width, height) in m. Cells without
+    a value take the median of the others. The heaviest fuel model is the upper limit.
     """
     with np.errstate(divide="ignore", invalid="ignore"):
         heat = np.asarray(intensity, np.float64) / (spread(arrival, cell) if speed is None else speed)
@@ -107,10 +107,10 @@ def of_intensity(
 
 
 def spread(arrival: NDArray, cell: tuple[float, float]) -> NDArray[np.float64]:
-    """Rate of spread (m/s) of a front through cells (width, height) in m: one over the slope of its arrival.
+    """Rate of spread (m/s) through cells (width, height) in m: inverse gradient of arrival time.
 
-    Along each axis the smaller of both one-sided differences: where another front came from beyond, or the
-    front stood before a cell, the larger is no slow front. Infinite where there is no neighbour to tell.
+    Along each axis the smaller one-sided difference counts. The larger one may come from another front or
+    from a stop before the cell, which is no slow front. Infinite for cells without neighbours.
     """
     padded = np.pad(np.asarray(arrival, np.float64), 1, constant_values=np.nan)
     here, inner = padded[1:-1, 1:-1], np.s_[1:-1]

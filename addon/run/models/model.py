@@ -1,4 +1,4 @@
-"""A fire model's output as a reader gives it: where, when, and a function for each field."""
+"""Fire model output as readers supply it: grids, times, and a function for each field."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Array = NDArray[np.float32]
 Still = Callable[[], NDArray]
 Moving = Callable[[int], NDArray]
 
-LONGEST = 400 * 366 * 86400.0  # s; a run is no longer than that
+LONGEST = 400 * 366 * 86400.0  # s, upper limit of a run's length
 
 ON_FUEL = (
     *("surface_fuel", "canopy_fuel", "fuel_arrival_time", "fuel_elevation", "fuel_category"),
@@ -29,24 +29,24 @@ OF_AIR = ("temperature", "wind_east", "wind_north")
 
 @dataclass(frozen=True)
 class Options:
-    """What the user says of files that do not say it themselves.
+    """User's information about files that lack it.
 
     Attributes
     ----------
     start
-        Moment that the files' times count from.
+        Time origin of the files.
     at
-        Latitude and longitude (degrees) of the middle of a grid in metres.
+        Latitude and longitude (degrees) of the centre of a grid in metres.
     projection
-        That of grids in metres, as PROJ knows it: ``EPSG:5070``.
+        Projection of grids in metres, as PROJ takes it: ``EPSG:5070``.
     interval
-        Seconds between the times of a heat flux that is made.
+        Interval of a computed heat flux, s.
     mapping
-        TOML file that says which variable is which field (readers/netcdf_cf.py).
+        TOML file that maps fields to variables (readers/netcdf_cf.py).
     name
-        What the run is called; "": as its folder, with its model.
+        Name of the run; "": the folder's name with the model's.
     zone
-        Time zone that it is told in, else that of the offset that `start` was written with; "": unsaid.
+        Time zone of the run, by default that of the offset of `start`; "": none.
     """
 
     start: datetime | None = None
@@ -62,7 +62,7 @@ class Options:
         cls, start: str, at: str, projection: str, interval: float, paths: list[Path],
         name: str = "", there: str = "",
     ) -> Options:  # fmt: skip
-        """From text as on the command line.
+        """Options from command line text.
 
         Raises
         ------
@@ -78,25 +78,25 @@ class Options:
 
 @dataclass
 class Model:
-    """One run of a fire model.
+    """A run of a fire model.
 
     Attributes
     ----------
     times
         (nt,) s since `start`.
     grid, fuel_grid
-        Cells of the heat flux, and of fuels, arrival times and burned fractions.
+        Grids of the heat flux, and of fuels, arrival times and burned fractions.
     air
-        Cells of wind, temperature and what is on levels; None: those of `grid`.
+        Grid of wind, temperature and 3D fields; None: `grid`.
     still
         ``elevation`` [ny, nx] on `grid`; ``surface_fuel``, ``canopy_fuel``, ``fuel_arrival_time``,
         ``fuel_elevation`` and ``fuel_category`` [fy, fx] on `fuel_grid`; in a run's units.
     moving
-        A field's [ny, nx] or [nz, ny, nx] at a time's index, on its grid; in a run's units.
+        Function of the time index for each field, [ny, nx] or [nz, ny, nx] on its grid; in a run's units.
     mean_s
-        Seconds before each time that heat fluxes are means of; None: the whole interval.
+        Averaging time of heat fluxes before each time, s; None: the whole interval.
     levels
-        Shape [nz] of each field on levels.
+        Shape [nz] of each 3D field.
     """
 
     source: str
@@ -118,14 +118,14 @@ class Model:
     close: Callable[[], None] = lambda: None
 
     def grid_of(self, field: str) -> Grid:
-        """The cells of a field."""
+        """Grid of a field."""
         if field in ON_FUEL:
             return self.fuel_grid
         return self.air if self.air is not None and (field in OF_AIR or field in self.levels) else self.grid
 
     @property
     def grids(self) -> dict[str, Grid]:
-        """Each grid of the run, by what the names of its axes begin with."""
+        """Each grid of the run, by prefix of its axis names."""
         return {"": self.grid, "fuel_": self.fuel_grid} | ({} if self.air is None else {"air_": self.air})
 
 
@@ -138,7 +138,7 @@ def _moment(text: str) -> datetime:
 
 
 def _zone(start: str) -> str:
-    """The zone that a moment is written in; UTC's says nothing of the place."""
+    """Time zone of a start's offset; UTC gives none."""
     offset = datetime.fromisoformat(start).utcoffset() if start else None
     return zone.of_offset(round(offset.total_seconds() / 60.0)) if offset else ""
 

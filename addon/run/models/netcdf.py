@@ -1,4 +1,4 @@
-"""netCDF files, read part by part; whatever is wrong with one is one line that names it."""
+"""netCDF input in parts; each error is one line that names the file."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from ...errors import Error, InputError, input_error
 from . import heartbeat, netcdf3_length, optional_packages
 
 _MAGIC = (b"\x89HDF\r\n\x1a\n", b"CDF\x01", b"CDF\x02", b"CDF\x05")
-_OPEN = 8  # files at once
-_LARGEST = 1 << 31  # bytes of one part
-_CACHE = 1 << 28  # bytes of unpacked chunks that are kept
+_OPEN = 8  # open files at most
+_LARGEST = 1 << 31  # bytes of one read at most
+_CACHE = 1 << 28  # bytes of cached unpacked chunks
 
 
 def is_netcdf(path: Path) -> bool:
-    """Whether it begins as netCDF does."""
+    """Whether a file begins with netCDF's signature."""
     try:
         with path.open("rb") as file:
             return file.read(8).startswith(_MAGIC)
@@ -29,7 +29,7 @@ def is_netcdf(path: Path) -> bool:
 
 
 def names(path: Path) -> tuple[set[str], set[str]]:
-    """Names of a file's dimensions and variables; none where it is no netCDF, or cannot be read."""
+    """Names of a file's dimensions and variables; empty if it is no netCDF file or is unreadable."""
     if not is_netcdf(path):
         return set(), set()
     data = File(path)
@@ -40,12 +40,12 @@ def names(path: Path) -> tuple[set[str], set[str]]:
 
 
 class File:
-    """An open file; numbers come as they stand there, but for scale, offset and missing values.
+    """An open netCDF file. Scale, offset and missing values are applied.
 
     Raises
     ------
     InputError
-        It cannot be read.
+        The file cannot be read.
     """
 
     def __init__(self, path: Path) -> None:
@@ -64,7 +64,7 @@ class File:
 
     @contextmanager
     def sense(self) -> Iterator[None]:
-        """What goes wrong within names the file; that it goes on is said."""
+        """Send a heartbeat, and convert library errors to errors that name the file."""
         heartbeat.sign()
         try:
             yield
@@ -76,31 +76,31 @@ class File:
             raise self.error(f"cannot be read as netCDF ({why}); it is damaged or incomplete") from error
 
     def error(self, reason: str) -> InputError:
-        """An error about this file."""
+        """Error about this file."""
         return input_error(self.path, 0, 0, reason)
 
     def __contains__(self, name: str) -> bool:
         return name in self.variables
 
     def shape(self, name: str) -> tuple[int, ...]:
-        """That of a variable.
+        """Shape of a variable.
 
         Raises
         ------
         InputError
-            There is none of that name.
+            There is no such variable.
         """
         if name not in self.variables:
             raise self.error(f"has no variable {name}, which is needed")
         return tuple(self.variables[name].shape)
 
     def read(self, name: str, *index: int | slice) -> NDArray:
-        """A part of a variable.
+        """Read a part of a variable.
 
         Raises
         ------
         InputError
-            There is none of that name, it has other dimensions, or it cannot be read.
+            There is no such variable, it has other dimensions, or it cannot be read.
         """
         shape = self.shape(name)
         with self.sense():
@@ -108,14 +108,14 @@ class File:
             if not np.issubdtype(variable.dtype, np.number):
                 raise self.error(f"{name} holds no numbers")
             size = variable.dtype.itemsize
-            for length, each in zip(shape, (*index, *[slice(None)] * (len(shape) - len(index))), strict=True):
-                size *= len(range(length)[each]) if isinstance(each, slice) else 1
+            for length, side in zip(shape, (*index, *[slice(None)] * (len(shape) - len(index))), strict=True):
+                size *= len(range(length)[side]) if isinstance(side, slice) else 1
             if size > _LARGEST:
                 raise self.error(f"{name} has {shape}, more at a time than any model writes")
             if name not in self._cached:
                 self._cached.add(name)
                 _keep_chunks(variable)
-            return _plain(variable, np.asarray(variable[index if index else Ellipsis]))
+            return _decoded(variable, np.asarray(variable[index if index else Ellipsis]))
 
     def attribute(self, name: str, variable: str = "", otherwise: Any = None) -> Any:
         """An attribute of the file or of one of its variables."""
@@ -124,12 +124,12 @@ class File:
             return owner.getncattr(name) if name in owner.ncattrs() else otherwise
 
     def close(self) -> None:
-        """Done with it."""
+        """Close the file."""
         self.data.close()
 
 
 def _keep_chunks(variable: Any) -> None:
-    """Where a chunk holds several times, keep all chunks of a time, so that each is unpacked once."""
+    """If a chunk holds several times, cache all chunks of a time, so that each is unpacked once."""
     chunks = variable.chunking()
     if not isinstance(chunks, list) or len(chunks) < 3 or chunks[0] < 2:
         return
@@ -142,7 +142,7 @@ def _keep_chunks(variable: Any) -> None:
 
 
 class Files:
-    """Several, of which few are open."""
+    """Pool of files, few of which are open."""
 
     def __init__(self) -> None:
         self.kept: dict[Path, File] = {}
@@ -155,18 +155,18 @@ class Files:
         return self.kept[path]
 
     def close(self) -> None:
-        """Close all."""
+        """Close all files."""
         while self.kept:
             self.kept.popitem()[1].close()
 
 
-def _plain(variable: Any, values: NDArray) -> NDArray:
-    """With what its attributes say of scale, offset and missing values (CF conventions 1.11, 2.5.1, 8.1)."""
+def _decoded(variable: Any, values: NDArray) -> NDArray:
+    """Apply scale, offset and missing values (CF conventions 1.11, 2.5.1, 8.1)."""
     known = set(variable.ncattrs())
     missing = [variable.getncattr(name) for name in ("_FillValue", "missing_value") if name in known]
     gone = None
-    for each in missing:
-        same = np.isin(values, np.atleast_1d(each))
+    for value in missing:
+        same = np.isin(values, np.atleast_1d(value))
         gone = same if gone is None else gone | same
     if known & {"scale_factor", "add_offset"}:
         scale = variable.getncattr("scale_factor") if "scale_factor" in known else 1.0

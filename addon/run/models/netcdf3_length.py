@@ -1,4 +1,4 @@
-"""How long a classic netCDF file has to be: the library reads what is cut off as zeros, without a word.
+"""Expected length of a classic netCDF file; the library reads a truncated one as zeros without an error.
 
 Format: "The NetCDF Classic Format Specification" in Unidata's NetCDF User's Guide (CDF-1, 2 and 5).
 """
@@ -10,12 +10,12 @@ import struct
 from pathlib import Path
 from typing import BinaryIO
 
-_BYTES = {1: 1, 2: 1, 3: 2, 4: 4, 5: 4, 6: 8, 7: 1, 8: 2, 9: 4, 10: 8, 11: 8}  # of a number, by its nc_type
-_UNSAID = {4: 0xFFFFFFFF, 8: 0xFFFFFFFFFFFFFFFF}  # records that were still being written
+_BYTES = {1: 1, 2: 1, 3: 2, 4: 4, 5: 4, 6: 8, 7: 1, 8: 2, 9: 4, 10: 8, 11: 8}  # bytes of a number, by nc_type
+_UNSAID = {4: 0xFFFFFFFF, 8: 0xFFFFFFFFFFFFFFFF}  # record counts of files still being written
 
 
 def needed(path: Path) -> int:
-    """Bytes up to the end of the last value that the header of a file speaks of.
+    """Bytes up to the end of the last value in a file's header.
 
     Raises
     ------
@@ -28,7 +28,7 @@ def needed(path: Path) -> int:
 
 
 class _Header:
-    """A header, read number by number: counts are of `count` bytes, places in the file of `place`."""
+    """Header parser; counts have `count` bytes, file offsets `place` bytes."""
 
     def __init__(self, file: BinaryIO, count: int, place: int) -> None:
         self.file, self.width, self.place = file, count, place
@@ -40,7 +40,7 @@ class _Header:
         return self.number(self.width)
 
     def list_of(self) -> range:
-        self.number(4)  # its tag
+        self.number(4)  # tag
         return range(self.count())
 
     def skip(self, size: int) -> None:
@@ -65,9 +65,9 @@ class _Header:
             shape = [sides[self.count()] for _ in range(self.count())]
             self.attributes()
             size = _BYTES[self.number(4)]
-            self.count()  # its size, which need not be right
+            self.count()  # vsize, which may be wrong
             begin = self.number(self.place)
-            if shape and shape[0] == 0:  # the side that grows
+            if shape and shape[0] == 0:  # record dimension
                 moving.append((begin, size * math.prod(shape[1:])))
             else:
                 ends.append(begin + size * math.prod(shape))

@@ -1,4 +1,4 @@
-"""Whether files are of one run: one model, one place, each time once."""
+"""Consistency checks: files belong to one run of one model, at one place, with unique times."""
 
 from __future__ import annotations
 
@@ -8,30 +8,30 @@ from ...errors import Error, input_error
 from . import netcdf
 
 _CORNERS = (("lats", "lons"), ("XLAT", "XLONG"), ("FXLAT", "FXLONG"))
-_APART = 1e-3  # degrees; more is another place, and 32-bit longitudes are far finer
+_APART = 1e-3  # degrees; a larger offset is another place, and 32-bit longitudes are far finer
 _ASK = "convert one run at a time"
 
 
-def of_models(found: dict[str, list[Path]]) -> None:
-    """Files by what they are called as a model's output.
+def of_models(by_format: dict[str, list[Path]]) -> None:
+    """Check that files, grouped by format name, are of one model.
 
     Raises
     ------
     InputError
         They are of several models.
     """
-    if len(found) > 1:
-        (name, (first, *_)), (other, (second, *_)), *_ = found.items()
+    if len(by_format) > 1:
+        (name, (first, *_)), (other, (second, *_)), *_ = by_format.items()
         raise input_error(second, 0, 0, f"is {other} where {first.name} is {name}; {_ASK}")
 
 
 def of_series(paths: list[Path]) -> None:
-    """Files of one model that has one for each time.
+    """Check a model's files that have one time each.
 
     Raises
     ------
     InputError
-        Two have the same name, or lie in different places.
+        Two files have the same name, or lie in different places.
     """
     names: dict[str, Path] = {}
     for path in paths:
@@ -53,12 +53,12 @@ def of_series(paths: list[Path]) -> None:
 
 
 def of_one(paths: list[Path]) -> Path:
-    """The file of a model that writes one.
+    """The single file of a model that writes one.
 
     Raises
     ------
     InputError
-        There are two.
+        There are several.
     """
     if len(paths) > 1:
         raise input_error(paths[1], 0, 0, f"is another run than {paths[0].name}; {_ASK}")
@@ -66,12 +66,12 @@ def of_one(paths: list[Path]) -> Path:
 
 
 def _corner(path: Path) -> tuple[float, float] | None:
-    """Latitude and longitude of the first cell, where the file has them cell by cell."""
+    """Latitude and longitude of the first cell, if the file has them per cell; else None."""
     if not netcdf.is_netcdf(path):
         return None
     try:
         file = netcdf.File(path)
-    except Error:  # which the reader says
+    except Error:  # which the reader reports
         return None
     try:
         for names in _CORNERS:

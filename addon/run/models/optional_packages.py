@@ -1,4 +1,4 @@
-"""Packages of the optional extra "models", which nothing but reading other models' files needs."""
+"""Optional packages (extra "models") for reading other models' files."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ ALL = "netCDF4 pyproj pyshp rasterio"
 
 
 def package(name: str) -> ModuleType:
-    """Import it.
+    """Import an optional package.
 
     Raises
     ------
     Error
-        It is not installed; says how to.
+        The package is missing; the message has the install command.
     """
     try:
         return importlib.import_module(name)

@@ -1,4 +1,4 @@
-"""Rasters in a projection: GeoTIFF and other files that GDAL knows, ASCII grids, and LCP landscapes."""
+"""Georeferenced rasters: GeoTIFF and other GDAL formats, ASCII grids, and LCP landscapes."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ _ROLES = {
 
 @dataclass(frozen=True, eq=False)
 class Raster:
-    """Values (ny, nx) float32, NaN where none, at x (nx,) and y (ny,) of a projection ("": unsaid).
+    """Values (ny, nx) float32, NaN without data, at x (nx,) and y (ny,) of a projection ("" if unknown).
 
-    `whole` is whether the file holds integers, which says units in LANDFIRE's files.
+    `whole` is whether the file holds integers, which indicate units in LANDFIRE's files.
     """
 
     path: Path
@@ -44,24 +44,24 @@ class Raster:
     whole: bool = False
 
     def grid(self, projection: str, at: tuple[float, float] | None) -> tuple[Grid, str]:
-        """Its cells, and what is assumed of their place."""
+        """Grid of the raster, and a note on assumptions about its georeference."""
         known = projection or self.projection
         if known:
             return Grid.projected(self.x, self.y, known), ""
         return local(self.x, self.y, at)
 
     def on(self, grid: Grid, projection: str) -> NDArray[np.float32]:
-        """Its nearest values on another grid's cells, NaN outside."""
+        """Resample to another grid by nearest neighbour, NaN outside."""
         x, y = _places(grid, self.projection or projection)
         column, row = _index(self.x, x), _index(self.y, y)
         inside = (column >= 0) & (column < len(self.x)) & (row >= 0) & (row < len(self.y))
-        found = np.full(grid.shape, np.nan, np.float32)
-        found[inside] = self.values[row[inside], column[inside]]
-        return found
+        sampled = np.full(grid.shape, np.nan, np.float32)
+        sampled[inside] = self.values[row[inside], column[inside]]
+        return sampled
 
 
 def local(x: NDArray, y: NDArray, at: tuple[float, float] | None) -> tuple[Grid, str]:
-    """A grid in metres, its middle at a place, and the sentence that says so."""
+    """Grid in metres with its centre at a point, and a note about it."""
     place = at or (0.0, 0.0)
     grid = Grid.metres(x - (x[0] + x[-1]) / 2, y - (y[0] + y[-1]) / 2, place)
     said = "as --at says" if at else "for want of one; --at LAT,LON places it, --projection EPSG:... too"
@@ -71,7 +71,7 @@ def local(x: NDArray, y: NDArray, at: tuple[float, float] | None) -> tuple[Grid,
     )
 
 
-@lru_cache(1)  # layers beside a model are looked up one after the other, mostly in one projection
+@lru_cache(1)  # companion layers are looked up in turn, mostly in one projection
 def _places(grid: Grid, projection: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Coordinates x and y (ny, nx) of a grid's cells in a projection."""
     latitude, longitude = grid.latitude, grid.longitude
@@ -86,7 +86,7 @@ def _index(axis: NDArray, at: NDArray) -> NDArray[np.int64]:
 
 
 def role(path: Path) -> str:
-    """What a raster's name says that it holds: a key of the table above, or nothing."""
+    """Role of a raster by its name: a key of the table above, or empty."""
     stem = re.sub(r"\d{5,}", " ", path.stem.lower())
     for name, words in _ROLES.items():
         if re.search(rf"(?<![a-z])(?:{words})(?![a-z])", stem):
@@ -95,7 +95,7 @@ def role(path: Path) -> str:
 
 
 def is_raster(path: Path) -> bool:
-    """Whether it is a GeoTIFF or an ASCII grid, by its first bytes; or BIL with its header."""
+    """Whether a file is a GeoTIFF or an ASCII grid, by its first bytes, or BIL with a header."""
     try:
         with path.open("rb") as file:
             head = file.read(64)
@@ -107,7 +107,7 @@ def is_raster(path: Path) -> bool:
 
 
 def is_lcp(path: Path) -> bool:
-    """Whether it has an LCP's first numbers and size (GDAL, lcpdataset.cpp)."""
+    """Whether a file has the header and size of an LCP (GDAL, lcpdataset.cpp)."""
     try:
         with path.open("rb") as file:
             head = np.frombuffer(file.read(12), "<i4")
@@ -118,12 +118,12 @@ def is_lcp(path: Path) -> bool:
 
 
 def read(path: Path) -> Raster:
-    """A file's first band.
+    """Read a raster's first band.
 
     Raises
     ------
     InputError
-        It cannot be read.
+        The file cannot be read.
     """
     heartbeat.sign()
     try:
@@ -148,19 +148,19 @@ def _read_gdal(path: Path) -> Raster:
             if b or d:
                 raise _error(path, "is turned in its projection; gdalwarp makes it upright")
             values = source.read(1)
-            found = values.astype(np.float32)
+            converted = values.astype(np.float32)
             if source.nodata is not None:
-                found[values == source.nodata] = np.nan
+                converted[values == source.nodata] = np.nan
             if source.scales[0] != 1 or source.offsets[0] != 0:
-                found = found * np.float32(source.scales[0]) + np.float32(source.offsets[0])
-            projection = source.crs.to_wkt() if source.crs else _beside(path)
+                converted = converted * np.float32(source.scales[0]) + np.float32(source.offsets[0])
+            projection = source.crs.to_wkt() if source.crs else _prj(path)
             whole = np.issubdtype(values.dtype, np.integer)
-    x, y = c + a * (np.arange(found.shape[1]) + 0.5), f + e * (np.arange(found.shape[0]) + 0.5)
-    return Raster(path, _without(found), x, y, projection, whole)
+    x, y = c + a * (np.arange(converted.shape[1]) + 0.5), f + e * (np.arange(converted.shape[0]) + 0.5)
+    return Raster(path, _mask_no_data(converted), x, y, projection, whole)
 
 
 def _read_ascii(path: Path) -> Raster:
-    """Esri's ASCII grid: six lines of a word and a number, then rows from the north."""
+    """Read Esri's ASCII grid: six header lines of a word and a number, then rows from the north."""
     head: dict[str, float] = {}
     with path.open(encoding="ascii", errors="replace") as file:
         while len(head) < 6:
@@ -187,28 +187,28 @@ def _read_ascii(path: Path) -> Raster:
     values[values == np.float32(head.get("nodata_value", -9999.0))] = np.nan
     corner = [head.get(f"{axis}llcorner", head.get(f"{axis}llcenter", 0.0) - side / 2) for axis in "xy"]
     x, y = corner[0] + side * (np.arange(nx) + 0.5), corner[1] + side * (ny - np.arange(ny) - 0.5)
-    return Raster(path, _without(values), x, y, _beside(path))
+    return Raster(path, _mask_no_data(values), x, y, _prj(path))
 
 
 def _wrong_word(path: Path, text: str, above: int) -> InputError:
-    """Where the first word is that is no number."""
+    """Error at the first word that is no number."""
     for number, line in enumerate(text.splitlines(), above + 1):
-        for found in re.finditer(r"\S+", line):
+        for word in re.finditer(r"\S+", line):
             try:
-                float(found[0])
+                float(word[0])
             except ValueError:
-                return input_error(path, number, found.start() + 1, f"{found[0][:40]!r} is no number")
+                return input_error(path, number, word.start() + 1, f"{word[0][:40]!r} is no number")
     return _error(path, "holds something that is no number")
 
 
-def _without(values: NDArray[np.float32]) -> NDArray[np.float32]:
-    """-9999 is no value by habit, whether the file says so or not."""
+def _mask_no_data(values: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Replace -9999 by NaN: it means no data by convention."""
     values[values == -9999.0] = np.nan
     return values
 
 
-def _beside(path: Path) -> str:
-    """The projection of the .prj beside it, if there is one."""
+def _prj(path: Path) -> str:
+    """Projection from a .prj file of the same name; empty without one."""
     try:
         return path.with_suffix(".prj").read_text(errors="replace").strip()
     except OSError:
@@ -216,10 +216,10 @@ def _beside(path: Path) -> str:
 
 
 def landscape(path: Path) -> dict[str, Raster]:
-    """Layers of an LCP: elevation (m), category, height and base_height (m), bulk_density (kg/m3).
+    """Read the layers of an LCP: elevation (m), category, height and base_height (m), bulk_density (kg/m3).
 
-    Header as GDAL reads it (lcpdataset.cpp): 7316 bytes, then 16-bit numbers pixel by pixel, rows from the
-    north; units: heights 1 m, 2 ft, 3 m x 10, 4 ft x 10; bulk density 1 kg/m3, 2 lb/ft3, 3 kg/m3 x 100, 4
+    Header as in GDAL (lcpdataset.cpp): 7316 bytes, then 16-bit numbers interleaved by pixel, rows from the
+    north. Units: heights 1 m, 2 ft, 3 m x 10, 4 ft x 10; bulk density 1 kg/m3, 2 lb/ft3, 3 kg/m3 x 100, 4
     lb/ft3 x 1000.
 
     Raises
@@ -249,11 +249,11 @@ def landscape(path: Path) -> dict[str, Raster]:
     if crown == 21:
         layers |= {"height": (5, heights.get(height, 0.1)), "base_height": (6, heights.get(base, 0.1))}
         layers |= {"bulk_density": (7, densities.get(density, 0.01))}
-    found = {}
+    by_role = {}
     for name, (band, scale) in layers.items():
         values = cells[:, :, band].astype(np.float32)
-        found[name] = Raster(path, _without(values) * np.float32(scale), x, y, _beside(path))
-    return found
+        by_role[name] = Raster(path, _mask_no_data(values) * np.float32(scale), x, y, _prj(path))
+    return by_role
 
 
 def _error(path: Path, reason: str) -> InputError:

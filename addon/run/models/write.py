@@ -1,7 +1,7 @@
-"""Writes a model as a run: piece by piece, to be gone on with after a stop, and a run only when it is whole.
+"""Run writer: writes a model as a run in steps, resumable after an interruption, and atomically.
 
-Everything goes to a hidden folder beside the run's, which has no run.toml until all else is on the disk and
-takes the run's name last. A journal says how many times have reached the disk; those are not made again.
+Data goes to a hidden folder next to the run's. It gets run.toml after all else is on the disk, and the run's
+name last. A journal records how many times have reached the disk; these are not computed again.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from ...progress import Progress, size
 from .model import LONGEST, Model
 
 JOURNAL = "journal.json"
-_OFTEN = 1 << 29  # bytes between two entries in the journal
+_OFTEN = 1 << 29  # bytes between journal entries
 _SECONDS = 15.0
 _FILL = {
     "heat_flux": 0.0,
@@ -33,24 +33,24 @@ _FILL = {
     "fuel_arrival_time": np.nan,
     "fuel_category": np.nan,
 }
-_LARGEST = 1 << 31  # bytes of one time of one field
+_LARGEST = 1 << 31  # bytes of one time of one field at most
 
 
 def part_of(out: Path) -> Path:
-    """The folder that becomes `out`."""
+    """Temporary folder that becomes `out`."""
     return out.with_name(f".{out.name}.part")
 
 
 def check(out: Path) -> None:
-    """Whether a run can be made there.
+    """Check that a run can be written to a place.
 
     Raises
     ------
     InputError
-        Something is there.
+        The place is taken.
     """
     if out.exists() and not (out.is_dir() and not any(out.iterdir())):
-        raise input_error(out, 0, 0, "is there already; remove it or give another place")
+        raise input_error(out, 0, 0, "already exists; remove it or choose another path")
 
 
 def write(model: Model, out: Path, inputs: str, progress: Progress) -> None:
@@ -59,17 +59,17 @@ def write(model: Model, out: Path, inputs: str, progress: Progress) -> None:
     Parameters
     ----------
     inputs
-        Text that is other when what the run is made from is: what was written from others is made again.
+        Fingerprint text of the inputs. Data written from other inputs is discarded.
 
     Raises
     ------
     InputError
-        The disk is full, or what the model says makes no run.
+        The disk is full, or the model makes no valid run.
     """
     times = model.times
     if not np.isfinite(times).all() or (np.diff(times) <= 0).any() or np.ptp(times) > LONGEST:
         raise input_error(
-            model.files[0], 0, 0, "its times make no sense: they do not ascend, or end centuries later"
+            model.files[0], 0, 0, "its times are invalid: they do not ascend, or span centuries"
         )
     part = part_of(out)
     try:
@@ -111,7 +111,7 @@ def write(model: Model, out: Path, inputs: str, progress: Progress) -> None:
 
 
 def _check(part: Path, model: Model) -> None:
-    """Open what is to become a run; what a damaged model has made is removed if it is none."""
+    """Open the new run as a check; remove the result of a damaged model if this fails."""
     try:
         run.open(part)
     except InputError as error:
@@ -123,7 +123,7 @@ def _check(part: Path, model: Model) -> None:
 def _moving(
     model: Model, shapes: dict[str, tuple[int, ...]], part: Path, inputs: str, done: int, progress: Progress
 ) -> None:
-    """All fields that move, time by time; one thread reads while another writes."""
+    """Write all time-dependent fields, time by time; one thread reads while another writes."""
     open_files: dict[str, BinaryIO] = {}
     pending: list[Future] = []
     count, what = len(model.times), "times"
@@ -163,7 +163,7 @@ def _put(model: Model, name: str, values: NDArray) -> NDArray[np.float32]:
 
 
 def _open(path: Path, shape: tuple[int, ...], done: int) -> BinaryIO:
-    """An .npy file of this shape, to be written on from the time `done`."""
+    """Open an .npy file of this shape for appending from the time `done`."""
     file = path.open("r+b" if done else "wb")
     np.lib.format.write_array_header_1_0(file, {"descr": "<f4", "fortran_order": False, "shape": shape})
     file.seek(file.tell() + done * 4 * int(np.prod(shape[1:])))
@@ -184,7 +184,7 @@ def _journal(part: Path, inputs: str, done: int, open_files: dict[str, BinaryIO]
 
 
 def _done(part: Path, inputs: str) -> int:
-    """Times that are there from the same inputs; what is there from others is removed."""
+    """Number of times already written from the same inputs; data from other inputs is removed."""
     try:
         journal = json.loads((part / JOURNAL).read_text(encoding="utf-8"))
         if journal["inputs"] == inputs:
@@ -210,7 +210,7 @@ def _room(out: Path, need: int) -> None:
 
 
 def description(model: Model, inputs: str) -> str:
-    """The text of run.toml; `inputs` as in `write`."""
+    """Text of run.toml; `inputs` as in `write`."""
     lines = [
         f"name = {_text(model.name)}",
         f"start = {model.start:%Y-%m-%dT%H:%M:%S.%f}Z",
@@ -237,7 +237,7 @@ def description(model: Model, inputs: str) -> str:
 
 
 def moved(model: Model) -> list[str]:
-    """How far values of each grid lie from their places; once for grids that are the same."""
+    """Position errors of resampled grids, each once."""
     said = {
         grid: f"{before.replace('_', ' ')}grid: {grid.placed.error}" for before, grid in model.grids.items()
     }
@@ -245,5 +245,5 @@ def moved(model: Model) -> list[str]:
 
 
 def _text(value: str) -> str:
-    """A TOML string: JSON's own of what can be printed."""
+    """TOML string, with JSON's escapes."""
     return json.dumps("".join(each for each in value if each.isprintable()), ensure_ascii=False)

@@ -1,7 +1,7 @@
-"""What was seen of a fire: dated perimeters, infrared flights' heat and satellites' detections.
+"""Observations of a fire: dated perimeters, infrared flights' heat and satellite detections.
 
-Each format is a module here, found by the end of a file's name. Their features come as `Feature`; dates are
-found by `dates`. Nothing but `shapefile` needs more than Python and NumPy.
+Each format is a module here, selected by file extension. Readers return `Feature`; `dates` parses dates. Only
+`shapefile` needs more than Python and NumPy.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ __all__ = [
 ]
 
 FOLDER = "observations"
-"""Folder in that of a run, whose files are read without being named."""
+"""Subfolder of a run's folder whose files are read by default."""
 
 _READERS = {
     ".geojson": "geojson",
@@ -49,14 +49,14 @@ _READERS = {
 
 @dataclass(frozen=True)
 class Perimeter:
-    """Where it had burned by a moment.
+    """Perimeter of the burned area at one time.
 
     Attributes
     ----------
     time
         UTC.
     polygons
-        Each its rings, the outer first and then its holes: (n, 2) degrees east and north on WGS84.
+        Polygons as lists of rings, the outer first, then holes: (n, 2) degrees east and north on WGS84.
     source
         Name of the file.
     """
@@ -68,7 +68,7 @@ class Perimeter:
 
 @dataclass(frozen=True)
 class Heat:
-    """What an infrared flight saw of one class.
+    """Heat of one class mapped by an infrared flight.
 
     Attributes
     ----------
@@ -77,7 +77,7 @@ class Heat:
     kind
         One of `infrared_detections.KINDS`.
     polygons
-        As those of a perimeter.
+        As in a perimeter.
     points
         (n, 2) degrees east and north of sources too small for a polygon.
     source
@@ -93,20 +93,20 @@ class Heat:
 
 @dataclass(frozen=True)
 class Detections:
-    """Pixels in which satellites saw fire.
+    """Satellite fire detections (active fire pixels).
 
     Attributes
     ----------
     time
-        (n,) UTC of their overpasses.
+        (n,) UTC of the overpasses.
     latitude, longitude
-        (n,) degrees, of the pixels' middles.
+        (n,) degrees, pixel centres.
     size
-        (n,) m, of a pixel's longer side.
+        (n,) m, longer side of a pixel.
     source
         Name of the file.
     left_out
-        How many more are in the file that are of low confidence or no vegetation fire.
+        Number of excluded detections in the file: of low confidence, or no vegetation fire.
     """
 
     time: tuple[datetime, ...]
@@ -119,7 +119,7 @@ class Detections:
 
 @dataclass(frozen=True)
 class Observations:
-    """All that was read, perimeters and heat by their time, and what had to be assumed."""
+    """All observations read, perimeters and heat in order of time, with the assumptions made."""
 
     perimeters: tuple[Perimeter, ...] = ()
     detections: tuple[Detections, ...] = ()
@@ -128,15 +128,15 @@ class Observations:
 
 
 def features(path: Path) -> list[Feature] | Detections:
-    """All that a file holds, whatever it is.
+    """All features of a file of any known format.
 
     Raises
     ------
     InputError
-        It is missing, of no known format, or damaged.
+        The file is missing, has an unknown format, or is damaged.
     """
     reader = _reader(path)
-    if path.exists() and not path.is_file():  # a pipe would be waited for
+    if path.exists() and not path.is_file():  # opening a pipe would block
         raise input_error(path, 0, 0, "is no file; name one that holds observations")
     try:
         return reader.read(path)
@@ -144,36 +144,36 @@ def features(path: Path) -> list[Feature] | Detections:
         raise
     except OSError as error:
         raise input_error(path, 0, 0, (error.strerror or str(error)).lower()) from None
-    except Exception as error:  # Python's, or a library's: what is in the file is not what it should be
+    except Exception as error:  # Python's errors or a library's, from unexpected content
         reason = " ".join(str(error).split()) or type(error).__name__
         raise input_error(path, 0, 0, f"is damaged or incomplete: {reason}") from error
 
 
 def beside(folder: str | Path) -> list[Path]:
-    """Files of observations in a run's folder."""
+    """Observation files in a run's folder."""
     return inside(Path(folder) / FOLDER)
 
 
 def inside(folder: Path) -> list[Path]:
-    """Files of observations in a folder; none where there is no such folder."""
-    found = sorted(folder.iterdir()) if folder.is_dir() else []
-    return [path for path in found if path.suffix.lower() in _READERS and path.name[0] != "."]
+    """Observation files in a folder; empty without such a folder."""
+    entries = sorted(folder.iterdir()) if folder.is_dir() else []
+    return [path for path in entries if path.suffix.lower() in _READERS and path.name[0] != "."]
 
 
 def is_one(path: str | Path) -> bool:
-    """Whether a file's name ends as those of observations do; one with a moment after ``@`` counts."""
+    """Whether a file name has the extension of an observation format; a time after ``@`` is allowed."""
     return dates.without(path)[0].suffix.lower() in _READERS
 
 
 def read(paths: Iterable[str | Path]) -> Observations:
-    """Read files; ``FILE@2014-09-18T04:00-07:00`` says when a file without dates was true.
+    """Read observation files; ``FILE@2014-09-18T04:00-07:00`` dates a file without dates.
 
-    Polygons of one moment in one file are one perimeter; those of heat within it are none.
+    Polygons of one time in one file form one perimeter; heat polygons within it are separate.
 
     Raises
     ------
     InputError
-        A file is missing, of no known format, damaged, without dates or without anything to compare with.
+        A file is missing, has an unknown format, is damaged, or has no dates or nothing to compare.
     """
     perimeters: list[Perimeter] = []
     warm: list[Heat] = []
@@ -181,11 +181,11 @@ def read(paths: Iterable[str | Path]) -> Observations:
     assumptions: dict[str, None] = {}
     for name in paths:
         path, moment = dates.without(name)
-        found = features(path)
-        if isinstance(found, Detections):
-            detections.append(found)
+        content = features(path)
+        if isinstance(content, Detections):
+            detections.append(content)
         else:
-            burned, hot = _sorted(path, found, moment, assumptions)
+            burned, hot = _sorted(path, content, moment, assumptions)
             perimeters += burned
             warm += hot
     perimeters.sort(key=lambda each: each.time)
@@ -204,7 +204,7 @@ def _reader(path: Path) -> ModuleType:
 def _sorted(
     path: Path, features: Sequence[Feature], moment: datetime | None, assumptions: dict[str, None]
 ) -> tuple[list[Perimeter], list[Heat]]:
-    """Perimeters, of polygons that are said to be such or of no class, and heat, by moment and class."""
+    """Sort features into perimeters (labelled as such or of no class) and heat, by time and class."""
     burned: dict[datetime, list[Polygon]] = {}
     hot: dict[tuple[datetime, str], list[Feature]] = {}
     left = 0
@@ -218,7 +218,7 @@ def _sorted(
         else:
             left += 1
     if not burned and not hot:
-        raise input_error(path, 0, 0, "holds no polygons, so nothing says where it had burned")
+        raise input_error(path, 0, 0, "has no polygons of burned area")
     if burned and hot:
         assumptions[f"{path.name}: heat within its perimeter is drawn and not compared"] = None
     if left:
@@ -228,8 +228,8 @@ def _sorted(
         Heat(
             when,
             kind,
-            tuple(polygon for each in found for polygon in each.polygons),
-            np.concatenate([each.points for each in found]),
+            tuple(polygon for item in found for polygon in item.polygons),
+            np.concatenate([item.points for item in found]),
             path.name,
         )
         for (when, kind), found in hot.items()

@@ -1,4 +1,4 @@
-"""When a perimeter was true: from what its file says, in the many ways that files do."""
+"""Dates of observations, from the properties or the name of a file, in various formats."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ NAMES = (
     *("polygondatetime", "pointdatetime", "polygondat", "pointdatet", "datecurren", "createdate"),
     *("date_time", "datetime", "timestamp", "time", "t", "when", "end", "date", "perimeterdate", "perdate"),
 )
-"""Properties that hold it, small letters, the surest first: ForeFire's, NIFC's, GeoMAC's, NWCG's (of which
-shapefiles keep ten letters), then plain ones."""
+"""Properties with the date, in lower case, the most reliable first: ForeFire's, NIFC's, GeoMAC's, NWCG's
+(shapefiles truncate names to ten letters), then plain ones."""
 
 _FORMS = (
     *("%m/%d/%Y %I:%M:%S %p", "%m/%d/%Y %I:%M %p", "%m/%d/%Y %H:%M:%S", "%m/%d/%Y %H:%M"),
@@ -36,12 +36,12 @@ _IN_NAME = re.compile(
 
 
 def without(name: str | Path) -> tuple[Path, datetime | None]:
-    """The file of ``FILE@MOMENT``, and the moment; a file whose own name has an ``@`` stays whole.
+    """Split ``FILE@TIME`` into file and time; a file whose own name has an ``@`` is not split.
 
     Raises
     ------
     UsageError
-        What follows the ``@`` is no moment.
+        The text after the ``@`` is no time.
     """
     head, mark, tail = str(name).rpartition("@")
     if not mark or Path(name).exists():
@@ -53,12 +53,12 @@ def without(name: str | Path) -> tuple[Path, datetime | None]:
 
 
 def parse(path: Path, feature: Feature, assumptions: dict[str, None]) -> datetime:
-    """UTC of a feature; what had to be assumed for it is added to `assumptions`.
+    """Date of a feature in UTC; assumptions are added to `assumptions`.
 
     Raises
     ------
     InputError
-        Nothing says when, or only the day: a fire can double within one.
+        There is no date, or only a day without hour: a fire can double within a day.
     """
     known = {key.lower(): value for key, value in feature.properties.items()}
     days = ""
@@ -79,13 +79,11 @@ def parse(path: Path, feature: Feature, assumptions: dict[str, None]) -> datetim
         return moment[0]
     what = f"{days} is no day with its hour" if days else f"none of {', '.join(NAMES[:6])} ... is there"
     where = f"{feature.place}: " if feature.place else ""
-    raise input_error(
-        path, 0, 0, f"{where}nothing says when this was ({what}); write {path.name}@2014-09-18T04:00-07:00"
-    )
+    raise input_error(path, 0, 0, f"{where}has no date ({what}); write {path.name}@2014-09-18T04:00-07:00")
 
 
 def _moment(value: object) -> tuple[datetime, bool] | None:
-    """UTC and whether the zone was said; None of what is no moment, or a day without its hour."""
+    """UTC, and whether a zone was given; None without a time, or for a day without an hour."""
     try:
         return _read(value)
     except OverflowError:  # before the year 1, or after 9999
@@ -106,9 +104,9 @@ def _read(value: object) -> tuple[datetime, bool] | None:
 
 
 def _epoch(number: float) -> tuple[datetime, bool] | None:
-    """ArcGIS writes milliseconds since 1970, others seconds; a number like 20140918 is no moment."""
+    """Parse an epoch time: ArcGIS writes milliseconds since 1970, others seconds; 20140918 is no time."""
     seconds = number / 1e3 if abs(number) >= 1e11 else number
-    if seconds < 3e8:  # before 1979: no satellite saw it, so this is a day or another number
+    if seconds < 3e8:  # before 1979, earlier than any satellite: a day or another number
         return None
     return datetime(1970, 1, 1, tzinfo=UTC) + timedelta(seconds=seconds), True
 
@@ -117,7 +115,7 @@ def _text(value: str) -> tuple[datetime, bool] | None:
     text = " ".join(value.split())
     if re.fullmatch(r"\d{13}|\d{10}", text):
         return _epoch(float(text))
-    if len(text) > 10 or re.fullmatch(r"\d{8}T\d{4}", text):  # what is shorter is a day alone
+    if len(text) > 10 or re.fullmatch(r"\d{8}T\d{4}", text):  # shorter text is a day without an hour
         try:
             return _read(
                 datetime.fromisoformat(text.replace("UTC", "Z").replace("/", "-").replace(" Z", "Z"))
@@ -144,12 +142,12 @@ def _offset(zone: str) -> timedelta:
 
 
 def _of_name(stem: str) -> tuple[datetime, bool] | None:
-    found = _IN_NAME.search(stem)
-    if not found:
+    match = _IN_NAME.search(stem)
+    if not match:
         return None
     try:
-        year, month, day, hour, minute, second = (int(part or 0) for part in found.groups()[:6])
+        year, month, day, hour, minute, second = (int(part or 0) for part in match.groups()[:6])
         moment = datetime(year, month, day, hour, minute, second, tzinfo=UTC)
-        return moment - (_offset(found[7]) if found[7] else timedelta(0)), found[7] is not None
+        return moment - (_offset(match[7]) if match[7] else timedelta(0)), match[7] is not None
     except (ValueError, OverflowError):
         return None

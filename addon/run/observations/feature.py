@@ -1,4 +1,4 @@
-"""A feature of a map: polygons, lines, points and what is written about them."""
+"""Map features: polygons, lines and points with their properties."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ Polygon = tuple[Ring, ...]
 
 @dataclass(frozen=True)
 class Feature:
-    """Polygons, each its rings, the outer first: (n, 2) degrees east and north; and what a file says of them.
+    """Map feature: properties, and polygons as lists of rings (n, 2), degrees east and north, outer first.
 
-    `points` (n, 2) are those of a feature of points, `lines` (n, 2) those of one of lines; `place` is where
-    in the file it stands, for messages.
+    `points` (n, 2) are those of a point feature, `lines` (n, 2) those of a line feature. `place` is its place
+    in the file, for messages.
     """
 
     polygons: tuple[Polygon, ...]
@@ -33,57 +33,57 @@ class Feature:
 
 
 def ring(path: Path, place: str, points: Iterable[Any]) -> Ring:
-    """A ring of at least three corners, closed or not, in degrees.
+    """Ring of at least three corners, closed or not, in degrees.
 
     Raises
     ------
     InputError
-        It is none, or its numbers are no degrees.
+        The ring is too short, or its numbers are no degrees.
     """
-    found = degrees(path, place, points)
-    if len(found) > 1 and (found[0] == found[-1]).all():
-        found = found[:-1]
-    if len(found) < 3:
+    corners = degrees(path, place, points)
+    if len(corners) > 1 and (corners[0] == corners[-1]).all():
+        corners = corners[:-1]
+    if len(corners) < 3:
         raise input_error(
-            path, 0, 0, f"{place} has a ring of {len(found)} corners; a polygon has three or more"
+            path, 0, 0, f"{place} has a ring of {len(corners)} corners; a polygon has three or more"
         )
-    return found
+    return corners
 
 
 def degrees(path: Path, place: str, points: Iterable[Any]) -> Ring:
-    """Places (n, 2) in degrees.
+    """Positions (n, 2) in degrees.
 
     Raises
     ------
     InputError
-        Their numbers are no degrees.
+        The numbers are no degrees.
     """
     try:
-        found = np.array([(float(point[0]), float(point[1])) for point in points]).reshape(-1, 2)
+        positions = np.array([(float(point[0]), float(point[1])) for point in points]).reshape(-1, 2)
     except (TypeError, ValueError, OverflowError, IndexError, KeyError):
         raise input_error(
             path, 0, 0, f"{place} has a ring that is no list of longitudes and latitudes"
         ) from None
-    if not len(found):
-        return found
-    if not np.isfinite(found).all():
+    if not len(positions):
+        return positions
+    if not np.isfinite(positions).all():
         raise input_error(path, 0, 0, f"{place} has a position that is no number")
-    wide, high = np.abs(found).max(axis=0)
+    wide, high = np.abs(positions).max(axis=0)
     if wide > 540.0 or high > 90.0:
         raise input_error(
             path,
             0,
             0,
-            f"{place} lies at {found[0, 0]:g}, {found[0, 1]:g}, which are no degrees east and north: "
+            f"{place} lies at {positions[0, 0]:g}, {positions[0, 1]:g}, which are no degrees east and north: "
             "save it in WGS84 (EPSG:4326)",
         )
-    return found
+    return positions
 
 
 def finite(value: object) -> float | None:
-    """A number that a file gives as one or as text, else None."""
+    """Parse a finite number from a number or text; else None."""
     try:
-        found = float(value)  # type: ignore[arg-type]
+        number = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError):
         return None
-    return found if math.isfinite(found) else None
+    return number if math.isfinite(number) else None

@@ -1,4 +1,4 @@
-"""Detections of fire by VIIRS and MODIS, as NASA's FIRMS writes them: CSV, times UTC, sizes km."""
+"""FIRMS: active fire detections of VIIRS and MODIS from NASA, as CSV with UTC times and sizes in km."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from . import Detections
 from .feature import finite
 
 _NEEDED = ("latitude", "longitude", "acq_date", "acq_time")
-_PIXEL = {"VIIRS": 375.0, "MODIS": 1000.0}  # m, at nadir, where a file has no scan and track
-_LOW = 30.0  # of 100: MODIS's class of low confidence lies below
+_PIXEL = {"VIIRS": 375.0, "MODIS": 1000.0}  # m, pixel size at nadir, for files without scan and track
+_LOW = 30.0  # of 100, below which MODIS's confidence class is low
 
 
 def read(path: Path) -> Detections:
-    """All detections but those of low confidence, and of what is no vegetation fire (`type` above 0).
+    """Read detections, without those of low confidence or of no vegetation fire (`type` above 0).
 
     Raises
     ------
     InputError
-        It is no table of FIRMS, or a row of it is none.
+        The file is no FIRMS table, or a row is invalid.
     """
     with path.open(encoding="utf-8-sig", errors="replace", newline="") as file:
         table = csv.DictReader(file)
@@ -32,14 +32,16 @@ def read(path: Path) -> Detections:
             raise input_error(path, 1, 0, f"no detections of FIRMS: there is no column {', '.join(lacking)}")
         table.fieldnames = names
         rows = [(table.line_num, row) for row in table]
-    kept = [(line, row) for line, row in rows if not _low(row)]
-    found = np.array([_numbers(path, line, row) for line, row in kept]).reshape(-1, 3)
-    times = tuple(_time(path, line, row) for line, row in kept)
-    return Detections(times, found[:, 0], found[:, 1], found[:, 2], path.name, len(rows) - len(kept))
+    confident = [(line, row) for line, row in rows if not _low(row)]
+    numbers = np.array([_numbers(path, line, row) for line, row in confident]).reshape(-1, 3)
+    times = tuple(_time(path, line, row) for line, row in confident)
+    return Detections(
+        times, numbers[:, 0], numbers[:, 1], numbers[:, 2], path.name, len(rows) - len(confident)
+    )
 
 
 def _low(row: dict[str, str]) -> bool:
-    """Confidence is l, n or h of VIIRS, 0 to 100 of MODIS."""
+    """Whether confidence is low: class l, n or h of VIIRS, 0 to 100 of MODIS."""
     said = str(row.get("confidence") or "").strip().lower()
     number = finite(said)
     low = said in ("l", "low") if number is None else number < _LOW
@@ -47,7 +49,7 @@ def _low(row: dict[str, str]) -> bool:
 
 
 def _numbers(path: Path, line: int, row: dict[str, str]) -> tuple[float, float, float]:
-    """Latitude, longitude, and the longer side of the pixel in m."""
+    """Latitude, longitude, and the pixel's longer side (m)."""
     latitude, longitude = finite(row["latitude"]), finite(row["longitude"])
     if latitude is None or longitude is None or abs(latitude) > 90.0 or abs(longitude) > 360.0:
         raise input_error(path, line, 0, "its latitude and longitude are no degrees")
@@ -59,7 +61,7 @@ def _numbers(path: Path, line: int, row: dict[str, str]) -> tuple[float, float, 
 
 
 def _time(path: Path, line: int, row: dict[str, str]) -> datetime:
-    """Day and hour UTC: 930 and "0930" are half past nine, and so is "09:30"."""
+    """Parse day and time in UTC; 930, "0930" and "09:30" are all half past nine."""
     day, hour = (row["acq_date"] or "").strip(), (row["acq_time"] or "").strip().replace(":", "").zfill(4)
     for form in ("%Y-%m-%d%H%M", "%Y/%m/%d%H%M", "%m/%d/%Y%H%M"):
         try:

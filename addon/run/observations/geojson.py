@@ -1,4 +1,4 @@
-"""GeoJSON (RFC 7946): WGS84 degrees, east before north."""
+"""GeoJSON (RFC 7946): WGS84 degrees, longitude before latitude."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from .feature import Feature, Polygon, degrees, ring
 
 
 def read(path: Path) -> list[Feature]:
-    """The features of a FeatureCollection, of one Feature, or of a bare geometry.
+    """Read the features of a FeatureCollection, a Feature or a bare geometry.
 
     Raises
     ------
     InputError
-        It is no GeoJSON, or of another reference system than degrees.
+        The file is no GeoJSON, or has another reference system than degrees.
     """
     try:
         whole = json.loads(path.read_text(encoding="utf-8-sig"))
@@ -34,12 +34,12 @@ def read(path: Path) -> list[Feature]:
             raise input_error(path, 0, 0, 'no GeoJSON: its "features" are no list')
     else:
         features = [whole if whole["type"] == "Feature" else {"geometry": whole}]
-    said = {name: each for name, each in whole.items() if isinstance(each, str | int | float)}
-    return [_feature(path, f"feature {i}", each, said) for i, each in enumerate(features, 1)]
+    said = {name: item for name, item in whole.items() if isinstance(item, str | int | float)}
+    return [_feature(path, f"feature {i}", item, said) for i, item in enumerate(features, 1)]
 
 
 def _check_degrees(path: Path, whole: dict[str, Any]) -> None:
-    """GeoJSON of before 2016 may name another reference system."""
+    """Check the reference system, which GeoJSON of before 2016 may name."""
     crs = whole.get("crs")
     properties = crs.get("properties") if isinstance(crs, dict) else None
     name = str(properties.get("name", "")) if isinstance(properties, dict) else ""
@@ -48,7 +48,7 @@ def _check_degrees(path: Path, whole: dict[str, Any]) -> None:
 
 
 def _feature(path: Path, place: str, feature: Any, said: dict[str, Any]) -> Feature:
-    """A feature; what is `said` of all of them, such as ForeFire's ``valid_at``, is said of it."""
+    """Parse a feature; collection properties `said`, such as ForeFire's ``valid_at``, apply to it."""
     if not isinstance(feature, dict):
         raise input_error(path, 0, 0, f"{place} is no table")
     properties = feature.get("properties")
@@ -57,7 +57,7 @@ def _feature(path: Path, place: str, feature: Any, said: dict[str, Any]) -> Feat
         said | (properties if isinstance(properties, dict) else {}),
         place,
         degrees(path, place, list(_points(feature.get("geometry")))),
-        tuple(degrees(path, place, each) for each in _lines(feature.get("geometry"))),
+        tuple(degrees(path, place, line) for line in _lines(feature.get("geometry"))),
     )
 
 
@@ -68,10 +68,10 @@ def _lines(geometry: Any) -> Iterator[list[Any]]:
     if kind == "LineString" and isinstance(parts, list):
         yield parts
     elif kind == "MultiLineString" and isinstance(parts, list):
-        yield from (each for each in parts if isinstance(each, list))
+        yield from (part for part in parts if isinstance(part, list))
     elif kind == "GeometryCollection" and isinstance(geometry.get("geometries"), list):
-        for each in geometry["geometries"]:
-            yield from _lines(each)
+        for inner in geometry["geometries"]:
+            yield from _lines(inner)
 
 
 def _points(geometry: Any) -> Iterator[Any]:
@@ -104,4 +104,4 @@ def _polygons(path: Path, place: str, geometry: Any) -> Iterator[Polygon]:
         if not isinstance(polygon, list):
             raise input_error(path, 0, 0, f"{place} has a polygon that is no list of rings")
         if polygon:
-            yield tuple(ring(path, place, each if isinstance(each, list) else [None]) for each in polygon)
+            yield tuple(ring(path, place, inner if isinstance(inner, list) else [None]) for inner in polygon)

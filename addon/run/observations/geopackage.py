@@ -1,4 +1,4 @@
-"""GeoPackage (OGC 12-128): SQLite tables of features, their polygons and points as well-known binary."""
+"""GeoPackage (OGC 12-128): SQLite feature tables with polygons and points as well-known binary (WKB)."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ from .feature import Feature, Polygon, Ring, degrees, ring
 from .projection import to_degrees
 
 Part = tuple[str, Polygon | Ring]
-_ENVELOPES = (0, 32, 48, 48, 64)  # bytes, by the flag's three bits
+_ENVELOPES = (0, 32, 48, 48, 64)  # bytes of the envelope by flag bits
 
 
 def read(path: Path) -> list[Feature]:
-    """The rows of all tables of features.
+    """Read the rows of all feature tables.
 
     Raises
     ------
     InputError
-        It is no GeoPackage, or needs pyproj, which is not there.
+        The file is no GeoPackage, or pyproj is needed and missing.
     """
-    path.stat()  # says what is missing; SQLite would make a file
+    path.stat()  # raises for a missing file; SQLite would create one
     try:
         with contextlib.closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
             base.row_factory = sqlite3.Row
-            return [each for table in base.execute(_TABLES).fetchall() for each in _rows(path, base, table)]
+            return [row for table in base.execute(_TABLES).fetchall() for row in _rows(path, base, table)]
     except sqlite3.Error as error:
         raise input_error(path, 0, 0, f"no GeoPackage: {error}") from None
 
@@ -51,8 +51,8 @@ def _rows(path: Path, base: sqlite3.Connection, table: sqlite3.Row) -> Iterator[
         blob = row[table["shape"]]
         parts: dict[str, list[Any]] = {"polygon": [], "line": [], "point": []}
         try:
-            for kind, found in [] if blob is None else _parts(blob):
-                parts[kind].append(found)
+            for kind, points in [] if blob is None else _parts(blob):
+                parts[kind].append(points)
         except _NoPolygonError:
             parts = {kind: [] for kind in parts}
         except (struct.error, ValueError, IndexError, TypeError):
@@ -63,12 +63,12 @@ def _rows(path: Path, base: sqlite3.Connection, table: sqlite3.Row) -> Iterator[
         )
         properties = {key: row[key] for key in row.keys() if key != table["shape"]}  # noqa: SIM118
         spots = degrees(path, place, to_degrees(path, system, np.array(parts["point"]).reshape(-1, 2)))
-        lines = tuple(degrees(path, place, to_degrees(path, system, each)) for each in parts["line"])
+        lines = tuple(degrees(path, place, to_degrees(path, system, part)) for part in parts["line"])
         yield Feature(outlines, {"layer": table["name"]} | properties, place, spots, lines)
 
 
 def _parts(blob: bytes) -> Iterator[Part]:
-    """Of a geometry: two bytes "GP", version, flags, srs, an envelope, well-known binary."""
+    """Parse a geometry blob: bytes "GP", version, flags, srs, envelope, WKB."""
     if blob[:2] != b"GP":
         raise ValueError("no geometry of a GeoPackage")
     flags = blob[3]
@@ -78,15 +78,15 @@ def _parts(blob: bytes) -> Iterator[Part]:
 
 
 class _Binary:
-    """Reads well-known binary (ISO 19125): byte order, type, then counts and float64 coordinates."""
+    """Parser of well-known binary (ISO 19125): byte order, type, then counts and float64 coordinates."""
 
     def __init__(self, blob: bytes, at: int) -> None:
         self.blob, self.at, self.order = blob, at, "<"
 
     def number(self) -> int:
-        (found,) = struct.unpack_from(f"{self.order}I", self.blob, self.at)
+        (value,) = struct.unpack_from(f"{self.order}I", self.blob, self.at)
         self.at += 4
-        return found
+        return value
 
     def geometry(self) -> Iterator[Part]:
         self.order = "<" if self.blob[self.at] else ">"
@@ -103,10 +103,10 @@ class _Binary:
         elif kind % 1000 == 2:
             yield "line", self.ring(2 + more)
         elif kind % 1000 == 1:
-            found = np.frombuffer(self.blob, f"{self.order}f8", 2 + more, self.at)
+            coordinates = np.frombuffer(self.blob, f"{self.order}f8", 2 + more, self.at)
             self.at += (2 + more) * 8
-            if np.isfinite(found[:2]).all():  # else an empty one
-                yield "point", found[:2].astype(np.float64)
+            if np.isfinite(coordinates[:2]).all():  # NaN marks an empty point
+                yield "point", coordinates[:2].astype(np.float64)
         elif kind % 1000 in (4, 5, 6, 7):
             for _ in range(self.number()):
                 yield from self.geometry()
@@ -115,9 +115,9 @@ class _Binary:
 
     def ring(self, size: int) -> Any:
         count = self.number()
-        found = np.frombuffer(self.blob, f"{self.order}f8", count * size, self.at).reshape(count, size)
+        coordinates = np.frombuffer(self.blob, f"{self.order}f8", count * size, self.at).reshape(count, size)
         self.at += count * size * 8
-        return found[:, :2].astype(np.float64)
+        return coordinates[:, :2].astype(np.float64)
 
 
 class _NoPolygonError(ValueError):

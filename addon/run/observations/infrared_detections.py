@@ -1,12 +1,12 @@
-"""What infrared flights map inside of a fire: the class of a feature, from what its file says.
+"""Infrared heat classes: class of a feature that an infrared flight mapped.
 
-Classes and their names are those of the layers "IR Polygon" and "IR Point" of the National Interagency Fire
-Center (services.arcgis.com/V6ZHFr6zdgNZuVG0, NIFC/FeatureServer/7 and /3, field FeatureCategory, after the
-NWCG's standard for incidents, GSTOP): "IR Heat Perimeter", "IR Intense Heat", "IR Scattered Heat", "IR
-Isolated Heat Source", "Possible IR Heat Source", "Area Covered by IR Flight" and "Cloud Cover". NIROPS of the
-USDA Forest Service gives KMZ and vector files of "areas of intense, scattered, and isolated heat"; in a KMZ
-the names of folders or placemarks say the class, in shapefiles FeatureCat (names have ten letters there) or
-the file's own name.
+Classes and names are those of the layers "IR Polygon" and "IR Point" of the National Interagency Fire Center
+(services.arcgis.com/V6ZHFr6zdgNZuVG0, NIFC/FeatureServer/7 and /3, field FeatureCategory, after the NWCG's
+standard for incidents, GSTOP): "IR Heat Perimeter", "IR Intense Heat", "IR Scattered Heat", "IR Isolated Heat
+Source", "Possible IR Heat Source", "Area Covered by IR Flight" and "Cloud Cover". NIROPS of the USDA Forest
+Service publishes KMZ and vector files of "areas of intense, scattered, and isolated heat". In a KMZ the class
+is in the names of folders or placemarks. In shapefiles it is in FeatureCat (names have ten letters there) or
+in the file's name.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from .feature import Feature
 
 PERIMETER, NOTHING = "perimeter", "nothing"
 KINDS = ("intense", "scattered", "isolated", "possible")
-"""Of heat, the strongest first."""
+"""Classes of heat, the most intense first."""
 
 _KEYS = ("featurecategory", "featurecat", "feature_ca", "heat_type", "heattype", "category", "class", "type")
 _PLACES = ("folder", "layer", "name")
@@ -34,10 +34,10 @@ _GATE = r"heat|(^|[^a-z])ir([^a-z]|$)|cloud[ _-]*cover|no[ _-]*data"
 
 
 def kind(path: Path, feature: Feature) -> str:
-    """One of `KINDS`, `PERIMETER`, `NOTHING` (no heat), or "" of what nothing says a class of.
+    """Class of a feature: one of `KINDS`, `PERIMETER`, `NOTHING` (no heat), or "" if unclassified.
 
-    Properties that hold a class are asked first, then the names of a feature, its layer and folders, in which
-    the word must stand with "heat" or "IR", and at last the file's.
+    Class properties come first. Then come the names of the feature, its layer and folders, in which the word
+    must occur with "heat" or "IR". The file's name comes last.
     """
     known = {name.lower(): str(value) for name, value in feature.properties.items() if value is not None}
     for name in _KEYS:

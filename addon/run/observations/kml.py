@@ -11,16 +11,16 @@ from xml.etree import ElementTree
 from ...errors import input_error
 from .feature import Feature, Polygon, Ring, degrees, ring
 
-_LARGEST = 1 << 28  # bytes of text: a perimeter is far smaller, a bomb far larger
+_LARGEST = 1 << 28  # bytes of text; a perimeter is far smaller, a zip bomb far larger
 
 
 def read(path: Path) -> list[Feature]:
-    """Every placemark.
+    """Read all placemarks.
 
     Raises
     ------
     InputError
-        It is no KML.
+        The file is no KML.
     """
     text = _unpacked(path) if path.suffix.lower() == ".kmz" else path.read_bytes()
     if b"<!ENTITY" in text:
@@ -49,7 +49,7 @@ def _unpacked(path: Path) -> bytes:
 
 
 def _placemarks(path: Path, folder: ElementTree.Element, inherited: dict[str, str]) -> Iterator[Feature]:
-    """Placemarks of a folder and those in it; a folder's time is that of what says none."""
+    """Placemarks of a folder and its subfolders; a folder's time applies to placemarks without one."""
     known = inherited | _time(folder)
     if _tag(folder) == "Folder" and (called := _name(folder)):
         known["folder"] = f"{called}/{known['folder']}" if "folder" in known else called
@@ -63,8 +63,8 @@ def _placemarks(path: Path, folder: ElementTree.Element, inherited: dict[str, st
             yield from _placemarks(path, child, known)
 
 
-def _name(thing: ElementTree.Element) -> str:
-    return next((each.text.strip() for each in thing if _tag(each) == "name" and each.text), "")
+def _name(element: ElementTree.Element) -> str:
+    return next((child.text.strip() for child in element if _tag(child) == "name" and child.text), "")
 
 
 def _points(path: Path, place: str, placemark: ElementTree.Element) -> Ring:
@@ -78,24 +78,26 @@ def _points(path: Path, place: str, placemark: ElementTree.Element) -> Ring:
     return degrees(path, place, [text.strip().split(",") for text in texts])
 
 
-def _time(thing: ElementTree.Element) -> dict[str, str]:
-    """`when` of a TimeStamp; of a TimeSpan the end, by which all of it had burned, else the begin."""
-    for child in thing:
+def _time(element: ElementTree.Element) -> dict[str, str]:
+    """`when` of a TimeStamp; the end of a TimeSpan, by which all of it has burned, else its begin."""
+    for child in element:
         if _tag(child) in ("TimeStamp", "TimeSpan"):
-            said = {_tag(each): (each.text or "").strip() for each in child}
-            found = said.get("when") or said.get("end") or said.get("begin")
-            return {"when": found} if found else {}
+            times = {_tag(each): (each.text or "").strip() for each in child}
+            text = times.get("when") or times.get("end") or times.get("begin")
+            return {"when": text} if text else {}
     return {}
 
 
 def _data(placemark: ElementTree.Element) -> dict[str, str]:
-    found = {}
-    for each in placemark.iter():
-        if _tag(each) == "SimpleData":
-            found[each.get("name", "")] = (each.text or "").strip()
-        elif _tag(each) == "Data":
-            found[each.get("name", "")] = "".join(v.text or "" for v in each if _tag(v) == "value").strip()
-    return found
+    properties = {}
+    for element in placemark.iter():
+        if _tag(element) == "SimpleData":
+            properties[element.get("name", "")] = (element.text or "").strip()
+        elif _tag(element) == "Data":
+            properties[element.get("name", "")] = "".join(
+                v.text or "" for v in element if _tag(v) == "value"
+            ).strip()
+    return properties
 
 
 def _polygons(path: Path, place: str, placemark: ElementTree.Element) -> Iterator[Polygon]:
@@ -117,5 +119,5 @@ def _ring(path: Path, place: str, text: str) -> Ring:
     return ring(path, place, (point.split(",") for point in text.split()))
 
 
-def _tag(thing: ElementTree.Element) -> str:
-    return thing.tag.rpartition("}")[2] if isinstance(thing.tag, str) else ""
+def _tag(element: ElementTree.Element) -> str:
+    return element.tag.rpartition("}")[2] if isinstance(element.tag, str) else ""

@@ -1,4 +1,4 @@
-"""Degrees of coordinates in other reference systems, by pyproj where it is there."""
+"""Reprojection of coordinates in other reference systems to degrees, by pyproj if installed."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from ...errors import input_error
 
-_DEGREES = ("EPSG:4326", "EPSG:4269", "OGC:CRS84")  # WGS84, and NAD83, which lies within 2 m of it
+_DEGREES = ("EPSG:4326", "EPSG:4269", "OGC:CRS84")  # WGS84, and NAD83, which is within 2 m of it
 
 
 def to_degrees(path: Path, system: str, points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points (n, 2) in a reference system as degrees (n, 2) east and north on WGS84.
+    """Reproject points (n, 2) to degrees (n, 2) east and north on WGS84.
 
     Parameters
     ----------
@@ -23,7 +23,7 @@ def to_degrees(path: Path, system: str, points: NDArray[np.float64]) -> NDArray[
     Raises
     ------
     InputError
-        pyproj is not there, or does not know the system.
+        pyproj is missing or does not know the system.
     """
     if system.upper() in _DEGREES or (system.startswith("GEOGCS") and _plain(system)):
         return points
@@ -44,7 +44,7 @@ def to_degrees(path: Path, system: str, points: NDArray[np.float64]) -> NDArray[
 
 
 def _plain(text: str) -> bool:
-    """Whether well-known text is of WGS84 or NAD83 degrees from Greenwich."""
+    """Whether well-known text means WGS84 or NAD83 degrees from Greenwich."""
     return any(name in text for name in ("WGS_1984", "WGS 84", "North_American_1983", "NAD83")) and (
         "0.0174532925" in text and '"Greenwich",0' in text.replace(" ", "")
     )

@@ -1,4 +1,4 @@
-"""Shapefiles: polygons or points in the .shp, dates in the .dbf, the reference system in the .prj."""
+"""Shapefiles: polygons or points (.shp), dates (.dbf) and reference system (.prj)."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from .projection import to_degrees
 
 
 def read(path: Path) -> list[Feature]:
-    """Every shape.
+    """Read all shapes.
 
     Raises
     ------
     InputError
-        It has no .prj, or pyshp is not there.
+        There is no .prj, or pyshp is missing.
     """
     path.stat()
     try:
@@ -30,16 +30,16 @@ def read(path: Path) -> list[Feature]:
     try:
         system = path.with_suffix(".prj").read_text(encoding="utf-8", errors="replace").strip()
     except OSError:
-        reason = "has no .prj beside it, so nothing says what its coordinates are"
+        reason = "has no .prj, which gives its reference system; add it"
         raise input_error(path, 0, 0, reason) from None
     with warnings.catch_warnings(), shapefile.Reader(str(path)) as reader:
-        warnings.simplefilter("ignore")  # of damage, which ends in an error
+        warnings.simplefilter("ignore")  # about damage, which raises an error later
         return [_feature(path, system, i, each) for i, each in enumerate(reader.iterShapeRecords(), 1)]
 
 
-def _feature(path: Path, system: str, number: int, found: Any) -> Feature:
+def _feature(path: Path, system: str, number: int, record: Any) -> Feature:
     place = f"shape {number}"
-    shape = found.shape.__geo_interface__ if found.shape.shapeTypeName.startswith("POLYGON") else None
+    shape = record.shape.__geo_interface__ if record.shape.shapeTypeName.startswith("POLYGON") else None
     polygons: list[Polygon] = []
     if shape and shape["coordinates"]:
         parts = [shape["coordinates"]] if shape["type"] == "Polygon" else shape["coordinates"]
@@ -47,7 +47,7 @@ def _feature(path: Path, system: str, number: int, found: Any) -> Feature:
             flat = [np.array([point[:2] for point in each], np.float64) for each in rings]
             polygons.append(tuple(ring(path, place, to_degrees(path, system, each)) for each in flat))
     points = np.empty((0, 2))
-    if found.shape.shapeTypeName.startswith(("POINT", "MULTIPOINT")):
-        single = np.array([point[:2] for point in found.shape.points], np.float64).reshape(-1, 2)
+    if record.shape.shapeTypeName.startswith(("POINT", "MULTIPOINT")):
+        single = np.array([point[:2] for point in record.shape.points], np.float64).reshape(-1, 2)
         points = degrees(path, place, to_degrees(path, system, single))
-    return Feature(tuple(polygons), found.record.as_dict() if found.record else {}, place, points)
+    return Feature(tuple(polygons), record.record.as_dict() if record.record else {}, place, points)

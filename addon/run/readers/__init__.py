@@ -1,9 +1,8 @@
-"""Kinds of runs: each module in this package is one, found by what is in its files.
+"""Readers of run formats: each module in this package reads one, recognised by file content.
 
-A module says ``NAME``, what people call the format, and ``sniff(path) -> bool``, whether a file or folder is
-one, from its content. That of Firetwin's own format has ``open(path) -> Run``; those of fire models have
-``read(paths, options) -> Model``, and are used in a process of their own (jobs/convert.py), as damaged files
-may end it.
+A module has ``NAME``, the format's name for people, and ``sniff(path) -> bool``, whether a file or folder has
+the format. Firetwin's own format has ``open(path) -> Run``. Those of fire models have ``read(paths, options)
+-> Model``. They run in a process of their own (jobs/convert.py), as damaged files may crash it.
 """
 
 from __future__ import annotations
@@ -20,28 +19,28 @@ from ...errors import Error, input_error
 from . import folder
 
 MODELS = ("wrf_sfire", "cfbm", "forefire", "elmfire", "farsite", "pyretechnics", "netcdf_cf")
-"""In the order in which they are asked."""
+"""Readers of fire models, in the order in which they are tried."""
 
 _MANY = 200_000  # files of a folder
 
 
 def open(path: str | Path) -> Run:
-    """The run at `path`.
+    """Open the run at `path`.
 
     Raises
     ------
     InputError
-        There is nothing, it is a fire model's own output, of no known format, or damaged.
+        The path is missing, is a fire model's own output, has an unknown format, or is damaged.
     """
     path = Path(path)
     if not folder.sniff(path) and foreign(path):
         reason = f"is a fire model's own output; make a run of it: firetwin convert {path} --out RUN"
         raise input_error(path, 0, 0, reason)
-    return run.open(path)  # which says what is wrong
+    return run.open(path)  # which reports errors
 
 
 def foreign(path: Path) -> bool:
-    """Whether this looks like a fire model's output, by first bytes alone: nothing of it is parsed."""
+    """Whether a path looks like a fire model's output, by its first bytes alone; nothing is parsed."""
     if not path.is_dir():
         return _one(path)
     return not folder.sniff(path) and any(_one(each) for each in path.iterdir() if each.is_file())
@@ -54,59 +53,59 @@ def _one(path: Path) -> bool:
 
 
 def gathered(paths: list[Path]) -> list[Path]:
-    """Files among these, and in these folders.
+    """Collect these files and those in these folders.
 
     Raises
     ------
     InputError
-        There is nothing, or far too much.
+        There are no files, or far too many.
     """
-    found: list[Path] = []
+    files: list[Path] = []
     for path in paths:
         if not path.exists():
             raise input_error(path, 0, 0, "there is no such file or folder; check the path")
-        inner = [path] if path.is_file() else [each for each in sorted(path.iterdir()) if each.is_file()]
-        found += [each for each in inner if each not in found]
-        if len(found) > _MANY:
+        inner = [path] if path.is_file() else [file for file in sorted(path.iterdir()) if file.is_file()]
+        files += [file for file in inner if file not in files]
+        if len(files) > _MANY:
             raise input_error(path, 0, 0, f"holds more than {_MANY:,} files; give those of one run")
-    if not found:
+    if not files:
         raise input_error(paths[0], 0, 0, "is a folder without files; give that of a model's output")
-    return found
+    return files
 
 
 def reader(paths: list[Path]) -> ModuleType:
-    """The reader that knows some of the files; that of any netCDF only where no other does.
+    """Select the reader that recognises some of the files; the generic netCDF reader comes last.
 
     Raises
     ------
     InputError
-        None does, or they are of several runs.
+        No reader recognises them, or they belong to several runs.
     """
     from ..models import one_run
 
     modules = [importlib.import_module(f".{name}", __name__) for name in MODELS]
     broken: list[Error] = []
-    found: dict[str, list[Path]] = {}
+    by_name: dict[str, list[Path]] = {}
     for path in paths:
         try:
             known = next((module.NAME for module in modules if module.sniff(path)), None)
-        except Error as error:  # another file may be whole
+        except Error as error:  # another file may be readable
             broken.append(error)
             continue
         if known:
-            found.setdefault(known, []).append(path)
-    if len(found) > 1:
-        found.pop(modules[-1].NAME, None)
-    if not found:
+            by_name.setdefault(known, []).append(path)
+    if len(by_name) > 1:
+        by_name.pop(modules[-1].NAME, None)
+    if not by_name:
         raise broken[0] if broken else input_error(paths[0], 0, 0, _why(paths))
-    one_run.of_models(found)
-    ((name, ours),) = found.items()
+    one_run.of_models(by_name)
+    ((name, ours),) = by_name.items()
     one_run.of_series(ours)
     return next(module for module in modules if name == module.NAME)
 
 
 def _why(paths: list[Path]) -> str:
-    """What is most likely wrong with files of which none is of a known model."""
+    """Most likely reason why no reader recognises the files."""
     from ..models import raster
 
     first = paths[0]
@@ -123,10 +122,10 @@ def _why(paths: list[Path]) -> str:
         return "has no array time_of_arrival, by which pyretechnics' output is known"
     if raster.is_raster(first):
         return (
-            "a raster does not say what it holds: call arrival times time_of_arrival_0000001_0003600.tif as "
+            "rasters are identified by name: name arrival times time_of_arrival_0000001_0003600.tif as "
             "ELMFIRE does (s), or FIRE_Arrival Time.asc as FlamMap does (min)"
         )
     return (
-        "is of no fire model that is known: WRF-SFIRE, CFBM, ForeFire, ELMFIRE, FARSITE, FlamMap, "
+        "is output of no known fire model: WRF-SFIRE, CFBM, ForeFire, ELMFIRE, FARSITE, FlamMap, "
         "pyretechnics or netCDF with latitude and longitude"
     )

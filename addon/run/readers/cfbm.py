@@ -1,7 +1,7 @@
-"""NCAR's Community Fire Behavior Model: ``fire_output_YYYY-MM-DD_HH:MM:SS.nc``, one time in each.
+"""Reader of NCAR's Community Fire Behavior Model: ``fire_output_YYYY-MM-DD_HH:MM:SS.nc``, one time per file.
 
-Layout measured on files of the model (commit e5cb182): no attributes; variables (ny, nx) float32, south row
-first; all rows and columns are real.
+The layout was measured on files of the model (commit e5cb182): no attributes; variables (ny, nx) float32,
+south row first; all rows and columns are valid.
 """
 
 from __future__ import annotations
@@ -25,16 +25,16 @@ _TIME = re.compile(r"(\d{4})-(\d\d)-(\d\d)[_T ](\d\d)\D?(\d\d)\D?(\d\d)")
 
 
 def sniff(path: Path) -> bool:
-    """Whether it has the model's variables and dimensions."""
+    """Whether a file has the model's variables and dimensions."""
     dimensions, variables = netcdf.names(path)
     return {"nx", "ny"} <= dimensions and {"lats", "lons", "fire_area", "fgrnhfx"} <= variables
 
 
 def read(paths: list[Path], options: Options) -> Model:
-    """The series as a model."""
-    found = {_moment(path): path for path in sorted(paths) if sniff(path)}
-    moments = sorted(found)
-    ours = [found[moment] for moment in moments]
+    """Read the series as a model."""
+    by_time = {_moment(path): path for path in sorted(paths) if sniff(path)}
+    moments = sorted(by_time)
+    ours = [by_time[moment] for moment in moments]
     times = np.array([(moment - moments[0]).total_seconds() for moment in moments])
     files = netcdf.Files()
     first = files(ours[0])
@@ -52,7 +52,7 @@ def read(paths: list[Path], options: Options) -> Model:
         values = get("fgrnhfx", i)
         return np.where(get("fire_area", i) > 0, values, np.float32(0)) if i == 0 else values
 
-    @lru_cache(1)  # both of its fields are asked for in turn
+    @lru_cache(1)  # both components are requested in turn
     def wind(i: int) -> tuple[NDArray, NDArray]:
         return grid.east_north(get("uf", i), get("vf", i))
 
@@ -60,7 +60,7 @@ def read(paths: list[Path], options: Options) -> Model:
         "heat_flux": flux,
         "burned_fraction": lambda i: np.clip(np.nan_to_num(get("fire_area", i)), 0, 1),
     }
-    told = [
+    notes = [
         "times are those of the files' names, as UTC",
         "heat flux is fgrnhfx (sensible), a mean over the model's last step, of unsaid length",
         "the model never sets the flux of the first file: it is 0 there where fire_area is",
@@ -69,19 +69,19 @@ def read(paths: list[Path], options: Options) -> Model:
     ]
     if "uf" in first and "vf" in first:
         moving |= {"wind_east": lambda i: wind(i)[0], "wind_north": lambda i: wind(i)[1]}
-        told.append("wind is uf, vf at the namelist's fire_wind_height, turned from the grid's axes")
+        notes.append("wind is uf, vf at the namelist's fire_wind_height, turned from the grid's axes")
     still = {}
     if "zsf" in first:
         still["elevation"] = lambda: get("zsf", 0)
     if "nfuel_cat" in first:
-        told.append("surface fuel is the model's own load (fgi) of Anderson's model nfuel_cat")
+        notes.append("surface fuel is the model's own load (fgi) of Anderson's model nfuel_cat")
         still["surface_fuel"] = lambda: fuels.loads(get("nfuel_cat", 0), "sfire")
         still["fuel_category"] = lambda: get("nfuel_cat", 0)
     if "lfn" in first:
-        told.append("time of arrival is interpolated in the level function between files")
+        notes.append("time of arrival is interpolated in the level function between files")
         still["fuel_arrival_time"] = lambda: arrival.from_levels(times, lambda i: get("lfn", i), shape)
     else:
-        told.append("time of arrival is interpolated in fire_area between files")
+        notes.append("time of arrival is interpolated in fire_area between files")
         still["fuel_arrival_time"] = lambda: arrival.from_share(times, lambda i: get("fire_area", i), shape)
     land.complete(still, grid, grid, options.projection)
     return Model(
@@ -96,15 +96,15 @@ def read(paths: list[Path], options: Options) -> Model:
         files=ours,
         projection="2-D latitude and longitude (Lambert, by geo_em.d01.nc)",
         mean_s=0.0,
-        assumptions=told + land.assumptions,
+        assumptions=notes + land.assumptions,
         close=files.close,
     )
 
 
 def _moment(path: Path) -> datetime:
-    found = _TIME.search(path.name)
+    match = _TIME.search(path.name)
     try:
-        year, month, day, hour, minute, second = map(int, found.groups() if found else ())
+        year, month, day, hour, minute, second = map(int, match.groups() if match else ())
         return datetime(year, month, day, hour, minute, second, tzinfo=UTC)
     except ValueError:
         reason = "its time is in its name only: call it fire_output_YYYY-MM-DD_HH:MM:SS.nc, as the model does"

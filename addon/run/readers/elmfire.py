@@ -1,4 +1,4 @@
-"""ELMFIRE: ``time_of_arrival_<case>_<seconds>.tif`` and its layers, its inputs (fbfm40, cbd, ...) beside.
+"""Reader of ELMFIRE: ``time_of_arrival_<case>_<seconds>.tif``, its layers, and its inputs (fbfm40, cbd, ...).
 
 Names and units: ELMFIRE, build/source/elmfire_io.f90 and docs/user_guide/io.rst.
 """
@@ -22,19 +22,19 @@ _UNITS = {"flin": ("intensity", 1e3), "vs": ("speed", _FOOT_A_MINUTE), "hpua": (
 
 
 def sniff(path: Path) -> bool:
-    """Whether it is a raster of the model's own name for arrival times: the numbers themselves do not say."""
+    """Whether a raster has the model's name for arrival times, as its values do not identify it."""
     return bool(_ARRIVAL.search(path.stem)) and raster.is_raster(path)
 
 
 def read(paths: list[Path], options: Options) -> Model:
-    """One case as a model: that of the latest arrival map."""
+    """Read one case as a model: the case with the latest arrival map."""
     ours = sorted((path for path in paths if sniff(path)), key=lambda path: _key(path)[::-1])
     first = ours[-1]
     case, seconds = _key(first)
     cases = sorted({_key(path)[0] for path in ours})
-    told = ["time_of_arrival is in s, flin in kW/m, vs in ft/min, hpua in kJ/m2"]
+    notes = ["time_of_arrival is in s, flin in kW/m, vs in ft/min, hpua in kJ/m2"]
     if len(cases) > 1:
-        told.append(f"of {len(cases)} cases it is {case}")
+        notes.append(f"of {len(cases)} cases it is {case}")
     arrival = raster.read(first)
     land = companion_rasters.find(paths, look=True)
     projection = options.projection or arrival.projection or land.projection
@@ -42,20 +42,20 @@ def read(paths: list[Path], options: Options) -> Model:
     maps = from_arrival_time.Maps(np.where(arrival.values < 0, np.nan, arrival.values))
     files = [first]
     for path in paths:
-        found = re.fullmatch(rf"(flin|vs|hpua)_{case}_{seconds:0>7}", path.stem)
-        if found and raster.is_raster(path):
+        match = re.fullmatch(rf"(flin|vs|hpua)_{case}_{seconds:0>7}", path.stem)
+        if match and raster.is_raster(path):
             layer = raster.read(path)
             if layer.values.shape != arrival.values.shape:
                 raise input_error(path, 0, 0, "has another grid than the arrival times")
-            name, unit = _UNITS[found[1]]
+            name, unit = _UNITS[match[1]]
             setattr(maps, name, np.where(layer.values > 0, layer.values * np.float64(unit), np.nan))
             files.append(path)
     made_of = Options(options.start, options.at, projection, options.interval)
     return from_arrival_time.model(
-        maps, grid, land, made_of, "ELMFIRE", files, [*told, said] if said else told
+        maps, grid, land, made_of, "ELMFIRE", files, [*notes, said] if said else notes
     )
 
 
 def _key(path: Path) -> tuple[str, str]:
-    found = _ARRIVAL.search(path.stem)
-    return (found[1], found[2]) if found else ("", "")
+    match = _ARRIVAL.search(path.stem)
+    return (match[1], match[2]) if match else ("", "")

@@ -1,6 +1,6 @@
-"""FARSITE and FlamMap: arrival time as ASCII grid or GeoTIFF, others and the landscape (LCP) beside.
+"""Reader of FARSITE and FlamMap: arrival times as ASCII grid or GeoTIFF, other layers and landscape (LCP).
 
-Such a raster does not say what it holds, so that is read off its name ("arrival"), as FlamMap gives it.
+Such a raster has no metadata on its content, so FlamMap's file name ("arrival") decides.
 """
 
 from __future__ import annotations
@@ -19,15 +19,15 @@ _UNITS = {"intensity": 1e3, "speed": 1 / 60.0, "per_area": 1e3}  # kW/m, m/min, 
 
 
 def sniff(path: Path) -> bool:
-    """Whether it is a raster that by its name holds arrival times."""
+    """Whether a raster holds arrival times, by its name."""
     return raster.is_raster(path) and raster.role(path) == "arrival"
 
 
 def read(paths: list[Path], options: Options) -> Model:
-    """The raster and what lies beside it as a model."""
+    """Read the raster and the files next to it as a model."""
     first = next(path for path in paths if sniff(path))
     arrival = raster.read(first)
-    told = [
+    notes = [
         "arrival times are in minutes, intensity in kW/m, rate of spread in m/min, heat per area in kJ/m2"
     ]
     values = arrival.values * np.float64(60.0)
@@ -46,5 +46,5 @@ def read(paths: list[Path], options: Options) -> Model:
     grid, said = arrival.grid(projection, options.at)
     made_of = Options(options.start, options.at, projection, options.interval)
     return from_arrival_time.model(
-        maps, grid, land, made_of, "FARSITE or FlamMap", files, [*told, said] if said else told
+        maps, grid, land, made_of, "FARSITE or FlamMap", files, [*notes, said] if said else notes
     )

@@ -1,4 +1,4 @@
-"""Firetwin's own format: a folder with run.toml and a file, or a folder of files, per field."""
+"""Reader of Firetwin's own format: a folder with run.toml, and a file or a folder of files per field."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ NAME = "a folder with run.toml"
 
 
 def sniff(path: Path) -> bool:
-    """Whether there is a run.toml in it."""
+    """Whether the folder contains a run.toml."""
     return (path / "run.toml").is_file()
 
 
 def open(path: Path) -> Run:
-    """Open it."""
+    """Open the run."""
     return run.open(path)

@@ -1,7 +1,7 @@
-"""ForeFire: the arrival times that ``save[]`` writes, with its landscape, fuels table and fronts beside.
+"""Reader of ForeFire: arrival times written by ``save[]``, with landscape, fuels table and fronts.
 
-Layout measured on ForeFire 2.5.0's own files: rows from the south, -9999 where unburned without saying so,
-no coordinates; cells of Lx/DIMX by Ly/DIMY, which need not be square.
+The layout was measured on ForeFire 2.5.0's own files: rows from the south, -9999 for unburned without a fill
+attribute, no coordinates; cells of Lx/DIMX by Ly/DIMY, which need not be square.
 """
 
 from __future__ import annotations
@@ -23,44 +23,45 @@ from ..models.raster import local
 NAME = "ForeFire output"
 
 _UNBURNED = -9999.0
-_FAR = 84.0  # degrees; fronts of domains with a UTM corner are written beyond it
+_FAR = 84.0  # degrees; the model writes fronts of domains with a UTM corner beyond it
 
 
 def sniff(path: Path) -> bool:
-    """Whether it has the model's map of arrival times."""
+    """Whether a file has the model's map of arrival times."""
     dimensions, variables = netcdf.names(path)
     return {"DIMX", "DIMY"} <= dimensions and {"arrival_time_of_front", "domain"} <= variables
 
 
 def read(paths: list[Path], options: Options) -> Model:
-    """The map as a model."""
+    """Read the map as a model."""
     path = one_run.of_one([path for path in paths if sniff(path)])
     file = netcdf.File(path)
     values = file.read("arrival_time_of_front").astype(np.float64)
-    arrival = np.where(values == _UNBURNED, np.nan, values)  # an ignition's cells are negative and burned
+    # ignition cells have negative times and are burned
+    arrival = np.where(values == _UNBURNED, np.nan, values)
     domain = {name: file.attribute(name, "domain") for name in forefire_land.DOMAIN}
     file.close()
     if not (domain["Lx"] and domain["Ly"] and domain["Lx"] > 0 and domain["Ly"] > 0):
         raise input_error(path, 0, 0, "its domain lacks Lx and Ly, the size of the map")
-    told = [
+    notes = [
         "a cell that the front touched counts as burned, so areas are 2 to 10 % above the fronts' polygons"
     ]
-    fronts = _fronts(paths, told)
-    options = _begun(options, domain, arrival, fronts, told)
+    fronts = _fronts(paths, notes)
+    options = _begun(options, domain, arrival, fronts, notes)
     ny, nx = arrival.shape
     x = domain["SWx"] + domain["Lx"] / nx * (np.arange(nx) + 0.5)
     y = domain["SWy"] + domain["Ly"] / ny * (np.arange(ny) + 0.5)
     land = companion_rasters.find(paths)
     scape = forefire_land.find(paths, path)
-    grid = _grid(x, y, domain, arrival, fronts, options, scape, told)
+    grid = _grid(x, y, domain, arrival, fronts, options, scape, notes)
     maps = from_arrival_time.Maps(arrival)
     if scape:
-        forefire_land.take(scape, paths, x, y, maps, told)
-    return from_arrival_time.model(maps, grid, land, options, "ForeFire", [path], told)
+        forefire_land.take(scape, paths, x, y, maps, notes)
+    return from_arrival_time.model(maps, grid, land, options, "ForeFire", [path], notes)
 
 
-def _begun(options: Options, domain: dict, arrival: NDArray, fronts: list, told: list[str]) -> Options:
-    """Times count from midnight (UTC) of the reference day, unless dated fronts say otherwise."""
+def _begun(options: Options, domain: dict, arrival: NDArray, fronts: list, notes: list[str]) -> Options:
+    """Set the start: times count from midnight (UTC) of the reference day, unless dated fronts differ."""
     if options.start is not None or not domain["refYear"] or not domain["refDay"]:
         return options
     day = datetime(int(domain["refYear"]), 1, 1, tzinfo=UTC) + timedelta(days=int(domain["refDay"]) - 1)
@@ -70,17 +71,17 @@ def _begun(options: Options, domain: dict, arrival: NDArray, fronts: list, told:
         dated = []
     if dated and (max(dated) - day).total_seconds() > last + max(600.0, 0.5 * last):
         start = max(dated) - timedelta(seconds=float(np.ceil(last)))
-        told.append(
+        notes.append(
             f"the last front is of {max(dated):%Y-%m-%d %H:%M:%S} UTC: times count from {start:%H:%M:%S}"
         )
         return from_arrival_time.with_start(options, start)
-    told.append("times count from midnight (UTC) of refDay in refYear; the time of day is not said otherwise")
+    notes.append("times count from midnight (UTC) of refDay in refYear; the files hold no other time of day")
     return from_arrival_time.with_start(options, day)
 
 
-def _fronts(paths: list[Path], told: list[str]) -> list[tuple[datetime | None, float, float, float, float]]:
-    """Date and west, south, east, north of each GeoJSON or KML front."""
-    found = []
+def _fronts(paths: list[Path], notes: list[str]) -> list[tuple[datetime | None, float, float, float, float]]:
+    """Date and bounding box (west, south, east, north) of each GeoJSON or KML front."""
+    fronts = []
     for path in paths:
         if path.suffix.lower() not in (".geojson", ".json", ".kml"):
             continue
@@ -91,8 +92,9 @@ def _fronts(paths: list[Path], told: list[str]) -> list[tuple[datetime | None, f
         else:
             try:
                 data = json.loads(text)
-                if "fronts" in data:  # numbers as text with units, places in metres: nothing else lacks them
-                    told.append(f"{path.name} is the model's own JSON, which has no degrees: not used")
+                # numbers as text with units, positions in metres: only this format lacks degrees
+                if "fronts" in data:
+                    notes.append(f"{path.name} is the model's own JSON, which has no degrees: not used")
                     continue
                 if "valid_at" in data:
                     moment = datetime.fromisoformat(data["valid_at"]).astimezone(UTC)
@@ -103,43 +105,43 @@ def _fronts(paths: list[Path], told: list[str]) -> list[tuple[datetime | None, f
             continue
         x, y = np.array(places, np.float64)[:, :2].T
         if np.abs(y).max() > _FAR:
-            told.append(
+            notes.append(
                 f"{path.name} lies beyond 84 degrees, as fronts of a UTM corner are written: not used"
             )
             continue
-        found.append((moment, x.min(), y.min(), x.max(), y.max()))
-    return found
+        fronts.append((moment, x.min(), y.min(), x.max(), y.max()))
+    return fronts
 
 
 def _corners(coordinates: object):  # noqa: ANN202
     if isinstance(coordinates, list) and coordinates and isinstance(coordinates[0], int | float):
         yield coordinates[:2]
     elif isinstance(coordinates, list):
-        for each in coordinates:
-            yield from _corners(each)
+        for coordinate in coordinates:
+            yield from _corners(coordinate)
 
 
 def _grid(
     x: NDArray, y: NDArray, domain: dict, arrival: NDArray, fronts: list, options: Options,
-    scape: Path | None, told: list[str],
+    scape: Path | None, notes: list[str],
 ) -> Grid:  # fmt: skip
-    """By --projection or --at, the box that a file says, the largest front, else nowhere."""
+    """Georeference the map: by --projection or --at, by the file's box, or by the largest front."""
     if options.projection:
         return Grid.projected(x, y, options.projection)
     boxed = domain if domain["BBoxWSEN"] else forefire_land.domain(scape)
     if not options.at and boxed.get("BBoxWSEN"):
         west, south, east, north = _box(str(boxed["BBoxWSEN"]), scape)
-        told.append("degrees are linear in metres within BBoxWSEN, as in the model's own fronts")
+        notes.append("degrees are linear in metres within BBoxWSEN, as in the model's own fronts")
         across, up = (x - boxed["SWx"]) / boxed["Lx"], (y - boxed["SWy"]) / boxed["Ly"]
         return Grid(south + (north - south) * up, west + (east - west) * across)
     if not options.at and fronts and np.isfinite(arrival).any():
         _, west, south, east, north = max(fronts, key=lambda each: (each[3] - each[1]) * (each[4] - each[2]))
         up, across = (np.flatnonzero(np.isfinite(arrival).any(axis=axis)) for axis in (1, 0))
-        told.append("the map is placed so that the middles of what burned and of the largest front agree")
+        notes.append("the map is placed so that the middles of what burned and of the largest front agree")
         middle = (x[across[0]] + x[across[-1]]) / 2, (y[up[0]] + y[up[-1]]) / 2
         return Grid.metres(x - middle[0], y - middle[1], ((south + north) / 2, (west + east) / 2))
     grid, said = local(x, y, options.at)
-    told.append(said)
+    notes.append(said)
     return grid
 
 

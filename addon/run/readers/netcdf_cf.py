@@ -1,8 +1,8 @@
-"""Any netCDF file that follows the CF conventions, by a mapping in TOML of fields to its variables.
+"""Reader of netCDF files with CF conventions, by a mapping in TOML from fields to variables.
 
 ``[fields]`` has a line per field: ``heat_flux = "hfx"``, or a table with `variable`, `scale` and `offset`
-(the field is scale x variable + offset). Variables of a field's own name need no line. Coordinates are
-found by their units and standard names; ``[axes]`` names them where they say neither.
+(the field is scale x variable + offset). Variables with a field's own name need no line. Coordinates are
+identified by units and standard names; ``[axes]`` names them if these are missing.
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ _STILL = ("elevation", "surface_fuel", "canopy_fuel", "fuel_arrival_time", "fuel
 
 
 def sniff(path: Path) -> bool:
-    """Whether it is a netCDF file of whatever kind: the last reader to be asked."""
+    """Whether a file is any netCDF file; this reader is tried last."""
     return netcdf.is_netcdf(path)
 
 
 def read(paths: list[Path], options: Options) -> Model:
-    """The files' times as a model."""
+    """Read the files' times as a model."""
     fields, axes = _mapping(options.mapping)
     files = netcdf.Files()
     ours = sorted(path for path in paths if sniff(path))
@@ -48,7 +48,7 @@ def read(paths: list[Path], options: Options) -> Model:
         raise first.error(reason)
     grid, projection = _grid(first, axes, options, next(iter(fields.values()))["variable"])
     land = companion_rasters.find(paths)
-    told: list[str] = []
+    notes: list[str] = []
 
     def get(name: str, path: Path, *index: int) -> NDArray:
         entry = fields[name]
@@ -69,7 +69,7 @@ def read(paths: list[Path], options: Options) -> Model:
         for name in ("surface_fuel", "canopy_fuel", "elevation", "fuel_category"):
             if name in fields:
                 setattr(maps, name.removesuffix("_fuel").removeprefix("fuel_"), still(name))
-        return from_arrival_time.model(maps, grid, land, options, "netCDF", ours, told)
+        return from_arrival_time.model(maps, grid, land, options, "netCDF", ours, notes)
 
     frames = sorted(
         ((moment, path, i) for path in ours for i, moment in enumerate(_moments(files(path), axes, options))),
@@ -77,7 +77,7 @@ def read(paths: list[Path], options: Options) -> Model:
     )
     frames = [each for k, each in enumerate(frames) if k == 0 or each[0] > frames[k - 1][0]]
     start = frames[0][0]
-    first = files(ours[0])  # which may have been closed for the others' times
+    first = files(ours[0])  # it may have been closed to limit open files
     model = Model(
         source="netCDF (CF)",
         name=str(first.attribute("title", otherwise=ours[0].stem)),
@@ -93,9 +93,9 @@ def read(paths: list[Path], options: Options) -> Model:
     )
     model.levels = {name: first.shape(fields[name]["variable"])[1] for name in _LEVELS if name in fields}
     if "fuel_arrival_time" not in fields:
-        told.append("arrival times are not said; the fire's line is found in the heat fluxes")
+        notes.append("no arrival times: the front is derived from heat fluxes")
     land.complete(model.still, grid, grid, options.projection)
-    model.assumptions = told + land.assumptions
+    model.assumptions = notes + land.assumptions
     return model
 
 
@@ -161,7 +161,8 @@ def _coordinate(file: netcdf.File, standard_name: str, units: str) -> str:
 
 def _moments(file: netcdf.File, axes: dict[str, str], options: Options) -> list[datetime]:
     name = axes.get("time") or next(
-        (each for each in file.variables if " since " in str(file.attribute("units", each, ""))), ""
+        (variable for variable in file.variables if " since " in str(file.attribute("units", variable, ""))),
+        "",
     )
     if not name:
         raise file.error(
@@ -174,7 +175,7 @@ def _moments(file: netcdf.File, axes: dict[str, str], options: Options) -> list[
     )
     if " since " not in units:
         begin = from_arrival_time.begun(options, file.path)
-        return [begin + timedelta(seconds=float(each)) for each in values]
+        return [begin + timedelta(seconds=float(value)) for value in values]
     with file.sense():
         dates = optional_packages.package("netCDF4").num2date(
             values, units, calendar, only_use_cftime_datetimes=False

@@ -1,9 +1,9 @@
-"""pyretechnics: its matrices as ``numpy.savez`` keeps them.
+"""Reader of pyretechnics: its matrices as saved by ``numpy.savez``.
 
 ``numpy.savez(path, **result["spread_state"].get_full_matrices(), cell_width=30, cell_height=30)``: rows from
 the south, minutes, kW/m and m/min (pyretechnics, eulerian_level_set.py). `latitude` and `longitude` (degrees)
-of rows and columns place it, or `x` and `y` with ``--projection``. The wind is that of arrays called as its
-cubes are: `wind_speed_10m` (km/h) and `upwind_direction` (degrees), each one number, one for each band, or
+of rows and columns georeference it, or `x` and `y` with ``--projection``. Wind arrays have the names of its
+cubes: `wind_speed_10m` (km/h) and `upwind_direction` (degrees), each one number, one for each band, or
 (bands, rows, columns), with `band_duration` (minutes).
 """
 
@@ -28,7 +28,7 @@ _LARGEST = 1 << 32  # bytes of one matrix
 
 
 def sniff(path: Path) -> bool:
-    """Whether it is an archive of arrays, the time of arrival among them."""
+    """Whether a file is an array archive with a time of arrival."""
     try:
         with path.open("rb") as file:
             if file.read(4) != b"PK\x03\x04":
@@ -40,67 +40,69 @@ def sniff(path: Path) -> bool:
 
 
 def read(paths: list[Path], options: Options) -> Model:
-    """The arrays as a model."""
+    """Read the arrays as a model."""
     path = one_run.of_one([path for path in paths if sniff(path)])
-    found = _arrays(path)
-    minutes = found["time_of_arrival"]
+    arrays = _arrays(path)
+    minutes = arrays["time_of_arrival"]
     if minutes.ndim != 2:
         raise input_error(path, 0, 0, f"time_of_arrival has shape {minutes.shape}, not rows and columns")
-    told = ["times are in minutes, fireline_intensity in kW/m, spread_rate in m/min; rows are from the south"]
+    notes = [
+        "times are in minutes, fireline_intensity in kW/m, spread_rate in m/min; rows are from the south"
+    ]
     burned = np.isfinite(minutes) & (minutes >= 0)
     maps = from_arrival_time.Maps(np.where(burned, minutes * 60.0, np.nan))
     for name, field, unit in (("fireline_intensity", "intensity", 1e3), ("spread_rate", "speed", 1 / 60.0)):
-        if name in found:
-            setattr(maps, field, np.where(burned & (found[name] > 0), found[name] * unit, np.nan))
+        if name in arrays:
+            setattr(maps, field, np.where(burned & (arrays[name] > 0), arrays[name] * unit, np.nan))
     for name in ("surface_fuel", "canopy_fuel", "elevation", "fuel_category"):
-        if name in found:
-            setattr(maps, name.removesuffix("_fuel").removeprefix("fuel_"), found[name])
-    maps.wind = _wind(path, found, told)
-    grid = _grid(path, found, options, told)
+        if name in arrays:
+            setattr(maps, name.removesuffix("_fuel").removeprefix("fuel_"), arrays[name])
+    maps.wind = _wind(path, arrays, notes)
+    grid = _grid(path, arrays, options, notes)
     return from_arrival_time.model(
-        maps, grid, companion_rasters.find(paths, look=True), options, "pyretechnics", [path], told
+        maps, grid, companion_rasters.find(paths, look=True), options, "pyretechnics", [path], notes
     )
 
 
-def _wind(path: Path, found: dict[str, NDArray], told: list[str]) -> Wind | None:
-    """Wind of the cubes, whose values stand for a band each; rows are from the south, so that y is north."""
-    if not {"wind_speed_10m", "upwind_direction"} <= set(found):
-        told.append("no wind is said (wind_speed_10m and upwind_direction): the air is calm")
+def _wind(path: Path, arrays: dict[str, NDArray], notes: list[str]) -> Wind | None:
+    """Wind from the cubes, constant within each band; rows are from the south, so y is north."""
+    if not {"wind_speed_10m", "upwind_direction"} <= set(arrays):
+        notes.append("no wind data (wind_speed_10m and upwind_direction): the air is calm")
         return None
-    speed, source = (_bands(path, found, name) for name in ("wind_speed_10m", "upwind_direction"))
+    speed, source = (_bands(path, arrays, name) for name in ("wind_speed_10m", "upwind_direction"))
     try:
         speed, source = np.broadcast_arrays(speed / 3.6, np.radians(source))
-        np.broadcast_to(speed[:1], (1, *found["time_of_arrival"].shape))
+        np.broadcast_to(speed[:1], (1, *arrays["time_of_arrival"].shape))
     except ValueError:
         reason = (
             f"has wind_speed_10m {speed.shape}, upwind_direction {source.shape}: not of its bands and cells"
         )
         raise input_error(path, 0, 0, reason) from None
-    lasts = float(found["band_duration"].ravel()[0]) * 60.0 if "band_duration" in found else 0.0
+    lasts = float(arrays["band_duration"].ravel()[0]) * 60.0 if "band_duration" in arrays else 0.0
     if len(speed) > 1 and not 0.0 < lasts < np.inf:
         raise input_error(path, 0, 0, "has wind for several bands; add band_duration (minutes)")
-    told.append("wind is wind_speed_10m (km/h) from upwind_direction, degrees clockwise from north")
+    notes.append("wind is wind_speed_10m (km/h) from upwind_direction, degrees clockwise from north")
     return given_wind.steps(-speed * np.sin(source), -speed * np.cos(source), 0.0, lasts)
 
 
-def _bands(path: Path, found: dict[str, NDArray], name: str) -> NDArray:
-    """As (bands, rows, columns), some of them 1."""
-    values = found[name]
+def _bands(path: Path, arrays: dict[str, NDArray], name: str) -> NDArray:
+    """Array as (bands, rows, columns), each possibly of length 1."""
+    values = arrays[name]
     if values.ndim not in (0, 1, 3) or not np.isfinite(values).all() or values.size == 0:
         raise input_error(path, 0, 0, f"{name} has shape {values.shape}, not (bands, rows, columns), or gaps")
     return values.reshape(-1, 1, 1) if values.ndim < 3 else values
 
 
-def _grid(path: Path, found: dict[str, NDArray], options: Options, told: list[str]) -> Grid:
-    ny, nx = found["time_of_arrival"].shape
-    if {"latitude", "longitude"} <= set(found):
-        return Grid(found["latitude"], found["longitude"])
-    if {"x", "y"} <= set(found) and options.projection:
-        return Grid.projected(found["x"], found["y"], options.projection)
-    if {"cell_width", "cell_height"} <= set(found):
-        width, height = (float(found[name].ravel()[0]) for name in ("cell_width", "cell_height"))
+def _grid(path: Path, arrays: dict[str, NDArray], options: Options, notes: list[str]) -> Grid:
+    ny, nx = arrays["time_of_arrival"].shape
+    if {"latitude", "longitude"} <= set(arrays):
+        return Grid(arrays["latitude"], arrays["longitude"])
+    if {"x", "y"} <= set(arrays) and options.projection:
+        return Grid.projected(arrays["x"], arrays["y"], options.projection)
+    if {"cell_width", "cell_height"} <= set(arrays):
+        width, height = (float(arrays[name].ravel()[0]) for name in ("cell_width", "cell_height"))
         grid, said = local(width * np.arange(nx), height * np.arange(ny), options.at)
-        told.append(said)
+        notes.append(said)
         return grid
     reason = "lacks latitude and longitude, or cell_width and cell_height (m); add them with numpy.savez"
     raise input_error(path, 0, 0, reason)
@@ -120,7 +122,7 @@ def _arrays(path: Path) -> dict[str, NDArray]:
     wanted += ("wind_speed_10m", "upwind_direction", "band_duration")
     try:
         with zipfile.ZipFile(path) as archive:
-            sizes = {each.filename: each.file_size for each in archive.infolist()}
+            sizes = {member.filename: member.file_size for member in archive.infolist()}
         if max(sizes.values()) > _LARGEST:
             raise input_error(path, 0, 0, "holds an array that is larger than any fire")
         with np.load(path, allow_pickle=False) as arrays:

@@ -1,9 +1,9 @@
-"""WRF-SFIRE and WRF-Fire: ``wrfout_d0N_*``, one time or several in each file.
+"""Reader of WRF-SFIRE and WRF-Fire: ``wrfout_d0N_*``, one time or several in each file.
 
 Names, units and layouts: WRF-SFIRE, Registry/registry.fire and Registry.EM_COMMON; thermodynamics:
 share/module_model_constants.F. Fire variables lie on a subgrid of (west_east + 1) sr_x columns and
-(south_north + 1) sr_y rows, of which the last sr are junk. The run's grids are the fire's, but for wind,
-temperature and what is on levels, which stay on the atmosphere's; where the files have no flux on the fire's
+(south_north + 1) sr_y rows, of which the last sr are invalid. The run's grids are the fire's, except for
+wind, temperature and 3D fields, which stay on the atmosphere's grid. If the files have no flux on the fire's
 grid, the model grid is the atmosphere's too.
 """
 
@@ -32,7 +32,7 @@ _T0, _P0, _RD, _CP, _RV, _G = 300.0, 1e5, 287.0, 1004.5, 461.6, 9.81  # WRF's ow
 
 
 def sniff(path: Path) -> bool:
-    """Whether it has WRF's dimensions, the fire's subgrid and a variable of the fire."""
+    """Whether a file has WRF's dimensions, the fire subgrid and a fire variable."""
     dimensions, variables = netcdf.names(path)
     return {"west_east_subgrid", "south_north_subgrid"} <= dimensions and bool(variables & set(_FIRE))
 
@@ -45,15 +45,17 @@ class _Frame:
 
 
 class _Wrf:
-    """The files as one series."""
+    """The files as one time series."""
 
     def __init__(self, paths: list[Path]) -> None:
         self.files = netcdf.Files()
-        found: dict[datetime, _Frame] = {}
+        by_time: dict[datetime, _Frame] = {}
         for path in sorted(paths):
             for index, moment in enumerate(_moments(self.files(path))):
-                found[moment] = _Frame(path, index, moment)  # of a time that is there twice the later file's
-        self.frames = [found[moment] for moment in sorted(found)]
+                by_time[moment] = _Frame(
+                    path, index, moment
+                )  # of a time that is there twice the later file's
+        self.frames = [by_time[moment] for moment in sorted(by_time)]
         self.ny, self.nx, self.sy, self.sx = _sizes(self.first)
         for path in {frame.path for frame in self.frames}:
             if _sizes(self.files(path)) != (self.ny, self.nx, self.sy, self.sx):
@@ -61,14 +63,14 @@ class _Wrf:
 
     @property
     def first(self) -> netcdf.File:
-        """The first time's file; asked for each time, as few of the files stay open."""
+        """File of the first time; opened on each access, as few files stay open."""
         return self.files(self.frames[0].path)
 
     def has(self, *names: str) -> bool:
         return all(name in self.first for name in names)
 
     def read(self, name: str, index: int, *, stag: int | None = None) -> NDArray:
-        """A variable at a time; a staggered one as means of both sides of each cell along the axis `stag`."""
+        """Read a variable at a time; a staggered one is averaged to cell centres along the axis `stag`."""
         frame = self.frames[index]
         values = self.files(frame.path).read(name, frame.index)
         if stag is None:
@@ -77,18 +79,18 @@ class _Wrf:
         return np.moveaxis(np.float32(0.5) * (values[1:] + values[:-1]), 0, stag)
 
     def fire(self, name: str, index: int) -> NDArray:
-        """A variable of the subgrid without its junk edge."""
+        """Read a subgrid variable without its invalid edge."""
         frame = self.frames[index]
         rows, columns = slice(self.ny * self.sy), slice(self.nx * self.sx)
         return self.files(frame.path).read(name, frame.index, rows, columns)
 
     def mean(self, fine: NDArray) -> NDArray:
-        """Means of the fire's cells in each of the atmosphere's."""
+        """Average the fire's cells over each of the atmosphere's cells."""
         blocks = np.asarray(fine, np.float64).reshape(self.ny, self.sy, self.nx, self.sx)
         return blocks.mean(axis=(1, 3))
 
     def spread(self, coarse: NDArray) -> NDArray:
-        """The atmosphere's values on the fire's cells, bilinear, and even beyond the outer middles."""
+        """Interpolate atmosphere values bilinearly to fire cells; constant beyond the outer centres."""
         row, column = (
             np.clip((np.arange(count * step) + 0.5) / step - 0.5, 0, count - 1)
             for count, step in ((self.ny, self.sy), (self.nx, self.sx))
@@ -97,14 +99,14 @@ class _Wrf:
 
 
 def read(paths: list[Path], options: Options) -> Model:
-    """The series as a model."""
+    """Read the series as a model."""
     wrf = _Wrf([path for path in paths if sniff(path)])
     land = companion_rasters.find(paths)
-    told: list[str] = []
+    notes: list[str] = []
     moments = [frame.moment for frame in wrf.frames]
     start, said = _start(wrf.first, moments[0])
     times = np.array([(moment - start).total_seconds() for moment in moments])
-    air, fire = _grids(wrf, options, told)
+    air, fire = _grids(wrf, options, notes)
     fine = wrf.has("FGRNHFX")
     model = Model(
         source="WRF-SFIRE",
@@ -122,15 +124,15 @@ def read(paths: list[Path], options: Options) -> Model:
         mean_s=float(wrf.first.attribute("DT", otherwise=0.0)),
         close=wrf.files.close,
     )
-    told += [said, "latitude and longitude on WRF's sphere of 6370 km are taken as those of WGS84"]
-    _flux(wrf, model, told)
+    notes += [said, "latitude and longitude on WRF's sphere of 6370 km are taken as those of WGS84"]
+    _flux(wrf, model, notes)
     if wrf.has("FIRE_AREA"):
-        told.append("burned fraction is FIRE_AREA: burned areas are sums of burned shares of cells")
+        notes.append("burned fraction is FIRE_AREA: burned areas are sums of burned shares of cells")
         model.moving["burned_fraction"] = lambda i: _share(wrf, i)
-    _near_ground(wrf, model, told)
-    _on_levels(wrf, model, told)
-    _still(wrf, model, land, options, told)
-    model.assumptions = told + land.assumptions
+    _near_ground(wrf, model, notes)
+    _on_levels(wrf, model, notes)
+    _still(wrf, model, land, options, notes)
+    model.assumptions = notes + land.assumptions
     return model
 
 
@@ -139,20 +141,20 @@ def _moments(file: netcdf.File) -> list[datetime]:
         raise file.error("has no variable Times, which is needed")
     with file.sense():
         rows = np.asarray(file.variables["Times"][:])
-    found = []
+    moments = []
     for row in np.atleast_2d(rows):
         text = row.tobytes().decode("ascii", "replace").strip("\0 ")
         try:
-            found.append(datetime.strptime(text, "%Y-%m-%d_%H:%M:%S").replace(tzinfo=UTC))
+            moments.append(datetime.strptime(text, "%Y-%m-%d_%H:%M:%S").replace(tzinfo=UTC))
         except ValueError:
             raise file.error(f"its Times say {text!r}, no date and time; it is damaged") from None
-    if not found:
+    if not moments:
         raise file.error("has no times; it is incomplete")
-    return found
+    return moments
 
 
 def _start(file: netcdf.File, first: datetime) -> tuple[datetime, str]:
-    """What TIGN_G counts from: the simulation's start, also where the files are those of a restart."""
+    """Time origin of TIGN_G: the simulation's start, also for files of a restart."""
     for name in ("SIMULATION_START_DATE", "START_DATE"):
         try:
             text = str(file.attribute(name, otherwise=""))
@@ -161,7 +163,7 @@ def _start(file: netcdf.File, first: datetime) -> tuple[datetime, str]:
             ), f"times count from {name}"
         except ValueError:
             pass
-    return first, "no start is said: times count from the first one there"
+    return first, "no start time: times count from the first one"
 
 
 def _sizes(file: netcdf.File) -> tuple[int, int, int, int]:
@@ -178,13 +180,13 @@ def _sizes(file: netcdf.File) -> tuple[int, int, int, int]:
     return ny, nx, sy, sx
 
 
-def _grids(wrf: _Wrf, options: Options, told: list[str]) -> tuple[Grid, Grid]:
+def _grids(wrf: _Wrf, options: Options, notes: list[str]) -> tuple[Grid, Grid]:
     x, y = (wrf.fire(name, 0).astype(np.float64) for name in ("FXLONG", "FXLAT"))
     unit = float(wrf.read("UNIT_FXLONG", 0)) if wrf.has("UNIT_FXLONG") else 0.0
     metres = unit == 1.0 or np.abs(y).max() > 90.0
-    if metres:  # of an ideal run, which lies nowhere
+    if metres:  # an ideal run without georeference
         fire, said = local(x.mean(axis=0), y.mean(axis=1), options.at)
-        told.append(said)
+        notes.append(said)
         return Grid(_block(fire.latitude, wrf.sy), _block(fire.longitude, wrf.sx)), fire
     if wrf.has("XLAT", "XLONG"):
         return Grid(*(wrf.read(name, 0).astype(np.float64) for name in ("XLAT", "XLONG"))), Grid(y, x)
@@ -195,29 +197,29 @@ def _block(axis: NDArray, step: int) -> NDArray:
     return axis.reshape(-1, step).mean(axis=1)
 
 
-def _flux(wrf: _Wrf, model: Model, told: list[str]) -> None:
+def _flux(wrf: _Wrf, model: Model, notes: list[str]) -> None:
     fine = wrf.has("FGRNHFX")
     if not fine and not wrf.has("GRNHFX"):
         raise Error(f"{wrf.first.path}: has neither FGRNHFX nor GRNHFX, the heat flux of the fire")
     (ground, canopy), get = (("FGRNHFX", "FCANHFX"), wrf.fire) if fine else (("GRNHFX", "CANHFX"), wrf.read)
     crown, where = wrf.has(canopy), "fire" if fine else "atmosphere"
-    told.append(f"heat flux is {ground}{f' + {canopy}' if crown else ''} (sensible, on the {where}'s grid)")
+    notes.append(f"heat flux is {ground}{f' + {canopy}' if crown else ''} (sensible, on the {where}'s grid)")
     model.moving["heat_flux"] = lambda i: (get(ground, i) + get(canopy, i)) if crown else get(ground, i)
 
 
 def _share(wrf: _Wrf, i: int) -> NDArray:
-    """Burned share (0..1) of each of the fire's cells."""
+    """Burned fraction (0..1) of each fire cell."""
     return np.clip(np.nan_to_num(wrf.fire("FIRE_AREA", i)), 0, 1)
 
 
-def _near_ground(wrf: _Wrf, model: Model, told: list[str]) -> None:
-    """Wind to the east and north, and temperature: at 10 m and 2 m, else of the lowest level."""
+def _near_ground(wrf: _Wrf, model: Model, notes: list[str]) -> None:
+    """Wind (east, north) and temperature near the ground: at 10 m and 2 m, else of the lowest level."""
     winds = None
     if wrf.has("U10", "V10"):
-        told.append("wind is U10, V10, turned from the grid's axes to east and north")
+        notes.append("wind is U10, V10, turned from the grid's axes to east and north")
         winds = lambda i: (wrf.read("U10", i), wrf.read("V10", i))  # noqa: E731
     elif wrf.has("U", "V"):
-        told.append("wind is that of the lowest level, turned from the grid's axes to east and north")
+        notes.append("wind is that of the lowest level, turned from the grid's axes to east and north")
         winds = lambda i: (wrf.read("U", i, stag=2)[0], wrf.read("V", i, stag=1)[0])  # noqa: E731
     if winds:
         turned = lru_cache(1)(lambda i: _air(model).east_north(*winds(i)))  # both are asked for in turn
@@ -228,29 +230,29 @@ def _near_ground(wrf: _Wrf, model: Model, told: list[str]) -> None:
         model.moving["temperature"] = lambda i: _kelvin(wrf, i)[0]
 
 
-def _on_levels(wrf: _Wrf, model: Model, told: list[str]) -> None:
+def _on_levels(wrf: _Wrf, model: Model, notes: list[str]) -> None:
     if not wrf.has("PH", "PHB") or wrf.first.dimensions.get("bottom_top", 0) < 2:
         return
-    found = {}
+    fields = {}
     if wrf.has("tr17_1", "T", "P", "PB"):
         unit = str(wrf.first.attribute("units", "tr17_1", "")).strip().lower()
         scale = 1e-9 if unit.startswith("ug") else 1e-3
-        told.append(
+        notes.append(
             f"smoke is tr17_1 as {'ug' if scale < 1e-6 else 'g'} per kg of dry air, times its density"
         )
-        found["smoke_3d"] = lambda i: wrf.read("tr17_1", i) * (_dry_density(wrf, i) * np.float32(scale))
+        fields["smoke_3d"] = lambda i: wrf.read("tr17_1", i) * (_dry_density(wrf, i) * np.float32(scale))
     if wrf.has("T", "P", "PB"):
-        found["temperature_3d"] = lambda i: _kelvin(wrf, i)
+        fields["temperature_3d"] = lambda i: _kelvin(wrf, i)
     if wrf.has("U", "V", "W"):
         winds = lru_cache(1)(lambda i: _winds(wrf, model, i))
-        found |= {"wind_east_3d": lambda i: winds(i)[0], "wind_north_3d": lambda i: winds(i)[1]}
-        found["wind_up_3d"] = lambda i: wrf.read("W", i, stag=0)
-    if found:
-        found["height_3d"] = lambda i: (
+        fields |= {"wind_east_3d": lambda i: winds(i)[0], "wind_north_3d": lambda i: winds(i)[1]}
+        fields["wind_up_3d"] = lambda i: wrf.read("W", i, stag=0)
+    if fields:
+        fields["height_3d"] = lambda i: (
             (wrf.read("PH", i, stag=0) + wrf.read("PHB", i, stag=0)) / np.float32(_G)
         )
-        model.moving |= found
-        model.levels |= dict.fromkeys(found, wrf.first.dimensions["bottom_top"])
+        model.moving |= fields
+        model.levels |= dict.fromkeys(fields, wrf.first.dimensions["bottom_top"])
 
 
 def _winds(wrf: _Wrf, model: Model, i: int) -> tuple[NDArray, NDArray]:
@@ -262,19 +264,19 @@ def _air(model: Model) -> Grid:
 
 
 def _kelvin(wrf: _Wrf, i: int) -> NDArray:
-    """Temperature from T, the potential temperature less 300 K: theta (p / 1e5 Pa)^(R/cp)."""
+    """Temperature from T, potential temperature minus 300 K: theta (p / 1e5 Pa)^(R/cp)."""
     pressure = wrf.read("P", i) + wrf.read("PB", i)
     with np.errstate(invalid="ignore"):
         return (wrf.read("T", i) + np.float32(_T0)) * (pressure / np.float32(_P0)) ** np.float32(_RD / _CP)
 
 
 def _dry_density(wrf: _Wrf, i: int) -> NDArray:
-    """kg/m3 of dry air: p / (R T (1 + q Rv/R))."""
+    """Density of dry air, kg/m3: p / (R T (1 + q Rv/R))."""
     moist = 1 + wrf.read("QVAPOR", i) * np.float32(_RV / _RD) if wrf.has("QVAPOR") else np.float32(1)
     return (wrf.read("P", i) + wrf.read("PB", i)) / (np.float32(_RD) * _kelvin(wrf, i) * moist)
 
 
-def _still(wrf: _Wrf, model: Model, land: companion_rasters.Land, options: Options, told: list[str]) -> None:
+def _still(wrf: _Wrf, model: Model, land: companion_rasters.Land, options: Options, notes: list[str]) -> None:
     fine = model.air is not None
     if wrf.has("ZSF"):
         model.still["fuel_elevation"] = lambda: wrf.fire("ZSF", 0)
@@ -282,13 +284,13 @@ def _still(wrf: _Wrf, model: Model, land: companion_rasters.Land, options: Optio
     if wrf.has("HGT") and not (fine and wrf.has("ZSF")):
         model.still["elevation"] = lambda: wrf.spread(wrf.read("HGT", 0)) if fine else wrf.read("HGT", 0)
     if wrf.has("NFUEL_CAT"):
-        told.append(
+        notes.append(
             "surface fuel is WRF-SFIRE's load (fgi) of Anderson's model NFUEL_CAT; a namelist.fire may differ"
         )
         model.still["surface_fuel"] = lambda: fuels.loads(wrf.fire("NFUEL_CAT", 0), "sfire")
         model.still["fuel_category"] = lambda: wrf.fire("NFUEL_CAT", 0)
     model.still["fuel_arrival_time"] = lambda: _arrival(wrf, model.times)
-    told.append(f"time of arrival is {_arrival_from(wrf)}")
+    notes.append(f"time of arrival is {_arrival_from(wrf)}")
     land.complete(model.still, model.grid, model.fuel_grid, options.projection)
 
 
@@ -305,23 +307,23 @@ def _arrival(wrf: _Wrf, times: NDArray) -> NDArray:
     if wrf.has("TIGN_G", "FIRE_AREA"):
         return arrival.held(wrf.fire("TIGN_G", last), times, lambda i: _share(wrf, i))
     if wrf.has("TIGN_G", "LFN"):
-        found, burned = wrf.fire("TIGN_G", last), wrf.fire("LFN", last) <= 0
+        ignition, burned = wrf.fire("TIGN_G", last), wrf.fire("LFN", last) <= 0
     elif wrf.has("LFN"):
         return arrival.from_levels(times, lambda i: wrf.fire("LFN", i), shape)
     elif wrf.has("FIRE_AREA"):
         return arrival.from_share(times, lambda i: _share(wrf, i), shape)
     else:
-        raise Error(f"{wrf.first.path}: has neither LFN nor FIRE_AREA, so nothing says where the fire is")
-    return np.where(burned & (found <= times[-1]), found, np.float32(np.nan))
+        raise Error(f"{wrf.first.path}: has neither LFN nor FIRE_AREA, one of which is needed for the front")
+    return np.where(burned & (ignition <= times[-1]), ignition, np.float32(np.nan))
 
 
 def _version(file: netcdf.File) -> str:
-    found = re.search(r"V[\d.]+", str(file.attribute("TITLE", otherwise="")))
-    return found[0] if found else ""
+    match = re.search(r"V[\d.]+", str(file.attribute("TITLE", otherwise="")))
+    return match[0] if match else ""
 
 
 def _projection(file: netcdf.File) -> str:
-    """WRF's projection as PROJ says it, for people."""
+    """WRF's projection as a PROJ string, for people."""
     kinds = {1: "lcc", 2: "stere", 3: "merc"}
     kind = kinds.get(int(file.attribute("MAP_PROJ", otherwise=0)))
     if kind is None:

@@ -1,8 +1,8 @@
-"""How well a run matches what was seen of its fire, by date.
+"""Scores: agreement of a run with observed perimeters, detections and acreages, by date.
 
-A run says when the front reached each fuel cell; by a date it had burned the cells that were reached by then.
-Scores are of areas: on polygons (the front between the cells' middles, in an equal-area projection) and on
-cells (whole ones, on the ellipsoid). Their difference says how far the run's grid lets them be known.
+A run has the arrival time of each fuel cell; by a date, the cells with earlier arrival times have burned.
+Scores compare areas in two ways: on polygons (front between cell centres, in an equal-area projection) and on
+cells (whole ones, on the ellipsoid). Their difference is the uncertainty due to the run's grid.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ from . import arrival, detected, shapes, used
 from .grid import Grid
 from .overlap import Overlap
 
-SAMPLES = 6  # moments at which another run is looked at where nothing else says when
+SAMPLES = 6  # times at which another run is compared if nothing gives other times
 
 
 @dataclass(frozen=True)
 class Seen:
-    """A perimeter to compare with: when (UTC), where (a shapely geometry in degrees), and whose."""
+    """Reference perimeter: time (UTC), shapely geometry in degrees, and source."""
 
     time: datetime
     shape: Any
@@ -38,35 +38,37 @@ class Seen:
 def score(
     run: Run, observations: Observations, other: Run | None = None, zone: str = "UTC"
 ) -> dict[str, Any]:
-    """Everything `firetwin score` tells, as JSON can carry it: m, m2, s, and shares from 0 to 1.
+    """Results of `firetwin score` as JSON data: m, m2, s, and fractions from 0 to 1.
 
     Parameters
     ----------
     other
-        A second run: its perimeters count as seen, at the times of the observations or else at SAMPLES
-        moments of both runs, and the two arrival times are compared cell by cell.
+        A second run. Its perimeters serve as observations, at the observations' times or else at SAMPLES
+        times of both runs, and both arrival times are compared cell by cell.
 
     Raises
     ------
     UsageError
-        Shapely or pyproj is not there.
+        Shapely or pyproj is missing.
     """
     shapes.needed()
     grid = Grid.of(run)
     seen = [
-        Seen(each.time, shapes.of_perimeter(each, grid.middle), each.source)
-        for each in observations.perimeters
+        Seen(perimeter.time, shapes.of_perimeter(perimeter, grid.middle), perimeter.source)
+        for perimeter in observations.perimeters
     ]
     perimeters = _fates(run, grid, seen)
     inside = [each for each, fate in zip(seen, perimeters, strict=True) if fate == used.USED]
     uses = _uses(run, grid, seen, perimeters, observations)
     if other is not None:
-        uses = [each for each in uses if each["kind"] != "perimeters"]  # they only say when
+        uses = [use for use in uses if use["kind"] != "perimeters"]  # they only supply times
         inside = seen = _of_run(other, run, [each.time for each in seen])
     dates = [_date(run, grid, each) for each in inside]
     return {
         "run": {"name": run.name, "path": run.path, "synthetic": run.synthetic, "event": run.event},
-        "against": sorted({each.source for each in seen} | {each.source for each in observations.detections}),
+        "against": sorted(
+            {each.source for each in seen} | {detection.source for detection in observations.detections}
+        ),
         "other_run": None if other is None else other.name,
         "zone": zone,
         "domain": {"area": grid.domain, "cells": list(grid.arrival.shape), "cell": list(grid.cell)},
@@ -76,51 +78,56 @@ def score(
         "dates": dates,
         "uses": uses,
         "arrival": _arrival(run, grid, inside, other),
-        "detections": [row for each in observations.detections for row in detected.rows(run, grid, each)],
+        "detections": [
+            row for detection in observations.detections for row in detected.rows(run, grid, detection)
+        ],
         "reported": _reported(run, grid),
         "assumptions": [
             *observations.assumptions,
             *(
-                f"{each.source}: {each.left_out} detections of low confidence or other heat are left out"
-                for each in observations.detections
-                if each.left_out
+                f"{detection.source}: {detection.left_out} detections of low confidence or other heat "
+                "are left out"
+                for detection in observations.detections
+                if detection.left_out
             ),
         ],
     }
 
 
-def _fates(run: Run, grid: Grid, seen: Sequence[Seen]) -> list[str]:
-    """What becomes of each perimeter, one of `used.FATES`."""
-    moments = [times.seconds(run, each.time) for each in seen]
-    here = [grid.box.intersects(grid.projection.project(each.shape)) for each in seen]
+def _fates(run: Run, grid: Grid, perimeters: Sequence[Seen]) -> list[str]:
+    """Use of each perimeter, one of `used.FATES`."""
+    moments = [times.seconds(run, each.time) for each in perimeters]
+    here = [grid.box.intersects(grid.projection.project(each.shape)) for each in perimeters]
     return [str(fate) for fate in used.fates(run, moments, here)]
 
 
 def _uses(
     run: Run, grid: Grid, seen: Sequence[Seen], fates: Sequence[str], observations: Observations
 ) -> list[dict[str, Any]]:
-    """How many observations of each file are used, and why others are not (see `used.row`)."""
-    sources = dict.fromkeys(each.source for each in seen)
+    """Counts of each file's observations by use, with the reasons for exclusion (see `used.row`)."""
+    sources = dict.fromkeys(perimeter.source for perimeter in seen)
     return [
         used.row(
-            source, "perimeters", (f for each, f in zip(seen, fates, strict=True) if each.source == source)
+            source,
+            "perimeters",
+            (f for perimeter, f in zip(seen, fates, strict=True) if perimeter.source == source),
         )
         for source in sources
     ] + [
-        used.row(each.source, "detections", detected.fates(run, grid, each))
-        for each in observations.detections
+        used.row(detection.source, "detections", detected.fates(run, grid, detection))
+        for detection in observations.detections
     ]
 
 
-def _date(run: Run, grid: Grid, seen: Seen) -> dict[str, Any]:
-    """Scores of one perimeter: with all that had burned, and without what the run began with."""
-    time, first = times.seconds(run, seen.time), float(run.times[0])
-    here, there = grid.polygon(time), grid.projection.project(seen.shape)
-    burned, observed = grid.burned(time), grid.inside(seen.shape)
+def _date(run: Run, grid: Grid, perimeter: Seen) -> dict[str, Any]:
+    """Scores of one perimeter: of the total burned area, and without the area burned at the start."""
+    time, first = times.seconds(run, perimeter.time), float(run.times[0])
+    here, there = grid.polygon(time), grid.projection.project(perimeter.shape)
+    burned, observed = grid.burned(time), grid.inside(perimeter.shape)
     start, started = grid.polygon(first), grid.burned(first)
     row = {
-        "time": times.iso(seen.time),
-        "source": seen.source,
+        "time": times.iso(perimeter.time),
+        "source": perimeter.source,
         "outside_grid": 1.0 - grid.box.intersection(there).area / there.area if there.area else 0.0,
         "all": _both(
             Overlap.of_polygons(here, there, grid.box), Overlap.of_cells(burned, observed, grid.areas)
@@ -136,14 +143,14 @@ def _date(run: Run, grid: Grid, seen: Seen) -> dict[str, Any]:
 
 
 def _of_cells_since(burned: NDArray, started: NDArray, seen: NDArray, areas: NDArray) -> Overlap:
-    """Of what had not burned at the start: each cell counts with the rest of its area."""
+    """Cell scores of ground unburned at the start: each cell counts with its remaining area."""
     rest = 1.0 - started
     share = np.divide(np.maximum(burned - started * 1.0, 0.0), rest, out=np.zeros(rest.shape), where=rest > 0)
     return Overlap.of_cells(share, seen, areas * rest)
 
 
 def _both(polygons: Overlap, cells: Overlap) -> dict[str, Any]:
-    """Scores on polygons, on cells, and the larger less the smaller: how far they can be known."""
+    """Scores on polygons and on cells, and their absolute difference as uncertainty."""
     one, two = polygons.scores(), cells.scores()
     error = {
         name: abs(a - b) if a is not None and (b := two[name]) is not None else None
@@ -161,12 +168,12 @@ def _arrival(run: Run, grid: Grid, seen: Sequence[Seen], other: Run | None) -> d
         )
     if len(seen) < 2:
         return None
-    masks = [grid.inside(each.shape) for each in seen]
-    return arrival.within(grid.arrival, masks, [times.seconds(run, each.time) for each in seen])
+    masks = [grid.inside(perimeter.shape) for perimeter in seen]
+    return arrival.within(grid.arrival, masks, [times.seconds(run, perimeter.time) for perimeter in seen])
 
 
 def _reported(run: Run, grid: Grid) -> list[dict[str, Any]]:
-    """The dated acreages of the run's fire, with the run's area on polygons beside that of its cells."""
+    """Reported acreages of the fire next to the run's area on polygons and on cells."""
     rows = info.reported(run)
     for row in rows:
         if row["run"] is not None:
@@ -175,7 +182,7 @@ def _reported(run: Run, grid: Grid) -> list[dict[str, Any]]:
 
 
 def _of_run(other: Run, run: Run, moments: Sequence[datetime]) -> list[Seen]:
-    """Perimeters of another run as if they had been seen."""
+    """Perimeters of another run as reference."""
     low = max(times.utc(run, float(run.times[0])), times.utc(other, float(other.times[0])))
     high = min(times.utc(run, float(run.times[-1])), times.utc(other, float(other.times[-1])))
     if low >= high:

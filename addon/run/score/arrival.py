@@ -1,4 +1,4 @@
-"""How much earlier or later (s) the front reached cells: positive where the run is late."""
+"""Arrival time error (s) of a run: positive where the run is late."""
 
 from __future__ import annotations
 
@@ -13,25 +13,25 @@ if TYPE_CHECKING:
 
 
 def between(run: NDArray[np.float64], seen: NDArray[np.float64], common: Sequence[float]) -> dict[str, Any]:
-    """Of two arrival times (ny, nx), cell by cell: each cell counts where both burned after the first moment.
+    """Error between two arrival times (ny, nx), for cells that burned after the first common time in both.
 
-    NaN of one is none of the other: such cells are counted apart, and no mean has them.
+    Cells that burned in only one of them are counted separately and excluded from means.
     """
     first, last = common
     here, there = run <= last, seen <= last
     after = ~((run <= first) | (seen <= first))
     both = here & there & after
-    found = {"run_only": int((here & ~there & after).sum()), "seen_only": int((there & ~here & after).sum())}
-    return _statistics(run[both] - seen[both]) | found | {"observed": "arrival times of the other run"}
+    counts = {"run_only": int((here & ~there & after).sum()), "seen_only": int((there & ~here & after).sum())}
+    return _statistics(run[both] - seen[both]) | counts | {"observed": "arrival times of the other run"}
 
 
 def within(
     run: NDArray[np.float64], masks: Sequence[NDArray[np.bool_]], moments: Sequence[float]
 ) -> dict[str, Any]:
-    """Of perimeters: a cell inside of one and not of those before burned between their two moments (s).
+    """Error against perimeters: a cell within one and not within earlier ones burned between their times (s).
 
-    Nobody knows when in between: the error is 0 where the run falls there too, else the time to the nearer
-    of both moments. Cells of the first perimeter have no moment before it and do not count.
+    The time in between is unknown. So the error is 0 if the run's arrival lies in that interval, else the
+    distance to its nearer end. Cells of the first perimeter have no earlier bound and are excluded.
     """
     errors, run_never = [], 0
     known = masks[0].copy()
@@ -61,9 +61,9 @@ def _statistics(error: NDArray[np.float64]) -> dict[str, Any]:
 
 
 def sampled(there: Grid, here: Grid) -> NDArray[np.float64]:
-    """Arrival times (s) of one grid at the cells of another, of the cell round each middle; NaN outside."""
+    """Resample arrival times (s) of one grid to the cells of another by nearest neighbour; NaN outside."""
     row, column = there.at(here.latitude, here.longitude)
-    found = there.arrival[np.ix_(np.maximum(row, 0), np.maximum(column, 0))]
-    found[row < 0, :] = np.nan
-    found[:, column < 0] = np.nan
-    return found
+    times = there.arrival[np.ix_(np.maximum(row, 0), np.maximum(column, 0))]
+    times[row < 0, :] = np.nan
+    times[:, column < 0] = np.nan
+    return times

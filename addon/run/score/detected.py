@@ -1,4 +1,4 @@
-"""Satellites' detections against a run: whether the run had burned there by then, and for how long."""
+"""Satellite detections against a run: whether the run had burned there by the overpass, and its lag."""
 
 from __future__ import annotations
 
@@ -15,31 +15,31 @@ from .grid import Grid
 
 
 def fates(run: Run, grid: Grid, detections: Detections) -> NDArray[np.str_]:
-    """What becomes of each detection, one of `used.FATES`."""
+    """Use of each detection, one of `used.FATES`."""
     row, column = grid.at(detections.latitude, detections.longitude)
     return used.fates(run, _moments(run, detections), (row >= 0) & (column >= 0))
 
 
 def rows(run: Run, grid: Grid, detections: Detections) -> list[dict[str, Any]]:
-    """A row for each overpass within the run's time and place.
+    """Statistics of each overpass within the run's time and area.
 
-    `inside` are detections whose middle the run had burned by then, `within_pixel` also those no farther than
-    half a pixel from it. `lag` is how long before (s, median and mean) the front had passed the middles,
-    negative where it came later, of those that it reaches at all; `never` counts the others.
+    `inside` counts detections whose centre the run had burned by then; `within_pixel` also those within half
+    a pixel of burned ground. `lag` is the time (s, median and mean) since the front passed the centres,
+    negative if it came later, of those that it ever reaches; `never` counts the others.
     """
     import shapely
 
     row, column = grid.at(detections.latitude, detections.longitude)
     moments = _moments(run, detections)
     covered = fates(run, grid, detections) == used.USED
-    found = []
+    result = []
     for moment in np.unique(moments[covered]):
         these = np.flatnonzero(covered & (moments == moment))
         arrival = grid.arrival[row[these], column[these]]
         points = grid.projection.points(detections.longitude[these], detections.latitude[these])
         away = shapely.distance(points, grid.polygon(moment))
         lag = moment - arrival[~np.isnan(arrival)]
-        found.append(
+        result.append(
             {
                 "time": times.iso(times.utc(run, float(moment))),
                 "source": detections.source,
@@ -51,7 +51,7 @@ def rows(run: Run, grid: Grid, detections: Detections) -> list[dict[str, Any]]:
                 "never": int(np.isnan(arrival).sum()),
             }
         )
-    return found
+    return result
 
 
 def _moments(run: Run, detections: Detections) -> NDArray[np.float64]:

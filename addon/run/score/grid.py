@@ -1,4 +1,4 @@
-"""A run's fuel cells: when the front reached them, how large they are, and where the front was at a time."""
+"""Fuel grid of a run for scores: arrival times, cell areas, and the burned polygon at a time."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Grid:
-    """Middles of the cells (degrees, south and west first) and arrival times (ny, nx) s, NaN: never.
+    """Cell centres (degrees, from south and west) and arrival times (ny, nx), s, NaN where never.
 
-    `fraction` gives the burned fraction (ny, nx) at a model time (s), of runs that have it.
+    `fraction` returns the burned fraction (ny, nx) at a model time (s), for runs that have it.
     """
 
     latitude: NDArray[np.float64]
@@ -32,7 +32,7 @@ class Grid:
 
     @classmethod
     def of(cls, run: Run) -> Grid:
-        """The grid of a run, by the core's arrival times."""
+        """Grid of a run, with arrival times from the core."""
         latitude, longitude, time = run.fuel_latitude, run.fuel_longitude, run.fuel_arrival_time()
         south, west = latitude[0] > latitude[-1], longitude[0] > longitude[-1]
         rows, columns = slice(None, None, -1 if south else 1), slice(None, None, -1 if west else 1)
@@ -43,64 +43,64 @@ class Grid:
 
     @property
     def middle(self) -> float:
-        """The meridian in the middle, degrees east."""
+        """Central meridian, degrees east."""
         return float(self.longitude[0] + self.longitude[-1]) / 2
 
     @cached_property
     def cell(self) -> tuple[float, float]:
-        """Width and height of a cell, m."""
+        """Cell width and height, m."""
         return areas.cell_size(self.latitude, self.longitude)
 
     @cached_property
     def areas(self) -> NDArray[np.float64]:
-        """Area (ny, nx) of each cell in m2."""
+        """Cell areas (ny, nx), m2."""
         return areas.cell_areas(self.latitude, self.longitude)
 
     @property
     def domain(self) -> float:
-        """Area of all cells, m2."""
+        """Total area, m2."""
         return float(self.areas.sum())
 
     @cached_property
     def projection(self) -> shapes.Projection:
-        """An equal-area projection about the middle."""
+        """Equal-area projection about the centre."""
         return shapes.Projection(float(self.latitude[0] + self.latitude[-1]) / 2, self.middle)
 
     @cached_property
     def box(self) -> BaseGeometry:
-        """Outline of all cells, projected."""
+        """Outline of the grid, projected."""
         y, x = areas.edges(self.latitude), areas.edges(self.longitude)
         return self.projection.project(shapes.outline(x, y))
 
     def at(
         self, latitude: NDArray[np.float64], longitude: NDArray[np.float64]
     ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Rows and columns of the cells that parallels and meridians (degrees) lie in, -1 outside."""
+        """Rows and columns of the cells that contain latitudes and longitudes (degrees), -1 outside."""
         turned = areas.turned(longitude, self.middle)
         return _nearest(self.latitude, latitude), _nearest(self.longitude, turned)
 
     def burned(self, time: float) -> NDArray[np.floating] | NDArray[np.bool_]:
-        """Share (ny, nx) of cells burned by a model time (s); else whether the front reached their middle."""
+        """Burned fraction (ny, nx) at a model time (s); else whether the front has reached cell centres."""
         if self.fraction is not None:
             return self.fraction(time)
         return self.arrival <= time  # False for NaN
 
     def inside(self, shape: BaseGeometry) -> NDArray[np.bool_]:
-        """Cells (ny, nx) whose middle lies in a shape in degrees."""
+        """Mask (ny, nx) of cells with their centre in a shape in degrees."""
         return shapes.contains(shape, self.longitude, self.latitude)
 
     def polygon(self, time: float) -> BaseGeometry:
-        """What had burned by a model time (s), projected: the front crosses between the cells' middles."""
+        """Burned polygon at a model time (s), projected, with the front interpolated between cell centres."""
         return self.projection.project(shapes.of_front(self.longitude, self.latitude, self.arrival - time))
 
     def degrees(self, shape: BaseGeometry) -> BaseGeometry:
-        """A projected shape in degrees."""
+        """Convert a projected shape to degrees."""
         return self.projection.project(shape, back=True)
 
 
 def _nearest(axis: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Index of the cell that each value lies in, -1 for outside; the axis ascends."""
+    """Index of the cell that contains each value, -1 outside; the axis ascends."""
     middles = (axis[1:] + axis[:-1]) / 2
-    found = np.searchsorted(middles, at)
+    index = np.searchsorted(middles, at)
     half = (axis[1] - axis[0]) / 2 if axis.size > 1 else np.inf
-    return np.where((at < axis[0] - half) | (at > axis[-1] + half), -1, found)
+    return np.where((at < axis[0] - half) | (at > axis[-1] + half), -1, index)

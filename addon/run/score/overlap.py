@@ -1,7 +1,7 @@
-"""Scores of two areas that overlap more or less: the run's and the observed one.
+"""Overlap scores of a simulated and an observed burned area.
 
-Names and definitions are those of Duff, Chong & Tolhurst, Environmental Modelling & Software 83 (2016), and
-of `firebench`; kappa is Cohen's, which meteorologists call the Heidke skill score.
+Names and definitions follow Duff, Chong & Tolhurst, Environmental Modelling & Software 83 (2016), and
+`firebench`. Kappa is Cohen's, which meteorologists call the Heidke skill score.
 """
 
 from __future__ import annotations
@@ -18,18 +18,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Overlap:
-    """Areas in m2.
+    """Confusion matrix of burned areas, m2.
 
     Attributes
     ----------
     both
         Burned in the run and observed: hits.
     run_only
-        False alarms.
+        Burned in the run only: false alarms.
     seen_only
-        Misses.
+        Observed only: misses.
     neither
-        The rest of the domain; kappa depends on it, and so on how large the domain is.
+        Correct negatives in the domain. Kappa depends on it, and so on the domain's size.
     """
 
     both: float
@@ -39,16 +39,16 @@ class Overlap:
 
     @classmethod
     def of_polygons(cls, run: BaseGeometry, seen: BaseGeometry, domain: BaseGeometry) -> Overlap:
-        """Of polygons in an equal-area projection; what was seen outside of the domain is missed as well."""
+        """From polygons in an equal-area projection; observed area outside of the domain counts as a miss."""
         both = run.intersection(seen).area
         union = run.area + seen.area - both
         return cls(both, run.area - both, seen.area - both, max(domain.area - union, 0.0))
 
     @classmethod
     def of_cells(cls, run: NDArray, seen: NDArray[np.bool_], areas: NDArray[np.float64]) -> Overlap:
-        """Of cells, each with its area; those of area 0 do not count. `run`: whether, or what share burned.
+        """From cells with their areas; cells of area 0 do not count. `run`: burned mask or burned fraction.
 
-        What burned of a cell that was seen burned is a hit, the rest of it a miss.
+        In an observed cell the burned fraction is a hit and the rest a miss.
         """
         burned = run * areas
         rest = areas - burned
@@ -56,7 +56,7 @@ class Overlap:
         return cls(*(float(part.sum()) for part in parts))
 
     def scores(self) -> dict[str, float | None]:
-        """All scores by name; None where nothing burned that they divide by."""
+        """All scores by name; None where the denominator is 0."""
         tp, fp, fn, tn = self.both, self.run_only, self.seen_only, self.neither
         chance = (tp + fn) * (fn + tn) + (tp + fp) * (fp + tn)
         return {
@@ -84,8 +84,8 @@ HELP: dict[str, str] = {
     "sorensen": "2 hits / (2 hits + false alarms + misses); 1 is a perfect match",
     "jaccard": "hits / (hits + false alarms + misses); 1 is a perfect match",
     "kappa": "agreement beyond chance; depends on the domain",
-    "precision": "share of what the run burned that was seen burned",
-    "recall": "share of what was seen burned that the run burned",
+    "precision": "fraction of the simulated burned area that was observed",
+    "recall": "fraction of the observed burned area that the run burned",
     "sdi": "shape deviation index: (false alarms + misses) / observed; 0 is a perfect match",
     "adi": "area difference index: (false alarms + misses) / hits; 0 is a perfect match",
 }

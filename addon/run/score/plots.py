@@ -1,4 +1,4 @@
-"""Pictures of the report: maps of hits, misses and false alarms, the fire's way, and its growth."""
+"""Plots of the score report: maps of hits, misses and false alarms, progression map, and growth curve."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ if TYPE_CHECKING:
 HITS, FALSE_ALARMS, MISSES = "#56606b", "#e8833a", "#2f6fb7"
 RUN, REPORTED, SEEN = "#c8401e", "#1f2933", "#2f6fb7"
 _KILO = 1e3
-_MOMENTS, _MARKED = 200, 40  # points of a curve of growth, and up to how many are marked
+_MOMENTS, _MARKED = 200, 40  # points of a growth curve, and up to how many are marked
 
 
 def overlap(run: Run, grid: Grid, here: BaseGeometry, there: BaseGeometry, frame: BaseGeometry) -> str:
-    """A map of one date as a data URI: what both burned, the run alone, and what was seen alone."""
+    """Overlap map of one date as a data URI: burned in both, in the run only, and in the reference only."""
     figure, axes = _map(run, grid, frame)
     for shape, colour in (
         (here.intersection(there), HITS),
@@ -47,7 +47,7 @@ def overlap(run: Run, grid: Grid, here: BaseGeometry, there: BaseGeometry, frame
 
 
 def progress(run: Run, grid: Grid, shapes: Sequence[BaseGeometry], frame: BaseGeometry) -> str:
-    """A map of where the run had burned by some dates, the latest lightest, as a data URI."""
+    """Progression map: burned area of the run by date, the latest lightest, as a data URI."""
     figure, axes = _map(run, grid, frame)
     for shape, colour in reversed(list(zip(shapes, ways(len(shapes)), strict=True))):
         _fill(axes, shape, facecolor=colour, edgecolor="#3a120a", linewidth=0.4, alpha=0.9)
@@ -55,14 +55,14 @@ def progress(run: Run, grid: Grid, shapes: Sequence[BaseGeometry], frame: BaseGe
 
 
 def ways(count: int) -> list[str]:
-    """A colour for each of some dates, darkest first."""
+    """Colours of dates, darkest first."""
     shades = matplotlib.colormaps["YlOrRd_r"](np.linspace(0.1, 0.8, max(count, 1)))
     return [matplotlib.colors.to_hex(shade) for shade in shades]
 
 
-def growth(run: Run, found: dict[str, Any], other: Run | None = None) -> str:
-    """Burned area over time: the run, another, what was seen, and what was reported; SVG."""
-    zone, acre = ZoneInfo(found["zone"]), history.SQUARE_METRES_PER_ACRE
+def growth(run: Run, results: dict[str, Any], other: Run | None = None) -> str:
+    """Burned area over time of the run, another run, observations and reports; SVG."""
+    zone, acre = ZoneInfo(results["zone"]), history.SQUARE_METRES_PER_ACRE
     with matplotlib.rc_context({"svg.fonttype": "none", "font.family": "sans-serif", "font.size": 10}):
         figure = Figure(figsize=(10, 4.1))
         axes = figure.add_axes((0.085, 0.12, 0.83, 0.84))
@@ -70,12 +70,17 @@ def growth(run: Run, found: dict[str, Any], other: Run | None = None) -> str:
             if each is not None:
                 _curve(axes, each, zone, color=colour, label=name)
         marks = (
-            ("reported", REPORTED, "o", [(r["time"], r["reported"]) for r in found["reported"] if r["run"]]),
+            (
+                "reported",
+                REPORTED,
+                "o",
+                [(r["time"], r["reported"]) for r in results["reported"] if r["run"]],
+            ),
             (
                 "perimeters",
                 SEEN,
                 "s",
-                [(r["time"], r["all"]["polygons"]["observed_area"]) for r in found["dates"]],
+                [(r["time"], r["all"]["polygons"]["observed_area"]) for r in results["dates"]],
             ),
         )
         for name, colour, mark, points in marks if other is None else marks[:1]:
@@ -102,22 +107,22 @@ def growth(run: Run, found: dict[str, Any], other: Run | None = None) -> str:
 
 
 def own_times(run: Run) -> NDArray[np.float64]:
-    """Model times (s) of a curve of growth: the run's own, evenly spread ones where there are many."""
+    """Model times (s) of a growth curve: the run's own, or an even subset of many."""
     count = len(run.times)
     return run.times[np.unique(np.linspace(0, count - 1, min(count, _MOMENTS)).round().astype(np.int64))]
 
 
 def _curve(axes: Axes, run: Run, zone: ZoneInfo, **style: Any) -> None:
-    """Acres at times of the run, straight between them: what it does not say has no steps. Few are marked."""
+    """Draw acres at the run's times, linear between them; marks are drawn for few times only."""
     moments = own_times(run)
-    when = np.array([times.utc(run, float(each)).astimezone(zone) for each in moments], object)
+    when = np.array([times.utc(run, float(moment)).astimezone(zone) for moment in moments], object)
     area = np.array(info.burned(run, moments), np.float64) / history.SQUARE_METRES_PER_ACRE
     axes.plot(when, area, linewidth=2, marker="o" if len(moments) <= _MARKED else "", markersize=4, **style)
 
 
 def _map(run: Run, grid: Grid, frame: BaseGeometry) -> tuple[Figure, Axes]:
-    """Relief of what a shape spans, in km east and north, with a bar for its scale."""
-    west, south, east, north = (each / _KILO for each in frame.bounds)
+    """Hill shading of a shape's extent, in km east and north, with a scale bar."""
+    west, south, east, north = (bound / _KILO for bound in frame.bounds)
     margin = 0.06 * max(east - west, north - south)
     west, south, east, north = west - margin, south - 2 * margin, east + margin, north + margin
     wide = 4.2
@@ -138,7 +143,7 @@ def _relief(axes: Axes, run: Run, grid: Grid) -> None:
     over = slice(None, None, 1 if run.longitude[0] < run.longitude[-1] else -1)
     dx, dy = areas.spacing(run.latitude, run.longitude)
     shade = LightSource(315, 45).hillshade(height[turn, over], vert_exag=2.0, dx=dx, dy=dy)
-    west, south, east, north = (each / _KILO for each in grid.box.bounds)
+    west, south, east, north = (bound / _KILO for bound in grid.box.bounds)
     axes.imshow(
         0.62 + 0.38 * shade,
         extent=(west, east, south, north),

@@ -1,4 +1,4 @@
-"""Scores as one HTML page: tables, maps and curves inside of it, nothing from anywhere else."""
+"""Score report as one self-contained HTML page: tables, maps and curves."""
 
 from __future__ import annotations
 
@@ -46,21 +46,21 @@ dt{font-weight:600}dd{margin:0;color:var(--soft)}
 """
 
 
-def html(run: Run, found: dict[str, Any], seen: Any, other: Run | None = None) -> str:
-    """The page of the scores `found` of a run against observations `seen`, or against another run."""
+def html(run: Run, results: dict[str, Any], seen: Any, other: Run | None = None) -> str:
+    """Report of the scores `found` of a run against observations `seen` or against another run."""
     grid = Grid.of(run)
     name = escape(run.name)
     body = "\n".join(
         part
         for parts in (
-            _head(run, found, other),
-            _uses(found),
-            _growth(run, found, other),
-            _maps(run, grid, found, seen, other),
-            _scores(found),
-            _reported(run, grid, found),
-            _more(found),
-            _foot(found),
+            _head(run, results, other),
+            _uses(results),
+            _growth(run, results, other),
+            _maps(run, grid, results, seen, other),
+            _scores(results),
+            _reported(run, grid, results),
+            _more(results),
+            _foot(results),
         )
         for part in parts
     )
@@ -71,13 +71,13 @@ def html(run: Run, found: dict[str, Any], seen: Any, other: Run | None = None) -
     )
 
 
-def _head(run: Run, found: dict[str, Any], other: Run | None) -> Iterator[str]:
-    zone = found["zone"]
+def _head(run: Run, results: dict[str, Any], other: Run | None) -> Iterator[str]:
+    zone = results["zone"]
     first, last = (times.text(times.utc(run, float(run.times[i])), zone) for i in (0, -1))
-    names = ", ".join(found["against"])
+    names = ", ".join(results["against"])
     yield f"<h1>{escape(run.name)}</h1>"
     yield f'<p class="soft">{first} to {last} &middot; against {escape(names or "reported areas")}</p>'
-    made_up = [each.name for each in (run, other) if each is not None and each.synthetic]
+    made_up = [made.name for made in (run, other) if made is not None and made.synthetic]
     if made_up:
         who = "Both runs are" if len(made_up) > 1 else f"{escape(made_up[0])} is"
         yield (
@@ -87,43 +87,43 @@ def _head(run: Run, found: dict[str, Any], other: Run | None) -> Iterator[str]:
         )
 
 
-def _uses(found: dict[str, Any]) -> Iterator[str]:
-    if not found["uses"]:
+def _uses(results: dict[str, Any]) -> Iterator[str]:
+    if not results["uses"]:
         return
     yield "<h2>Observations</h2>"
-    if none := used.nothing(found["uses"]):
+    if none := used.nothing(results["uses"]):
         yield f'<p class="warn">{escape(none[:1].upper() + none[1:])}.</p>'
     yield (
         '<p class="soft">Used: in the run\'s grid, from its first time to its last. Before, after: in the '
-        "grid at other times. Outside: beside the grid.</p>"
+        "grid at other times. Outside: not in the grid.</p>"
     )
     rows = (
         [escape(row["source"]), row["kind"], *(f"{row[fate]:,}" for fate in used.FATES)]
-        for row in found["uses"]
+        for row in results["uses"]
     )
     yield _table(("file", "what", *used.FATES), rows, text=("what",))
 
 
-def _growth(run: Run, found: dict[str, Any], other: Run | None) -> Iterator[str]:
-    yield f"<h2>Growth</h2><figure>{plots.growth(run, found, other)}</figure>"
+def _growth(run: Run, results: dict[str, Any], other: Run | None) -> Iterator[str]:
+    yield f"<h2>Growth</h2><figure>{plots.growth(run, results, other)}</figure>"
 
 
-def _maps(run: Run, grid: Grid, found: dict[str, Any], seen: Any, other: Run | None) -> Iterator[str]:
-    if not found["dates"]:
+def _maps(run: Run, grid: Grid, results: dict[str, Any], seen: Any, other: Run | None) -> Iterator[str]:
+    if not results["dates"]:
         return
     yield f"<h2>{'Where the two burned' if other else 'Hits, misses and false alarms'}</h2>"
     yield _key(
         *zip((plots.HITS, plots.FALSE_ALARMS, plots.MISSES), _kinds(run, other), strict=True),
     )
     theirs = None if other is None else (other, Grid.of(other))
-    pairs = [_pair(run, grid, row, seen, theirs) for row in found["dates"]]
+    pairs = [_pair(run, grid, row, seen, theirs) for row in results["dates"]]
     frame = shapes.collected([shape for pair in pairs for shape in pair])
     yield '<div class="maps">'
-    for row, (here, there) in zip(found["dates"], pairs, strict=True):
+    for row, (here, there) in zip(results["dates"], pairs, strict=True):
         scores = row["all"]["polygons"]
         yield (
             f'<figure><img alt="map" src="{plots.overlap(run, grid, here, there, frame)}">'
-            f"<figcaption><b>{local(row['time'], found['zone'])}</b><br>"
+            f"<figcaption><b>{local(row['time'], results['zone'])}</b><br>"
             f"Sorensen {_number(scores['sorensen'])}, area {_signed(scores['area_bias'])}"
             f"{'' if other else ', ' + escape(row['source'])}</figcaption></figure>"
         )
@@ -131,7 +131,7 @@ def _maps(run: Run, grid: Grid, found: dict[str, Any], seen: Any, other: Run | N
 
 
 def _kinds(run: Run, other: Run | None) -> tuple[str, str, str]:
-    """What the colours of maps mean; between two runs nothing is right or wrong."""
+    """Legend of map colours; between two runs there are no hits or misses."""
     if other is None:
         return "burned in both: hits", "burned in this run alone: false alarms", "seen burned alone: misses"
     return "burned in both", f"only in {escape(run.name)}", f"only in {escape(other.name)}"
@@ -140,20 +140,20 @@ def _kinds(run: Run, other: Run | None) -> tuple[str, str, str]:
 def _pair(
     run: Run, grid: Grid, row: dict[str, Any], seen: Any, theirs: tuple[Run, Grid] | None
 ) -> tuple[Any, Any]:
-    """Projected shapes of a date: the run's, and the observed one or that of the other run and its grid."""
+    """Projected shapes of a date: the run's, and the observed one or the other run's."""
     moment = datetime.fromisoformat(row["time"])
     here = grid.polygon(times.seconds(run, moment))
     if theirs is not None:
         other, there = theirs
         shape = there.polygon(times.seconds(other, moment))
         return here, grid.projection.project(there.degrees(shape))
-    for each in seen.perimeters:
-        if abs((each.time - moment).total_seconds()) < 1.0 and each.source == row["source"]:
-            return here, grid.projection.project(shapes.of_perimeter(each, grid.middle))
+    for perimeter in seen.perimeters:
+        if abs((perimeter.time - moment).total_seconds()) < 1.0 and perimeter.source == row["source"]:
+            return here, grid.projection.project(shapes.of_perimeter(perimeter, grid.middle))
     raise KeyError(row["time"])
 
 
-def _scores(found: dict[str, Any]) -> Iterator[str]:
+def _scores(results: dict[str, Any]) -> Iterator[str]:
     for key, title, text in (
         ("all", "Scores", "All that had burned by each date."),
         (
@@ -162,18 +162,18 @@ def _scores(found: dict[str, Any]) -> Iterator[str]:
             "What had burned when the run began counts for nothing.",
         ),
     ):
-        rows = [row for row in found["dates"] if key in row]
+        rows = [row for row in results["dates"] if key in row]
         if not rows:
             continue
-        yield f'<h2>{title}</h2><p class="soft">{text} Small: how far polygons and cells differ.</p>'
-        head = ("date", "run, acres", f"{theirs(found)}, acres", *_SHOWN, "apart, m")
-        yield _table(head, (_score_row(row, row[key], found["zone"]) for row in rows))
-    if found["dates"] and found["other_run"]:
+        yield f'<h2>{title}</h2><p class="soft">{text} Small: difference between polygons and cells.</p>'
+        head = ("date", "run, acres", f"{theirs(results)}, acres", *_SHOWN, "apart, m")
+        yield _table(head, (_score_row(row, row[key], results["zone"]) for row in rows))
+    if results["dates"] and results["other_run"]:
         yield (
             '<p class="soft">Hits burned in both, false alarms in this run alone, misses in the other alone: '
             "between two runs none of it is right or wrong.</p>"
         )
-    if found["dates"]:
+    if results["dates"]:
         yield "<dl>" + "".join(f"<dt>{n}</dt><dd>{escape(text)}</dd>" for n, text in _HELP.items()) + "</dl>"
 
 
@@ -186,8 +186,8 @@ def _score_row(row: dict[str, Any], scores: dict[str, Any], zone: str) -> list[s
     return [local(row["time"], zone), *sizes, *numbers, apart]
 
 
-def _reported(run: Run, grid: Grid, found: dict[str, Any]) -> Iterator[str]:
-    rows = [row for row in found["reported"] if row["run"] is not None]
+def _reported(run: Run, grid: Grid, results: dict[str, Any]) -> Iterator[str]:
+    rows = [row for row in results["reported"] if row["run"] is not None]
     if not rows:
         return
     yield "<h2>Reported areas</h2>"
@@ -199,7 +199,7 @@ def _reported(run: Run, grid: Grid, found: dict[str, Any]) -> Iterator[str]:
         ("date", "run, acres", "reported, acres", "difference", "source"),
         (
             [
-                local(row["time"], found["zone"]),
+                local(row["time"], results["zone"]),
                 _area(row["run"], abs(row["polygons"] - row["run"])),
                 f"{row['reported'] / ACRE:,.0f}",
                 _signed(row["difference"]),
@@ -211,17 +211,17 @@ def _reported(run: Run, grid: Grid, found: dict[str, Any]) -> Iterator[str]:
     )
     moments = [datetime.fromisoformat(row["time"]) for row in rows]
     fires = [grid.polygon(times.seconds(run, moment)) for moment in moments]
-    labels = [f"by {times.text(moment, found['zone'])}" for moment in moments]
+    labels = [f"by {times.text(moment, results['zone'])}" for moment in moments]
     yield "<h2>Where the run burned by these dates</h2>"
     yield _key(*zip(plots.ways(len(fires)), labels, strict=True))
     picture = plots.progress(run, grid, fires, shapes.collected(fires))
     yield f'<figure class="one"><img alt="map" src="{picture}"></figure>'
 
 
-def _more(found: dict[str, Any]) -> Iterator[str]:
-    if found["arrival"]:
-        yield f"<h2>Arrival times</h2><p>{escape(arrival(found))}.</p>"
-    if found["detections"]:
+def _more(results: dict[str, Any]) -> Iterator[str]:
+    if results["arrival"]:
+        yield f"<h2>Arrival times</h2><p>{escape(arrival(results))}.</p>"
+    if results["detections"]:
         yield "<h2>Detections by satellites</h2>"
         yield (
             '<p class="soft">Inside: the run had burned there by then. Lag: how long before the overpass the '
@@ -231,21 +231,22 @@ def _more(found: dict[str, Any]) -> Iterator[str]:
             ("overpass", "seen", "inside", "within a pixel", "never burned", "median lag"),
             (
                 [
-                    local(row["time"], found["zone"]),
+                    local(row["time"], results["zone"]),
                     *(f"{row[name]:,}" for name in ("count", "inside", "within_pixel", "never")),
                     "-" if row["lag_median"] is None else f"{row['lag_median'] / 3600:+.1f} h",
                 ]
-                for row in found["detections"]
+                for row in results["detections"]
             ),
         )
 
 
-def _foot(found: dict[str, Any]) -> Iterator[str]:
-    wide, high = found["domain"]["cell"]
+def _foot(results: dict[str, Any]) -> Iterator[str]:
+    wide, high = results["domain"]["cell"]
     notes = [
-        *said(found),
-        f"cells of {high:.0f} x {wide:.0f} m; kappa's domain is all {found['domain']['area'] / 1e6:,.0f} km2",
-        f"polygons in {found['projection']}",
+        *said(results),
+        f"cells of {high:.0f} x {wide:.0f} m; "
+        f"kappa's domain is all {results['domain']['area'] / 1e6:,.0f} km2",
+        f"polygons in {results['projection']}",
         "scores as in Duff, Chong and Tolhurst, Environmental Modelling & Software 83 (2016)",
     ]
     yield "<h2>To know</h2><ul>" + "".join(f"<li>{escape(note)}</li>" for note in notes) + "</ul>"

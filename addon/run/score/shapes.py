@@ -1,4 +1,4 @@
-"""Polygons of fires: of observations, of a run's front, and how far two perimeters lie apart (m)."""
+"""Fire polygons: observed perimeters, fronts of a run, and distances between perimeters (m)."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ _NEVER = 1e12  # s
 
 
 def needed() -> None:
-    """Ask for what scores need.
+    """Check that the packages for scores are installed.
 
     Raises
     ------
     UsageError
-        It is not there.
+        A package is missing.
     """
     try:
         import contourpy  # noqa: F401 (of matplotlib)
@@ -38,7 +38,7 @@ def needed() -> None:
 
 
 class Projection:
-    """Lambert's azimuthal equal-area projection on WGS84 about a point: areas true, distances within 1e-5."""
+    """Lambert azimuthal equal-area projection on WGS84 about a point; distances are true within 1e-5."""
 
     def __init__(self, latitude: float, longitude: float) -> None:
         from pyproj import Transformer
@@ -47,7 +47,7 @@ class Projection:
         self._there = Transformer.from_crs("EPSG:4326", self.definition, always_xy=True)
 
     def project(self, shape: BaseGeometry, back: bool = False) -> BaseGeometry:
-        """A shape in degrees in metres, or back."""
+        """Project a shape from degrees to metres, or back."""
         import shapely
 
         way = "INVERSE" if back else "FORWARD"
@@ -58,28 +58,28 @@ class Projection:
         return clean(shapely.transform(shape, move))
 
     def points(self, longitude: NDArray[np.float64], latitude: NDArray[np.float64]) -> NDArray[Any]:
-        """Points in degrees as projected points."""
+        """Project points in degrees."""
         import shapely
 
         return shapely.points(*self._there.transform(longitude, latitude))
 
 
 def of_perimeter(perimeter: Perimeter, middle: float) -> BaseGeometry:
-    """The polygons of an observation as one valid shape in degrees, on the side of the globe of `middle`."""
+    """Observed perimeter as one valid shape in degrees, with longitudes near `middle`."""
     import shapely
 
     def near(ring: NDArray[np.float64]) -> NDArray[np.float64]:
         turned = areas.turned(ring[:, :1].mean(), middle) - ring[:, :1].mean()
         return ring + np.array([float(turned), 0.0])
 
-    found = [
+    polygons = [
         shapely.Polygon(near(rings[0]), [near(hole) for hole in rings[1:]]) for rings in perimeter.polygons
     ]
-    return shapely.union_all([clean(each) for each in found])
+    return shapely.union_all([clean(polygon) for polygon in polygons])
 
 
 def clean(shape: BaseGeometry) -> BaseGeometry:
-    """The polygons of a shape, valid: rings that cross themselves are taken apart."""
+    """Repair polygons: split rings that intersect themselves."""
     import shapely
 
     if not shape.is_valid:
@@ -88,15 +88,15 @@ def clean(shape: BaseGeometry) -> BaseGeometry:
     return shapely.union_all(parts) if len(parts) != 1 else parts[0]
 
 
-def collected(found: Iterable[BaseGeometry]) -> BaseGeometry:
-    """Shapes as one, whether or not they overlap: what spans them all."""
+def collected(shapes: Iterable[BaseGeometry]) -> BaseGeometry:
+    """Collect shapes in one multi-part shape, overlapping or not."""
     import shapely
 
-    return shapely.GeometryCollection(list(found))
+    return shapely.GeometryCollection(list(shapes))
 
 
 def outline(x: NDArray[np.float64], y: NDArray[np.float64]) -> BaseGeometry:
-    """A rectangle in degrees with a corner at every edge of a cell, as parallels bend when projected."""
+    """Rectangle in degrees with a vertex at each cell edge, as parallels curve in projection."""
     import shapely
 
     west, east = np.full_like(y, x[0]), np.full_like(y, x[-1])
@@ -108,29 +108,29 @@ def outline(x: NDArray[np.float64], y: NDArray[np.float64]) -> BaseGeometry:
 def contains(
     shape: BaseGeometry, longitude: NDArray[np.float64], latitude: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """Middles (ny, nx) of cells that lie in a shape in degrees."""
+    """Mask (ny, nx) of cell centres within a shape in degrees."""
     import shapely
 
-    found = np.zeros((latitude.size, longitude.size), bool)
+    mask = np.zeros((latitude.size, longitude.size), bool)
     if shape.is_empty:
-        return found
+        return mask
     west, south, east, north = shape.bounds
     rows = np.flatnonzero((latitude >= south) & (latitude <= north))
     columns = np.flatnonzero((longitude >= west) & (longitude <= east))
     if rows.size and columns.size:
         shapely.prepare(shape)
         x, y = np.meshgrid(longitude[columns], latitude[rows])
-        found[np.ix_(rows, columns)] = shapely.contains_xy(shape, x, y)
-    return found
+        mask[np.ix_(rows, columns)] = shapely.contains_xy(shape, x, y)
+    return mask
 
 
 def of_front(
     longitude: NDArray[np.float64], latitude: NDArray[np.float64], since: NDArray[np.float64]
 ) -> BaseGeometry:
-    """What has burned, in degrees: where `since`, arrival less the moment (s), is 0 or less.
+    """Burned polygon in degrees: where `since`, arrival minus time (s), is 0 or less.
 
-    Between two cells the front moves evenly. Between one that burned and one that never does (NaN), or the
-    edge of the grid, it is half-way: such a cell takes the mean of its burned neighbours with the other sign.
+    The front is interpolated linearly between two cells. It is half-way between a burned cell and one that
+    never burns (NaN) or the grid's edge: such a cell takes the negated mean of its burned neighbours.
     """
     import contourpy
     import shapely
@@ -141,40 +141,43 @@ def of_front(
     x, y = (wider(axis) for axis in (longitude, latitude))
     front = contourpy.contour_generator(x, y, field, fill_type=contourpy.FillType.OuterOffset)
     polygons, offsets = cast(tuple[list[NDArray], list[NDArray]], front.filled(-_NEVER, 0.0))
-    found = []
+    outlines = []
     for points, starts in zip(polygons, offsets, strict=True):
         rings = [points[a:b] for a, b in itertools.pairwise(starts)]
-        found.append(shapely.Polygon(rings[0], [hole for hole in rings[1:] if len(hole) > 3]))
-    return clean(shapely.MultiPolygon(found))
+        outlines.append(shapely.Polygon(rings[0], [hole for hole in rings[1:] if len(hole) > 3]))
+    return clean(shapely.MultiPolygon(outlines))
 
 
 def mirrored(since: NDArray[np.float64]) -> NDArray[np.float64]:
-    """`since` with a number for each NaN: its burned neighbours' mean with the other sign, else never."""
+    """Fill NaN of `since` by the negated mean of burned neighbours, else by never."""
     burned = np.where(since <= 0.0, since, 0.0)
     total, count = np.zeros_like(since), np.zeros(since.shape, int)
     for dy, dx in ((0, 1), (0, -1), (1, 0), (-1, 0)):
         near = np.roll(burned, (dy, dx), (0, 1))
         total, count = total - near, count + (near < 0.0)
     missing = np.isnan(since)
-    found = np.where(missing, np.where(count > 0, total / np.maximum(count, 1), _NEVER / 2), since)
-    return np.maximum(found, np.where(missing, 1e-3, -_NEVER / 2))
+    filled = np.where(missing, np.where(count > 0, total / np.maximum(count, 1), _NEVER / 2), since)
+    return np.maximum(filled, np.where(missing, 1e-3, -_NEVER / 2))
 
 
 def wider(axis: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Middles of cells with one more at either end."""
+    """Extend cell centres by one at each end."""
     edges = areas.edges(axis)
     return np.concatenate([[2 * edges[0] - axis[0]], axis, [2 * edges[-1] - axis[-1]]])
 
 
 def distances(run: BaseGeometry, seen: BaseGeometry, step: float) -> dict[str, float | None]:
-    """How far (m) two projected perimeters lie apart, holes included, by points every `step` m of them.
+    """Distance (m) between two projected perimeters, holes included, sampled every `step` m.
 
-    Hausdorff's distance is the farthest that a point of either lies from the other; the mean distance is that
-    of all points of both. None where one of them is empty.
+    The Hausdorff distance is the largest distance of any point to the other perimeter; the mean is over all
+    points of both. None if one is empty.
     """
     if run.is_empty or seen.is_empty:
         return {"hausdorff": None, "mean": None, "run_to_observed": None, "observed_to_run": None}
-    there, back = _away(run.boundary, seen.boundary, step), _away(seen.boundary, run.boundary, step)
+    there, back = (
+        _distances_to(run.boundary, seen.boundary, step),
+        _distances_to(seen.boundary, run.boundary, step),
+    )
     return {
         "hausdorff": float(max(there.max(), back.max())),
         "mean": float(np.concatenate([there, back]).mean()),
@@ -183,8 +186,8 @@ def distances(run: BaseGeometry, seen: BaseGeometry, step: float) -> dict[str, f
     }
 
 
-def _away(line: BaseGeometry, other: BaseGeometry, step: float) -> NDArray[np.float64]:
-    """Distances of points along a line, corners among them, from another."""
+def _distances_to(line: BaseGeometry, other: BaseGeometry, step: float) -> NDArray[np.float64]:
+    """Distances of points along a line, vertices included, to another line."""
     import shapely
 
     points = shapely.get_coordinates(shapely.segmentize(line, step))
@@ -193,7 +196,7 @@ def _away(line: BaseGeometry, other: BaseGeometry, step: float) -> NDArray[np.fl
 
 
 def _pieces(line: BaseGeometry) -> Iterable[Any]:
-    """The straight pieces of a line."""
+    """Straight segments of a line."""
     import shapely
 
     pieces = []

@@ -1,4 +1,4 @@
-"""Which observations a run can be compared with: those in its place, from its first time to its last."""
+"""Selection of observations for comparison: within the run's area and between its first and last time."""
 
 from __future__ import annotations
 
@@ -15,31 +15,31 @@ FATES = (USED, BEFORE, AFTER, OUTSIDE)
 
 
 def fates(run: Run, moments: ArrayLike, here: ArrayLike) -> NDArray[np.str_]:
-    """One of `FATES` for each observation, by its model time (s) and whether it lies in the run's grid.
+    """Use of each observation, one of `FATES`, by its model time (s) and whether it lies in the run's grid.
 
-    What lies elsewhere is `OUTSIDE` whenever it was seen: it may be another fire.
+    One outside of the grid is `OUTSIDE` at any time: it may belong to another fire.
     """
     moments, here = np.asarray(moments, np.float64), np.asarray(here, bool)
     when = np.select([moments < run.times[0], moments > run.times[-1]], [BEFORE, AFTER], USED)
     return np.where(here, when, OUTSIDE)
 
 
-def row(source: str, kind: str, found: Iterable[str]) -> dict[str, Any]:
-    """How many of a file's observations of a kind ("perimeters", "detections") have each fate."""
-    counts = Counter(str(fate) for fate in found)
+def row(source: str, kind: str, fates_of: Iterable[str]) -> dict[str, Any]:
+    """Counts of a file's observations of a kind ("perimeters", "detections") by use."""
+    counts = Counter(str(fate) for fate in fates_of)
     return {"source": source, "kind": kind} | {fate: counts[fate] for fate in FATES}
 
 
 def nothing(rows: Sequence[dict[str, Any]]) -> str:
-    """Say that no observation can be used, and why; "" where one can or where there are none."""
-    if not rows or any(each[USED] for each in rows):
+    """Message that no observation can be used, with reasons; "" if one can or there are none."""
+    if not rows or any(counted[USED] for counted in rows):
         return ""
-    before, after, outside = (sum(each[fate] for each in rows) for fate in FATES[1:])
+    before, after, outside = (sum(counted[fate] for counted in rows) for fate in FATES[1:])
     reasons = (
         (before, "before the run's first time"),
         (after, "after its last" if before else "after the run's last time"),
         (outside, "outside of its grid" if before or after else "outside of the run's grid"),
     )
-    names = ", ".join(dict.fromkeys(each["source"] for each in rows))
+    names = ", ".join(dict.fromkeys(counted["source"] for counted in rows))
     why = ", ".join(f"{count:,} lie {text}" for count, text in reasons if count)
     return f"no observation of {names} can be compared with the run: {why or 'all are left out'}"

@@ -1,7 +1,7 @@
-"""Settings that fit a run: its most active part, and cameras that show it.
+"""Auto framing: settings fitted to a run, with its most active time window and cameras that show it.
 
-`firetwin new` writes them as a scene file; `render`, `build` and `bake` of a run folder, and *Open run* in
-Blender, take the same.
+`firetwin new` writes them as a scene file. `render`, `build` and `bake` of a run folder use the same, and so
+does *Open run* in Blender.
 """
 
 from __future__ import annotations
@@ -20,18 +20,18 @@ from .visible_share import Visible
 
 @dataclass(frozen=True)
 class FittedScene:
-    """Settings that fit a run, and what is said of them.
+    """Settings fitted to a run, with descriptions.
 
     Attributes
     ----------
     name
-        Of the run.
+        Name of the run.
     window
-        A line about the moments that are shown.
+        Description of the time window, one line.
     cameras
-        A line about each camera, by its name.
+        Description of each camera, one line, by its name.
     shares
-        Of the front that each camera films, how much it shows, 0..1; 0 where nothing burns.
+        Visible fraction of the front for each camera, 0..1; 0 without fire.
     """
 
     settings: Settings
@@ -42,19 +42,19 @@ class FittedScene:
 
     @property
     def lines(self) -> list[str]:
-        """What was chosen, in a few lines."""
+        """Describe the choices in a few lines."""
         return [self.window, *(f"{name}: {words}" for name, words in self.cameras.items())]
 
     @property
     def text(self) -> str:
-        """The settings as a short scene file."""
+        """Format the settings as a short scene file."""
         return text.text(self.settings, self.name, self.window, self.cameras)
 
 
 def fit(run: Run, settings: Settings) -> FittedScene:
-    """Settings for a run that begin with these, which name the run, the file and the cache.
+    """Fit settings to a run, based on these, which name the run, the file and the cache.
 
-    Where they say when the shot starts or ends, cameras fit that, and no other moments are looked for.
+    If they have the shot's start or end, cameras are fitted to that window, and no other is searched.
     """
     time, words = window.choose(run, settings.time)
     settings = replace(
@@ -66,18 +66,20 @@ def fit(run: Run, settings: Settings) -> FittedScene:
     shot = Shot(settings, run)
     moving = front.find_front(shot)
     placed = _placed(moving)
-    whole = replace(settings, cameras=tuple(each.camera for each in placed))
-    said, shares = ({each.camera.name: getattr(each, name) for each in placed} for name in ("words", "share"))
+    whole = replace(settings, cameras=tuple(camera.camera for camera in placed))
+    said, shares = (
+        {camera.camera.name: getattr(camera, name) for camera in placed} for name in ("words", "share")
+    )
     return FittedScene(whole, run.name, words, said, shares)
 
 
 def fit_folder(folder: Path, path: Path, cache: Path, time: Time | None = None) -> FittedScene:
-    """Settings for the run in a folder, as of the scene file `path`; `time` may say what is filmed.
+    """Fit settings to the run in a folder, for the scene file `path`; `time` may give the time window.
 
     Raises
     ------
     InputError
-        What is wrong with the run.
+        There is something wrong with the run.
     """
     from ...run import readers
 

@@ -1,4 +1,4 @@
-"""What the fitted cameras share: how they are placed round the fire, and what is said of them."""
+"""Candidate cameras: placement around the fire, rating, and descriptions."""
 
 from __future__ import annotations
 
@@ -17,16 +17,18 @@ if TYPE_CHECKING:
     from ..cameras.path import Path
     from ..settings.settings import Camera
 
-LEAST = 0.5  # of the front that a camera has to show
-ENOUGH = 0.55  # as much is looked for
-LENS, SENSOR = 28.0, 36.0  # mm, of cameras unless more has to be in the picture
-FARTHER = (1.0, 1.6, 2.5, 4.0)  # times its distance: where a close camera that shows too little moves to
-_FRONT, _ROUND = -0.2, 0.3  # where its middle is to be, and how far off it may, in halves of the height
-_HORIZON, _OFF = 0.75, 0.5  # where the horizon is at most, and liking lost for half the height (by eye)
-_SOME = 0.65  # of the front is clear of smoke, by straight plumes, where a close camera stays (by eye)
-CLOSE_CLEAR = 3.0  # liking of all the front clear of smoke, of close cameras: they could stand in it (by eye)
-_CELLS = 3.0  # of the fuel grid, at least from a close camera to what it films
-OVER_CROWNS = 60.0  # m above the ground at least where trees stand
+LEAST = 0.5  # visible fraction of the front that a camera must reach
+ENOUGH = 0.55  # visible fraction at which the search ends
+LENS, SENSOR = 28.0, 36.0  # mm, default lens and sensor
+FARTHER = (1.0, 1.6, 2.5, 4.0)  # factors on the distance of a close camera that shows too little
+# target height of the front's centre in the picture, and tolerance, in half heights
+_FRONT, _ROUND = -0.2, 0.3
+_HORIZON, _OFF = 0.75, 0.5  # highest position of the horizon, and penalty for half a height (by eye)
+# fraction of the front clear of smoke, by straight plumes, at which a close camera stays (by eye)
+_SOME = 0.65
+CLOSE_CLEAR = 3.0  # weight of a front clear of smoke, for close cameras, which could stand in it (by eye)
+_CELLS = 3.0  # fuel cells, least distance of a close camera to its target
+OVER_CROWNS = 60.0  # m, least height above ground among trees
 _SIDES = ("north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west")
 
 Array = NDArray[np.float64]
@@ -34,7 +36,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Placed:
-    """A camera, the share of the front that it shows, and a line about it."""
+    """Placed camera, its visible fraction of the front, and its description."""
 
     camera: Camera
     share: float
@@ -42,64 +44,64 @@ class Placed:
 
 
 class Tried(NamedTuple):
-    """A camera, what it shows of the front, and how well it stands otherwise."""
+    """Candidate camera, its visible share of the front, and its rating otherwise."""
 
     seen: VisibleShare
     liking: float
     camera: Camera
 
 
-def best(found: list[Tried], clear: float) -> Tried:
-    """The one that is liked most of those that show enough; where none does, the one that shows most.
+def best(tried: list[Tried], clear: float) -> Tried:
+    """Candidate with the best rating among those that show enough; else the one that shows most.
 
     Parameters
     ----------
     clear
-        Liking of all the front clear of smoke.
+        Weight of the fraction clear of smoke.
     """
     for least in (ENOUGH, LEAST):
-        if good := [each for each in found if each.seen.share >= least]:
-            return max(good, key=lambda each: clear * each.seen.clear + each.liking)
-    return max(found, key=lambda each: each.seen.share)
+        if good := [candidate for candidate in tried if candidate.seen.share >= least]:
+            return max(good, key=lambda candidate: clear * candidate.seen.clear + candidate.liking)
+    return max(tried, key=lambda candidate: candidate.seen.share)
 
 
 def nearest_enough(near: float, tried: Callable[[float], list[Tried]]) -> Tried:
-    """The best of close cameras; of farther ones as well, where no nearer one shows enough.
+    """Best close candidate; farther ones are tried while none shows enough.
 
     Parameters
     ----------
     near
-        The least distance, m.
+        Least distance, m.
     tried
-        Gives the cameras of a distance (m).
+        Function that makes candidates at a distance (m).
     """
-    found: list[Tried] = []
+    candidates: list[Tried] = []
     for farther in FARTHER:
-        found += tried(rounded(farther * near))
-        if any(enough(each.seen) for each in found):
+        candidates += tried(rounded(farther * near))
+        if any(enough(candidate.seen) for candidate in candidates):
             break
-    return best(found, CLOSE_CLEAR)
+    return best(candidates, CLOSE_CLEAR)
 
 
 def away(view: Path) -> float:
-    """How far (m) a camera is from what it looks at in its first frame, over the ground."""
+    """Horizontal distance (m) of a camera from its target in its first frame."""
     return float(np.hypot(*(view.position - view.target)[0, :2]))
 
 
-def enough(seen: VisibleShare) -> bool:
-    """Whether a close camera need not move off: it shows enough, and does not stand in smoke."""
-    return seen.share >= ENOUGH and seen.clear >= _SOME
+def enough(visible: VisibleShare) -> bool:
+    """Whether a close camera may stay: it shows enough and is not in smoke."""
+    return visible.share >= ENOUGH and visible.clear >= _SOME
 
 
-def shows(seen: VisibleShare, what: str) -> str:
-    """``87 % of the front shows, about 60 % clear of smoke``."""
-    return f"{percent(seen.share)} of {what} shows, about {percent(seen.clear)} clear of smoke"
+def shows(visible: VisibleShare, what: str) -> str:
+    """Describe visibility: ``87 % of the front shows, about 60 % clear of smoke``."""
+    return f"{percent(visible.share)} of {what} shows, about {percent(visible.clear)} clear of smoke"
 
 
 def near(front: Front, part: float, limits: tuple[float, float], over_crowns: float) -> float:
-    """How far (m) a close camera is from what it films: a part of one fire's size, within limits.
+    """Distance (m) of a close camera: a fraction of one fire's size, within limits.
 
-    Not so near that the model knows nothing as fine, and where trees stand, not so near that they hide it.
+    It is not below the model's resolution, and among trees not so close that they occlude the target.
     """
     distance = min(max(part * front.fire, limits[0]), limits[1])
     distance = max(distance, _CELLS * max(front.ground.cell), over_crowns if front.crowns else 0.0)
@@ -107,7 +109,7 @@ def near(front: Front, part: float, limits: tuple[float, float], over_crowns: fl
 
 
 def liking(front: Front, bearing: float) -> float:
-    """How well a camera stands in a direction of the fire (degrees), -1..1: windward, the sun behind it."""
+    """Rating of a camera's bearing from the fire (degrees), -1..1; best is windward with the sun behind."""
     side = np.array([np.sin(np.radians(bearing)), np.cos(np.radians(bearing))])
     windward = -float(side @ front.wind)
     azimuth, height = sun.position(front.shot.run, front.shot.frames.middle)
@@ -118,35 +120,35 @@ def liking(front: Front, bearing: float) -> float:
 
 
 def bearing(view: Path) -> float:
-    """Direction (degrees) that a camera mostly stands in, seen from what it looks at."""
+    """Mean bearing (degrees) of a camera from its target."""
     return float(np.degrees(np.arctan2(*(view.position - view.target)[:, :2].mean(axis=0))))
 
 
-def framed(seen: VisibleShare) -> float:
-    """Liking lost, 0 or less, where the front is far from its place in the picture, or no horizon in it."""
-    off = max(abs(seen.height - _FRONT) - _ROUND, 0.0)
-    return -_OFF * off - _OFF * float(np.clip(seen.horizon - _HORIZON, 0.0, 1.0))
+def framed(visible: VisibleShare) -> float:
+    """Framing penalty, 0 or less: front away from its place in the picture, or no horizon."""
+    off = max(abs(visible.height - _FRONT) - _ROUND, 0.0)
+    return -_OFF * off - _OFF * float(np.clip(visible.horizon - _HORIZON, 0.0, 1.0))
 
 
 def side(bearing: float) -> str:
-    """A direction in words: ``south-west``."""
+    """Compass direction of a bearing: ``south-west``."""
     return _SIDES[round(bearing / 45.0) % 8]
 
 
 def where(front: Front, bearing: float) -> str:
-    """``from the south-west, windward, with the sun behind``."""
+    """Describe a bearing: ``from the south-west, windward, with the sun behind``."""
     vector = np.array([np.sin(np.radians(bearing)), np.cos(np.radians(bearing))])
-    found = [f"from the {side(bearing)}"]
+    parts = [f"from the {side(bearing)}"]
     if float(vector @ front.wind) < -0.5:
-        found.append("windward")
+        parts.append("windward")
     azimuth, height = sun.position(front.shot.run, front.shot.frames.middle)
     if height > 0.0 and np.cos(np.radians(bearing - azimuth)) > 0.5:
-        found.append("the sun behind it")
-    return ", ".join(found)
+        parts.append("the sun behind it")
+    return ", ".join(parts)
 
 
 def geodetic(front: Front, place: Array) -> tuple[float, float, float]:
-    """Latitude, longitude (degrees, to about a metre) and height above the ground (m) of a place (3,)."""
+    """Latitude, longitude (degrees, to about a metre) and height above ground (m) of a point (3,)."""
     frame, ground = front.ground.frame, front.ground
     latitude, longitude, height = (float(v[0]) for v in frame.reverse(place[None]))
     above = height - float(ground.height(*ground.indices(latitude, longitude)))
@@ -154,21 +156,21 @@ def geodetic(front: Front, place: Array) -> tuple[float, float, float]:
 
 
 def distance(metres: float) -> str:
-    """``3.2 km`` or ``240 m``."""
+    """Format a distance: ``3.2 km`` or ``240 m``."""
     return f"{metres / 1e3:.3g} km" if metres >= 1000.0 else f"{metres:.0f} m"
 
 
 def rounded(metres: float) -> float:
-    """To two digits, upward."""
+    """Round up to two digits."""
     step = 10.0 ** np.floor(np.log10(max(metres, 1.0)) - 1.0)
     return round(float(np.ceil(round(metres / step, 6)) * step), 6)
 
 
 def percent(share: float) -> str:
-    """``87 %``."""
+    """Format a fraction: ``87 %``."""
     return f"{100.0 * share:.0f} %"
 
 
 def path(front: Front, camera: Camera) -> Path:
-    """The way of a camera over the bare ground."""
+    """Path of a camera over the bare terrain."""
     return camera.rig.path(camera, front.shot, front.ground)

@@ -1,4 +1,4 @@
-"""A camera that goes along with the head of the fire."""
+"""Chase camera of auto framing: moves with the head of the fire."""
 
 from __future__ import annotations
 
@@ -16,18 +16,19 @@ from .visible_share import Visible
 if TYPE_CHECKING:
     from ..cameras.path import Path
 
-_PART = 1.0 / 12.0  # of the fire's size: 2.4 km at 29 km, as of the example's drone (by eye)
+_PART = 1.0 / 12.0  # of the fire's size: 2.4 km at 29 km, as the example's drone (by eye)
 _DISTANCES = (80.0, 3000.0)  # m
-_OVER_CROWNS = 180.0  # m, where trees stand: nearer one only looks down on them
+_OVER_CROWNS = 180.0  # m, among trees; a nearer camera looks only down on them
 _SIDES = (150.0, 210.0, 120.0, 240.0, 180.0, 90.0, 270.0)  # degrees from the head's course, best first
 _HEIGHTS = (0.3, 0.45, 0.7, 1.1)  # of the distance
-_AIM = 0.12  # of the distance above the ground: flames below the middle, smoke above it
-_LATER = 0.04  # liking lost for each later side or height
-_OVER_SCAR = 0.7  # part of the clear view lost over burned ground: smoke of both flanks meets there (by eye)
+_AIM = 0.12  # of the distance, height of the aim above ground: flames below the centre, smoke above
+_LATER = 0.04  # penalty for each later side or height
+# fraction of the clear view lost above burned ground, where smoke of both flanks meets (by eye)
+_OVER_SCAR = 0.7
 
 
 def place(front: Front, visible: Visible) -> Placed:
-    """The best of sides and heights; of farther ones where no near one shows enough."""
+    """Best candidate over sides and heights; farther ones while no near one shows enough."""
     near = candidates.near(front, _PART, _DISTANCES, _OVER_CROWNS)
     best = candidates.nearest_enough(near, lambda distance: _tried(front, visible, near, distance))
     way = candidates.bearing(candidates.path(front, best.camera))
@@ -40,23 +41,25 @@ def place(front: Front, visible: Visible) -> Placed:
 
 
 def _tried(front: Front, visible: Visible, near: float, distance: float) -> list[Tried]:
-    """Cameras so far from the head, with what they show of the front within `near` m of it."""
-    found = []
+    """Candidates at a distance from the head, with the visible share of the front within `near` m of it."""
+    tried = []
     for number, (height, side) in enumerate((height, side) for height in _HEIGHTS for side in _SIDES):
         above = candidates.rounded(max(height * distance, candidates.OVER_CROWNS if front.crowns else 0.0))
         aim, clearance = candidates.rounded(_AIM * distance), min(50.0, 0.5 * above)
         rig = Chase(distance=distance, side=side, height=above, target_height=aim, clearance=clearance)
         camera = Camera("chase", rig=rig)
         view = candidates.path(front, camera)
-        seen = visible.seen(view, near)
-        seen = seen._replace(clear=seen.clear * (1.0 - _OVER_SCAR * _over_scar(front, view)))
-        likes = candidates.liking(front, candidates.bearing(view)) + candidates.framed(seen) - _LATER * number
-        found.append(Tried(seen, likes, camera))
-    return found
+        share = visible.seen(view, near)
+        share = share._replace(clear=share.clear * (1.0 - _OVER_SCAR * _over_scar(front, view)))
+        likes = (
+            candidates.liking(front, candidates.bearing(view)) + candidates.framed(share) - _LATER * number
+        )
+        tried.append(Tried(share, likes, camera))
+    return tried
 
 
 def _over_scar(front: Front, view: Path) -> float:
-    """Part of the front's moments at which a camera is over ground that has burned by then."""
+    """Fraction of times at which a camera is above ground that has burned by then."""
     ground, times = front.ground, front.shot.frames.times
     latitude, longitude, _ = ground.frame.reverse(view.position[front.frames])
     arrival = ground.arrival_at(*ground.indices(latitude, longitude))

@@ -1,4 +1,4 @@
-"""A camera close to a flank of the fire, low over ground that has not burned."""
+"""Flank camera of auto framing: close to a flank of the fire, low above unburned ground."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from .visible_share import Visible
 
 _PART = 1.0 / 40.0  # of the fire's size (by eye)
 _DISTANCES = (45.0, 700.0)  # m
-_OVER_CROWNS = 250.0  # m, where trees stand: nearer and lower they hide the flames
-_PLACES = 8  # of the flanks that are tried
-_TURNS = (0.0, 40.0, -40.0)  # degrees from straight before the flank
+_OVER_CROWNS = 250.0  # m, among trees; nearer and lower they occlude the flames
+_PLACES = 8  # points of the flanks that are tried
+_TURNS = (0.0, 40.0, -40.0)  # degrees from the flank's normal
 _HEIGHTS = (0.25, 0.4, 0.6)  # of the distance
-_AIM = 0.08  # of the distance above the ground: flames below the middle, smoke above it
-_STEEP = 0.1  # liking lost for each higher step
+_AIM = 0.08  # of the distance, height of the aim above ground: flames below the centre, smoke above
+_STEEP = 0.1  # penalty for each higher step
 
 
 def place(front: Front, visible: Visible) -> Placed:
-    """The best of places, directions and heights; of farther ones where no near one shows enough."""
+    """Best candidate over points, directions and heights; farther ones while no near one shows enough."""
     near = candidates.near(front, _PART, _DISTANCES, _OVER_CROWNS)
     best = candidates.nearest_enough(near, lambda distance: _tried(front, visible, near, distance))
     view = candidates.path(front, best.camera)
@@ -37,22 +37,22 @@ def place(front: Front, visible: Visible) -> Placed:
 
 
 def _tried(front: Front, visible: Visible, near: float, distance: float) -> list[Tried]:
-    """Cameras so far from flanks, with what they show of the front within `near` m of what they look at."""
-    found = []
+    """Candidates at a distance from flanks, with the visible share of the front near (m) the aim."""
+    tried = []
     for at in _flanks(front):
         for number, height in enumerate(_HEIGHTS):
             for turn in _TURNS:
                 camera, bearing = _camera(front, int(at), distance, height, turn)
-                seen = visible.seen(candidates.path(front, camera), near)
-                likes = candidates.liking(front, bearing) + candidates.framed(seen) - _STEEP * number
-                found.append(Tried(seen, likes, camera))
-    return found
+                share = visible.seen(candidates.path(front, camera), near)
+                likes = candidates.liking(front, bearing) + candidates.framed(share) - _STEEP * number
+                tried.append(Tried(share, likes, camera))
+    return tried
 
 
 def _flanks(front: Front) -> NDArray[np.int64]:
-    """Places of the front in the middle of the window that run across the fire's course, far from each other.
+    """Points on the flanks in the middle of the window: front parallel to the fire's course, far apart.
 
-    Where the fire has no course, any.
+    Any points of the front if the fire has no course.
     """
     middle = np.flatnonzero(front.moment == front.moment[len(front.moment) // 2])
     speed = np.maximum(np.hypot(*front.velocity[middle].T), 1.0e-9)
@@ -64,7 +64,7 @@ def _flanks(front: Front) -> NDArray[np.int64]:
 
 
 def _camera(front: Front, at: int, distance: float, height: float, turn: float) -> tuple[Camera, float]:
-    """Before a place of the front, looking at it, with its bearing from there (degrees)."""
+    """Camera in front of a front point, looking at it, and its bearing from there (degrees)."""
     bearing = float(np.degrees(np.arctan2(*front.velocity[at]))) + turn
     toward = np.radians(bearing)
     eye = front.point[at] + distance * np.array([np.sin(toward), np.cos(toward), 0.0])

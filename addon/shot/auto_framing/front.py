@@ -1,4 +1,4 @@
-"""The moving front of a shot, where cameras are to be placed: its places, how it runs, how large it is."""
+"""Active front of a shot for camera placement: positions, rate of spread, and size."""
 
 from __future__ import annotations
 
@@ -15,34 +15,38 @@ from ..terrain.terrain import NEVER, UNKNOWN, Ground, box
 from . import straight_plume
 from .straight_plume import Plume
 
-_QUANTILES = (0.1, 0.5, 0.9)  # of what burns in the window: moments at which the front is looked at
-_ABOVE = 2.0  # m over the ground: the flames' (assumed)
+_QUANTILES = (
+    0.1,
+    0.5,
+    0.9,
+)  # quantiles of the burned fuel in the window: times at which the front is sampled
+_ABOVE = 2.0  # m above the ground, of the flames (assumed)
 _SPREAD = (0.001, 5.0)  # m/s
-_STILL = 0.5  # m/s; a weaker wind has no side
-_ALOFT = 2.0  # wind that smoke drifts in over that near the ground (assumed)
-_BREEZE = 3.0  # m/s, of a wind that nobody measured and the fire runs with (assumed)
-_ONE_WAY = 0.3  # resultant over mean of the spread's velocities; less than this has no head (assumed)
+_STILL = 0.5  # m/s; a weaker wind has no direction
+_ALOFT = 2.0  # ratio of the wind that moves smoke to that near the ground (assumed)
+_BREEZE = 3.0  # m/s, wind with the fire's course if the run has none (assumed)
+_ONE_WAY = 0.3  # length of the mean spread vector over mean speed, below which there is no head (assumed)
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Front:
-    """Where the front is at a few moments of the window; empty where nothing burns.
+    """Front positions at a few times of the window; empty without fire.
 
     Attributes
     ----------
     frames
-        (m,) indices of the frames nearest to the moments, from 0.
+        (m,) indices of the frames nearest to these times, from 0.
     point, velocity, moment
-        Of n places: (n, 3) m in the scene, a little over the ground; (n, 2) m/s east and north; and (n,)
-        which of the moments.
+        Of n points: (n, 3) m in the scene, a little above the ground; (n, 2) m/s east and north; and (n,)
+        index of the time.
     low, high
-        (2,) corners of the ground that has burned when the window ends, m.
+        (2,) corners of the area burned by the end of the window, m.
     fire
-        Diagonal of the largest fire of it, m; `size` is that of all.
+        Diagonal of the largest fire, m; `size` is that of all fires.
     runs
-        Whether anything catches fire in the window; else places are those that burn nearest in time.
+        Whether any fuel ignites in the window; else points are those that burn nearest in time.
     """
 
     shot: Shot
@@ -57,17 +61,17 @@ class Front:
 
     @property
     def ground(self) -> Ground:
-        """The ground without detail near cameras."""
+        """Terrain without detail near cameras."""
         return self.shot.bare_ground
 
     @cached_property
     def size(self) -> float:
-        """Diagonal of what has burned, m, at least two cells of the fuel grid."""
+        """Diagonal of the burned area, m, at least two cells of the fuel grid."""
         return max(float(np.hypot(*(self.high - self.low))), 2.0 * max(self.ground.cell))
 
     @cached_property
     def wind(self) -> Array:
-        """Unit vector (2,) that smoke goes to: with the wind, or the spread where none is known; or 0."""
+        """Unit vector (2,) of smoke drift: downwind, or along the spread without wind data; or 0."""
         wind = np.array(self.shot.wind)
         speed = float(np.hypot(*wind))
         if speed > _STILL:
@@ -76,13 +80,13 @@ class Front:
 
     @property
     def drift(self) -> Array:
-        """(2,) m/s that smoke drifts with: the wind, or a breeze that the fire runs with; 0 where none is."""
+        """Drift velocity (2,) of smoke, m/s: the wind, or an assumed breeze along the spread; or 0."""
         wind = np.array(self.shot.wind)
         return _ALOFT * (wind if float(np.hypot(*wind)) > _STILL else _BREEZE * self.heading)
 
     @cached_property
     def plumes(self) -> list[Plume]:
-        """The smoke of each moment."""
+        """Smoke plumes, one for each time."""
         ground, frames = self.ground, self.shot.frames
         near = box(ground.arrival < NEVER, more=2)
         if near is None:
@@ -98,7 +102,7 @@ class Front:
 
     @cached_property
     def heading(self) -> Array:
-        """Unit vector (2,) that the fire runs to; 0 where it runs to no side more than to others."""
+        """Unit vector (2,) of the fire's course; 0 if it spreads evenly."""
         if len(self.velocity) == 0:
             return np.zeros(2)
         resultant = self.velocity.mean(axis=0)
@@ -111,7 +115,7 @@ class Front:
 
     @cached_property
     def crowns(self) -> bool:
-        """Whether trees stand where it burns or round it."""
+        """Whether trees stand in or around the burning area."""
         fields = self.ground.fields
         if len(self.point) == 0:
             return False
@@ -120,12 +124,12 @@ class Front:
 
 
 def some(chosen: NDArray[np.int64], most: int) -> NDArray[np.int64]:
-    """At most so many of these, evenly spread."""
+    """Even subset of at most `most` indices."""
     return chosen[np.unique(np.linspace(0, len(chosen) - 1, min(len(chosen), most)).round().astype(np.int64))]
 
 
 def find_front(shot: Shot) -> Front:
-    """The front of a shot."""
+    """Sample the front of a shot."""
     ground, frames = shot.bare_ground, shot.frames
     near = box(ground.arrival < NEVER, more=2)
     burned = ground.arrival <= max(frames.last, frames.first + 1.0)
@@ -135,10 +139,10 @@ def find_front(shot: Shot) -> Front:
     inside = ground.arrival[burned]
     inside = inside[inside >= frames.first]
     times = np.quantile(inside, _QUANTILES) if len(inside) else np.array([frames.middle])
-    found = [_at(ground, near, float(time)) for time in times]
-    moment = np.repeat(np.arange(len(times)), [len(part[0]) for part in found])
+    samples = [_at(ground, near, float(time)) for time in times]
+    moment = np.repeat(np.arange(len(times)), [len(part[0]) for part in samples])
     index = np.clip(np.round((times - frames.first) / max(frames.step, 1.0e-9)), 0, frames.count - 1)
-    point, velocity = (np.concatenate(parts) for parts in zip(*found, strict=True))
+    point, velocity = (np.concatenate(parts) for parts in zip(*samples, strict=True))
     return Front(
         shot,
         index.astype(np.int64),
@@ -152,7 +156,7 @@ def find_front(shot: Shot) -> Front:
 
 
 def _nothing(shot: Shot) -> Front:
-    """Of a run in which nothing burns, with the corners of all of it."""
+    """Front of a run without fire, with the corners of its grid."""
     whole = slice(shot.bare_ground.fields.margin, -shot.bare_ground.fields.margin or None)
     none = np.zeros(0, np.int64)
     corners = _corners(shot.bare_ground, whole, whole)
@@ -160,7 +164,7 @@ def _nothing(shot: Shot) -> Front:
 
 
 def _corners(ground: Ground, rows: slice, columns: slice) -> tuple[Array, Array]:
-    """Least and greatest x and y (2,) of rows and columns of the grid, m."""
+    """Corners (2,) of rows and columns of the grid, least and greatest x and y, m."""
     fields = ground.fields
     latitude, longitude = fields.latitude[rows][[0, -1]], fields.longitude[columns][[0, -1]]
     place = ground.frame.forward_grid(latitude, longitude, np.zeros((2, 2))).reshape(-1, 3)
@@ -168,7 +172,7 @@ def _corners(ground: Ground, rows: slice, columns: slice) -> tuple[Array, Array]
 
 
 def _at(ground: Ground, near: tuple[slice, slice], time: float) -> tuple[Array, Array]:
-    """Places and velocities of the cells that the front is in at a model time, or nearest in time."""
+    """Positions and velocities of the cells at the front at a model time, or nearest in time."""
     arrival, burn_time = ground.arrival[near], ground.burn_time[near]
     row, column = np.nonzero(arrival < NEVER)
     crossing = burning.crossing(np.where(arrival < NEVER, arrival, np.nan), row, column)
@@ -193,7 +197,7 @@ def _at(ground: Ground, near: tuple[slice, slice], time: float) -> tuple[Array, 
 
 
 def _slope(time: Array, row: NDArray[np.int64], column: NDArray[np.int64], axis: int, size: float) -> Array:
-    """Slope (n,) of arrival times along an axis, s/m: central differences, one-sided where one is unknown."""
+    """Gradient (n,) of arrival times along an axis, s/m: central differences, one-sided at unknown values."""
     ends = []
     for step in (-1, 1):
         at = [row, column]

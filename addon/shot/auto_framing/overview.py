@@ -1,4 +1,4 @@
-"""A camera that stands still and has the whole front in its picture, under its smoke and some sky."""
+"""Overview camera of auto framing: static, with the whole front below its smoke and some sky."""
 
 from __future__ import annotations
 
@@ -19,35 +19,35 @@ _LENSES = (
     14.0,
 )  # mm; the next where the fire is too wide for the ground that is drawn
 _BEARINGS = np.arange(0.0, 360.0, 22.5)  # degrees
-_HEIGHTS = (13.0, 18.0, 25.0, 35.0, 50.0)  # degrees of the camera over the front's middle
-_LOW = 0.3  # of the picture's half-height: so far below its middle is that of the front
-_ROOM = (0.85, -0.9, 0.35)  # of its half-width and half-height: to both sides, at least and at most up
-_PLACES = 400  # of the front that have to be in the picture
-_STRAY = 0.02  # of the front may be outside
-_NEAREST = 0.7  # of the fire's size, its distance at least: what has burned is around
-_LEAST = 0.1  # of the reach of the ground that is drawn
-_CROWNS = 4.5  # times OVER_CROWNS, its distance at least where trees stand: so far it sees them from the side
+_HEIGHTS = (13.0, 18.0, 25.0, 35.0, 50.0)  # degrees of elevation above the front's centre
+_LOW = 0.3  # half heights; position of the front below the picture's centre
+_ROOM = (0.85, -0.9, 0.35)  # half widths and half heights: limits to both sides, below and above
+_PLACES = 400  # front points that must be in the picture
+_STRAY = 0.02  # fraction of the front that may be outside
+_NEAREST = 0.7  # of the fire's size, least distance: burned ground surrounds the front
+_LEAST = 0.1  # of the terrain's extent
+_CROWNS = 4.5  # times OVER_CROWNS, least distance among trees, for a side view of them
 _FARTHEST = 1.0e6  # m
-_CLEAR = 0.6  # liking of all the front clear of smoke (by eye)
-_STEEP = 0.01  # liking lost for each degree higher than the lowest
+_CLEAR = 0.6  # weight of a front clear of smoke (by eye)
+_STEEP = 0.01  # penalty for each degree above the lowest
 
 
 def place(front: Front, visible: Visible) -> Placed:
-    """The best of directions and heights."""
+    """Best candidate over directions and heights."""
     points = front.point[some(np.arange(len(front.point)), _PLACES)] if len(front.point) else _whole(front)
-    found = []
+    tried = []
     for height in _HEIGHTS:
         for bearing in _BEARINGS:
             camera = _camera(front, points, float(bearing), height)
-            seen = visible.seen(candidates.path(front, camera))
-            likes = candidates.liking(front, float(bearing)) + candidates.framed(seen)
-            found.append(Tried(seen, likes - _STEEP * (height - _HEIGHTS[0]), camera))
-    seen, _, camera = candidates.best(found, _CLEAR)
-    return Placed(camera, seen.share, _words(front, camera, seen))
+            share = visible.seen(candidates.path(front, camera))
+            likes = candidates.liking(front, float(bearing)) + candidates.framed(share)
+            tried.append(Tried(share, likes - _STEEP * (height - _HEIGHTS[0]), camera))
+    share, _, camera = candidates.best(tried, _CLEAR)
+    return Placed(camera, share.share, _words(front, camera, share))
 
 
 def _camera(front: Front, points: Array, bearing: float, height: float) -> Camera:
-    """In this direction of the points and so many degrees over them, as near as all of them allow."""
+    """Camera in a direction and elevation (degrees) from the points, as near as they all allow."""
     toward, rise = np.radians([bearing, height])
     side = np.array([np.sin(toward), np.cos(toward), 0.0])
     direction = np.cos(rise) * side + np.sin(rise) * UP
@@ -68,16 +68,16 @@ def _camera(front: Front, points: Array, bearing: float, height: float) -> Camer
 def _lens(
     front: Front, points: Array, direction: Array, least: float, most: float
 ) -> tuple[float, Array, float]:
-    """Focal length (mm) and tangents of half the angles of view of the longest lens, and its distance (m).
+    """Longest lens: focal length (mm), tangents of half angles of view, and distance (m).
 
     Parameters
     ----------
     points
-        (n, 3) what has to be in the picture, m from the middle of it.
+        Points (n, 3) that must be in the picture, m from their centre.
     direction
-        (3,) unit vector from there to the camera.
+        Unit vector (3,) from the centre to the camera.
     least, most
-        Distances that are allowed, m. Where even the widest lens needs more, it is at `most`.
+        Allowed distances, m. If even the widest lens needs more, the distance is `most`.
     """
     aspect = np.divide(*front.shot.settings.render.resolution[::-1])
     for lens in _LENSES:
@@ -89,7 +89,7 @@ def _lens(
 
 
 def _under(half: Array) -> float:
-    """Angle (radians) by which the middle of the front is under the middle of the picture."""
+    """Angle (radians) of the front's centre below the picture's centre."""
     return float(np.arctan(_LOW * half[1]))
 
 
@@ -108,7 +108,7 @@ def _nearest(points: Array, direction: Array, half: Array, least: float) -> floa
 
 
 def _fits(points: Array, eye: Array, rotation: Array, half: Array) -> bool:
-    """Whether all but a few of the points are in the part of the picture that is for the front."""
+    """Whether the front's part of the picture contains all but a few points."""
     right, above, back = ((points - eye) @ rotation).T
     ahead = np.maximum(-back, 1.0e-6)
     x, y = right / ahead / half[0], above / ahead / half[1]
@@ -118,33 +118,33 @@ def _fits(points: Array, eye: Array, rotation: Array, half: Array) -> bool:
 
 
 def _middle(points: Array, side: Array) -> Array:
-    """Middle (3,) of the points between their ends along and across a direction, at their mean height."""
+    """Centre (3,) of the points' bounds along and across a direction, at their mean height."""
     across = np.array([-side[1], side[0], 0.0])
     ends = [np.percentile(points @ axis, [1.0, 99.0]).mean() * axis for axis in (side, across)]
     return ends[0] + ends[1] + np.array([0.0, 0.0, float(points[:, 2].mean())])
 
 
 def _room(front: Front, middle: Array, side: Array) -> float:
-    """How far (m) from the middle a camera may stand on that side: where the ground that is drawn ends."""
+    """Largest distance (m) of a camera from the centre on a side, by the terrain's extent."""
     reach = 0.95 * front.shot.settings.terrain.apron
-    here = middle[:2]  # from the middle of the run, where the scene's origin is
+    here = middle[:2]  # relative to the run's centre, the scene's origin
     along = float(here @ side[:2])
     beside = max(along**2 - float(here @ here) + reach**2, 0.0)
     return max(-along + float(np.sqrt(beside)), _LEAST * reach)
 
 
 def _whole(front: Front) -> Array:
-    """Corners (4, 3) of the run's ground, where nothing burns."""
+    """Corners (4, 3) of the run's terrain, for a run without fire."""
     x, y = np.meshgrid(*np.stack([front.low, front.high], axis=-1))
     return np.stack([x.ravel(), y.ravel(), front.ground.up(x.ravel(), y.ravel())], axis=-1)
 
 
-def _words(front: Front, camera: Camera, seen: VisibleShare) -> str:
-    """A line about the camera."""
+def _words(front: Front, camera: Camera, visible: VisibleShare) -> str:
+    """Describe the camera in one line."""
     (key,) = camera.rig.keys
     view = candidates.path(front, camera)
     side = candidates.where(front, candidates.bearing(view))
     text = f"{side}: {candidates.distance(candidates.away(view))} away, {key.height:,.0f} m up"
     if not len(front.point):
         return f"{text}; nothing burns in the run"
-    return f"{text}; {candidates.shows(seen, 'the front')}"
+    return f"{text}; {candidates.shows(visible, 'the front')}"

@@ -1,4 +1,4 @@
-"""How thick smoke about is between a camera and the front, before any smoke is solved: straight plumes."""
+"""Straight plume model: approximate optical depth of smoke between a camera and the front, before solving."""
 
 from __future__ import annotations
 
@@ -12,32 +12,32 @@ from ..fire import emissions
 from ..terrain.terrain import NEVER, Ground
 
 _LONG = 3.0  # burn-out times after which a cell counts as cold
-_WIDE = 0.4  # half-width of a plume over the way it has drifted (by eye)
+_WIDE = 0.4  # half-width of a plume over its drift distance (by eye)
 # m4/s3 of buoyancy flux for a kg/s of fuel.
 _BUOYANCY = constants.BUOYANCY_FLUX * constants.HEAT_OF_COMBUSTION
-_BRIGGS = 1.6  # of the bent-over plume: it is 1.6 F^(1/3) x^(2/3) / U high at x m (Briggs 1971)
-_RISES = (0.2, 2.0)  # height over the way, of straight plumes that stand for bent ones (assumed)
-_WEAK = 2.0  # m/s; weaker winds count as so strong: fires draw air in
-_BLOCKS = 7  # along the longer side: sources in a block are one
-_STEPS, _NEAR = 16, 0.01  # places where smoke is looked for on a line of sight, from this part of it on
+_BRIGGS = 1.6  # bent-over plume: rise 1.6 F^(1/3) x^(2/3) / U at x m (Briggs 1971)
+_RISES = (0.2, 2.0)  # rise over drift distance, for straight plumes in place of bent ones (assumed)
+_WEAK = 2.0  # m/s, lower limit of wind, as fires draw air in
+_BLOCKS = 7  # blocks along the longer side, in which sources are merged
+_STEPS, _NEAR = 16, 0.01  # samples along a line of sight, from this fraction of it on
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Plume:
-    """Smoke of one moment.
+    """Plumes at one time.
 
     Attributes
     ----------
     source, rate
-        (k, 3) m where it comes from, and (k,) kg/s.
+        Source points (k, 3), m, and fuel consumption rates (k,), kg/s.
     wind
-        (2,) m/s that it drifts with.
+        Drift velocity (2,), m/s.
     least
-        Half-width at its source, m.
+        Half-width at the source, m.
     rise
-        Height over the way that it has drifted.
+        Rise over drift distance.
     """
 
     source: Array
@@ -47,10 +47,10 @@ class Plume:
     rise: float
 
     def depth(self, eye: Array, place: Array) -> Array:
-        """Optical depth (n,) of the smoke between a camera and places (n, 3).
+        """Optical depth (n,) of smoke between a camera and points (n, 3).
 
-        Each source's smoke is even across a plume that drifts with the wind, rises and widens along straight
-        lines; without a wind it stands over the source.
+        Smoke is uniform across a plume, which drifts downwind, rises and widens linearly. Without wind it
+        stands over its source.
         """
         if len(self.rate) == 0 or len(place) == 0:
             return np.zeros(len(place))
@@ -70,13 +70,13 @@ class Plume:
 
 
 def trace(ground: Ground, near: tuple[slice, slice], crossing: Array, time: float, wind: Array) -> Plume:
-    """The smoke of a moment (s).
+    """Trace the plumes at a time (s).
 
     Parameters
     ----------
     near, crossing
-        Rows and columns of the grid that hold all that burns, and how long the front takes across each of
-        their cells, s.
+        Rows and columns of the grid that contain all that burns, and crossing time of the front through each
+        of their cells, s.
     """
     fields = ground.fields
     arrival = ground.arrival[near]
@@ -98,12 +98,12 @@ def trace(ground: Ground, near: tuple[slice, slice], crossing: Array, time: floa
 
 
 def _rise(point: Array, fuel: float, wind: Array) -> float:
-    """Height over the way of the smoke of a whole fire, where it has drifted a third of the fire's size.
+    """Rise over drift distance of a whole fire's plume, at a drift of a third of the fire's size.
 
     Parameters
     ----------
     fuel
-        That it burns, kg/s.
+        Fuel consumption rate, kg/s.
     """
     if len(point) == 0:
         return _RISES[0]
@@ -113,7 +113,7 @@ def _rise(point: Array, fuel: float, wind: Array) -> float:
 
 
 def _merged(point: Array, rate: Array) -> tuple[Array, Array]:
-    """Sources (n, 3) of rates (n,) as one for each block, at their centres."""
+    """Merge sources (n, 3) with rates (n,) by block, at their centres."""
     if rate.sum() <= 0.0:
         return np.empty((0, 3)), np.empty(0)
     size = max(float(np.ptp(point[:, :2], axis=0).max()) / _BLOCKS, 1.0)

@@ -1,4 +1,4 @@
-"""Fitted settings as a short scene file."""
+"""Text form of fitted settings: a short scene file."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from ..settings import toml_writer
 from ..settings.settings import Settings
 
-_WIDTH = 108  # letters of a comment
+_WIDTH = 108  # characters of a comment line
 _ASKED = (
     "run",
     *(f"time.{name}" for name in ("start", "end", "frames", "fps", "zone")),
@@ -18,18 +18,18 @@ _ASKED = (
     *(f"cameras.{name}" for name in ("name", "focal_length", "frames")),
     *(f"cameras.keys.{name}" for name in ("latitude", "longitude")),
 )
-"""Keys that one will want to change, beside those that differ from their defaults."""
+"""Keys that users often change, written in addition to those that differ from their defaults."""
 
 
 def text(settings: Settings, name: str, window: str, cameras: Mapping[str, str]) -> str:
-    """The file, with what was chosen above the run and above each camera.
+    """Format the file, with descriptions above the run and above each camera.
 
     Parameters
     ----------
     name
-        Of the run.
+        Name of the run.
     window, cameras
-        What is said of the window, and of each camera by its name.
+        Description of the window, and of each camera by name.
     """
     file = settings.path.name
     head = (

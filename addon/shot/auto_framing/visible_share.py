@@ -1,4 +1,4 @@
-"""How much of the front a camera shows: in the picture, not behind ground, and what of that smoke hides."""
+"""Visible share of the front in a camera: in the picture, not occluded by terrain, and clear of smoke."""
 
 from __future__ import annotations
 
@@ -12,26 +12,26 @@ from numpy.typing import NDArray
 from ..cameras.path import Path
 from .front import Front, some
 
-_INSIDE = 0.97  # of the picture's half-width and half-height; what is nearer to its edge does not count
-_RADIUS = 1.0  # m of a place of the front
-_PLACES = 160  # of the front at most that are looked at in each moment
+_INSIDE = 0.97  # of the half width and half height; points nearer to the edge do not count
+_RADIUS = 1.0  # m, radius of a front point
+_PLACES = 160  # front points at most per time
 
 Array = NDArray[np.float64]
 
 
 class VisibleShare(NamedTuple):
-    """What a camera shows of a front.
+    """Visibility of a front in a camera.
 
     Attributes
     ----------
     share
-        Of the front that is in the picture and not behind ground, 0..1; 0 where there is no front.
+        Fraction of the front in the picture and not occluded by terrain, 0..1; 0 without a front.
     clear
-        The same, each place counting as much as smoke lets through of its light, were plumes straight.
+        The same, weighted by the transmittance of straight plumes.
     height
-        Of its middle over that of the picture, in halves of the picture's height: -1 at its lower edge.
+        Height of its centre above the picture's centre, in half heights: -1 at the lower edge.
     horizon
-        The same of the horizon.
+        The same for the horizon.
     """
 
     share: float
@@ -41,7 +41,7 @@ class VisibleShare(NamedTuple):
 
 
 class Visible:
-    """What of a front is visible from where."""
+    """Visibility tests of a front."""
 
     def __init__(self, front: Front) -> None:
         self.front = front
@@ -53,12 +53,12 @@ class Visible:
         return lod.Occluder(ground.floor()[inner, inner])
 
     def seen(self, view: Path, near: float = np.inf) -> VisibleShare:
-        """What a camera shows of the front in the moments looked at.
+        """Visible share of the front in a camera over the sampled times.
 
         Parameters
         ----------
         near
-            Only the front within this distance of what it looks at counts, m.
+            Only the front within this distance of the camera's target counts, m.
         """
         front, shares, clear, heights = self.front, [], [], [np.empty(0)]
         for number, frame in enumerate(front.frames):
@@ -81,7 +81,7 @@ class Visible:
         )
 
     def over_ground(self, view: Path, frame: int, place: Array) -> NDArray[np.bool_]:
-        """Which places (n, 3) are in the picture of a frame (from 0) and not behind ground."""
+        """Whether points (n, 3) are in the picture of a frame (from 0) and not occluded by terrain."""
         ground, eye = self.front.ground, view.position[frame]
         views = lod.ViewSet(
             eye[None],
@@ -95,14 +95,14 @@ class Visible:
 
 
 def _height(view: Path, frame: int, place: Array) -> Array:
-    """How high (n,) places (n, 3) in the picture are over its middle, in halves of its height."""
+    """Height (n,) of points (n, 3) above the picture's centre, in half heights."""
     local = (place - view.position[frame]) @ view.rotation[frame]
     ahead = -local[:, 2] if view.perspective else 1.0
     return local[:, 1] / ahead / view.halves[frame, 1]
 
 
 def _horizon(view: Path) -> float:
-    """How high the horizon is in the picture, in the mean of all frames; of a level one, hills are higher."""
+    """Height of a level horizon in the picture, averaged over all frames; hills are higher."""
     if not view.perspective:
         return np.inf
     down = np.arcsin(np.clip(view.rotation[:, 2, 2], -1.0, 1.0))

@@ -1,4 +1,4 @@
-"""Which part of a run a film shows: the most active."""
+"""Time window of a film: the most active part of a run."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from ...run import areas, times, zone
 from .. import extent
 from ..settings.settings import Time
 
-FRAMES, FPS = 48, 12  # four seconds, as of the example
-_PACE = 20.0  # m of the fire's size for a second of the window: 24 minutes for 29 km, as of the example
-_SHORTEST, _LONGEST = 300.0, 7200.0  # s (by eye: smoke has to hang together from frame to frame)
+FRAMES, FPS = 48, 12  # four seconds, as in the example
+_PACE = 20.0  # m of the fire's size per second of the window: 24 minutes for 29 km, as in the example
+_SHORTEST, _LONGEST = 300.0, 7200.0  # s (by eye: smoke must change smoothly from frame to frame)
 _STEP = 60.0  # s; windows begin and end at whole minutes of the run
 
 Array = NDArray[np.float64]
 
 
 def choose(run: Run, asked: Time) -> tuple[Time, str]:
-    """The [time] of a film of a run, and a line about it: what is `asked`, or else the most active part."""
+    """Choose the [time] of a film: as `asked`, or else the most active part; also a description."""
     first, last = float(run.times[0]), float(run.times[-1])
     there = zone.time_zone(run)
     whole = Time(frames=FRAMES, fps=FPS, zone=there)
@@ -48,23 +48,23 @@ def choose(run: Run, asked: Time) -> tuple[Time, str]:
 
 
 def length(size: float, whole: float) -> float:
-    """Seconds that a film of a fire of `size` m shows, of a run that lasts `whole` s."""
+    """Length of the window (s) for a fire of `size` m in a run of `whole` s."""
     wanted = np.round(np.clip(size / _PACE, _SHORTEST, _LONGEST) / _STEP) * _STEP
     return float(min(wanted, whole))
 
 
 def most_active(arrival: ArrayLike, fuel: ArrayLike, first: float, last: float, length: float) -> float:
-    """When (s) the window of `length` s begins in which the front reaches most fuel.
+    """Start (s) of the window of `length` s in which the front reaches the most fuel.
 
-    Of the windows within the run that begin at whole minutes after `first`, and the last one; the earliest
-    where several are as good.
+    Candidates are windows within the run that begin at whole minutes after `first`, and the last one. The
+    earliest of equal ones is chosen.
 
     Parameters
     ----------
     arrival, fuel
-        (n,) when the front reaches pieces of ground, s, and what burns there, any unit.
+        (n,) arrival times, s, and fuel in any unit.
     first, last
-        Model times of the run, s.
+        Model times of the run's start and end, s.
     """
     arrival, fuel = np.asarray(arrival, np.float64), np.asarray(fuel, np.float64)
     order = np.argsort(arrival)
@@ -76,9 +76,9 @@ def most_active(arrival: ArrayLike, fuel: ArrayLike, first: float, last: float, 
 
 
 def _burned(run: Run, arrival: Array) -> tuple[NDArray[np.int64], NDArray[np.int64], Array]:
-    """Row and column of the fuel cells that burn during the run, and the fuel of each, kg/m2.
+    """Row and column of the fuel cells that burn during the run, and their fuel, kg/m2.
 
-    Where the run knows of no fuel every cell counts alike.
+    In a run without fuel data all cells count alike.
     """
     first, last = float(run.times[0]), float(run.times[-1])
     with np.errstate(invalid="ignore"):
@@ -98,6 +98,6 @@ def _size(run: Run, burned: NDArray[np.bool_]) -> float:
 
 
 def _words(start: datetime, end: datetime, zone: str) -> str:
-    """``12 Aug 2022 14:00 to 14:05 -07``; with two dates where they differ."""
+    """Format a time span: ``12 Aug 2022 14:00 to 14:05 -07``; with two dates if they differ."""
     first, last = (times.text(moment, zone).split(" ") for moment in (start, end))
     return f"{' '.join(first[:4])} to {' '.join(last[3:] if first[:3] == last[:3] else last)}"

@@ -14,10 +14,10 @@ from ..terrain.terrain import Ground
 from . import path
 from .path import Array
 
-_APART = 5.0  # m between terrain samples along a path
-_PLACES = 400_000  # samples at most
+_SAMPLE_SPACING = 5.0  # m between terrain samples along a path
+_MAX_SAMPLES = 400_000  # samples at most
 _STILL = 0.05  # m per frame; slower motion keeps its heading
-_STEEPEST = np.radians(60.0)  # largest bank angle
+_MAX_BANK = np.radians(60.0)  # largest bank angle
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ def short(ground: Ground, position: Array, clearance: Array) -> Array:
     if len(position) == 1:
         return np.maximum(ground.up(*position.T[:2]) + clearance - position[:, 2], 0.0)
     length = np.linalg.norm(np.diff(position, axis=0), axis=1)
-    apart = max(_APART, float(length.sum()) / _PLACES)
+    apart = max(_SAMPLE_SPACING, float(length.sum()) / _MAX_SAMPLES)
     count = np.maximum(np.ceil(length / apart).astype(np.int64), 1) + 1  # with both ends of every leg
     first, leg = np.cumsum(count) - count, np.repeat(np.arange(len(count)), count)
     part = (np.arange(count.sum()) - first[leg]) / (count[leg] - 1.0)
@@ -100,8 +100,8 @@ def heading(position: Array) -> Array:
     if len(moving) == 0:
         return np.zeros(len(position))
     before = np.searchsorted(moving, np.arange(len(position)), "right") - 1
-    kept = moving[np.maximum(before, 0)]
-    return np.unwrap(np.arctan2(east[kept], north[kept]))
+    source = moving[np.maximum(before, 0)]
+    return np.unwrap(np.arctan2(east[source], north[source]))
 
 
 def ahead(position: Array, tilt: Array, distance: float = 1000.0) -> Array:
@@ -121,7 +121,7 @@ def bank(position: Array, step: float) -> Array:
         return np.zeros(len(position))
     speed = np.hypot(*np.gradient(position[:, :2], step, axis=0).T)
     turning = np.gradient(heading(position), step)
-    return np.clip(np.arctan(speed * turning / constants.GRAVITY), -_STEEPEST, _STEEPEST)
+    return np.clip(np.arctan(speed * turning / constants.GRAVITY), -_MAX_BANK, _MAX_BANK)
 
 
 def rolled(rotation: Array, angle: Array) -> Array:

@@ -32,9 +32,9 @@ def taken(
     """
     if not isinstance(made, passes.DerivedPass):
         return {}
-    found = {need: (name, need) for need in made.needs}
+    suppliers = {need: (name, need) for need in made.needs}
     if not made.mount:
-        return found
+        return suppliers
     (camera,) = (each for each in cameras if each.name == name)
     own = _records(settings, camera)
     for other in cameras:
@@ -42,12 +42,12 @@ def taken(
             continue
         records = _records(settings, other)
         if isinstance(other.rig, Mounted):
-            free = (need for need in made.needs if need in records - own and found[need][0] == name)
-            found |= {need: (other.name, need) for need in free}
+            free = (need for need in made.needs if need in records - own and suppliers[need][0] == name)
+            suppliers |= {need: (other.name, need) for need in free}
         elif isinstance(other.rig, Minimap) and "rgb" in records:
-            found.setdefault(MAP, (other.name, "rgb"))
-    return found
+            suppliers.setdefault(MAP, (other.name, "rgb"))
+    return suppliers
 
 
 def _records(settings: Settings, camera: Camera) -> set[str]:
-    return {each.name for each in passes.of_camera(settings, camera)}
+    return {made.name for made in passes.of_camera(settings, camera)}

@@ -21,7 +21,7 @@ UP = np.array([0.0, 0.0, 1.0])
 _NEAREST = 0.5  # m
 _HIGHEST_AIR = 20_000.0  # m, above any smoke
 _HIGHEST = 1500.0  # m, limit to which a camera is raised to see over a ridge
-_LOOKS = 600  # frames at most that are tested for ridges
+_RIDGE_SAMPLES = 600  # frames at most that are tested for ridges
 
 Array = NDArray[np.float64]
 
@@ -97,14 +97,14 @@ def finest(paths: list[Path]) -> tuple[float, float]:
 
 def eyes(ways: list[Array], radius: float) -> Array:
     """Sample points (m, 3) of paths (n, 3), a quarter of `radius` apart, for terrain detail."""
-    kept: list[Array] = []
+    samples: list[Array] = []
     for way in ways:
         last = None
         for place in way:
             if last is None or np.linalg.norm(place - last) > 0.25 * radius:
-                kept.append(place)
+                samples.append(place)
                 last = place
-    return np.array(kept).reshape(-1, 3)
+    return np.array(samples).reshape(-1, 3)
 
 
 def smooth(at: Array, values: Array, moments: Array) -> Array:
@@ -134,11 +134,11 @@ def smooth(at: Array, values: Array, moments: Array) -> Array:
 def hidden(ground: Ground, position: Array, target: Array, margin: float = 40.0) -> Array:
     """Height deficit (frames,), m: how much cameras must rise to see their target over ridges.
 
-    The line of sight clears ridges by `margin` m. A long film is tested in `_LOOKS` frames, with linear
-    interpolation between.
+    The line of sight clears ridges by `margin` m. A long film is tested in `_RIDGE_SAMPLES` frames, with
+    linear interpolation between.
     """
     frames = np.arange(len(position))
-    some = np.unique(np.linspace(0, len(frames) - 1, min(len(frames), _LOOKS)).round().astype(int))
+    some = np.unique(np.linspace(0, len(frames) - 1, min(len(frames), _RIDGE_SAMPLES)).round().astype(int))
     part = np.linspace(0.03, 0.85, 40)[:, None, None]  # of the line; slopes near its end block it
     way = position[some] + part * (target - position)[some]
     ridge = ground.up(way[..., 0].ravel(), way[..., 1].ravel()).reshape(way.shape[:2])

@@ -25,11 +25,11 @@ def quaternions(rotation: Array) -> Array:
         whole[:, 0, i + 1] = whole[:, i + 1, 0] = r[:, k, j] - r[:, j, k]
         whole[:, i + 1, j + 1] = whole[:, j + 1, i + 1] = r[:, i, j] + r[:, j, i]
     largest = np.argmax(np.einsum("nii->ni", whole), axis=1)
-    found = whole[np.arange(len(r)), largest]
-    found /= np.linalg.norm(found, axis=1, keepdims=True)
-    flipped = np.sum(found[1:] * found[:-1], axis=1) < 0.0
-    found[1:] *= np.where(np.cumsum(flipped) % 2, -1.0, 1.0)[:, None]
-    return found
+    quaternion = whole[np.arange(len(r)), largest]
+    quaternion /= np.linalg.norm(quaternion, axis=1, keepdims=True)
+    flipped = np.sum(quaternion[1:] * quaternion[:-1], axis=1) < 0.0
+    quaternion[1:] *= np.where(np.cumsum(flipped) % 2, -1.0, 1.0)[:, None]
+    return quaternion
 
 
 def matrices(quaternion: Array) -> Array:

@@ -21,15 +21,15 @@ def keys(values: Array, tolerance: float) -> tuple[NDArray[np.int64], Array]:
     if last < 1:
         return np.arange(len(values)), np.zeros(values.shape)
     slope = np.gradient(values, axis=0, edge_order=1 if last < 2 else 2)
-    kept = np.array([0, last])
+    chosen = np.array([0, last])
     while True:
-        error = np.linalg.norm(curve(kept, values[kept], slope[kept], last + 1) - values, axis=1)
-        error[kept] = 0.0
-        worst = [a + int(np.argmax(error[a:b])) for a, b in itertools.pairwise(kept)]
+        error = np.linalg.norm(curve(chosen, values[chosen], slope[chosen], last + 1) - values, axis=1)
+        error[chosen] = 0.0
+        worst = [a + int(np.argmax(error[a:b])) for a, b in itertools.pairwise(chosen)]
         more = [frame for frame in worst if error[frame] > tolerance]
         if not more:
-            return kept, slope[kept]
-        kept = np.sort(np.append(kept, more))
+            return chosen, slope[chosen]
+        chosen = np.sort(np.append(chosen, more))
 
 
 def fit(values: Array, tolerance: float, first: tuple[int, ...] = ()) -> NDArray[np.int64]:
@@ -43,15 +43,15 @@ def fit(values: Array, tolerance: float, first: tuple[int, ...] = ()) -> NDArray
         Frames that are always keys.
     """
     last, moments = len(values) - 1, np.arange(len(values), dtype=np.float64)
-    kept = np.unique([0, last, *(frame for frame in first if 0 <= frame <= last)])
+    chosen = np.unique([0, last, *(frame for frame in first if 0 <= frame <= last)])
     while True:
-        error = np.linalg.norm(through(kept.astype(np.float64), values[kept], moments) - values, axis=1)
-        error[kept] = 0.0
-        worst = [a + int(np.argmax(error[a:b])) for a, b in itertools.pairwise(kept)]
+        error = np.linalg.norm(through(chosen.astype(np.float64), values[chosen], moments) - values, axis=1)
+        error[chosen] = 0.0
+        worst = [a + int(np.argmax(error[a:b])) for a, b in itertools.pairwise(chosen)]
         more = [frame for frame in worst if error[frame] > tolerance]
         if not more:
-            return kept
-        kept = np.sort(np.append(kept, more))
+            return chosen
+        chosen = np.sort(np.append(chosen, more))
 
 
 def through(at: Array, values: Array, moments: Array) -> Array:

@@ -19,7 +19,7 @@ _KNOTS = 24  # times at which the target is computed; it is interpolated between
 _BLOCK = 1500.0  # m, blocks of a large fire's front that are compared
 _LARGE = 20_000.0  # m, fire size from which block and time apply; they shrink with smaller fires
 _CELLS = 4.0  # fuel cells, lower bound of block size and front depth
-_STAY = 4.0  # blocks; distance in which another head must be e times as strong to be followed
+_HYSTERESIS = 4.0  # blocks; distance in which another head must be e times as strong to be followed
 
 
 def follow(target: str, ground: Ground, times: Array, above: float) -> Array:
@@ -77,11 +77,11 @@ def _follow(times: Array, place: Callable[[float, Any], Any]) -> tuple[Array, Ar
     """Track of a target: sampled at a few times, interpolated and smoothed over the shot."""
     knots = np.linspace(times[0], times[-1], min(len(times), _KNOTS))
     last: Any = None
-    found = []
+    positions = []
     for time in knots:
         last = place(time, last)
-        found.append(last)
-    track = np.array(found)
+        positions.append(last)
+    track = np.array(positions)
     x, y = (smoothed(np.interp(times, knots, track[:, axis])) for axis in (0, 1))
     return x, y
 
@@ -105,9 +105,9 @@ def _scale(ground: Ground, speed: Array, time: float) -> tuple[float, float]:
 
 def _front(time: float, arrival: Array, recent: float) -> NDArray[np.int64]:
     """Indices of the cells that burned within `recent` s before `time`; else those nearest in time."""
-    found = np.flatnonzero((arrival <= time) & (arrival > time - recent))
-    if len(found) or len(arrival) == 0:
-        return found
+    recent_cells = np.flatnonzero((arrival <= time) & (arrival > time - recent))
+    if len(recent_cells) or len(arrival) == 0:
+        return recent_cells
     return np.argsort(np.abs(arrival - time))[:50]
 
 
@@ -131,7 +131,7 @@ def _head_at(
     total = np.bincount(member, weight, len(blocks))
     centre = np.stack([np.bincount(member, weight * v, len(blocks)) / total for v in (e, n)], axis=-1)
     if last is not None:  # keep the followed head unless another one is much faster
-        total = total * np.exp(-np.linalg.norm(centre - last, axis=1) / (_STAY * size))
+        total = total * np.exp(-np.linalg.norm(centre - last, axis=1) / (_HYSTERESIS * size))
     best = centre[np.argmax(total)]
     near = weight * np.exp(-((e - best[0]) ** 2 + (n - best[1]) ** 2) / (2.0 * size**2))
     return np.array([np.sum(near * e), np.sum(near * n)]) / np.sum(near)

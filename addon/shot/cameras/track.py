@@ -119,10 +119,10 @@ def read(path: Path) -> Track:
 
 @functools.lru_cache(maxsize=16)
 def _read(path: Path, _changed: int, _size: int) -> Track:
-    return _made(path, list(_READERS[path.suffix.lower()](path)))
+    return _validated(path, list(_READERS[path.suffix.lower()](path)))
 
 
-def _made(path: Path, points: Sequence[Point]) -> Track:
+def _validated(path: Path, points: Sequence[Point]) -> Track:
     """Validate points and make a track."""
     if not points:
         raise input_error(path, 0, 0, "holds no track: it needs points with latitude and longitude")
@@ -161,29 +161,29 @@ def _all_or_none(path: Path, points: Iterable[Point], name: str, what: str, reme
 def _rising(path: Path, points: Sequence[Point]) -> list[Point]:
     """Points with ascending times; duplicate points are merged."""
     dated = isinstance(points[0].moment, datetime)
-    kept = [points[0]]
+    ascending = [points[0]]
     for point in points[1:]:
         if isinstance(point.moment, datetime) != dated:
             reason = "some points have a time and others a part of the shot (at); give all the same"
             raise input_error(path, point.line, 0, reason)
-        last = kept[-1]
+        last = ascending[-1]
         if _number(point.moment) > _number(last.moment):
-            kept.append(point)
+            ascending.append(point)
         elif point.moment != last.moment or point[1:4] != last[1:4]:
             reason = (
-                f"is at {_said(point.moment)}, not later than the point before it; put the points in order"
+                f"is at {_text(point.moment)}, not later than the point before it; put the points in order"
             )
             raise input_error(path, point.line, 0, reason)
-    return kept
+    return ascending
 
 
 def _number(moment: datetime | float | None) -> float:
-    """Seconds since 1970 of a time, a part of the shot as it is."""
+    """Seconds since 1970 of a time; a fraction of the shot is returned unchanged."""
     assert moment is not None
     return moment.timestamp() if isinstance(moment, datetime) else moment
 
 
-def _said(moment: datetime | float | None) -> str:
+def _text(moment: datetime | float | None) -> str:
     if isinstance(moment, datetime):
         return moment.astimezone(UTC).isoformat().replace("+00:00", "Z")
     return f"{moment:g}"

@@ -35,11 +35,11 @@ def moment(path: Path, line: int, text: str, zone: bool = False) -> datetime:
         The text is no time.
     """
     try:
-        found = datetime.fromisoformat(text.strip())
-        if found.tzinfo is None and not zone:
-            found = found.replace(tzinfo=UTC)
-        if found.tzinfo is not None:
-            return found.astimezone(UTC)
+        parsed = datetime.fromisoformat(text.strip())
+        if parsed.tzinfo is None and not zone:
+            parsed = parsed.replace(tzinfo=UTC)
+        if parsed.tzinfo is not None:
+            return parsed.astimezone(UTC)
     except (ValueError, OverflowError):
         pass
     raise input_error(path, line, 0, f'"{text.strip()[:40]}" is no time such as 2014-09-17T21:30:00Z')
@@ -54,9 +54,9 @@ def number(path: Path, line: int, text: str | None, what: str) -> float:
         The text is no finite number.
     """
     try:
-        found = float(text or "")
+        parsed = float(text or "")
     except ValueError:
-        found = np.nan
-    if not np.isfinite(found):
+        parsed = np.nan
+    if not np.isfinite(parsed):
         raise input_error(path, line, 0, f'the {what} is "{(text or "").strip()[:40]}", which is no number')
-    return found
+    return parsed

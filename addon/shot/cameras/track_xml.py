@@ -31,19 +31,19 @@ class _Element(NamedTuple):
 
 def gpx(path: Path) -> Iterator[Point]:
     """Read the points of a GPX file's tracks in order; of its routes if it has no track."""
-    found = _elements(path, {"trkpt", "rtept", "ele", "time"})
-    wanted = "trkpt" if any(each.name == "trkpt" for each in found) else "rtept"
+    elements = _elements(path, {"trkpt", "rtept", "ele", "time"})
+    wanted = "trkpt" if any(element.name == "trkpt" for element in elements) else "rtept"
     inside: dict[str, _Element] = {}
-    for each in found:
-        if each.name in ("ele", "time"):
-            inside |= {each.name: each} if each.parent == wanted else {}
-        elif each.name == wanted:
+    for element in elements:
+        if element.name in ("ele", "time"):
+            inside |= {element.name: element} if element.parent == wanted else {}
+        elif element.name == wanted:
             latitude, longitude = (
-                number(path, each.line, each.attributes.get(name), name) for name in ("lat", "lon")
+                number(path, element.line, element.attributes.get(name), name) for name in ("lat", "lon")
             )
             ele, time = inside.get("ele"), inside.get("time")
             yield Point(
-                each.line,
+                element.line,
                 latitude,
                 longitude,
                 number(path, ele.line, ele.text, "height <ele>") if ele else None,
@@ -54,46 +54,46 @@ def gpx(path: Path) -> Iterator[Point]:
 
 def kml(path: Path) -> Iterator[Point]:
     """Read the points of a KML file's tracks (gx:Track); of its lines if it has no track."""
-    found = _elements(path, {"when", "coord", "Track", "altitudeMode", "coordinates", "LineString"})
-    if any(each.name == "Track" for each in found):
-        yield from _tracks(path, found)
+    elements = _elements(path, {"when", "coord", "Track", "altitudeMode", "coordinates", "LineString"})
+    if any(element.name == "Track" for element in elements):
+        yield from _tracks(path, elements)
     else:
-        yield from _lines(path, found)
+        yield from _lines(path, elements)
 
 
-def _tracks(path: Path, found: list[_Element]) -> Iterator[Point]:
+def _tracks(path: Path, elements: list[_Element]) -> Iterator[Point]:
     when: list[_Element] = []
     coord: list[_Element] = []
     mode = "clampToGround"
-    for each in found:
-        if each.name == "Track":
+    for element in elements:
+        if element.name == "Track":
             if when and len(when) != len(coord):
                 reason = (
                     f"a track of {len(when)} times <when> and {len(coord)} places <gx:coord>; make them equal"
                 )
-                raise input_error(path, each.line, 0, reason)
+                raise input_error(path, element.line, 0, reason)
             for i, place in enumerate(coord):
                 at = moment(path, when[i].line, when[i].text) if when else None
                 yield _kml_point(path, place.line, place.text.split(), mode)._replace(moment=at)
             when, coord, mode = [], [], "clampToGround"
-        elif each.parent == "Track":
-            mode = each.text.strip() if each.name == "altitudeMode" else mode
-            when += [each] if each.name == "when" else []
-            coord += [each] if each.name == "coord" else []
+        elif element.parent == "Track":
+            mode = element.text.strip() if element.name == "altitudeMode" else mode
+            when += [element] if element.name == "when" else []
+            coord += [element] if element.name == "coord" else []
 
 
-def _lines(path: Path, found: list[_Element]) -> Iterator[Point]:
+def _lines(path: Path, elements: list[_Element]) -> Iterator[Point]:
     places, mode = None, "clampToGround"
-    for each in found:
-        if each.name == "LineString":
+    for element in elements:
+        if element.name == "LineString":
             if places is not None:
                 for match in re.finditer(r"\S+", places.text):
                     line = places.line + places.text.count("\n", 0, match.start())
                     yield _kml_point(path, line, match[0].split(","), mode)
             places, mode = None, "clampToGround"
-        elif each.parent == "LineString":
-            mode = each.text.strip() if each.name == "altitudeMode" else mode
-            places = each if each.name == "coordinates" else places
+        elif element.parent == "LineString":
+            mode = element.text.strip() if element.name == "altitudeMode" else mode
+            places = element if element.name == "coordinates" else places
 
 
 def _kml_point(path: Path, line: int, parts: list[str], mode: str) -> Point:
@@ -110,7 +110,7 @@ def _kml_point(path: Path, line: int, parts: list[str], mode: str) -> Point:
 def _elements(path: Path, wanted: set[str]) -> list[_Element]:
     """Elements of these local names, in the order of their end tags: inner elements come first."""
     parser = expat.ParserCreate()
-    found: list[_Element] = []
+    elements: list[_Element] = []
     opened: list[tuple[str, int, dict[str, str], list[str]]] = []
 
     def start(name: str, attributes: dict[str, str]) -> None:
@@ -119,7 +119,7 @@ def _elements(path: Path, wanted: set[str]) -> list[_Element]:
     def end(_: str) -> None:
         name, line, attributes, text = opened.pop()
         if name in wanted:
-            found.append(_Element(name, opened[-1][0] if opened else "", line, attributes, "".join(text)))
+            elements.append(_Element(name, opened[-1][0] if opened else "", line, attributes, "".join(text)))
 
     def text(words: str) -> None:
         if opened[-1][0] in wanted:
@@ -139,7 +139,7 @@ def _elements(path: Path, wanted: set[str]) -> list[_Element]:
         raise input_error(path, error.lineno, error.offset + 1, reason) from None
     except (LookupError, ValueError) as error:
         raise input_error(path, 1, 0, f"cannot be read as XML: {error}") from None
-    return found
+    return elements
 
 
 def gpx_text(

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...run import fuel_category
 
-_OF_CO = 10.1e6  # J/kg, heat of combustion of carbon monoxide
+_CO_HEAT = 10.1e6  # J/kg, heat of combustion of carbon monoxide
 # m2/kg, mass extinction of fresh smoke in green light (Reid et al. 2005, doi 10.5194/acp-5-799-2005)
 EXTINCTION = 4000.0
 _PLAIN = 0.02  # kg/kg, PM2.5 emission factor of unknown fuel (WRF-SFIRE's fire_tracer_smoke)
@@ -73,7 +73,7 @@ class Kind:
     @property
     def heat(self) -> tuple[float, float]:
         """Heat of combustion, J per kg of fuel: flaming, smouldering."""
-        return constants.HEAT_OF_COMBUSTION, constants.HEAT_OF_COMBUSTION - _OF_CO * self.monoxide
+        return constants.HEAT_OF_COMBUSTION, constants.HEAT_OF_COMBUSTION - _CO_HEAT * self.monoxide
 
 
 # Emission factors: litter that burns behind the front is half prescribed fire of western forest and half
@@ -94,7 +94,7 @@ KINDS = (
 
 # kg/m2, largest surface fuel without canopy that counts as grass: the heaviest of Anderson's 1 to 3
 _GRASS_MOST = 0.6
-_UNDER = 0.05  # kg/m2, canopy fuel from which the surface fuel counts as litter (assumed)
+_LEAST_CANOPY = 0.05  # kg/m2, canopy fuel from which the surface fuel counts as litter (assumed)
 
 
 _OF_CATEGORY = {
@@ -112,25 +112,25 @@ def kind(surface: ArrayLike, canopy: ArrayLike, category: ArrayLike | None = Non
     canopy fuel above it (kg/m2) decide.
     """
     open_ground = np.where(np.asarray(surface) > _GRASS_MOST, SHRUB, GRASS)
-    found = np.where(np.asarray(canopy) > _UNDER, LITTER, open_ground).astype(np.int8)
+    result = np.where(np.asarray(canopy) > _LEAST_CANOPY, LITTER, open_ground).astype(np.int8)
     if category is not None:
         known = fuel_category.kinds(np.asarray(category))
         for of, what in _OF_CATEGORY.items():
-            found[known == of] = what
-    return found
+            result[known == of] = what
+    return result
 
 
 def of_run(run: Run) -> NDArray[np.int8]:
     """Kind of surface fuel (fy, fx) in a run."""
-    told = run.has(fuel_category.FIELD)
-    category = run.fuel_rows(fuel_category.FIELD, 0, len(run.fuel_latitude)) if told else None
+    has_category = run.has(fuel_category.FIELD)
+    category = run.fuel_rows(fuel_category.FIELD, 0, len(run.fuel_latitude)) if has_category else None
     return kind(run.surface_fuel, run.canopy_fuel, category)
 
 
 def column(name: str, part: int | None = None) -> Array:
     """Lookup table of one attribute by kind; `part` selects an entry of a pair."""
-    found = [getattr(each, name) for each in KINDS]
-    return np.array([each[part] if part is not None else each for each in found], np.float64)
+    values = [getattr(each, name) for each in KINDS]
+    return np.array([each[part] if part is not None else each for each in values], np.float64)
 
 
 def burn_out(surface: ArrayLike, kinds: ArrayLike) -> Array:

@@ -28,7 +28,7 @@ from .heat_release import Array, Sources
 
 _FLAMES = emissions.column("residence")
 _HEAT, _SMOKE = ([emissions.column(name, part) for part in (0, 1)] for name in ("heat", "smoke"))
-_LOOK, _LOOKS = 30.0, 240  # s between samples of the heat release, and samples at most
+_LOOK, _MAX_SAMPLES = 30.0, 240  # s between samples of the heat release, and samples at most
 _MOMENTS = 3  # times at which the fire's power is sampled for its column
 _AHEAD = 600.0  # s after the last frame; includes fuel that ignites in the interval under way then
 
@@ -127,10 +127,10 @@ class Fire:
         fuel.
         """
         fuel = self.fuel
-        hot, found = self.flux.burning(time)
-        found = np.maximum(np.nan_to_num(found.astype(np.float64)), 0.0)
-        hot, found = hot[found > 0.0], found[found > 0.0]
-        heat_of = found * self.cell_area[hot]
+        hot, heat_flux = self.flux.burning(time)
+        heat_flux = np.maximum(np.nan_to_num(heat_flux.astype(np.float64)), 0.0)
+        hot, heat_flux = hot[heat_flux > 0.0], heat_flux[heat_flux > 0.0]
+        heat_of = heat_flux * self.cell_area[hot]
         came = int(np.searchsorted(fuel.begin, time))
         gone = int(np.searchsorted(fuel.begin, time - self._longest))
         place = np.searchsorted(hot, fuel.cell[gone:came])
@@ -201,7 +201,7 @@ class Fire:
 
     def smoke_made(self, first: float, last: float) -> float:
         """Smoke emitted between two model times (s), kg, by the trapezoidal rule."""
-        step = max(_LOOK, (last - first) / _LOOKS)
+        step = max(_LOOK, (last - first) / _MAX_SAMPLES)
         times = np.linspace(first, last, max(1, math.ceil((last - first) / step)) + 1)
         rate = np.array([self.sources(float(time)).smoke.sum() for time in times])
         return float(np.sum(0.5 * (rate[1:] + rate[:-1]) * np.diff(times)))

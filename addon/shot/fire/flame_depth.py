@@ -20,10 +20,10 @@ if TYPE_CHECKING:
     from ..settings.protocols import ShotView
     from ..terrain.terrain import Ground
 
-_WHOLE = 60.0  # m, flame depth of a crown fire, at which patterns have their full size
-_LEAST = 0.15  # lower bound of the relative pattern size
-_STRONG = 95.0  # percentile of flame depth along the front that stands for the head
-_AROUND = 600.0  # s before the first frame for which the front is included
+_FULL_DEPTH = 60.0  # m, flame depth of a crown fire, at which patterns have their full size
+_LEAST_SCALE = 0.15  # lower bound of the relative pattern size
+_HEAD_PERCENTILE = 95.0  # percentile of flame depth along the front that stands for the head
+_BEFORE = 600.0  # s before the first frame for which the front is included
 
 Array = NDArray[np.float64]
 
@@ -56,9 +56,9 @@ class Fields:
     def speed(self) -> Array:
         """Rate of spread (ny, nx), m/s; 1 where it does not burn."""
         row, column = np.nonzero(self.ground.burned > 0.0)
-        found = np.ones(self.ground.shape)
-        found[row, column] = self.ground.spread(row.astype(np.float64), column.astype(np.float64))
-        return found
+        rate = np.ones(self.ground.shape)
+        rate[row, column] = self.ground.spread(row.astype(np.float64), column.astype(np.float64))
+        return rate
 
     @cached_property
     def residence(self) -> Array:
@@ -75,13 +75,13 @@ def head(shot: ShotView) -> float:
     """Flame depth at the head of the front in a shot, m; 0 without fire."""
     ground, front = shot.bare_ground, shot.front
     passed = (ground.burned >= 0.5) & (ground.arrival <= shot.frames.last)
-    passed &= ground.arrival >= shot.frames.first - _AROUND
+    passed &= ground.arrival >= shot.frames.first - _BEFORE
     if not passed.any():
         return 0.0
-    return float(np.percentile((front.speed * front.residence)[passed], _STRONG))
+    return float(np.percentile((front.speed * front.residence)[passed], _HEAD_PERCENTILE))
 
 
 def scale(shot: ShotView) -> float:
     """Pattern size of flaming front and burn scar relative to a crown fire's, at most 1."""
     deep = head(shot)
-    return float(np.clip(deep / _WHOLE, _LEAST, 1.0)) if deep else 1.0
+    return float(np.clip(deep / _FULL_DEPTH, _LEAST_SCALE, 1.0)) if deep else 1.0

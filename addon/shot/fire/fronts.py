@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 COLOURS = ("#b8f53d", "#ff4fd0", "#5fd7ff", "#ffffff")
 """Front colours: the first run, then the others in order. Flames and burned ground have other colours."""
 _FINE = 80.0  # m; a coarser grid is subdivided so that lines follow the terrain
-_MOST = 480  # times at most for which a front is drawn
+_MAX_TIMES = 480  # times at most for which a front is drawn
 
 Array = NDArray[np.float64]
 
@@ -146,17 +146,17 @@ def contour(field: Array) -> tuple[Array, Array, NDArray[np.int64]]:
 def lines(shot: Shot, run: Run) -> Lines:
     """Fronts of a run on the terrain of a shot, one for each built frame."""
     moments = shot.built_times
-    if len(moments) > _MOST:
-        moments = np.linspace(moments[0], moments[-1], _MOST)
+    if len(moments) > _MAX_TIMES:
+        moments = np.linspace(moments[0], moments[-1], _MAX_TIMES)
     ends = np.concatenate([[-np.inf], 0.5 * (moments[1:] + moments[:-1]), [np.inf]])
     fire, shift = reach(run), times.seconds(run, times.utc(shot.run, 0.0))
-    found, count = [], 0
+    parts, count = [], 0
     for time, start, end in zip(moments, ends[:-1], ends[1:], strict=True):
         latitude, longitude, after = fire.line(time + shift)
         span = np.full((len(after), 2), (start, end))
-        found.append((latitude, longitude, after + count, span))
+        parts.append((latitude, longitude, after + count, span))
         count += len(after)
-    latitude, longitude, after, span = (np.concatenate(each) for each in zip(*found, strict=True))
+    latitude, longitude, after, span = (np.concatenate(each) for each in zip(*parts, strict=True))
     grid = shot.ground.fields.longitude
     longitude = areas.turned(longitude, 0.5 * float(grid[0] + grid[-1]))
     points = shot.ground.point(latitude, longitude, ABOVE) if count else np.empty((0, 3))

@@ -16,7 +16,7 @@ from ..terrain.elevation import Elevation
 from . import burning, emissions
 
 BURN_OUT_CANOPY = emissions.KINDS[emissions.CROWN].burn_out[0]  # s, foliage and twigs (assumed)
-_OVER = 14.0  # burn-out times after which the rest, e^-14, is neglected
+_BURN_OUTS = 14.0  # burn-out times after which the rest, e^-14, is neglected
 DETAIL = 75.0  # m, merging distance of fuel cells in a fire of 15 km; it bounds the pieces of a finer run
 
 Array = NDArray[np.float64]
@@ -93,8 +93,8 @@ def gather(
     parts = [_of_rows(run, heights, arrival, share, rows, window) for rows in blocks.rows(run)]
     every = Fuel(*(np.concatenate([getattr(part, field.name) for part in parts]) for field in fields(Fuel)))
     row, column = np.divmod(every.fuel_cell, len(run.fuel_longitude))
-    found = _pieces(run, every, row, column, detail)
-    return found.take(np.argsort(found.begin, kind="stable"))
+    pieces = _merge(run, every, row, column, detail)
+    return pieces.take(np.argsort(pieces.begin, kind="stable"))
 
 
 def _of_rows(
@@ -111,34 +111,34 @@ def _of_rows(
     edge, beyond = max(top - 2, 0), min(end + 2, len(run.fuel_latitude))
     time = arrival(edge, beyond)
     if share is not None:
-        time = _touched(time, share[edge:beyond])
+        time = _with_partial_cells(time, share[edge:beyond])
     inner = time[top - edge : end - edge]
     came = inner < last + burning.CROSSING[1]
     if came.any():  # the slowest fuel of these rows bounds the burning time
         most = np.fmax.reduce(run.fuel_rows("surface_fuel", top, end), axis=None, initial=0.0)
-        longest = burning.CROSSING[1] + _OVER * max(float(_slowest(most)), BURN_OUT_CANOPY)
+        longest = burning.CROSSING[1] + _BURN_OUTS * max(float(_longest_burn_out(most)), BURN_OUT_CANOPY)
         came &= inner > first - max(longest, before)
     row, column = np.divmod(np.flatnonzero(came), inner.shape[1])
-    surface = np.nan_to_num(_at(partial(run.fuel_rows, "surface_fuel"), top, row, column))
-    burning_out = np.maximum(_slowest(surface), BURN_OUT_CANOPY)
-    near = inner[row, column] > first - np.maximum(burning.CROSSING[1] + _OVER * burning_out, before)
+    surface = np.nan_to_num(_values_at(partial(run.fuel_rows, "surface_fuel"), top, row, column))
+    burning_out = np.maximum(_longest_burn_out(surface), BURN_OUT_CANOPY)
+    near = inner[row, column] > first - np.maximum(burning.CROSSING[1] + _BURN_OUTS * burning_out, before)
     row, column, surface = row[near], column[near], surface[near]
-    canopy = np.nan_to_num(_at(partial(run.fuel_rows, "canopy_fuel"), top, row, column))
+    canopy = np.nan_to_num(_values_at(partial(run.fuel_rows, "canopy_fuel"), top, row, column))
     category = None
     if run.has(fuel_category.FIELD):
-        category = _at(partial(run.fuel_rows, fuel_category.FIELD), top, row, column)
+        category = _values_at(partial(run.fuel_rows, fuel_category.FIELD), top, row, column)
     kind = emissions.kind(surface, canopy, category)
     slow = emissions.burn_out(surface, kind)
     came = inner[row, column].astype(np.float64)
     least = burning.least_crossing(float(np.sqrt(burning.cell_area(run))))
     crossing = burning.crossing(time, row + top - edge, column, least)
     begin = came - 0.5 * crossing  # arrival time is defined at the cell's centre
-    over = begin + crossing + _OVER * np.maximum(slow, BURN_OUT_CANOPY)
+    over = begin + crossing + _BURN_OUTS * np.maximum(slow, BURN_OUT_CANOPY)
     recent = (over > first) | (came >= first - before)
     burns = np.flatnonzero((surface + canopy > 0.0) & (begin < last) & recent)
     row, column = row[burns], column[burns]
     part = 1.0 if share is None else share[row + top, column].astype(np.float64)
-    height = np.nan_to_num(_at(heights.rows, top, row, column))
+    height = np.nan_to_num(_values_at(heights.rows, top, row, column))
     place = run.fuel_latitude[row + top], run.fuel_longitude[column]
     return Fuel(
         (row + top) * len(run.fuel_longitude) + column,
@@ -155,20 +155,20 @@ def _of_rows(
     )
 
 
-def _touched(time: NDArray, share: NDArray) -> NDArray:
+def _with_partial_cells(time: NDArray, share: NDArray) -> NDArray:
     """Arrival times, extended to cells that burn in part although the front never reaches their centre.
 
     Such a cell takes the latest arrival time of its neighbours; without one it stays NaN.
     """
-    padded, found = np.pad(time, 1, constant_values=np.nan), np.full_like(time, np.nan)
+    padded, latest = np.pad(time, 1, constant_values=np.nan), np.full_like(time, np.nan)
     rows, columns = time.shape
     for y in range(3):
         for x in range(3):
-            found = np.fmax(found, padded[y : y + rows, x : x + columns])
-    return np.where(np.isnan(time) & (share > 0.0), found, time)
+            latest = np.fmax(latest, padded[y : y + rows, x : x + columns])
+    return np.where(np.isnan(time) & (share > 0.0), latest, time)
 
 
-def _at(rows: Callable[[int, int], NDArray], top: int, row: Index, column: Index) -> Array:
+def _values_at(rows: Callable[[int, int], NDArray], top: int, row: Index, column: Index) -> Array:
     """Values of the fuel grid at rows (counted from `top`) and columns, read by `rows`."""
     if len(row) == 0:
         return np.empty(0)
@@ -177,7 +177,7 @@ def _at(rows: Callable[[int, int], NDArray], top: int, row: Index, column: Index
     return values[row - first, column].astype(np.float64)
 
 
-def _slowest(surface: Array | float) -> Array:
+def _longest_burn_out(surface: Array | float) -> Array:
     """Longest burn-out time of any kind of fuel at a surface fuel load (kg/m2), s."""
     return np.max(
         [emissions.burn_out(surface, np.int8(kind)) for kind in range(len(emissions.KINDS))], axis=0
@@ -196,12 +196,12 @@ def _model_cell(run: Run, row: Index, column: Index) -> Index:
     return rows * len(run.longitude) + columns
 
 
-def _pieces(run: Run, fuel: Fuel, row: Index, column: Index, detail: float) -> Fuel:
+def _merge(run: Run, fuel: Fuel, row: Index, column: Index, detail: float) -> Fuel:
     """Merge fuel into pieces of `detail` (m) or larger. A piece has one kind and lies in one model cell."""
     most = max(round(float(np.sqrt(burning.model_cell_area(run))) / detail), 1)
     parts = (
-        _part(run.latitude, run.fuel_latitude, most)[row],
-        _part(run.longitude, run.fuel_longitude, most)[column],
+        _subdivision(run.latitude, run.fuel_latitude, most)[row],
+        _subdivision(run.longitude, run.fuel_longitude, most)[column],
     )
     _, first, group = np.unique(
         ((fuel.cell * most + parts[0]) * most + parts[1]) * len(emissions.KINDS) + fuel.kind,
@@ -236,7 +236,7 @@ def _pieces(run: Run, fuel: Fuel, row: Index, column: Index, detail: float) -> F
     )
 
 
-def _part(coarse: Array, fine: Array, most: int) -> Index:
+def _subdivision(coarse: Array, fine: Array, most: int) -> Index:
     """Subdivision index of fuel cells within their model cell along one axis, at most `most` parts."""
     inside = burning.nearest(coarse, fine)
     count = np.bincount(inside, minlength=len(coarse))

@@ -79,26 +79,28 @@ def lights(sources: Sources, block: float = 300.0, count: int = 400) -> Sources:
     the remaining `count`, and so on. A node is promoted gradually: its strong part rises from 0 at the power
     of the strongest excluded node to 1 at twice that power.
     """
-    kept: list[Sources] = []
+    merged: list[Sources] = []
     rest = sources.take(np.flatnonzero(sources.power > 0.0))
     while count > 0 and len(rest.power):
-        nodes = _on_grid(rest, block) if count > 1 else _gathered(rest, np.zeros(len(rest.power), np.int64))
+        nodes = (
+            _to_nodes(rest, block) if count > 1 else _sum_groups(rest, np.zeros(len(rest.power), np.int64))
+        )
         room = (count + 1) // 2
         if len(nodes.power) <= room:
-            kept.append(nodes)
+            merged.append(nodes)
             break
         edge = float(np.partition(nodes.power, -room - 1)[-room - 1])
         part = np.clip(nodes.power / edge - 1.0, 0.0, 1.0)
         strong, weak = np.flatnonzero(part > 0.0), np.flatnonzero(part < 1.0)
-        kept.append(_gathered(nodes, np.arange(len(strong)), part[strong], strong))
-        rest = _gathered(nodes, np.arange(len(weak)), 1.0 - part[weak], weak)
+        merged.append(_sum_groups(nodes, np.arange(len(strong)), part[strong], strong))
+        rest = _sum_groups(nodes, np.arange(len(weak)), 1.0 - part[weak], weak)
         count, block = count - room, 2.0 * block
-    if not kept:
+    if not merged:
         return sources.take(np.empty(0, np.int64))
-    return Sources(*(np.concatenate([getattr(k, field.name) for k in kept]) for field in fields(Sources)))
+    return Sources(*(np.concatenate([getattr(k, field.name) for k in merged]) for field in fields(Sources)))
 
 
-def _on_grid(sources: Sources, block: float) -> Sources:
+def _to_nodes(sources: Sources, block: float) -> Sources:
     """Distribute sources to the nodes of a grid, `block` metres apart, by bilinear weights."""
     low = np.floor(sources.position[:, :2] / block).astype(np.int64)
     part = sources.position[:, :2] / block - low
@@ -106,10 +108,10 @@ def _on_grid(sources: Sources, block: float) -> Sources:
     weight = [np.abs(1 - e - part[:, 0]) * np.abs(1 - n - part[:, 1]) for e, n in corners]
     key = np.concatenate([low + np.array(corner) for corner in corners]) @ np.array([1 << 32, 1])
     _, group = np.unique(key, return_inverse=True)
-    return _gathered(sources, group, np.concatenate(weight), np.tile(np.arange(len(low)), 4))
+    return _sum_groups(sources, group, np.concatenate(weight), np.tile(np.arange(len(low)), 4))
 
 
-def _gathered(
+def _sum_groups(
     sources: Sources,
     group: NDArray[np.int64],
     weight: Array | float = 1.0,

@@ -27,10 +27,10 @@ if TYPE_CHECKING:
 
 ABOVE = 25.0  # m over the ground, above most crowns, which would occlude the lines
 FOREVER = 1e12  # s
-_SHOWN = 12 * 3600.0  # s, display time of a detection
-_FLIGHT = 24 * 3600.0  # s, display time of an infrared flight's heat
+_DETECTION_TIME = 12 * 3600.0  # s, display time of a detection
+_HEAT_TIME = 24 * 3600.0  # s, display time of an infrared flight's heat
 _SOURCE = 30.0  # m, least radius of the circle around an isolated heat source
-_MOST = 60_000  # points of a perimeter at most
+_MAX_POINTS = 60_000  # points of a perimeter at most
 _STEP = 20.0  # m between points, so that lines follow the terrain
 
 
@@ -87,44 +87,48 @@ def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
 
 def lines(shot: Shot) -> list[Line]:
     """All lines in order of their start times."""
-    found = observations.read(files(shot.settings))
-    every = [*_perimeters(shot, found), *_pixels(shot, found), *_heat(shot, found)]
+    observed = observations.read(files(shot.settings))
+    every = [*_perimeters(shot, observed), *_pixels(shot, observed), *_heat(shot, observed)]
     return sorted(every, key=lambda line: line.start)
 
 
-def _perimeters(shot: Shot, found: observations.Observations) -> Iterator[Line]:
-    for i, each in enumerate(found.perimeters):
-        later = (p.time for p in found.perimeters[i + 1 :] if p.time > each.time and p.source == each.source)
+def _perimeters(shot: Shot, observed: observations.Observations) -> Iterator[Line]:
+    for i, perimeter in enumerate(observed.perimeters):
+        later = (
+            p.time
+            for p in observed.perimeters[i + 1 :]
+            if p.time > perimeter.time and p.source == perimeter.source
+        )
         after = next(later, None)
         fades = FOREVER if after is None else times.seconds(shot.run, after)
-        start = times.seconds(shot.run, each.time)
-        rings = [ring for polygon in each.polygons for ring in polygon]
-        step = max(_STEP, sum(_length(ring) for ring in rings) / _MOST)
+        start = times.seconds(shot.run, perimeter.time)
+        rings = [ring for polygon in perimeter.polygons for ring in polygon]
+        step = max(_STEP, sum(_length(ring) for ring in rings) / _MAX_POINTS)
         for ring in rings:
             yield Line(_draped(shot, ring, step), start, fades, FOREVER)
 
 
-def _heat(shot: Shot, found: observations.Observations) -> Iterator[Line]:
+def _heat(shot: Shot, observed: observations.Observations) -> Iterator[Line]:
     radius = max(_SOURCE, 1.5 * shot.settings.fire.observed_width)
     turn = np.linspace(0.0, 2.0 * np.pi, 12, endpoint=False)
-    for each in found.heat:
-        start = times.seconds(shot.run, each.time)
-        later = [times.seconds(shot.run, h.time) for h in found.heat if h.time > each.time]
-        end = min([start + _FLIGHT, *later])
-        rings = [ring for polygon in each.polygons for ring in polygon]
-        for longitude, latitude in each.points:
+    for heat in observed.heat:
+        start = times.seconds(shot.run, heat.time)
+        later = [times.seconds(shot.run, h.time) for h in observed.heat if h.time > heat.time]
+        end = min([start + _HEAT_TIME, *later])
+        rings = [ring for polygon in heat.polygons for ring in polygon]
+        for longitude, latitude in heat.points:
             north, east = areas.metres_per_degree(latitude)
             x, y = longitude + radius * np.cos(turn) / east, latitude + radius * np.sin(turn) / north
             rings.append(np.column_stack([x, y]))
-        step = max(_STEP, sum(_length(ring) for ring in rings) / _MOST)
+        step = max(_STEP, sum(_length(ring) for ring in rings) / _MAX_POINTS)
         for ring in rings:
-            yield Line(_draped(shot, ring, step), start, end, end, each.kind)
+            yield Line(_draped(shot, ring, step), start, end, end, heat.kind)
 
 
-def _pixels(shot: Shot, found: observations.Observations) -> Iterator[Line]:
-    for each in found.detections:
+def _pixels(shot: Shot, observed: observations.Observations) -> Iterator[Line]:
+    for detection in observed.detections:
         for time, latitude, longitude, size in zip(
-            each.time, each.latitude, each.longitude, each.size, strict=True
+            detection.time, detection.latitude, detection.longitude, detection.size, strict=True
         ):
             north, east = areas.metres_per_degree(latitude)
             x, y = (
@@ -133,7 +137,7 @@ def _pixels(shot: Shot, found: observations.Observations) -> Iterator[Line]:
             )
             ring = np.column_stack([longitude + x, latitude + y])
             start = times.seconds(shot.run, time)
-            yield Line(_draped(shot, ring, _STEP), start, start + _SHOWN, start + _SHOWN)
+            yield Line(_draped(shot, ring, _STEP), start, start + _DETECTION_TIME, start + _DETECTION_TIME)
 
 
 def _metres(ring: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -1,1 +1,1 @@
-"""Light without Blender: sun and moon, the sky, and what a camera is exposed for."""
+"""Light without Blender: sun and moon, sky, and exposure."""

@@ -1,8 +1,8 @@
-"""Exposure from what a camera will see in each frame, and how dark it is there.
+"""Automatic exposure: stops of each frame from metered luminance, and darkness of the scene.
 
-A picture is exposed for the geometric mean of what the meter's rays find (Reinhard et al. 2002, doi
-10.1145/566654.566575, eq. 1), by part of the stops that this differs from a clear day's, so that nights stay
-dark; and not so long that smoke in the light of flames burns out.
+Exposure follows the geometric mean luminance of the meter's rays (log-average luminance; Reinhard et al.
+2002, doi 10.1145/566654.566575, eq. 1). It applies a fraction of the difference in stops from a clear day, so
+that nights stay dark. It is limited so that flame-lit smoke is not overexposed.
 """
 
 from __future__ import annotations
@@ -20,21 +20,21 @@ from ..shot import Shot
 from ..terrain import noise
 from . import exposure_meter, sky
 
-_KEYS = 13  # at most so many moments of a shot are metered
-_DAY, _CLEAR = 0.5, 0.19  # stops at a clear afternoon's geometric mean, radiance
+_KEYS = 13  # frames of a shot at most that are metered
+_DAY, _CLEAR = 0.5, 0.19  # stops at the reference, a clear afternoon with this log-average luminance
 _ADAPTATION = 0.6, 0.3  # part of the stops followed below and above that: white smoke is to be white; by eye
-_WHITE = 0.55  # luminance on the picture of the brightest tenth of the glow, at most: above, AgX pales it
-_AMID = 0.1  # of all of it in the mean, at most: amid smoke that glows, flames and trees must show; by eye
+_WHITE = 0.55  # largest display luminance of the brightest tenth of the glow; above, AgX desaturates it
+_AMID = 0.1  # largest mean of the glow over the picture: flames and trees must show in glowing smoke; by eye
 _LEAST, _MOST = -3.0, 4.0  # stops
 _SUNLIT, _RISEN = 0.2, (-2.0, 6.0)  # darkness at most while the sun is up, and heights (degrees); by eye
-_DARK = 1.4, 3.4  # stops without any flames from which, and at which, light is that of flames alone; by eye
+_DARK = 1.4, 3.4  # stops without flames at which flame light begins to dominate, and dominates fully; by eye
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class _Metered:
-    """Of k frames: stops, and darkness of the darkest camera."""
+    """Metering of k frames: stops, and darkness of the darkest camera."""
 
     frame: Array
     stops: Array
@@ -45,21 +45,21 @@ _known: WeakKeyDictionary[Shot, _Metered] = WeakKeyDictionary()
 
 
 def at(shot: Shot, frames: NDArray) -> Array:
-    """Stops (n,) at frames (n,) from 1: of the first camera, or the scene file's own where it has one."""
+    """Exposure in stops (n,) at frames (n,) from 1: of the first camera, or the scene file's own if set."""
     given = shot.settings.light.exposure
     if given is not None:
         return np.full(np.shape(frames), float(given))
-    found = _metered(shot)
-    return np.interp(frames, found.frame, found.stops)
+    metered = _metered(shot)
+    return np.interp(frames, metered.frame, metered.stops)
 
 
 def darkness(shot: Shot, times: NDArray | float) -> Array:
-    """How dark (n,) it is without flames at model times (n,), s, for the camera that has least light.
+    """Darkness (n,) without flames at model times (n,), s, for the camera with the least light.
 
-    0 by day, where sunlight drowns theirs, to 1 by night; under smoke by day little.
+    0 by day, when sunlight outshines flames, to 1 by night; low under smoke by day.
     """
-    found = _metered(shot)
-    return np.interp(times, shot.frames.first + (found.frame - 1.0) * shot.frames.step, found.darkness)
+    metered = _metered(shot)
+    return np.interp(times, shot.frames.first + (metered.frame - 1.0) * shot.frames.step, metered.darkness)
 
 
 def _metered(shot: Shot) -> _Metered:
@@ -72,7 +72,7 @@ def _metered(shot: Shot) -> _Metered:
 
 
 def _smooth(shot: Shot, frames: Array) -> _Metered:
-    """Meter frames (k,), smooth over time."""
+    """Meter frames (k,) and smooth the result over time."""
     if not shot.paths:
         clear = [exposure_meter.clear(sky.state(shot, shot.frames.time(frame))) for frame in frames]
         stops = np.array([_stops(each, np.zeros(2)) for each in clear])
@@ -89,9 +89,9 @@ def _smooth(shot: Shot, frames: Array) -> _Metered:
     return _Metered(frames, targets.smoothed(stops), targets.smoothed(dark.max(axis=0)))
 
 
-def _stops(found: Array, glow: Array) -> float:
-    """Stops for a picture of these radiances (n,), and of them that of smoke in the light of flames."""
-    mean = np.log2(np.maximum(found, 1.0e-4)).mean()
+def _stops(luminance: Array, glow: Array) -> float:
+    """Stops for these luminances (n,) and the glow (n,) of flame-lit smoke among them."""
+    mean = np.log2(np.maximum(luminance, 1.0e-4)).mean()
     below = np.log2(_CLEAR) - mean
     wanted = _DAY + _ADAPTATION[0] * max(below, 0.0) + _ADAPTATION[1] * min(below, 0.0)
     bright = np.sort(glow)[-max(len(glow) // 10, 1) :].mean()
@@ -100,26 +100,26 @@ def _stops(found: Array, glow: Array) -> float:
 
 
 def _sun(shot: Shot, frame: float) -> float:
-    """Height of the sun in a frame, degrees."""
+    """Solar elevation in a frame, degrees."""
     return float(sun.position(shot.run, shot.frames.time(frame))[1])
 
 
-def _dark(found: Array, sun: float) -> float:
-    """How dark it is where these radiances (n,) are found without flames and relief, 0 to 1.
+def _dark(luminance: Array, sun: float) -> float:
+    """Darkness, 0 to 1, from these luminances (n,), metered without flames and relief.
 
-    In the shade of a ridge a picture is exposed longer; the smoke over it is no darker. While the sun
-    (degrees) is up, shaded smoke is grey: light comes in from its sunny side.
+    In a ridge's shade a picture is exposed longer, but the smoke above is no darker. While the sun (elevation
+    in degrees) is up, shaded smoke is grey, lit from its sunny side.
     """
     most = 1.0 - (1.0 - _SUNLIT) * float(noise.smoothstep(*_RISEN, sun))
-    return most * float(noise.smoothstep(*_DARK, _stops(found, np.zeros(1))))
+    return most * float(noise.smoothstep(*_DARK, _stops(luminance, np.zeros(1))))
 
 
-def _with_flames(found: Array, level: Array, shine: Array, sun: float) -> tuple[Array, Array]:
-    """Radiances (n,) of all light and of the flames' in smoke, of what the meter measures."""
+def _with_flames(luminance: Array, level: Array, shine: Array, sun: float) -> tuple[Array, Array]:
+    """Luminances (n,) of all light, and of flame-lit smoke, from the meter's readings."""
     glow = sky.glow(_dark(level, sun)) * exposure_meter.luminance(sky.GLOW) * shine
-    return found + glow, glow
+    return luminance + glow, glow
 
 
 def radiance(shot: Shot, view: Path, frame: int) -> tuple[Array, Array]:
-    """Luminances (n,) along the meter's rays in a frame: of all light, and of the flames' in smoke."""
+    """Luminances (n,) along the meter's rays in a frame: of all light, and of flame-lit smoke."""
     return _with_flames(*exposure_meter.measure(shot, view, frame), _sun(shot, frame))

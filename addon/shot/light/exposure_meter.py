@@ -1,9 +1,8 @@
-"""What a camera's light meter finds in a frame: sun, sky, haze, and the light and shade of the smoke.
+"""Exposure metering: luminance of sun, sky, haze, ground and smoke along a few rays of a camera.
 
-A meter as in a camera: a few rays through the picture, each of which ends on the ground or in the sky, with
-smoke before it or not. Where smoke will be is roughly known before it is made: that of each fire rises and
-bends over in the wind as Briggs says. Flames are left out: they are drawn to suit the exposure
-(`scene.glow`).
+Each ray ends on the ground or in the sky, with or without smoke in front. Smoke is estimated before it is
+solved: each fire has a bent-over plume with Briggs' plume rise. Flames are left out, as their brightness
+follows the exposure (`scene.glow`).
 """
 
 from __future__ import annotations
@@ -23,26 +22,26 @@ from ..terrain import noise
 from . import sky
 
 _RAYS = 16, 9
-_REACH = np.geomspace(40.0, 60_000.0, 72)  # m where the ground is looked for, from where it may begin
-_HIGHEST = 4500.0  # m over the scene's zero; no ground is higher
-_AIR = 50_000.0  # m over the scene's zero; a ten-thousandth of the haze is higher
-_GROUND = 0.06  # reflectance of forest, brush and ash, luminance: `scene.terrain.material`, in the mean
-_SHADE = 0.1  # of that light under trees: a fleck of sun here and there, and what sky shows; by eye
-_SLOPE = 40.0  # m to each side, of slopes
-_SHADOW = np.geomspace(100.0, 6000.0, 14)  # m towards the sun where relief may throw a shadow from
-_CROWNS = 6.0, 25.0  # m above the ground: lower than crowns, and over most of them
+_REACH = np.geomspace(40.0, 60_000.0, 72)  # m, distances of ground samples along a ray
+_HIGHEST = 4500.0  # m above the scene's zero, upper limit of terrain
+_AIR = 50_000.0  # m above the scene's zero, above which lies a ten-thousandth of the haze
+_GROUND = 0.06  # mean luminance reflectance of forest, brush and ash: `scene.terrain.material`
+_SHADE = 0.1  # fraction of that light under trees, from sun flecks and visible sky; by eye
+_SLOPE = 40.0  # m to each side, baseline of slopes
+_SHADOW = np.geomspace(100.0, 6000.0, 14)  # m towards the sun, distances at which relief may cast a shadow
+_CROWNS = 6.0, 25.0  # m above the ground: below crowns, and above most of them
 _CLOSED, _BARE = 0.6, 0.4  # kg/m2 of canopy that shades 1 - 1/e of the ground; of that burned trees; by eye
 _CLOUD = 0.3  # of lit smoke: a deep ball of it has 0.27, the sun behind the camera, to 0.46, at its side
-_YOUNG = 20.0, 600.0  # s in which smoke turns from that of soot to white, as `flow.Detail` has it
-_SOOT = 0.3  # of old smoke's light is fresh smoke's, amid other smoke; as pictures have it
-_BLOCK, _FIRES = 600.0, 80  # m, heat this close is one fire, at 15 km; and how many there are at most
-# s since smoke left its fire, of 15 km.
+_YOUNG = 20.0, 600.0  # s in which smoke turns from sooty to white, as in `flow.Detail`
+_SOOT = 0.3  # brightness of fresh smoke relative to aged smoke, amid other smoke; as rendered
+_BLOCK, _FIRES = 600.0, 80  # m, size within which heat is one fire, at 15 km; fires at most
+# s, age of smoke parcels, for a fire of 15 km.
 _TIMES = np.array([30.0, 90.0, 180.0, 300.0, 480.0, 720.0, 1080.0, 1600.0])
-_HIDES, _FRONT = 0.3, 1.5  # optical depth of a parcel that hides much; its radii from there to its middle
-_THROUGH = 0.5  # of smoke's depth counts for the light on it: `smoke.flow_material`
-_TOP = 3500.0  # m above the fire that smoke rises to at most
+_HIDES, _FRONT = 0.3, 1.5  # optical depth from which a parcel occludes; radii from its front to its centre
+_THROUGH = 0.5  # fraction of smoke's optical depth that attenuates its light: `smoke.flow_material`
+_TOP = 3500.0  # m above the fire, upper limit of plume rise
 _BRIGGS = 1.6, 0.7 * constants.BUOYANCY_FLUX  # rise is 1.6 F^(1/3) x^(2/3) / u; 0.7 of the heat is convected
-# m2/J: 4 m2/g of the smoke that is a fiftieth of the fuel.
+# m2/J: 4 m2/g of smoke, which is a fiftieth of the fuel.
 _EXTINCTION = 4000.0 * 0.02 / constants.HEAT_OF_COMBUSTION
 
 
@@ -51,18 +50,18 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Smoke:
-    """Smoke as the meter knows it: parcels of n fires at m ages, and the fires' light.
+    """Estimated smoke: parcels of n fires at m ages, and lights of the fires.
 
     Attributes
     ----------
     place, radius, depth
-        (n, m, 3) m, (n, m) m and (n, m) optical depth across.
+        Centres (n, m, 3), m, radii (n, m), m, and optical depths (n, m).
     bright
-        (m,) light of it beside that of old smoke.
+        (m,) brightness relative to aged smoke.
     light
-        Places (k, 3) m and luminous powers (k,) W.
+        Positions (k, 3), m, and luminous powers (k,), W.
     ratio
-        Lengths of the fire over those at 15 km.
+        Length scale of the fire relative to 15 km.
     """
 
     place: Array
@@ -74,20 +73,20 @@ class Smoke:
 
 
 def clear(light: sky.State) -> Array:
-    """Radiance of plain ground and of the sky over it."""
+    """Luminance of level ground, and of the clear sky above it."""
     ground = _GROUND / np.pi * light.power * light.direction[2] + _GROUND * light.sky_mean
     return np.array([ground, light.sky_mean])
 
 
 def measure(shot: Shot, view: Path, frame: int) -> tuple[Array, Array, Array]:
-    """What the meter's rays find in a frame.
+    """Meter a frame.
 
     Returns
     -------
     found, level
-        (n,) luminances, and those were the sun to fall on the ground as if that were level.
+        (n,) luminances, and those for ground lit as if it were level.
     shine
-        (n,) what flames add to rays in smoke, GW.
+        (n,) flame light on smoke along rays, GW.
     """
     time = shot.frames.time(frame)
     light, smoke = sky.state(shot, time), _smoke(shot, time)
@@ -117,9 +116,9 @@ def measure(shot: Shot, view: Path, frame: int) -> tuple[Array, Array, Array]:
 
 
 def _crowns(shot: Shot, eye: Array, time: float) -> float:
-    """How much of the picture of a camera at (3,) are trees and ground in the shade of crowns, 0 to 1.
+    """Fraction of the picture of a camera at (3,) that is canopy or ground in its shade, 0 to 1.
 
-    That of a camera no higher than crowns, amid canopy fuel that has not burned; burned, a part.
+    It applies to a camera no higher than the crowns amid unburned canopy fuel; burned canopy counts in part.
     """
     ground = shot.bare_ground
     if not shot.settings.forest.trees:
@@ -132,7 +131,7 @@ def _crowns(shot: Shot, eye: Array, time: float) -> float:
 
 
 def _facing(shot: Shot, place: Array, direction: Array) -> Array:
-    """Part (n,) of the sun's power on the ground below places (n, 3): by slope, none in a ridge's shadow."""
+    """Direct sunlight fraction (n,) on the ground below points (n, 3): by slope, none in a ridge's shadow."""
     up, (x, y) = shot.bare_ground.up, place[:, :2].T
     east = (up(x + _SLOPE, y) - up(x - _SLOPE, y)) / (2.0 * _SLOPE)
     north = (up(x, y + _SLOPE) - up(x, y - _SLOPE)) / (2.0 * _SLOPE)
@@ -144,13 +143,13 @@ def _facing(shot: Shot, place: Array, direction: Array) -> Array:
 
 
 def _sunlit(smoke: Smoke, place: Array, light: sky.State, through: float) -> Array:
-    """Part (n,) of sunlight that gets to places (n, 3) through smoke of whose depth a part counts."""
+    """Transmittance (n,) of smoke for sunlight at points (n, 3), with its depth times `through`."""
     depth, _met, _bright = _depth(smoke, place, np.broadcast_to(light.direction, place.shape), np.inf)
     return np.exp(-through * depth)
 
 
 def _rays(view: Path, frame: int) -> tuple[Array, Array]:
-    """Starts and directions (n, 3) of rays spread evenly over a camera's picture, or over all directions."""
+    """Origins and directions (n, 3) of rays, spread evenly over a camera's picture or over all directions."""
     if view.around:
         sine = (np.arange(_RAYS[1]) + 0.5) / _RAYS[1] * 2.0 - 1.0
         bearing = ((np.arange(_RAYS[0]) + 0.5) / _RAYS[0] * 2.0 - 1.0) * np.pi
@@ -169,19 +168,19 @@ def _rays(view: Path, frame: int) -> tuple[Array, Array]:
 
 
 def _ends(shot: Shot, start: Array, along: Array) -> Array:
-    """How far (n,) rays go before they meet the ground, m; infinite where they do not."""
+    """Raycast against the terrain: distances (n,), m; infinite without a hit."""
     down = np.minimum(along[:, 2], -1.0e-3)
     begin = np.maximum((_HIGHEST - start[:, 2]) / down, 0.0)
     reach = begin[:, None] + _REACH
     way = start[:, None] + reach[..., None] * along[:, None]
     ground = shot.bare_ground
-    low = way[..., 2] <= ground.fields.elevation.max()  # the rest is in the sky
+    low = way[..., 2] <= ground.fields.elevation.max()  # higher points are in the sky
     low[low] = way[low][:, 2] < ground.up(*way[low][:, :2].T)
     return np.where(low.any(axis=1), reach[np.arange(len(low)), np.argmax(low, axis=1)], np.inf)
 
 
 def _haze_depth(height: Array, up: Array, far: Array) -> Array:
-    """Optical depth (n,) of haze along rays from heights (m) with sines of slope `up`, as `haze` has it."""
+    """Optical depth (n,) of haze along rays from heights (m) with sines of elevation `up`, as in `haze`."""
     above = np.maximum((height - _AIR) / np.maximum(-up, 1.0e-3), 0.0)
     height, far = np.minimum(height, _AIR), np.maximum(far - above, 0.0)
     rise = up * far / sky.HAZE_HEIGHT
@@ -190,12 +189,12 @@ def _haze_depth(height: Array, up: Array, far: Array) -> Array:
 
 
 def _gradation(up: Array) -> Array:
-    """Of a clear sky: radiance over its mean at sines of height; fitted to Cycles' sky, sun at 34 degrees."""
+    """Sky gradation: clear-sky radiance over its mean, by sine of elevation; fitted to Cycles, sun at 34."""
     return 0.55 + 2.7 * (1.0 - np.clip(up, 0.0, 1.0)) ** 2
 
 
 def _smoke(shot: Shot, time: float) -> Smoke:
-    """Smoke of a moment, (n = 0) where it is switched off."""
+    """Estimated smoke at a time; empty (n = 0) if smoke is off."""
     sources = shot.fire.sources(time)
     if not shot.settings.smoke.enabled:
         sources = sources.take(np.empty(0, np.int64))
@@ -208,16 +207,16 @@ def _smoke(shot: Shot, time: float) -> Smoke:
     rise = np.minimum(_BRIGGS[0] * flux * (speed * ages) ** (2.0 / 3.0) / speed, _TOP)
     place = fires.position[:, None] + drift
     place[..., 2] += rise
-    radius = 0.5 * rise + 0.5 * block  # Briggs: a plume is half as wide as it has risen
+    radius = 0.5 * rise + 0.5 * block  # Briggs: half-width is half of the rise
     depth = shot.fire.smoke.opacity * _EXTINCTION * fires.power[:, None] / (2.0 * radius * speed)
     bright = 1.0 - (1.0 - _SOOT) * noise.smoothstep(*_YOUNG[::-1], _TIMES)
     return Smoke(place, radius, depth, bright, (shine.position, shine.power), shot.scale.ratio)
 
 
 def _depth(smoke: Smoke, start: Array, along: Array, ends: Array | float) -> tuple[Array, Array, Array]:
-    """Smoke along rays: optical depth (n,), how far off (n,) the first that hides much is, m; its light (n,).
+    """Smoke along rays: optical depth (n,), distance (n,) to the first dense parcel, m, and brightness (n,).
 
-    Of each fire's parcels the one counts that is thickest on a ray.
+    Of each fire only the parcel with the largest depth on a ray counts.
     """
     n = len(start)
     if len(smoke.place) == 0:
@@ -241,27 +240,27 @@ def _depth(smoke: Smoke, start: Array, along: Array, ends: Array | float) -> tup
 
 
 def _squares(some: Array, others: Array) -> Array:
-    """Squares (..., n) of distances of places (..., 3) from others (n, 3)."""
+    """Squared distances (..., n) between points (..., 3) and (n, 3)."""
     return (some**2).sum(axis=-1)[..., None] + (others**2).sum(axis=1) - 2.0 * (some @ others.T)
 
 
 def _lit_smoke(light: sky.State, along: Array) -> Array:
-    """Luminance (n,) of thick smoke on rays: of a Lambert sphere in the sun, and of the sky."""
+    """Luminance (n,) of thick smoke on rays: a Lambert sphere in sunlight, plus skylight."""
     phase = np.arccos(-np.clip(along @ light.direction, -1.0, 1.0))
     sphere = (np.sin(phase) + (np.pi - phase) * np.cos(phase)) * 2.0 / (3.0 * np.pi)
     return _CLOUD * (light.power * sphere / np.pi + light.sky_mean)
 
 
 def _glowing(shot: Shot) -> float:
-    """Part of the flames' light that smoke gives on if it is thin everywhere, as its material has it."""
+    """Fraction of flame light that thin smoke scatters, as in its material."""
     thickest = shot.settings.smoke.extinction or np.inf
     return float(np.interp(thickest, sky.THICK, (sky.THIN, 1.0)))
 
 
 def _shine(smoke: Smoke, start: Array, along: Array, ends: Array) -> Array:
-    """Most light (n,) of flames on smoke on a ray: sum of P / 1 GW exp(-r / 600 m) / (1 + (r / 250 m)^2).
+    """Largest flame light (n,) on smoke along a ray: sum of P / 1 GW exp(-r / 600 m) / (1 + (r / 250 m)^2).
 
-    Smaller fires have shorter lengths, and powers that go with their squares, as `flow_frames` has it.
+    Smaller fires have shorter lengths, and powers that scale with their squares, as in `flow_frames`.
     """
     places, power = smoke.light
     reach, core = 600.0 * smoke.ratio, 250.0 * smoke.ratio
@@ -275,5 +274,5 @@ def _shine(smoke: Smoke, start: Array, along: Array, ends: Array) -> Array:
 
 
 def luminance(colour: tuple[float, ...]) -> float:
-    """Of linear red, green and blue (ITU-R BT.709)."""
+    """Luminance of linear red, green and blue (ITU-R BT.709)."""
     return float(np.dot(colour, (0.2126, 0.7152, 0.0722)))

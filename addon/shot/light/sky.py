@@ -1,6 +1,6 @@
-"""Light of sun, moon and sky for a place of the sun, without Blender.
+"""Sun, moon, sky and haze light by solar position. Needs no Blender.
 
-The values of light are a picture's: a sun of 9 W/m2 at 38 degrees goes with exposure 0.
+Light is in picture units: a sun of 9 W/m2 at an elevation of 38 degrees suits exposure 0.
 """
 
 from __future__ import annotations
@@ -12,22 +12,22 @@ from .. import sun
 from ..shot import Shot
 from ..terrain import noise
 
-_SUN = 11.1  # W/m2 over the air
+_SUN = 11.1  # W/m2 above the atmosphere
 _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
-# W/m2 of a full moon, and of a sky without one: more than there is, as films of nights have it; by eye
+# W/m2 of a full moon, and of a moonless sky: brighter than real, as in films of nights; by eye
 _MOON, _STARS = 0.2, 0.08
 _MOON_COLOUR = (0.65, 0.78, 1.0)
 NIGHT_SKY = np.array([0.010, 0.014, 0.024]) * 0.05  # radiance
 _DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.45, 0.75]) * 0.01
-_FULL_DAY = 1.8  # air masses; through more the sun, and haze in its light, is redder
+_FULL_DAY = 1.8  # air masses; beyond, the sun and haze in its light are redder
 HAZE = 1.2e-5  # extinction at z = 0 on a dry September day, 1/m: clear mountain air
-HAZE_HEIGHT = 5000.0  # m; it thins by exp(-z / this), between dust (about 2 km) and air (8 km)
+HAZE_HEIGHT = 5000.0  # m, scale height, between that of dust (about 2 km) and of air (8 km)
 
 MEAN = (
     (-9.0, -6.0, -4.0, -2.0, 0.0, 2.0, 5.0, 10.0, 20.0, 34.0, 50.0, 70.0),
     (0.0, 0.0002, 0.0024, 0.014, 0.045, 0.087, 0.140, 0.194, 0.243, 0.271, 0.287, 0.297),
 )
-"""Heights of the sun (degrees), and the irradiance of the sky over pi, luminance, as Cycles 4.5 draws it."""
+"""Solar elevations (degrees), and sky irradiance over pi, luminance, as Cycles 4.5 draws it."""
 
 _AROUND = (
     (0.000, 0.0005, 0.0038, 0.0208, 0.0741, 0.1425, 0.2156, 0.2804, 0.3152, 0.3088, 0.2912, 0.2725),
@@ -35,29 +35,30 @@ _AROUND = (
     (0.000, 0.0004, 0.0037, 0.0178, 0.0525, 0.1109, 0.2170, 0.3546, 0.4868, 0.5452, 0.5576, 0.5520),
 )  # at the heights of MEAN, mean radiance of the same sky in red, green and blue, all parts counting alike
 
-GLOW = (1.0, 0.18, 0.027)  # colour of smoke that flames light
-_GLOW_LIGHT = 0.0172, 0.2  # of that, by day and by night
-THIN = 0.03  # part of that light in thin smoke, where it is scattered once; in thick smoke many times; by eye
-THICK = 0.004, 0.02  # extinctions (1/m) of thin and of thick smoke, as to that
+GLOW = (1.0, 0.18, 0.027)  # colour of flame-lit smoke
+_GLOW_LIGHT = 0.0172, 0.2  # luminance of that, by day and by night
+# fraction of that light in thin smoke (single scattering) relative to thick smoke (multiple); by eye
+THIN = 0.03
+THICK = 0.004, 0.02  # extinctions (1/m) that count as thin and as thick
 
 
 class State:
-    """Light for a sun at `bearing` and `height` (degrees), and a moon.
+    """Light for a sun at `bearing` and elevation `height` (degrees), and a moon.
 
     Attributes
     ----------
     direction
-        Unit vector (east, north, up) that the light comes from.
+        Unit vector (east, north, up) towards the light.
     power, colour
-        Irradiance (W/m2) and colour of the sun, at night of the moon.
+        Irradiance (W/m2) and colour of the sun, or of the moon at night.
     sky
-        Height and bearing of the sun for the sky texture, radians.
+        Solar elevation and bearing for the sky texture, radians.
     sky_mean
-        Mean radiance of the clear sky by cosine, luminance.
+        Cosine-weighted mean radiance of the clear sky, luminance.
     around
-        Mean radiance of the clear sky, all parts counting alike.
+        Unweighted mean radiance of the clear sky.
     haze
-        Radiance of haze.
+        Radiance of haze (airlight).
     """
 
     def __init__(self, bearing: float, height: float, moon: sun.Moon = sun.NO_MOON) -> None:
@@ -76,7 +77,7 @@ class State:
 
 
 def _haze(height: float, moonlight: float) -> NDArray[np.float64]:
-    """Radiance of haze in the light of a sun at `height` degrees, half of which is the sky's."""
+    """Radiance of haze under a sun at elevation `height` (degrees); half of it is skylight."""
     blue = float(noise.smoothstep(-10.0, 12.0, height))
     low = np.exp(-_SUN_DEPTH * max(sun.air_mass(max(height, 0.0)) - _FULL_DAY, 0.0))
     by_day = _DAY_HAZE * 0.5 * (1.0 + low / low.max())
@@ -90,6 +91,6 @@ def state(shot: Shot, time: float) -> State:
 
 
 def glow(darkness: float) -> float:
-    """Radiance of thick smoke amid 1 GW of luminous heat, of the colour GLOW: by day the sky's drowns it."""
+    """Radiance of thick smoke at 1 GW of luminous heat, in the colour GLOW; by day skylight outshines it."""
     by_day, by_night = _GLOW_LIGHT
     return by_day + (by_night - by_day) * darkness

@@ -1,6 +1,6 @@
-"""Passes, what a camera records: each module of this folder is one, unless its name begins with "_".
+"""Passes: render outputs of a camera; each module of this folder is one, unless its name begins with "_".
 
-It defines `PASS`, whose name is the module's: a `RenderedPass`, `DerivedPass` or `ComparisonPass`.
+A module defines `PASS`, a `RenderedPass`, `DerivedPass` or `ComparisonPass` with the module's name.
 """
 
 from __future__ import annotations
@@ -22,33 +22,33 @@ Finish = Callable[[Files, Mapping[str, Files], Any, str, int], None]
 
 @dataclass(frozen=True, kw_only=True)
 class Pass:
-    """One thing that a camera records: its files, and what they depend on.
+    """Pass: one output of a camera, with its files and their dependencies.
 
     Attributes
     ----------
     name, order
-        Passes are made and listed in the order of their numbers.
+        Name, and rank by which passes are made and listed.
     help
-        One line.
+        Help in one line.
     files
         Suffixes of its files.
     aspects
-        Aspects of the settings that its own work depends on (see `schema.select`).
+        Aspects of the settings on which its own work depends (see `schema.select`).
     film
-        Its PNG files make a film.
+        Whether its PNG files make a film.
     captions
-        Films write the time into its pictures.
+        Whether films have a caption with the time.
     single_view
-        Cameras that see all round do not have it.
+        Whether panorama cameras cannot record it.
     min_rows
-        Rows of its picture at the least; a camera's picture of fewer is enlarged, see `size`.
+        Minimum number of rows; a smaller picture of a camera is enlarged, see `size`.
     code
-        Files and folders of the package that decide its files, beside its own module, the helpers of passes
-        (`_NAME.py`) and what all depend on.
+        Files and folders of the package that decide its files, in addition to its own module, the helpers of
+        passes (`_NAME.py`) and what all passes depend on.
     finish
-        Makes the files that Blender does not, or goes on with those that it made. Called with the pass's
-        files by suffix; those of the passes that it needs, by need (of another run ``need@run``) and suffix;
-        the shot; the camera's name; and the frame.
+        Makes the files that Blender does not, or processes those that it made. Arguments are the pass's files
+        by suffix; the files of the passes it needs, by need (``need@run`` for another run) and suffix; the
+        shot; the camera's name; and the frame.
     """
 
     name: str
@@ -65,16 +65,16 @@ class Pass:
 
     @property
     def made_from(self) -> tuple[str, ...]:
-        """The passes whose files it needs, of its own run or of all."""
+        """Passes whose files it needs, of its own run or of all runs."""
         return ()
 
     @property
     def all_aspects(self) -> frozenset[str]:
-        """Aspects that its files depend on: its own and those of the passes that they are made from."""
+        """Aspects on which its files depend: its own and those of the passes that they are made from."""
         return self.aspects.union(*(known()[name].all_aspects for name in self.made_from))
 
     def size(self, resolution: tuple[int, int]) -> tuple[int, int]:
-        """Columns and rows, both even, of its picture for a camera of so many."""
+        """Columns and rows, both even, of its picture for a camera's resolution."""
         width, height = resolution
         rows = self.min_rows
         return resolution if height >= rows else (2 * round(width * rows / height / 2), rows)
@@ -82,31 +82,31 @@ class Pass:
 
 @dataclass(frozen=True, kw_only=True)
 class RenderedPass(Pass):
-    """A pass that Blender renders in a view layer of its own.
+    """Pass that Blender renders in a view layer of its own.
 
     Attributes
     ----------
     socket
-        Of Blender's Render Layers node.
+        Socket of Blender's Render Layers node.
     layer_property
-        Property of a view layer that switches the socket on; empty: it is always there.
+        View layer property that enables the socket; empty: always enabled.
     shading
-        What the shaders show: "light"; infrared "radiance", which is never denoised; or "masks", what each
-        pixel is (see `masks`), which is not denoised either.
+        Shader output: "light"; infrared "radiance", never denoised; or "masks", per-pixel classes (see
+        `masks`), never denoised.
     excludes
-        Parts of the scene that its view layer excludes.
+        Parts of the scene excluded from its view layer.
     samples
-        Rays per pixel; None: those of [render].
+        Samples per pixel; None: those of [render].
     channels
-        Of its EXR: "colour" or "grey".
+        Channels of its EXR: "colour" or "grey".
     bits
-        Of each number in its EXR.
+        Bits per value in its EXR.
     pixel_centres
-        Its rays go through the middle of each pixel.
+        Whether rays go through pixel centres.
     through_smoke
-        Smoke is nearly clear in it, and steps through smoke are longer.
+        Whether smoke is almost transparent, with longer ray steps.
     geometry_only
-        It shows where surfaces are; their materials do not matter.
+        Whether it shows only geometry, independent of materials.
     """
 
     socket: str = "Image"
@@ -123,14 +123,14 @@ class RenderedPass(Pass):
 
 @dataclass(frozen=True, kw_only=True)
 class DerivedPass(Pass):
-    """A pass made from files of other passes; nothing is rendered for it.
+    """Pass made from files of other passes, without rendering.
 
     Attributes
     ----------
     needs
-        Passes whose files its own are made from.
+        Passes whose files it is made from.
     mount
-        It takes these also from the sensors of its camera's mount (see `cameras.mount`).
+        Whether sensors on its camera's mount may supply these (see `cameras.mount`).
     """
 
     needs: tuple[str, ...] = ()
@@ -138,53 +138,53 @@ class DerivedPass(Pass):
 
     @property
     def made_from(self) -> tuple[str, ...]:
-        """The passes whose files it needs."""
+        """Passes whose files it needs."""
         return self.needs
 
 
 @dataclass(frozen=True, kw_only=True)
 class ComparisonPass(DerivedPass):
-    """A pass that compares all of a scene's runs, made when what it is made from is finished.
+    """Pass that compares all runs of a scene, made once its inputs are finished.
 
     Attributes
     ----------
     needs_of_all
-        Passes whose files of every run its own are made from.
+        Passes whose files of every run it needs.
     """
 
     needs_of_all: tuple[str, ...] = ()
 
     @property
     def made_from(self) -> tuple[str, ...]:
-        """The passes whose files it needs, of its own run or of all."""
+        """Passes whose files it needs, of its own run or of all runs."""
         return tuple(dict.fromkeys((*self.needs, *self.needs_of_all)))
 
 
 @functools.cache
 def known() -> dict[str, Pass]:
-    """Every pass by its name, in order."""
+    """All passes by name, in order."""
     names = [module.name for module in pkgutil.iter_modules(__path__) if module.name[0] != "_"]
-    found = [importlib.import_module(f"{__name__}.{name}").PASS for name in names]
-    return {each.name: each for each in sorted(found, key=lambda each: each.order)}
+    passes = [importlib.import_module(f"{__name__}.{name}").PASS for name in names]
+    return {entry.name: entry for entry in sorted(passes, key=lambda entry: entry.order)}
 
 
 def helps() -> dict[str, str]:
-    """Every pass's line of help by its name, in order."""
-    return {name: each.help for name, each in known().items()}
+    """Help of all passes by name, in order."""
+    return {name: entry.help for name, entry in known().items()}
 
 
 def file_of(camera: str, name: str, frame: int, suffix: str) -> str:
-    """A file of a camera's frame in a pass, relative to the output folder."""
+    """File of a camera's frame in a pass, relative to the output folder."""
     return f"{camera}/{name}/{camera}_{name}_{frame:06d}.{suffix}"
 
 
 def view_of(camera: str, run: str) -> str:
-    """What a camera is called in another run."""
+    """Name of a camera's view of another run."""
     return f"{camera}@{run}"
 
 
 def in_other_runs(names: Iterable[str]) -> tuple[str, ...]:
-    """What a camera with these passes records in another run than the first, in order."""
+    """Passes that a camera records in comparison runs, in order."""
     asked = [known()[name] for name in names]
     wanted = {
         name
@@ -195,7 +195,7 @@ def in_other_runs(names: Iterable[str]) -> tuple[str, ...]:
 
 
 def records_masks(each: Pass) -> bool:
-    """Whether its shaders show what each pixel is."""
+    """Whether its shaders output per-pixel classes."""
     return isinstance(each, RenderedPass) and each.shading == "masks"
 
 
@@ -205,18 +205,18 @@ def compares(name: str) -> bool:
 
 
 def refused(each: Pass, camera: CameraSettings, engine: str) -> str:
-    """Why a camera cannot record a pass with an engine; empty: it can."""
+    """Reason why a camera cannot record a pass with an engine; empty if it can."""
     if records_masks(each) and engine == "eevee":
         return (
             f'camera "{camera.name}" cannot record {each.name} with EEVEE, which keeps 11 bits of a number, '
             "and numbers of trees have more; render it with Cycles"
         )
     if each.single_view and camera.rig.around:
-        return f'camera "{camera.name}" sees all round, which has no {each.name}'
+        return f'camera "{camera.name}" is a panorama and cannot record {each.name}'
     return ""
 
 
 def of_camera(settings: Any, camera: CameraSettings) -> tuple[Pass, ...]:
-    """Passes of a camera in order: its own, or those of `settings.render` where it names none."""
+    """Passes of a camera in order: its own, or else those of `settings.render`."""
     names = camera.passes or settings.render.passes
-    return tuple(each for each in known().values() if each.name in names)
+    return tuple(entry for entry in known().values() if entry.name in names)

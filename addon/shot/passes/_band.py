@@ -1,4 +1,4 @@
-"""A pass that shows what a satellite's imager measures in one band (see `_imager`, which needs NumPy)."""
+"""Pass of one band of a satellite imager (see `_imager`, which needs NumPy)."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def band(name: str, order: int, help: str, long: bool) -> DerivedPass:
-    """The pass of the long or of the short band."""
+    """Pass of the long-wave or the short-wave band."""
 
     def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
         """Draw the band."""

@@ -1,8 +1,8 @@
-"""What a satellite's imager measures, in register with a camera's picture: pixels as large as the imager's.
+"""Satellite imager picture, registered to a camera's picture, with pixels of the imager's size.
 
-A camera over the equator stands for GOES-R's ABI at its longitude, any other for VIIRS (see
-`shot.satellites.imager`). Each point of the ground that the camera sees, by the depth, shows the imager's
-pixel that it lies in; what lies in no whole pixel within the run's domain is grey.
+A camera above the equator stands for GOES-R's ABI at its longitude, any other for VIIRS (see
+`shot.satellites.imager`). Each visible ground point, from depth, shows the imager's pixel that contains it.
+Points outside of all whole pixels in the run's domain are grey.
 """
 
 from __future__ import annotations
@@ -22,25 +22,25 @@ from ..satellites import imager
 if TYPE_CHECKING:
     from ..shot import Shot
 
-KNEE = 20.0  # K; warm ground and the scar take up half of the palette
+KNEE = 20.0  # K; warm ground and the burn scar take half of the palette
 PALETTE = "inferno"
 _GREY = 0.12
 
 
 def draw(png: Path, depth: Path, shot: Shot, camera: str, frame: int, long: bool) -> None:
-    """Write the brightness temperature of the long or the short band with bar, time and label."""
+    """Write the brightness temperature of the long or the short band, with colour bar, time and label."""
     view = pixel_rays.path_of(shot, camera)
     instrument, grid = _instrument(shot, view.camera.rig)
     moment = shot.utc(frame)
     try:
-        seen = imager.picture(instrument, grid, shot.fire, float(shot.frames.time(frame)))
+        measured = imager.picture(instrument, grid, shot.fire, float(shot.frames.time(frame)))
     except imager.NothingSeenError:
-        seen = None
+        measured = None
     planar = sensor.read_image(depth)[..., 0]
     kelvin = np.full(planar.shape, np.nan)
-    if seen is not None:
+    if measured is not None:
         kelvin = _register(
-            shot, pixel_rays.points(view, frame, planar), seen, seen.long if long else seen.short
+            shot, pixel_rays.points(view, frame, planar), measured, measured.long if long else measured.short
         )
     most = instrument.saturation[long]
     low = min(shot.air.coldest, most - 1.0)
@@ -54,22 +54,24 @@ def draw(png: Path, depth: Path, shot: Shot, camera: str, frame: int, long: bool
 
 
 def _instrument(shot: Shot, rig: object) -> tuple[imager.Instrument, imager.Grid]:
-    """The imager that a camera stands for, and its pixels."""
+    """Imager that a camera stands for, and its pixel grid."""
     longitude = rig.geostationary if isinstance(rig, Satellite) else None
     instrument = imager.VIIRS if longitude is None else imager.ABI
     return instrument, imager.grid_of(instrument, shot.run, longitude or 0.0)
 
 
 def _register(
-    shot: Shot, points: NDArray[np.float64], seen: imager.Picture, band: NDArray[np.float64]
+    shot: Shot, points: NDArray[np.float64], measured: imager.Picture, band: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """K (h, w) of the imager's pixels that points (h, w, 3) of the scene lie in; NaN outside of all."""
+    """Brightness temperature (h, w), K, of the imager's pixels at scene points (h, w, 3); NaN outside."""
     kelvin = np.full(points.shape[:2], np.nan)
     ground = np.isfinite(points).all(axis=-1)
     if not ground.any():
         return kelvin
     latitude, longitude, _ = shot.local_frame.reverse(points[ground])
-    place = zip(seen.grid.forward(latitude, longitude), (seen.row, seen.column), band.shape, strict=True)
+    place = zip(
+        measured.grid.forward(latitude, longitude), (measured.row, measured.column), band.shape, strict=True
+    )
     inside, index = np.ones(len(latitude), bool), []
     for fractional, first, count in place:
         at = np.floor(np.nan_to_num(fractional, nan=-1e9)).astype(np.int64) - first

@@ -1,8 +1,8 @@
-"""A map round a camera: a minimap's picture or the run's relief, and on it what must be seen at once.
+"""Map around a camera: a minimap's picture or the run's relief, with fire and camera drawn over it.
 
-That is what has burned, by the moment of the frame: the front a bright line, the last half hour orange, the
-scar dark red; and the camera with its way and what it sees. Fire and scar are the run's, so that smoke in a
-minimap's picture does not hide them.
+The front is a bright line, ground burned in the last half hour orange, the burn scar dark red. The camera has
+its path and field of view. Fire and scar come from the run, so smoke in a minimap's picture does not occlude
+them.
 """
 
 from __future__ import annotations
@@ -24,19 +24,19 @@ if TYPE_CHECKING:
     from ..cameras.path import Path
     from ..shot import Shot
 
-_LATELY = 1800.0  # s; what burned since is orange
+_LATELY = 1800.0  # s, time for which burned ground is orange
 _OPEN, _WOODED = np.array([0.86, 0.82, 0.72]), np.array([0.50, 0.60, 0.42])
-_SCAR, _HOT = np.array([0.26, 0.07, 0.05, 0.72]), np.array([1.0, 0.45, 0.05, 0.85])  # and how much they cover
+_SCAR, _HOT = np.array([0.26, 0.07, 0.05, 0.72]), np.array([1.0, 0.45, 0.05, 0.85])  # colour and opacity
 _FRONT = "#ffe14d"
-_LEAST = 2000.0  # m from the middle to the sides
-_ROWS = 200  # of points that are looked up
+_LEAST = 2000.0  # m, least distance from the centre to the sides
+_ROWS = 200  # rows of points that are looked up
 _WAY, _EDGE = "#1e62d0", [withStroke(linewidth=2.2, foreground="white")]
 
 
 def draw(
     axes: Axes, shot: Shot, view: Path, frame: int, photo: NDArray | None = None, swath: float = 0.0
 ) -> None:
-    """Draw into the axes of a panel; a minimap's picture (h, w, 3), `swath` metres wide, is its ground."""
+    """Draw into the axes of a panel; `photo` (h, w, 3) is a minimap's picture, `swath` metres wide."""
     box = axes.get_window_extent()
     here, reach = view.position[frame - 1], 0.5 * swath or _reach(view)
     tall = reach * box.height / box.width
@@ -58,13 +58,13 @@ def draw(
 
 
 def _reach(view: Path) -> float:
-    """From the middle to the sides, m: what the camera looks at is on the map in every frame."""
+    """Distance from the centre to the sides, m, that keeps the camera's target on the map in every frame."""
     away = np.linalg.norm((view.target - view.position)[:, :2], axis=1)
     return max(_LEAST, 2.2 * float(away.max()))
 
 
 def _ground(shot: Shot, here: NDArray, east: NDArray, north: NDArray) -> NDArray:
-    """Colours (rows, columns, 3) of the ground at scene metres from `here`, north first."""
+    """Ground colours (rows, columns, 3) at scene metres from `here`, north first."""
     row, column = shot.ground.indices(*_places(shot, here, east, north))
     fields = shot.ground.fields
     height, canopy = (
@@ -78,13 +78,13 @@ def _ground(shot: Shot, here: NDArray, east: NDArray, north: NDArray) -> NDArray
 
 
 def _places(shot: Shot, here: NDArray, east: NDArray, north: NDArray) -> tuple[NDArray, NDArray]:
-    """Latitude and longitude (rows * columns) of scene metres from `here`."""
+    """Latitude and longitude (rows * columns) at scene metres from `here`."""
     x, y = np.meshgrid(here[0] + east, here[1] + north)
     return shot.ground.geodetic(x.ravel(), y.ravel())
 
 
 def _fire(axes: Axes, shot: Shot, here: NDArray, east: NDArray, north: NDArray, time: float) -> None:
-    """What has burned by a model time (s), and its front, over the ground."""
+    """Draw the burned area at a model time (s) and its front over the ground."""
     reach, places = fronts.reach(shot.run), _places(shot, here, east, north)
     burned = reach.burned(*places, time).reshape(len(north), -1) == 1.0
     age = time - shot.ground.arrival_at(*shot.ground.indices(*places)).reshape(burned.shape)
@@ -104,7 +104,7 @@ def _fire(axes: Axes, shot: Shot, here: NDArray, east: NDArray, north: NDArray, 
 
 
 def _sight(axes: Axes, view: Path, frame: int, reach: float) -> None:
-    """The angle of view: full up to what the camera looks at, and its sides beyond, to the map's edge."""
+    """Draw the field of view: filled up to the target, and its sides on to the map's edge."""
     if not view.perspective:
         return
     ahead = -view.rotation[frame - 1][:2, 2]
@@ -120,7 +120,7 @@ def _sight(axes: Axes, view: Path, frame: int, reach: float) -> None:
 
 
 def _scale(axes: Axes, reach: float, tall: float, height: float) -> None:
-    """A bar of a round length, and which way is north."""
+    """Draw a scale bar of a round length and a north arrow."""
     unit = 10.0 ** np.floor(np.log10(0.5 * reach))
     length = max(step * unit for step in (1, 2, 5) if step * unit <= 0.5 * reach)
     size = 0.036 * height * 0.72

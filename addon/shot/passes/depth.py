@@ -1,8 +1,8 @@
-"""Distance in metres to ground and trees, along the camera's axis and along the line of sight.
+"""Depth pass: distance to terrain and trees, m, along the camera's axis and along the ray.
 
-The EXR holds two channels, `planar` and `range`. Flames and smoke are left out, as they have no surface. One
-ray goes through the middle of each pixel, so that no pixel is a mean of near and far. The sky is 1e10 m, as
-everywhere in Blender. A camera that sees all round has no axis: both are the distance from between its eyes.
+The EXR has two channels, `planar` and `range`. Flames and smoke are left out, as they have no surface. One
+ray goes through each pixel's centre, so no pixel averages near and far. The sky is 1e10 m, as in all of
+Blender. A panorama has no axis: both channels are the distance from mid-eye.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
-    """Add the range to the depth that was rendered."""
+    """Add the range to the rendered planar depth."""
     import numpy as np
     from firetwin_core import sensor
 

@@ -1,9 +1,9 @@
-"""Where one run has burned by the moment and another has not, on the ground of the visible picture.
+"""Difference pass: ground burned in one run and not in another, as tint over the visible picture.
 
-The picture of the first run, without its colours, is tinted where the ground that is seen (by the depth) has
-burned: in both runs, in the first alone, or in the other alone. Fronts are those of the scores: even between
-two cells' middles. Ground outside of a run's grid is left grey, as nothing is known of it. Smoke hides no
-tint. Of two or three other runs each has a part of the picture (see `split`), compared with the first.
+The first run's picture in grey is tinted where the visible ground, from depth, has burned: in both runs, in
+the first only, or in the other only. Fronts match the scores: interpolated linearly between cell centres.
+Ground outside of a run's grid stays grey, as its state is unknown. Smoke does not occlude the tint. Two or
+three other runs have a part of the picture each (see `split`), compared with the first.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from ..shot import Shot
 
 BOTH = "#f0a03c"
-_TINT = 0.6  # of a colour in the picture
-_GREY = 0.75  # of the picture's own brightness
+_TINT = 0.6  # opacity of the tint
+_GREY = 0.75  # factor on the grey picture's brightness
 
 
 def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
@@ -51,9 +51,9 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
 
 
 def classes(shot: Shot, points: NDArray[np.float64], frame: int) -> list[NDArray[np.uint8]]:
-    """Of each other run (h, w) at scene points (h, w, 3): 1 burned in both, 2 in the first, 3 in it alone.
+    """Class (h, w) at scene points (h, w, 3), by other run: 1 burned in both, 2 first only, 3 other only.
 
-    0 is all else: not burned, no ground, or ground outside of either grid.
+    0 is unburned, no ground, or ground outside of either grid.
     """
     import numpy as np
 
@@ -62,7 +62,7 @@ def classes(shot: Shot, points: NDArray[np.float64], frame: int) -> list[NDArray
 
     ground = np.isfinite(points).all(axis=-1)
     latitude, longitude, _ = shot.local_frame.reverse(points[ground])
-    moment, found = shot.utc(frame), []
+    moment, result = shot.utc(frame), []
     burned = {}
     for label, run in {"": shot.run, **shot.others}.items():
         burned[label] = reach(run).burned(latitude, longitude, times.seconds(run, moment))
@@ -72,12 +72,12 @@ def classes(shot: Shot, points: NDArray[np.float64], frame: int) -> list[NDArray
         known = np.isfinite(first) & np.isfinite(other)
         here, there = first == 1.0, other == 1.0
         kinds[ground] = np.where(known, np.where(here, np.where(there, 1, 2), np.where(there, 3, 0)), 0)
-        found.append(kinds)
-    return found
+        result.append(kinds)
+    return result
 
 
 def tinted(rgb: NDArray, kinds: NDArray[np.uint8], shades: list[str]) -> NDArray[np.float32]:
-    """The picture (h, w, 3) without its colours, but with those of classes 1 to 3 (h, w)."""
+    """Tint a picture (h, w, 3), converted to grey, by classes 1 to 3 (h, w)."""
     import numpy as np
 
     grey = _GREY * (rgb @ np.array([0.2126, 0.7152, 0.0722]))[..., None]

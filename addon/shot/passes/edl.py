@@ -1,6 +1,6 @@
-"""The visible picture with eye-dome lighting: what lies behind its neighbours is darker, so shapes stand out.
+"""Eye-dome lighting of the visible picture: pixels behind their neighbours are darkened, to show shape.
 
-The FIRETWIN paper uses it without saying how strong; strength and radius are chosen by eye.
+The FIRETWIN paper uses it without its parameters; strength and radius are chosen by eye.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ STRENGTH, RADIUS = 4.0, 1
 
 
 def finish(files: Files, needed: Mapping[str, Files], _shot: Shot, _camera: str, _frame: int) -> None:
-    """Darken the picture by its depth."""
+    """Darken the picture by eye-dome lighting from depth."""
     from firetwin_core import sensor
 
     depth = sensor.read_image(needed["depth"]["exr"])[..., 0]

@@ -1,12 +1,12 @@
-"""All of a camera's feeds in one picture: visible, thermal, depth and a map, with time, place and scales.
+"""Fused pass: visible, thermal, depth and map panels of a camera in one picture, with time and position.
 
-The picture is as large as the camera's own, and at least 720 rows high, so that it can be read. Distances
-have the same colours in every frame of a shot, temperatures those of the thermal pass. What the camera does
-not record itself comes from the sensors on its mount (see `shot.mount`), and all panels are in register: a
-place is at the same point of each, and a sensor that sees less fills its part of the panel and is outlined in
-the visible picture. The map is the picture of a minimap that follows the camera; without one it is drawn from
-the run, north up, round the camera: relief and canopy. Over either lie the front, what has burned (the last
-half hour in orange), the camera, its way and angle of view.
+The picture has the camera's size, and at least 720 rows for legibility. Depth has the same colours in every
+frame of a shot; temperatures have those of the thermal pass. Sensors on the camera's mount supply what it
+does not record itself (see `shot.mount`). All panels are registered: a point has the same position in each. A
+sensor with a smaller field of view fills its part of the panel and is outlined in the visible picture. The
+map is the picture of a minimap that follows the camera; else relief and canopy of the run are drawn, north
+up, around the camera. Over either are drawn the front, the burned area (the last half hour in orange), the
+camera, its path and field of view.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _POINTS = ("N", "NE", "E", "SE", "S", "SW", "W", "NW")
 
 
 def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
-    """Put the panels together."""
+    """Compose the panels."""
     from firetwin_core import sensor
 
     from ...errors import Error
@@ -62,7 +62,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
 
 
 def _part(shot: Shot, view: Path, frame: int, name: str, shape: tuple[int, ...]) -> tuple[float, float]:
-    """How much of a camera's view, across and up, the picture of a sensor on its mount covers."""
+    """Fraction of a camera's view, across and up, that the picture of a sensor on its mount covers."""
     if name == view.camera.name:
         return 1.0, 1.0
     across, up = view.halves[frame - 1]
@@ -71,7 +71,7 @@ def _part(shot: Shot, view: Path, frame: int, name: str, shape: tuple[int, ...])
 
 
 def _rig(shot: Shot, name: str) -> Any:
-    return next(each.rig for each in shot.cameras if each.name == name)
+    return next(camera.rig for camera in shot.cameras if camera.name == name)
 
 
 def _title(shot: Shot, camera: str) -> str:
@@ -80,7 +80,7 @@ def _title(shot: Shot, camera: str) -> str:
 
 
 def facts(shot: Shot, camera: str, frame: int) -> list[tuple[str, list[str]]]:
-    """What is told beside the panels, each with its name and its lines; the first is the time."""
+    """Facts next to the panels, each with label and lines; the first is the time."""
     import numpy as np
 
     from ...run import info, times
@@ -93,7 +93,7 @@ def facts(shot: Shot, camera: str, frame: int) -> list[tuple[str, list[str]]]:
     heading, height = here["heading"], f"{here['height']:,.0f} m {_ABOVE[shot.run.vertical]}"
     pitch = f"pitch {here['pitch']:+.0f}°".replace("-", "\N{MINUS SIGN}")
     acres = info.burned(shot.run, [shot.frames.time(frame)])[0] / info.ACRE
-    found = [
+    rows = [
         ("TIME", [times.text(moment, shot.settings.time.zone), f"{moment:%Y-%m-%d %H:%M:%S} UTC"]),
         ("POSITION", degrees),
         ("HEIGHT", [f"{here['height_above_ground']:,.0f} m AGL", height]),
@@ -102,11 +102,11 @@ def facts(shot: Shot, camera: str, frame: int) -> list[tuple[str, list[str]]]:
     ]
     pace = shot.frames.step * shot.settings.time.fps
     if pace > 0.0:
-        found.append(("FILM", [f"{float(f'{pace:.3g}'):,g}× as fast"]))  # ",.3g" says 1.12e+04
+        rows.append(("FILM", [f"{float(f'{pace:.3g}'):,g}× as fast"]))  # ",.3g" says 1.12e+04
     if view.perspective:
         across = 2.0 * np.degrees(np.arctan(view.halves[frame - 1, 0]))
-        found.insert(4, ("VIEW", [f"{across:.0f}° wide"]))
-    return found
+        rows.insert(4, ("VIEW", [f"{across:.0f}° wide"]))
+    return rows
 
 
 PASS = DerivedPass(

@@ -1,4 +1,4 @@
-"""What a satellite's imager measures in the thermal infrared (11.2 um), labelled (see `_imager`)."""
+"""Satellite imager pass in the thermal infrared (11.2 um), labelled (see `_imager`)."""
 
 from __future__ import annotations
 

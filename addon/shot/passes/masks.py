@@ -1,4 +1,4 @@
-"""What each pixel shows: its class, and which tree it is, for machines that learn to see.
+"""Mask pass: semantic class and tree instance of each pixel, as ground truth for machine learning.
 
 ====== ===== ==================================================================================
 class  value what counts
@@ -11,13 +11,12 @@ smoke  4     hides more than half of what is behind it, in green light
 fire   5     flames in the air, on the ground and in crowns, and firebrands
 ====== ===== ==================================================================================
 
-The EXR holds `class`; `clear`, the part 0..1 of what is behind smoke that comes through it; and `instance`,
-the number of the tree (0: none). A tree has one number in every frame, camera and film of a run with one
-`seed`: it is made of the tree's own identity (see `numbers`), not of its place among those that were built.
-Of n trees in sight about n^2 / 2^25 pairs share a number. The PNG shows each class in one colour. One ray
-goes through the middle of each pixel and nothing is filtered, so numbers are whole. Where smoke lets nothing
-through, what is behind is not known: instance 0. EEVEE's pixels hold 11 bits (half floats), which are too few
-for numbers of trees: it is refused.
+The EXR holds `class`; `clear`, the transmittance 0..1 of smoke; and `instance`, the number of the tree (0:
+none). A tree has one number in every frame, camera and film of a run with one `seed`: it comes from the
+tree's own identity (see `numbers`), not from its index among built trees. Of n visible trees about n^2 / 2^25
+pairs share a number. The PNG shows each class in one colour. One ray goes through each pixel's centre without
+filtering, so numbers stay integers. Behind opaque smoke the instance is unknown: 0. EEVEE's pixels hold 11
+bits (half floats), too few for tree numbers, so it is refused.
 """
 
 from __future__ import annotations
@@ -36,26 +35,27 @@ if TYPE_CHECKING:
 SKY, GROUND, BURNED, TREE, SMOKE, FIRE = range(6)
 NAMES = ("sky", "ground", "burned", "tree", "smoke", "fire")
 COLOURS = ((110, 170, 230), (196, 178, 128), (64, 56, 52), (38, 112, 52), (176, 176, 184), (255, 96, 16))
-ALIGHT = 0.3  # of the full flame of ground and crowns, from here on fire is what is seen
-HIDES = 0.5  # of what is behind, from here on smoke is what is seen
-_LEAST = 1.0e-4  # that smoke must let through for numbers to be exact
+ALIGHT = 0.3  # fraction of full flame of ground and crowns from which a pixel counts as fire
+HIDES = 0.5  # opacity from which a pixel counts as smoke
+_LEAST = 1.0e-4  # transmittance of smoke below which numbers are not exact
 
 
 def classes(pixels: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """Class, instance and part of light let through, (h, w) each, of `blender.nodes.mask_switch`'s pixels."""
+    """Class, instance and smoke transmittance, (h, w) each, from pixels of `blender.nodes.mask_switch`."""
     import numpy as np
 
     clear = pixels[..., 1].astype(np.float64)
-    seen = clear > _LEAST
-    low, code = (np.rint(np.where(seen, pixels[..., k] / np.where(seen, clear, 1.0), 0.0)) for k in (0, 2))
+    exact = clear > _LEAST
+    low, code = (np.rint(np.where(exact, pixels[..., k] / np.where(exact, clear, 1.0), 0.0)) for k in (0, 2))
     kind = np.where(clear > 1.0 - HIDES, code % 8, SMOKE)
     return kind, low + 4096.0 * (code // 8), clear
 
 
 def numbers(key: NDArray, second: NDArray) -> NDArray:
-    """Numbers (n,) from 1 to 2^24 - 1, which 32-bit floats hold, of trees by the two integers of each.
+    """Tree numbers (n,) from 1 to 2^24 - 1, exact in 32-bit floats, from two integers for each tree.
 
-    Those of a stand are the halves of 64 random bits. Of one tree for each cell they are the cell and 0: no
+    Trees of a stand have the halves of 64 random bits. A single tree per cell has the cell and 0: these are
+    unique in runs of up to 2^24 - 1 cells.
     two of these share a number in runs of up to 2^24 - 1 cells.
     """
     import numpy as np
@@ -64,7 +64,7 @@ def numbers(key: NDArray, second: NDArray) -> NDArray:
 
 
 def finish(files: Files, _needed: Mapping[str, Files], _shot: Shot, _camera: str, _frame: int) -> None:
-    """Tell classes, instances and smoke apart, and paint the classes."""
+    """Separate classes, instances and smoke, and paint the classes."""
     import numpy as np
     from firetwin_core import sensor
 

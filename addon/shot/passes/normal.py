@@ -1,7 +1,7 @@
-"""Which way the ground and the trees face: x east, y north and z up of a unit vector in the scene's frame.
+"""Normal pass: surface normals of terrain and trees, unit vectors x east, y north, z up in the scene's frame.
 
-Flames and smoke are left out, as they have no surface. One ray goes through the middle of each pixel. Of the
-sky all are 0. It is the normal of the mesh; what materials add to it in small is not in it.
+Flames and smoke are left out, as they have no surface. One ray goes through each pixel's centre. The sky is
+0. It is the mesh normal, without bump maps of materials.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Hot spots of the infrared picture over the visible one: where it is hotter than 350 K, in full from 450 K.
+"""Overlay pass: infrared hot spots over the visible picture, from 350 K on, opaque from 450 K.
 
-Sunlit ground stays below, and what burned minutes ago shows faintly (`shot.air_temperature.cooling`); the two
-temperatures are chosen by eye. The palette is an ironbow-like one over the scale of the thermal picture.
+Sunlit ground stays below, and ground that burned minutes ago shows faintly (`shot.air_temperature.cooling`).
+The two temperatures are chosen by eye. The palette resembles ironbow, on the scale of the thermal picture.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ START, FULL, OPACITY = 350.0, 450.0, 0.9
 
 
 def finish(files: Files, needed: Mapping[str, Files], shot: Shot, _camera: str, frame: int) -> None:
-    """Lay the hot spots over the picture."""
+    """Blend the hot spots over the picture."""
     from firetwin_core import sensor
 
     rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]

@@ -1,16 +1,16 @@
-"""A sidecar of each frame for machines: where the camera is, how it projects, when, and in which units.
+"""Pose pass: sidecar of each frame with extrinsics, intrinsics, time and units, for machines.
 
-`camera_to_world` takes points of the camera (x right, y up, z backwards: OpenGL's, Blender's and nerfstudio's
-axes) to metres east, north and up of `origin`, the WGS84 place in whose tangent plane the scene lies. Pixels
-count from the upper left corner of the picture, u to the right and v down, the middle of the first at (0.5,
-0.5). A point (x, y, z) of the camera is seen at u = cx + fx x / d and v = cy - fy y / d, where d = -z is its
-planar depth; in a parallel projection d is left out, and fx and fy are pixels per metre. Lenses distort
-nothing. The camera in Blender is within 0.05 pixels of it. `files` are those of the camera's passes in the
-scene file, as seen from the sidecar.
+`camera_to_world` maps camera coordinates (x right, y up, z backwards: the axes of OpenGL, Blender and
+nerfstudio) to metres east, north and up of `origin`, the WGS84 point of the scene's tangent plane. Pixel
+coordinates count from the picture's upper left corner, u to the right and v down; the first pixel's centre is
+(0.5, 0.5). A camera point (x, y, z) projects to u = cx + fx x / d and v = cy - fy y / d, where d = -z is its
+planar depth. In an orthographic projection d is left out, and fx and fy are pixels per metre. There is no
+lens distortion. The camera in Blender agrees within 0.05 pixels. `files` are those of the camera's passes in
+the scene file, relative to the sidecar.
 
-Where a camera sees all round, the picture of the left eye, `eye` pixels high, lies above the right one's. An
-eye sees the direction (x, y, z) at u = cx + fx atan2(x, -z) and v = cy - fy asin(y) of its picture; fx and fy
-are pixels per radian, and the eyes are `interocular` metres apart.
+In a panorama the left eye's picture, `eye` pixels high, is above the right one's. A direction (x, y, z)
+projects to u = cx + fx atan2(x, -z) and v = cy - fy asin(y) in each eye's picture; fx and fy are pixels per
+radian, and the eyes are `interocular` metres apart.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ UNITS = {
 
 
 def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
-    """Write what is known of the camera in this frame."""
+    """Write the sidecar of a frame."""
     import json
 
     from ..cameras import pixel_rays
@@ -47,7 +47,7 @@ def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, 
 
 
 def described(shot: Shot, view: Path, frame: int) -> dict[str, Any]:
-    """All of a sidecar."""
+    """Content of a sidecar."""
     run, camera = shot.run, view.camera
     return {
         "format": "firetwin pose 1",
@@ -62,15 +62,17 @@ def described(shot: Shot, view: Path, frame: int) -> dict[str, Any]:
         "pose": pose(shot, view, frame),
         "intrinsics": intrinsics(view, frame, *shot.resolution(camera)),
         "files": {
-            each.name: {end: f"../../{file_of(camera.name, each.name, frame, end)}" for end in each.files}
-            for each in of_camera(shot.settings, camera)
-            if each is not PASS
+            recorded.name: {
+                end: f"../../{file_of(camera.name, recorded.name, frame, end)}" for end in recorded.files
+            }
+            for recorded in of_camera(shot.settings, camera)
+            if recorded is not PASS
         },
     }
 
 
 def pose(shot: Shot, view: Path, frame: int) -> dict[str, Any]:
-    """Place and direction; heights count from the datum of the run's elevations."""
+    """Position and orientation; heights refer to the datum of the run's elevations."""
     import numpy as np
 
     from ..cameras import path
@@ -79,7 +81,8 @@ def pose(shot: Shot, view: Path, frame: int) -> dict[str, Any]:
     latitude, longitude, height = (float(value[0]) for value in frame_of.reverse(here[None]))
     east, north, up = path.compass(frame_of, here)
     right, above, ahead = turn[:, 0], turn[:, 1], -turn[:, 2]
-    level = ahead if abs(ahead @ up) < 0.9999 else above  # straight down its upper edge points somewhere
+    # straight down, the picture's upper edge gives the heading
+    level = ahead if abs(ahead @ up) < 0.9999 else above
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = turn, here
     return {
@@ -97,7 +100,7 @@ def pose(shot: Shot, view: Path, frame: int) -> dict[str, Any]:
 
 
 def intrinsics(view: Path, frame: int, width: int, height: int) -> dict[str, Any]:
-    """How it projects."""
+    """Camera intrinsics."""
     across, up = view.halves[frame - 1] / (view.meet or 1.0)
     eye = height // 2 if view.around else height
     flat = "perspective" if view.perspective or view.meet else "parallel"

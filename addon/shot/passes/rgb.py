@@ -1,7 +1,4 @@
-"""The visible picture, with the bloom of a lens.
-
-Written as PNG, as people look at it, and as EXR in linear light.
-"""
+"""Visible picture with lens bloom, as display-referred PNG and scene-linear EXR."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Split screen: all runs' visible pictures at one moment, with names, what has burned and whose fronts show.
+"""Split screen pass: all runs' visible pictures at one time, with names, burned area and front colours.
 
-Of two runs each has a half, which shows the middle half of its own picture: the same landscape in both. Of
-three or four each has a quarter and all of its picture, half as large.
+Two runs have a half each, with the central half of their pictures: the same landscape in both. Three or four
+have a quarter each, with the whole picture at half size.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
-    """Put the pictures side by side."""
+    """Compose the pictures."""
     from firetwin_core import sensor
 
     from ...errors import Error

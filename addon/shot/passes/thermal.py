@@ -1,19 +1,18 @@
-"""What a long-wave (or mid-wave) infrared camera measures: radiance of the band and brightness temperature.
+"""Thermal pass: band radiance and brightness temperature of a long-wave (or mid-wave) infrared camera.
 
-Everything gives off Planck's radiance by its temperature and emissivity; a pixel is the mean of the radiance
-over itself, as in a detector: half 300 K and half 1200 K is about 840 K. Air and smoke dim what is behind
-them and add their own light. The lamps that light ground and trees in place of the flames are left out.
+All surfaces emit Planck radiance by temperature and emissivity. A pixel averages radiance over its area, as a
+detector does: half 300 K and half 1200 K give about 840 K. Air and smoke attenuate and emit. The lamps that
+light ground and trees in place of the flames are left out.
 
-The EXR holds two channels, `radiance` (W m-2 sr-1) and `kelvin`, the temperature of a black body as bright,
-both as [thermal]'s detector measures them; and `signal`, its counts, where it has bits. The PNG shows the
-temperatures by a palette, spread towards the cold end, with a bar of temperatures.
+The EXR has two channels, `radiance` (W m-2 sr-1) and `kelvin`, the brightness temperature, both as measured
+by [thermal]'s detector; and `signal`, its counts, if it has a bit depth. The PNG shows temperatures in a
+palette, spread towards the cold end, with a colour bar.
 
-The palette begins at the coldest that level ground or air is at the moment (a tenth of the air is colder; see
-`air_temperature.coldest_ground`): by day the air, by night stone, which has cooled below it and mirrors the
-sky.
-That hangs on the run, the time and the band alone: nights and noons of one film show their relief alike, and
-nothing that comes into view or flares up changes the colours. `thermal_low` holds it in one place, where
-colours are to mean the same all through.
+The palette begins at the coldest of level ground and air at that time (a tenth of the air is colder; see
+`air_temperature.coldest_ground`). By day it is the air; by night it is stone, which has cooled below the air
+and reflects the sky. It depends on run, time and band only. So relief shows alike in nights and noons of one
+film, and no flare-up or new object changes the colours. `thermal_low` fixes it, for colours that must not
+change over time.
 """
 
 from __future__ import annotations
@@ -28,13 +27,13 @@ from . import RenderedPass
 if TYPE_CHECKING:
     from ..shot import Shot
 
-KNEE = 5.0  # K; the palette's scale is logarithmic above this, so that cold ground shows its relief
+KNEE = 5.0  # K, above which the palette is logarithmic, so that cold ground shows its relief
 
 
 def finish(
     files: Mapping[str, Path], _needed: Mapping[str, Mapping[str, Path]], shot: Shot, camera: str, frame: int
 ) -> None:
-    """Let the detector measure the radiance, write what it found, and the picture."""
+    """Apply the detector model to the radiance, and write its measurement and the picture."""
     import numpy as np
     from firetwin_core import sensor
 

@@ -1,12 +1,12 @@
-"""The FIRETWIN paper's thermal view: colours of the model's mean temperature added to the visible picture.
+"""Thermal view of the FIRETWIN paper: the model's mean air temperature in colour over the visible picture.
 
-The run's `temperature` is averaged over ten minutes, or the time between two frames where that is longer. The
-gradient black, purple, red, orange, yellow, white shows how much warmer that air is than unburned air as
-high (`shot.air_temperature.warmth`): the paper does not say where its gradient begins, and over the whole
-field cold ridges and warm valleys would take up most of it, and redden all that does not burn. Black is what
-a hundredth of the unburned cells are above, white the warmest of the shot, so that colours mean the same in
-every frame. The colour where the ground is seen, by the depth, is added to the picture's pixels (0..1) and
-held at 1. It is the model's air, not what an infrared camera sees.
+The run's `temperature` is averaged over ten minutes, or over the frame step if that is longer. The gradient
+black, purple, red, orange, yellow, white shows its excess over unburned air of equal elevation
+(`shot.air_temperature.warmth`). The paper does not define where its gradient begins. Over the whole field,
+cold ridges and warm valleys would take most of it and redden all unburned ground. Black is the excess that
+one percent of unburned cells exceed. White is the warmest of the shot, so colours mean the same in every
+frame. The colour of the visible ground, from depth, is added to the picture's pixels (0..1) and clamped at 1.
+It is the model's air, not what an infrared camera measures.
 """
 
 from __future__ import annotations

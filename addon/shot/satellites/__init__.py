@@ -1,5 +1,5 @@
-"""Pixels of satellites' imagers, worked out from a run without Blender.
+"""Satellite imagers: simulated pixels of a run, without Blender.
 
-None of these imagers saw the King Fire of 2014 so: GOES-18 was launched in 2022. Their pictures are
-hypothetical, and say so in their metadata.
+None of these imagers observed the King Fire of 2014 like this: GOES-18 was launched in 2022. The pictures are
+hypothetical and are labelled so in their metadata.
 """

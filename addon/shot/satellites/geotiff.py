@@ -1,4 +1,4 @@
-"""Pictures of satellites as GeoTIFF, through rasterio (GDAL)."""
+"""GeoTIFF export of satellite pictures, through rasterio (GDAL)."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def write(path: Path, picture: Picture, instrument: Instrument, run: str, moment
 
 
 def _source(band: PowerBand, picture: Picture) -> str:
-    """Say which band fire radiative power comes from, and whether it is less than there is."""
+    """Describe the band of fire radiative power, and whether saturation limits it."""
     text = f"{band.name} at {band.wave:g} um, saturated from {band.saturation:g} K"
     return f"{text}: in {picture.limited} of its pixels, where power is less than there is"
 

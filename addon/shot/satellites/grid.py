@@ -1,4 +1,4 @@
-"""Where pixels of a satellite's imager lie on Earth."""
+"""Pixel grids of satellite imagers on the Earth."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PIXEL = 56e-6  # rad, 2 km under the satellite
 
 
 class Grid(Protocol):
-    """Rows (north to south) and columns (west to east) of pixels, of unbounded number."""
+    """Unbounded pixel grid: rows from north to south, columns from west to east."""
 
     @property
     def crs(self) -> str:
@@ -29,34 +29,34 @@ class Grid(Protocol):
         """Of columns and rows, in units of `crs`."""
 
     def forward(self, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
-        """Fractional row and column of places (degrees); pixel i reaches from i to i + 1. NaN: not seen."""
+        """Fractional row and column of points (degrees); pixel i spans i to i + 1. NaN if not visible."""
 
     def reverse(self, row: ArrayLike, column: ArrayLike) -> tuple[Array, Array]:
-        """Latitude and longitude (degrees) of fractional rows and columns; NaN beside the Earth."""
+        """Latitude and longitude (degrees) of fractional rows and columns; NaN off the Earth."""
 
     def corner(self, row: int, column: int) -> tuple[float, float]:
-        """Return x and y in units of `crs` of a pixel's corner in the north-west."""
+        """Return x and y, in units of `crs`, of a pixel's north-west corner."""
 
 
 @dataclass(frozen=True)
 class FixedGrid:
-    """The fixed grid of a geostationary imager at a longitude (degrees): equal steps of its scan angles."""
+    """ABI fixed grid of a geostationary imager at a longitude (degrees): equal steps of scan angles."""
 
     longitude: float
     pixel: float = PIXEL
 
     @property
     def crs(self) -> str:
-        """As PROJ reads it: scan angles times the height of the orbit, in metres."""
+        """PROJ string; coordinates are scan angles times the orbit's height, m."""
         return f"+proj=geos +h={ORBIT:.0f} +lon_0={self.longitude:g} +sweep=x +ellps=GRS80 +units=m +no_defs"
 
     @property
     def step(self) -> tuple[float, float]:
-        """Metres that PROJ gives a column and a row."""
+        """Size of a column and a row in PROJ's coordinates, m."""
         return self.pixel * ORBIT, -self.pixel * ORBIT
 
     def angles(self, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
-        """Scan angles (rad) east and north of places on the ellipsoid (degrees)."""
+        """Scan angles (rad) east and north of points on the ellipsoid (degrees)."""
         phi = np.arctan((POLE / EQUATOR) ** 2 * np.tan(np.radians(latitude)))
         turn = np.radians(np.asarray(longitude, np.float64) - self.longitude)
         squashed = 1.0 - (POLE / EQUATOR) ** 2
@@ -70,12 +70,12 @@ class FixedGrid:
         return np.where(seen, east, np.nan), np.where(seen, north, np.nan)
 
     def forward(self, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
-        """Fractional row and column of places; the satellite stands where row and column are 0."""
+        """Fractional row and column of points; the nadir is at row 0 and column 0."""
         east, north = self.angles(latitude, longitude)
         return -north / self.pixel, east / self.pixel
 
     def reverse(self, row: ArrayLike, column: ArrayLike) -> tuple[Array, Array]:
-        """Latitude and longitude where a line of sight meets the ellipsoid."""
+        """Latitude and longitude at which a line of sight meets the ellipsoid."""
         y = -self.pixel * np.asarray(row, np.float64)
         x = self.pixel * np.asarray(column, np.float64)
         far = ORBIT + EQUATOR
@@ -91,13 +91,13 @@ class FixedGrid:
         return latitude, self.longitude - np.degrees(np.arctan(sy / (far - sx)))
 
     def corner(self, row: int, column: int) -> tuple[float, float]:
-        """Return x and y of PROJ's coordinates."""
+        """Return x and y in PROJ's coordinates."""
         return column * self.step[0], row * self.step[1]
 
 
 @dataclass(frozen=True)
 class EvenGrid:
-    """Pixels of equal steps of latitude and longitude, `size` m at a latitude: swaths as they are gridded."""
+    """Grid of equal steps of latitude and longitude, `size` m at a latitude, as of gridded swaths."""
 
     latitude: float
     size: float
@@ -105,12 +105,12 @@ class EvenGrid:
 
     @property
     def step(self) -> tuple[float, float]:
-        """Degrees of a column and a row."""
+        """Size of a column and a row, degrees."""
         north, east = areas.metres_per_degree(self.latitude)
         return self.size / east, -self.size / north
 
     def forward(self, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
-        """Fractional row and column of places."""
+        """Fractional row and column of points."""
         east, south = self.step
         return np.asarray(latitude, np.float64) / south, np.asarray(longitude, np.float64) / east
 
@@ -123,12 +123,12 @@ class EvenGrid:
         return latitude, longitude
 
     def corner(self, row: int, column: int) -> tuple[float, float]:
-        """Longitude and latitude."""
+        """Longitude and latitude of a pixel's north-west corner."""
         return column * self.step[0], row * self.step[1]
 
 
 def pixel_areas(grid: Grid, rows: NDArray, columns: NDArray) -> Array:
-    """(rows, columns) m2 on the ground of the pixels that begin at whole rows and columns."""
+    """Ground area (rows, columns), m2, of the pixels at whole rows and columns."""
     corners = (np.append(each, each[-1] + 1) for each in (rows, columns))
     latitude, longitude = grid.reverse(*np.meshgrid(*corners, indexing="ij"))
     middle = float(np.nanmean(latitude))

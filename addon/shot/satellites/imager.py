@@ -1,26 +1,26 @@
-"""What an imager measures of a run: fire smaller than its pixels, by radiance weighted by area.
+"""Simulated satellite imager: brightness temperature, fire radiative power and fire mask, with subpixel fire.
 
 A pixel's radiance is (1 - f) L(background) + f L(1000 K) (J. Dozier 1981, Remote Sensing of Environment 11,
-221), at one wavelength for each band. Fires radiate 14 % of their heat (M. J. Wooster et al. 2005,
-doi 10.1029/2005JD006318: 14 +- 3 %), so f is the area that gives off this part of the run's heat flux at
-1000 K. The background is the run's air, and ground that cools since the fire passed. Air, smoke, clouds and
-mirrored sunlight (some kelvin at 3.9 um by day) are left out, and pixels are even boxes beside one another.
+221), at one wavelength for each band. Fires radiate 14 % of their heat (M. J. Wooster et al. 2005, doi
+10.1029/2005JD006318: 14 +- 3 %). So f is the area fraction that emits this part of the run's heat flux at
+1000 K. The background is the run's air, and ground that cools after the fire. Atmosphere, smoke, clouds and
+reflected sunlight (some kelvin at 3.9 um by day) are left out. Pixels are adjacent boxes of uniform response.
 
-The hottest black bodies that ABI measures, 400 K in band 7 and 330 K in band 14, are those of C. C. Schmidt
-et al. 2020, "GOES-R ABI Algorithm Theoretical Basis Document for Fire / Hot Spot Characterization" 2.7, table
-2.3. Users of VIIRS's fire product take I4 to be saturated from 367 K; neither for that nor for the 380 K of
-I5 was a document of the instrument's makers found.
+The saturation temperatures of ABI, 400 K in band 7 and 330 K in band 14, are those of C. C. Schmidt et al.
+2020, "GOES-R ABI Algorithm Theoretical Basis Document for Fire / Hot Spot Characterization" 2.7, table 2.3.
+Users of VIIRS's fire product take I4 as saturated from 367 K. No document of the instrument's makers was
+available for that value, nor for the 380 K of I5.
 
-Fire radiative power by the radiance in the middle infrared is A sigma / a (L - L(background)) (Wooster et
-al. 2003, 2005), with a = 3.0e-9 W m-2 sr-1 um-1 K-4 at 3.9 um. At 1000 K that is 1.13 of the power itself, so
-that all pixels together have 0.158 of the run's heat as long as none is saturated.
+Fire radiative power by middle infrared radiance is A sigma / a (L - L(background)) (Wooster et al. 2003,
+2005), with a = 3.0e-9 W m-2 sr-1 um-1 K-4 at 3.9 um. At 1000 K that is 1.13 of the true power, so all pixels
+together have 0.158 of the run's heat as long as none is saturated.
 
 VIIRS's I4 saturates in most fires, so its product of 375 m (VNP14IMG) takes the power from band M13, of 750 m
 (W. Schroeder, P. Oliva, L. Giglio and I. A. Csiszar 2014, Remote Sensing of Environment 143, 85; "VIIRS 375 m
 Active Fire Detection and Characterization Algorithm Theoretical Basis Document" 1.0, 2016). M13 is at 4.05
 um, its low gain measures up to 634 K, and a = 2.88e-9 there: 1.12 of the power at 1000 K, 0.157 of the heat.
-A pixel of M13 is 2 x 2 of 375 m, and its power is shared evenly among those of them that show fire. Where no
-pixel of 375 m shows fire there is no power.
+A pixel of M13 is 2 x 2 of 375 m. Its power is shared evenly among those of them that show fire. Without such
+a pixel there is no power.
 """
 
 from __future__ import annotations
@@ -40,24 +40,24 @@ from ..fire.fire import Fire
 from .grid import Array, EvenGrid, FixedGrid, Grid, pixel_areas
 
 FIRE = 1000.0  # K
-RADIATED = 0.14  # of the heat
-NONE, BURNING, SATURATED = 0, 10, 11  # of the mask, as in GOES-R's fire product
-_WARMER = 10.0  # K that a fire shows more in the short band than in the long (assumed)
-_PARTS = 6  # points along a pixel's sides at which the background is looked up
+RADIATED = 0.14  # radiative fraction of the heat
+NONE, BURNING, SATURATED = 0, 10, 11  # values of the fire mask, as in GOES-R's fire product
+_WARMER = 10.0  # K, excess of the short band over the long band that marks fire (assumed)
+_PARTS = 6  # samples of the background along a pixel's side
 
 
 @dataclass(frozen=True)
 class PowerBand:
-    """The band that fire radiative power comes from.
+    """Band of fire radiative power.
 
     Attributes
     ----------
     name, wave, saturation
-        Its name, wavelength (um) and the hottest black body (K) that it measures.
+        Name, wavelength (um) and saturation temperature (K).
     a
         Radiance of a fire over the fourth power of its temperature, W m-2 sr-1 um-1 K-4.
     side
-        Pixels of the imager's other bands along the side of one of this band's.
+        Pixels of the imager's other bands along a side of this band's pixel.
     """
 
     name: str
@@ -69,7 +69,7 @@ class PowerBand:
 
 @dataclass(frozen=True)
 class Instrument:
-    """An imager: wavelengths (um) and hottest black bodies (K) of its bands, and the band of power."""
+    """Imager: wavelengths (um) and saturation temperatures (K) of its bands, and the band of power."""
 
     name: str
     title: str
@@ -77,11 +77,11 @@ class Instrument:
     long: float
     saturation: tuple[float, float]
     power: PowerBand
-    since: int  # year of the first picture
+    since: int  # year of its first picture
     hypothetical: str
 
     def label(self, year: int) -> str:
-        """What a picture of a fire of this year must say."""
+        """Label that a picture of a fire of this year must carry."""
         return f"hypothetical for {year}" if year < self.since else "hypothetical pass"
 
 
@@ -113,12 +113,12 @@ class NothingSeenError(ValueError):
 
 
 class HorizonError(NothingSeenError):
-    """The run is not in sight of where the satellite stands."""
+    """The run is below the horizon of the satellite."""
 
 
 @dataclass(frozen=True)
 class Picture:
-    """What an imager measured, (rows, columns) each.
+    """Simulated measurement of an imager, (rows, columns) each.
 
     Attributes
     ----------
@@ -127,15 +127,15 @@ class Picture:
     power
         Fire radiative power, W.
     mask
-        `NONE`, `BURNING` or `SATURATED`, as the middle band shows it.
+        Fire mask from the middle infrared band: `NONE`, `BURNING` or `SATURATED`.
     limited
-        Pixels of the band of power that are saturated: `power` of theirs is less than there is.
+        Number of saturated pixels in the band of power; their `power` is a lower bound.
     area
-        m2 of each pixel.
+        Ground area of each pixel, m2.
     grid, row, column
-        Where the pixels are, and the first of them.
+        Pixel grid, and the first row and column.
     heat
-        Of the run in all pixels, W.
+        The run's heat release rate in all pixels, W.
     """
 
     short: Array
@@ -151,12 +151,12 @@ class Picture:
 
 
 def grid_of(instrument: Instrument, run: Run, longitude: float) -> Grid:
-    """Pixels of an instrument; a geostationary one stands over a longitude (degrees)."""
+    """Pixel grid of an instrument; a geostationary one is above a longitude (degrees)."""
     return FixedGrid(longitude) if instrument is ABI else EvenGrid(float(np.mean(run.latitude)), 375.0)
 
 
 def picture(instrument: Instrument, grid: Grid, fire: Fire, time: float) -> Picture:
-    """What it measures of a run's fire at a time (s): of pixels that lie wholly in the run's domain."""
+    """Simulate a picture of a run's fire at a time (s), of the pixels entirely within the run's domain."""
     run = fire.run
     rows, columns = _inside(grid, run)
     area = pixel_areas(grid, rows, columns)
@@ -176,7 +176,7 @@ def picture(instrument: Instrument, grid: Grid, fire: Fire, time: float) -> Pict
 
 
 def _blocks(side: int, rows: NDArray, columns: NDArray) -> NDArray[np.int64]:
-    """(rows, columns) number of the larger pixel, `side` by `side`, that each lies in."""
+    """Index (rows, columns) of the larger pixel, `side` by `side`, around each pixel."""
     down, across = rows // side - rows[0] // side, columns // side - columns[0] // side
     return down[:, None] * (across[-1] + 1) + across
 
@@ -189,7 +189,7 @@ def _power(
     fire: NDArray[np.bool_],
     blocks: NDArray[np.int64],
 ) -> tuple[Array, int]:
-    """Fire radiative power (W) of each pixel, and how many pixels of the band are saturated."""
+    """Fire radiative power (W) of each pixel, and number of saturated pixels in the band."""
 
     def total(values: NDArray) -> Array:
         return np.bincount(blocks.ravel(), values.ravel()).astype(np.float64, copy=False)
@@ -199,18 +199,18 @@ def _power(
     whole, most = total(area), float(sensor.spectral_radiance(band.saturation, band.wave))
     seen = total(area * radiance) / whole
     above = np.minimum(seen, most) - total(area * background) / whole
-    found = whole * constants.STEFAN_BOLTZMANN / band.a * np.maximum(above, 0.0)
-    shared = found / np.maximum(total(fire.astype(np.float64)), 1.0)
+    power = whole * constants.STEFAN_BOLTZMANN / band.a * np.maximum(above, 0.0)
+    shared = power / np.maximum(total(fire.astype(np.float64)), 1.0)
     return np.where(fire, shared[blocks], 0.0), int((seen > most).sum())
 
 
 def _inside(grid: Grid, run: Run) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Whole rows and columns of a rectangle of pixels in the run's domain.
+    """Rows and columns of whole pixels within the run's domain.
 
     Raises
     ------
     NothingSeenError
-        The domain is smaller than a pixel; as a HorizonError not in sight.
+        The domain is smaller than a pixel; HorizonError: it is below the horizon.
     """
     latitude = np.linspace(run.latitude.min(), run.latitude.max(), 33)
     longitude = np.linspace(run.longitude.min(), run.longitude.max(), 33)
@@ -228,7 +228,7 @@ def _inside(grid: Grid, run: Run) -> tuple[NDArray[np.int64], NDArray[np.int64]]
 
 
 def _background(grid: Grid, fire: Fire, time: float, rows: NDArray, columns: NDArray) -> Array:
-    """(rows, columns, parts) K of ground without flames at points of each pixel."""
+    """Background temperature (rows, columns, parts), K, of ground without flames at points of each pixel."""
     run = fire.run
     inside = (np.arange(_PARTS) + 0.5) / _PARTS
     row = (rows[:, None] + inside).reshape(len(rows), 1, _PARTS, 1)
@@ -249,7 +249,7 @@ def _background(grid: Grid, fire: Fire, time: float, rows: NDArray, columns: NDA
 def _burning(
     grid: Grid, fire: Fire, time: float, rows: NDArray, columns: NDArray, area: Array
 ) -> tuple[Array, float]:
-    """Part of each pixel that is fire, and the heat (W) of all."""
+    """Fire area fraction of each pixel, and total heat release rate (W)."""
     sources = fire.sources(time)
     if len(sources.power) == 0:
         return np.zeros(area.shape), 0.0
@@ -264,7 +264,7 @@ def _burning(
 
 
 def times(run: Run, every: float) -> list[float]:
-    """Model times (s) of a run every so many seconds, from its first."""
+    """Model times (s) of a run at an interval (s), from its first time."""
     return [float(time) for time in np.arange(run.times[0], run.times[-1] + 1e-6, every)]
 
 

@@ -1,1 +1,1 @@
-"""Every setting once, and the scene file that it is written in: schema, reader, writer, JSON Schema."""
+"""Settings and the scene file format: schema, reader, writer, JSON Schema."""

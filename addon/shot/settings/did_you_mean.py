@@ -1,4 +1,4 @@
-"""What a mistyped name may have been."""
+"""Suggestions for mistyped names."""
 
 from __future__ import annotations
 
@@ -7,6 +7,6 @@ from collections.abc import Iterable
 
 
 def suggestion(name: object, names: Iterable[str]) -> str:
-    """End of a message: ``; did you mean "head"?``, or nothing where no name is near."""
-    found = difflib.get_close_matches(str(name), list(names), n=1, cutoff=0.6)
-    return f'; did you mean "{found[0]}"?' if found else ""
+    """End of an error message: ``; did you mean "head"?``, or empty if no name is similar."""
+    matches = difflib.get_close_matches(str(name), list(names), n=1, cutoff=0.6)
+    return f'; did you mean "{matches[0]}"?' if matches else ""

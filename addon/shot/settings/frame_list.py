@@ -1,4 +1,4 @@
-"""Lists of frames as people write them: ``1-10``, ``3,5-9``, ``1-48:4``."""
+"""Frame lists in text form: ``1-10``, ``3,5-9``, ``1-48:4``."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ _PART = re.compile(r"(\d{1,9})(?:-(\d{1,9})(?::(\d{1,9}))?)?", re.ASCII)
 
 
 def parse(text: str, last: int) -> list[int]:
-    """Frames named by `text`, ascending, each once, out of 1..`last`; all of them for an empty text.
+    """Parse a frame list: frames of 1..`last`, ascending and unique; all frames for an empty text.
 
     Raises
     ------
     ValueError
-        Says which part of the text is not understood or lies outside.
+        The message names the part of the text that is invalid or out of range.
     """
     if not text.strip():
         return list(range(1, last + 1))
@@ -25,12 +25,12 @@ def parse(text: str, last: int) -> list[int]:
 
 
 def _frames(part: str, last: int) -> range:
-    found = _PART.fullmatch(part)
-    if not found:
+    match = _PART.fullmatch(part)
+    if not match:
         raise ValueError(f'"{part}" is not a list of frames; write it like 7, 1-10, 3,5-9 or 1-48:4')
-    first = int(found[1])
-    end = int(found[2]) if found[2] else first
-    step = int(found[3]) if found[3] else None
+    first = int(match[1])
+    end = int(match[2]) if match[2] else first
+    step = int(match[3]) if match[3] else None
     if end < first:
         turned = f"{end}-{first}" + (f":{step}" if step is not None else "")
         raise ValueError(f'"{part}" runs backwards; frames are listed from low to high: {turned}')
@@ -42,7 +42,7 @@ def _frames(part: str, last: int) -> range:
 
 
 def write(frames: Iterable[int]) -> str:
-    """The shortest text of single frames and ranges that `parse` reads back: [1, 2, 3, 7] -> ``1-3,7``."""
+    """Shortest frame list that `parse` reads back: [1, 2, 3, 7] -> ``1-3,7``."""
     ranges: list[list[int]] = []
     for frame in frames:
         if ranges and frame == ranges[-1][1] + 1:

@@ -1,6 +1,6 @@
-"""What cameras, passes and the terrain's mesh need to know of a shot, so that they need not import it.
+"""Protocols of a shot for cameras, passes and the terrain mesh, which avoid a circular import.
 
-Rigs and passes are choices of the settings, and a shot is made of settings; these types break that circle.
+Rigs and passes are choices of the settings, and a shot is made from settings.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class CameraSettings(Protocol):
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """Name of the camera."""
 
     @property
     def frames(self) -> str:
@@ -66,11 +66,11 @@ class CameraSettings(Protocol):
 
     @property
     def rig(self) -> Any:
-        """How it is set up and moved (see `cameras.rigs.Rig`)."""
+        """Setup and motion of the camera (see `cameras.rigs.Rig`)."""
 
 
 class ShotView(Protocol):
-    """What modules that a `shot.Shot` is made of ask of it."""
+    """Shot as seen by the modules that `shot.Shot` is composed of."""
 
     @property
     def settings(self) -> Any:
@@ -82,7 +82,7 @@ class ShotView(Protocol):
 
     @property
     def others(self) -> Mapping[str, Run]:
-        """The scene file's other runs by name."""
+        """Comparison runs of the scene file, by name."""
 
     @property
     def frames(self) -> Frames:
@@ -94,31 +94,31 @@ class ShotView(Protocol):
 
     @property
     def paths(self) -> list[Any]:
-        """`cameras.path.Path` of each camera that is filmed."""
+        """Path (`cameras.path.Path`) of each filmed camera."""
 
     @property
     def perspective_paths(self) -> list[Any]:
-        """Those of the cameras in perspective."""
+        """Paths of the perspective cameras."""
 
     @property
     def pixel(self) -> tuple[float, float]:
-        """Sizes of the smallest pixels: in perspective m per m of distance, with parallel lines m."""
+        """Smallest pixel size: m per m of distance in perspective, and m in orthographic views."""
 
     @property
     def ground(self) -> Any:
-        """The `terrain.terrain.Ground`, with detail along the cameras' paths."""
+        """Terrain (`terrain.terrain.Ground`) with added detail near the cameras' paths."""
 
     @property
     def bare_ground(self) -> Any:
-        """The terrain without that detail."""
+        """Terrain without camera-dependent detail."""
 
     @property
     def front(self) -> Any:
-        """`fire.flame_depth.Fields` of the front."""
+        """Fire front properties (`fire.flame_depth.Fields`)."""
 
     @property
     def visibility(self) -> Any:
-        """`visibility.Visibility` of the cameras."""
+        """Visibility queries (`visibility.Visibility`) of the cameras."""
 
     def resolution(self, camera: Any) -> tuple[int, int]:
         """Width and height (pixels) of a camera's pictures."""

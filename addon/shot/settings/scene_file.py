@@ -1,4 +1,4 @@
-"""Reads a scene file: TOML in, checked `Settings` out, and every mistake named with its line and column."""
+"""Scene file reader: parses TOML into validated `Settings`; errors name line and column."""
 
 from __future__ import annotations
 
@@ -23,23 +23,23 @@ __all__ = ["error_at", "parse", "read", "text"]
 
 
 def read(path: str | Path) -> Settings:
-    """Read and check a scene file; relative paths in it start at its own folder.
+    """Read and validate a scene file; relative paths start at its folder.
 
     Raises
     ------
     InputError
-        Names the file, the line and column of the mistake, and what to do about it.
+        The error names the file, line and column, and the remedy.
     """
     path = Path(path)
     text = _load(path)
     settings = parse(text, path)
-    if found := validate(settings):
-        raise _Reader(path, text).error(*found)
+    if invalid := validate(settings):
+        raise _Reader(path, text).error(*invalid)
     return settings
 
 
 def parse(text: str, path: Path) -> Settings:
-    """The settings in a text as if it were the file `path`: types are checked, values are not.
+    """Parse a text as if it were the file `path`: types are checked, values are not.
 
     Raises
     ------
@@ -55,7 +55,7 @@ def parse(text: str, path: Path) -> Settings:
 
 
 def error_at(path: Path, where: Where, reason: str) -> InputError:
-    """An error about the value that the names and indices `where` lead to, found only after reading."""
+    """Error at the value at the path `where` (names and indices), for checks after reading."""
     return _Reader(path, _load(path)).error(where, reason)
 
 
@@ -72,7 +72,7 @@ def _load(path: Path) -> str:
 
 
 def _folder(path: Path) -> str:
-    """What to say of a folder where a scene file is wanted."""
+    """Error message for a folder in place of a scene file."""
     if (path / "run.toml").is_file():
         return (
             f"is a run folder, and a scene file is wanted; this writes one: firetwin new {path} -o SCENE.toml"
@@ -84,15 +84,15 @@ def _folder(path: Path) -> str:
 
 
 def _syntax_error(path: Path, text: str, message: str) -> InputError:
-    """Tomllib ends its messages in "(at line 3, column 7)" or "(at end of document)"."""
-    found = re.search(r" \(at line (\d+), column (\d+)\)$", message)
+    """Syntax error; tomllib's messages end in "(at line 3, column 7)" or "(at end of document)"."""
+    match = re.search(r" \(at line (\d+), column (\d+)\)$", message)
     reason = re.sub(r" \(at .*\)$", "", message)
-    line, column = (int(found[1]), int(found[2])) if found else (max(1, len(text.splitlines())), 0)
+    line, column = (int(match[1]), int(match[2])) if match else (max(1, len(text.splitlines())), 0)
     return input_error(path, line, column, f"not valid TOML: {reason[:1].lower()}{reason[1:]}")
 
 
 class _Reader:
-    """Makes dataclasses of tables; bounds and choices are left to `schema.validate`."""
+    """Makes dataclasses of tables; bounds and choices are validated by `schema.validate`."""
 
     def __init__(self, path: Path, text: str) -> None:
         self.path = path
@@ -100,25 +100,25 @@ class _Reader:
         self.former: list[str] = []
 
     def error(self, where: Where, reason: str) -> InputError:
-        """An error at the place of a key, or of the nearest thing round it that is written down."""
+        """Error at a key's place, or at the nearest enclosing place in the text."""
         while where and where not in self.places:
             where = where[:-1]
         line, column = self.places.get(where, (0, 0))
         return input_error(self.path, line, column, reason)
 
     def current(self, values: dict[str, Any]) -> dict[str, Any]:
-        """Sections and their keys under the names that they have now; former ones are noted."""
-        found = self.renamed(values, {(name,): now for name, now in FORMER.items()}, (), "[{}]")
+        """Rename former sections and keys to their present names, with a note."""
+        renamed = self.renamed(values, {(name,): now for name, now in FORMER.items()}, (), "[{}]")
         keys: dict[Where, str] = {(*where,): now for where, now in FORMER_KEYS.items()}
         for section in {section for section, _ in FORMER_KEYS}:
-            if isinstance(found.get(section), dict):
-                found[section] = self.renamed(found[section], keys, (section,), f"{section}.{{}}")
-        return found
+            if isinstance(renamed.get(section), dict):
+                renamed[section] = self.renamed(renamed[section], keys, (section,), f"{section}.{{}}")
+        return renamed
 
     def renamed(
         self, values: dict[str, Any], former: dict[Where, str], where: Where, shown: str
     ) -> dict[str, Any]:
-        """A table with the present names of keys that it has under `former` ones."""
+        """Rename keys of a table from their `former` names."""
         names = {name: former.get((*where, name), name) for name in values}
         for name, now in names.items():
             if name == now:
@@ -133,7 +133,7 @@ class _Reader:
         return {names[name]: value for name, value in values.items()}
 
     def table(self, kind: type, values: dict[str, Any], where: Where) -> Any:
-        """A table of the file as the dataclass `kind`, with what it leaves out at its default."""
+        """Convert a table to the dataclass `kind`; missing keys take their defaults."""
         own = {part.name: part for part in fields(kind) if not part.key.variants}
         rig = next((part for part in fields(kind) if part.key.variants), None)
         rig_kind, tag = self.kind(rig.key, values, where) if rig else (None, ())
@@ -151,14 +151,14 @@ class _Reader:
         return kind(**known)
 
     def kind(self, key: Key, values: dict[str, Any], where: Where) -> tuple[type, tuple[str]]:
-        """The dataclass that the key `tag` of a table chooses, and the tag."""
+        """Dataclass selected by the key `tag` of a table, and the tag."""
         here, name = (*where, key.tag), values.get(key.tag, key.default_kind)
         if reason := key.invalid(self.expect(str, name, here)):
             raise self.error(here, f"{_dotted(here)} {reason}")
         return key.all_variants()[name], (key.tag,)
 
     def unknown(self, name: str, known: list[str], rig: Field | None, where: Where) -> str:
-        """What to say of a key that is none."""
+        """Error message for an unknown key."""
         kinds = rig.key.all_variants() if rig else {}
         having = [kind for kind, made in kinds.items() if name in (part.name for part in fields(made))]
         if rig and having:
@@ -169,14 +169,14 @@ class _Reader:
         )
 
     def part(self, part: Field, values: dict[str, Any], where: Where) -> Any:
-        """The value of one key of a table."""
+        """Value of a key of a table."""
         if part.name in values:
             return self.value(part.type, values[part.name], (*where, part.name))
         own = part.type is Path and part.default is not None
         return self.path.parent / part.default if own else part.default
 
     def value(self, kind: Any, value: Any, where: Where) -> Any:
-        """A value of the file as the type that its dataclass field declares."""
+        """Convert a value to the type of its dataclass field."""
         if isinstance(value, int) and abs(value) >= 2**63:
             raise self.error(where, f"{_dotted(where)} is larger than a number in TOML may be")
         if isinstance(kind, type) and dataclasses.is_dataclass(kind):
@@ -194,7 +194,7 @@ class _Reader:
         return self.expect(kind, value, where)
 
     def name(self, value: Any, where: Where) -> str:
-        """The name of a file or folder."""
+        """Validate a file or folder name."""
         if "\0" in self.expect(str, value, where):
             raise self.error(
                 where, f"{_dotted(where)} holds the character of number 0, which no file's name may"
@@ -202,7 +202,7 @@ class _Reader:
         return value
 
     def moment(self, moment: datetime, where: Where) -> datetime:
-        """A time in UTC."""
+        """Convert a date and time to UTC."""
         if moment.tzinfo is None:
             reason = "has no zone; end it in Z (UTC) or in an offset like -07:00"
             raise self.error(where, f"{_dotted(where)} {reason}")
@@ -212,7 +212,7 @@ class _Reader:
             raise self.error(where, f"{_dotted(where)} lies outside of the years 1 to 9999") from None
 
     def tuple(self, kind: Any, values: list[Any], where: Where) -> tuple[Any, ...]:
-        """A list of the file as the tuple that `kind` declares."""
+        """Convert a list to the tuple type `kind`."""
         inner = items(kind, len(values))
         if len(inner) != len(values):
             raise self.error(where, f"{_dotted(where)} must hold {len(inner)} values, not {len(values)}")
@@ -221,14 +221,14 @@ class _Reader:
         )
 
     def expect(self, kind: type, value: Any, where: Where) -> Any:
-        """The value, which has to be of this type."""
+        """Check a value's type and return the value."""
         if type(value) is kind:
             return value
         raise self.error(where, f"{_dotted(where)} must be {_TYPES[kind]}, not {_shown(value)}")
 
 
 def _current(where: Where) -> Where:
-    """A place under the names that its section and key have now."""
+    """Path of a value under the present names of its section and key."""
     if not where:
         return where
     section, *inner = FORMER.get(str(where[0]), where[0]), *where[1:]

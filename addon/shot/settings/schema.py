@@ -1,8 +1,8 @@
-"""What a dataclass of settings says about its keys, and what follows from it for any such dataclass.
+"""Settings schema: metadata of keys in dataclass fields, and generic functions on such dataclasses.
 
-Each field that a file may hold is made by `key`, or by `one_of` where one of several dataclasses may stand.
-A field of another dataclass is a section, a field of tuples of one a list of tables; other fields, such as
-the path of the file itself, are no keys.
+A field that a file may hold is made by `key`, or by `one_of` if it has several variants. A field of another
+dataclass is a section. A field of tuples of one is a list of tables. Other fields, such as the path of the
+file itself, are no keys.
 """
 
 from __future__ import annotations
@@ -26,27 +26,27 @@ Where = tuple[str | int, ...]
 
 @dataclass(frozen=True)
 class Key:
-    """What is known of one key.
+    """Metadata of a key.
 
     Attributes
     ----------
     help
-        One line without unit and trailing period. What follows a semicolon is a remark.
+        One line without unit and trailing period. Text after a semicolon is a remark.
     unit
-        Such as "m"; empty for counts and texts.
+        Unit such as "m"; empty for counts and texts.
     at_least, above, at_most
         Bounds of a number, or of each number of a list.
     choices
-        The names that a text, or each text of a list, may be: a tuple, or a mapping to a few words about
-        each; or a function that returns one of them.
+        Allowed names of a text, or of each text of a list: a tuple, a mapping to short descriptions, or a
+        function that returns one of them.
     check
-        Returns what else is wrong with a value, as words that follow the key's name, or None.
+        Function that returns a further error, as words that follow the key's name, or None.
     affects
-        Aspects of a product that the key changes; None: those of what it is in, or the name of its section.
+        Aspects of a product that the key affects; None: those of its section, or the name of its section.
     variants
-        Where one of several dataclasses may stand: each by its name. Their keys lie flat beside `tag`.
+        Dataclasses that may stand in this place, by name. Their keys lie flat beside `tag`.
     tag, default_kind
-        The key that chooses the kind, and the kind that stands where it is left out.
+        Key that selects the variant, and the default variant.
     """
 
     help: str
@@ -62,7 +62,7 @@ class Key:
     default_kind: str = ""
 
     def names(self) -> dict[str, str]:
-        """The choices, each with a few words about it ("" where there are none)."""
+        """Choices with their descriptions ("" without one)."""
         names = self.choices() if callable(self.choices) else self.choices or ()
         return dict(names) if isinstance(names, Mapping) else dict.fromkeys(names, "")
 
@@ -76,7 +76,7 @@ class Key:
         return (f"{head}, {self.unit}" if self.unit else head) + mark + remark
 
     def invalid(self, value: Any) -> str | None:
-        """What is wrong with a value of the right type, as words that follow the key's name."""
+        """Error in a value of the right type, as words that follow the key's name; None if valid."""
         if value is None:
             return None
         for item in value if isinstance(value, tuple) else (value,):
@@ -131,7 +131,7 @@ def key(
     check: Callable[[Any], str | None] | None = None,
     affects: tuple[str, ...] | None = None,
 ) -> Any:
-    """Make the field of a key, or of a section; see `Key` for what the arguments mean."""
+    """Make the field of a key or a section; see `Key` for the arguments."""
     known = Key(help, unit, at_least, above, at_most, choices, check, affects)
     return dataclasses.field(default=default, default_factory=default_factory, metadata={"key": known})
 
@@ -145,7 +145,7 @@ def one_of(variants: Callable[[], Mapping[str, type]], help: str, *, tag: str, d
 
 
 class Field(NamedTuple):
-    """One key of a dataclass."""
+    """Key of a dataclass."""
 
     field: dataclasses.Field
     key: Key
@@ -158,13 +158,13 @@ class Field(NamedTuple):
 
     @property
     def default(self) -> Any:
-        """What stands where a file leaves the key out."""
+        """Default value if a file leaves the key out."""
         made = self.field.default_factory
         return self.field.default if made is dataclasses.MISSING else made()
 
     @property
     def table(self) -> type | None:
-        """The dataclass of a section or of a list of tables."""
+        """Dataclass of a section or of a list of tables."""
         inner = (self.type, *typing.get_args(self.type))
         return next((kind for kind in inner if dataclasses.is_dataclass(kind)), None)
 
@@ -187,7 +187,7 @@ def _declared(hint: Any) -> Any:
 
 
 def kind_of(known: Key, value: Any) -> str:
-    """Name of the kind that `value` is one of."""
+    """Name of a value's variant."""
     return next(name for name, kind in known.all_variants().items() if type(value) is kind)
 
 
@@ -198,9 +198,9 @@ def summary(kind: type) -> str:
 
 
 def walk(kind: type, section: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Field]]:
-    """Every key of a dataclass and of those in it: the section that it is in, and the key.
+    """Iterate over all keys of a dataclass and of nested ones, with their section.
 
-    A key that several kinds have (see `one_of`) comes once for each of them.
+    A key that several variants have (see `one_of`) comes once for each.
     """
     for part in fields(kind):
         yield section, part
@@ -211,10 +211,10 @@ def walk(kind: type, section: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str,
 
 
 def validate(settings: Any, section: tuple[str, ...] = ()) -> tuple[Where, str] | None:
-    """First of what is wrong with settings whose types are right: where, and what in words.
+    """Validate settings of the right types: place and message of the first error, or None.
 
-    A dataclass may have a method `validate` of its own, for what no single key can say; that of a kind (see
-    `one_of`) is called by what it stands in.
+    A dataclass may have its own method `validate` for checks across keys. That of a variant (see `one_of`) is
+    called by the dataclass that contains it.
     """
     own = getattr(settings, "validate", None)
     return _wrong_key(settings, section) or (own() if own else None)
@@ -224,12 +224,12 @@ def _wrong_key(settings: Any, section: tuple[str, ...]) -> tuple[Where, str] | N
     for part in fields(settings.__class__):
         value, here = getattr(settings, part.name), (*section, part.name)
         if part.key.variants:
-            if found := _wrong_key(value, section):
-                return found
+            if invalid := _wrong_key(value, section):
+                return invalid
         elif reason := part.key.invalid(value):
             return (part.name,), f"{'.'.join(here)} {reason}"
-        elif found := _wrong_inside(part, value, here):
-            return (part.name, *found[0]), found[1]
+        elif invalid := _wrong_inside(part, value, here):
+            return (part.name, *invalid[0]), invalid[1]
     return None
 
 
@@ -237,18 +237,18 @@ def _wrong_inside(part: Field, value: Any, section: tuple[str, ...]) -> tuple[Wh
     if not part.tables:
         return validate(value, section) if part.table else None
     for i, table in enumerate(value):
-        if found := validate(table, section):
-            return (i, *found[0]), found[1]
+        if invalid := validate(table, section):
+            return (i, *invalid[0]), invalid[1]
     return None
 
 
 def select(settings: Any, affects: Iterable[str], camera: str | None = None) -> dict[str, Any]:
-    """The keys that affect any of these aspects, as JSON can carry them: equal where the settings are.
+    """Keys that affect any of these aspects, in JSON form: equal if the settings are equal.
 
     Parameters
     ----------
     camera
-        Name of the only one to take out of lists of tables that have names.
+        Name of the only table to take from lists of named tables.
     """
     return _chosen(settings, frozenset(affects), camera, ())
 
@@ -256,21 +256,21 @@ def select(settings: Any, affects: Iterable[str], camera: str | None = None) -> 
 def _chosen(
     settings: Any, affects: frozenset[str], camera: str | None, inherited: tuple[str, ...]
 ) -> dict[str, Any]:
-    found: dict[str, Any] = {}
+    selected: dict[str, Any] = {}
     for part in fields(settings.__class__):
         value = getattr(settings, part.name)
         aspects = part.key.affects if part.key.affects is not None else inherited
         if part.key.variants:
             tag = {part.key.tag: kind_of(part.key, value)} if affects & {*aspects} else {}
-            found |= tag | _chosen(value, affects, camera, aspects)
+            selected |= tag | _chosen(value, affects, camera, aspects)
         elif part.table:
             aspects = aspects or (part.name,)
             tables = [t for t in (value if part.tables else (value,)) if camera in (None, _name(t, camera))]
             inner = [table for t in tables if (table := _chosen(t, affects, camera, aspects))]
-            found |= {part.name: inner if part.tables else inner[0]} if inner else {}
+            selected |= {part.name: inner if part.tables else inner[0]} if inner else {}
         elif affects & {*aspects}:
-            found[part.name] = plain(part.type, value)
-    return found
+            selected[part.name] = plain(part.type, value)
+    return selected
 
 
 def _name(table: Any, otherwise: str | None) -> str | None:
@@ -278,7 +278,7 @@ def _name(table: Any, otherwise: str | None) -> str | None:
 
 
 def plain(kind: Any, value: Any) -> Any:
-    """A value as JSON can carry it: the same for equal values, however they are written."""
+    """JSON form of a value: equal for equal values, in any notation."""
     if isinstance(value, tuple):
         return list(value)
     if isinstance(value, datetime):
@@ -286,11 +286,11 @@ def plain(kind: Any, value: Any) -> Any:
     if isinstance(value, Path):
         return value.as_posix()
     if kind is float and value is not None:
-        return float(value) + 0.0  # no -0.0, which JSON writes in another way
+        return float(value) + 0.0  # no -0.0, which has another JSON form
     return value
 
 
 def items(kind: Any, count: int) -> tuple[Any, ...]:
-    """Types of the `count` items of a tuple declared as `kind`, or of as many as it must hold."""
+    """Types of the `count` items of a tuple type `kind`, or of its fixed number of items."""
     inner = typing.get_args(kind)
     return inner[:1] * count if inner[-1] is Ellipsis else inner

@@ -1,9 +1,9 @@
-"""Every setting once: its type, default, unit, bounds, choices and help, and what it changes.
+"""Settings: type, default, unit, bounds, choices, help and affected aspects of every key.
 
-The file, its check, the panels, the schema for editors and the fingerprints of products come from here.
-Times are UTC, lengths metres and angles degrees. What a key changes is named by aspects: that of its section
-unless it says otherwise, "camera" for all of a camera, and of [render] "picture" (all pictures), "grain"
-(what is not data) and "thermal". "film" is what only films show, "passes" what sidecars list.
+The scene file, its validation, the panels, the JSON Schema and the fingerprints of products derive from here.
+Times are UTC, lengths metres and angles degrees. A key affects the aspect of its section unless it names
+others: "camera" for everything of a camera, and in [render] "picture" (all pictures), "grain" (all but data)
+and "thermal". "film" is for films only, "passes" for the lists in sidecars.
 """
 
 # ruff: noqa: RUF009 (`key` makes a field)
@@ -24,13 +24,13 @@ from .did_you_mean import suggestion
 from .schema import Where, fields, key, kind_of, one_of
 
 BANDS = {"lwir": (8.0, 14.0), "mwir": (3.4, 4.1)}  # um, of infrared cameras
-MOST_RUNS = 3  # beside the first
+MOST_RUNS = 3  # comparison runs, in addition to the first run
 FORMER = {"ground": "terrain", "places": "labels"}
-"""Former names of sections, which scene files and .blend files of the last version have."""
+"""Former names of sections, read from scene files and .blend files of the last version."""
 FORMER_KEYS = {("render", "skip"): "cull"}
 """Former names of keys in sections."""
 
-_LARGEST_SEED = 2**31 - 1  # Cycles takes no larger one
+_LARGEST_SEED = 2**31 - 1  # upper limit in Cycles
 
 
 def _zone(value: str) -> str | None:
@@ -39,7 +39,7 @@ def _zone(value: str) -> str | None:
     try:
         zoneinfo.ZoneInfo(value)
     except (zoneinfo.ZoneInfoNotFoundError, ValueError, OSError):
-        if not zoneinfo.available_timezones():  # Windows has none of its own
+        if not zoneinfo.available_timezones():  # Windows has no time zone database
             return "cannot be looked up: install the Python package tzdata"
         return f'"{value}" is not a time zone' + suggestion(value, sorted(zoneinfo.available_timezones()))
     return None
@@ -76,7 +76,7 @@ class Time:
     )
 
     def validate(self) -> tuple[Where, str] | None:
-        """The end comes last."""
+        """Check that the end is after the start."""
         if self.start and self.end and self.end <= self.start:
             return ("end",), "time.end must be later than time.start"
         return None
@@ -228,7 +228,7 @@ class Fire:
 
 
 class SmokeMethod(NamedTuple):
-    """A choice of `smoke.method`: help, and the key that says how long before the first frame it begins."""
+    """A choice of `smoke.method`: help, and the key with the history that it needs before the first frame."""
 
     help: str
     history: str
@@ -374,7 +374,7 @@ class Thermal:
     )
 
     def validate(self) -> tuple[Where, str] | None:
-        """Counts end somewhere."""
+        """Check that counts have an upper end."""
         if self.bits and not self.saturation:
             return ("bits",), "thermal.bits needs thermal.saturation, which fills the range of the counts"
         return None
@@ -406,9 +406,9 @@ class Camera:
         return kind_of(rig.key, self.rig)
 
     def validate(self) -> tuple[Where, str] | None:
-        """What its rig finds."""
-        found = self.rig.validate()
-        return (found[0], f'camera "{self.name}" {found[1]}') if found else None
+        """Validate its rig."""
+        invalid = self.rig.validate()
+        return (invalid[0], f'camera "{self.name}" {invalid[1]}') if invalid else None
 
 
 @dataclass(frozen=True)
@@ -492,7 +492,7 @@ class Render:
     )
 
     def validate(self) -> tuple[Where, str] | None:
-        """The thermal picture's colours have a range."""
+        """Check that the thermal palette has a range."""
         if self.thermal_low is not None and self.thermal_high <= self.thermal_low:
             return ("thermal_high",), "render.thermal_high must be above render.thermal_low"
         return None
@@ -503,7 +503,7 @@ class Settings:
     """All settings of one scene file."""
 
     path: Path = Path("scene.toml")  # the file itself; relative paths in it start at its folder
-    notes: tuple[str, ...] = field(default=(), compare=False)  # what its reader has to tell
+    notes: tuple[str, ...] = field(default=(), compare=False)  # warnings of its reader
     run: Path = key(Path("sample"), "run folder, such as `firetwin sample` writes", affects=())
     cache: Path = key(Path("cache"), "folder of smoke volumes, kept and reused", affects=())
     seed: int = key(
@@ -530,7 +530,7 @@ class Settings:
     cameras: tuple[Camera, ...] = key((), "a camera and what it records", affects=("camera",))
 
     def validate(self) -> tuple[Where, str] | None:
-        """Names of cameras differ, and their frames are among those of the scene."""
+        """Check that camera names are unique, and that their frames exist."""
         i = twice([camera.name for camera in self.cameras])
         if i is not None:
             reason = (
@@ -545,8 +545,8 @@ class Settings:
         return self._unknown_followed() or self._impossible() or self._alone()
 
     def _alone(self) -> tuple[Where, str] | None:
-        """What is wrong with the other runs, or asked of them and there are none."""
-        names = [each.name for each in self.runs]
+        """Check the comparison runs, and passes that need them."""
+        names = [run.name for run in self.runs]
         i = twice(names)
         if i is not None:
             reason = f'a second run is named "{names[i]}"; names must differ, not by capitals alone'
@@ -558,16 +558,19 @@ class Settings:
             (("render", "passes"), self.render.passes),
             *((("cameras", i, "passes"), camera.passes) for i, camera in enumerate(self.cameras)),
         ):
-            if not names and (found := [name for name in listed if passes.compares(name)]):
-                return where, f'passes has "{found[0]}", which compares runs; add [[runs]] or leave it out'
+            if not names and (comparing := [name for name in listed if passes.compares(name)]):
+                return (
+                    where,
+                    f'passes has "{comparing[0]}", which compares runs; add [[runs]] or leave it out',
+                )
         return None
 
     def _impossible(self) -> tuple[Where, str] | None:
-        """What is asked of cameras and cannot be."""
+        """Check that cameras suit the engine and their resolution."""
         for i, camera in enumerate(self.cameras):
             width, height = camera.resolution or self.render.resolution
             if camera.rig.around and self.render.engine != "cycles":
-                reason = f'camera "{camera.name}" sees all round, which EEVEE cannot; render it with Cycles'
+                reason = f'camera "{camera.name}" is a panorama, which EEVEE cannot render; use Cycles'
                 return ("cameras", i, "kind"), reason
             for each in passes.of_camera(self, camera):
                 if reason := passes.refused(each, camera, self.render.engine):

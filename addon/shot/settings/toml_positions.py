@@ -1,4 +1,4 @@
-"""Where each key of a TOML text stands: tomllib gives values without lines, messages need both."""
+"""Line and column of each key of a TOML text, for error messages; tomllib gives values only."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ _PLAIN = re.compile(r"[^,\]}#\n]+")
 
 
 class _Scan:
-    """Walks a text that tomllib has accepted, so nothing is checked twice."""
+    """Scanner of a text that tomllib has accepted; it does not validate."""
 
     def __init__(self, text: str) -> None:
         self.text = text
         self.at = 0
         self.offsets: dict[Path, int] = {}
         self.spans: list[tuple[Path, int, int]] = [((), 0, 0)]
-        self._tables: dict[Path, int] = {}  # tables in each array of tables so far
+        self._tables: dict[Path, int] = {}  # tables in each array of tables up to here
 
     def document(self) -> None:
         table: Path = ()
@@ -44,10 +44,10 @@ class _Scan:
         self._take(_GAP)
 
     def _take(self, pattern: re.Pattern[str]) -> str:
-        found = pattern.match(self.text, self.at)
-        assert found
-        self.at = found.end()
-        return found.group()
+        match = pattern.match(self.text, self.at)
+        assert match
+        self.at = match.end()
+        return match.group()
 
     def _name(self) -> str:
         if self.text[self.at] == '"':
@@ -57,7 +57,7 @@ class _Scan:
         return self._take(_BARE)
 
     def _key(self, table: Path) -> Path:
-        """Read a dotted key and note where each part of it stands."""
+        """Read a dotted key and record the position of each part."""
         path = table
         while True:
             start = self.at
@@ -70,7 +70,7 @@ class _Scan:
             self._skip()
 
     def _inside(self, path: Path) -> Path:
-        """A name that holds an array of tables stands for the newest of them."""
+        """Resolve the name of an array of tables to its last table."""
         return (*path, self._tables[path] - 1) if path in self._tables else path
 
     def _header(self, brackets: int, array: bool) -> Path:
@@ -156,9 +156,9 @@ def places(text: str) -> dict[Path, tuple[int, int]]:
 
 
 def tables(text: str) -> list[tuple[Path, int, int]]:
-    """The tables of a valid TOML text in order: path, offsets of its header and of the end of its last value.
+    """Tables of a valid TOML text in order: path, offset of the header, and offset after the last value.
 
-    The first is that of the keys above all headers.
+    The first one holds the keys above all headers.
     """
     scan = _Scan(text)
     scan.document()

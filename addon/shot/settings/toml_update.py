@@ -1,7 +1,7 @@
-"""Saving over a scene file: changed keys are written into its text; comments, order and blank lines stay.
+"""In-place update of a scene file: changed keys are written into its text; comments, order and layout stay.
 
-The text is taken apart into blocks, one for each table with the comments right above it, so that a camera
-takes its comments along when it moves or goes. In a block tomlkit changes keys.
+The text is split into blocks, one for each table with the comments directly above it. So the comments of a
+camera move with it. Within a block tomlkit edits the keys.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ Values = dict[str, Any]
 
 @dataclass(frozen=True)
 class Block:
-    """A table of a text: where it is, the comments right above it, header and keys, and what follows."""
+    """Block of a text: path of its table, comments directly above it, header and keys, and trailing lines."""
 
     path: Path
     lead: str
@@ -37,12 +37,12 @@ class Block:
 
 
 def save(whole: Settings) -> None:
-    """Write settings to their own file; over one that is there as `updated` does.
+    """Write settings to their own file; an existing one is updated as by `updated`.
 
     Raises
     ------
     InputError
-        It cannot be written.
+        The file cannot be written.
     """
     path = whole.path
     try:
@@ -55,22 +55,22 @@ def save(whole: Settings) -> None:
 
 
 def updated(there: str, whole: Settings) -> str:
-    """The scene file `there` with the settings `whole`; only lines of keys that changed are other ones.
+    """Scene file `there` with the settings `whole`; only lines of changed keys differ.
 
     A text that is no scene file, or whose layout cannot be kept, is replaced by `scene_file.text`.
     """
     fresh = text(whole)
     try:
-        kept = _written(_with_current_names(there), fresh, whole)
-        if _values(kept, whole) == tomllib.loads(fresh):
-            return kept
+        edited = _written(_with_current_names(there), fresh, whole)
+        if _values(edited, whole) == tomllib.loads(fresh):
+            return edited
     except (Error, TOMLKitError, ValueError, RecursionError):
         pass
     return fresh
 
 
 def _values(there: str, whole: Settings) -> Values:
-    """Every key's value as `text` writes it, whether the text has the key or leaves it at its default."""
+    """Values of all keys as `text` writes them, including those that the text leaves at their defaults."""
     return tomllib.loads(text(parse(there, whole.path)))
 
 
@@ -92,10 +92,10 @@ def _written(there: str, fresh: str, whole: Settings) -> str:
 
 def _blocks(there: str) -> Iterator[Block]:
     there += "" if there.endswith("\n") or not there else "\n"
-    found = tables(there)
-    starts = [there.rfind("\n", 0, start) + 1 for _, start, _ in found] + [len(there)]
+    spans = tables(there)
+    starts = [there.rfind("\n", 0, start) + 1 for _, start, _ in spans] + [len(there)]
     lead = ""
-    for (path, _, end), start, following in zip(found, starts, starts[1:], strict=False):
+    for (path, _, end), start, following in zip(spans, starts, starts[1:], strict=False):
         over = there.find("\n", end) + 1 if end else 0
         lines = there[over:following].splitlines(keepends=True)
         above = list(itertools.takewhile(lambda line: line.lstrip().startswith("#"), reversed(lines)))
@@ -105,10 +105,10 @@ def _blocks(there: str) -> Iterator[Block]:
 
 
 def _with_section(blocks: list[Block], name: str, was: Values, now: Values) -> list[Block]:
-    """With the header of a section that the text lacks and that changed, at its place in the schema."""
+    """Insert the header of a changed section that the text lacks, in the order of the schema."""
     if was.get(name) == now[name] or any(block.path[:1] == (name,) for block in blocks):
         return blocks
-    if name in tomllib.loads(blocks[0].body):  # inline, or by dotted keys
+    if name in tomllib.loads(blocks[0].body):  # inline table or dotted keys
         return blocks
     order = list(now)
     before = set(order[: order.index(name)])
@@ -121,14 +121,14 @@ def _with_section(blocks: list[Block], name: str, was: Values, now: Values) -> l
 
 
 def _with_lists(blocks: list[Block], made: list[Block], path: Path, was: Values, now: Values) -> list[Block]:
-    """With the lists of tables in the table at `path`, and those in their tables, as they are now."""
+    """Update the lists of tables in the table at `path`, and those nested in them."""
     for name in {**was, **now}:
         here = (*path, name)
         size = len(here)
         if any(block.path[:size] == here and len(block.path) > size for block in blocks + made):
             blocks = _with_list(blocks, made, here, name, was, now)
             for i, (old, new) in enumerate(zip(was.get(name, []), now.get(name, []), strict=False)):
-                if any(block.path == (*here, i) for block in blocks):  # else it is inline
+                if any(block.path == (*here, i) for block in blocks):  # else it is an inline table
                     blocks = _with_lists(blocks, made, (*here, i), old, new)
     return blocks
 
@@ -136,12 +136,12 @@ def _with_lists(blocks: list[Block], made: list[Block], path: Path, was: Values,
 def _with_list(
     blocks: list[Block], made: list[Block], path: Path, name: str, was: Values, now: Values
 ) -> list[Block]:
-    """With the tables of a list in their new order and number; `was` follows."""
+    """Reorder, add and remove the tables of a list; `was` is changed accordingly."""
     size = len(path)
     old, new = was.get(name, []), now.get(name, [])
     mine = [i for i, block in enumerate(blocks) if block.path[:size] == path]
     sources = _sources(old, new)
-    if (old and not mine) or sources == list(range(len(old))):  # inline tables, or the same ones
+    if (old and not mine) or sources == list(range(len(old))):  # inline tables, or unchanged
         return blocks
     units: list[Block] = []
     for i, source in enumerate(sources):
@@ -158,25 +158,25 @@ def _with_list(
 
 
 def _sources(old: list[Values], new: list[Values]) -> list[int | None]:
-    """Index of the old table that each new one was: by its name, or by its place if it was renamed."""
-    names, wanted = [each.get("name") for each in old], {each.get("name") for each in new}
-    found: list[int | None] = []
-    for i, each in enumerate(new):
-        named = names.index(each["name"]) if each.get("name") in names and "name" in each else None
+    """Index of the old table of each new one: by name, or by position after a renaming."""
+    names, wanted = [values.get("name") for values in old], {values.get("name") for values in new}
+    sources: list[int | None] = []
+    for i, values in enumerate(new):
+        named = names.index(values["name"]) if values.get("name") in names and "name" in values else None
         same = i < len(old) and (names[i] is None or names[i] not in wanted)
-        found.append(named if named is not None else i if same else None)
-    return found
+        sources.append(named if named is not None else i if same else None)
+    return sources
 
 
 def _spaced(blocks: list[Block]) -> list[Block]:
-    """With a blank line after the last."""
+    """End the last block with a blank line."""
     *most, last = blocks
     loose = last.gap or not (last.lead + last.body)
     return [*most, last if loose else replace(last, gap="\n")]
 
 
 def _edited(block: Block, blocks: list[Block], was: Values, now: Values) -> str:
-    """Header and keys of a block with the keys that changed."""
+    """Header and keys of a block, with changed keys updated."""
     document: Any = tomlkit.parse(block.body)
     table = document
     before: Any = was
@@ -194,7 +194,7 @@ def _edited(block: Block, blocks: list[Block], was: Values, now: Values) -> str:
 
 
 def _put(table: Any, was: Any, now: Any, apart: Set[str | int] = frozenset()) -> bool:
-    """Change keys of a table of tomlkit, but those `apart`; whether there was anything to change."""
+    """Update keys of a tomlkit table except those `apart`; return whether any changed."""
     changed = [name for name in {**was, **now} if name not in apart and was.get(name) != now.get(name)]
     for name in changed:
         value, before = now.get(name), was.get(name)
@@ -211,19 +211,19 @@ def _put(table: Any, was: Any, now: Any, apart: Set[str | int] = frozenset()) ->
 
 
 def _tables(value: Any) -> bool:
-    return isinstance(value, list) and bool(value) and all(isinstance(each, dict) for each in value)
+    return isinstance(value, list) and bool(value) and all(isinstance(item, dict) for item in value)
 
 
 def _item(value: Any) -> Any:
     """A value for tomlkit; tables are written in one line."""
     if isinstance(value, list):
         array = tomlkit.array()
-        for each in value:
-            array.append(_item(each))
+        for item in value:
+            array.append(_item(item))
         return array
     if isinstance(value, dict):
         table = tomlkit.inline_table()
-        for name, each in value.items():
-            table[name] = _item(each)
+        for name, item in value.items():
+            table[name] = _item(item)
         return table
     return tomlkit.item(value)

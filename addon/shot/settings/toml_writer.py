@@ -1,4 +1,4 @@
-"""Settings as the text of a scene file: every key with its value, and what it means beside it."""
+"""Scene file writer: every key with its value and its help as a comment."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from typing import Any
 from .schema import Field, Key, fields, items, kind_of, plain, summary
 from .settings import Settings
 
-Line = tuple[str, str]  # what is written, and the comment beside it
+Line = tuple[str, str]  # text, and its comment
 
-_SAMPLES = {  # for a key that has no value
+_SAMPLES = {  # examples for keys without a value
     datetime: "2014-09-17T21:30:00Z",
     float: "0.0",
     tuple[int, int]: "[1280, 720]",
@@ -24,7 +24,7 @@ _SAMPLES = {  # for a key that has no value
 
 
 def text(settings: Settings) -> str:
-    """The scene file that reads back as these settings: all keys, the first of each with its help.
+    """Scene file that reads back as these settings: all keys, each with its help at first occurrence.
 
     Times are in the zone of `settings.time`, paths relative to the settings' own folder where they are in it.
     """
@@ -33,28 +33,28 @@ def text(settings: Settings) -> str:
 
 
 def brief(settings: Settings, asked: Collection[str], remarks: Mapping[str, str]) -> str:
-    """A short scene file that reads back as these settings: what differs from defaults, and what is `asked`.
+    """Short scene file that reads back as these settings: keys that differ from defaults or are `asked` for.
 
     Parameters
     ----------
     asked
-        Keys that stand there in any case, such as "smoke.method" and "cameras.frames".
+        Keys that are always written, such as "smoke.method" and "cameras.frames".
     remarks
-        What to say above cameras, by their names; above all, by "run".
+        Comments above cameras, by name; above the file, by "run".
     """
     writer = _Writer(settings, asked=frozenset(asked), remarks=remarks)
     return "\n".join(_aligned(block) for block in writer.table(settings, (), []))
 
 
 def tables(name: str, tables: Iterable[Any]) -> str:
-    """A list of tables as lines of a scene file, without a word about them; paths are absolute."""
+    """Write a list of tables as scene file lines without comments; paths are absolute."""
     writer = _Writer(Settings(), here=False)
-    blocks = (block for each in tables for block in writer.table(each, (name,), [(f"[[{name}]]", "")]))
+    blocks = (block for table in tables for block in writer.table(table, (name,), [(f"[[{name}]]", "")]))
     return "".join(f"{line}\n" for block in blocks for line, _ in block if not line.startswith("#"))
 
 
 def _aligned(block: list[Line]) -> str:
-    """Lines of a table with their comments in one column."""
+    """Align the comments of a table's lines in one column."""
     width = max(len(written) for written, comment in block if comment) if any(c for _, c in block) else 0
     return "".join(
         (f"{written.ljust(width)}  # {comment}" if comment else written) + "\n" for written, comment in block
@@ -75,7 +75,7 @@ class _Writer:
         self.explained: set[int] = set()
 
     def table(self, table: Any, section: tuple[str, ...], header: list[Line]) -> Iterator[list[Line]]:
-        """A dataclass as a block of lines, and the tables in it as blocks of their own."""
+        """Write a dataclass as a block of lines, and nested tables as further blocks."""
         pairs = list(_flat(table))
         placed = self.asked is not None and section[:1] == ("cameras",)
         lines = [self.line(part, value, placed) for part, value in pairs if self.shown(section, part, value)]
@@ -89,7 +89,7 @@ class _Writer:
                 yield from self.table(each, inner, [head])
 
     def shown(self, section: tuple[str, ...], part: Field, value: Any) -> bool:
-        """Whether a key has a line: of a brief file one that is asked for, or differs from its default."""
+        """Whether a key is written: in a short file if it is asked for or differs from its default."""
         if part.table or self.asked is None or part.key.variants:
             return not part.table
         if ".".join((*section, part.name)) in self.asked:
@@ -98,36 +98,36 @@ class _Writer:
         return not same and value is not None and self.value(part.type, value) != self.usual(part)
 
     def remark(self, section: tuple[str, ...], table: Any) -> list[Line]:
-        """What there is to say above a table."""
+        """Comment lines above a table."""
         text = self.remarks.get(getattr(table, "name", "") if section else "run", "")
         return [(f"# {line}", "") for line in text.splitlines()]
 
     def line(self, part: Field, value: Any, placed: bool = False) -> Line:
-        """A key, its value and its comment, which tells the default unless it is of a placed camera."""
+        """Key, value and comment; the comment has the default unless the key belongs to a placed camera."""
         key = part.key
         if key.variants:
             return f'{key.tag} = "{kind_of(key, value)}"', f"{key.help}: {summary(type(value))}"
         if value is None:
             return f"# {part.name} = {_SAMPLES[part.type]}", self.once(key, _comment(key))
         written, usual = self.value(part.type, value), self.usual(part)
-        told = usual not in ("", written) and not placed
-        comment = _comment(key) + (f" (default {usual})" if told else "")
+        with_default = usual not in ("", written) and not placed
+        comment = _comment(key) + (f" (default {usual})" if with_default else "")
         return f"{part.name} = {written}", self.once(key, comment)
 
     def usual(self, part: Field) -> str:
-        """The default in TOML; empty where there is none."""
+        """Default in TOML; empty if there is none."""
         if part.default is None:
             return ""
         return quoted(part.default.as_posix()) if part.type is Path else self.value(part.type, part.default)
 
     def once(self, key: Key, comment: str) -> str:
-        """The comment where the key stands for the first time."""
+        """The comment at the key's first occurrence, else empty."""
         known = id(key) in self.explained
         self.explained.add(id(key))
         return "" if known else comment
 
     def value(self, kind: Any, value: Any) -> str:
-        """A value in TOML."""
+        """Value in TOML."""
         if isinstance(value, tuple):
             inner = zip(items(kind, len(value)), value, strict=True)
             return f"[{', '.join(self.value(k, v) for k, v in inner)}]"
@@ -141,12 +141,12 @@ class _Writer:
 
 
 def quoted(text: str) -> str:
-    """A text in quotes: TOML escapes as JSON does, and DEL too."""
+    """Quoted text: TOML has JSON's escapes, and one for DEL."""
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def _flat(table: Any) -> Iterator[tuple[Field, Any]]:
-    """Keys of a dataclass with their values; those of a kind follow the key that names it."""
+    """Keys of a dataclass with their values; those of a variant follow the key that selects it."""
     for part in fields(table.__class__):
         value = getattr(table, part.name)
         yield part, value
@@ -155,7 +155,7 @@ def _flat(table: Any) -> Iterator[tuple[Field, Any]]:
 
 
 def _comment(key: Key) -> str:
-    """Help with unit and choices, less those that a folder decides: one file more changes no comment."""
+    """Help with unit and choices, without choices that depend on a folder's files."""
     if key.choices is None or callable(key.choices):
         return key.described()
     *most, last = [f'"{name}" ({words})' if words else f'"{name}"' for name, words in key.names().items()]
@@ -163,7 +163,7 @@ def _comment(key: Key) -> str:
 
 
 def _relative(path: Path, folder: Path | None) -> str:
-    """A path as one that starts at `folder` reads it; absolute without one."""
+    """Path relative to `folder`; absolute without a folder."""
     if folder is None:
         return path.absolute().as_posix()
     try:
@@ -181,7 +181,7 @@ def _zone(name: str) -> tzinfo:
 
 
 def _moment(moment: datetime, zone: tzinfo) -> str:
-    """A time in a zone, or in UTC where that zone's is no TOML: offsets have whole minutes there."""
+    """Time in a zone, or in UTC if the zone's offset is invalid in TOML, which has whole minutes."""
     try:
         local = moment.astimezone(zone)
     except OverflowError:

@@ -18,12 +18,12 @@ from . import noise
 GROWTH = 1.05  # ratio of spacings of successive apron rows
 _BANDS = 12  # height bands, each with its own distribution of fuels
 _PATCHES = ((1_700.0, 50), (400.0, 58), (300.0, 54))  # m and seeds of the fuel patches
-_FORGET = 9_000.0  # m; distance within which edge heights fade into the regional plane
-_LIKE = 3_000.0  # m; e-folding distance of patches that mirror the land across the edge
+_FADE_LENGTH = 9_000.0  # m; distance within which edge heights fade into the regional plane
+_MIRROR_LENGTH = 3_000.0  # m; e-folding distance of patches that mirror the land across the edge
 _FLAT, _NO_FUEL = 0.05, 0.05  # m between cells and kg/m2, upper limits for water
 _COAST = 0.25  # water fraction of the edge from which it counts as sea
 _DEVIATION = 0.304  # standard deviation of one octave of gradient noise
-_ENOUGH = 720  # rows or columns at most for statistics of the whole grid
+_MAX_STATISTICS = 720  # rows or columns at most for statistics of the whole grid
 _SMOOTH = 20  # cells to each side; finer relief is mirrored across the edge
 _BANDS_OF_RELIEF = (2, 6, _SMOOTH)  # cells to each side, upper limits of the relief bands
 _FADES = 2.5  # half-widths of a band over which its height at the edge fades (by eye)
@@ -222,7 +222,7 @@ def _heights(
         fine = noise.smoothstep(size / 2.0, size / 4.0, points.spacing)
         hills += amplitude * fine * noise.perlin(points.x / size, points.y / size, seed + octave)
         amplitude *= 0.5
-    like = np.exp(-points.distance / _LIKE)
+    like = np.exp(-points.distance / _MIRROR_LENGTH)
     cell = abs(y[1] - y[0]) / (part[0].step or 1)
     smooth, turned = known, np.zeros(points.x.shape)
     for cells in _BANDS_OF_RELIEF:
@@ -230,7 +230,7 @@ def _heights(
         fine = finer - smooth
         near = noise.smoothstep(_FADES * cells * cell, 0.0, points.distance)
         turned += 2.0 * near * fine[points.edge] - fine[points.across]
-    far = 1.0 - np.exp(-points.distance / _FORGET)
+    far = 1.0 - np.exp(-points.distance / _FADE_LENGTH)
     edge = smooth[points.edge]
     return (
         edge + far * (trend(points.y, points.x) - edge) + like * turned + (1.0 - like) * 2.2 * relief * hills
@@ -239,7 +239,7 @@ def _heights(
 
 def _part(shape: tuple[int, ...]) -> tuple[slice, slice]:
     """Subset of rows and columns for statistics of the whole grid: all, or a stride of a large grid."""
-    rows, columns = (max(count // _ENOUGH, 1) for count in shape)
+    rows, columns = (max(count // _MAX_STATISTICS, 1) for count in shape)
     return slice(None, None, rows), slice(None, None, columns)
 
 
@@ -270,14 +270,14 @@ def _fuel(
     edges = np.quantile(some_heights, np.linspace(0.0, 1.0, _BANDS + 1))
     band = np.clip(np.searchsorted(edges, some_heights) - 1, 0, _BANDS - 1)
     parts = np.linspace(0.0, 1.0, 65)
-    found = [some_fuels[band == k] for k in range(_BANDS)]
-    quantiles = np.array([np.quantile(fuel if len(fuel) else some_fuels, parts) for fuel in found])
+    by_band = [some_fuels[band == k] for k in range(_BANDS)]
+    quantiles = np.array([np.quantile(fuel if len(fuel) else some_fuels, parts) for fuel in by_band])
     which = np.interp(height, 0.5 * (edges[1:] + edges[:-1]), np.arange(_BANDS))
     which = np.clip(np.round(which + ranks[1] - 0.5), 0, _BANDS - 1).astype(int)
     at = ranks[0] * (len(parts) - 1)
     low = np.minimum(at.astype(int), len(parts) - 2)
     usual = quantiles[which, low] + (at - low) * (quantiles[which, low + 1] - quantiles[which, low])
-    return np.where(np.exp(-points.distance / _LIKE) > ranks[2], known_fuel[points.across], usual)
+    return np.where(np.exp(-points.distance / _MIRROR_LENGTH) > ranks[2], known_fuel[points.across], usual)
 
 
 def _rank(points: _Points, size: float, seed: int) -> NDArray[np.float64]:

@@ -24,9 +24,9 @@ _UNITS = {
     "us-ft": 1200.0 / 3937.0, "us survey foot": 1200.0 / 3937.0, "us_survey_foot": 1200.0 / 3937.0,
     "ussurveyfoot": 1200.0 / 3937.0, "foot_us": 1200.0 / 3937.0,
 }  # fmt: skip
-_POSSIBLE = (-1000.0, 9500.0)  # m, plausible elevations on Earth
+_PLAUSIBLE = (-1000.0, 9500.0)  # m, plausible elevations on Earth
 _FEET = (2.9, 3.7)  # ratio to the run's heights at which a model counts as feet
-_FAR = 500.0  # m, limit of the median difference from the run's heights
+_MAX_OFFSET = 500.0  # m, limit of the median difference from the run's heights
 _APRON = 2048  # points per side at most for the apron's heights
 
 
@@ -86,27 +86,27 @@ class Elevation:
         """
         if self.model is None or not self.model.overlaps(latitude, longitude):
             return own, np.zeros(own.shape, np.float32)
-        found = self.read(latitude, longitude)
-        known = np.isfinite(found)
+        heights = self.read(latitude, longitude)
+        known = np.isfinite(heights)
         share = np.where(known, 1.0, 0.0).astype(np.float32)
         between = np.isfinite(own)
         share[between] = ramp(known, max(round(_BLEND / _spacing(latitude, longitude)), 1))[between]
-        own_there, found = np.where(between, own, found), np.where(known, found, own)
-        return (own_there + share * (found - own_there)).astype(own.dtype), share
+        own_there, heights = np.where(between, own, heights), np.where(known, heights, own)
+        return (own_there + share * (heights - own_there)).astype(own.dtype), share
 
     def read(self, latitude: Array, longitude: Array) -> NDArray[np.float32]:
         """Model heights (ny, nx), m, NaN without data; axes may be uneven or descending."""
         assert self.model is not None
         even = _even(latitude), _even(longitude)
-        found = self.model.on_grid(*even)[0] * unit(self.model)
-        found[(found < _POSSIBLE[0]) | (found > _POSSIBLE[1])] = np.nan
+        heights = self.model.on_grid(*even)[0] * unit(self.model)
+        heights[(heights < _PLAUSIBLE[0]) | (heights > _PLAUSIBLE[1])] = np.nan
         row, column = (
             (axis - regular[0]) / (regular[1] - regular[0])
             for axis, regular in zip((latitude, longitude), even, strict=True)
         )
         if all(np.abs(at - np.round(at)).max() < 1.0e-6 for at in (row, column)):
-            return found[np.ix_(np.round(row).astype(int), np.round(column).astype(int))]
-        return bilinear(found, row[:, None], column).astype(np.float32)
+            return heights[np.ix_(np.round(row).astype(int), np.round(column).astype(int))]
+        return bilinear(heights, row[:, None], column).astype(np.float32)
 
 
 def resolve(settings: Settings, run: Run) -> Elevation:
@@ -139,14 +139,14 @@ def check(settings: Settings, run: Run) -> None:
         )
     height, latitude, longitude = model.glimpse(extent(run))
     height = height * unit(model)
-    own = _own(run, latitude, longitude)
+    own = _run_heights(run, latitude, longitude)
     here = np.isfinite(own) & np.isfinite(height)
     if not here.any():
         if not Elevation(run, model).share.any():
             raise model.error("has no data in the run's area")
         return
     height, own = height[here], own[here]
-    wrong = (height < _POSSIBLE[0]) | (height > _POSSIBLE[1])
+    wrong = (height < _PLAUSIBLE[0]) | (height > _PLAUSIBLE[1])
     if wrong.any():
         raise model.error(
             f"has heights of {height[wrong][0]:g} m; if that means no data: "
@@ -159,12 +159,12 @@ def _compare(model: Raster, height: Array, own: Array) -> None:
     """Raise where heights are not those of the run's places by far."""
     times = float(np.sum(height * own) / max(np.sum(own * own), 1.0))
     off = float(np.median(height - own))
-    if abs(off) > _FAR and _FEET[0] < times < _FEET[1]:
+    if abs(off) > _MAX_OFFSET and _FEET[0] < times < _FEET[1]:
         raise model.error(
             f"has heights {times:.2f} times the run's: they look like feet; set the unit with "
             f"gdal_edit.py -units ft {model.path.name}; they are then converted to metres"
         )
-    if abs(off) > _FAR:
+    if abs(off) > _MAX_OFFSET:
         raise model.error(
             f"is {abs(off):,.0f} m {'above' if off > 0.0 else 'below'} the run's ground in most places; "
             "its first band must hold heights in metres above mean sea level"
@@ -179,14 +179,14 @@ def unit(model: Raster) -> float:
 def ramp(known: NDArray[np.bool_], width: int) -> NDArray[np.float32]:
     """1 where all points (ny, nx) within `width` steps are known, falling smoothly to 0 where one is not.
 
-    What lies beyond the grid counts as its edge does.
+    Values beyond the grid are those of its edge.
     """
-    total, kept = np.zeros(known.shape, np.float32), known
+    total, eroded = np.zeros(known.shape, np.float32), known
     for _ in range(width):
-        if kept.all() and not total.any():
+        if eroded.all() and not total.any():
             return np.ones(known.shape, np.float32)
-        total += kept
-        kept = _eroded(kept)
+        total += eroded
+        eroded = _eroded(eroded)
     total /= np.float32(width)
     return total * total * (np.float32(3.0) - np.float32(2.0) * total)
 
@@ -217,7 +217,7 @@ def _even(axis: Array) -> Array:
     return np.linspace(low, high, count)
 
 
-def _own(run: Run, latitude: Array, longitude: Array) -> Array:
+def _run_heights(run: Run, latitude: Array, longitude: Array) -> Array:
     """The run's heights (n,) in the model cells that hold these places, NaN outside of the run."""
     index, inside = [], np.ones(len(latitude), bool)
     middle = 0.5 * float(run.longitude[0] + run.longitude[-1])

@@ -174,8 +174,8 @@ def check(settings: Settings, run: Run) -> None:
     """
     if settings.terrain.land_use is None:
         return
-    found = _read(settings)
-    corners = np.concatenate([ring for each in found for ring in _rings(each)])
+    mapped_features = _read(settings)
+    corners = np.concatenate([ring for item in mapped_features for ring in _rings(item)])
     (west, south), (east, north) = corners.min(axis=0), corners.max(axis=0)
     bounds = (float(west), float(south), float(east), float(north))
     if not overlap(bounds, run.latitude, run.longitude):
@@ -205,8 +205,12 @@ def pictures(shot: ShotView) -> dict[str, list[Picture]]:
         return {}
     if shot not in _PICTURES:
         frames = _frames(shot, known)
-        layers = [each for each in LAYERS if any(KINDS[thing.kind].layer == each for thing in known.things)]
-        _PICTURES[shot] = {each: [_drawn(shot, known, each, *frame) for frame in frames] for each in layers}
+        layers = [
+            layer for layer in LAYERS if any(KINDS[feature.kind].layer == layer for feature in known.things)
+        ]
+        _PICTURES[shot] = {
+            layer: [_drawn(shot, known, layer, *frame) for frame in frames] for layer in layers
+        }
     return _PICTURES[shot]
 
 
@@ -247,24 +251,24 @@ def _read(settings: Settings) -> list[tuple[str, Feature]]:
         raise scene_file.error_at(settings.path, where, f"terrain.land_use: there is no file {path}")
     every = features(path)
     assert isinstance(every, list)  # of these formats
-    found = [(kind, each) for each in every if (kind := kind_of(each.properties)) and _rings((kind, each))]
-    if not found:
+    known = [(kind, item) for item in every if (kind := kind_of(item.properties)) and _rings((kind, item))]
+    if not known:
         reason = f"has no polygon or line with OpenStreetMap's tags or a kind of {', '.join(KINDS)}"
         raise input_error(path, 0, 0, reason)
-    return found
+    return known
 
 
-def _rings(found: tuple[str, Feature]) -> list[feature.Ring]:
-    _, each = found
-    return [*(polygon[0] for polygon in each.polygons), *each.lines]
+def _rings(feature_of_kind: tuple[str, Feature]) -> list[feature.Ring]:
+    _, item = feature_of_kind
+    return [*(polygon[0] for polygon in item.polygons), *item.lines]
 
 
-def _placed(shot: ShotView, found: list[tuple[str, Feature]]) -> Map:
+def _placed(shot: ShotView, known: list[tuple[str, Feature]]) -> Map:
     def scene(ring: Array) -> Array:
         return shot.bare_ground.point(ring[:, 1], ring[:, 0])[:, :2]
 
     things = []
-    for number, (kind, each) in enumerate(found):
+    for number, (kind, each) in enumerate(known):
         words = {key.lower(): str(value).lower() for key, value in each.properties.items()}
         told = feature.finite(words.get("width", "").removesuffix("m"))
         usual = _WIDTHS.get(words.get("highway", words.get("waterway", "")), KINDS[kind].width)
@@ -305,14 +309,14 @@ def _drawn(shot: ShotView, known: Map, layer: str, low: Array, high: Array) -> P
     size = np.clip(np.ceil((high - low) / _FINEST), 2, _LARGEST).astype(int)
     pixel = (high - low) / size
     pixels = np.zeros((size[1], size[0], 4), np.uint8)
-    for thing in known.things:
-        kind = KINDS[thing.kind]
+    for mapped in known.things:
+        kind = KINDS[mapped.kind]
         if kind.layer != layer:
             continue
-        lot, bright = noise.uniform([thing.number] * 2, [7, 8], shot.settings.seed)
+        lot, bright = noise.uniform([mapped.number] * 2, [7, 8], shot.settings.seed)
         colour = np.array(kind.colours[int(lot * len(kind.colours))])
         tone = 0.92 + 0.16 * float(bright)
-        for window, cover in _covers(thing, low, pixel, (pixels.shape[0], pixels.shape[1])):
+        for window, cover in _covers(mapped, low, pixel, (pixels.shape[0], pixels.shape[1])):
             part = pixels[window]
             over = np.maximum(cover * kind.strength, part[..., 3] / 255.0)
             part[..., :3] = np.where(
@@ -322,10 +326,10 @@ def _drawn(shot: ShotView, known: Map, layer: str, low: Array, high: Array) -> P
     return Picture(low, high, pixels)
 
 
-def _covers(thing: Thing, low: Array, pixel: Array, shape: tuple[int, int]) -> list[rasterize.Covered]:
+def _covers(feature: Thing, low: Array, pixel: Array, shape: tuple[int, int]) -> list[rasterize.Covered]:
     found = [
-        rasterize.filled([(ring - low) / pixel for ring in polygon], shape) for polygon in thing.polygons
+        rasterize.filled([(ring - low) / pixel for ring in polygon], shape) for polygon in feature.polygons
     ]
-    width = thing.width / float(np.mean(pixel))
-    found += [rasterize.stroked((line - low) / pixel, width, shape) for line in thing.lines]
+    width = feature.width / float(np.mean(pixel))
+    found += [rasterize.stroked((line - low) / pixel, width, shape) for line in feature.lines]
     return [each for each in found if each is not None]

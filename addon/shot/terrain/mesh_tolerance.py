@@ -17,7 +17,7 @@ UNSEEN = 50.0  # m, vertical error of ground that is neither visible nor casts v
 _BLOCK = 150.0  # m, size of the blocks that are tested
 _MARGIN = 200.0  # m around view frusta from where ground still lights the picture
 _NEAREST = 60.0  # m; nearer ground counts as at this distance
-_EXACT = 0.02  # m, smallest error; no elevation model is more accurate
+_LEAST_ERROR = 0.02  # m, smallest error; no elevation model is more accurate
 _FINEST = 6.0  # m, finest spacing; the shortest relief waves are 26 m
 _SPACING = 8.0  # errors between the points where surface and mesh are compared
 _LIMIT = 6_000_000  # points at most; above it their spacing grows
@@ -49,7 +49,7 @@ def wanted(shot: ShotView) -> Accuracy:
     size = max(round(_BLOCK / max(ground.cell)), 1)
     centre, radius, rise, shape = _blocks(place, size, 4.0 * ground.rough)
     tolerance, distance = _tolerance(shot, centre, radius, rise, shape)
-    fine = _halvings(shot, tolerance, distance)
+    fine = _subdivisions(shot, tolerance, distance)
     tolerance, fine = (
         np.repeat(np.repeat(v.reshape(shape), size, axis=0), size, axis=1) for v in (tolerance, fine)
     )
@@ -102,20 +102,20 @@ def _blocks(
 def most(shot: ShotView, distance: NDArray[np.float64]) -> NDArray[np.float64]:
     """Vertical error bound (m) of visible ground by its distance (m) from the nearest camera."""
     angle, pixel = _views(shot)
-    near = np.zeros(distance.shape) if angle is None else _allowed(angle * np.maximum(distance, _NEAREST))
+    near = np.zeros(distance.shape) if angle is None else _clipped(angle * np.maximum(distance, _NEAREST))
     return np.minimum(np.maximum(near, pixel or 0.0), UNSEEN)
 
 
-def _allowed(error: NDArray[np.float64]) -> NDArray[np.float64]:
+def _clipped(error: NDArray[np.float64]) -> NDArray[np.float64]:
     """Clip error bounds (n,), m, of perspective cameras to the useful range."""
-    return np.clip(error, _EXACT, UNSEEN)
+    return np.clip(error, _LEAST_ERROR, UNSEEN)
 
 
 def _views(shot: ShotView) -> tuple[float | None, float | None]:
     """Error bounds: of perspective cameras, m per m of distance; of orthographic cameras, m."""
     error = shot.settings.terrain.error
     angle, pixel = (error * size if np.isfinite(size) else None for size in shot.pixel)
-    return angle, None if pixel is None else max(pixel, _EXACT)
+    return angle, None if pixel is None else max(pixel, _LEAST_ERROR)
 
 
 def _tolerance(
@@ -125,26 +125,26 @@ def _tolerance(
     tolerance, distance = np.full(len(centre), UNSEEN), np.full(len(centre), np.inf)
     angle, pixel = _views(shot)
 
-    def shaded(seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    def shaded(visible: NDArray[np.bool_]) -> NDArray[np.bool_]:
         return shadow_casters.with_shade(
-            shot, centre.reshape(*shape, 3), rise.reshape(shape), seen.reshape(shape)
+            shot, centre.reshape(*shape, 3), rise.reshape(shape), visible.reshape(shape)
         ).ravel()
 
     near = np.zeros(len(centre), bool)
     if angle is not None:
         near = shot.visibility.visible_mask(centre, radius, margin=_MARGIN)
-        seen = shaded(near)
-        distance[seen] = np.maximum(shot.visibility.distance(centre[seen]) - radius[seen], _NEAREST)
-        drawn = np.maximum(shot.visibility.lod_distance(centre[seen]) - radius[seen], _NEAREST)
-        tolerance[seen] = _allowed(angle * drawn)
+        visible = shaded(near)
+        distance[visible] = np.maximum(shot.visibility.distance(centre[visible]) - radius[visible], _NEAREST)
+        drawn = np.maximum(shot.visibility.lod_distance(centre[visible]) - radius[visible], _NEAREST)
+        tolerance[visible] = _clipped(angle * drawn)
     if pixel is not None:
         far = shot.visibility.visible_mask(centre, radius, margin=_MARGIN, pixel=np.inf, perspective=False)
-        seen = shaded(near | far)
-        tolerance[seen] = np.minimum(tolerance[seen], pixel)
+        visible = shaded(near | far)
+        tolerance[visible] = np.minimum(tolerance[visible], pixel)
     return tolerance, distance
 
 
-def _halvings(shot: ShotView, tolerance: NDArray, distance: NDArray) -> NDArray[np.int64]:
+def _subdivisions(shot: ShotView, tolerance: NDArray, distance: NDArray) -> NDArray[np.int64]:
     """Number of subdivisions of blocks where the surface is finer than its grid, from the error bounds."""
     ground = shot.ground
     finest = min(_FINEST, max(ground.cell) / ground.patch.parts) if ground.patch else _FINEST

@@ -84,8 +84,8 @@ def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
     if path is None:
         return {}
     parts = [path, *([world] if (world := _world_file(path)) else [])]
-    found = {f"photo {part.suffix}": content.of_file(part, settings.cache, progress) for part in parts}
-    return found | {"photo extent": str(settings.terrain.photo_extent)}
+    hashes = {f"photo {part.suffix}": content.of_file(part, settings.cache, progress) for part in parts}
+    return hashes | {"photo extent": str(settings.terrain.photo_extent)}
 
 
 def pictures(shot: ShotView) -> list[Picture]:
@@ -130,9 +130,9 @@ def _picture(shot: ShotView, source: _Source, low: Array, high: Array, step: flo
     for first in range(0, size[1], _STRIP):
         rows = north[first : first + _STRIP]
         latitude, longitude = place(east, rows)
-        found = source.colours(latitude, longitude, float(np.min((high - low) / size)))
-        found[..., 3] = np.nan_to_num(found[..., 3])
-        pixels[first : first + len(rows)] = np.rint(255.0 * np.clip(np.nan_to_num(found), 0.0, 1.0))
+        colours = source.colours(latitude, longitude, float(np.min((high - low) / size)))
+        colours[..., 3] = np.nan_to_num(colours[..., 3])
+        pixels[first : first + len(rows)] = np.rint(255.0 * np.clip(np.nan_to_num(colours), 0.0, 1.0))
     known = pixels[..., 3] > 0
     soft = ramp(np.pad(known, 1), _FADE)[1:-1, 1:-1]
     pixels[..., 3] = np.rint(pixels[..., 3] * soft)
@@ -200,11 +200,11 @@ class _Tiff(_Source):
     def colours(self, latitude: Array, longitude: Array, step: float) -> NDArray[np.float32]:
         scale = areas.metres_per_degree(float(latitude.mean()))
         axes = _axis(latitude, step / scale[0]), _axis(longitude, step / scale[1])
-        found = self.raster.on_grid(*axes, bands=self.bands) / np.float32(255.0)
+        pixels = self.raster.on_grid(*axes, bands=self.bands) / np.float32(255.0)
         row, column = (
             (v - axis[0]) / (axis[1] - axis[0]) for v, axis in zip((latitude, longitude), axes, strict=True)
         )
-        return _rgba(_colours(np.moveaxis(found, 0, -1), row, column))
+        return _rgba(_colours(np.moveaxis(pixels, 0, -1), row, column))
 
 
 class _Plain(_Source):
@@ -296,13 +296,13 @@ def _colours(field: NDArray[np.float32], row: Array, column: Array) -> NDArray[n
     return found
 
 
-def _rgba(found: NDArray[np.float32]) -> NDArray[np.float32]:
+def _rgba(pixels: NDArray[np.float32]) -> NDArray[np.float32]:
     """Convert grey, grey-alpha, RGB or RGBA (h, w, bands), NaN for no data, to RGBA (h, w, 4)."""
-    bands = found.shape[-1]
+    bands = pixels.shape[-1]
     grey = bands < 3
-    alpha = found[..., -1] if bands in (2, 4) else np.ones(found.shape[:2], np.float32)
-    colour = np.repeat(found[..., :1], 3, axis=-1) if grey else found[..., :3]
-    alpha = np.where(np.isfinite(found).all(axis=-1), alpha, 0.0)
+    alpha = pixels[..., -1] if bands in (2, 4) else np.ones(pixels.shape[:2], np.float32)
+    colour = np.repeat(pixels[..., :1], 3, axis=-1) if grey else pixels[..., :3]
+    alpha = np.where(np.isfinite(pixels).all(axis=-1), alpha, 0.0)
     return np.concatenate([colour, alpha[..., None]], axis=-1).astype(np.float32)
 
 

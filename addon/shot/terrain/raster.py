@@ -24,9 +24,9 @@ from ..settings import scene_file
 from ..settings.settings import Settings
 
 _MEMORY = 64  # MB
-_GLIMPSES, _GLIMPSE = 6, 8  # samples along each side, and their size in pixels
-_OFF = 0.02  # pixels, tolerance of reprojection
-_EARTH = "EPSG:4326"  # WGS84, degrees
+_SAMPLES, _SAMPLE_SIZE = 6, 8  # samples along each side, and their size in pixels
+_TOLERANCE = 0.02  # pixels, tolerance of reprojection
+_WGS84 = "EPSG:4326"  # WGS84, degrees
 
 Array = NDArray[np.float64]
 Bounds = tuple[float, float, float, float]
@@ -76,7 +76,7 @@ class Raster:
         with self.open() as source:
             if source.crs is None or source.transform.is_identity:
                 raise self.error("has no georeference; add one with gdal_edit.py -a_srs and -a_ullr")
-            bounds = self.rasterio.warp.transform_bounds(source.crs, _EARTH, *source.bounds)
+            bounds = self.rasterio.warp.transform_bounds(source.crs, _WGS84, *source.bounds)
             if not np.isfinite(bounds).all():
                 raise self.error(
                     "has a projection that maps it to no place on Earth; correct it with gdal_edit.py -a_srs"
@@ -131,29 +131,29 @@ class Raster:
             (ny,), (nx,) degrees, evenly spaced and ascending.
         """
         whole = np.full((bands, len(latitude), len(longitude)), np.nan, np.float32)
-        longitude = longitude + _turn(self.bounds, longitude)
+        longitude = longitude + _wrap_offset(self.bounds, longitude)
         west, south, east, north = self.bounds
-        rows, columns = _within(latitude, south, north), _within(longitude, west, east)
-        found = np.full(whole[:, rows, columns].shape, np.nan, np.float32)
-        if found.size == 0:
+        rows, columns = _slice_between(latitude, south, north), _slice_between(longitude, west, east)
+        values = np.full(whole[:, rows, columns].shape, np.nan, np.float32)
+        if values.size == 0:
             return whole
         dx, dy = (float((axis[-1] - axis[0]) / (len(axis) - 1)) for axis in (longitude, latitude))
         corner = longitude[columns.start] - 0.5 * dx, latitude[rows.start] - 0.5 * dy
         with self.open() as source:
             self.rasterio.warp.reproject(
                 self.rasterio.band(source, list(range(1, bands + 1))),
-                found,
+                values,
                 dst_transform=self.rasterio.Affine(dx, 0.0, corner[0], 0.0, dy, corner[1]),
-                dst_crs=_EARTH,
+                dst_crs=_WGS84,
                 src_nodata=self.nodata,
                 dst_nodata=np.nan,
                 resampling=self.rasterio.warp.Resampling.bilinear,
                 warp_mem_limit=_MEMORY,
-                tolerance=_OFF,
+                tolerance=_TOLERANCE,
             )
             scales, offsets = source.scales[:bands], source.offsets[:bands]
         scale, offset = (np.array(each, np.float32)[:, None, None] for each in (scales, offsets))
-        whole[:, rows, columns] = found * scale + offset
+        whole[:, rows, columns] = values * scale + offset
         return whole
 
     def glimpse(self, within: Bounds) -> tuple[NDArray[np.float32], Array, Array]:
@@ -163,15 +163,15 @@ class Raster:
         """
         values, columns, rows = [], [], []
         with self.open() as source:
-            box = self.rasterio.warp.transform_bounds(_EARTH, source.crs, *within)
+            box = self.rasterio.warp.transform_bounds(_WGS84, source.crs, *within)
             a, b, c, d, e, f = source.transform[:6]
             (top, bottom), (left, right) = (
                 np.clip(at, 0, side - 1)
                 for at, side in zip(_pixels(source.transform, box), source.shape, strict=True)
             )
-            for row in np.linspace(top, bottom, _GLIMPSES).astype(int):
-                for column in np.linspace(left, right, _GLIMPSES).astype(int):
-                    window = self.rasterio.windows.Window(column, row, _GLIMPSE, _GLIMPSE)
+            for row in np.linspace(top, bottom, _SAMPLES).astype(int):
+                for column in np.linspace(left, right, _SAMPLES).astype(int):
+                    window = self.rasterio.windows.Window(column, row, _SAMPLE_SIZE, _SAMPLE_SIZE)
                     read = source.read(1, window=window, masked=True).astype(np.float32).filled(np.nan)
                     y, x = (v + 0.5 for v in np.mgrid[: read.shape[0], : read.shape[1]])
                     values.append(read.ravel())
@@ -179,15 +179,15 @@ class Raster:
                     rows.append((y + row).ravel())
             x, y = np.concatenate(columns), np.concatenate(rows)
             place = a * x + b * y + c, d * x + e * y + f
-            longitude, latitude = self.rasterio.warp.transform(source.crs, _EARTH, *place)
-            found = np.concatenate(values) * np.float32(source.scales[0]) + np.float32(source.offsets[0])
-        return found, np.array(latitude), np.array(longitude)
+            longitude, latitude = self.rasterio.warp.transform(source.crs, _WGS84, *place)
+            heights = np.concatenate(values) * np.float32(source.scales[0]) + np.float32(source.offsets[0])
+        return heights, np.array(latitude), np.array(longitude)
 
 
 def overlap(bounds: Bounds, latitude: Array, longitude: Array) -> bool:
     """Whether a box (west, south, east, north) overlaps the bounding box of these points; degrees."""
     west, south, east, north = bounds
-    longitude = longitude + _turn(bounds, longitude)
+    longitude = longitude + _wrap_offset(bounds, longitude)
     return bool(
         latitude.min() < north
         and latitude.max() > south
@@ -207,13 +207,13 @@ def said(bounds: Bounds) -> str:
     return f"{south:.3f} to {north:.3f} N and {west:.3f} to {east:.3f} E"
 
 
-def _turn(bounds: Bounds, longitude: Array) -> float:
+def _wrap_offset(bounds: Bounds, longitude: Array) -> float:
     """Multiple of 360 degrees that shifts these longitudes to those of the bounds."""
     middle = 0.5 * float(longitude[0] + longitude[-1])
     return float(areas.turned(middle, 0.5 * (bounds[0] + bounds[2]))) - middle
 
 
-def _within(axis: Array, low: float, high: float) -> slice:
+def _slice_between(axis: Array, low: float, high: float) -> slice:
     """Slice of an even, ascending axis between two values, with one more point at each end."""
     step = axis[1] - axis[0]
     first, last = np.searchsorted(axis, (low - step, high + step))

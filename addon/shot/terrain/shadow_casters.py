@@ -54,17 +54,17 @@ def _reaches(
     row, column = np.unravel_index(rest, lit.shape)
     y, x, top = north[row], east[column], (centre[..., 2] + rise).ravel()[rest]
     toward_north, toward_east = -np.cos(np.radians(bearing)), -np.sin(np.radians(bearing))
-    found, going = np.zeros(len(rest), bool), np.arange(len(rest))
+    shades, going = np.zeros(len(rest), bool), np.arange(len(rest))
     way = 0.0
     while len(going) and np.isfinite(step):  # a single block shades no other
         way += step
         row = np.searchsorted(ends[0], y[going] + way * toward_north)
         column = np.searchsorted(ends[1], x[going] + way * toward_east)
         above = top[going] - max(way - 2.0 * step, 0.0) * np.tan(np.radians(height)) >= low[row, column]
-        found[going] |= above & lit[row, column]
+        shades[going] |= above & lit[row, column]
         inside = (row > 0) & (row < len(north) - 1) & (column > 0) & (column < len(east) - 1)
-        going = going[above & inside & ~found[going]]
-    return found
+        going = going[above & inside & ~shades[going]]
+    return shades
 
 
 def _suns(shot: ShotView) -> list[tuple[float, float]]:

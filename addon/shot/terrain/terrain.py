@@ -120,14 +120,14 @@ class Ground:
 
     def seen_from(self, eyes: ArrayLike) -> Ground:
         """The same terrain with detail near these eye points (m, 3) in the scene, m."""
-        seen = copy.copy(self)
-        seen.eyes = np.asarray(eyes, np.float64).reshape(-1, 3)
-        if self._relief.model and self.near_radius > 0.0 and (near := seen._round_eyes(seen._grid())):
-            seen.patch = dem_patch.patch(self.fields, self._share, self._relief, self.cell, near)
-        if seen.patch:
-            seen.surface = self._surface(seen.patch)
-            seen.rough = max(RELIEF, float(np.abs(seen.patch.offset).max()))
-        return seen
+        detailed = copy.copy(self)
+        detailed.eyes = np.asarray(eyes, np.float64).reshape(-1, 3)
+        if self._relief.model and self.near_radius > 0.0 and (near := detailed._near_eyes(detailed._grid())):
+            detailed.patch = dem_patch.patch(self.fields, self._share, self._relief, self.cell, near)
+        if detailed.patch:
+            detailed.surface = self._surface(detailed.patch)
+            detailed.rough = max(RELIEF, float(np.abs(detailed.patch.offset).max()))
+        return detailed
 
     def _grid(self) -> Array:
         """Scene points (ny, nx, 3) of the grid, m."""
@@ -167,7 +167,7 @@ class Ground:
         least = burning.least_crossing(max(self.cell))
         row, column = np.nonzero(reached)
         crossing[reached] = burning.crossing(arrival, row, column, least)
-        time, crossing, known = _beyond(np.where(reached, arrival, 0.0), crossing, reached)
+        time, crossing, known = _extrapolated(np.where(reached, arrival, 0.0), crossing, reached)
         part = np.clip(0.5 + (end - time) / np.where(known, crossing, 1.0), 0.0, 1.0)
         burned = np.where(known & (reached | (time > end)), part, 0.0)
         if self.made_up:
@@ -230,7 +230,7 @@ class Ground:
         has finer data, its lowest point in a quad counts.
         """
         place = self._grid()
-        near = self._round_eyes(place)
+        near = self._near_eyes(place)
         if near is None or self.near_radius <= 0.0:
             return place
         height = self.fields.elevation[near]
@@ -250,7 +250,7 @@ class Ground:
             below[self.patch.place] = self.patch.hollows()
         return below
 
-    def _round_eyes(self, place: Array) -> tuple[slice, slice] | None:
+    def _near_eyes(self, place: Array) -> tuple[slice, slice] | None:
         """Rows and columns of the grid (points `place`) that contain everything near an eye."""
         if len(self.eyes) == 0:
             return None
@@ -361,7 +361,9 @@ def box(chosen: NDArray[np.bool_], more: int = 0) -> tuple[slice, slice] | None:
     return slices[0], slices[1]
 
 
-def _beyond(time: Array, crossing: Array, known: NDArray[np.bool_]) -> tuple[Array, Array, NDArray[np.bool_]]:
+def _extrapolated(
+    time: Array, crossing: Array, known: NDArray[np.bool_]
+) -> tuple[Array, Array, NDArray[np.bool_]]:
     """Extrapolate times and crossings (s) to `_RINGS` rings of cells; also return the extended mask."""
     time, crossing, known = time.copy(), crossing.copy(), known.copy()
     for _ in range(_RINGS):

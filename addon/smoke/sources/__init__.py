@@ -25,17 +25,17 @@ def known() -> dict[str, type[Source]]:
 
 def choices() -> dict[str, str]:
     """Help of each source that `smoke.method` selects, by name."""
-    return {name: each.help for name, each in known().items() if not each.fields}
+    return {name: source.help for name, source in known().items() if not source.fields}
 
 
 def preview() -> str:
     """Name of the source that is a quick preview of another one."""
-    return next(name for name, each in known().items() if each.preview_of)
+    return next(name for name, source in known().items() if source.preview_of)
 
 
 def choose(method: str, fields: Collection[str]) -> type[Source]:
     """Select the source of a run: one whose fields the run has, else the one named `method`."""
-    own = (each for each in known().values() if each.fields and set(each.fields) <= set(fields))
+    own = (source for source in known().values() if source.fields and set(source.fields) <= set(fields))
     return next(own, None) or known()[method]
 
 

@@ -1,4 +1,4 @@
-"""Interface of smoke sources, with what they share."""
+"""Interface of smoke sources, and shared methods."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ class Source(ABC):
         own = [Path(inspect.getfile(cls)), *sorted(Path(__file__).parent.glob("_*.py"))]
         return [_relative(path) for path in own] + list(cls.code)
 
-    # what its volumes depend on, beside the run, the time and [smoke]
+    # inputs of its volumes, in addition to the run, the time and [smoke]
 
     def inputs(self) -> dict[str, Any]:
         """Further inputs of its volumes, in JSON form."""
@@ -111,7 +111,7 @@ class Source(ABC):
     def voxels(self) -> list[Any]:
         """Voxel sizes of its volumes, in JSON form."""
 
-    # what has to be done once, before frames are written
+    # preparation, once before frames are written
 
     @property
     def domains(self) -> list[Domain]:
@@ -134,7 +134,7 @@ class Source(ABC):
         """Protect prepared files from eviction while in use."""
         return nullcontext()
 
-    # what is drawn
+    # rendering
 
     @property
     def marched(self) -> bool:

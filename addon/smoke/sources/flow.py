@@ -47,7 +47,7 @@ class FlowSource(Source):
 
     def voxels(self) -> list[Any]:
         """Layers with their voxel sizes, and the flow's cell sizes, m."""
-        return [[each.name, each.voxel, self.shot.scale.cell] for each in self._painted]
+        return [[layer.name, layer.voxel, self.shot.scale.cell] for layer in self._painted]
 
     @property
     def domains(self) -> list[Domain]:
@@ -55,7 +55,7 @@ class FlowSource(Source):
         return self.flow.domains
 
     def cost(self) -> cost_estimate.Cost | None:
-        """Cost of what is still to be solved."""
+        """Cost of the remaining solution."""
         return cost_estimate.estimate(self.flow)
 
     def is_prepared(self, frame: int) -> bool:
@@ -80,15 +80,15 @@ class FlowSource(Source):
         """Volume layers of both domains; one empty volume without fire."""
         thickest = self.shot.settings.smoke.extinction or flow_frames.thickest(self.shot.scale)
         depth = view.SOLVED_STEP_DEPTH if self.marched else view.STEP_DEPTH
-        found = [
-            VolumeLayer(each.name, each.voxel, depth / thickest * (1.0 if each.fine else 2.0), thickest)
-            for each in self._painted
+        result = [
+            VolumeLayer(layer.name, layer.voxel, depth / thickest * (1.0 if layer.fine else 2.0), thickest)
+            for layer in self._painted
         ]
-        return found or [VolumeLayer("smoke", _EMPTY, _EMPTY, thickest)]
+        return result or [VolumeLayer("smoke", _EMPTY, _EMPTY, thickest)]
 
     def painted_voxels(self) -> int:
         """Voxels of the largest layer's whole domain, with or without smoke."""
-        return max((_voxels(each) for each in self._painted), default=0)
+        return max((_voxels(layer) for layer in self._painted), default=0)
 
     def write(self, path: Path, frame: int) -> volume.VdbSummary:
         """Write the volumes of a solved frame; `path` is written last."""
@@ -116,7 +116,7 @@ class FlowSource(Source):
         """Bricks of a frame for ray marching, without a file."""
         self.flow.ready(frame)
         what = (frame, self._glow(float(self.times[frame - 1])), self.sight(frame))
-        found: list[volume.Bricks] = []
+        result: list[volume.Bricks] = []
         beyond: flow_frames.Beyond | None = None
         painters = list(self.painters)
         window = close_up.window(self.shot, frame, painters[-1].layer.voxel) if painters else None
@@ -126,8 +126,8 @@ class FlowSource(Source):
             fine = window if painter.layer.fine else None
             paint = functools.partial(painter.bricks, *what, beyond, fine)
             made, beyond = self._unbroken(frame, paint)
-            found.append(made)
-        return found
+            result.append(made)
+        return result
 
     @functools.cached_property
     def _painted(self) -> list[flow_frames.Layer]:
@@ -136,9 +136,9 @@ class FlowSource(Source):
     @functools.cached_property
     def painters(self) -> list[flow_frames.Painter]:
         """Painters, one for each layer."""
-        found = self._painted
-        inner = found[-1].domain.box if len(found) > 1 else None
-        return [flow_frames.Painter(self.shot, layer, None if layer.fine else inner) for layer in found]
+        layers = self._painted
+        inner = layers[-1].domain.box if len(layers) > 1 else None
+        return [flow_frames.Painter(self.shot, layer, None if layer.fine else inner) for layer in layers]
 
     def _close(self, layer: flow_frames.Layer, window: close_up.Window) -> flow_frames.Painter:
         """Painter of a layer's part within a close-up window."""

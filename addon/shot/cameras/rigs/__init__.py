@@ -1,8 +1,8 @@
-"""Kinds of camera: each module of this folder is one, unless its name begins with "_".
+"""Camera rigs: each module of this folder is a kind of camera, unless its name begins with "_".
 
-It defines a frozen dataclass derived from `Rig`, made of keys (see `schema.key`) that lie flat in the
-camera's table, and names it `RIG`. The module's name is the kind's name, the first line of the class's
-docstring its description.
+A module defines `RIG`, a frozen dataclass derived from `Rig`. Its fields are keys (see `schema.key`) of the
+camera's table. The module's name is the name of the kind; the first line of the class's docstring is its
+description.
 """
 
 from __future__ import annotations
@@ -24,52 +24,52 @@ if TYPE_CHECKING:
 
     Place = tuple[Where, float, float]
 
-USUAL = "drone"  # where a camera names no kind
+USUAL = "drone"  # default kind
 
 
 class Rig:
-    """How a camera is set up and moved: what is particular to its kind.
+    """Camera rig: setup and motion of one kind of camera.
 
     Attributes
     ----------
     around
-        It sees all round with two eyes, which Cycles alone renders, in pictures that are square.
+        Whether it is a stereo panorama, which only Cycles renders, with square pictures.
     """
 
     around: ClassVar[bool] = False
 
     @classmethod
     def from_view(cls, view: View) -> Rig:
-        """One that shows about what is seen in a view; a usual one where its kind cannot."""
+        """Rig that shows about the same as a view; the default kind if this kind cannot."""
         return cls()
 
     def validate(self) -> tuple[Where, str] | None:
-        """What no single key can say: where in its table, and words that follow the camera's name."""
+        """Check keys against each other: place in its table, and message after the camera's name; or None."""
         return None
 
     def coordinates(self) -> list[Place]:
-        """Where in the table a place stands, and its latitude and longitude: all must be on the ground."""
+        """Coordinates in its table: place and latitude, longitude; all must lie on the terrain."""
         return []
 
     def input_files(self) -> list[Path]:
-        """Files that its way depends on."""
+        """Files that its path depends on."""
         return []
 
     def followed(self, cameras: Sequence[CameraSettings]) -> CameraSettings | None:
-        """Another of these cameras on whose way its own depends."""
+        """Camera among `cameras` on whose path its own depends; None without one."""
         return None
 
     def validate_against(self, run: Run, frames: Frames) -> tuple[Where, str] | None:
-        """What of it does not fit the run: where in its table, and words that follow the camera's name."""
+        """Check it against the run: place in its table, and message after the camera's name; or None."""
         return None
 
     def path(self, camera: CameraSettings, shot: ShotView, ground: Any) -> Any:
-        """The camera's `path.Path` through the shot over this `terrain.Ground`."""
+        """Path of the camera through the shot (`path.Path`) over this `terrain.Ground`."""
         raise NotImplementedError
 
 
 @functools.cache
 def kinds() -> dict[str, type[Rig]]:
-    """Every kind of camera by its name."""
+    """All kinds of camera by name."""
     names = sorted(module.name for module in pkgutil.iter_modules(__path__) if module.name[0] != "_")
     return {name: importlib.import_module(f"{__name__}.{name}").RIG for name in names}

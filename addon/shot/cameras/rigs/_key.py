@@ -1,4 +1,4 @@
-"""A camera at one moment, for every kind of camera that is placed by keys."""
+"""Camera key: position and view at one time, for all kinds of camera with keys."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class _Timed(Protocol):
 
 
 def rising(keys: Sequence[_Timed]) -> tuple[Where, str] | None:
-    """What is wrong with keys whose moments do not rise."""
+    """Check that the times of keys ascend."""
     for i, (before, after) in enumerate(itertools.pairwise(keys), start=1):
         if after.at <= before.at:
             return ("keys", i, "at"), f"has keys at {before.at:g} and then {after.at:g}; at must rise"

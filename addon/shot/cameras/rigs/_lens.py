@@ -1,4 +1,4 @@
-"""The lens and the chip (or film) of a camera in perspective."""
+"""Lens and sensor of a perspective camera."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ FOCAL_LENGTH: Bounds = {"unit": "mm", "at_least": 1, "at_most": 5000}
 
 @dataclass(frozen=True)
 class Lens(Rig):
-    """A kind of camera that has a lens."""
+    """Kind of camera with a lens."""
 
     focal_length: float = key(28.0, "focal length", **FOCAL_LENGTH)
     sensor_width: float = key(SENSOR, "sensor width; 36: full frame, 13.2: 1 inch, 6.4: small drone", **WIDTH)
 
     def half(self, camera: CameraSettings, shot: ShotView) -> tuple[float, float]:
-        """Tangents of half the angles of view, across and up; pictures are as wide as the chip."""
+        """Tangents of half the angles of view, across and up; the picture is as wide as the sensor."""
         width, height = shot.resolution(camera)
         half = 0.5 * self.sensor_width / self.focal_length
         return half, half * height / width

@@ -1,4 +1,4 @@
-"""What somebody sees who wants a camera there: what kinds of camera are made of."""
+"""View of a person in the viewport, from which cameras are made."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ class LensKeys(TypedDict):
 
 @dataclass(frozen=True)
 class View:
-    """A place to look from, and what is looked at.
+    """Viewpoint and look-at point.
 
     Attributes
     ----------
     latitude, longitude, height
-        Of the eye, degrees and m above the sea.
+        Eye position, degrees and m above the sea.
     above
-        Of the eye above the ground under it, m, above 0.
+        Eye height above the ground, m, greater than 0.
     heading, tilt, roll
-        Bearing clockwise from north, angle under the horizon and lean to the right, degrees.
+        Bearing clockwise from north, angle below the horizon and lean to the right, degrees.
     aim
-        Latitude and longitude of the ground in the middle of the view; what is before the eye where that
-        looks past the ground.
+        Latitude and longitude of the ground at the centre of the view; of the point in front of the eye if
+        the view misses the ground.
     away, rise
-        How far the aim is over the ground, and how much higher than it the eye is, m.
+        Horizontal distance of the aim, and height of the eye above it, m.
     focal_length, sensor_width
-        Of a lens that shows as much from left to right, mm.
+        Lens with the same horizontal angle of view, mm.
     """
 
     latitude: float
@@ -49,10 +49,10 @@ class View:
 
     @property
     def lens(self) -> LensKeys:
-        """The keys of a lens."""
+        """Lens keys."""
         return {"focal_length": self.focal_length, "sensor_width": self.sensor_width}
 
     @property
     def width(self) -> float:
-        """Width of what is seen at the aim, m."""
+        """Width of the view at the aim, m."""
         return (self.away**2 + self.rise**2) ** 0.5 * self.sensor_width / self.focal_length

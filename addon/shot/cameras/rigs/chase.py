@@ -1,4 +1,4 @@
-"""A chase: a camera that goes along with the head of the fire and keeps it in the picture."""
+"""Chase camera: follows the head of the fire and keeps it in the picture."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ class Chase(Lens):
 
     @classmethod
     def from_view(cls, view: View) -> Chase:
-        """As far from the head, and as high above the ground, as the eye is from the middle of the view."""
+        """Same distance and height above ground as the eye has from the centre of the view."""
         return cls(**view.lens, distance=max(view.away, 1.0), height=view.above)
 
     def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
-        """Beside the head, whose place and course are smooth over a fifth of the shot, and looking at it."""
+        """Path at an offset from the head, which is smoothed over a fifth of the shot, looking at it."""
         target = targets.follow("head", ground, shot.frames.times, self.target_height)
         away = targets.smoothed(flight.heading(target)) + np.radians(self.side)
         position = target + self.distance * np.stack([np.sin(away), np.cos(away), 0.0 * away], axis=-1)

@@ -1,4 +1,4 @@
-"""A drone: a camera in perspective that flies from key to key."""
+"""Drone camera: perspective camera that flies from key to key."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from . import Place
     from ._view import View
 
-_CLEARANCE = 0.35  # of the height asked for above the ground that stays over hills between keys
+_CLEARANCE = 0.35  # fraction of the requested height above ground that is kept over hills between keys
 
 
 @dataclass(frozen=True)
@@ -54,44 +54,44 @@ class Drone(Lens):
 
     @classmethod
     def from_view(cls, view: View) -> Drone:
-        """It hovers there and looks at what is in the middle of the view."""
+        """Hover at the eye and look at the centre of the view."""
         place = view.latitude, view.longitude, max(view.height, 1.0)
         return cls(**view.lens, keys=(CameraKey(0.0, *place, "point", *view.aim, above="sea"),))
 
     def validate(self) -> tuple[Where, str] | None:
-        """A drone is somewhere, and its moments rise."""
+        """Check that there are keys or a track, and that times of keys ascend."""
         if not self.keys and self.track is None:
             return ("keys",), "has no [[cameras.keys]] and no track; a drone needs at least one key"
         return rising(self.keys)
 
     def coordinates(self) -> list[Place]:
-        """Its keys, and the points that it looks at."""
-        found: list[Place] = []
+        """Positions and targets of its keys."""
+        result: list[Place] = []
         for i, at in enumerate(self.keys):
             if self.track is None:
-                found.append((("keys", i, "latitude"), at.latitude, at.longitude))
+                result.append((("keys", i, "latitude"), at.latitude, at.longitude))
             if at.target == "point":
-                found.append((("keys", i, "target_latitude"), at.target_latitude, at.target_longitude))
+                result.append((("keys", i, "target_latitude"), at.target_latitude, at.target_longitude))
         if self.track is not None:
-            found += [(("track",), *corner) for corner in read(self.track).corners()]
-        return found
+            result += [(("track",), *corner) for corner in read(self.track).corners()]
+        return result
 
     def input_files(self) -> list[File]:
         """Its track."""
         return [] if self.track is None else [self.track]
 
     def validate_against(self, run: Run, frames: Frames) -> tuple[Where, str] | None:
-        """A track that keeps its own times is flown while the frames are."""
+        """Check that a track with recorded times overlaps the shot."""
         if self.track is None or self.track_times != "own":
             return None
         missed = read(self.track).missed(run, frames)
         return (("track",), f"follows {self.track.name}, which {missed}") if missed else None
 
     def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
-        """Smooth between keys or along its track, over the hills between, looking at its targets."""
+        """Smooth path between keys or along its track, above the hills between, with its look-at points."""
         count = shot.frames.count
         moments = np.linspace(0.0, 1.0, count)
-        keys = sorted(self.keys, key=lambda each: each.at) or [CameraKey(target="ahead")]
+        keys = sorted(self.keys, key=lambda pose: pose.at) or [CameraKey(target="ahead")]
         clearance = np.full(count, self.clearance)
         if self.track is None:
             way = _waypoints(keys)
@@ -106,7 +106,7 @@ class Drone(Lens):
         target = self._target(keys, position, moments, shot, ground, moving)
         short = flight.short(ground, position, clearance)
         hidden = np.zeros(count)
-        if any(each.target in targets.MOVING for each in keys):  # nobody could know where the fire would be
+        if any(pose.target in targets.MOVING for pose in keys):  # a pilot cannot foresee the fire's position
             hidden = path.hidden(ground, position, target)
         if self.over_ridges:
             short = np.maximum(short, hidden)
@@ -129,20 +129,20 @@ class Drone(Lens):
         ground: Ground,
         moving: dict[tuple[str, float], Array],
     ) -> Array:
-        """Where it looks (frames, 3) from there."""
-        at = np.array([each.at for each in keys])
-        aims = [_aim(each, position, shot, ground, moving) for each in keys]
+        """Look-at points (frames, 3) from these positions."""
+        at = np.array([pose.at for pose in keys])
+        aims = [_aim(pose, position, shot, ground, moving) for pose in keys]
         return path.blend(at, np.array(aims), moments)
 
 
 def _waypoints(keys: list[CameraKey]) -> Waypoints:
-    values = np.array([(each.at, each.latitude, each.longitude, each.height) for each in keys], np.float64)
+    values = np.array([(pose.at, pose.latitude, pose.longitude, pose.height) for pose in keys], np.float64)
     at, latitude, longitude, height = values.T
-    return Waypoints(at, latitude, longitude, height, np.array([each.above == "ground" for each in keys]))
+    return Waypoints(at, latitude, longitude, height, np.array([pose.above == "ground" for pose in keys]))
 
 
 def _moving(keys: list[CameraKey], shot: ShotView, ground: Ground) -> dict[tuple[str, float], Array]:
-    """Where what moves is in every frame (frames, 3), by its name and the height above the ground."""
+    """Positions (frames, 3) of moving targets, by name and height above ground."""
     wanted = {(each.target, each.target_height) for each in keys if each.target in targets.MOVING}
     return {each: targets.follow(each[0], ground, shot.frames.times, each[1]) for each in wanted}
 
@@ -150,7 +150,7 @@ def _moving(keys: list[CameraKey], shot: ShotView, ground: Ground) -> dict[tuple
 def _aim(
     at: CameraKey, position: Array, shot: ShotView, ground: Ground, moving: dict[tuple[str, float], Array]
 ) -> Array:
-    """Where a key points in every frame (frames, 3)."""
+    """Look-at points (frames, 3) of a key."""
     if at.target == "ahead":
         return flight.ahead(position, np.full(len(position), at.tilt))
     if at.target == "point":

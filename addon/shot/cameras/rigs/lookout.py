@@ -1,4 +1,4 @@
-"""A lookout: a camera on a mast that turns and zooms."""
+"""Lookout camera: camera on a mast that pans, tilts and zooms."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ if TYPE_CHECKING:
     from . import Place
     from ._view import View
 
-_FAR = 5000.0  # m, of the points that it counts as looking at
+_FAR = 5000.0  # m, distance of its look-at points
 
 
 @dataclass(frozen=True)
 class LookoutKey:
-    """Where a lookout looks at one time."""
+    """View of a lookout at one time."""
 
     at: float = key(0.0, "time of the key; 0: first frame, 1: last frame", at_least=0, at_most=1)
     pan: float = key(0.0, "bearing, clockwise from north; the camera turns the shorter way", **ANGLE)
@@ -48,22 +48,22 @@ class Lookout(Lens):
 
     @classmethod
     def from_view(cls, view: View) -> Lookout:
-        """A mast as high as the eye."""
+        """Mast of the eye's height."""
         keys = (LookoutKey(0.0, view.heading, float(np.clip(view.tilt, -89.0, 89.0))),)
         return cls(
             **view.lens, latitude=view.latitude, longitude=view.longitude, height=view.above, keys=keys
         )
 
     def validate(self) -> tuple[Where, str] | None:
-        """Its moments rise."""
+        """Check that times of keys ascend."""
         return rising(self.keys)
 
     def coordinates(self) -> list[Place]:
-        """Where it stands."""
+        """Position of the mast."""
         return [(("latitude",), self.latitude, self.longitude)]
 
     def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
-        """It stays; bearings count from the north and tilts from the horizon of its own place."""
+        """Fixed position; bearings count from north and tilts from the horizon at the mast."""
         count = shot.frames.count
         keys = self.keys or (LookoutKey(),)
         at, pan, tilt, zoom = np.array([[k.at, k.pan, k.tilt, k.zoom] for k in keys], np.float64).T

@@ -1,4 +1,4 @@
-"""A minimap: a map to scale that goes along with another camera."""
+"""Minimap camera: orthographic map that moves with another camera."""
 
 from __future__ import annotations
 
@@ -29,16 +29,16 @@ class Minimap(Rig):
 
     @classmethod
     def from_view(cls, view: View) -> Minimap:
-        """As wide as the view."""
+        """Map as wide as the view."""
         return cls(swath=view.width)
 
     def followed(self, cameras: Sequence[CameraSettings]) -> CameraSettings | None:
-        """The camera that it follows; None where there is none of that name, or none at all."""
-        found = (each for each in cameras if not hasattr(each.rig, "follows"))
-        return next((each for each in found if self.follows in ("", each.name)), None)
+        """The camera that it follows; None without a camera of that name, or without any."""
+        candidates = (camera for camera in cameras if not hasattr(camera.rig, "follows"))
+        return next((candidate for candidate in candidates if self.follows in ("", candidate.name)), None)
 
     def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
-        """Over the camera that it follows in every frame; over the middle of the run without one."""
+        """Path above the followed camera in every frame; above the run's centre without one."""
         leader = self.followed(shot.cameras)
         east, north = np.zeros((2, shot.frames.count))
         if leader is not None:

@@ -1,4 +1,4 @@
-"""A mounted sensor: one more camera on the mount of another, with a lens of its own if it has one."""
+"""Mounted sensor: further camera on the mount of another, optionally with its own lens."""
 
 from __future__ import annotations
 
@@ -31,25 +31,25 @@ class Mounted(Rig):
     sensor_width: float = key(SENSOR, "width of its own sensor, used with its own focal length", **WIDTH)
 
     def validate(self) -> tuple[Where, str] | None:
-        """It is on some mount."""
+        """Check that it has a mount."""
         return None if self.follows else (("follows",), "has no follows; name the camera it is mounted with")
 
     def followed(self, cameras: Sequence[CameraSettings]) -> CameraSettings | None:
-        """The camera whose mount it shares; None where none in perspective has the name."""
-        found = (each for each in cameras if isinstance(each.rig, Lens))
-        return next((each for each in found if each.name == self.follows), None)
+        """The perspective camera whose mount it shares; None without one of that name."""
+        candidates = (camera for camera in cameras if isinstance(camera.rig, Lens))
+        return next((candidate for candidate in candidates if candidate.name == self.follows), None)
 
     def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
-        """The way of the camera that it follows, seen by its own lens."""
+        """Path of the followed camera with its own lens."""
         leader = self.followed(shot.cameras)
         assert leader  # the settings see to it
         way = self.through(leader.rig.path(leader, shot, ground))
         width, height = shot.resolution(camera)
         half = way.half[0], way.half[0] * height / width
-        return replace(way, camera=camera, half=half, hidden=None)  # that camera warns of ridges
+        return replace(way, camera=camera, half=half, hidden=None)  # the followed camera warns of ridges
 
     def through(self, way: Path) -> Path:
-        """The way of the mount's camera seen by its own lens, in square pictures if it has one."""
+        """Path of the mount's camera with its own lens; with one of its own, pictures are square."""
         if self.focal_length is None:
             return way
         own = 0.5 * self.sensor_width / self.focal_length

@@ -1,4 +1,4 @@
-"""An orbit: a camera that circles a point and looks at it."""
+"""Orbit camera: circles a point and looks at it."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class Orbit(Lens):
 
     @classmethod
     def from_view(cls, view: View) -> Orbit:
-        """Round what is in the middle of the view, beginning at the eye."""
+        """Circle around the centre of the view, starting at the eye."""
         latitude, longitude = view.aim
         return cls(
             **view.lens,
@@ -66,13 +66,13 @@ class Orbit(Lens):
         )
 
     def coordinates(self) -> list[Place]:
-        """The point that it circles."""
+        """Centre of the circle."""
         if self.latitude is None or self.longitude is None:
             return []
         return [(("latitude",), self.latitude, self.longitude)]
 
     def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
-        """Round the point at its speed; hills under the circle lift it smoothly."""
+        """Circular path at its speed, raised smoothly above hills."""
         middle = ground.frame
         point = ground.point(
             middle.latitude if self.latitude is None else self.latitude,

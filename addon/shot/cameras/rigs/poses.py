@@ -1,4 +1,4 @@
-"""Poses: a camera put where somebody wants it, moment by moment, as it is flown and keyed by hand."""
+"""Posed camera: keyframes of position, rotation and lens, as flown or keyed by hand."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from . import Place
     from ._view import View
 
-_FAR = 5000.0  # m, of the points that it counts as looking at
+_FAR = 5000.0  # m, distance of its look-at points
 
 
 @dataclass(frozen=True)
@@ -52,33 +52,33 @@ class Poses(Lens):
 
     @classmethod
     def from_view(cls, view: View) -> Poses:
-        """The view itself."""
+        """Pose of the view."""
         pose = Pose(0.0, view.latitude, view.longitude, view.height, view.heading, view.tilt, view.roll)
         return cls(**view.lens, keys=(pose,))
 
     def validate(self) -> tuple[Where, str] | None:
-        """It is somewhere, and its moments rise."""
+        """Check that there are keys, and that their times ascend."""
         if not self.keys:
             return ("keys",), "has no [[cameras.keys]]; poses need at least one"
         return rising(self.keys)
 
     def coordinates(self) -> list[Place]:
-        """Its poses."""
+        """Positions of its poses."""
         return [(("keys", i, "latitude"), at.latitude, at.longitude) for i, at in enumerate(self.keys)]
 
     def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
-        """Cubics from pose to pose: places in the scene, quaternions, and logarithms of focal lengths."""
+        """Cubic interpolation of positions, quaternions and logarithms of focal lengths between poses."""
         keys, frame = self.keys, ground.frame
-        columns = ((each.latitude, each.longitude, each.height) for each in keys)
+        columns = ((pose.latitude, pose.longitude, pose.height) for pose in keys)
         place = frame.forward(*np.array([*columns], np.float64).T.copy())
-        matrix = np.array([_matrix(frame, at, each) for at, each in zip(place, keys, strict=True)])
-        lens = np.log([[each.lens or self.focal_length] for each in keys])
-        at = np.array([each.at for each in keys], np.float64)
+        matrix = np.array([_matrix(frame, at, pose) for at, pose in zip(place, keys, strict=True)])
+        lens = np.log([[pose.lens or self.focal_length] for pose in keys])
+        at = np.array([pose.at for pose in keys], np.float64)
         values = np.hstack([place, turning.quaternions(matrix), lens])
         moments = np.linspace(0.0, 1.0, shot.frames.count)
         shown = sparse_keys.through(at, values, moments)
         exact = {round(moment, 12): k for k, moment in enumerate(at)}
-        for i, moment in enumerate(moments):  # not one bit off in the frames of its keys
+        for i, moment in enumerate(moments):  # exact values in the frames of keys
             if (k := exact.get(round(float(moment), 12))) is not None:
                 shown[i] = values[k]
         rotation, wider = turning.matrices(shown[:, 3:7]), np.exp(-shown[:, 7])
@@ -102,12 +102,12 @@ def _matrix(frame: geo.LocalFrame, place: path.Array, pose: Pose) -> path.Array:
 def keyed(
     frame: geo.LocalFrame, at: path.Array, place: path.Array, rotation: path.Array, lens: path.Array
 ) -> tuple[Pose, ...]:
-    """Poses of a camera at moments (k,): places (k, 3) and matrices (k, 3, 3) in the scene, lenses (k,) mm.
+    """Poses of a camera at times (k,): positions (k, 3), matrices (k, 3, 3) in the scene, lenses (k,), mm.
 
     Parameters
     ----------
     lens
-        Where all are one, the poses leave it to the camera's focal length.
+        If all are equal, the camera's focal length replaces those of the poses.
     """
     latitude, longitude, height = frame.reverse(place)
     several = bool(np.ptp(lens) > 0.0)

@@ -1,4 +1,4 @@
-"""A satellite: a camera far above that looks straight down, or from its place over the equator."""
+"""Satellite camera: nadir view from far above, or view from a geostationary orbit."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ if TYPE_CHECKING:
     from . import Place
     from ._view import View
 
-HEIGHT = 60_000.0  # m above the ground, over any smoke
-ORBIT = 35_786_023.0  # m above the equator: 42,164.160 km from the middle of the Earth, less 6,378.137 km
-_LOWEST = 5.0  # degrees over the horizon, where air and hills are in the way
+HEIGHT = 60_000.0  # m above ground, above all smoke
+ORBIT = 35_786_023.0  # m above the equator: 42,164.160 km from the Earth's centre, less 6,378.137 km
+_LOWEST = 5.0  # degrees, lowest elevation of the satellite; below, air and hills obstruct the view
 
 
 @dataclass(frozen=True)
@@ -50,19 +50,19 @@ class Satellite(Rig):
 
     @classmethod
     def from_view(cls, view: View) -> Satellite:
-        """Straight over the middle of the view, and as wide."""
+        """Nadir view of the centre of the view, with the same width."""
         return cls(swath=view.width, keys=(CameraKey(0.0, *view.aim),))
 
     def validate(self) -> tuple[Where, str] | None:
-        """Its moments rise."""
+        """Check that times of keys ascend."""
         return rising(self.keys)
 
     def coordinates(self) -> list[Place]:
-        """Where it stands."""
+        """The point viewed."""
         return [(("keys", i, "latitude"), at.latitude, at.longitude) for i, at in enumerate(self.keys)]
 
     def validate_against(self, run: Run, frames: Frames) -> tuple[Where, str] | None:
-        """From there it sees the place."""
+        """Check that a geostationary satellite is above the fire's horizon."""
         if self.geostationary is None:
             return None
         frame = local_frame(run)
@@ -78,7 +78,7 @@ class Satellite(Rig):
         return ("geostationary",), reason
 
     def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
-        """It stays where it is."""
+        """Fixed path."""
         first = self.keys[0] if self.keys else ground.frame
         place = np.repeat(ground.point(first.latitude, first.longitude), shot.frames.count, axis=0)
         if self.geostationary is None:
@@ -92,25 +92,25 @@ class Satellite(Rig):
 
 
 def _eye(frame: geo.LocalFrame, longitude: float) -> Array:
-    """Its place (3,) in the scene as Blender can hold it, to 2 or 4 m: pose and picture are then one."""
+    """Its position (3,) in the scene in single precision (to 2 or 4 m), as Blender stores it."""
     return frame.forward([0.0], [longitude], [ORBIT])[0].astype(np.float32).astype(np.float64)
 
 
 def _over_horizon(place: Array, eye: Array, frame: geo.LocalFrame) -> float:
-    """Height (degrees) of an eye over the horizon of a place, both (3,) in the scene."""
+    """Elevation (degrees) of an eye above the horizon of a point, both (3,) in the scene."""
     way = (eye - place) / np.linalg.norm(eye - place)
     return float(np.degrees(np.arcsin(way @ path.compass(frame, place)[2])))
 
 
 def down(camera: CameraSettings, shot: ShotView, place: Array, swath: float) -> Path:
-    """A way over places (frames, 3) on the ground, looking straight down with north up."""
+    """Path above ground points (frames, 3), looking straight down with north up."""
     position = place + np.array([0.0, 0.0, HEIGHT])
     rotation = np.repeat(np.eye(3)[None], len(place), axis=0)
     return Path(camera, position, rotation, place, half(camera, shot, swath), perspective=False)
 
 
 def half(camera: CameraSettings, shot: ShotView, swath: float) -> tuple[float, float]:
-    """Half the width and height (m) of a picture that is so wide."""
+    """Half the width and height (m) of a picture of this swath."""
     width, height = shot.resolution(camera)
     return 0.5 * swath, 0.5 * swath * height / width
 

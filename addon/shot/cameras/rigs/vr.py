@@ -1,4 +1,4 @@
-"""A camera for headsets: all round and in stereo, from a place or along a way."""
+"""VR camera: stereo panorama for headsets, from a fixed point or along a path."""
 
 from __future__ import annotations
 
@@ -50,13 +50,13 @@ class Vr(Rig):
     keys: tuple[CameraKey, ...] = key((), "position and view at one time")
 
     def validate(self) -> tuple[Where, str] | None:
-        """It is somewhere, and its moments rise."""
+        """Check that there are keys or a track, and that times of keys ascend."""
         if not self.keys and self.track is None:
             return ("keys",), "has no [[cameras.keys]] and no track; one key puts it in a place"
         return self._drone().validate()
 
     def coordinates(self) -> list[Place]:
-        """Its keys, and the points in the middle of its pictures."""
+        """Positions of its keys, and the targets at the centre of its pictures."""
         return self._drone().coordinates()
 
     def input_files(self) -> list[File]:
@@ -64,11 +64,11 @@ class Vr(Rig):
         return self._drone().input_files()
 
     def validate_against(self, run: Run, frames: Frames) -> tuple[Where, str] | None:
-        """A track that keeps its own times is flown while the frames are."""
+        """Check that a track with recorded times overlaps the shot."""
         return self._drone().validate_against(run, frames)
 
     def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
-        """Where a drone with these keys would be, upright; what it sees next to its feet is to the north."""
+        """Path of a drone with these keys, with a level horizon; a target below its feet counts as north."""
         flown = self._drone().path(camera, shot, ground)
         latitude, longitude, height = ground.frame.reverse(flown.position)
         low, high = (ground.frame.forward(latitude, longitude, height + d) for d in (-1000.0, 1000.0))
@@ -83,7 +83,7 @@ class Vr(Rig):
         return Path(camera, flown.position, rotation, flown.target, half, around=True, apart=self.interocular)
 
     def _drone(self) -> Drone:
-        """The drone whose way is its own."""
+        """The drone whose path it takes."""
         return Drone(clearance=self.clearance, track=self.track, track_times=self.track_times, keys=self.keys)
 
 
