@@ -7,7 +7,7 @@ centre.
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..run import areas
+from ..ellipsoid import metres_per_degree
 
 CENTRE_LATITUDE = 38.93
 CENTRE_LONGITUDE = -120.52
@@ -21,13 +21,13 @@ REFINEMENT = FUEL_CELLS // MODEL_CELLS
 def axes(cells: int, cell_size: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Latitudes and longitudes (cells,) of the centres of square cells of `cell_size` metres."""
     offset = (np.arange(cells) - (cells - 1) / 2) * cell_size
-    north, east = areas.metres_per_degree(CENTRE_LATITUDE)
+    north, east = metres_per_degree(CENTRE_LATITUDE)
     return CENTRE_LATITUDE + offset / north, CENTRE_LONGITUDE + offset / east
 
 
 def local(latitude: ArrayLike, longitude: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Metres east and north of the centre on the flat grid (the sample's own map, not the tangent plane)."""
-    north, east = areas.metres_per_degree(CENTRE_LATITUDE)
+    north, east = metres_per_degree(CENTRE_LATITUDE)
     x = (np.asarray(longitude, dtype=float) - CENTRE_LONGITUDE) * east
     y = (np.asarray(latitude, dtype=float) - CENTRE_LATITUDE) * north
     return x, y

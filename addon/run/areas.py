@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from firetwin_core import constants
 from numpy.typing import ArrayLike, NDArray
 
-A, E2 = constants.SEMI_MAJOR_AXIS, constants.ECCENTRICITY_SQUARED
+from ..ellipsoid import E2, A, metres_per_degree
+
 _ALONE = 100.0  # m, side of a single cell of unknown size
 
 
@@ -38,14 +38,6 @@ def area_factors(
     q = (1 - E2) * (sine / (1 - E2 * sine**2) + np.arctanh(e * sine) / e)
     width = np.radians(np.diff(edges(longitude)))
     return np.abs(A * A / 2 * np.diff(q)), np.abs(width)
-
-
-def metres_per_degree(latitude: float) -> tuple[float, float]:
-    """Metres per degree of latitude and longitude: radii of curvature (Snyder 1987, eqs. 4-18 and 4-20)."""
-    sine = np.sin(np.radians(latitude))
-    w = np.sqrt(1.0 - E2 * sine * sine)
-    degree = np.pi / 180.0
-    return A * (1.0 - E2) / w**3 * degree, A / w * np.cos(np.radians(latitude)) * degree
 
 
 def turned(longitude: ArrayLike, middle: float) -> NDArray[np.float64]:
