@@ -1,7 +1,7 @@
 #include "arrays.hpp"
-#include "base/interpolation.hpp"
 #include "base/noise.hpp"
 #include "bindings.hpp"
+#include "terrain/interpolate.hpp"
 #include "terrain/mesh.hpp"
 #include "terrain/surface.hpp"
 
@@ -96,31 +96,8 @@ Array<double> perlin(const py::object& x, const py::object& y, std::int64_t seed
   return result;
 }
 
-/// Values of a field [ny nx bands] between its points at n places -> [n bands]; beyond its ends as
-/// between the last two.
-template <class T>
-void interpolate(const Array<T>& field, std::span<const double> row, std::span<const double> column,
-                 std::span<double> out) {
-  const std::int64_t height = field.shape(0), width = field.shape(1);
-  const std::int64_t bands = field.ndim() > 2 ? field.shape(2) : 1;
-  const T* known = field.data();
-  const py::gil_scoped_release release;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, row.size(), 4096), [&](const auto& range) {
-    for (std::size_t k = range.begin(); k < range.end(); ++k) {
-      const auto y = interval_extended(row[k], height), x = interval_extended(column[k], width);
-      for (std::int64_t band = 0; band < bands; ++band) {
-        const auto corner = [&](int j, int i) {
-          const std::int64_t point = (j ? y.high : y.low) * width + (i ? x.high : x.low);
-          return double{known[point * bands + band]};
-        };
-        out[k * static_cast<std::size_t>(bands) + static_cast<std::size_t>(band)] =
-            firetwin::bilinear<ExactLerp>(corner, y.part, x.part);
-      }
-    }
-  });
-}
-
-/// Of a field (ny, nx) or (ny, nx, bands), at rows and columns that broadcast to one shape.
+/// Bilinear values of a field (ny, nx) or (ny, nx, bands) at rows and columns that broadcast to one
+/// shape.
 Array<double> bilinear(const py::object& field, const py::object& row, const py::object& column) {
   const auto together =
       py::module_::import("numpy").attr("broadcast_arrays")(row, column).cast<py::sequence>();
@@ -137,7 +114,13 @@ Array<double> bilinear(const py::object& field, const py::object& row, const py:
       shape.push_back(array.shape(2));
     }
     auto result = new_array<double>(shape);
-    interpolate(array, view(rows), view(columns), writable(result));
+    const auto out = writable(result);
+    const auto i = view(rows), j = view(columns);
+    const terrain::Field known{array.data(), std::int64_t{array.shape(0)},
+                               std::int64_t{array.shape(1)},
+                               std::int64_t{array.ndim() == 3 ? array.shape(2) : 1}};
+    const py::gil_scoped_release release;
+    terrain::interpolate(known, i, j, out);
     return result;
   };
   return single ? values(to_array<float>(field, "field"))

@@ -1,7 +1,6 @@
 # For quick builds on this machine: headers of other projects are precompiled, files that instantiate the same templates are
-# compiled together (unity build), and the bindings are compiled with -O1. Of what the bindings do themselves,
-# terrain.bilinear is 1.2 times slower with it than with -O3, the rest as fast. Wheels are built without all this, and so
-# find a missing #include.
+# compiled together (unity build), and the bindings are compiled with -O1. The numbers themselves are in the libraries.
+# Wheels are built without all this, and so find a missing #include.
 option(FIRETWIN_QUICK_BUILD "Build quickly: precompiled headers, unity builds, bindings with -O1" OFF)
 
 function(firetwin_quick_build target name)

@@ -18,7 +18,6 @@ struct Cells {
   const double *before, *after;
   const double *sine, *cosine;
   const double *below, *on, *above;
-  double *x, *y, *z;
   std::size_t begin, end; ///< of the columns
 };
 
@@ -37,9 +36,9 @@ double or_zero(double height) {
 }
 
 FIRETWIN_CLONES("avx512f", "avx2")
-void place_row(const Cells& all, const RowOf& row, const geo::Origin& origin, double jitter) {
+void place_row(const Cells& all, const RowOf& row, const geo::Origin& origin, double jitter,
+               double* __restrict x, double* __restrict y, double* __restrict z) {
   const Cells c = all;
-  double* __restrict x = c.x, * __restrict y = c.y, * __restrict z = c.z;
   for (std::size_t i = c.begin; i < c.end; ++i) {
     const double spread_x = c.first[i] + c.east[i] * c.width[i];
     const double spread_y = row.first + c.north[i] * row.width;
@@ -139,15 +138,12 @@ void Placement::place(std::size_t y, std::size_t first, std::size_t last, Row& r
                     row.below.data(),
                     row.on.data(),
                     row.above.data(),
-                    row.x.data(),
-                    row.y.data(),
-                    row.z.data(),
                     first,
                     last};
   place_row(cells,
             {lat.value[y], lat.first[y], lat.width[y], lat.before[y], lat.after[y],
              geo::parallel(lat.value[y])},
-            origin_, site_.jitter);
+            origin_, site_.jitter, row.x.data(), row.y.data(), row.z.data());
 }
 
 } // namespace firetwin::forest
