@@ -18,6 +18,7 @@ struct Cells {
   const double *before, *after;
   const double *sine, *cosine;
   const double *below, *on, *above;
+  double *x, *y, *z;
   std::size_t begin, end; ///< of the columns
 };
 
@@ -36,9 +37,9 @@ double or_zero(double height) {
 }
 
 FIRETWIN_CLONES("avx512f", "avx2")
-void place_row(const Cells& all, const RowOf& row, const geo::Origin& origin, double jitter,
-               double* __restrict x, double* __restrict y, double* __restrict z) {
+void place_row(const Cells& all, const RowOf& row, const geo::Origin& origin, double jitter) {
   const Cells c = all;
+#pragma GCC ivdep // __restrict does not reach the arrays of a structure
   for (std::size_t i = c.begin; i < c.end; ++i) {
     const double spread_x = c.first[i] + c.east[i] * c.width[i];
     const double spread_y = row.first + c.north[i] * row.width;
@@ -67,9 +68,9 @@ void place_row(const Cells& all, const RowOf& row, const geo::Origin& origin, do
     const geo::SineCosine parallel = geo::turned(row.parallel, dy);
     const geo::SineCosine meridian = geo::turned({c.sine[i], c.cosine[i]}, dx);
     const auto p = origin.to_local(parallel, geo::radii(parallel.sine), meridian, height);
-    x[i] = p[0];
-    y[i] = p[1];
-    z[i] = p[2];
+    c.x[i] = p[0];
+    c.y[i] = p[1];
+    c.z[i] = p[2];
   }
 }
 
@@ -138,12 +139,15 @@ void Placement::place(std::size_t y, std::size_t first, std::size_t last, Row& r
                     row.below.data(),
                     row.on.data(),
                     row.above.data(),
+                    row.x.data(),
+                    row.y.data(),
+                    row.z.data(),
                     first,
                     last};
   place_row(cells,
             {lat.value[y], lat.first[y], lat.width[y], lat.before[y], lat.after[y],
              geo::parallel(lat.value[y])},
-            origin_, site_.jitter, row.x.data(), row.y.data(), row.z.data());
+            origin_, site_.jitter);
 }
 
 } // namespace firetwin::forest
