@@ -205,7 +205,7 @@ def _file(folder: Path, draw: str) -> settings.Settings:
         run=folder / "sample",
         cache=folder / "cache",
         time=settings.Time(start=MOMENT, frames=1),
-        smoke=settings.Smoke(spin_up=300.0, draw=draw),
+        smoke=settings.SmokeSettings(spin_up=300.0, draw=draw),
         forest=settings.Forest(budget=20_000),
         cameras=(settings.Camera(rig=Drone(keys=(VIEW,))),),
         render=settings.Render(resolution=FRAME, samples=SAMPLES, denoise=True, passes=PASSES),

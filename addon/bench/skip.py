@@ -82,7 +82,7 @@ def scene_file(folder: Path, skip: bool) -> settings.Settings:
         cache=folder / "cache",
         time=settings.Time(start=MOMENT, frames=1),
         forest=settings.Forest(draw_distance=REACH),
-        smoke=settings.Smoke(enabled=False),
+        smoke=settings.SmokeSettings(enabled=False),
         cameras=(settings.Camera("drone", Drone(keys=(VIEW,))),),
         render=settings.Render(resolution=RESOLUTION, samples=SAMPLES, passes=("rgb",), cull=skip),
     )

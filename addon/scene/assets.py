@@ -122,12 +122,12 @@ def _show(block: bpy.types.ID, pixels: np.ndarray) -> None:
     preview.image_pixels_float.foreach_set(pixels)
 
 
-def _about(model: models.Model, high: bool) -> str:
+def _about(model: models.TreeModel, high: bool) -> str:
     burns = "; burns when the model time passes its arrival_time" if high and model.state == "living" else ""
     return f"{_name(model)}, {model.state}{burns}"
 
 
-def _name(model: models.Model) -> str:
+def _name(model: models.TreeModel) -> str:
     conifers = {"large": "Large Conifer", "medium": "Conifer", "small": "Young Conifer"}
     return conifers.get(model.kind, model.kind.capitalize())
 

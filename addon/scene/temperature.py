@@ -143,7 +143,7 @@ def _fill(group: bpy.types.NodeTree, shot: Shot) -> None:
     _sun(group, shot, count)
 
 
-class Field(NamedTuple):
+class TemperatureField(NamedTuple):
     """Air at one time on a square grid of the scene, rows to the north.
 
     Attributes
@@ -160,7 +160,7 @@ class Field(NamedTuple):
     spacing: NDArray[np.float64]
 
 
-def field(shot: Shot, time: float) -> Field:
+def field(shot: Shot, time: float) -> TemperatureField:
     """The run's air at a model time, s."""
     low, high = _extent(shot)
     spacing = (high - low) / _SIDE
@@ -169,7 +169,7 @@ def field(shot: Shot, time: float) -> Field:
     place = air_temperature.indices(shot.run, *shot.ground.geodetic(east.ravel(), north.ravel()))
     model = np.nan_to_num(shot.run.elevation.astype(np.float64))
     kelvin, elevation = (bilinear(values, *place) for values in (air_temperature.at(shot.run, time), model))
-    return Field(kelvin.reshape(east.shape), elevation.reshape(east.shape), corner, spacing)
+    return TemperatureField(kelvin.reshape(east.shape), elevation.reshape(east.shape), corner, spacing)
 
 
 def _extent(shot: Shot) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -25,7 +25,7 @@ from .shot import Shot
 if TYPE_CHECKING:
     from collections.abc import Collection
 
-    from .terrain.terrain import Ground
+    from .terrain.terrain import Terrain
 
 _AXES = 1000.0 * np.vstack([np.zeros(3), np.eye(3)])  # m
 _BURIED = 1.0  # m below another run's ground, from which on a warning is given
@@ -81,7 +81,7 @@ class ComparisonShot(Shot):
         """Name of the run."""
         return self._label
 
-    def _paths(self, ground: Ground) -> list[Path]:
+    def _paths(self, ground: Terrain) -> list[Path]:
         pairs = zip(self.first.paths, self.settings.cameras, strict=True)
         return [carried(path, camera, self.first.local_frame, self.local_frame) for path, camera in pairs]
 

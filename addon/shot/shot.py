@@ -29,7 +29,7 @@ from .settings.settings import SMOKE_METHODS, Camera, Settings
 from .smoke_scale import Scale
 from .terrain import elevation
 from .terrain.elevation import Elevation
-from .terrain.terrain import Ground
+from .terrain.terrain import Terrain
 from .visibility import Visibility
 
 _BURNING_BEFORE = 3600.0  # s before the first frame; ground that burned in this time still counts as burning
@@ -201,14 +201,14 @@ class Shot:
         return local_frame(self.run)
 
     @cached_property
-    def bare_ground(self) -> Ground:
+    def bare_ground(self) -> Terrain:
         """Terrain without camera-dependent detail."""
-        return Ground(self.settings, self.run, self.fire.arrival, self.relief)
+        return Terrain(self.settings, self.run, self.fire.arrival, self.relief)
 
     @cached_property
-    def front(self) -> flame_depth.Fields:
+    def front(self) -> flame_depth.FrontFields:
         """Fire front properties (rate of spread, residence time) on the terrain grid."""
-        return flame_depth.Fields(self.bare_ground, self.run)
+        return flame_depth.FrontFields(self.bare_ground, self.run)
 
     @cached_property
     def front_scale(self) -> float:
@@ -216,7 +216,7 @@ class Shot:
         return flame_depth.scale(self.full)
 
     @cached_property
-    def ground(self) -> Ground:
+    def ground(self) -> Terrain:
         """Terrain with added detail near the cameras' paths."""
         rough = self._paths(self.bare_ground) if self.full is self else self.paths
         near = [view.position[self.filmed(view)] for view in rough if view.perspective]
@@ -232,7 +232,7 @@ class Shot:
         """Smallest pixel size: m per m of distance in perspective, and m in orthographic views."""
         return path.finest(self.paths)
 
-    def _paths(self, ground: Ground) -> list[Path]:
+    def _paths(self, ground: Terrain) -> list[Path]:
         return [
             replace(camera.rig.path(camera, self, ground), width=self.resolution(camera)[0])
             for camera in self.settings.cameras

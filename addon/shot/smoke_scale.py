@@ -14,11 +14,11 @@ from firetwin_core.run import Run
 from numpy.typing import NDArray
 
 from .fire import burning
-from .settings.settings import Smoke
+from .settings.settings import SmokeSettings
 
 REFERENCE = 200.0  # m
 FINER = 3  # nest cells along a cell of the outer domain
-_BUDGET = Smoke.cell_budget
+_BUDGET = SmokeSettings.cell_budget
 _CELLS = np.array(
     [5, 6.5, 8, 10, 13, 16, 20, 25, 32, 40, 50, 65, 80, 100, 130, 160, 200, 250, 320, 400, 640, 1000, 1600.0]
 )

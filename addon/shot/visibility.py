@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import sun
 from .cameras.path import Path
 from .terrain import mesh_tolerance
-from .terrain.terrain import Ground
+from .terrain.terrain import Terrain
 
 if TYPE_CHECKING:
     from .settings.protocols import ShotView
@@ -185,7 +185,7 @@ def _distance(shot: ShotView, place: NDArray[np.float64]) -> NDArray[np.float64]
     return lod.distance(place.reshape(-1, 3), alone).reshape(place.shape[:2])
 
 
-def _clear(ground: Ground, position: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _clear(ground: Terrain, position: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Whether points lie above the drawn terrain for certain, by more than its roughness `rough`."""
     if len(position) == 0:
         return np.empty(0, bool)

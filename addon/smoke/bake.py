@@ -136,7 +136,7 @@ def estimate(shot: Shot, frames: Iterable[int]) -> int | None:
     return round(sum(sizes.values()) / there * len(_of_shot(shot, frames))) if there else None
 
 
-class Line:
+class BakeQueue:
     """Queue of frames whose smoke one thread makes.
 
     Attributes
@@ -173,7 +173,7 @@ class Line:
         self.held.close()
 
 
-class _Volumes(Line):
+class _Volumes(BakeQueue):
     """Queue of frames whose volumes are written to disk."""
 
     def __init__(self, shot: Shot, frames: list[int], progress: Progress, tell: MessageCallback) -> None:

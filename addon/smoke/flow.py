@@ -27,7 +27,7 @@ from ..shot.settings import schema
 from ..shot.shot import Shot
 from . import cache, domains
 from .domains import Box, Domain
-from .integrator import Integrator, StoppedError
+from .integrator import Integrator, IntegratorStoppedError
 
 _MADE_BY = [
     f"smoke/{name}.py" for name in ("atmosphere", "domains", "flow", "integrator", "snapshots", "stability")
@@ -91,7 +91,7 @@ class Flow:
         with self._lock:
             while not self.has(frame) and self.elsewhere():
                 if self.stop.wait(_LOOK):
-                    raise StoppedError
+                    raise IntegratorStoppedError
             if self.has(frame):
                 return
             progress = progress or self.progress
@@ -104,7 +104,7 @@ class Flow:
             def wait() -> None:
                 waiting()
                 if self.stop.is_set():
-                    raise StoppedError
+                    raise IntegratorStoppedError
 
             with leases.alone(folder / "state.lock", lambda: self.has(frame), wait) as mine:
                 if mine and not self.has(frame):

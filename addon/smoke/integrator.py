@@ -38,7 +38,7 @@ _SAVE = 30.0  # s between checkpoints
 _LONGEST_STEP = 1.2  # times the scale's step, upper limit between frames
 
 
-class StoppedError(Exception):
+class IntegratorStoppedError(Exception):
     """Solving was stopped on request."""
 
 
@@ -84,7 +84,7 @@ class Integrator:
             while self.step < end:
                 progress(int(self.work[self.step]), total, WORK)
                 if self.stop.is_set():
-                    raise StoppedError
+                    raise IntegratorStoppedError
                 self._advance(self.steps[self.step])
                 self.step += 1
                 self._start_nest()

@@ -30,7 +30,7 @@ _PUBLISHED = {
 
 
 @dataclass(frozen=True)
-class Plume:
+class PlumeMass:
     """Smoke plume of a shot.
 
     Attributes
@@ -48,7 +48,7 @@ class Plume:
     mean: float | None = None
 
 
-def measure(shot: Shot) -> Plume:
+def measure(shot: Shot) -> PlumeMass:
     """Measure the plume of a shot from the flow's snapshots that exist."""
     frames = shot.frames
     made = shot.fire.smoke_made(frames.first, frames.last)
@@ -60,9 +60,9 @@ def measure(shot: Shot) -> Plume:
         for domain in sources.select(shot).domains
     ]  # domains, outermost first; a nest does not contain all of the plume
     if not depths_of or not depths_of[0]:
-        return Plume(made)
+        return PlumeMass(made)
     deepest, wide = (max(depths[k] for depths_in in depths_of for depths in depths_in) for k in (0, 1))
-    return Plume(made, deepest, wide, max(depths[2] for depths in depths_of[0]))
+    return PlumeMass(made, deepest, wide, max(depths[2] for depths in depths_of[0]))
 
 
 def describe(shot: Shot) -> str:

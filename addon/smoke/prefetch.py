@@ -54,7 +54,7 @@ def bricks(
         line.close()
 
 
-class _Bricks(bake.Line):
+class _Bricks(bake.BakeQueue):
     """Queue of frames whose smoke is painted as bricks."""
 
     def __init__(

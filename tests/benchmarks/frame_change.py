@@ -44,7 +44,7 @@ def scene_file(folder: Path) -> settings.Settings:
         run=folder / "sample",
         cache=folder / "cache",
         time=settings.Time(start=START, end=END, frames=FRAMES),
-        smoke=settings.Smoke(enabled=False),
+        smoke=settings.SmokeSettings(enabled=False),
         cameras=(settings.Camera(rig=Drone(keys=(VIEW,))),),
     )
 

@@ -122,7 +122,7 @@ def scene_file(folder: Path) -> settings.Settings:
         run=folder / "sample",
         cache=folder / "cache",
         time=settings.Time(start=MOMENT, frames=1),
-        smoke=settings.Smoke(method="flow", voxel_size=VOXEL),
+        smoke=settings.SmokeSettings(method="flow", voxel_size=VOXEL),
         light=settings.Light(exposure=0.5),
         cameras=(settings.Camera(rig=Drone(keys=(VIEW,), focal_length=LENS)),),
         render=settings.Render(resolution=RESOLUTION, samples=SAMPLES, passes=("rgb",)),

@@ -24,7 +24,7 @@ from pathlib import Path
 import numpy as np
 from firetwin.shot.settings import scene_file
 from firetwin.shot.shot import Shot
-from firetwin.shot.terrain.terrain import Ground
+from firetwin.shot.terrain.terrain import Terrain
 from firetwin_core import run as runs
 from firetwin_core import sensor
 from numpy.typing import NDArray
@@ -122,7 +122,7 @@ def places(shot: Shot, size: int) -> tuple[Array, Array]:
     return east + centre[0], north + centre[1]
 
 
-def domain(ground: Ground) -> tuple[Array, Array]:
+def domain(ground: Terrain) -> tuple[Array, Array]:
     """Least and greatest east and north (m) of the run's grid, on its sides' middles."""
     fields = ground.fields
     inner = slice(fields.margin, -fields.margin)

@@ -67,7 +67,7 @@ def filmed(settings):
         return replace(
             settings,
             time=scene_settings.Time(start=moment, end=moment if frames == 1 else None, frames=frames),
-            smoke=scene_settings.Smoke(**smoke),
+            smoke=scene_settings.SmokeSettings(**smoke),
             light=light or settings.light,
             cameras=(scene_settings.Camera("drone", Drone(keys=keys)),),
         )

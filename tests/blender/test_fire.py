@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from firetwin.scene.fire import build as fire
 from firetwin.scene.fire import flames
-from firetwin.shot.settings.settings import Fire
+from firetwin.shot.settings.settings import FireSettings
 from firetwin.shot.shot import Shot
 from firetwin_core import flux
 from firetwin_core import run as runs
@@ -133,7 +133,7 @@ def test_scrubbing_moves_the_flames(shot, stage, scene, plain_looks):
 
 
 def test_cells_are_algorithm_1(shot, settings, run):
-    found = flames.cells(Shot(replace(settings, fire=Fire(emitters="cells")), run))
+    found = flames.cells(Shot(replace(settings, fire=FireSettings(emitters="cells")), run))
     low, high = run.flux_range()
     position = shot.local_frame.forward_grid(
         run.latitude, run.longitude, np.asarray(run.elevation, np.float64)
@@ -146,7 +146,7 @@ def test_cells_are_algorithm_1(shot, settings, run):
 
 
 def test_flames_off_builds_nothing(settings, run, stage):
-    assert fire.build(Shot(replace(settings, fire=Fire(flames=False)), run), stage) is None
+    assert fire.build(Shot(replace(settings, fire=FireSettings(flames=False)), run), stage) is None
 
 
 @pytest.fixture

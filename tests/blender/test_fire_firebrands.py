@@ -8,7 +8,7 @@ import pytest
 from firetwin.scene.fire import build as fire
 from firetwin.scene.fire import firebrands, flames
 from firetwin.shot.fire import burning
-from firetwin.shot.settings.settings import Fire
+from firetwin.shot.settings.settings import FireSettings
 from firetwin.shot.shot import Shot
 from near_fire import FRAMES, moved
 
@@ -152,5 +152,5 @@ def test_twice_built_is_built_once_and_none_out_of_reach(close, run, stage):
     )
     fire.build(Shot(moved(close, latitude=38.7, longitude=-120.6), run), stage)
     assert "Firetwin Firebrands" not in bpy.data.objects
-    fire.build(Shot(replace(close, fire=Fire(firebrands=0)), run), stage)
+    fire.build(Shot(replace(close, fire=FireSettings(firebrands=0)), run), stage)
     assert "Firetwin Firebrands" not in bpy.data.objects

@@ -13,7 +13,7 @@ from firetwin.scene.fire import lamp_objects, lamps
 from firetwin.scene.smoke import build as smoke
 from firetwin.shot import auto_framing
 from firetwin.shot.fire.fire import Fire
-from firetwin.shot.settings.settings import Light, Smoke
+from firetwin.shot.settings.settings import Light, SmokeSettings
 from firetwin.shot.shot import Shot
 from near_fire import from_height
 
@@ -132,7 +132,7 @@ def test_a_run_without_a_scene_file_is_built_by_night(settings, run, stage, sun_
 
 def test_all_that_fire_and_smoke_make_is_ours_and_goes_again(near, run, scene, sun_at):
     sun_at(-20.0)
-    shot = Shot(replace(near, smoke=Smoke(method="puffs", voxel_size=120.0)), run)
+    shot = Shot(replace(near, smoke=SmokeSettings(method="puffs", voxel_size=120.0)), run)
     kinds = ("objects", "meshes", "lights", "volumes", "materials", "node_groups", "collections", "actions")
     before = {block for kind in kinds for block in getattr(bpy.data, kind)}
     stage = owned.stage(scene)

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from firetwin.scene import build
-from firetwin.shot.settings.settings import Places
+from firetwin.shot.settings.settings import LabelSettings
 from firetwin.shot.shot import Shot
 
 
@@ -16,7 +16,7 @@ def labelled(settings, tmp_path):
     path.write_text(
         "name,latitude,longitude\nNear,38.840,-120.555\nFar,38.872,-120.545\nElsewhere,10.0,20.0\n"
     )
-    return replace(settings, labels=Places(enabled=True, file=path, size=0.1))
+    return replace(settings, labels=LabelSettings(enabled=True, file=path, size=0.1))
 
 
 def instances():

@@ -16,7 +16,7 @@ from firetwin.scene.smoke import build as smoke
 from firetwin.shot import visibility
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.settings import scene_file as file
-from firetwin.shot.settings.settings import Camera, Light, Smoke
+from firetwin.shot.settings.settings import Camera, Light, SmokeSettings
 from firetwin.shot.shot import Shot
 from firetwin.smoke import bake, cache, sources
 from firetwin.smoke.sources.puffs import PuffSource
@@ -27,7 +27,7 @@ from firetwin_core import run as runs
 @pytest.fixture
 def smoky(settings):
     """The small scene with puffs of smoke."""
-    return replace(settings, smoke=Smoke(method="puffs", voxel_size=120.0, max_age=1800.0))
+    return replace(settings, smoke=SmokeSettings(method="puffs", voxel_size=120.0, max_age=1800.0))
 
 
 @pytest.fixture

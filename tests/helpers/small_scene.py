@@ -125,9 +125,9 @@ def _settings(run_folder, folder):
             end=datetime(2014, 9, 17, 22, 0, tzinfo=UTC),
             frames=3,
         ),
-        terrain=scene_settings.Ground(near_radius=0.0, apron=20_000.0),
+        terrain=scene_settings.TerrainSettings(near_radius=0.0, apron=20_000.0),
         forest=scene_settings.Forest(density="paper"),
-        smoke=scene_settings.Smoke(enabled=False),
+        smoke=scene_settings.SmokeSettings(enabled=False),
         cameras=(scene_settings.Camera("drone", Drone(keys=keys)),),
         render=scene_settings.Render(resolution=(64, 36), samples=4, denoise=False),
     )

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from firetwin.render import layers
 from firetwin.scene import build
-from firetwin.shot.settings.settings import Smoke
+from firetwin.shot.settings.settings import SmokeSettings
 from firetwin.shot.shot import Shot
 from firetwin.smoke import bake
 
@@ -15,7 +15,7 @@ from firetwin.smoke import bake
 @pytest.fixture
 def smoky(settings):
     """The small scene with puffs of smoke."""
-    return replace(settings, smoke=Smoke(method="puffs", voxel_size=120.0, max_age=1800.0))
+    return replace(settings, smoke=SmokeSettings(method="puffs", voxel_size=120.0, max_age=1800.0))
 
 
 @pytest.fixture

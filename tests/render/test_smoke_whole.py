@@ -9,7 +9,7 @@ import pytest
 from firetwin.render import engine
 from firetwin.scene import haze
 from firetwin.scene.smoke import build as smoke
-from firetwin.shot.settings.settings import Smoke
+from firetwin.shot.settings.settings import SmokeSettings
 from firetwin.shot.shot import Shot
 from firetwin.shot.smoke_scale import Scale
 from firetwin.smoke import bake
@@ -68,7 +68,7 @@ def look(settings, run, stage, scene, shoot, tmp_path, monkeypatch):
     """Brightness of a view from within clear smoke: (blocks up, blocks across)."""
     monkeypatch.setattr(Shot, "scale", Scale())
     smoky = replace(
-        settings, smoke=Smoke(method="puffs", voxel_size=VOXEL), time=replace(settings.time, frames=1)
+        settings, smoke=SmokeSettings(method="puffs", voxel_size=VOXEL), time=replace(settings.time, frames=1)
     )
 
     count = itertools.count()

@@ -16,7 +16,7 @@ from firetwin.jobs import build as build_job
 from firetwin.jobs import render as render_job
 from firetwin.jobs import worker
 from firetwin.shot.settings import scene_file
-from firetwin.shot.settings.settings import Smoke
+from firetwin.shot.settings.settings import SmokeSettings
 from firetwin.shot.shot import Shot
 from firetwin.shot.source import ShotSource
 from firetwin.smoke import bake
@@ -79,7 +79,7 @@ def test_a_full_disk_is_a_message_and_what_was_there_stays(panel, blend, run, ti
     panel.output = str(blend.parent / "out")
     assert state() == before
     whole = scene_file.read(blend.with_suffix(".toml"))
-    smoky = Shot(replace(whole, cache=place / "cache", smoke=Smoke(method="puffs")), run)
+    smoky = Shot(replace(whole, cache=place / "cache", smoke=SmokeSettings(method="puffs")), run)
     with pytest.raises(InputError, match="the disk is full"):
         bake.bake(smoky, frames=[1])
     firetwin.unregister()

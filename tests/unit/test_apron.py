@@ -15,7 +15,7 @@ def fields():
     patches = noise.fractal(x, y, 600.0, 3, 9)
     canopy = np.where(patches > 0.15, 0.0, np.clip(2.5 - elevation / 1000.0, 0.0, None))
     axis = np.arange(200) * 74.0 / 111_000.0
-    return apron.Fields(38.0 + axis, -120.0 + axis, elevation, canopy, canopy * 0.5 + 0.02)
+    return apron.TerrainFields(38.0 + axis, -120.0 + axis, elevation, canopy, canopy * 0.5 + 0.02)
 
 
 def test_as_much_of_the_apron_is_bare_as_of_the_grid_at_that_height(fields):
@@ -73,7 +73,7 @@ def test_ridges_do_not_stand_in_rows_across_the_edge():
     elevation = 400.0 * np.sin(x / 31) + 60.0 * np.sin(x / 3.1 + y / 4.3) * np.cos(y / 3.7 - x / 5)
     axis, fuel = np.arange(120) * 30.0 / 111_000.0, np.ones(elevation.shape)
     made = apron.extend(
-        apron.Fields(38.0 + axis, -120.0 + axis, elevation, fuel, fuel), (30.0, 24.0), 20_000.0, 1
+        apron.TerrainFields(38.0 + axis, -120.0 + axis, elevation, fuel, fuel), (30.0, 24.0), 20_000.0, 1
     )
     margin = made.margin
     for turn in range(4):
@@ -93,7 +93,7 @@ def island(shore):
     y, x = np.mgrid[-60:60, -60:60]
     land = np.maximum(shore - np.hypot(x, y), 0.0)
     axis = np.arange(120) * 74.0 / 111_000.0
-    return apron.Fields(38.0 + axis, -120.0 + axis, 12.0 * land, 0.4 * (land > 0), 0.8 * (land > 0))
+    return apron.TerrainFields(38.0 + axis, -120.0 + axis, 12.0 * land, 0.4 * (land > 0), 0.8 * (land > 0))
 
 
 def test_the_sea_goes_on_round_an_island():
@@ -111,7 +111,7 @@ def test_a_coast_goes_on_as_land_and_sea():
     land = np.maximum(x + 8.0 * np.sin(y / 9.0), 0.0)
     axis = np.arange(120) * 74.0 / 111_000.0
     height = 10.0 * land * (1.0 + 0.3 * np.sin(y / 4.0))
-    fields = apron.Fields(38.0 + axis, -120.0 + axis, height, 0.4 * (land > 0), 0.8 * (land > 0))
+    fields = apron.TerrainFields(38.0 + axis, -120.0 + axis, height, 0.4 * (land > 0), 0.8 * (land > 0))
     made = apron.extend(fields, CELL, 60_000.0, 1)
     middle = len(made.latitude) // 2
     far = made.margin // 2

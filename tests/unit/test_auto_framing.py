@@ -147,7 +147,7 @@ def _burning(moving):
 
 def test_a_plume_holds_the_smoke_that_its_fuel_gives():
     """Through a plume across the wind: smoke per metre of the way it drifts, over its width."""
-    one = straight_plume.Plume(np.zeros((1, 3)), np.array([2.0]), np.array([4.0, 0.0]), 1.0, 0.5)
+    one = straight_plume.StraightPlume(np.zeros((1, 3)), np.array([2.0]), np.array([4.0, 0.0]), 1.0, 0.5)
     axis = np.array([1.0, 0.0, 0.5])
     for along in (100.0, 1000.0):
         place = along * axis / np.linalg.norm(axis) + np.array([0.0, 2000.0, 0.0])
@@ -159,7 +159,7 @@ def test_a_plume_holds_the_smoke_that_its_fuel_gives():
             one.depth(eye, lines + np.array([0.0, move, 0.0]))[0] for move in np.linspace(-1900.0, 0.0, 200)
         ]
         assert np.mean(fine) == pytest.approx(expected, rel=0.5)
-    twice = straight_plume.Plume(np.zeros((1, 3)), np.array([4.0]), np.array([4.0, 0.0]), 1.0, 0.5)
+    twice = straight_plume.StraightPlume(np.zeros((1, 3)), np.array([4.0]), np.array([4.0, 0.0]), 1.0, 0.5)
     assert twice.depth(eye, lines) == pytest.approx(2.0 * one.depth(eye, lines))
 
 

@@ -9,7 +9,7 @@ from firetwin.scene.forest import biomes, cover, field_lines, models, patterns, 
 from firetwin.scene.forest.biomes import Land, Season
 from firetwin.shot import biome_names as named
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
-from firetwin.shot.settings.settings import Camera, Forest, Ground, Settings
+from firetwin.shot.settings.settings import Camera, Forest, Settings, TerrainSettings
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from small_run import FX, FY
@@ -25,7 +25,7 @@ def shot(make_run):
         run = runs.open(make_run(**(fields or {})))
         key = CameraKey(0.0, 38.902, -120.594, 30.0, "point", 38.905, -120.594, 1.0)
         settings = Settings(
-            terrain=Ground(near_radius=1500.0, apron=0.0),
+            terrain=TerrainSettings(near_radius=1500.0, apron=0.0),
             forest=Forest(**forest),
             cameras=(Camera("one", Drone(keys=(key,))),),
         )
@@ -119,7 +119,7 @@ def test_bushes_grow_with_the_load_and_by_category(make_run):
     number = np.full((FY, FX), np.nan, np.float32)
     number[2, :4], number[3, :4], number[4, :4] = 1.0, 4.0, 122.0
     folder = make_run(canopy_fuel=filled(0.0), surface_fuel=load, fuel_category=number)
-    settings = Settings(terrain=Ground(apron=0.0), forest=Forest(biome="grassland"))
+    settings = Settings(terrain=TerrainSettings(apron=0.0), forest=Forest(biome="grassland"))
     made = Shot(settings, runs.open(folder))
     found = cover.shrubs(made)
     assert found.shape == (FY, FX)
@@ -182,7 +182,7 @@ def test_there_are_more_bushes_where_more_of_the_land_is_under_them(shot, make_r
     def count(**forest):
         key = CameraKey(0.0, 38.902, -120.594, 30.0, "point", 38.905, -120.594, 1.0)
         settings = Settings(
-            terrain=Ground(near_radius=1500.0, apron=0.0),
+            terrain=TerrainSettings(near_radius=1500.0, apron=0.0),
             forest=Forest(**forest),
             cameras=(Camera("one", Drone(keys=(key,))),),
         )

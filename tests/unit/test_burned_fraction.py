@@ -63,7 +63,7 @@ def test_a_moment_between_two_times(run, time):
 
 
 def test_scores_on_cells_count_shares(run):
-    grid = score_grid.Grid.of(run)
+    grid = score_grid.ScoreGrid.of(run)
     seen = np.zeros((FY, FX), bool)
     seen[:4] = True
     found = Overlap.of_cells(grid.burned(120.0), seen, grid.areas)
@@ -80,7 +80,7 @@ def test_rows_from_the_north_are_scored_where_they_are(make_run):
     share = np.zeros((NT, FY, FX), np.float32)
     share[:, 0] = 1.0  # the northernmost
     run = runs.open(make_run(fuel_latitude=fields["fuel_latitude"][::-1].copy(), burned_fraction=share))
-    burned = score_grid.Grid.of(run).burned(0.0)
+    burned = score_grid.ScoreGrid.of(run).burned(0.0)
     assert burned[-1].all()
     assert not burned[:-1].any()
 

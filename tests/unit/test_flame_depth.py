@@ -5,7 +5,7 @@ import pytest
 from firetwin.run import areas
 from firetwin.shot import air_temperature
 from firetwin.shot.fire import emissions, flame_depth
-from firetwin.shot.settings.settings import Forest, Ground, Settings, Time
+from firetwin.shot.settings.settings import Forest, Settings, TerrainSettings, Time
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from small_run import NT, RUN_TOML
@@ -37,7 +37,9 @@ def shot_of(make_run, cell, load, canopy=0.0, flank=1.0):
         wind_north=None,
     )
     settings = Settings(
-        time=Time(frames=3), terrain=Ground(near_radius=0.0, apron=2000.0), forest=Forest(trees=False)
+        time=Time(frames=3),
+        terrain=TerrainSettings(near_radius=0.0, apron=2000.0),
+        forest=Forest(trees=False),
     )
     return Shot(settings, runs.open(folder))
 

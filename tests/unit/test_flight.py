@@ -12,7 +12,7 @@ from firetwin.shot.cameras import flight
 from firetwin.shot.cameras.path import hidden
 from firetwin.shot.cameras.rigs._key import CameraKey
 from firetwin.shot.cameras.rigs.drone import Drone
-from firetwin.shot.settings.settings import Camera, Forest, Ground, Settings, Time
+from firetwin.shot.settings.settings import Camera, Forest, Settings, TerrainSettings, Time
 from firetwin.shot.shot import Shot
 
 pyproj = pytest.importorskip("pyproj")
@@ -34,7 +34,7 @@ def flown(run, frames=40, near_radius=1500.0, minutes=20, **drone):
             end=datetime(2014, 9, 17, 16, minutes, tzinfo=UTC),
             frames=frames,
         ),
-        terrain=Ground(near_radius=near_radius, apron=1000.0),
+        terrain=TerrainSettings(near_radius=near_radius, apron=1000.0),
         forest=Forest(trees=False),
         cameras=(Camera("scout", Drone(**drone)),),
     )

@@ -8,7 +8,7 @@ import pytest
 from firetwin.jobs import render
 from firetwin.render.picture import Picture
 from firetwin.shot.cameras.rigs.orbit import Orbit
-from firetwin.shot.settings.settings import Camera, Forest, Ground, Render, Settings, Time
+from firetwin.shot.settings.settings import Camera, Forest, Render, Settings, TerrainSettings, Time
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from hypothesis import given
@@ -34,7 +34,7 @@ def film(tmp_path_factory):
                 end=datetime(2014, 9, 17, 4, 47, tzinfo=UTC),
                 frames=9,
             ),
-            terrain=Ground(near_radius=1500.0, apron=0.0),
+            terrain=TerrainSettings(near_radius=1500.0, apron=0.0),
             forest=Forest(trees=False),
             render=Render(chunk=chunk),
             cameras=(Camera("a", ORBIT, frames=frames),),

@@ -5,7 +5,7 @@ import pytest
 from firetwin.run import fuel_category as categories
 from firetwin.run import info
 from firetwin.run.models import fuels
-from firetwin.shot.settings.settings import Ground, Settings
+from firetwin.shot.settings.settings import Settings, TerrainSettings
 from firetwin.shot.shot import Shot
 from firetwin_core import Error, InputError
 from firetwin_core import run as runs
@@ -88,5 +88,5 @@ def test_water_is_where_the_category_says_so_also_where_heights_are_rough(make_r
     lake = number(2)
     lake[2:5, 3:6] = 98
     run = runs.open(make_run(fuel_category=lake))
-    ground = Shot(Settings(terrain=Ground(apron=0.0)), run).ground
+    ground = Shot(Settings(terrain=TerrainSettings(apron=0.0)), run).ground
     np.testing.assert_array_equal(ground.water > 0.5, lake == 98)

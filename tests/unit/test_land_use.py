@@ -116,10 +116,10 @@ def test_no_plant_stands_on_water_roads_fields_and_buildings(make):
 
 
 def test_without_a_map_there_is_nothing(make_run):
-    from firetwin.shot.settings.settings import Ground, Settings
+    from firetwin.shot.settings.settings import Settings, TerrainSettings
     from firetwin.shot.shot import Shot
 
-    shot = Shot(Settings(terrain=Ground(apron=0.0)), runs.open(make_run()))
+    shot = Shot(Settings(terrain=TerrainSettings(apron=0.0)), runs.open(make_run()))
     assert land_use.pictures(shot) == {}
     assert not land_use.mapped(shot, np.zeros((3, 3))).any()
 

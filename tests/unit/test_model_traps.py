@@ -169,14 +169,14 @@ def test_fronts_have_holes(tmp_path):
 def test_the_ground_burns_where_the_model_says(tmp_path, converted):
     """Islands that a fire left out are invented in a synthetic run alone."""
     from firetwin.shot.settings.settings import Settings
-    from firetwin.shot.terrain.terrain import Ground
+    from firetwin.shot.terrain.terrain import Terrain
 
     arrival = np.hypot(*np.mgrid[-60:60, -60:60]) * 10.0
     run = converted([made.forefire(tmp_path / "ForeFire.0.nc", arrival, lx=6000.0, ly=6000.0)], at="42,9")
     inner = np.s_[2:-2, 2:-2]
 
     def burned():
-        ground = Ground(Settings(), run, run.fuel_arrival_time())
+        ground = Terrain(Settings(), run, run.fuel_arrival_time())
         margin = ground.fields.margin
         return ground.burned[margin:-margin, margin:-margin][inner]
 

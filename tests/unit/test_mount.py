@@ -21,7 +21,7 @@ from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.passes import _map, masks, pose
 from firetwin.shot.passes import fused as fused_pass
 from firetwin.shot.settings import scene_file
-from firetwin.shot.settings.settings import Camera, Ground, Render, Settings, Time
+from firetwin.shot.settings.settings import Camera, Render, Settings, TerrainSettings, Time
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from firetwin_core import sensor
@@ -39,7 +39,7 @@ SCENE = (
 @pytest.fixture
 def shot(make_run):
     def make(*cameras):
-        ground = Ground(near_radius=0.0, apron=5000.0)
+        ground = TerrainSettings(near_radius=0.0, apron=5000.0)
         render = Render(resolution=(320, 180))
         settings = Settings(time=Time(frames=5), terrain=ground, cameras=cameras, render=render)
         return Shot(settings, runs.open(make_run()))
@@ -364,7 +364,7 @@ def test_the_map_shows_front_and_scar_whatever_its_ground(make_run, tmp_path, mi
     arrival = np.where(np.arange(columns) < 3, -7200.0, np.where(np.arange(columns) < 5, -60.0, np.nan))
     fields = {"fuel_arrival_time": np.tile(arrival, (rows, 1)).astype(np.float32)}
     cameras = (DRONE, Camera("map", Minimap("drone", 3000.0), passes=("rgb",)))[: 2 if minimap else 1]
-    ground, render = Ground(near_radius=0.0, apron=5000.0), Render(resolution=(640, 360))
+    ground, render = TerrainSettings(near_radius=0.0, apron=5000.0), Render(resolution=(640, 360))
     settings = Settings(time=Time(frames=5), terrain=ground, cameras=cameras, render=render)
     made = Shot(settings, runs.open(make_run(**fields)))
     view = made.for_camera("drone").paths[0]

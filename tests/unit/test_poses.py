@@ -7,7 +7,7 @@ import pytest
 from firetwin.shot.cameras import rotation, sparse_keys
 from firetwin.shot.cameras.rigs import poses
 from firetwin.shot.settings import scene_file
-from firetwin.shot.settings.settings import Camera, Forest, Ground, Settings, Time
+from firetwin.shot.settings.settings import Camera, Forest, Settings, TerrainSettings, Time
 from firetwin.shot.shot import Shot
 from firetwin_core import geo
 from firetwin_core import run as runs
@@ -60,7 +60,7 @@ def test_few_keys_go_where_a_way_goes(seed):
 def _shot(run, keys, frames):
     settings = Settings(
         time=Time(frames=frames),
-        terrain=Ground(near_radius=0.0, apron=3000.0),
+        terrain=TerrainSettings(near_radius=0.0, apron=3000.0),
         forest=Forest(trees=False),
         cameras=(Camera("hand", poses.Poses(24.0, 13.2, keys)),),
     )

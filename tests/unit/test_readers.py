@@ -289,16 +289,16 @@ def test_a_place_is_found_across_the_antimeridian(make_run, low):
     """Cameras are given from -180 to 180, and the local frame gives no others back."""
     from firetwin.run import info
     from firetwin.shot.settings.settings import Settings
-    from firetwin.shot.terrain.terrain import Ground
+    from firetwin.shot.terrain.terrain import Terrain
 
     shift = 180.0 - MODEL.mean()
     folder = make_run()
     run = runs.open(folder)
-    plain = Ground(Settings(), run, run.fuel_arrival_time())
+    plain = Terrain(Settings(), run, run.fuel_arrival_time())
     for name, axis in (("longitude", MODEL), ("fuel_longitude", FUEL)):
         np.save(folder / f"{name}.npy", folded(axis + shift, low))
     run = runs.open(folder)
-    there = Ground(Settings(), run, run.fuel_arrival_time())
+    there = Terrain(Settings(), run, run.fuel_arrival_time())
     for longitude in FUEL[1:-1:3]:
         here = (longitude + shift + 180.0) % 360.0 - 180.0
         point, expected = there.point(38.904, here), plain.point(38.904, longitude)

@@ -6,7 +6,7 @@ from datetime import UTC, datetime
 import numpy as np
 import pytest
 from firetwin.shot.cameras.rigs.orbit import Orbit
-from firetwin.shot.settings.settings import Camera, Forest, Ground, Settings, Time
+from firetwin.shot.settings.settings import Camera, Forest, Settings, TerrainSettings, Time
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from hypothesis import HealthCheck, given
@@ -27,7 +27,7 @@ def orbit(make_run):
     def path(**changes):
         settings = Settings(
             time=Time(start=datetime(2014, 9, 17, 4, 45, tzinfo=UTC), frames=5),
-            terrain=Ground(near_radius=0.0, apron=0.0),
+            terrain=TerrainSettings(near_radius=0.0, apron=0.0),
             forest=Forest(trees=False),
             cameras=(Camera("round", replace(ORBIT, **changes)),),
         )

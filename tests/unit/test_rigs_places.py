@@ -16,7 +16,7 @@ from firetwin.shot.cameras.rigs.lookout import Lookout, LookoutKey
 from firetwin.shot.cameras.rigs.minimap import Minimap
 from firetwin.shot.cameras.rigs.satellite import ORBIT, Satellite
 from firetwin.shot.settings import scene_file
-from firetwin.shot.settings.settings import Camera, Forest, Ground, Settings, Time
+from firetwin.shot.settings.settings import Camera, Forest, Settings, TerrainSettings, Time
 from firetwin.shot.shot import Shot
 from firetwin_core import lod
 from firetwin_core import run as runs
@@ -39,7 +39,7 @@ def run(make_run):
 def shot_of(run, *cameras, frames=21):
     settings = Settings(
         time=Time(start=datetime(2014, 9, 17, 4, 45, tzinfo=UTC), frames=frames),
-        terrain=Ground(near_radius=0.0, apron=3000.0),
+        terrain=TerrainSettings(near_radius=0.0, apron=3000.0),
         forest=Forest(trees=False),
         cameras=cameras,
     )

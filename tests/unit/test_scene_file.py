@@ -13,7 +13,7 @@ from firetwin.errors import InputError
 from firetwin.shot.cameras.rigs import kinds
 from firetwin.shot.settings import frame_list, scene_file, schema
 from firetwin.shot.settings import toml_positions as places
-from firetwin.shot.settings.settings import Camera, Ground, OtherRun, Settings, Time
+from firetwin.shot.settings.settings import Camera, OtherRun, Settings, TerrainSettings, Time
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -67,7 +67,7 @@ def test_values_are_read_and_the_rest_is_default(load, tmp_path):
     assert [camera.kind for camera in loaded.cameras] == ["drone", "satellite"]
     assert loaded.cameras[0].rig.keys[1].target == "head"
     assert loaded.cameras[1].rig == kinds()["satellite"]()
-    assert loaded.terrain == Ground()
+    assert loaded.terrain == TerrainSettings()
 
 
 def test_an_empty_file_is_all_defaults(load, tmp_path):

@@ -13,7 +13,7 @@ from firetwin.shot.cameras.rigs import kinds
 from firetwin.shot.cameras.rigs._key import CameraKey
 from firetwin.shot.settings import scene_file, schema
 from firetwin.shot.settings.json_schema import json_schema
-from firetwin.shot.settings.settings import Camera, Fire, Render, Settings, Time
+from firetwin.shot.settings.settings import Camera, FireSettings, Render, Settings, Time
 
 ROOT = Path(__file__).parents[2]
 DRONE, SATELLITE = kinds()["drone"], kinds()["satellite"]
@@ -150,7 +150,9 @@ def test_the_pass_thermal_depends_on_smoke_and_its_own_settings():
     aspects = passes.known()["thermal"].aspects
     assert "thermal" in aspects
     assert "smoke" in aspects
-    changed = dataclasses.replace(SETTINGS, render=Render(thermal_high=900.0), fire=Fire(torches=False))
+    changed = dataclasses.replace(
+        SETTINGS, render=Render(thermal_high=900.0), fire=FireSettings(torches=False)
+    )
     depth = passes.known()["depth"].aspects
     assert schema.select(changed, depth) == schema.select(SETTINGS, depth)
 

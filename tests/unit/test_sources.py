@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from firetwin.shot.fire import burning
-from firetwin.shot.settings.settings import SMOKE_METHODS, Settings, Smoke, Time
+from firetwin.shot.settings.settings import SMOKE_METHODS, Settings, SmokeSettings, Time
 from firetwin.shot.shot import Shot
 from firetwin.smoke import bake, sources
 from firetwin_core import run as runs
@@ -61,7 +61,7 @@ def shot(tmp_path, make_run):
     run = runs.open(make_run())
 
     def make(**smoke):
-        settings = Settings(cache=tmp_path / "cache", time=Time(frames=1), smoke=Smoke(**smoke))
+        settings = Settings(cache=tmp_path / "cache", time=Time(frames=1), smoke=SmokeSettings(**smoke))
         return Shot(settings, run)
 
     return make
@@ -85,7 +85,7 @@ def test_a_source_says_what_it_is(name):
 def test_what_a_scene_file_can_choose_is_what_the_folder_holds():
     said = {name: (help, KNOWN[name].history) for name, help in sources.choices().items()}
     assert said == dict(SMOKE_METHODS.items())
-    assert {history for _, history in said.values()} <= set(vars(Smoke()))
+    assert {history for _, history in said.values()} <= set(vars(SmokeSettings()))
 
 
 def test_the_fields_of_a_run_go_before_the_method():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from firetwin.scene.forest import plot, stand, stand_structure
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
-from firetwin.shot.settings.settings import Camera, Forest, Ground, Settings
+from firetwin.shot.settings.settings import Camera, Forest, Settings, TerrainSettings
 from firetwin.shot.shot import Shot
 from firetwin.shot.terrain import noise
 from firetwin_core import run as runs
@@ -31,7 +31,7 @@ def shot(make_run):
         place = float(np.mean(run.fuel_latitude)), float(np.mean(run.fuel_longitude))
         key = CameraKey(0.0, *place, 900.0, "point", place[0] + 0.01, place[1], 0.0)
         settings = Settings(
-            terrain=Ground(near_radius=0.0, apron=0.0),
+            terrain=TerrainSettings(near_radius=0.0, apron=0.0),
             forest=Forest(budget=200_000, **forest),
             cameras=(Camera("a", Drone(keys=(key,), focal_length=8.0)),),
         )

@@ -238,11 +238,11 @@ def test_a_picture_depends_on_the_settings_that_it_shows():
     assert (
         changes(time=replace(SETTINGS.time, fps=5, zone="UTC")) == {"fused"} | compared
     )  # they tell the time
-    assert changes(terrain=s.Ground(apron=1.0)) == everything
+    assert changes(terrain=s.TerrainSettings(apron=1.0)) == everything
     assert changes(render=s.Render(resolution=(64, 36))) == everything
     assert changes(render=s.Render(samples=7)) == lit
     assert changes(light=s.Light(haze=0.5)) == lit
-    assert changes(smoke=s.Smoke(max_age=9.0)) == lit | {"masks"}
+    assert changes(smoke=s.SmokeSettings(max_age=9.0)) == lit | {"masks"}
     assert changes(render=s.Render(thermal_high=900.0)) == {"thermal", "overlay", "fused"}
     assert changes(render=s.Render(passes=("rgb",), video=False, device="cpu")) == {"pose"}
     # What is built, and how finely, depends on what is filmed of it.

@@ -9,8 +9,8 @@ import pytest
 from firetwin.scene.fire import flames
 from firetwin.shot.cameras.rigs.orbit import Orbit
 from firetwin.shot.fire.fire import Fire
-from firetwin.shot.settings.settings import Camera, Forest, Ground, Settings, Time
-from firetwin.shot.settings.settings import Fire as FireSettings
+from firetwin.shot.settings.settings import Camera, Forest, Settings, TerrainSettings, Time
+from firetwin.shot.settings.settings import FireSettings as FireSettings
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from small_run import FX, FY, RUN_TOML, write_field
@@ -56,7 +56,7 @@ def test_what_pictures_are_made_of_is_the_same_to_the_millisecond(both):
             end=datetime(2014, 9, 17, 4, 46, 59, tzinfo=UTC),
             frames=5,
         ),
-        terrain=Ground(near_radius=0.0, apron=0.0),
+        terrain=TerrainSettings(near_radius=0.0, apron=0.0),
         forest=Forest(trees=False, grass=False),
         fire=FireSettings(torches=False),
         cameras=(Camera("a", ORBIT),),

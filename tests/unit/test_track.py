@@ -12,7 +12,7 @@ from firetwin.shot import code_fingerprint, run_checks
 from firetwin.shot.cameras import track
 from firetwin.shot.cameras.rigs.drone import Drone
 from firetwin.shot.settings import scene_file
-from firetwin.shot.settings.settings import Camera, Forest, Ground, Settings, Time
+from firetwin.shot.settings.settings import Camera, Forest, Settings, TerrainSettings, Time
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from hypothesis import HealthCheck, given
@@ -69,7 +69,7 @@ def following(run, path, frames=5, **drone):
     """A shot of the whole small run, two minutes, with a drone on a track."""
     settings = Settings(
         time=Time(frames=frames),
-        terrain=Ground(near_radius=0.0, apron=3000.0),
+        terrain=TerrainSettings(near_radius=0.0, apron=3000.0),
         forest=Forest(trees=False),
         cameras=(Camera("scout", Drone(track=path, **drone)),),
     )

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from firetwin.scene.forest import fire_effects, models, understorey
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
-from firetwin.shot.settings.settings import Camera, Forest, Ground, Render, Settings
+from firetwin.shot.settings.settings import Camera, Forest, Render, Settings, TerrainSettings
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from hypothesis import given
@@ -35,7 +35,7 @@ def film(make_run):
         if not folder:
             folder.append(make_run(fuel_elevation=slope.astype(np.float32), **arrays))
         settings = Settings(
-            terrain=Ground(near_radius=1500.0, apron=0.0),
+            terrain=TerrainSettings(near_radius=1500.0, apron=0.0),
             forest=Forest(trees=False, **forest),
             cameras=cameras,
             render=Render(resolution=(640, 360)),

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from firetwin.shot.cameras.rigs.orbit import Orbit
 from firetwin.shot.cameras.rigs.satellite import Satellite
-from firetwin.shot.settings.settings import Camera, Forest, Ground, Render, Settings, Time
+from firetwin.shot.settings.settings import Camera, Forest, Render, Settings, TerrainSettings, Time
 from firetwin.shot.shot import Shot
 from firetwin.shot.terrain import mesh_tolerance, shadow_casters
 from firetwin_core import lod
@@ -32,7 +32,7 @@ def film(make_run):
                 end=datetime(2014, 9, 17, 4, 50, tzinfo=UTC),
                 frames=9,
             ),
-            terrain=Ground(near_radius=1500.0, apron=0.0),
+            terrain=TerrainSettings(near_radius=1500.0, apron=0.0),
             forest=Forest(trees=False),
             cameras=cameras,
         )
@@ -113,7 +113,7 @@ def test_without_skipping_all_counts_as_seen_and_is_drawn_as_from_near_by(film):
 
 @pytest.mark.parametrize("rig", [ORBIT, Satellite(swath=1000.0)])
 def test_ground_is_drawn_no_more_exactly_than_heights_are_known(film, rig):
-    shot = film(Camera("a", rig), terrain=Ground(near_radius=1500.0, apron=0.0, error=1.0e-6))
+    shot = film(Camera("a", rig), terrain=TerrainSettings(near_radius=1500.0, apron=0.0, error=1.0e-6))
     assert np.unique(mesh_tolerance.wanted(shot).tolerance)[0] == np.float32(0.02)
 
 
@@ -165,6 +165,6 @@ def test_no_drawn_ground_is_under_its_floor(film):
     drawn = ground.point(*ground.places(row, column))[:, 2]
     gap = drawn - corners[row.astype(int), column.astype(int)]
     assert gap.min() > -1e-6
-    flat = film(Camera("a", ORBIT), terrain=Ground(near_radius=0.0, apron=0.0)).ground
+    flat = film(Camera("a", ORBIT), terrain=TerrainSettings(near_radius=0.0, apron=0.0)).ground
     coarse = flat.frame.forward_grid(flat.fields.latitude, flat.fields.longitude, flat.fields.elevation)
     np.testing.assert_array_equal(flat.floor(), coarse)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from firetwin.scene.forest import visibility, visible_cells
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
-from firetwin.shot.settings.settings import Camera, Ground, Settings
+from firetwin.shot.settings.settings import Camera, Settings, TerrainSettings
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from firetwin_core.terrain import bilinear
@@ -20,7 +20,7 @@ def film(make_run):
     place = float(np.mean(run.fuel_latitude)), float(np.mean(run.fuel_longitude))
     key = CameraKey(0.0, *place, 1500.0, "point", place[0] + 0.02, place[1], 0.0)
     cameras = (Camera("a", Drone(keys=(key,))),)
-    return Shot(Settings(terrain=Ground(near_radius=0.0, apron=0.0), cameras=cameras), run)
+    return Shot(Settings(terrain=TerrainSettings(near_radius=0.0, apron=0.0), cameras=cameras), run)
 
 
 def grid(film, seed=0, rise=400.0):

@@ -16,7 +16,7 @@ from firetwin.shot.cameras.rigs.drone import Drone
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.cameras.rigs.vr import Vr
 from firetwin.shot.settings import scene_file
-from firetwin.shot.settings.settings import Camera, Forest, Ground, Render, Settings, Time
+from firetwin.shot.settings.settings import Camera, Forest, Render, Settings, TerrainSettings, Time
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from firetwin_core import sensor
@@ -28,7 +28,7 @@ KEY = CameraKey(0.0, *PLACE, 120.0, "point", 38.905, -120.593)
 def shot_of(run, *cameras, resolution=(512, 512)):
     settings = Settings(
         time=Time(start=datetime(2014, 9, 17, 4, 45, tzinfo=UTC), frames=5),
-        terrain=Ground(near_radius=0.0, apron=3000.0),
+        terrain=TerrainSettings(near_radius=0.0, apron=3000.0),
         forest=Forest(trees=False),
         cameras=cameras,
         render=Render(resolution=resolution),

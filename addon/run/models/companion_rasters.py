@@ -19,7 +19,7 @@ _DEFAULT_LOAD = 1.0  # kg/m2, fuel load where no file has one
 
 
 @dataclass
-class Land:
+class LandRasters:
     """Layers by role, in m and kg/m3, with assumptions about them and files not named by the user."""
 
     layers: dict[str, raster.Raster]
@@ -103,9 +103,9 @@ class Land:
             self.assumptions.append(text)
 
 
-def find(paths: list[Path], look: bool = False) -> Land:
+def find(paths: list[Path], look: bool = False) -> LandRasters:
     """Collect layers by LCP header or by raster name; `look`: also from files in the same folders."""
-    land = Land({})
+    land = LandRasters({})
     for path in paths:
         land.layers |= _layers(path)
     if look and "category" not in land.layers:
@@ -121,7 +121,7 @@ def _layers(path: Path) -> dict[str, raster.Raster]:
     return {name: _in_units(raster.read(path), name)} if name in _LAYERS and raster.is_raster(path) else {}
 
 
-def _find_unnamed(land: Land, paths: list[Path]) -> None:
+def _find_unnamed(land: LandRasters, paths: list[Path]) -> None:
     """Add layers of files not named by the user: in the same folders, and in ELMFIRE's `inputs`."""
     folders = {path.parent for path in paths} | {path.parent.parent / "inputs" for path in paths}
     there = [file for folder in sorted(folders) if folder.is_dir() for file in sorted(folder.iterdir())]

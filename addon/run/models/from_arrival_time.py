@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ...errors import Error, input_error
 from . import fuels, heat_from_intensity
-from .companion_rasters import Land
+from .companion_rasters import LandRasters
 from .given_wind import Wind
 from .grid import Grid
 from .model import Model, Moving, Options
@@ -48,7 +48,13 @@ class Maps:
 
 
 def model(
-    maps: Maps, grid: Grid, land: Land, options: Options, source: str, files: list[Path], notes: list[str]
+    maps: Maps,
+    grid: Grid,
+    land: LandRasters,
+    options: Options,
+    source: str,
+    files: list[Path],
+    notes: list[str],
 ) -> Model:
     """Build a model from maps; the start is the option's (`begun`)."""
     if maps.arrival.shape != grid.shape:
@@ -132,7 +138,7 @@ class _Fuel:
     category: NDArray | None
 
 
-def _fuel(maps: Maps, grid: Grid, land: Land, projection: str, notes: list[str]) -> _Fuel:
+def _fuel(maps: Maps, grid: Grid, land: LandRasters, projection: str, notes: list[str]) -> _Fuel:
     """Fuel from the maps or companion rasters; else by the model's heat per area, else constant."""
     category = maps.category if maps.category is not None else land.category(grid, projection)
     canopy = np.nan_to_num(maps.canopy if maps.canopy is not None else land.canopy(grid, projection))

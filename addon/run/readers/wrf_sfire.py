@@ -276,7 +276,9 @@ def _dry_density(wrf: _Wrf, i: int) -> NDArray:
     return (wrf.read("P", i) + wrf.read("PB", i)) / (np.float32(_RD) * _kelvin(wrf, i) * moist)
 
 
-def _still(wrf: _Wrf, model: Model, land: companion_rasters.Land, options: Options, notes: list[str]) -> None:
+def _still(
+    wrf: _Wrf, model: Model, land: companion_rasters.LandRasters, options: Options, notes: list[str]
+) -> None:
     fine = model.air is not None
     if wrf.has("ZSF"):
         model.still["fuel_elevation"] = lambda: wrf.fire("ZSF", 0)

@@ -20,7 +20,7 @@ from ...errors import UsageError
 from .. import info, times
 from ..observations import Observations
 from . import arrival, detected, shapes, used
-from .grid import Grid
+from .grid import ScoreGrid
 from .overlap import Overlap
 
 SAMPLES = 6  # times at which another run is compared if nothing gives other times
@@ -52,7 +52,7 @@ def score(
         Shapely or pyproj is missing.
     """
     shapes.needed()
-    grid = Grid.of(run)
+    grid = ScoreGrid.of(run)
     seen = [
         Seen(perimeter.time, shapes.of_perimeter(perimeter, grid.middle), perimeter.source)
         for perimeter in observations.perimeters
@@ -94,7 +94,7 @@ def score(
     }
 
 
-def _fates(run: Run, grid: Grid, perimeters: Sequence[Seen]) -> list[str]:
+def _fates(run: Run, grid: ScoreGrid, perimeters: Sequence[Seen]) -> list[str]:
     """Use of each perimeter, one of `used.FATES`."""
     moments = [times.seconds(run, each.time) for each in perimeters]
     here = [grid.box.intersects(grid.projection.project(each.shape)) for each in perimeters]
@@ -102,7 +102,7 @@ def _fates(run: Run, grid: Grid, perimeters: Sequence[Seen]) -> list[str]:
 
 
 def _uses(
-    run: Run, grid: Grid, seen: Sequence[Seen], fates: Sequence[str], observations: Observations
+    run: Run, grid: ScoreGrid, seen: Sequence[Seen], fates: Sequence[str], observations: Observations
 ) -> list[dict[str, Any]]:
     """Counts of each file's observations by use, with the reasons for exclusion (see `used.row`)."""
     sources = dict.fromkeys(perimeter.source for perimeter in seen)
@@ -119,7 +119,7 @@ def _uses(
     ]
 
 
-def _date(run: Run, grid: Grid, perimeter: Seen) -> dict[str, Any]:
+def _date(run: Run, grid: ScoreGrid, perimeter: Seen) -> dict[str, Any]:
     """Scores of one perimeter: of the total burned area, and without the area burned at the start."""
     time, first = times.seconds(run, perimeter.time), float(run.times[0])
     here, there = grid.polygon(time), grid.projection.project(perimeter.shape)
@@ -159,9 +159,9 @@ def _both(polygons: Overlap, cells: Overlap) -> dict[str, Any]:
     return {"polygons": one, "cells": two, "error": error}
 
 
-def _arrival(run: Run, grid: Grid, seen: Sequence[Seen], other: Run | None) -> dict[str, Any] | None:
+def _arrival(run: Run, grid: ScoreGrid, seen: Sequence[Seen], other: Run | None) -> dict[str, Any] | None:
     if other is not None:
-        theirs = Grid.of(other)
+        theirs = ScoreGrid.of(other)
         shift = times.seconds(run, times.utc(other, 0.0))
         return arrival.between(
             grid.arrival, arrival.sampled(theirs, grid) + shift, (float(run.times[0]), float(run.times[-1]))
@@ -172,7 +172,7 @@ def _arrival(run: Run, grid: Grid, seen: Sequence[Seen], other: Run | None) -> d
     return arrival.within(grid.arrival, masks, [times.seconds(run, perimeter.time) for perimeter in seen])
 
 
-def _reported(run: Run, grid: Grid) -> list[dict[str, Any]]:
+def _reported(run: Run, grid: ScoreGrid) -> list[dict[str, Any]]:
     """Reported acreages of the fire next to the run's area on polygons and on cells."""
     rows = info.reported(run)
     for row in rows:
@@ -191,7 +191,7 @@ def _of_run(other: Run, run: Run, moments: Sequence[datetime]) -> list[Seen]:
     spread = [
         low + timedelta(seconds=s) for s in np.linspace(0, (high - low).total_seconds(), SAMPLES + 1)[1:]
     ]
-    theirs = Grid.of(other)
+    theirs = ScoreGrid.of(other)
     return [
         Seen(moment, theirs.degrees(theirs.polygon(times.seconds(other, moment))), other.name)
         for moment in common or spread

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from .grid import Grid
+    from .grid import ScoreGrid
 
 
 def between(run: NDArray[np.float64], seen: NDArray[np.float64], common: Sequence[float]) -> dict[str, Any]:
@@ -60,7 +60,7 @@ def _statistics(error: NDArray[np.float64]) -> dict[str, Any]:
     }
 
 
-def sampled(there: Grid, here: Grid) -> NDArray[np.float64]:
+def sampled(there: ScoreGrid, here: ScoreGrid) -> NDArray[np.float64]:
     """Resample arrival times (s) of one grid to the cells of another by nearest neighbour; NaN outside."""
     row, column = there.at(here.latitude, here.longitude)
     times = there.arrival[np.ix_(np.maximum(row, 0), np.maximum(column, 0))]

@@ -11,16 +11,16 @@ from numpy.typing import NDArray
 from .. import times
 from ..observations import Detections
 from . import used
-from .grid import Grid
+from .grid import ScoreGrid
 
 
-def fates(run: Run, grid: Grid, detections: Detections) -> NDArray[np.str_]:
+def fates(run: Run, grid: ScoreGrid, detections: Detections) -> NDArray[np.str_]:
     """Use of each detection, one of `used.FATES`."""
     row, column = grid.at(detections.latitude, detections.longitude)
     return used.fates(run, _moments(run, detections), (row >= 0) & (column >= 0))
 
 
-def rows(run: Run, grid: Grid, detections: Detections) -> list[dict[str, Any]]:
+def rows(run: Run, grid: ScoreGrid, detections: Detections) -> list[dict[str, Any]]:
     """Statistics of each overpass within the run's time and area.
 
     `inside` counts detections whose centre the run had burned by then; `within_pixel` also those within half

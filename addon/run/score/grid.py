@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Grid:
+class ScoreGrid:
     """Cell centres (degrees, from south and west) and arrival times (ny, nx), s, NaN where never.
 
     `fraction` returns the burned fraction (ny, nx) at a model time (s), for runs that have it.
@@ -31,7 +31,7 @@ class Grid:
     fraction: Callable[[float], NDArray] | None = None
 
     @classmethod
-    def of(cls, run: Run) -> Grid:
+    def of(cls, run: Run) -> ScoreGrid:
         """Grid of a run, with arrival times from the core."""
         latitude, longitude, time = run.fuel_latitude, run.fuel_longitude, run.fuel_arrival_time()
         south, west = latitude[0] > latitude[-1], longitude[0] > longitude[-1]

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from ...data import history
 from .. import areas, info, times
-from .grid import Grid
+from .grid import ScoreGrid
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,7 +33,7 @@ _KILO = 1e3
 _MOMENTS, _MARKED = 200, 40  # points of a growth curve, and up to how many are marked
 
 
-def overlap(run: Run, grid: Grid, here: BaseGeometry, there: BaseGeometry, frame: BaseGeometry) -> str:
+def overlap(run: Run, grid: ScoreGrid, here: BaseGeometry, there: BaseGeometry, frame: BaseGeometry) -> str:
     """Overlap map of one date as a data URI: burned in both, in the run only, and in the reference only."""
     figure, axes = _map(run, grid, frame)
     for shape, colour in (
@@ -46,7 +46,7 @@ def overlap(run: Run, grid: Grid, here: BaseGeometry, there: BaseGeometry, frame
     return _png(figure)
 
 
-def progress(run: Run, grid: Grid, shapes: Sequence[BaseGeometry], frame: BaseGeometry) -> str:
+def progress(run: Run, grid: ScoreGrid, shapes: Sequence[BaseGeometry], frame: BaseGeometry) -> str:
     """Progression map: burned area of the run by date, the latest lightest, as a data URI."""
     figure, axes = _map(run, grid, frame)
     for shape, colour in reversed(list(zip(shapes, ways(len(shapes)), strict=True))):
@@ -120,7 +120,7 @@ def _curve(axes: Axes, run: Run, zone: ZoneInfo, **style: Any) -> None:
     axes.plot(when, area, linewidth=2, marker="o" if len(moments) <= _MARKED else "", markersize=4, **style)
 
 
-def _map(run: Run, grid: Grid, frame: BaseGeometry) -> tuple[Figure, Axes]:
+def _map(run: Run, grid: ScoreGrid, frame: BaseGeometry) -> tuple[Figure, Axes]:
     """Hill shading of a shape's extent, in km east and north, with a scale bar."""
     west, south, east, north = (bound / _KILO for bound in frame.bounds)
     margin = 0.06 * max(east - west, north - south)
@@ -135,7 +135,7 @@ def _map(run: Run, grid: Grid, frame: BaseGeometry) -> tuple[Figure, Axes]:
     return figure, axes
 
 
-def _relief(axes: Axes, run: Run, grid: Grid) -> None:
+def _relief(axes: Axes, run: Run, grid: ScoreGrid) -> None:
     height = np.nan_to_num(run.elevation.astype(np.float64))
     if min(height.shape) < 3:
         return

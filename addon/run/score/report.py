@@ -12,7 +12,7 @@ from firetwin_core.run import Run
 from ...data import history
 from .. import times
 from . import plots, shapes, used
-from .grid import Grid
+from .grid import ScoreGrid
 from .overlap import HELP
 from .page import arrival, local, said, theirs
 
@@ -48,7 +48,7 @@ dt{font-weight:600}dd{margin:0;color:var(--soft)}
 
 def html(run: Run, results: dict[str, Any], seen: Any, other: Run | None = None) -> str:
     """Report of the scores `found` of a run against observations `seen` or against another run."""
-    grid = Grid.of(run)
+    grid = ScoreGrid.of(run)
     name = escape(run.name)
     body = "\n".join(
         part
@@ -108,14 +108,14 @@ def _growth(run: Run, results: dict[str, Any], other: Run | None) -> Iterator[st
     yield f"<h2>Growth</h2><figure>{plots.growth(run, results, other)}</figure>"
 
 
-def _maps(run: Run, grid: Grid, results: dict[str, Any], seen: Any, other: Run | None) -> Iterator[str]:
+def _maps(run: Run, grid: ScoreGrid, results: dict[str, Any], seen: Any, other: Run | None) -> Iterator[str]:
     if not results["dates"]:
         return
     yield f"<h2>{'Where the two burned' if other else 'Hits, misses and false alarms'}</h2>"
     yield _key(
         *zip((plots.HITS, plots.FALSE_ALARMS, plots.MISSES), _kinds(run, other), strict=True),
     )
-    theirs = None if other is None else (other, Grid.of(other))
+    theirs = None if other is None else (other, ScoreGrid.of(other))
     pairs = [_pair(run, grid, row, seen, theirs) for row in results["dates"]]
     frame = shapes.collected([shape for pair in pairs for shape in pair])
     yield '<div class="maps">'
@@ -138,7 +138,7 @@ def _kinds(run: Run, other: Run | None) -> tuple[str, str, str]:
 
 
 def _pair(
-    run: Run, grid: Grid, row: dict[str, Any], seen: Any, theirs: tuple[Run, Grid] | None
+    run: Run, grid: ScoreGrid, row: dict[str, Any], seen: Any, theirs: tuple[Run, ScoreGrid] | None
 ) -> tuple[Any, Any]:
     """Projected shapes of a date: the run's, and the observed one or the other run's."""
     moment = datetime.fromisoformat(row["time"])
@@ -186,7 +186,7 @@ def _score_row(row: dict[str, Any], scores: dict[str, Any], zone: str) -> list[s
     return [local(row["time"], zone), *sizes, *numbers, apart]
 
 
-def _reported(run: Run, grid: Grid, results: dict[str, Any]) -> Iterator[str]:
+def _reported(run: Run, grid: ScoreGrid, results: dict[str, Any]) -> Iterator[str]:
     rows = [row for row in results["reported"] if row["run"] is not None]
     if not rows:
         return

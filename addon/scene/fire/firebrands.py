@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ...shot.fire import burning
 from ...shot.shot import Shot
 from ...shot.terrain import noise
-from ...shot.terrain.terrain import Ground
+from ...shot.terrain.terrain import Terrain
 from . import flames
 
 REACH = 1800.0  # m from a camera; firebrands farther away are too faint for a picture
@@ -256,7 +256,7 @@ def _flights(launched: Launches, path: NDArray[np.float32], zero: float, moment:
     )
 
 
-def _floor(ground: Ground, position: Array) -> geo.HeightField:
+def _floor(ground: Terrain, position: Array) -> geo.HeightField:
     """The terrain round the flames, where firebrands land."""
     if len(position) == 0:
         position = np.zeros((1, 3))

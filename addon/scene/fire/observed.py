@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ...blender import nodes, owned
 from ...blender.owned import Stage
 from ...shot.fire import observed
-from ...shot.fire.observed import Line
+from ...shot.fire.observed import DrapedLine
 from ...shot.shot import Shot
 from .. import glow, haze
 
@@ -43,7 +43,7 @@ def camera_rays_only(obj: bpy.types.Object) -> None:
     obj.visible_shadow = obj.visible_diffuse = obj.visible_glossy = obj.visible_volume_scatter = False
 
 
-def _mesh(lines: list[Line], width: float) -> bpy.types.Mesh:
+def _mesh(lines: list[DrapedLine], width: float) -> bpy.types.Mesh:
     ribbons = [ribbon(line.points, width) for line in lines]
     starts = np.cumsum([0, *(len(each) for each in ribbons)])
     faces = [_faces(len(line.points)) + at for line, at in zip(lines, starts[:-1], strict=True)]

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ...run import fuel_category
 from ...shot.shot import Shot
 from ...shot.terrain import land_use, noise
-from ...shot.terrain.terrain import Ground
+from ...shot.terrain.terrain import Terrain
 from . import biomes, patterns
 
 _REACH = 180.0  # m, half-width of the moving means that a hollow lies below (by eye)
@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 
 
 _SHRUBS: WeakKeyDictionary[Shot, Array] = WeakKeyDictionary()
-_HOLLOWS: WeakKeyDictionary[Ground, Array] = WeakKeyDictionary()
+_HOLLOWS: WeakKeyDictionary[Terrain, Array] = WeakKeyDictionary()
 
 
 def shrubs(shot: Shot) -> Array:
@@ -47,7 +47,7 @@ def _shrubs(shot: Shot) -> Array:
     return share
 
 
-def _by_load(ground: Ground, here: biomes.Here) -> Array:
+def _by_load(ground: Terrain, here: biomes.Here) -> Array:
     low, high = here.biome.shrub_load
     return _beside(here, 0.85 * noise.smoothstep(low, high, ground.fields.surface_fuel))
 
@@ -100,14 +100,14 @@ def _ascending(axis: Array) -> tuple[Array, Array]:
     return axis[order], order.astype(np.float64)
 
 
-def hollows(ground: Ground) -> Array:
+def hollows(ground: Terrain) -> Array:
     """Hollows: depth below moving means of elevation, -1 (crests) to 1 (hollows); noise on level land."""
     if ground not in _HOLLOWS:
         _HOLLOWS[ground] = _hollows(ground)
     return _HOLLOWS[ground]
 
 
-def _hollows(ground: Ground) -> Array:
+def _hollows(ground: Terrain) -> Array:
     height = ground.fields.elevation
     below = np.zeros(height.shape)
     for reach in (_REACH, 3.0 * _REACH):
@@ -117,7 +117,7 @@ def _hollows(ground: Ground) -> Array:
     return relief + (1.0 - np.abs(relief)) * 0.6 * _noise(ground)
 
 
-def _noise(ground: Ground) -> Array:
+def _noise(ground: Terrain) -> Array:
     """Noise of the plane, -1..1; 0 on the apron, whose grid is coarse."""
     fields, inner = ground.fields, np.zeros(ground.shape)
     rows, columns = (np.arange(len(axis)) for axis in (fields.latitude, fields.longitude))

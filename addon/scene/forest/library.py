@@ -70,7 +70,7 @@ def tree_models(shot: Shot, stage: Stage, drawn: set[int] | None = None) -> bpy.
     return library
 
 
-def _looks(shot: Shot, stage: Stage) -> Callable[[models.Model], Look]:
+def _looks(shot: Shot, stage: Stage) -> Callable[[models.TreeModel], Look]:
     """Materials of leaves and wood of the models, each created on first use."""
     makers: dict[str, Callable[[Shot, Stage], bpy.types.Material]] = {
         "leaf": material.foliage,
@@ -85,7 +85,7 @@ def _looks(shot: Shot, stage: Stage) -> Callable[[models.Model], Look]:
     def made(name: str) -> bpy.types.Material:
         return makers[name](shot, stage)
 
-    def look(model: models.Model) -> Look:
+    def look(model: models.TreeModel) -> Look:
         both = ("char", "char") if model.state == "snag" else kinds.get(model.kind, ("leaf", "wood"))
         return tuple(made(name) for name in both)
 

@@ -62,7 +62,7 @@ _LEAVES = 1500  # of level 1
 
 
 @dataclass(frozen=True)
-class Model:
+class TreeModel:
     """A model: its class, one of `KINDS`, its state ("living" or "snag"), and its generator of levels."""
 
     kind: str
@@ -134,35 +134,38 @@ def _conifers() -> list[tuple[str, Habit]]:
     ]
 
 
-def trees() -> list[Model]:
+def trees() -> list[TreeModel]:
     """All models of trees, in the order of their indices."""
     living = [*_conifers(), ("oak", habits.BLACK_OAK), ("oak", habits.BLACK_OAK)]
     snags = [(habits.SUGAR_PINE, 34, 1.0), (habits.WHITE_FIR, 26, 0.85), (habits.INCENSE_CEDAR, 20, 0.95)]
     brush = [habits.MANZANITA, habits.CEANOTHUS]
     return [
-        *(Model(kind, "living", partial(tree, habit, 100 + k)) for k, (kind, habit) in enumerate(living)),
+        *(TreeModel(kind, "living", partial(tree, habit, 100 + k)) for k, (kind, habit) in enumerate(living)),
         *(
-            Model(kind, "snag", partial(snag, habit, 130 + k, stubs, top))
+            TreeModel(kind, "snag", partial(snag, habit, 130 + k, stubs, top))
             for k, (kind, (habit, stubs, top)) in enumerate(zip(KINDS, snags, strict=False))
         ),
-        *(Model("brush", "living", partial(tree, habit, 150 + k)) for k, habit in enumerate(brush)),
+        *(TreeModel("brush", "living", partial(tree, habit, 150 + k)) for k, habit in enumerate(brush)),
     ]
 
 
-def undergrowth() -> list[Model]:
+def undergrowth() -> list[TreeModel]:
     """Models of the understorey and forest floor, in the order of their indices, which follow the trees'."""
     brush = [(habits.MANZANITA, 150), (habits.CEANOTHUS, 151)]  # the seeds of the living ones
     return [
-        *(Model("brush", "snag", partial(forest_floor.burned_brush, habit, seed)) for habit, seed in brush),
-        *(Model("log", "living", partial(forest_floor.log, 160 + k)) for k in range(len(LOGS))),
-        *(Model("rock", "living", partial(forest_floor.rock, 170 + k)) for k in range(len(ROCKS))),
-        *(Model("tuft", "living", partial(forest_floor.tuft, 180 + k)) for k in range(len(TUFTS))),
-        *(Model("tuft", "snag", partial(forest_floor.stubble, 180 + k)) for k in range(len(STUBBLE))),
-        *(Model("twigs", "living", partial(forest_floor.twigs, 190 + k)) for k in range(len(TWIGS))),
+        *(
+            TreeModel("brush", "snag", partial(forest_floor.burned_brush, habit, seed))
+            for habit, seed in brush
+        ),
+        *(TreeModel("log", "living", partial(forest_floor.log, 160 + k)) for k in range(len(LOGS))),
+        *(TreeModel("rock", "living", partial(forest_floor.rock, 170 + k)) for k in range(len(ROCKS))),
+        *(TreeModel("tuft", "living", partial(forest_floor.tuft, 180 + k)) for k in range(len(TUFTS))),
+        *(TreeModel("tuft", "snag", partial(forest_floor.stubble, 180 + k)) for k in range(len(STUBBLE))),
+        *(TreeModel("twigs", "living", partial(forest_floor.twigs, 190 + k)) for k in range(len(TWIGS))),
     ]
 
 
-def elsewhere() -> list[Model]:
+def elsewhere() -> list[TreeModel]:
     """Trees and bushes of biomes other than the Sierra's, in the order of their indices, which come last."""
     kinds = (
         *(("oak", species.HOLM_OAK), ("oak", species.LIVE_OAK), ("pine", species.STONE_PINE)),
@@ -171,17 +174,17 @@ def elsewhere() -> list[Model]:
     brush = (species.LENTISK, species.CISTUS, species.TREE_HEATH)
     high = [each for each in kinds for _ in range(2)]
     return [
-        *(Model(kind, "living", partial(tree, habit, 200 + k)) for k, (kind, habit) in enumerate(high)),
-        *(Model("brush", "living", partial(tree, habit, 220 + k)) for k, habit in enumerate(brush)),
+        *(TreeModel(kind, "living", partial(tree, habit, 200 + k)) for k, (kind, habit) in enumerate(high)),
+        *(TreeModel("brush", "living", partial(tree, habit, 220 + k)) for k, habit in enumerate(brush)),
         *(
-            Model("brush", "snag", partial(forest_floor.burned_brush, habit, 220 + k))
+            TreeModel("brush", "snag", partial(forest_floor.burned_brush, habit, 220 + k))
             for k, habit in enumerate(brush)
         ),
-        *(Model("oak", "living", partial(tree, species.ACACIA, 230 + k)) for k in range(len(ACACIAS))),
+        *(TreeModel("oak", "living", partial(tree, species.ACACIA, 230 + k)) for k in range(len(ACACIAS))),
     ]
 
 
-def every() -> list[Model]:
+def every() -> list[TreeModel]:
     """All models of the forest except Algorithm 2's grass, in the order of their indices."""
     return [*trees(), *undergrowth(), *elsewhere()]
 

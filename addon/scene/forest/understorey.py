@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Kind:
+class PlantKind:
     """A kind of understorey plant or object. Numbers are assumed.
 
     Attributes
@@ -68,7 +68,7 @@ def _floor(surface: Array) -> Array:
 
 
 KINDS = {
-    "brush": Kind(
+    "brush": PlantKind(
         models.BRUSH,
         models.BURNED_BRUSH,
         16,
@@ -79,7 +79,7 @@ KINDS = {
         lambda canopy, surface, bare: _floor(surface) * (0.03 + 0.12 * np.exp(-canopy / 0.4)) + 0.006 * bare,
         patches=22.0,
     ),
-    "log": Kind(
+    "log": PlantKind(
         models.LOGS,
         models.LOGS,
         5,
@@ -89,7 +89,7 @@ KINDS = {
         (0.8, 1.2),
         lambda canopy, surface, bare: 0.010 * noise.smoothstep(0.1, 1.2, canopy),
     ),
-    "rock": Kind(
+    "rock": PlantKind(
         models.ROCKS,
         models.ROCKS,
         16,
@@ -100,7 +100,7 @@ KINDS = {
         lambda canopy, surface, bare: 0.025 + 0.20 * bare,
         patches=30.0,
     ),
-    "tuft": Kind(
+    "tuft": PlantKind(
         models.TUFTS,
         models.STUBBLE,
         32,
@@ -111,7 +111,7 @@ KINDS = {
         lambda canopy, surface, bare: _floor(surface) * (0.12 + 0.8 * np.exp(-canopy / 0.5)) + 0.05 * bare,
         patches=9.0,
     ),
-    "twigs": Kind(
+    "twigs": PlantKind(
         models.TWIGS,
         models.TWIGS,
         32,
@@ -125,7 +125,7 @@ KINDS = {
 }
 
 
-def kinds(shot: Shot) -> dict[str, Kind]:
+def kinds(shot: Shot) -> dict[str, PlantKind]:
     """Kinds of the shot's biome, by name."""
     biome = biomes.choose(shot).biome
     if biome.open_land is None:
@@ -133,7 +133,7 @@ def kinds(shot: Shot) -> dict[str, Kind]:
     return {name: _of_biome(shot, biome, name, kind) for name, kind in KINDS.items()}
 
 
-def _of_biome(shot: Shot, biome: biomes.Biome, name: str, kind: Kind) -> Kind:
+def _of_biome(shot: Shot, biome: biomes.Biome, name: str, kind: PlantKind) -> PlantKind:
     plants = biome.plants
     often, taller, wider = (each.get(name, 1.0) for each in (plants.density, plants.height, plants.width))
     which = plants.models.get(name, (kind.models, kind.burned))
@@ -226,7 +226,7 @@ def _nothing() -> Instances:
     return Instances(np.empty((0, 3)), empty, empty, empty, empty, empty, whole, whole, key, empty)
 
 
-def _scattered(shot: Shot, kind: Kind, number: int, pixel: float, budget: int) -> Instances:
+def _scattered(shot: Shot, kind: PlantKind, number: int, pixel: float, budget: int) -> Instances:
     """Instances of a kind, not yet aligned with the slope."""
     seed = shot.settings.seed + 600 + 20 * number
     reach = min(2.0 * kind.limits[1] / (_PIXELS * pixel), _FARTHEST)

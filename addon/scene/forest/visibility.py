@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...shot.shot import Shot
-from ...shot.terrain.terrain import Ground
+from ...shot.terrain.terrain import Terrain
 from . import models
 
 PIXEL = 25.0  # m; a satellite with larger pixels resolves no tree
@@ -41,7 +41,7 @@ def too_far(shot: Shot) -> bool:
     return PIXEL <= shot.pixel[1] < np.inf
 
 
-def settled(ground: Ground, position: NDArray[np.float64]) -> NDArray[np.float64]:
+def settled(ground: Terrain, position: NDArray[np.float64]) -> NDArray[np.float64]:
     """Positions projected vertically onto the terrain mesh."""
     position = position.copy()
     near = np.flatnonzero(ground.detail(*position.T) > 0.0)

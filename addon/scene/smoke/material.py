@@ -38,18 +38,18 @@ Colour = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
-class Flow:
+class NoiseAdvection:
     """Advection of the noise: wind 10 m over the ground (m/s), and the elevation of that ground (m)."""
 
     wind: tuple[float, float]
     ground: float
 
 
-def flow(shot: Shot) -> Flow:
+def flow(shot: Shot) -> NoiseAdvection:
     """Wind in the middle of the shot, and the mean elevation of the burning ground."""
     cells = shot.fire.cells(shot.frames.first - 3600.0, shot.frames.last)
     height = float(np.mean(cells.position[:, 2])) if len(cells.arrival) else 1000.0
-    return Flow(shot.wind, height)
+    return NoiseAdvection(shot.wind, height)
 
 
 def build(shot: Shot, stage: Stage) -> bpy.types.Material:
@@ -131,7 +131,7 @@ def smoke(
     return tree.add_shader(scatter, tree.output("ShaderNodeVolumeAbsorption", inputs))
 
 
-def _billow(tree: nodes.Tree, position: nodes.Value, carried: Flow, size: float) -> nodes.Value:
+def _billow(tree: nodes.Tree, position: nodes.Value, carried: NoiseAdvection, size: float) -> nodes.Value:
     """Billow noise, about 0..1 with mean 0.4, that is advected with the smoke.
 
     It moves with the wind some hundred metres up. Between there and the top of the smoke the wind of the

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ...blender import nodes, owned
 from ...shot.shot import Shot
 from ...shot.terrain import land_use, orthophoto
-from ...shot.terrain.terrain import Ground
+from ...shot.terrain.terrain import Terrain
 from ..forest import biomes, cover
 from ..forest.stand import Stand
 
@@ -87,7 +87,7 @@ def place(shape: tuple[int, int], row: NDArray, column: NDArray, margin: int = 0
     return np.stack([(column + 0.5) / columns, (row + 0.5) / rows, out], axis=-1).astype(np.float32)
 
 
-def _softened(ground: Ground) -> NDArray[np.float64]:
+def _softened(ground: Terrain) -> NDArray[np.float64]:
     """Canopy fuel (ny, nx) kg/m2, with the apron's forest edges blurred in proportion to its cell size.
 
     The shader's noise turns soft edges into edges of all sizes, without the steps of cells. Where half of a
@@ -176,7 +176,7 @@ def _image(name: str, channels: list[NDArray[np.float64]]) -> bpy.types.Image:
     return owned.mark(image)
 
 
-def photos(shot: Shot) -> list[tuple[orthophoto.Picture, bpy.types.Image]]:
+def photos(shot: Shot) -> list[tuple[orthophoto.OrthophotoImage, bpy.types.Image]]:
     """The user's orthophotos as images, packed into the .blend file; finer ones after coarser ones."""
     return [
         (picture, _coloured(f"Firetwin Photo {number}", picture))
@@ -184,7 +184,7 @@ def photos(shot: Shot) -> list[tuple[orthophoto.Picture, bpy.types.Image]]:
     ]
 
 
-def maps(shot: Shot) -> dict[str, list[tuple[orthophoto.Picture, bpy.types.Image]]]:
+def maps(shot: Shot) -> dict[str, list[tuple[orthophoto.OrthophotoImage, bpy.types.Image]]]:
     """The user's land use as images, by `land_use.LAYERS`; finer ones after coarser ones."""
     return {
         layer: [
@@ -195,7 +195,7 @@ def maps(shot: Shot) -> dict[str, list[tuple[orthophoto.Picture, bpy.types.Image
     }
 
 
-def _coloured(name: str, picture: orthophoto.Picture) -> bpy.types.Image:
+def _coloured(name: str, picture: orthophoto.OrthophotoImage) -> bpy.types.Image:
     """A colour image, packed into the .blend file."""
     rows, columns = picture.pixels.shape[:2]
     image = bpy.data.images.new(name, columns, rows, alpha=True)

@@ -31,8 +31,8 @@ def build(
     shot: Shot,
     stage: Stage,
     images: dict[str, bpy.types.Image],
-    photos: Sequence[tuple[orthophoto.Picture, bpy.types.Image]] = (),
-    maps: Mapping[str, Sequence[tuple[orthophoto.Picture, bpy.types.Image]]] | None = None,
+    photos: Sequence[tuple[orthophoto.OrthophotoImage, bpy.types.Image]] = (),
+    maps: Mapping[str, Sequence[tuple[orthophoto.OrthophotoImage, bpy.types.Image]]] | None = None,
 ) -> bpy.types.Material:
     """Build "Firetwin Ground" from the images of fields, coloured by these orthophotos.
 
@@ -56,9 +56,9 @@ def _visible(
     stage: Stage,
     known: fields.Fields,
     lake: nodes.Value,
-    photos: Sequence[tuple[orthophoto.Picture, bpy.types.Image]],
+    photos: Sequence[tuple[orthophoto.OrthophotoImage, bpy.types.Image]],
     biome: Here,
-    maps: Mapping[str, Sequence[tuple[orthophoto.Picture, bpy.types.Image]]],
+    maps: Mapping[str, Sequence[tuple[orthophoto.OrthophotoImage, bpy.types.Image]]],
 ) -> nodes.Value:
     """Visible shader. Shaders are mixed, not colours: Cycles does not evaluate a shader of weight 0."""
     outcrops = biome.biome.outcrops
@@ -174,7 +174,7 @@ def _plain(tree: nodes.Tree, known: fields.Fields, biome: Here) -> nodes.Value:
 def _photographed(
     tree: nodes.Tree,
     here: Place,
-    picture: orthophoto.Picture,
+    picture: orthophoto.OrthophotoImage,
     image: bpy.types.Image,
     ground: nodes.Value,
 ) -> nodes.Value:
@@ -188,7 +188,7 @@ def _mapped(
     tree: nodes.Tree,
     here: Place,
     layer: str,
-    picture: orthophoto.Picture,
+    picture: orthophoto.OrthophotoImage,
     image: bpy.types.Image,
     ground: nodes.Value,
 ) -> nodes.Value:
@@ -207,7 +207,7 @@ def _mapped(
 
 
 def _picture(
-    tree: nodes.Tree, here: Place, picture: orthophoto.Picture, image: bpy.types.Image
+    tree: nodes.Tree, here: Place, picture: orthophoto.OrthophotoImage, image: bpy.types.Image
 ) -> bpy.types.Node:
     """Image texture node of a picture draped on the ground."""
     scale = 1.0 / (picture.high - picture.low)

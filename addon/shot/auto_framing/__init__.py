@@ -14,7 +14,7 @@ from firetwin_core.run import Run
 from ..settings.settings import Settings, Time
 from ..shot import Shot
 from . import chase, flank, front, overview, satellite, text, window
-from .candidates import Placed
+from .candidates import PlacedCamera
 from .visible_share import Visible
 
 
@@ -86,7 +86,7 @@ def fit_folder(folder: Path, path: Path, cache: Path, time: Time | None = None) 
     return fit(readers.open(folder), Settings(path=path, run=folder, cache=cache, time=time or Time()))
 
 
-def _placed(moving: front.Front) -> list[Placed]:
+def _placed(moving: front.Front) -> list[PlacedCamera]:
     visible = Visible(moving)
     kinds = (overview, chase, flank, satellite) if moving.runs else (overview, satellite)
     return [kind.place(moving, visible) for kind in kinds]

@@ -35,7 +35,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Placed:
+class PlacedCamera:
     """Placed camera, its visible fraction of the front, and its description."""
 
     camera: Camera

@@ -9,7 +9,7 @@ import numpy as np
 from ..cameras.rigs.chase import Chase
 from ..settings.settings import Camera
 from . import candidates
-from .candidates import Placed, Tried
+from .candidates import PlacedCamera, Tried
 from .front import Front
 from .visible_share import Visible
 
@@ -27,7 +27,7 @@ _LATER = 0.04  # penalty for each later side or height
 _OVER_SCAR = 0.7
 
 
-def place(front: Front, visible: Visible) -> Placed:
+def place(front: Front, visible: Visible) -> PlacedCamera:
     """Best candidate over sides and heights; farther ones while no near one shows enough."""
     near = candidates.near(front, _PART, _DISTANCES, _OVER_CROWNS)
     best = candidates.nearest_enough(near, lambda distance: _tried(front, visible, near, distance))
@@ -37,7 +37,7 @@ def place(front: Front, visible: Visible) -> Placed:
         f"{candidates.distance(best.camera.rig.distance)} away, {best.camera.rig.height:,.0f} m up; "
         + candidates.shows(best.seen, f"the front within {candidates.distance(near)} of the head")
     )
-    return Placed(best.camera, best.seen.share, words)
+    return PlacedCamera(best.camera, best.seen.share, words)
 
 
 def _tried(front: Front, visible: Visible, near: float, distance: float) -> list[Tried]:

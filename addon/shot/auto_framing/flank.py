@@ -9,7 +9,7 @@ from ..cameras.rigs._key import CameraKey
 from ..cameras.rigs.drone import Drone
 from ..settings.settings import Camera
 from . import candidates
-from .candidates import Placed, Tried
+from .candidates import PlacedCamera, Tried
 from .front import Front, some
 from .visible_share import Visible
 
@@ -23,7 +23,7 @@ _AIM = 0.08  # of the distance, height of the aim above ground: flames below the
 _STEEP = 0.1  # penalty for each higher step
 
 
-def place(front: Front, visible: Visible) -> Placed:
+def place(front: Front, visible: Visible) -> PlacedCamera:
     """Best candidate over points, directions and heights; farther ones while no near one shows enough."""
     near = candidates.near(front, _PART, _DISTANCES, _OVER_CROWNS)
     best = candidates.nearest_enough(near, lambda distance: _tried(front, visible, near, distance))
@@ -33,7 +33,7 @@ def place(front: Front, visible: Visible) -> Placed:
         f"{candidates.distance(candidates.away(view))} away, {best.camera.rig.keys[0].height:,.0f} m up; "
         + candidates.shows(best.seen, f"the front within {candidates.distance(near)} of its aim")
     )
-    return Placed(best.camera, best.seen.share, words)
+    return PlacedCamera(best.camera, best.seen.share, words)
 
 
 def _tried(front: Front, visible: Visible, near: float, distance: float) -> list[Tried]:

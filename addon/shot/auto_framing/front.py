@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from .. import extent
 from ..fire import burning
 from ..shot import Shot
-from ..terrain.terrain import NEVER, UNKNOWN, Ground, box
+from ..terrain.terrain import NEVER, UNKNOWN, Terrain, box
 from . import straight_plume
-from .straight_plume import Plume
+from .straight_plume import StraightPlume
 
 _QUANTILES = (
     0.1,
@@ -60,7 +60,7 @@ class Front:
     runs: bool
 
     @property
-    def ground(self) -> Ground:
+    def ground(self) -> Terrain:
         """Terrain without detail near cameras."""
         return self.shot.bare_ground
 
@@ -85,7 +85,7 @@ class Front:
         return _ALOFT * (wind if float(np.hypot(*wind)) > _STILL else _BREEZE * self.heading)
 
     @cached_property
-    def plumes(self) -> list[Plume]:
+    def plumes(self) -> list[StraightPlume]:
         """Smoke plumes, one for each time."""
         ground, frames = self.ground, self.shot.frames
         near = box(ground.arrival < NEVER, more=2)
@@ -163,7 +163,7 @@ def _nothing(shot: Shot) -> Front:
     return Front(shot, none, np.empty((0, 3)), np.empty((0, 2)), none, *corners, 0.0, False)
 
 
-def _corners(ground: Ground, rows: slice, columns: slice) -> tuple[Array, Array]:
+def _corners(ground: Terrain, rows: slice, columns: slice) -> tuple[Array, Array]:
     """Corners (2,) of rows and columns of the grid, least and greatest x and y, m."""
     fields = ground.fields
     latitude, longitude = fields.latitude[rows][[0, -1]], fields.longitude[columns][[0, -1]]
@@ -171,7 +171,7 @@ def _corners(ground: Ground, rows: slice, columns: slice) -> tuple[Array, Array]
     return place[:, :2].min(axis=0), place[:, :2].max(axis=0)
 
 
-def _at(ground: Ground, near: tuple[slice, slice], time: float) -> tuple[Array, Array]:
+def _at(ground: Terrain, near: tuple[slice, slice], time: float) -> tuple[Array, Array]:
     """Positions and velocities of the cells at the front at a model time, or nearest in time."""
     arrival, burn_time = ground.arrival[near], ground.burn_time[near]
     row, column = np.nonzero(arrival < NEVER)

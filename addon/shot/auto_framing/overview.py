@@ -9,7 +9,7 @@ from ..cameras.rigs._key import CameraKey
 from ..cameras.rigs.drone import Drone
 from ..settings.settings import Camera
 from . import candidates
-from .candidates import Array, Placed, Tried
+from .candidates import Array, PlacedCamera, Tried
 from .front import Front, some
 from .visible_share import Visible, VisibleShare
 
@@ -32,7 +32,7 @@ _CLEAR = 0.6  # weight of a front clear of smoke (by eye)
 _STEEP = 0.01  # penalty for each degree above the lowest
 
 
-def place(front: Front, visible: Visible) -> Placed:
+def place(front: Front, visible: Visible) -> PlacedCamera:
     """Best candidate over directions and heights."""
     points = front.point[some(np.arange(len(front.point)), _PLACES)] if len(front.point) else _whole(front)
     tried = []
@@ -43,7 +43,7 @@ def place(front: Front, visible: Visible) -> Placed:
             likes = candidates.liking(front, float(bearing)) + candidates.framed(share)
             tried.append(Tried(share, likes - _STEEP * (height - _HEIGHTS[0]), camera))
     share, _, camera = candidates.best(tried, _CLEAR)
-    return Placed(camera, share.share, _words(front, camera, share))
+    return PlacedCamera(camera, share.share, _words(front, camera, share))
 
 
 def _camera(front: Front, points: Array, bearing: float, height: float) -> Camera:

@@ -8,7 +8,7 @@ from ..cameras.rigs._key import CameraKey
 from ..cameras.rigs.satellite import Satellite
 from ..settings.settings import Camera
 from . import candidates
-from .candidates import Placed
+from .candidates import PlacedCamera
 from .front import Front
 from .visible_share import Visible
 
@@ -17,7 +17,7 @@ _LEE = 0.12  # of its width and height, shift to leeward for smoke
 _LEAST = 400.0  # m
 
 
-def place(front: Front, visible: Visible) -> Placed:
+def place(front: Front, visible: Visible) -> PlacedCamera:
     """View of the area burned by the end of the window, and of some of its smoke."""
     width, height = front.high - front.low
     across, up = front.shot.settings.render.resolution
@@ -31,4 +31,4 @@ def place(front: Front, visible: Visible) -> Placed:
     words = f"from above, {candidates.distance(swath)} wide"
     if len(front.point):
         words += f"; {candidates.percent(share.share)} of the front is in it, smoke aside"
-    return Placed(camera, share.share, words)
+    return PlacedCamera(camera, share.share, words)

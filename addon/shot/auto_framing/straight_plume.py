@@ -9,7 +9,7 @@ from firetwin_core import constants
 from numpy.typing import NDArray
 
 from ..fire import emissions
-from ..terrain.terrain import NEVER, Ground
+from ..terrain.terrain import NEVER, Terrain
 
 _LONG = 3.0  # burn-out times after which a cell counts as cold
 _WIDE = 0.4  # half-width of a plume over its drift distance (by eye)
@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Plume:
+class StraightPlume:
     """Plumes at one time.
 
     Attributes
@@ -69,7 +69,9 @@ class Plume:
         return emissions.EXTINCTION / max(speed, _WEAK) * (dense * pieces).sum(axis=0)
 
 
-def trace(ground: Ground, near: tuple[slice, slice], crossing: Array, time: float, wind: Array) -> Plume:
+def trace(
+    ground: Terrain, near: tuple[slice, slice], crossing: Array, time: float, wind: Array
+) -> StraightPlume:
     """Trace the plumes at a time (s).
 
     Parameters
@@ -94,7 +96,9 @@ def trace(ground: Ground, near: tuple[slice, slice], crossing: Array, time: floa
     point = ground.frame.forward(
         fields.latitude[row], fields.longitude[column], fields.elevation[row, column]
     )
-    return Plume(*_merged(point, smoke * burns), wind, 0.5 * max(ground.cell), _rise(point, fuel, wind))
+    return StraightPlume(
+        *_merged(point, smoke * burns), wind, 0.5 * max(ground.cell), _rise(point, fuel, wind)
+    )
 
 
 def _rise(point: Array, fuel: float, wind: Array) -> float:

@@ -10,7 +10,7 @@ from firetwin_core import constants
 from numpy.typing import NDArray
 
 from ..terrain import noise
-from ..terrain.terrain import Ground
+from ..terrain.terrain import Terrain
 from . import path
 from .path import Array
 
@@ -42,7 +42,7 @@ class Waypoints:
     height: Array
     over_ground: NDArray[np.bool_]
 
-    def flown(self, ground: Ground, moments: Array) -> Array:
+    def flown(self, ground: Terrain, moments: Array) -> Array:
         """Positions (frames, 3), m in the scene, at times on the scale of `at`.
 
         Horizontal positions interpolate the chords between waypoints and are projected to the ellipsoid along
@@ -58,7 +58,7 @@ class Waypoints:
         return frame.forward(latitude, longitude, path.smooth(self.at, height, moments))
 
 
-def short(ground: Ground, position: Array, clearance: Array) -> Array:
+def short(ground: Terrain, position: Array, clearance: Array) -> Array:
     """Height deficit (frames,), m: how much cameras must rise to keep their terrain clearance.
 
     The clearance holds between frames too: the path is straight there. A frame takes the largest deficit

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..terrain import noise
-from ..terrain.terrain import Ground
+from ..terrain.terrain import Terrain
 
 if TYPE_CHECKING:
     from firetwin_core import geo
@@ -131,7 +131,7 @@ def smooth(at: Array, values: Array, moments: Array) -> Array:
     return a + (b - a) * noise.smoothstep(0.0, 1.0, s) + bend
 
 
-def hidden(ground: Ground, position: Array, target: Array, margin: float = 40.0) -> Array:
+def hidden(ground: Terrain, position: Array, target: Array, margin: float = 40.0) -> Array:
     """Height deficit (frames,), m: how much cameras must rise to see their target over ridges.
 
     The line of sight clears ridges by `margin` m. A long film is tested in `_RIDGE_SAMPLES` frames, with
@@ -184,7 +184,7 @@ def compass(frame: geo.LocalFrame, place: Array) -> tuple[Array, Array, Array]:
     return np.cross(north, up), north, up
 
 
-def clip(view: Path, ground: Ground) -> tuple[float, float]:
+def clip(view: Path, ground: Terrain) -> tuple[float, float]:
     """Near and far clip distances of a camera, m, that contain the terrain and the air above it.
 
     A camera above all content has its near plane half-way to it, which keeps depth precision.
@@ -202,5 +202,5 @@ def clip(view: Path, ground: Ground) -> tuple[float, float]:
     return max(near, _NEAREST), 1.05 * (float(away.max()) + spread)
 
 
-def _axes(ground: Ground) -> tuple[Array, Array]:
+def _axes(ground: Terrain) -> tuple[Array, Array]:
     return ground.fields.latitude, ground.fields.longitude

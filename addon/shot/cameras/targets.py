@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import extent
-from ..terrain.terrain import NEVER, UNKNOWN, Ground, box
+from ..terrain.terrain import NEVER, UNKNOWN, Terrain, box
 
 Array = NDArray[np.float64]
 
@@ -22,7 +22,7 @@ _CELLS = 4.0  # fuel cells, lower bound of block size and front depth
 _HYSTERESIS = 4.0  # blocks; distance in which another head must be e times as strong to be followed
 
 
-def follow(target: str, ground: Ground, times: Array, above: float) -> Array:
+def follow(target: str, ground: Terrain, times: Array, above: float) -> Array:
     """Look-at points (frames, 3) that follow the "head" or the centre of the "fire".
 
     Parameters
@@ -36,14 +36,14 @@ def follow(target: str, ground: Ground, times: Array, above: float) -> Array:
     return place
 
 
-def head(ground: Ground, times: Array) -> tuple[Array, Array]:
+def head(ground: Terrain, times: Array) -> tuple[Array, Array]:
     """East and north (frames,) of the head: the block of the front with the highest rate of spread."""
     east, north, arrival, speed = _burned(ground)
     block, recent = _scale(ground, speed, times[-1])
     return _follow(times, lambda t, last: _head_at(t, last, east, north, arrival, speed, block, recent))
 
 
-def middle(ground: Ground, times: Array) -> tuple[Array, Array]:
+def middle(ground: Terrain, times: Array) -> tuple[Array, Array]:
     """East and north (frames,) of the centre of the burning ground."""
     east, north, arrival, speed = _burned(ground)
     recent = _scale(ground, speed, times[-1])[1]
@@ -57,7 +57,7 @@ def smoothed(values: Array) -> Array:
     return np.convolve(np.pad(values, reach, "edge"), window / window.sum(), "valid")
 
 
-def _burned(ground: Ground) -> tuple[Array, Array, Array, Array]:
+def _burned(ground: Terrain) -> tuple[Array, Array, Array, Array]:
     """East, north (m), arrival time (s) and rate of spread (m/s) of every cell that burns."""
     near = box(ground.arrival < NEVER, more=1)
     if near is None:
@@ -86,7 +86,7 @@ def _follow(times: Array, place: Callable[[float, Any], Any]) -> tuple[Array, Ar
     return x, y
 
 
-def _scale(ground: Ground, speed: Array, time: float) -> tuple[float, float]:
+def _scale(ground: Terrain, speed: Array, time: float) -> tuple[float, float]:
     """Block size (m) for comparing parts of the front, and time (s) for which ground belongs to the front.
 
     Parameters

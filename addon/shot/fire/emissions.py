@@ -32,7 +32,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Kind:
+class FuelKind:
     """Combustion and smoke properties of a kind of fuel.
 
     Attributes
@@ -86,10 +86,10 @@ class Kind:
 # Gain: grass smoke of a flow is drawn with 0.8 to 1.1 times its mass; forest smoke, chosen by eye, with three
 # times its mass, for ash and droplets; shrubs between. Darkness and ash are chosen by eye.
 KINDS = (
-    Kind("grass", (0.0085, 0.0085), 0.0, 15.0, (8.0, 0.0), 90.0, 0.30, 0.12, 0.86, 0.35),
-    Kind("shrub", (0.0071, 0.0071), 0.0, 45.0, (100.0, 45.0), 600.0, 0.55, 0.5, 0.90, 0.8),
-    Kind("litter", (0.0176, 0.0259), 0.174, 120.0, (120.0, 300.0), 3600.0, 0.78, 1.0, 0.945, 0.6),
-    Kind("crowns", (0.0232, 0.0232), 0.0, 120.0, (90.0, 0.0), 3600.0, 0.79, 1.0, 0.945, 0.6),
+    FuelKind("grass", (0.0085, 0.0085), 0.0, 15.0, (8.0, 0.0), 90.0, 0.30, 0.12, 0.86, 0.35),
+    FuelKind("shrub", (0.0071, 0.0071), 0.0, 45.0, (100.0, 45.0), 600.0, 0.55, 0.5, 0.90, 0.8),
+    FuelKind("litter", (0.0176, 0.0259), 0.174, 120.0, (120.0, 300.0), 3600.0, 0.78, 1.0, 0.945, 0.6),
+    FuelKind("crowns", (0.0232, 0.0232), 0.0, 120.0, (90.0, 0.0), 3600.0, 0.79, 1.0, 0.945, 0.6),
 )
 
 # kg/m2, largest surface fuel without canopy that counts as grass: the heaviest of Anderson's 1 to 3

@@ -18,7 +18,7 @@ from . import emissions
 
 if TYPE_CHECKING:
     from ..settings.protocols import ShotView
-    from ..terrain.terrain import Ground
+    from ..terrain.terrain import Terrain
 
 _FULL_DEPTH = 60.0  # m, flame depth of a crown fire, at which patterns have their full size
 _LEAST_SCALE = 0.15  # lower bound of the relative pattern size
@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Fields:
+class FrontFields:
     """Properties of the fire front on a terrain grid.
 
     Parameters
@@ -40,7 +40,7 @@ class Fields:
         Run that supplies the fuel.
     """
 
-    ground: Ground
+    ground: Terrain
     run: Run
 
     @cached_property

@@ -17,7 +17,7 @@ from firetwin_core.terrain import bilinear
 from numpy.typing import ArrayLike, NDArray
 
 from ...run import areas, times
-from ...run.score.grid import Grid
+from ...run.score.grid import ScoreGrid
 from ...run.score.shapes import mirrored, wider
 from .observed import ABOVE
 
@@ -57,7 +57,7 @@ class Reach:
 
     def __init__(self, run: Run) -> None:
         self.run = run
-        grid = Grid.of(run)
+        grid = ScoreGrid.of(run)
         self.latitude, self.longitude = wider(grid.latitude), wider(grid.longitude)
         self.arrival = np.pad(grid.arrival, 1, constant_values=np.nan)
         self.divided = max(1, int(np.ceil(max(grid.cell) / _FINE)))

@@ -35,7 +35,7 @@ _STEP = 20.0  # m between points, so that lines follow the terrain
 
 
 @dataclass(frozen=True)
-class Line:
+class DrapedLine:
     """A closed line: points (n, 3) in the scene (m), and model times (s) of its start, fade and end.
 
     `kind` is one of `heat.KINDS`; it is "" for perimeters and satellite pixels.
@@ -85,14 +85,14 @@ def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
     }
 
 
-def lines(shot: Shot) -> list[Line]:
+def lines(shot: Shot) -> list[DrapedLine]:
     """All lines in order of their start times."""
     observed = observations.read(files(shot.settings))
     every = [*_perimeters(shot, observed), *_pixels(shot, observed), *_heat(shot, observed)]
     return sorted(every, key=lambda line: line.start)
 
 
-def _perimeters(shot: Shot, observed: observations.Observations) -> Iterator[Line]:
+def _perimeters(shot: Shot, observed: observations.Observations) -> Iterator[DrapedLine]:
     for i, perimeter in enumerate(observed.perimeters):
         later = (
             p.time
@@ -105,10 +105,10 @@ def _perimeters(shot: Shot, observed: observations.Observations) -> Iterator[Lin
         rings = [ring for polygon in perimeter.polygons for ring in polygon]
         step = max(_STEP, sum(_length(ring) for ring in rings) / _MAX_POINTS)
         for ring in rings:
-            yield Line(_draped(shot, ring, step), start, fades, FOREVER)
+            yield DrapedLine(_draped(shot, ring, step), start, fades, FOREVER)
 
 
-def _heat(shot: Shot, observed: observations.Observations) -> Iterator[Line]:
+def _heat(shot: Shot, observed: observations.Observations) -> Iterator[DrapedLine]:
     radius = max(_SOURCE, 1.5 * shot.settings.fire.observed_width)
     turn = np.linspace(0.0, 2.0 * np.pi, 12, endpoint=False)
     for heat in observed.heat:
@@ -122,10 +122,10 @@ def _heat(shot: Shot, observed: observations.Observations) -> Iterator[Line]:
             rings.append(np.column_stack([x, y]))
         step = max(_STEP, sum(_length(ring) for ring in rings) / _MAX_POINTS)
         for ring in rings:
-            yield Line(_draped(shot, ring, step), start, end, end, heat.kind)
+            yield DrapedLine(_draped(shot, ring, step), start, end, end, heat.kind)
 
 
-def _pixels(shot: Shot, observed: observations.Observations) -> Iterator[Line]:
+def _pixels(shot: Shot, observed: observations.Observations) -> Iterator[DrapedLine]:
     for detection in observed.detections:
         for time, latitude, longitude, size in zip(
             detection.time, detection.latitude, detection.longitude, detection.size, strict=True
@@ -137,7 +137,9 @@ def _pixels(shot: Shot, observed: observations.Observations) -> Iterator[Line]:
             )
             ring = np.column_stack([longitude + x, latitude + y])
             start = times.seconds(shot.run, time)
-            yield Line(_draped(shot, ring, _STEP), start, start + _DETECTION_TIME, start + _DETECTION_TIME)
+            yield DrapedLine(
+                _draped(shot, ring, _STEP), start, start + _DETECTION_TIME, start + _DETECTION_TIME
+            )
 
 
 def _metres(ring: NDArray[np.float64]) -> NDArray[np.float64]:

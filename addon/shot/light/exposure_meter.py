@@ -49,7 +49,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Smoke:
+class SmokeParcels:
     """Estimated smoke: parcels of n fires at m ages, and lights of the fires.
 
     Attributes
@@ -142,7 +142,7 @@ def _facing(shot: Shot, place: Array, direction: Array) -> Array:
     return np.where((ground > way[..., 2]).any(axis=1), 0.0, np.maximum(facing, 0.0))
 
 
-def _sunlit(smoke: Smoke, place: Array, light: sky.State, through: float) -> Array:
+def _sunlit(smoke: SmokeParcels, place: Array, light: sky.State, through: float) -> Array:
     """Transmittance (n,) of smoke for sunlight at points (n, 3), with its depth times `through`."""
     depth, _met, _bright = _depth(smoke, place, np.broadcast_to(light.direction, place.shape), np.inf)
     return np.exp(-through * depth)
@@ -193,7 +193,7 @@ def _gradation(up: Array) -> Array:
     return 0.55 + 2.7 * (1.0 - np.clip(up, 0.0, 1.0)) ** 2
 
 
-def _smoke(shot: Shot, time: float) -> Smoke:
+def _smoke(shot: Shot, time: float) -> SmokeParcels:
     """Estimated smoke at a time; empty (n = 0) if smoke is off."""
     sources = shot.fire.sources(time)
     if not shot.settings.smoke.enabled:
@@ -210,10 +210,12 @@ def _smoke(shot: Shot, time: float) -> Smoke:
     radius = 0.5 * rise + 0.5 * block  # Briggs: half-width is half of the rise
     depth = shot.fire.smoke.opacity * _EXTINCTION * fires.power[:, None] / (2.0 * radius * speed)
     bright = 1.0 - (1.0 - _SOOT) * noise.smoothstep(*_YOUNG[::-1], _TIMES)
-    return Smoke(place, radius, depth, bright, (shine.position, shine.power), shot.scale.ratio)
+    return SmokeParcels(place, radius, depth, bright, (shine.position, shine.power), shot.scale.ratio)
 
 
-def _depth(smoke: Smoke, start: Array, along: Array, ends: Array | float) -> tuple[Array, Array, Array]:
+def _depth(
+    smoke: SmokeParcels, start: Array, along: Array, ends: Array | float
+) -> tuple[Array, Array, Array]:
     """Smoke along rays: optical depth (n,), distance (n,) to the first dense parcel, m, and brightness (n,).
 
     Of each fire only the parcel with the largest depth on a ray counts.
@@ -257,7 +259,7 @@ def _glowing(shot: Shot) -> float:
     return float(np.interp(thickest, sky.THICK, (sky.THIN, 1.0)))
 
 
-def _shine(smoke: Smoke, start: Array, along: Array, ends: Array) -> Array:
+def _shine(smoke: SmokeParcels, start: Array, along: Array, ends: Array) -> Array:
     """Largest flame light (n,) on smoke along a ray: sum of P / 1 GW exp(-r / 600 m) / (1 + (r / 250 m)^2).
 
     Smaller fires have shorter lengths, and powers that scale with their squares, as in `flow_frames`.

@@ -53,7 +53,7 @@ def draw(png: Path, depth: Path, shot: Shot, camera: str, frame: int, long: bool
     sensor.write_image(png, shown)
 
 
-def _instrument(shot: Shot, rig: object) -> tuple[imager.Instrument, imager.Grid]:
+def _instrument(shot: Shot, rig: object) -> tuple[imager.Instrument, imager.ImagerGrid]:
     """Imager that a camera stands for, and its pixel grid."""
     longitude = rig.geostationary if isinstance(rig, Satellite) else None
     instrument = imager.VIIRS if longitude is None else imager.ABI
@@ -61,7 +61,7 @@ def _instrument(shot: Shot, rig: object) -> tuple[imager.Instrument, imager.Grid
 
 
 def _register(
-    shot: Shot, points: NDArray[np.float64], measured: imager.Picture, band: NDArray[np.float64]
+    shot: Shot, points: NDArray[np.float64], measured: imager.ImagerPicture, band: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Brightness temperature (h, w), K, of the imager's pixels at scene points (h, w, 3); NaN outside."""
     kelvin = np.full(points.shape[:2], np.nan)

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from ... import files
 from ...errors import Error
-from .imager import Instrument, Picture, PowerBand
+from .imager import ImagerPicture, Instrument, PowerBand
 
 
-def write(path: Path, picture: Picture, instrument: Instrument, run: str, moment: datetime) -> None:
+def write(path: Path, picture: ImagerPicture, instrument: Instrument, run: str, moment: datetime) -> None:
     """Write four bands of 32-bit floats: brightness temperatures (K), fire radiative power (W) and the mask.
 
     Raises
@@ -59,7 +59,7 @@ def write(path: Path, picture: Picture, instrument: Instrument, run: str, moment
     files.write(path, fill)
 
 
-def _source(band: PowerBand, picture: Picture) -> str:
+def _source(band: PowerBand, picture: ImagerPicture) -> str:
     """Describe the band of fire radiative power, and whether saturation limits it."""
     text = f"{band.name} at {band.wave:g} um, saturated from {band.saturation:g} K"
     return f"{text}: in {picture.limited} of its pixels, where power is less than there is"

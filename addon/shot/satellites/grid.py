@@ -17,7 +17,7 @@ EQUATOR, POLE, ORBIT = 6_378_137.0, 6_356_752.31414, 35_786_023.0
 PIXEL = 56e-6  # rad, 2 km under the satellite
 
 
-class Grid(Protocol):
+class ImagerGrid(Protocol):
     """Unbounded pixel grid: rows from north to south, columns from west to east."""
 
     @property
@@ -127,7 +127,7 @@ class EvenGrid:
         return column * self.step[0], row * self.step[1]
 
 
-def pixel_areas(grid: Grid, rows: NDArray, columns: NDArray) -> Array:
+def pixel_areas(grid: ImagerGrid, rows: NDArray, columns: NDArray) -> Array:
     """Ground area (rows, columns), m2, of the pixels at whole rows and columns."""
     corners = (np.append(each, each[-1] + 1) for each in (rows, columns))
     latitude, longitude = grid.reverse(*np.meshgrid(*corners, indexing="ij"))

@@ -37,7 +37,7 @@ from numpy.typing import NDArray
 from .. import air_temperature
 from ..fire import burning
 from ..fire.fire import Fire
-from .grid import Array, EvenGrid, FixedGrid, Grid, pixel_areas
+from .grid import Array, EvenGrid, FixedGrid, ImagerGrid, pixel_areas
 
 FIRE = 1000.0  # K
 RADIATED = 0.14  # radiative fraction of the heat
@@ -117,7 +117,7 @@ class HorizonError(NothingSeenError):
 
 
 @dataclass(frozen=True)
-class Picture:
+class ImagerPicture:
     """Simulated measurement of an imager, (rows, columns) each.
 
     Attributes
@@ -143,19 +143,19 @@ class Picture:
     power: Array
     mask: NDArray[np.uint8]
     area: Array
-    grid: Grid
+    grid: ImagerGrid
     row: int
     column: int
     heat: float
     limited: int
 
 
-def grid_of(instrument: Instrument, run: Run, longitude: float) -> Grid:
+def grid_of(instrument: Instrument, run: Run, longitude: float) -> ImagerGrid:
     """Pixel grid of an instrument; a geostationary one is above a longitude (degrees)."""
     return FixedGrid(longitude) if instrument is ABI else EvenGrid(float(np.mean(run.latitude)), 375.0)
 
 
-def picture(instrument: Instrument, grid: Grid, fire: Fire, time: float) -> Picture:
+def picture(instrument: Instrument, grid: ImagerGrid, fire: Fire, time: float) -> ImagerPicture:
     """Simulate a picture of a run's fire at a time (s), of the pixels entirely within the run's domain."""
     run = fire.run
     rows, columns = _inside(grid, run)
@@ -172,7 +172,9 @@ def picture(instrument: Instrument, grid: Grid, fire: Fire, time: float) -> Pict
     mask = np.where(shown[0] >= instrument.saturation[0] - 1e-6, SATURATED, mask).astype(np.uint8)
     blocks = _blocks(instrument.power.side, rows, columns)
     power, limited = _power(instrument.power, kelvin, part, area, mask > NONE, blocks)
-    return Picture(shown[0], shown[1], power, mask, area, grid, int(rows[0]), int(columns[0]), heat, limited)
+    return ImagerPicture(
+        shown[0], shown[1], power, mask, area, grid, int(rows[0]), int(columns[0]), heat, limited
+    )
 
 
 def _blocks(side: int, rows: NDArray, columns: NDArray) -> NDArray[np.int64]:
@@ -204,7 +206,7 @@ def _power(
     return np.where(fire, shared[blocks], 0.0), int((seen > most).sum())
 
 
-def _inside(grid: Grid, run: Run) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _inside(grid: ImagerGrid, run: Run) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Rows and columns of whole pixels within the run's domain.
 
     Raises
@@ -227,7 +229,7 @@ def _inside(grid: Grid, run: Run) -> tuple[NDArray[np.int64], NDArray[np.int64]]
     return rows, columns
 
 
-def _background(grid: Grid, fire: Fire, time: float, rows: NDArray, columns: NDArray) -> Array:
+def _background(grid: ImagerGrid, fire: Fire, time: float, rows: NDArray, columns: NDArray) -> Array:
     """Background temperature (rows, columns, parts), K, of ground without flames at points of each pixel."""
     run = fire.run
     inside = (np.arange(_PARTS) + 0.5) / _PARTS
@@ -247,7 +249,7 @@ def _background(grid: Grid, fire: Fire, time: float, rows: NDArray, columns: NDA
 
 
 def _burning(
-    grid: Grid, fire: Fire, time: float, rows: NDArray, columns: NDArray, area: Array
+    grid: ImagerGrid, fire: Fire, time: float, rows: NDArray, columns: NDArray, area: Array
 ) -> tuple[Array, float]:
     """Fire area fraction of each pixel, and total heat release rate (W)."""
     sources = fire.sources(time)
@@ -270,7 +272,7 @@ def times(run: Run, every: float) -> list[float]:
 
 def film(
     instrument: Instrument, run: Run, longitude: float, moments: list[float]
-) -> Iterator[tuple[float, Picture]]:
+) -> Iterator[tuple[float, ImagerPicture]]:
     """Pictures at these model times (s), each with its time."""
     grid, fire = grid_of(instrument, run, longitude), Fire(run, moments[0], moments[-1], burning.BURN_TIME)
     for time in moments:

@@ -106,7 +106,7 @@ class ShotView(Protocol):
 
     @property
     def ground(self) -> Any:
-        """Terrain (`terrain.terrain.Ground`) with added detail near the cameras' paths."""
+        """Terrain (`terrain.terrain.Terrain`) with added detail near the cameras' paths."""
 
     @property
     def bare_ground(self) -> Any:
@@ -114,7 +114,7 @@ class ShotView(Protocol):
 
     @property
     def front(self) -> Any:
-        """Fire front properties (`fire.flame_depth.Fields`)."""
+        """Fire front properties (`fire.flame_depth.FrontFields`)."""
 
     @property
     def visibility(self) -> Any:

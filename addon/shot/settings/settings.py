@@ -83,7 +83,7 @@ class Time:
 
 
 @dataclass(frozen=True)
-class Ground:
+class TerrainSettings:
     """The run's terrain with relief near the cameras, and an apron to the horizon."""
 
     near_radius: float = key(
@@ -191,7 +191,7 @@ class Forest:
 
 
 @dataclass(frozen=True)
-class Fire:
+class FireSettings:
     """Flames, firebrands and glowing ash."""
 
     emitters: str = key(
@@ -242,7 +242,7 @@ SMOKE_METHODS = {
 
 
 @dataclass(frozen=True)
-class Smoke:
+class SmokeSettings:
     """The smoke volume."""
 
     enabled: bool = key(True, "draw the smoke")
@@ -324,7 +324,7 @@ class Light:
 
 
 @dataclass(frozen=True)
-class Places:
+class LabelSettings:
     """Labels of towns, lakes and summits, in the visible picture only."""
 
     enabled: bool = key(False, "draw the labels")
@@ -514,14 +514,17 @@ class Settings:
         affects=("terrain", "forest", "fire", "smoke"),
     )
     time: Time = key(default_factory=Time, help="model times that the frames show")
-    terrain: Ground = key(
-        default_factory=Ground, help="the run's grid, relief near the cameras and an apron to the horizon"
+    terrain: TerrainSettings = key(
+        default_factory=TerrainSettings,
+        help="the run's grid, relief near the cameras and an apron to the horizon",
     )
     forest: Forest = key(default_factory=Forest, help="trees and grass")
-    fire: Fire = key(default_factory=Fire, help="flames, firebrands and glowing ash")
-    smoke: Smoke = key(default_factory=Smoke, help="the smoke volume")
+    fire: FireSettings = key(default_factory=FireSettings, help="flames, firebrands and glowing ash")
+    smoke: SmokeSettings = key(default_factory=SmokeSettings, help="the smoke volume")
     light: Light = key(default_factory=Light, help="haze, exposure and the light of the flames")
-    labels: Places = key(default_factory=Places, help="labels of towns, lakes and summits in the picture")
+    labels: LabelSettings = key(
+        default_factory=LabelSettings, help="labels of towns, lakes and summits in the picture"
+    )
     thermal: Thermal = key(default_factory=Thermal, help="infrared camera of the thermal view")
     render: Render = key(default_factory=Render, help="how frames are rendered")
     runs: tuple[OtherRun, ...] = key(

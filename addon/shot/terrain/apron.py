@@ -30,7 +30,7 @@ _FADES = 2.5  # half-widths of a band over which its height at the edge fades (b
 
 
 @dataclass(frozen=True)
-class Fields:
+class TerrainFields:
     """Fields on a rectilinear grid, rows from south to north and columns from west to east.
 
     Attributes
@@ -55,8 +55,8 @@ Known = Callable[[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
 
 
 def extend(
-    fields: Fields, cell: tuple[float, float], half_width: float, seed: int, known: Known | None = None
-) -> Fields:
+    fields: TerrainFields, cell: tuple[float, float], half_width: float, seed: int, known: Known | None = None
+) -> TerrainFields:
     """Extend fields by an apron that reaches `half_width` metres from the centre.
 
     Parameters
@@ -107,10 +107,10 @@ def extend(
         whole[row, column] = _fuel(fields.elevation, fuel, elevation[row, column], points, ranks)
         if sea is not None:
             whole[row[sea], column[sea]] = 0.0
-    return Fields(latitude, longitude, elevation, canopy, surface, count)
+    return TerrainFields(latitude, longitude, elevation, canopy, surface, count)
 
 
-def _wet(fields: Fields) -> NDArray[np.bool_]:
+def _wet(fields: TerrainFields) -> NDArray[np.bool_]:
     """Water cells (ny, nx): level ground without fuel."""
     level = np.ones(fields.elevation.shape, bool)
     for axis in (0, 1):
@@ -127,12 +127,12 @@ def _rim(field: NDArray) -> NDArray:
     return np.concatenate([field[0], field[1:, -1], field[-1, -2::-1], field[-2:0:-1, 0]])
 
 
-def _level(fields: Fields) -> float:
+def _level(fields: TerrainFields) -> float:
     """Water level at the grid's edge, m."""
     return float(np.median(_rim(fields.elevation)[_rim(_wet(fields))]))
 
 
-def _sea(fields: Fields, points: _Points, rank: NDArray[np.float64]) -> NDArray[np.bool_] | None:
+def _sea(fields: TerrainFields, points: _Points, rank: NDArray[np.float64]) -> NDArray[np.bool_] | None:
     """Sea mask (n,) of apron points, with a ragged coast; None without sea.
 
     Sea is water along much of the edge at one height. A smaller share counts as lakes.

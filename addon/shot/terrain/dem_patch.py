@@ -8,7 +8,7 @@ import numpy as np
 from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
-from .apron import Fields
+from .apron import TerrainFields
 from .elevation import Elevation, ramp
 
 _FINEST = 2.0  # m, smallest point spacing
@@ -43,7 +43,7 @@ class Patch(NamedTuple):
 
 
 def patch(
-    fields: Fields,
+    fields: TerrainFields,
     share: NDArray,
     relief: Elevation,
     cell: tuple[float, float],

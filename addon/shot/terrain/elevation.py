@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ...run import areas
 from ..settings.settings import Settings
-from .raster import Array, Raster, extent, said
+from .raster import Array, GeoTiff, extent, said
 
 _BLEND = 600.0  # m
 _UNITS = {
@@ -39,7 +39,7 @@ class Elevation:
         The elevation model; None: the run's heights alone.
     """
 
-    def __init__(self, run: Run, model: Raster | None = None) -> None:
+    def __init__(self, run: Run, model: GeoTiff | None = None) -> None:
         self.run, self.model = run, model
 
     @property
@@ -117,7 +117,7 @@ def resolve(settings: Settings, run: Run) -> Elevation:
     InputError
         The elevation model cannot be used.
     """
-    return Elevation(run, Raster(settings, "elevation") if settings.terrain.elevation else None)
+    return Elevation(run, GeoTiff(settings, "elevation") if settings.terrain.elevation else None)
 
 
 def check(settings: Settings, run: Run) -> None:
@@ -155,7 +155,7 @@ def check(settings: Settings, run: Run) -> None:
     _compare(model, height, own)
 
 
-def _compare(model: Raster, height: Array, own: Array) -> None:
+def _compare(model: GeoTiff, height: Array, own: Array) -> None:
     """Raise where heights are not those of the run's places by far."""
     times = float(np.sum(height * own) / max(np.sum(own * own), 1.0))
     off = float(np.median(height - own))
@@ -171,7 +171,7 @@ def _compare(model: Raster, height: Array, own: Array) -> None:
         )
 
 
-def unit(model: Raster) -> float:
+def unit(model: GeoTiff) -> float:
     """Metres in a unit of the model's heights."""
     return _UNITS[model.unit]
 

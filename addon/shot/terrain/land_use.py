@@ -23,7 +23,7 @@ from .. import rasterize
 from ..settings import scene_file
 from ..settings.settings import Settings
 from . import noise
-from .orthophoto import Picture
+from .orthophoto import OrthophotoImage
 from .raster import extent, overlap, said
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ Rings = tuple[Array, ...]
 
 
 @dataclass(frozen=True)
-class Kind:
+class LandUseKind:
     """A kind of feature. Colours (sRGB, 0..1) and widths are by eye.
 
     Attributes
@@ -65,16 +65,18 @@ class Kind:
 
 
 KINDS = {  # from bottom to top
-    "meadow": Kind("soft", ((0.30, 0.34, 0.18), (0.35, 0.35, 0.20), (0.27, 0.33, 0.16)), strength=0.75),
-    "field": Kind(
+    "meadow": LandUseKind(
+        "soft", ((0.30, 0.34, 0.18), (0.35, 0.35, 0.20), (0.27, 0.33, 0.16)), strength=0.75
+    ),
+    "field": LandUseKind(
         "soft",
         ((0.45, 0.40, 0.26), (0.27, 0.32, 0.15), (0.34, 0.28, 0.20), (0.40, 0.37, 0.22), (0.24, 0.30, 0.14)),
     ),
-    "bare": Kind("hard", ((0.43, 0.39, 0.33), (0.39, 0.35, 0.30))),
-    "water": Kind("water", ((0.10, 0.16, 0.17),), 4.0),
-    "track": Kind("hard", ((0.44, 0.38, 0.30),), 3.0),
-    "road": Kind("hard", ((0.27, 0.27, 0.28),), 7.0),
-    "building": Kind("hard", ((0.33, 0.31, 0.29),), 6.0),
+    "bare": LandUseKind("hard", ((0.43, 0.39, 0.33), (0.39, 0.35, 0.30))),
+    "water": LandUseKind("water", ((0.10, 0.16, 0.17),), 4.0),
+    "track": LandUseKind("hard", ((0.44, 0.38, 0.30),), 3.0),
+    "road": LandUseKind("hard", ((0.27, 0.27, 0.28),), 7.0),
+    "building": LandUseKind("hard", ((0.33, 0.31, 0.29),), 6.0),
 }
 
 _TRACKS = ("track", "path", "footway", "bridleway", "cycleway", "steps", "pedestrian")
@@ -146,7 +148,7 @@ class Map:
 
 
 _MAPS: WeakKeyDictionary[ShotView, Map | None] = WeakKeyDictionary()
-_PICTURES: WeakKeyDictionary[ShotView, dict[str, list[Picture]]] = WeakKeyDictionary()
+_PICTURES: WeakKeyDictionary[ShotView, dict[str, list[OrthophotoImage]]] = WeakKeyDictionary()
 
 
 def kind_of(properties: Mapping[str, Any]) -> str | None:
@@ -198,7 +200,7 @@ def read_map(shot: ShotView) -> Map | None:
     return _MAPS[shot]
 
 
-def pictures(shot: ShotView) -> dict[str, list[Picture]]:
+def pictures(shot: ShotView) -> dict[str, list[OrthophotoImage]]:
     """Pictures of each map layer: the whole map, and finer ones near the cameras."""
     known = read_map(shot)
     if known is None:
@@ -304,7 +306,7 @@ def _frames(shot: ShotView, known: Map) -> list[tuple[Array, Array]]:
     return frames
 
 
-def _drawn(shot: ShotView, known: Map, layer: str, low: Array, high: Array) -> Picture:
+def _drawn(shot: ShotView, known: Map, layer: str, low: Array, high: Array) -> OrthophotoImage:
     """Rasterize one layer of the map."""
     size = np.clip(np.ceil((high - low) / _FINEST), 2, _LARGEST).astype(int)
     pixel = (high - low) / size
@@ -323,7 +325,7 @@ def _drawn(shot: ShotView, known: Map, layer: str, low: Array, high: Array) -> P
                 cover[..., None] > 0.0, 255.0 * np.clip(colour * tone, 0, 1), part[..., :3]
             )
             part[..., 3] = np.rint(255.0 * over)
-    return Picture(low, high, pixels)
+    return OrthophotoImage(low, high, pixels)
 
 
 def _covers(feature: Thing, low: Array, pixel: Array, shape: tuple[int, int]) -> list[rasterize.Covered]:

@@ -23,7 +23,7 @@ from ...run import areas, content
 from ..settings import scene_file
 from ..settings.settings import Settings
 from .elevation import ramp
-from .raster import Array, Raster, extent, overlap, said
+from .raster import Array, GeoTiff, extent, overlap, said
 
 if TYPE_CHECKING:
     from ..settings.protocols import ShotView
@@ -38,7 +38,7 @@ Pixels = NDArray[np.uint8]
 
 
 @dataclass(frozen=True)
-class Picture:
+class OrthophotoImage:
     """Ground colours of an area, seen from above.
 
     Attributes
@@ -88,7 +88,7 @@ def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
     return hashes | {"photo extent": str(settings.terrain.photo_extent)}
 
 
-def pictures(shot: ShotView) -> list[Picture]:
+def pictures(shot: ShotView) -> list[OrthophotoImage]:
     """The whole photo as one picture, and a finer one near the cameras if the photo has the resolution."""
     if shot.settings.terrain.photo is None:
         return []
@@ -121,7 +121,7 @@ def _pixel(shot: ShotView) -> float:
     return 0.5 * min(sizes, default=1.0)
 
 
-def _picture(shot: ShotView, source: _Source, low: Array, high: Array, step: float) -> Picture:
+def _picture(shot: ShotView, source: _Source, low: Array, high: Array, step: float) -> OrthophotoImage:
     """Resample an area in strips, at `step` (m) or the coarser step that `_LARGEST` allows."""
     size = np.clip(np.ceil((high - low) / step), 2, _LARGEST).astype(int)
     pixels = np.zeros((size[1], size[0], 4), np.uint8)
@@ -136,7 +136,7 @@ def _picture(shot: ShotView, source: _Source, low: Array, high: Array, step: flo
     known = pixels[..., 3] > 0
     soft = ramp(np.pad(known, 1), _FADE)[1:-1, 1:-1]
     pixels[..., 3] = np.rint(pixels[..., 3] * soft)
-    return Picture(low, high, pixels)
+    return OrthophotoImage(low, high, pixels)
 
 
 class _Places:
@@ -185,7 +185,7 @@ def _source(settings: Settings) -> _Source:
 
 class _Tiff(_Source):
     def __init__(self, settings: Settings) -> None:
-        self.raster = Raster(settings, "photo")
+        self.raster = GeoTiff(settings, "photo")
         self.bounds, self.resolution = self.raster.bounds, self.raster.resolution
         if self.raster.types[0] != "uint8":
             raise self.error(

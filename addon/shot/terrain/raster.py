@@ -50,7 +50,7 @@ def library(settings: Settings, name: str) -> ModuleType:
     return rasterio
 
 
-class Raster:
+class GeoTiff:
     """A GeoTIFF that the key `name` of [terrain] names.
 
     Attributes

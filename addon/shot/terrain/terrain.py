@@ -33,7 +33,7 @@ _LEAST_SHAPE = (1.0 - _SHARP) * sum(weight for _, weight in _OCTAVES)  # gradien
 Array = NDArray[np.float64]
 
 
-class Ground:
+class Terrain:
     """Terrain height and fuel on the run's fuel grid and the apron.
 
     Within `near_radius` of eye points the surface between grid points is Catmull-Rom with added relief.
@@ -70,7 +70,7 @@ class Ground:
             np.nan_to_num(_oriented(field, latitude, longitude), copy=False)
             for field in (self._relief.fuel, fuel_category.canopy(run), run.surface_fuel)
         )
-        known = apron.Fields(
+        known = apron.TerrainFields(
             _ascending(latitude, height / north),
             _ascending(longitude, width / east),
             elevation,
@@ -118,7 +118,7 @@ class Ground:
             patch=patch,
         )
 
-    def seen_from(self, eyes: ArrayLike) -> Ground:
+    def seen_from(self, eyes: ArrayLike) -> Terrain:
         """The same terrain with detail near these eye points (m, 3) in the scene, m."""
         detailed = copy.copy(self)
         detailed.eyes = np.asarray(eyes, np.float64).reshape(-1, 3)
@@ -328,11 +328,11 @@ def _oriented(field: NDArray, latitude: Array, longitude: Array) -> Array:
     return field
 
 
-def _fuelless(fields: apron.Fields) -> NDArray[np.bool_]:
+def _fuelless(fields: apron.TerrainFields) -> NDArray[np.bool_]:
     return (fields.surface_fuel < 0.05) & (fields.canopy_fuel < 0.01)
 
 
-def _water(fields: apron.Fields) -> Array:
+def _water(fields: apron.TerrainFields) -> Array:
     """Lake mask, 0 or 1: ground without fuel that is level within 5 cm over three cells."""
     if min(fields.elevation.shape) < 3:
         return np.zeros(fields.elevation.shape)
@@ -342,7 +342,7 @@ def _water(fields: apron.Fields) -> Array:
     return np.where(bare & (inner + _neighbours(inner) > 0.0), 1.0, 0.0)
 
 
-def _bare(fields: apron.Fields) -> Array:
+def _bare(fields: apron.TerrainFields) -> Array:
     """Fraction of fuel-free ground near each grid point, 0..1, smoothed so that noise can break its edge."""
     bare = _fuelless(fields).astype(np.float64)
     for _ in range(2):

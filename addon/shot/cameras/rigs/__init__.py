@@ -64,7 +64,7 @@ class Rig:
         return None
 
     def path(self, camera: CameraSettings, shot: ShotView, ground: Any) -> Any:
-        """Path of the camera through the shot (`path.Path`) over this `terrain.Ground`."""
+        """Path of the camera through the shot (`path.Path`) over this `terrain.Terrain`."""
         raise NotImplementedError
 
 

@@ -14,7 +14,7 @@ from ._lens import FOCAL_LENGTH, Lens
 
 if TYPE_CHECKING:
     from ...settings.protocols import CameraSettings, ShotView
-    from ...terrain.terrain import Ground
+    from ...terrain.terrain import Terrain
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class Mounted(Rig):
         candidates = (camera for camera in cameras if isinstance(camera.rig, Lens))
         return next((candidate for candidate in candidates if candidate.name == self.follows), None)
 
-    def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
+    def path(self, camera: CameraSettings, shot: ShotView, ground: Terrain) -> Path:
         """Path of the followed camera with its own lens."""
         leader = self.followed(shot.cameras)
         assert leader  # the settings see to it

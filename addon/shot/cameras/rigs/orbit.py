@@ -15,7 +15,7 @@ from ._lens import FOCAL_LENGTH, Lens
 
 if TYPE_CHECKING:
     from ...settings.protocols import CameraSettings, ShotView
-    from ...terrain.terrain import Ground
+    from ...terrain.terrain import Terrain
     from . import Place
     from ._view import View
 
@@ -71,7 +71,7 @@ class Orbit(Lens):
             return []
         return [(("latitude",), self.latitude, self.longitude)]
 
-    def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
+    def path(self, camera: CameraSettings, shot: ShotView, ground: Terrain) -> Path:
         """Circular path at its speed, raised smoothly above hills."""
         middle = ground.frame
         point = ground.point(

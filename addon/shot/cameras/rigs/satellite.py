@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from firetwin_core.run import Run
 
     from ...settings.protocols import CameraSettings, Frames, ShotView
-    from ...terrain.terrain import Ground
+    from ...terrain.terrain import Terrain
     from . import Place
     from ._view import View
 
@@ -77,7 +77,7 @@ class Satellite(Rig):
         )
         return ("geostationary",), reason
 
-    def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
+    def path(self, camera: CameraSettings, shot: ShotView, ground: Terrain) -> Path:
         """Fixed path."""
         first = self.keys[0] if self.keys else ground.frame
         place = np.repeat(ground.point(first.latitude, first.longitude), shot.frames.count, axis=0)
