@@ -192,7 +192,7 @@ def test_a_frame_that_one_camera_films_alone_is_that_cameras(smoky, run, tmp_pat
     both = Shot(replace(smoky, cameras=(first, second), cache=tmp_path), run)
     told = []
     place = bake.bake(both, lambda *done: told.append(done))
-    own = bake.folder(both.of(first.name))
+    own = bake.folder(both.for_camera(first.name))
     assert {total for _, total, *_ in told} == {3}
     assert [done for done, *_ in told] == sorted(done for done, *_ in told)
     assert sorted(path.name for path in own.glob("*.vdb")) == ["smoke_000001.vdb", "smoke_000002.vdb"]

@@ -223,7 +223,7 @@ def test_new_writes_a_scene_file_says_what_it_chose_and_overwrites_nothing(make_
     assert scene_file.read(out).run.resolve() == folder.resolve()
     out.write_text("mine")
     again = firetwin("new", folder, "-o", out)
-    assert_one_line(again, 2, "scene.toml is there", "--overwrite")
+    assert_one_line(again, 2, "scene.toml exists already", "--overwrite")
     assert out.read_text() == "mine"
     assert firetwin("new", folder, "-o", out, "--overwrite").returncode == 0
     assert scene_file.read(out).cameras

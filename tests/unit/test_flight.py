@@ -172,7 +172,7 @@ def test_a_lens_and_its_chip_give_the_view(run):
     camera = replace(shot.settings.cameras[0], resolution=(400, 400))
     square = Shot(replace(shot.settings, cameras=(camera,)), run)
     assert square.paths[0].half == pytest.approx((0.75, 0.75))
-    assert square.of("scout").settings.render.resolution == (400, 400)
+    assert square.for_camera("scout").settings.render.resolution == (400, 400)
 
 
 def test_ridges_before_a_long_film_are_those_before_each_of_its_frames(run):
