@@ -341,7 +341,7 @@ def test_no_box_is_wider_than_can_be_solved(shot, monkeypatch):
 def test_a_stopped_flow_ends(shot):
     solved = flow.Flow(shot)
     solved.stop.set()
-    with pytest.raises(flow.StoppedError):
+    with pytest.raises(flow.IntegratorStoppedError):
         solved.ready(1)
 
 
@@ -440,5 +440,5 @@ def test_waiting_for_another_process_can_be_stopped(shot):
     waits = flow.Flow(shot)
     waits.elsewhere = lambda: True
     waits.stop.set()
-    with pytest.raises(flow.StoppedError):
+    with pytest.raises(flow.IntegratorStoppedError):
         waits.ready(1)
