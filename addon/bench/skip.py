@@ -3,7 +3,7 @@
 Each is built and rendered in a process of its own, without smoke, with the same trees in reach. Times are CPU
 times. Memory is the process's peak less that of starting Blender. The error is the mean FLIP (Andersson et
 al. 2020) against the unculled picture; beside it stands that of another noise seed.
-`tests/benchmarks/skipping.py` measures the same at full size, also for a lookout and a satellite.
+`tests/benchmarks/culling.py` measures the same at full size, also for a lookout and a satellite.
 """
 
 from __future__ import annotations

@@ -30,7 +30,7 @@ from .stand import Stand
 GRASS_DISTANCE = 400.0  # m
 _ALIKE = 110.0, 70.0  # m, patches of trees of one hue, and of trees that died earlier; by eye
 _TALLEST, _GRASS = 31.0, 10.0  # m; as tall as any tree of Algorithm 2, and as a tree that would hold a clump
-_WIDER = 12.0  # lower relative to trees: bushes and logs; by FLIP from among them (skipping.py)
+_WIDER = 12.0  # lower relative to trees: bushes and logs; by FLIP from among them (culling.py)
 
 
 def build(shot: Shot, stage: Stage, grown: Stand | None) -> list[bpy.types.Object]:

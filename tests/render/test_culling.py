@@ -1,4 +1,4 @@
-"""What no camera sees is left out, and what is far is coarser: the picture stays that of all there is."""
+"""Culling and level of detail leave the picture as it is without them."""
 
 from dataclasses import replace
 
@@ -12,10 +12,10 @@ from firetwin.shot.shot import Shot
 def test_the_picture_is_that_of_all_there_is(settings, run, shoot):
     """With the same grain the difference is less than half of what another grain makes."""
 
-    def picture(skip: bool, seed: int) -> np.ndarray:
+    def picture(cull: bool, seed: int) -> np.ndarray:
         bpy.ops.wm.read_factory_settings(use_empty=True)
         scene = bpy.context.scene
-        changed = replace(settings, render=replace(settings.render, cull=skip, seed=seed))
+        changed = replace(settings, render=replace(settings.render, cull=cull, seed=seed))
         build.build(Shot(changed, run), scene)
         owned.adopt(scene)
         scene.frame_set(2)

@@ -1,9 +1,9 @@
-"""Run time and memory against error of what a shot leaves out, for a drone, a lookout and a satellite.
+"""Run time and memory against error of culling, for a drone, a lookout and a satellite.
 
-    python tests/benchmarks/skipping.py RUN --work DIR [--reach 1500] [--samples 16] [--views drone,lookout]
+    python tests/benchmarks/culling.py RUN --work DIR [--reach 1500] [--samples 16] [--views drone,lookout]
 
 Every scene is rendered once in a process of its own with `render.cull = false`, which builds all that there
-is, and at three settings with skipping. Seconds are of the processor, memory the most that the process held,
+is, and at three settings with culling. Seconds are of the processor, memory the most that the process held,
 both less what starting Blender takes. The error is the mean FLIP (Andersson and others 2020, package
 flip-evaluator, its own 67 pixels per degree) against the picture of all, with the same grain; what another
 grain alone makes of that, the row "all, other grain" shows. Without that package the error is the root of
@@ -41,7 +41,7 @@ enabled = false
 resolution = [320, 180]
 samples = {samples}
 seed = {seed}
-skip = {skip}
+cull = {cull}
 passes = ["rgb"]
 [[cameras]]
 name = "view"
@@ -106,21 +106,26 @@ def one(scene: Path, picture: Path) -> None:
     )
 
 
+def scene_text(row: dict, camera: str, given: argparse.Namespace) -> str:
+    """Scene file of one row from one camera."""
+    return SCENE.format(
+        camera=camera,
+        density="paper" if "satellite" in camera else "stand",
+        run=given.run.absolute(),
+        work=given.work,
+        reach=given.reach,
+        samples=given.samples,
+        **row,
+    )
+
+
 def measure(folder: Path, row: dict, camera: str, given: argparse.Namespace) -> tuple[dict, NDArray]:
     """What one row took, and its picture (height, width, 3), 0 to 1."""
     import matplotlib.image
 
     folder.mkdir(parents=True, exist_ok=True)
     scene, picture = folder / "scene.toml", folder / "picture.png"
-    density = "paper" if "satellite" in camera else "stand"
-    values = {
-        "density": density,
-        "run": given.run.absolute(),
-        "work": given.work,
-        "reach": given.reach,
-        "samples": given.samples,
-    }
-    scene.write_text(SCENE.format(camera=camera, **values, **row))
+    scene.write_text(scene_text(row, camera, given))
     command = [sys.executable, __file__, "--one", str(scene), str(picture)]
     told = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
     found = next(line for line in told.splitlines() if line.startswith("FOUND "))
