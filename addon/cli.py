@@ -391,7 +391,7 @@ at least half of its front is in the frustum and not occluded by terrain or dens
 is printed. `render`, `build` and `bake` of RUN use the same settings."""
 
 MAPS = """\
-DIR/fuel.png        fuel load; greener is denser
+DIR/fuel.png        surface and canopy fuel together, kg/m2; greener is denser
 DIR/intensity.png   maximum heat flux of the run, light yellow to red, over shaded relief"""
 
 SCORE = """\

@@ -163,7 +163,7 @@ class Forest:
         affects=("terrain", "forest"),
     )
     trees: bool = key(True, "draw trees where the run has canopy fuel")
-    grass: bool = key(True, "draw clumps of grass where the run has surface fuel")
+    grass: bool = key(True, "draw clumps of grass where the run has surface fuel, within 400 m of a camera")
     density: str = key(
         "stand",
         "tree density",
@@ -469,7 +469,7 @@ class Render:
     )
     cull: bool = key(
         True,
-        "frustum culling, occlusion culling and level of detail; false: none, for comparison",
+        "frustum and occlusion culling, level of detail, forest.budget; false: none, for comparison",
         affects=("terrain", "forest", "fire", "smoke"),
     )
     chunk: int = key(
