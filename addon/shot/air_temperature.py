@@ -1,4 +1,8 @@
-"""Air temperature near the ground: the run's, or an assumed diurnal range if it has none."""
+"""Air temperature near the ground: the run's, or an assumed diurnal range if it has none.
+
+Constants and formulas of the ground's own temperature are here too: its gain of sunlight, its loss to the
+sky, and how it cools after the front (`cooling`). `scene.temperature` draws with them.
+"""
 
 from __future__ import annotations
 

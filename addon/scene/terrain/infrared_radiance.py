@@ -21,11 +21,8 @@ def radiance(
 ) -> nodes.Value:
     """Radiance at the camera; `burning` are the area fractions 0..1 of flames and embers."""
     flaming, embers = burning
-    bare = tree.math("MAXIMUM", rock, place.canopy.ramp(0.0, 1.2, 1.0, 0.1))
-    bare = tree.math("MAXIMUM", bare, place.burned)
-    ambient = temperature.ambient(tree, shot, stage, place.elevation, normal, bare)
-    kelvin = temperature.cooled(tree, ambient, place.age, place.burned * (1.0 - rock), place.residence)
-    kelvin = tree.mix(lake, kelvin, temperature.WATER)
+    bare = bare_fraction(tree, place, rock)
+    kelvin = surface_temperature(tree, shot, stage, place, rock, lake, normal, bare)
     emissivity = tree.mix(bare, infrared.NEEDLES, tree.mix(place.burned, infrared.GROUND, infrared.CHAR))
     emissivity = tree.mix(lake, tree.mix(rock, emissivity, infrared.STONE), infrared.LAKE)
     own = infrared.emitted(tree, shot, stage, kelvin, emissivity)
@@ -33,3 +30,25 @@ def radiance(
     hot = flaming.ramp(0.0, 1.0, temperature.FLAME_LOW, temperature.FLAME_HIGH)
     own = tree.mix(flaming.smoothstep(0.0, 0.5), own, infrared.emitted(tree, shot, stage, hot))
     return infrared.through_air(tree, shot, stage, own)
+
+
+def bare_fraction(tree: nodes.Tree, place: Place, rock: nodes.Value) -> nodes.Value:
+    """Fraction 0..1 of the ground without living crowns."""
+    bare = tree.math("MAXIMUM", rock, place.canopy.ramp(0.0, 1.2, 1.0, 0.1))
+    return tree.math("MAXIMUM", bare, place.burned)
+
+
+def surface_temperature(
+    tree: nodes.Tree,
+    shot: Shot,
+    stage: Stage,
+    place: Place,
+    rock: nodes.Value,
+    lake: nodes.Value,
+    normal: nodes.Value,
+    bare: nodes.Value,
+) -> nodes.Value:
+    """Kinetic temperature (K) of ground and crowns without flames and embers; `bare` is `bare_fraction`."""
+    ambient = temperature.ambient(tree, shot, stage, place.elevation, normal, bare)
+    kelvin = temperature.cooled(tree, ambient, place.age, place.burned * (1.0 - rock), place.residence)
+    return tree.mix(lake, kelvin, temperature.WATER)

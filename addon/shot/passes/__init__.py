@@ -1,6 +1,9 @@
 """Passes: render outputs of a camera; each module of this folder is one, unless its name begins with "_".
 
 A module defines `PASS`, a `RenderedPass`, `DerivedPass` or `ComparisonPass` with the module's name.
+
+A pixel without a value, such as the sky's, is 1e10 m in depth, and 0 in normals. Temperatures (K) without a
+value are NaN, which `_imager` draws grey.
 """
 
 from __future__ import annotations
@@ -33,7 +36,9 @@ class Pass:
     files
         Suffixes of its files.
     aspects
-        Aspects of the settings on which its own work depends (see `schema.select`).
+        Aspects of the settings on which its own work depends: names of sections, or "camera", "picture",
+        "grain", "thermal", "film" or "passes"; see `settings.settings`. A name stands for its folders
+        ``NAME`` and ``scene/NAME`` in `code_fingerprint` too.
     film
         Whether its PNG files make a film.
     captions
