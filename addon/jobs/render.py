@@ -28,6 +28,10 @@ class RenderRequest:
     passes: str | None = None
     resume: bool = False
 
+    def selection(self) -> list[str | None]:
+        """Frames, camera and passes, as `render.plan.pictures` takes them."""
+        return [self.frames, self.camera, self.passes]
+
 
 @dataclass(frozen=True)
 class RenderResult:
@@ -61,12 +65,12 @@ def run(
         )
     with notify_if_slow(READING):
         shot = choice.shot()
-        wanted = plan.pictures(shot, asked.frames, asked.camera, asked.passes)
+        wanted = plan.pictures(shot, *asked.selection())
     made_with = fingerprint.of_pictures(shot, wanted, progress)
     with Store(out) as store:
         undone = plan.missing(store, wanted, made_with)
         finished = len(wanted) - len(undone)
-        before = 0 if asked.resume else store.number()
+        begun = store.number()
         if not undone and asked.resume and not any(films.missing(shot, store, made_with)):
             tell(f"{finished} of {count(len(wanted), 'picture')} are finished and match; nothing to render")
             store.export()
@@ -79,11 +83,20 @@ def run(
     if undone:
         cameras = " and ".join(dict.fromkeys(picture.camera for picture in undone))
         tell(f"rendering {count(len(undone), 'picture')} of {cameras}")
-    task = {"choice": choice.plain(), "filmed": [list(pair) for pair in made_with], "after": before}
+    task = {
+        "choice": choice.plain(),
+        "filmed": [list(pair) for pair in made_with],
+        "begun": begun,
+        "resume": asked.resume,
+        "selection": asked.selection(),
+    }
     with Store(out, create=True) as store:
         took = make(f"{__name__}:in_blender", task, undone, store, shot, progress, tell, stop)
         dataset.write(store)
-    return RenderResult(len(undone), **took)
+    result = RenderResult(**took)
+    if others := len(undone) - result.pictures:
+        tell(f"another render made {others} of these {count(len(undone), 'picture')}")
+    return result
 
 
 def make(
@@ -146,7 +159,9 @@ def in_blender(
     pictures: list[list[Any]],
     filmed: list[list[str]],
     owner: str,
-    after: int,
+    begun: int,
+    resume: bool,
+    selection: list[str | None],
     progress: Progress,
     tell: MessageCallback,
 ) -> dict[str, int]:
@@ -154,9 +169,18 @@ def in_blender(
 
     Pictures that other renders lease are left to them.
 
+    Parameters
+    ----------
+    begun
+        Number of the store's latest entry when the render began.
+    resume
+        Entries up to `begun` count as finished.
+    selection
+        Frames, camera and passes that the render is asked for (see `render.plan.pictures`).
+
     Returns
     -------
-    Memory in bytes, `expected` and `peak`, as in `RenderResult`.
+    Values of a `RenderResult`: `pictures`, `expected` and `peak`.
     """
     from ..render import comparison, fingerprint, plan, sharing, video
     from ..render.picture import Picture
@@ -171,7 +195,8 @@ def in_blender(
         _check_device(shot)
     frames, expected = frames_of(todo), 0
     made_with = fingerprint.of_pairs(shot, {(camera, name) for camera, name in filmed}, progress)
-    with sharing.open_session(Path(out), made_with, owner, after) as session:
+    everything, after = plan.pictures(shot, *selection), 0 if resume else begun
+    with sharing.open_session(Path(out), made_with, owner, after, begun, everything) as session:
         over = 0
         for part in plan.rounds(shot, todo):
             over += frames_of(part)
@@ -189,7 +214,8 @@ def in_blender(
             tell(plume_mass.describe(shot))
         comparison.make(shot, session, [each for each in asked if each not in drawn], progress, tell)
         video.make(shot, session, progress)
-    return {"expected": expected, "peak": memory.peak()}
+        made = len(session.finished)
+    return {"pictures": made, "expected": expected, "peak": memory.peak()}
 
 
 def _check_device(shot: Shot) -> None:

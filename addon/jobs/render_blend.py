@@ -44,7 +44,7 @@ def run(
     from ..shot import passes
 
     shot = choice.shot()
-    planned = plan.pictures(shot, asked.frames, asked.camera, asked.passes)
+    planned = plan.pictures(shot, *asked.selection())
     wanted = [
         picture for picture in planned if "@" not in picture.camera and not passes.compares(picture.name)
     ]
@@ -52,14 +52,15 @@ def run(
         digest = hashlib.file_digest(file, "sha256").hexdigest()
     made_with = _made_with(digest, wanted)
     with Store(asked.out, create=True) as store:
-        before = 0 if asked.resume else store.number()
-        undone = plan.missing(store, wanted, made_with, before)
+        begun = store.number()
+        undone = plan.missing(store, wanted, made_with, 0 if asked.resume else begun)
         task = {
             "choice": choice.plain(),
             "blend": str(blend),
             "scene": scene,
             "made_with": [[*pair, values] for pair, values in made_with.items()],
-            "after": before,
+            "begun": begun,
+            "resume": asked.resume,
         }
         tell(f"rendering {count(len(undone), 'picture')} of {blend.name} in its current state")
         make(f"{__name__}:in_blender", task, undone, store, shot, progress, tell, stop)
@@ -85,7 +86,8 @@ def in_blender(
     pictures: list[list[Any]],
     made_with: list[list[Any]],
     owner: str,
-    after: int,
+    begun: int,
+    resume: bool,
     progress: Progress,
     tell: MessageCallback,
 ) -> None:
@@ -106,9 +108,9 @@ def in_blender(
     if stage.scene.render.engine == "CYCLES":
         tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
     known = {(camera, name): values for camera, name, values in made_with}
-    frames, done = frames_of(todo), 0
+    frames, done, after = frames_of(todo), 0, 0 if resume else begun
     with (
-        sharing.open_session(Path(out), known, owner, after) as session,
+        sharing.open_session(Path(out), known, owner, after, begun, todo) as session,
         prefetch.smoke(shot, smoky(shot, todo), progress, tell) as ready,
     ):
         for camera, group in itertools.groupby(todo, key=lambda picture: picture.camera):

@@ -23,7 +23,7 @@ def make(
     while free := session.free(wanted, tell):
         for camera, group in itertools.groupby(free, key=lambda picture: picture.camera):
             own = for_view(shot, camera)
-            with session.leases.part_folder() as part, session.queue(list(group)) as queue:
+            with session.leases.part_folder() as part, session.queue(list(group), tell) as queue:
                 while queue.step():
                     progress(done, len(wanted), "comparing runs")
                     pictures = [Picture(camera, queue.frame, name) for name in queue.names]

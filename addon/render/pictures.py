@@ -55,7 +55,7 @@ def render(
     total, made, note = len({(picture.camera, picture.frame) for picture in wanted}), 0, ""
     marched = integrated.wanted(shot, stage.scene) and bool(plan.rendered(shot, wanted))
     drawing = integrated.Drawing(shot, stage) if marched else None
-    with session.leases.part_folder() as part, session.queue(wanted) as queue:
+    with session.leases.part_folder() as part, session.queue(wanted, tell) as queue:
         while queue.step():
             progress(made, total, "rendering", note)
             if finished := _frame(shot, stage, session, part, queue, ready, drawing):
@@ -176,7 +176,14 @@ class _Frame:
 
 
 def publish(shot: Shot, session: RenderSession, part: Path, pictures: list[Picture]) -> None:
-    """Verify the files of a complete frame, rename them into place and enter them in the store."""
+    """Verify the files of a complete frame, rename them into place and enter them in the store.
+
+    Raises
+    ------
+    InputError
+        A file is damaged, or another render makes these pictures with other settings.
+    """
+    session.check_others()
     made = {name: part / Path(name).name for each in pictures for name in each.files()}
     for picture, name in ((each, name) for each in pictures for name in each.files()):
         path, size = made[name], passes.known()[picture.name].size(shot.settings.render.resolution)
@@ -196,7 +203,7 @@ def publish(shot: Shot, session: RenderSession, part: Path, pictures: list[Pictu
                 "time": shot.utc(picture.frame).isoformat(timespec="seconds"),
             }
             files.publish(made[name], session.store.out / name)
-        session.store.add(session.made_with[picture.camera, picture.name], entries)
+        session.enter(picture, entries)
 
 
 def _heading(shot: Shot, picture: Picture) -> float:

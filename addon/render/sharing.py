@@ -1,16 +1,25 @@
-"""Render queue of frames that several renders into one folder share by leases. Needs no Blender."""
+"""Render queue of frames that several renders into one folder share by leases. Needs no Blender.
+
+Renders with equal fingerprints divide the frames. With other fingerprints each would replace the other's
+pictures without end, so a render that meets such pictures stops.
+"""
 
 from __future__ import annotations
 
+import functools
 import itertools
 import time
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
+from .. import leases
+from ..errors import input_error
 from ..leases import Claims, new_owner
-from ..progress import MessageCallback, count
+from ..progress import MessageCallback, count, duration, no_message
+from ..run.content import fingerprint
 from . import plan
 from .fingerprint import Fingerprints
 from .picture import Picture
@@ -29,34 +38,81 @@ class RenderSession:
     ----------
     after
         Entries of the store up to this number do not count as finished.
+    since
+        Number of the store's latest entry when the render began.
+    asked
+        All pictures that the render is asked for, also finished ones.
+    finished
+        Pictures that this session finished. They stay finished whatever another render writes.
+    seen
+        Names of the leases of others that were met.
     """
 
     store: Store
     leases: Claims
     made_with: Fingerprints
     after: int = 0
+    since: int = 0
+    asked: Collection[Picture] = ()
+    finished: set[Picture] = field(default_factory=set)
+    seen: set[str] = field(default_factory=set)
 
     def missing(self, wanted: list[Picture]) -> list[Picture]:
         """Pictures that are not finished."""
-        return plan.missing(self.store, wanted, self.made_with, self.after)
+        rest = [picture for picture in wanted if picture not in self.finished]
+        return plan.missing(self.store, rest, self.made_with, self.after)
+
+    def enter(self, picture: Picture, entries: dict[str, dict[str, Any]]) -> None:
+        """Enter the files of a finished picture in the store (see `Store.add`)."""
+        self.store.add(self.made_with[picture.camera, picture.name], entries)
+        self.finished.add(picture)
+
+    def check_others(self) -> None:
+        """Check that no other render replaces the pictures of this one by different ones.
+
+        Raises
+        ------
+        InputError
+            Since this render began, a picture that it is asked for was made with another fingerprint.
+        """
+        for camera, frame, name in self.store.made_otherwise(self._keys, self.since) if self.asked else ():
+            if (picture := Picture(camera, frame, name)) in self.asked:
+                raise input_error(
+                    self.store.out / picture.files()[0],
+                    *(0, 0),
+                    "another render makes this picture with other settings, or another Firetwin or Blender; "
+                    "give each render its own --out, or the same scene file and versions",
+                )
 
     def free(self, wanted: list[Picture], tell: MessageCallback) -> list[Picture]:
         """Unfinished pictures without a lease; waits until there are some; none when all are finished."""
         waiting = False
-        while wanted := self.missing(wanted):
-            others = self.leases.of_others()
-            if free := [picture for picture in wanted if _name(picture.camera, picture.frame) not in others]:
+        while True:
+            self.check_others()
+            wanted = self.missing(wanted)
+            others = self.leased_by_others() if wanted else set()
+            free = [picture for picture in wanted if _name(picture.camera, picture.frame) not in others]
+            if free or not wanted:
                 return free
             if not waiting:
-                tell(f"waiting for {count(len(wanted), 'picture')} that another render makes")
+                frames = len({(picture.camera, picture.frame) for picture in wanted})
+                tell(
+                    f"waiting for {count(frames, 'frame')} of another render; "
+                    f"taken over {duration(leases.PATIENCE)} after its last heartbeat"
+                )
             waiting = True
             time.sleep(_POLL_INTERVAL)
-        return []
+
+    def leased_by_others(self) -> set[str]:
+        """Names of the leases of other renders."""
+        others = self.leases.of_others()
+        self.seen.update(others)
+        return others
 
     @contextmanager
-    def queue(self, wanted: list[Picture]) -> Iterator[FrameQueue]:
+    def queue(self, wanted: list[Picture], tell: MessageCallback = no_message) -> Iterator[FrameQueue]:
         """Frame queue of these pictures, in their order; releases its leases at the end."""
-        queue = FrameQueue(self, wanted)
+        queue = FrameQueue(self, wanted, tell)
         try:
             yield queue
         finally:
@@ -68,14 +124,23 @@ class RenderSession:
             self.leases.of_others()
             time.sleep(_POLL_INTERVAL)
 
+    @functools.cached_property
+    def _keys(self) -> list[str]:
+        return [fingerprint(values) for values in self.made_with.values()]
+
 
 @contextmanager
 def open_session(
-    out: Path, made_with: Fingerprints, owner: str | None = None, after: int = 0
+    out: Path,
+    made_with: Fingerprints,
+    owner: str | None = None,
+    after: int = 0,
+    since: int = 0,
+    asked: Collection[Picture] = (),
 ) -> Iterator[RenderSession]:
     """Open a render session in an output folder; creates the store where it is missing."""
     with Store(out, create=True) as store, Claims(store.data, owner or new_owner()) as held:
-        yield RenderSession(store, held, made_with, after)
+        yield RenderSession(store, held, made_with, after, since, frozenset(asked))
 
 
 class FrameQueue:
@@ -87,8 +152,8 @@ class FrameQueue:
         The current job: the passes `names` of a camera's frame.
     """
 
-    def __init__(self, session: RenderSession, wanted: list[Picture]) -> None:
-        self.session, self.leases = session, session.leases
+    def __init__(self, session: RenderSession, wanted: list[Picture], tell: MessageCallback) -> None:
+        self.session, self.leases, self.tell = session, session.leases, tell
         groups = itertools.groupby(wanted, key=lambda picture: (picture.camera, picture.frame))
         self.waiting = {frame: list(group) for frame, group in groups}
         self.following: tuple[Frame, list[str]] | None = None
@@ -96,8 +161,15 @@ class FrameQueue:
         self.names: list[str] = []
 
     def step(self) -> bool:
-        """Lease the next frame that is neither finished nor leased; False when there is none now."""
+        """Lease the next frame that is neither finished nor leased; False when there is none now.
+
+        Raises
+        ------
+        InputError
+            Another render makes these pictures with other settings (see `RenderSession.check_others`).
+        """
         self._release()
+        self.session.check_others()
         now = self.following or self._lease_next()
         if now is None:
             return False
@@ -123,10 +195,14 @@ class FrameQueue:
             self._release()
 
     def _lease_next(self) -> tuple[Frame, list[str]] | None:
-        others = self.leases.of_others() if self.waiting else set()
+        others = self.session.leased_by_others() if self.waiting else set()
         for frame in list(self.waiting):
             if _name(*frame) not in others and self.leases.take(_name(*frame)):
                 if missing := self.session.missing(self.waiting.pop(frame)):
+                    if _name(*frame) in self.session.seen:
+                        self.tell(
+                            f"taking over {frame[0]} frame {frame[1]}, which another render left unfinished"
+                        )
                     return frame, [picture.name for picture in missing]
                 self.leases.give(_name(*frame))
         return None

@@ -81,6 +81,14 @@ class Store:
                 return False
         return True
 
+    def made_otherwise(self, keys: Iterable[str], since: int) -> list[tuple[str, int, str]]:
+        """Pictures (camera, frame, pass) entered after number `since` with settings of other fingerprints."""
+        return self.data.all(
+            "SELECT camera, frame, pass FROM files WHERE number > ? AND frame IS NOT NULL "
+            "AND settings NOT IN (SELECT value FROM json_each(?)) ORDER BY number",
+            *(since, json.dumps(list(keys))),
+        )
+
     def pictures(self, camera: str, name: str, key: str, suffix: str) -> dict[int, str]:
         """Hashes, by frame, of a camera's unchanged pictures in a pass made with these settings."""
         rows = self.data.all(

@@ -16,7 +16,6 @@ def everything(folder, text):
         pass
     listed = [[picture.camera, picture.frame, picture.name] for picture in pictures]
     pairs = sorted({(picture.camera, picture.name) for picture in pictures})
-    render.in_blender(
-        choice.plain(), str(out), listed, [list(pair) for pair in pairs], "me", 0, silent, no_message
-    )
+    filmed, selection = [list(pair) for pair in pairs], [None, None, None]
+    render.in_blender(choice.plain(), str(out), listed, filmed, "me", 0, True, selection, silent, no_message)
     return choice.shot(), out
