@@ -1,7 +1,7 @@
 """Command line: ``firetwin sample | info | new | maps | score | imager | build | bake | render | ...``.
 
 Results go to stdout, messages and progress to stderr. Exit status 0: done, 1: failed, 2: bad usage, 130:
-Ctrl-C. Heavy modules are imported on demand, so that help and usage errors answer at once.
+Ctrl-C, 143: SIGTERM. Heavy modules are imported on demand, so that help and usage errors answer at once.
 """
 
 from __future__ import annotations
@@ -428,10 +428,12 @@ passes:
 {passes}
 
 Without --resume all selected frames are rendered again. Several renders, also on several computers, can
-write to one folder at the same time: they share the frames by leases. Give each of them --resume and the same
-scene file, run, Firetwin and Blender. The expected memory is printed before the first frame where it is known:
-for smoke that is a solved flow drawn along rays, and for pictures without smoke. --json prints at the end:
-expected and peak memory (bytes, null where unknown), number of pictures that this render made, and files."""
+write to one folder at the same time: they share the frames by leases. Give each of them --resume and the
+same scene file, run, Firetwin and Blender.
+
+The expected memory is printed before the first frame where it is known: for smoke that is a solved flow drawn
+along rays, and for pictures without smoke. --json prints at the end: expected and peak memory (bytes, null
+where unknown), number of pictures that this render made, and files."""
 
 TRACK = """\
 One point per frame: WGS84 degrees, metres above sea level (the datum of the run's elevations) and model

@@ -35,7 +35,7 @@ class RenderRequest:
 
 @dataclass(frozen=True)
 class RenderResult:
-    """Number of pictures that a render made, and its peak memory in bytes, estimated and measured.
+    """Number of pictures that this render made, and its peak memory in bytes, estimated and measured.
 
     0 where nothing was rendered, or the value is unknown.
     """
