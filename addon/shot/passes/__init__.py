@@ -3,7 +3,7 @@
 A module defines `PASS`, a `RenderedPass`, `DerivedPass` or `ComparisonPass` with the module's name.
 
 A pixel without a value, such as the sky's, is 1e10 m in depth, and 0 in normals. Temperatures (K) without a
-value are NaN, which `_imager` draws grey.
+value are NaN: `_imager` draws them grey, `sensor.colour` as the coldest.
 """
 
 from __future__ import annotations
