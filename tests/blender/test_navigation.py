@@ -46,7 +46,7 @@ def test_every_kind_of_camera_can_be_made_from_a_view(panel):
     assert seen.tilt == pytest.approx(90.0 - np.degrees(1.2), abs=0.1)
     assert seen.above == pytest.approx(2400.0 - ground_raycast.up(stage, EYE.translation), abs=1.0)
     for kind, made in rigs.kinds().items():
-        assert isinstance(made.for_view(seen), made), kind
+        assert isinstance(made.from_view(seen), made), kind
 
 
 def test_a_camera_from_the_view_sees_what_the_view_sees(panel):

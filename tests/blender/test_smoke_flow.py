@@ -296,7 +296,7 @@ def test_smoke_hides_smoke_from_those_cameras_that_film_the_frame(flowing, run, 
         asked.append(given[2:4])
         return real(*given)
 
-    monkeypatch.setattr(flow_frames.volume, "hidden", hidden)
+    monkeypatch.setattr(flow_frames.volume, "occluded_smoke", hidden)
     bake.bake(shot, frames=[1])
     near = asked.copy()
     bake.bake(shot, frames=[2])
