@@ -40,7 +40,8 @@ def render(
     Parameters
     ----------
     progress
-        Its note is the picture of the last frame, relative to the output folder.
+        Its note is the picture of the last frame, relative to the output folder. At the end it lacks the frames
+        that other renders lease.
     ready
         Called before each frame, with the frames that follow it. The frame's smoke is on the disk when this
         returns, or is the returned value (see `smoke.prefetch`).
@@ -52,16 +53,16 @@ def render(
     Number of frames that this render finished.
     """
     engine.label(shot.run, stage.scene)
-    total, made, note = len({(picture.camera, picture.frame) for picture in wanted}), 0, ""
+    made, note = 0, ""
     marched = integrated.wanted(shot, stage.scene) and bool(plan.rendered(shot, wanted))
     drawing = integrated.Drawing(shot, stage) if marched else None
     with session.leases.part_folder() as part, session.queue(wanted, tell) as queue:
         while queue.step():
-            progress(made, total, "rendering", note)
+            progress(queue.done, queue.total, "rendering", note)
             if finished := _frame(shot, stage, session, part, queue, ready, drawing):
                 made, note = made + 1, _preview(finished)
             memory.give_back()
-    progress(total, total, "rendering", note)
+        progress(queue.done, queue.total, "rendering", note)
     for text in drawing.warnings() if drawing else ():
         tell(text)
     return made

@@ -150,12 +150,15 @@ class FrameQueue:
     ----------
     camera, frame, names
         The current job: the passes `names` of a camera's frame.
+    total
+        Number of frames.
     """
 
     def __init__(self, session: RenderSession, wanted: list[Picture], tell: MessageCallback) -> None:
         self.session, self.leases, self.tell = session, session.leases, tell
         groups = itertools.groupby(wanted, key=lambda picture: (picture.camera, picture.frame))
         self.waiting = {frame: list(group) for frame, group in groups}
+        self.total = len(self.waiting)
         self.following: tuple[Frame, list[str]] | None = None
         self.camera, self.frame = "", 0
         self.names: list[str] = []
@@ -176,6 +179,11 @@ class FrameQueue:
         (self.camera, self.frame), self.names = now
         self.following = self._lease_next()
         return True
+
+    @property
+    def done(self) -> int:
+        """Number of finished frames, also those that this queue found finished by another render."""
+        return self.total - len(self.waiting) - bool(self.camera) - bool(self.following)
 
     @property
     def ahead(self) -> list[int]:

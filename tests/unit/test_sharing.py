@@ -127,3 +127,19 @@ def test_frames_of_another_render_are_told_and_taken_over(tmp_path, monkeypatch)
         "taking over drone frame 2, which another render left unfinished",
         "taking over drone frame 3, which another render left unfinished",
     ]
+
+
+def test_the_queue_counts_frames_that_others_finished_and_not_those_that_they_lease(tmp_path):
+    with opened(tmp_path, 4, "mine") as mine, opened(tmp_path, 4, "other") as other:
+        assert other.leases.take("drone 000002")
+        with mine.queue(WANTED) as queue:
+            done = []
+            while queue.step():
+                done.append(queue.done)
+                make(mine, Picture(queue.camera, queue.frame, "rgb"))
+            assert (done, queue.done, queue.total) == ([0, 1], 2, 3)
+        make(other, WANTED[1])
+        other.leases.give("drone 000002")
+        with mine.queue(WANTED) as queue:
+            assert not queue.step()
+            assert queue.done == 3
