@@ -431,9 +431,9 @@ Without --resume all selected frames are rendered again. Several renders, also o
 write to one folder at the same time: they share the frames by leases. Give each of them --resume and the
 same scene file, run, Firetwin and Blender.
 
-The expected memory is printed before the first frame if there is an estimate: for smoke that is a solved flow drawn
-along rays, and for pictures without smoke. --json prints at the end: expected and peak memory (bytes, null
-where unknown), number of pictures that this render made, and files."""
+The expected memory is printed before the first frame if there is an estimate: for smoke that is a solved
+flow drawn along rays, and for pictures without smoke. --json prints at the end: expected and peak memory
+(bytes, null where unknown), number of pictures that this render made, and files."""
 
 TRACK = """\
 One point per frame: WGS84 degrees, metres above sea level (the datum of the run's elevations) and model
