@@ -40,8 +40,8 @@ def render(
     Parameters
     ----------
     progress
-        Its note is the picture of the last frame, relative to the output folder. At the end it lacks the frames
-        that other renders lease.
+        Its note is the picture of the last frame, relative to the output folder. Frames that other renders
+        lease count as not done, also at the end.
     ready
         Called before each frame, with the frames that follow it. The frame's smoke is on the disk when this
         returns, or is the returned value (see `smoke.prefetch`).
