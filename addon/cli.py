@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from .escaped import escaped
+from .farm import arguments as farm
 
 EPILOG = """\
 a first film, from the sample run:
@@ -36,7 +37,9 @@ a film of your own run:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit status."""
-    arguments = _parser().parse_args(argv)
+    words, options = farm.normal(list(sys.argv[1:] if argv is None else argv))
+    arguments = _parser().parse_args(words)
+    arguments.options = options
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="surrogateescape")  # file names are written byte for byte
     try:
@@ -240,6 +243,8 @@ def _parser() -> argparse.ArgumentParser:
         help="keep finished pictures whose settings and inputs have not changed",
     )
     render.add_argument("--json", action="store_true", help="write JSON: files and memory")
+
+    farm.add(command("farm", "plan a film for a render farm", farm.DETAIL), _path, _count)
 
     track = command("track", "write a camera's path as a GPX track", TRACK)
     _scene(track)

@@ -187,6 +187,13 @@ def render(arguments: argparse.Namespace) -> None:
         _list(arguments.out)
 
 
+def farm(arguments: argparse.Namespace) -> int | None:
+    """Plan a film for a farm, or work on one."""
+    from .farm import command
+
+    return command.run(arguments, _choice)
+
+
 def track(arguments: argparse.Namespace) -> None:
     """Write a camera's path as a GPX track."""
     from . import files

@@ -20,13 +20,22 @@ from . import solve, worker
 
 @dataclass(frozen=True)
 class RenderRequest:
-    """A render request (see `render.plan.pictures`); `resume` keeps finished pictures of equal settings."""
+    """A render request (see `render.plan.pictures`).
+
+    Attributes
+    ----------
+    resume
+        Keep finished pictures of equal settings.
+    films
+        Make films of the pictures.
+    """
 
     out: Path
     frames: str | None = None
     camera: str | None = None
     passes: str | None = None
     resume: bool = False
+    films: bool = True
 
     def selection(self) -> list[str | None]:
         """Frames, camera and passes, as `render.plan.pictures` takes them."""
@@ -71,7 +80,7 @@ def run(
         undone = plan.missing(store, wanted, made_with)
         finished = len(wanted) - len(undone)
         begun = store.number()
-        if not undone and asked.resume and not any(films.missing(shot, store, made_with)):
+        if not undone and asked.resume and not (asked.films and any(films.missing(shot, store, made_with))):
             tell(f"{finished} of {count(len(wanted), 'picture')} are finished and match; nothing to render")
             store.export()
             return RenderResult(0)
@@ -89,6 +98,7 @@ def run(
         "begun": begun,
         "resume": asked.resume,
         "selection": asked.selection(),
+        "films": asked.films,
     }
     with Store(out, create=True) as store:
         took = make(f"{__name__}:in_blender", task, undone, store, shot, progress, tell, stop)
@@ -164,6 +174,7 @@ def in_blender(
     selection: list[str | None],
     progress: Progress,
     tell: MessageCallback,
+    films: bool = True,
 ) -> dict[str, int]:
     """Render these pictures, each camera in a scene of its own, then films of these cameras and passes.
 
@@ -213,7 +224,8 @@ def in_blender(
         if todo and shot.settings.smoke.enabled:
             tell(plume_mass.describe(shot))
         comparison.make(shot, session, [each for each in asked if each not in drawn], progress, tell)
-        video.make(shot, session, progress)
+        if films:
+            video.make(shot, session, progress)
         made = len(session.finished)
     return {"pictures": made, "expected": expected, "peak": memory.peak()}
 

@@ -22,7 +22,7 @@ NEVER_BPY = (
     ),
     *("firetwin.cli", "firetwin.commands", "firetwin.data"),
     *("firetwin.run", "firetwin.imaging", "firetwin.shot", "firetwin.smoke"),
-    *("firetwin.jobs", "firetwin.bench"),
+    *("firetwin.jobs", "firetwin.farm", "firetwin.bench"),
     *(
         f"firetwin.render.{name}"
         for name in (

@@ -83,7 +83,7 @@ def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
     path = settings.terrain.photo
     if path is None:
         return {}
-    parts = [path, *([world] if (world := _world_file(path)) else [])]
+    parts = [path, *([world] if (world := world_file(path)) else [])]
     hashes = {f"photo {part.suffix}": content.of_file(part, settings.cache, progress) for part in parts}
     return hashes | {"photo extent": str(settings.terrain.photo_extent)}
 
@@ -240,7 +240,7 @@ class _Plain(_Source):
             height, width = self.pixels.shape[:2]
             dx, dy = (east - west) / width, (south - north) / height
             return np.array([[dx, 0.0, west + 0.5 * dx], [0.0, dy, north + 0.5 * dy]])
-        world = _world_file(self.path)
+        world = world_file(self.path)
         if world is None:
             raise self.error(
                 "has no world file (.pgw, .jgw or .wld); georeference it with "
@@ -306,7 +306,7 @@ def _rgba(pixels: NDArray[np.float32]) -> NDArray[np.float32]:
     return np.concatenate([colour, alpha[..., None]], axis=-1).astype(np.float32)
 
 
-def _world_file(path: Path) -> Path | None:
+def world_file(path: Path) -> Path | None:
     """World file of an image; None if there is none."""
     ends = {".png": ".pgw", ".jpg": ".jgw", ".jpeg": ".jgw"}.get(path.suffix.lower())
     names = [path.with_suffix(end) for end in (ends, ".wld") if end] + [Path(f"{path}w")]

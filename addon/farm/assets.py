@@ -1,0 +1,48 @@
+"""Files that a job's tasks read: what has to be on every machine. Needs no Blender."""
+
+from __future__ import annotations
+
+import glob
+from pathlib import Path
+
+from ..errors import input_error
+from ..run import content
+from ..shot.fire import observed
+from ..shot.shot import Shot
+from ..shot.terrain import orthophoto
+
+
+def needed(shot: Shot) -> list[Path]:
+    """The scene file and all that it names: absolute paths, each once, in order.
+
+    Raises
+    ------
+    InputError
+        One is missing.
+    """
+    settings = shot.settings
+    found = [settings.path]
+    for run in (shot.run, *shot.others.values()):
+        found += [Path(run.path) / name for name in content.stamps(run)]
+    terrain, labels = settings.terrain, settings.labels
+    photo = [terrain.photo, orthophoto.world_file(terrain.photo)] if terrain.photo else []
+    optional = [terrain.elevation, *photo, terrain.land_use, labels.file if labels.enabled else None]
+    found += [path for path in optional if path is not None]
+    found += [part for path in observed.files(settings) for part in _with_parts(path)]
+    found += [path for camera in settings.cameras for path in camera.rig.input_files()]
+    every = sorted({path.absolute() for path in found})
+    for path in every:
+        if not path.is_file():
+            raise input_error(path, 0, 0, "is missing, and tasks of the farm would need it")
+    return every
+
+
+def _with_parts(path: Path) -> list[Path]:
+    """A file with those that belong to it: a shapefile has several."""
+    beside = path.parent.glob(f"{glob.escape(path.stem)}.*") if path.suffix.lower() == ".shp" else ()
+    return [path, *beside]
+
+
+def elsewhere(paths: list[Path], folder: Path) -> list[Path]:
+    """Those of the files that are not in a folder: every machine must find them at the same path."""
+    return [path for path in paths if not path.is_relative_to(folder)]

@@ -1,0 +1,153 @@
+"""What each verb of `firetwin farm` does."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import shlex
+import subprocess
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from .. import files
+from ..errors import Error, UsageError
+from ..progress import Reporter, count, result, say
+from ..shot.settings import frame_list
+from ..shot.source import ShotSource
+from . import assemble, assets, plan, status, task
+from .engines import Batch, known
+
+_SUBMITTED = "submitted.json"
+_MOST = 10**9 - 1  # tasks, far more than there are
+
+
+def run(arguments: argparse.Namespace, choice: Callable[[argparse.Namespace], ShotSource]) -> int | None:
+    """Do it; the exit status.
+
+    Parameters
+    ----------
+    choice
+        Gives the scene of a command line.
+    """
+    if arguments.verb == "plan":
+        return run_plan(arguments, choice(arguments))
+    verbs = {
+        "status": run_status,
+        "resume": run_resume,
+        "cancel": run_cancel,
+        "task": run_task,
+        "assemble": run_assemble,
+    }
+    return verbs[arguments.verb](arguments)
+
+
+def run_plan(arguments: argparse.Namespace, choice: ShotSource) -> None:
+    """Plan a film; print the command that submits it, or submit it."""
+    scene, out = Path(choice.scene).absolute(), arguments.out.absolute()
+    job = plan.make(choice.shot(), scene, arguments.chunk or plan.CHUNK)
+    plan.write(job, out)
+    pictures = sum(1 for each in job.tasks for _ in job.pictures(each))
+    bakes, renders = (len(job.numbers(stage)) for stage in ("bake", "render"))
+    say(
+        f"{count(bakes, 'bake task')}, {count(renders, 'render task')}, {count(pictures, 'picture')} in {out}"
+    )
+    away = assets.elsewhere([Path(each) for each in job.assets], scene.parent)
+    if away:
+        say(f"{count(len(away), 'file')} outside of the scene's folder, such as {away[0]}: keep these paths")
+    _submit(out, arguments.engine, arguments.options, range(1, len(job.tasks) + 1), arguments.submit)
+
+
+def run_status(arguments: argparse.Namespace) -> None:
+    """Tell how far a job is."""
+    found = status.gather(arguments.out)
+    result(json.dumps(found.plain(), indent=1) if arguments.json else status.page(found))
+
+
+def run_resume(arguments: argparse.Namespace) -> None:
+    """Submit the tasks of missing pictures, by the engine and with the options of before."""
+    out = arguments.out.absolute()
+    job = plan.read(out)
+    shot = task.source(job, out).shot()
+    _, lost = assemble.check(job, out, assemble.fingerprints(job, shot, Reporter()))
+    before = _before(out)
+    solved = {*status.gather(out).done}
+    renders = assemble.tasks_of(job, lost)
+    bakes = [number for number in job.numbers("bake") if renders and number not in solved]
+    say(f"{count(len(lost), 'picture')} missing: {count(len(bakes) + len(renders), 'task')} to submit")
+    options = arguments.options or before["options"]
+    _submit(out, before["engine"], options, [*bakes, *renders], True)
+
+
+def run_cancel(arguments: argparse.Namespace) -> int:
+    """Cancel what was submitted."""
+    out = arguments.out.absolute()
+    plan.read(out)
+    return _call(known()[_before(out)["engine"]]().cancel(out))
+
+
+def run_task(arguments: argparse.Namespace) -> int:
+    """Run tasks; the exit status says whether to try again."""
+
+    def work() -> None:
+        try:
+            numbers = frame_list.parse(arguments.numbers, _MOST)
+        except ValueError as error:
+            raise UsageError(f"tasks: {error}") from None
+        task.run(arguments.out.absolute(), numbers, _scene(arguments))
+
+    return _status(arguments, work)
+
+
+def run_assemble(arguments: argparse.Namespace) -> int:
+    """Enter all pictures and make the films; name what is missing."""
+    out, lost = arguments.out.absolute(), {}
+    status = _status(arguments, lambda: lost.update(assemble.run(out, _scene(arguments), Reporter(), say)))
+    for line in assemble.described(lost):
+        result(line)
+    if lost:
+        say(f"{count(len(lost), 'picture')} missing; firetwin farm resume {shlex.quote(str(out))} makes them")
+    return status or (1 if lost else 0)
+
+
+def _status(arguments: argparse.Namespace, work: Callable[[], None]) -> int:
+    """Do what an engine runs; the exit status that tells the engine what to do next."""
+    try:
+        work()
+    except (Error, UsageError, OSError) as error:
+        if arguments.debug:
+            raise
+        say(" ".join(str(error).split()))
+        return task.status_of(error)
+    return 0
+
+
+def _scene(arguments: argparse.Namespace) -> str:
+    return str(arguments.scene) if arguments.scene else ""
+
+
+def _submit(out: Path, engine: str, options: Sequence[str], numbers: Iterable[int], now: bool) -> None:
+    """Write the engine's text of these tasks, and submit it or say how."""
+    batch = Batch(plan.read(out), out, tuple(sorted(numbers)), tuple(options))
+    command = known()[engine]().write(batch)
+    about = json.dumps({"engine": engine, "options": list(options)}) + "\n"
+    files.write(plan.place(out) / _SUBMITTED, lambda part: part.write_text(about, encoding="utf-8"))
+    if not now:
+        result(shlex.join(command))
+    elif status := _call(command):
+        raise Error(f"{shlex.join(command)} ended with exit status {status}")
+
+
+def _before(out: Path) -> dict[str, Any]:
+    """Engine and options of the last time."""
+    return dict(json.loads((plan.place(out) / _SUBMITTED).read_text(encoding="utf-8")))
+
+
+def _call(command: list[str]) -> int:
+    """Run an engine's own command; what it prints is shown."""
+    try:
+        return subprocess.run(command).returncode
+    except FileNotFoundError:
+        raise UsageError(
+            f"{command[0]} is not installed here; on a machine that has it: {shlex.join(command)}"
+        ) from None

@@ -1,0 +1,52 @@
+"""AWS Deadline Cloud: a job bundle, which is an Open Job Description template and the files it needs."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from ...errors import UsageError
+from ..plan import FILE, place
+from . import openjd
+from ._engine import Batch, Engine, put
+
+_TRIES = 3
+
+
+class Deadline(Engine):
+    """A bundle of template, parameter values and asset references for `deadline bundle submit`."""
+
+    name = "deadline"
+    help = "AWS Deadline Cloud: a job bundle"
+
+    def write(self, batch: Batch) -> list[str]:
+        """Write the bundle."""
+        folder = self.folder(batch.out)
+        values = {"Python": "python", "deadline:maxRetriesPerTask": _TRIES}
+        texts = {
+            "template.json": openjd.template(batch),
+            "parameter_values.json": {
+                "parameterValues": [{"name": name, "value": value} for name, value in values.items()]
+            },
+            "asset_references.json": {"assetReferences": _references(batch)},
+        }
+        for name, found in texts.items():
+            put(folder / name, json.dumps(found, indent=1) + "\n")
+        return ["deadline", "bundle", "submit", *batch.options, str(folder)]
+
+    def cancel(self, out: Path) -> list[str]:
+        """Deadline Cloud knows the job by the number that it gave it."""
+        raise UsageError(f"{out}: deadline job cancel --job-id ID cancels it; the submission printed the ID")
+
+
+def _references(batch: Batch) -> dict[str, object]:
+    """Files that travel to the workers, and the folder that comes back."""
+    job = [str(place(batch.out) / FILE)]
+    return {
+        "inputs": {"filenames": [*batch.job.assets, *job], "directories": []},
+        "outputs": {"directories": [str(batch.out)]},
+        "referencedPaths": [],
+    }
+
+
+ENGINE = Deadline

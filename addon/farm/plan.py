@@ -1,0 +1,245 @@
+"""The stages and tasks of a job, and the pictures that each task makes. Needs no Blender."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from .. import files
+from ..errors import UsageError, input_error
+from ..render import fingerprint
+from ..render import plan as pictures
+from ..render.picture import Picture
+from ..run.content import sha256
+from ..shot import frames, scene_runs
+from ..shot.settings import frame_list
+from ..shot.settings.settings import Camera, Settings
+from ..shot.shot import Shot
+from ..smoke import sources
+from . import assets
+
+FOLDER, FILE, CACHE = "farm", "job.json", "cache"
+CHUNK = 24
+"""Frames per task, where a film is built at once."""
+_FORMAT = 1
+
+
+@dataclass(frozen=True)
+class Task:
+    """One command of an engine.
+
+    Attributes
+    ----------
+    stage
+        "bake" or "render".
+    cameras
+        To render, with their views of all runs; of a bake the one view whose flow is solved.
+    frames
+        List of frames; a camera that films fewer of them renders those.
+    """
+
+    stage: str
+    cameras: tuple[str, ...]
+    frames: str
+
+
+@dataclass(frozen=True)
+class Job:
+    """What a farm shall make; tasks are numbered from 1 in their order.
+
+    Attributes
+    ----------
+    scene, scene_sha256
+        Scene file (absolute) and its content.
+    versions
+        Of Firetwin and Blender.
+    count
+        Frames of the shot.
+    filmed
+        List of frames, by camera.
+    passes
+        By view (camera, or camera@run).
+    tasks
+        Those of the bake come first.
+    assets
+        Files that tasks read (absolute).
+    """
+
+    scene: str
+    scene_sha256: str
+    versions: dict[str, str]
+    count: int
+    filmed: dict[str, str]
+    passes: dict[str, tuple[str, ...]]
+    tasks: tuple[Task, ...]
+    assets: tuple[str, ...]
+
+    def numbers(self, stage: str) -> list[int]:
+        """Numbers of the tasks of a stage."""
+        return [number for number, task in enumerate(self.tasks, start=1) if task.stage == stage]
+
+    def task(self, number: int) -> Task:
+        """The task of a number."""
+        return self.tasks[number - 1]
+
+    def frames(self, task: Task, camera: str) -> list[int]:
+        """Frames that a camera renders in a task."""
+        asked = frame_list.parse(task.frames, self.count)
+        if not self.filmed[camera].strip():
+            return asked
+        own = set(frame_list.parse(self.filmed[camera], self.count))
+        return [frame for frame in asked if frame in own]
+
+    def views(self, camera: str) -> list[str]:
+        """Views of a camera: of the first run, then of the others."""
+        return [view for view in self.passes if view.partition("@")[0] == camera]
+
+    def pictures(self, task: Task) -> Iterator[Picture]:
+        """Pictures that a task makes."""
+        if task.stage != "render":
+            return
+        for camera in task.cameras:
+            listed = self.frames(task, camera)
+            for view in self.views(camera):
+                yield from (Picture(view, frame, name) for frame in listed for name in self.passes[view])
+
+
+def make(shot: Shot, scene: Path, size: int = CHUNK) -> Job:
+    """Plan a film.
+
+    Parameters
+    ----------
+    scene
+        Its scene file.
+    size
+        Frames per task at least. Where `render.chunk` splits a camera's film, a multiple of it is taken.
+
+    Raises
+    ------
+    UsageError
+        There is nothing to render.
+    InputError
+        An asset is missing.
+    """
+    settings = shot.settings
+    filmed, passes, linked = {}, {}, []
+    if not settings.cameras:
+        raise UsageError(f"{settings.path} has no [[cameras]], so there is nothing to render")
+    for camera in settings.cameras:
+        first = frame_list.write(shot.frames_of(camera)[:1])
+        found = pictures.pictures(shot, first, camera.name)
+        filmed[camera.name] = camera.frames
+        linked.append({each.camera.partition("@")[0] for each in found} | {camera.name})
+        own = [each for each in found if each.camera.partition("@")[0] == camera.name]
+        for view in dict.fromkeys(each.camera for each in own):
+            passes[view] = tuple(each.name for each in own if each.camera == view)
+    tasks = [*_bakes(shot), *_renders(shot, settings, _groups(linked), size)]
+    return Job(
+        scene=str(scene.absolute()),
+        scene_sha256=sha256(scene),
+        versions=fingerprint.versions(),
+        count=shot.frames.count,
+        filmed=filmed,
+        passes=passes,
+        tasks=tuple(tasks),
+        assets=tuple(map(str, assets.needed(shot))),
+    )
+
+
+def chunks(listed: list[int], size: int, built: int) -> list[list[int]]:
+    """Frames of each task.
+
+    Parameters
+    ----------
+    listed
+        Frames, ascending.
+    size
+        Frames per task.
+    built
+        Frames that are built together. A task has whole parts of them. 0: all are, and a task has `size`.
+    """
+    if not built:
+        return [listed[i : i + size] for i in range(0, len(listed), size)]
+    return list(frames.parts(listed, -(-size // built) * built).values())
+
+
+def _groups(linked: Iterable[set[str]]) -> list[set[str]]:
+    """Cameras whose pictures are made from one another's, together; every camera once."""
+    found: list[set[str]] = []
+    for names in linked:
+        joined = set(names).union(*(group for group in found if group & names))
+        found = [group for group in found if not group & names] + [joined]
+    return found
+
+
+def _renders(shot: Shot, settings: Settings, groups: list[set[str]], size: int) -> Iterator[Task]:
+    for group in groups:
+        cameras = [camera for camera in settings.cameras if camera.name in group]
+        listed = sorted({frame for camera in cameras for frame in shot.frames_of(camera)})
+        built = max(frames.chunk(settings, camera) for camera in cameras)
+        for part in chunks(listed, size, built):
+            yield Task("render", tuple(camera.name for camera in cameras), frame_list.write(part))
+
+
+def _bakes(shot: Shot) -> Iterator[Task]:
+    """One for every view that shows a solved flow."""
+    settings = shot.settings
+    if not settings.smoke.enabled:
+        return
+    for view in scene_runs.views(settings):
+        run = scene_runs.of_view(shot, view)
+        source = sources.choose(settings.smoke.method, run.fields)
+        if source.is_prepared is not sources.Source.is_prepared:
+            camera = _camera(settings, view)
+            yield Task("bake", (view,), frame_list.write(shot.frames_of(camera)))
+
+
+def _camera(settings: Settings, view: str) -> Camera:
+    name = view.partition("@")[0]
+    return next(camera for camera in settings.cameras if camera.name == name)
+
+
+def place(out: Path) -> Path:
+    """Folder of a job's own files in its output folder."""
+    return out / FOLDER
+
+
+def write(job: Job, out: Path) -> None:
+    """Write a job into an output folder.
+
+    Raises
+    ------
+    InputError
+        The folder has another job, or cannot be written.
+    """
+    path = place(out) / FILE
+    if path.exists() and read(out) != job:
+        raise input_error(path, 0, 0, "is another job, or of a changed scene file; choose another --out")
+    text = json.dumps({"format": _FORMAT} | asdict(job), separators=(",", ":")) + "\n"
+    files.write(path, lambda part: part.write_text(text, encoding="utf-8"))
+
+
+def read(out: Path) -> Job:
+    """Read the job of an output folder.
+
+    Raises
+    ------
+    InputError
+        There is none, or it is damaged.
+    """
+    path = place(out) / FILE
+    try:
+        found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        if found.pop("format") != _FORMAT:
+            raise ValueError
+        tasks = (Task(each["stage"], tuple(each["cameras"]), each["frames"]) for each in found["tasks"])
+        passes = {view: tuple(names) for view, names in found["passes"].items()}
+        return Job(**(found | {"tasks": tuple(tasks), "passes": passes, "assets": tuple(found["assets"])}))
+    except FileNotFoundError:
+        reason = "no farm job here; firetwin farm SCENE.toml --engine NAME --out DIR writes one"
+        raise input_error(path, 0, 0, reason) from None
+    except (OSError, ValueError, TypeError, LookupError, AttributeError) as error:
+        raise input_error(path, 0, 0, f"is no farm job of this version of Firetwin ({error})") from None

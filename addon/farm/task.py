@@ -1,0 +1,171 @@
+"""One task of a job, as an engine runs it: it may run twice, be stopped and be started again."""
+
+from __future__ import annotations
+
+import signal
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from ..errors import FULL, Error, InputError, UsageError, disk_is_full
+from ..jobs import render, solve, worker
+from ..progress import Progress, say
+from ..render import fingerprint
+from ..run.content import sha256
+from ..shot.settings import frame_list
+from ..shot.source import ShotSource
+from . import entries, plan
+from .entries import Log
+from .plan import Job, Task
+from .private import Private, intact
+
+WRONG, AGAIN, TERMINATED = 2, 75, 128 + signal.SIGTERM
+"""Exit status: the input is wrong; try again (EX_TEMPFAIL: device or disk); ended by SIGTERM."""
+NO_DEVICE = "Cycles finds no GPU"
+
+
+def run(out: Path, numbers: list[int], scene: str = "") -> None:
+    """Run tasks of a job, one after the other.
+
+    Parameters
+    ----------
+    scene
+        Where the scene file is on this machine; empty: where it was planned.
+
+    Raises
+    ------
+    SystemExit
+        143: the process was told to end. What was finished is kept.
+    """
+    with _terminable():
+        job = plan.read(out)
+        if wrong := [number for number in numbers if not 1 <= number <= len(job.tasks)]:
+            raise UsageError(f"there is no task {wrong[0]}; the job in {out} has 1 to {len(job.tasks)}")
+        choice = source(job, out, scene)
+        for done, number in enumerate(numbers):
+            with entries.attempt(out, number) as log:
+                _logged(
+                    log, lambda log=log, n=number, i=done: _task(job, choice, out, n, log, i, len(numbers))
+                )
+
+
+def source(job: Job, out: Path, scene: str = "") -> ShotSource:
+    """The scene of a job, with the job's own smoke cache.
+
+    Raises
+    ------
+    UsageError
+        This is another version of Firetwin or Blender, or the scene file has changed.
+    """
+    here = fingerprint.versions()
+    if here != job.versions:
+        raise UsageError(f"this is {_words(here)}, and the job is of {_words(job.versions)}; use those here")
+    path = Path(scene or job.scene)
+    if path.is_file() and sha256(path) != job.scene_sha256:
+        raise UsageError(f"{path} has changed since the job was planned; plan it again with another --out")
+    return ShotSource(scene=str(path), cache=str(plan.place(out.absolute()) / plan.CACHE))
+
+
+def status_of(error: BaseException) -> int:
+    """Exit status for what ended a task."""
+    if isinstance(error, SystemExit):
+        return int(error.code or 0)
+    text = str(error)
+    if FULL in text or NO_DEVICE in text or disk_is_full(error):
+        return AGAIN
+    return WRONG if isinstance(error, UsageError | InputError) else 1
+
+
+def _words(versions: dict[str, str]) -> str:
+    return f"Firetwin {versions['firetwin']} with Blender {versions['blender']}"
+
+
+@contextmanager
+def _terminable() -> Iterator[None]:
+    """Let SIGTERM unwind, so that what is finished is published and what is not is dropped."""
+
+    def end(*_: object) -> None:
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # once is enough
+        sys.exit(TERMINATED)
+
+    before = signal.signal(signal.SIGTERM, end)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def _logged(log: Log, work: Callable[[], None]) -> None:
+    try:
+        work()
+    except BaseException as error:
+        log.end(status_of(error), " ".join(str(error).split()))
+        raise
+    log.end(0)
+
+
+def _task(job: Job, choice: ShotSource, out: Path, number: int, log: Log, done: int, of: int) -> None:
+    task, progress = job.task(number), _told(done, of)
+    words = f"{' and '.join(task.cameras)}, frames {task.frames}"
+    print(f"openjd_status: {task.stage} {words}", flush=True)
+    if task.stage == "bake":
+        _bake(job, choice, task, progress)
+    else:
+        _render(job, choice, out, number, log, progress)
+    progress(1, 1)
+
+
+def _bake(job: Job, choice: ShotSource, task: Task, progress: Progress) -> None:
+    """Solve the flow of a view; where it was stopped it goes on."""
+    (view,) = task.cameras
+    frames = frame_list.parse(task.frames, job.count)
+    about = {"choice": choice.plain(), "view": view, "frames": frames}
+    try:
+        worker.run(f"{solve.__name__}:in_process", about, progress, tell=say, blender=False)
+    except worker.EndedError as error:
+        raise Error(f"the bake {error}; if memory ran out, larger voxels need less") from None
+
+
+def _render(job: Job, choice: ShotSource, out: Path, number: int, log: Log, progress: Progress) -> None:
+    """Render what of a task's pictures is not whole, into a folder of its own."""
+    task, shot = job.task(number), choice.shot()
+    made_with = fingerprint.of_pictures(shot, list(job.pictures(task)))
+    known = [entry for each in entries.attempts(out, number) for entry in each.entries]
+    with tempfile.TemporaryDirectory(prefix="firetwin-farm-", ignore_cleanup_errors=True) as place:
+        private = Private(Path(place), out, log)
+        private.seed(intact(known, out, made_with), made_with)
+        work = [(camera, listed) for camera in task.cameras if (listed := job.frames(task, camera))]
+        frames, before = sum(len(listed) for _, listed in work), 0
+        try:
+            for camera, listed in work:
+
+                def follow(
+                    done: int, total: int, what: str = "", note: str = "", before: int = before
+                ) -> None:
+                    if what == "rendering":
+                        private.publish()
+                        progress(before + done, frames)
+
+                asked = render.RenderRequest(
+                    Path(place), frame_list.write(listed), camera, resume=True, films=False
+                )
+                render.run(choice, asked, follow, lambda text: say(text.replace(place, str(out))))
+                before += len(listed)
+        finally:
+            private.publish()
+
+
+def _told(done: int, of: int) -> Progress:
+    """Progress of a task that is one of several, in lines that engines read."""
+    last = ""
+
+    def told(here: int, total: int, what: str = "", note: str = "") -> None:
+        nonlocal last
+        line = f"openjd_progress: {100.0 * (done + min(here / max(total, 1), 1.0)) / of:.1f}"
+        if line != last:
+            print(line, flush=True)
+        last = line
+
+    return told
