@@ -22,7 +22,7 @@ class Deadline(Engine):
     def write(self, batch: Batch) -> list[str]:
         """Write the bundle."""
         folder = self.folder(batch.out)
-        values = {"Python": "python", "deadline:maxRetriesPerTask": _TRIES}
+        values = openjd.paths(batch) | {"Python": "python", "deadline:maxRetriesPerTask": _TRIES}
         texts = {
             "template.json": openjd.template(batch),
             "parameter_values.json": {

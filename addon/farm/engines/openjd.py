@@ -22,19 +22,26 @@ class OpenJD(Engine):
     help = "Open Job Description: openjd run"
 
     def write(self, batch: Batch) -> list[str]:
-        """Write the template."""
-        path = self.folder(batch.out) / "template.json"
+        """Write the template and the values of its parameters."""
+        folder = self.folder(batch.out)
+        path, values = folder / "template.json", folder / "parameters.json"
         put(path, json.dumps(template(batch), indent=1) + "\n")
-        return ["openjd", "run", str(path), *batch.options]
+        put(values, json.dumps(paths(batch) | {"Python": python()[0]}, indent=1) + "\n")
+        return ["openjd", "run", str(path), "--job-param", f"file://{values}", *batch.options]
 
     def cancel(self, out: Path) -> list[str]:
         """There is nothing to tell: `openjd run` runs while one waits for it."""
         raise UsageError(f"{out}: openjd run ends its tasks by Ctrl-C or SIGTERM")
 
 
+def paths(batch: Batch) -> dict[str, str]:
+    """Values of the parameters that are paths: an engine maps them to those of another machine."""
+    return {"Out": str(batch.out), "Job": str(place(batch.out) / FILE), "Scene": batch.job.scene}
+
+
 def template(batch: Batch) -> dict[str, Any]:
     """A job template of specification jobtemplate-2023-09 with TASK_CHUNKING."""
-    python_command, *arguments = python()
+    _, *arguments = python()
     steps = []
     for stage in ("bake", "render"):
         if numbers := batch.stage(stage):
@@ -47,17 +54,17 @@ def template(batch: Batch) -> dict[str, Any]:
         "extensions": ["TASK_CHUNKING"],
         "name": f"Firetwin {Path(batch.job.scene).stem}"[:128],
         "parameterDefinitions": [
-            _path("Out", batch.out, "DIRECTORY", "OUT"),
-            _path("Job", place(batch.out) / FILE, "FILE", "IN"),
-            _path("Scene", Path(batch.job.scene), "FILE", "IN"),
-            {"name": "Python", "type": "STRING", "default": python_command},
+            _path("Out", "DIRECTORY", "OUT"),
+            _path("Job", "FILE", "IN"),
+            _path("Scene", "FILE", "IN"),
+            {"name": "Python", "type": "STRING", "default": "python"},
         ],
         "steps": steps,
     }
 
 
-def _path(name: str, path: Path, kind: str, flow: str) -> dict[str, str]:
-    return {"name": name, "type": "PATH", "objectType": kind, "dataFlow": flow, "default": str(path)}
+def _path(name: str, kind: str, flow: str) -> dict[str, str]:
+    return {"name": name, "type": "PATH", "objectType": kind, "dataFlow": flow}
 
 
 def _step(name: str, command: list[str], last: list[str], before: list[str]) -> dict[str, Any]:

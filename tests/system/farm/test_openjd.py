@@ -1,7 +1,7 @@
 """A film by Open Job Description's own command: its job is checked and run."""
 
-import json
 import os
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -38,11 +38,11 @@ def film(run_folder, tmp_path_factory):
 def test_a_film_by_openjd_is_that_of_one_process(openjd, film, tmp_path):
     path, one = film
     out = tmp_path / "out"
-    firetwin("farm", path, "--engine", "openjd", "--out", out, "--chunk", 2)
+    command = firetwin("farm", path, "--engine", "openjd", "--out", out, "--chunk", 2)
     template = out / "farm" / "openjd" / "template.json"
     check = subprocess.run(["openjd", "check", template], env=openjd, capture_output=True, text=True)
     assert check.returncode == 0, check.stdout + check.stderr
-    done = subprocess.run(["openjd", "run", template], env=openjd, capture_output=True, text=True)
+    done = subprocess.run(shlex.split(command), env=openjd, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
     assert "openjd_progress: 100.0" in done.stdout
     assert pictures(out) == pictures(one)
