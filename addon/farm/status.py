@@ -130,9 +130,9 @@ def _state(job: Job, number: int, tried: list[Attempt], lacking: int, now: float
         return "done"
     if not bake and not lacking:
         return "done"
-    if any(each.ended is None and now - each.last < PATIENCE for each in tried):
-        return "running"
-    return "failed" if tried and tried[-1].ended != 0 else "waiting"
+    if not tried or tried[-1].ended == 0:
+        return "waiting"
+    return "running" if tried[-1].ended is None and now - tried[-1].last < PATIENCE else "failed"
 
 
 def _frame_seconds(tried: list[Attempt]) -> float | None:

@@ -7,6 +7,8 @@ import os
 import shutil
 import subprocess
 import sys
+import time
+from collections.abc import Callable
 from pathlib import Path
 
 from scene_text import NO_PLANTS, TINY
@@ -47,14 +49,31 @@ def scene(path: Path, run: Path, frames: int = 4, smoke: str = "true") -> Path:
     return path
 
 
+def start(*arguments: object, environment: dict[str, str] | None = None) -> subprocess.Popen[str]:
+    """Start the command."""
+    return subprocess.Popen(
+        [sys.executable, "-m", "firetwin", *map(str, arguments)],
+        env=environment or dict(os.environ),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
 def firetwin(*arguments: object, environment: dict[str, str] | None = None, status: int = 0) -> str:
     """Run the command; what it prints."""
-    command = [sys.executable, "-m", "firetwin", *map(str, arguments)]
-    done = subprocess.run(
-        command, env=environment or dict(os.environ), capture_output=True, text=True, timeout=900
-    )
-    assert done.returncode == status, f"{done.returncode}: {done.stdout}{done.stderr}"
-    return done.stdout
+    process = start(*arguments, environment=environment)
+    said, errors = process.communicate(timeout=900)
+    assert process.returncode == status, f"{process.returncode}: {said}{errors}"
+    return said
+
+
+def until(there: Callable[[], object], seconds: float = 300.0) -> None:
+    """Wait until something is there."""
+    end = time.monotonic() + seconds
+    while not there():
+        assert time.monotonic() < end, "waited too long"
+        time.sleep(0.2)
 
 
 def pictures(out: Path) -> dict[str, str]:
@@ -72,7 +91,13 @@ def rendered(out: Path) -> list[str]:
     return found
 
 
-def copied(out: Path, to: Path) -> Path:
-    """The film and its job, as another test may change it."""
+def without(out: Path, to: Path, *numbers: int) -> Path:
+    """A copy of a film in which tasks have never run: their pictures and entries are not there."""
     shutil.copytree(out, to)
+    for number in numbers:
+        for path in (to / "farm" / "entries").glob(f"{number:05d}-*.jsonl"):
+            for line in map(json.loads, path.read_text().splitlines()):
+                if isinstance(line, list):
+                    (to / line[0]).unlink()
+            path.unlink()
     return to

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from farm_film import firetwin, pictures, rendered, scene
+from farm_film import firetwin, pictures, rendered
 
 VERSION = "0.8.0"
 PLACE = Path(__file__).parents[3] / "build" / "openjd"
@@ -25,14 +25,6 @@ def openjd():
             if done.returncode:
                 pytest.skip(f"openjd-cli cannot be installed here: {done.stderr.strip()[-300:]}")
     return os.environ | {"PATH": f"{PLACE / 'bin'}:{os.environ['PATH']}"}
-
-
-@pytest.fixture(scope="module")
-def film(run_folder, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("film")
-    path = scene(folder / "scene.toml", run_folder)
-    firetwin("render", path, "--out", folder / "one")
-    return path, folder / "one"
 
 
 def test_a_film_by_openjd_is_that_of_one_process(openjd, film, tmp_path):

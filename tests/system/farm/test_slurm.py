@@ -1,9 +1,7 @@
-"""A film by Slurm on two nodes of this machine: the pictures of one process, whatever happens to nodes."""
-
-import time
+"""A film by Slurm on two nodes of this machine: that of one process, whatever happens to nodes and tasks."""
 
 import pytest
-from farm_film import firetwin, pictures, rendered, scene
+from farm_film import firetwin, pictures, rendered, until, without
 from loopback_slurm import Slurm, UnavailableError, unpacked
 
 
@@ -17,34 +15,51 @@ def slurm(tmp_path_factory):
         yield found
 
 
-@pytest.fixture(scope="module")
-def film(run_folder, tmp_path_factory):
-    """The scene file, and the film that one process makes of it."""
-    folder = tmp_path_factory.mktemp("film")
-    path = scene(folder / "scene.toml", run_folder)
-    firetwin("render", path, "--out", folder / "one")
-    return path, folder / "one"
-
-
-def submit(slurm, path, out):
-    """Plan and submit."""
-    about = "--engine", "slurm", "--out", out, "--chunk", 2, "--submit"
-    firetwin("farm", path, *about, "--", "--mem=900", environment=slurm.environment)
-
-
-def until(there, seconds=300.0):
-    """Wait until something is there."""
-    end = time.monotonic() + seconds
-    while not there():
-        assert time.monotonic() < end
-        time.sleep(0.2)
+def running(slurm):
+    """Array tasks that run, by their numbers."""
+    return [job.split()[0] for job, state in slurm.states().items() if state == "RUNNING" and "_" in job]
 
 
 def test_a_film_by_two_nodes_is_that_of_one_process(slurm, film, tmp_path):
     path, one = film
-    submit(slurm, path, tmp_path / "out")
+    out = tmp_path / "out"
+    about = "--engine", "slurm", "--out", out, "--chunk", 2, "--submit"
+    firetwin("farm", path, *about, "--", "--mem=900", environment=slurm.environment)
     states = slurm.wait()
     assert set(states.values()) == {"COMPLETED"}, states
-    assert pictures(tmp_path / "out") == pictures(one)
-    assert len(rendered(tmp_path / "out")) == len(set(rendered(tmp_path / "out"))) == 21
-    assert "14 of 14 pictures" in firetwin("farm", "status", tmp_path / "out")
+    assert pictures(out) == pictures(one)
+    assert len(rendered(out)) == len(set(rendered(out))) == 21
+    assert "14 of 14 pictures" in firetwin("farm", "status", out)
+
+
+def test_a_node_that_falls_over_and_a_requeued_task_lose_nothing(slurm, film, tasks, tmp_path):
+    out = without(tasks, tmp_path / "out", 2, 3)
+    before = len(rendered(out))
+    firetwin("farm", "resume", out, environment=slurm.environment)
+    until(lambda: len(running(slurm)) == 2)
+    until(lambda: len(rendered(out)) > before)
+    first, second = running(slurm) if len(running(slurm)) == 2 else (*running(slurm), None)
+    node = slurm.call("squeue", "-h", "-j", first, "-o", "%N")
+    slurm.kill_node(node)
+    if second:
+        slurm.call("scontrol", "requeue", second, check=False)
+    until(lambda: "down" in slurm.call("sinfo", "-h", "-n", node, "-o", "%T"))
+    slurm.start_node(node)
+    slurm.wait()
+    assert pictures(out) == pictures(film[1])
+    assert len(rendered(out)) == len(set(rendered(out))) == 21
+
+
+def test_a_cancelled_job_stays_so_until_it_is_resumed(slurm, film, tasks, tmp_path):
+    out = without(tasks, tmp_path / "out", 2, 3)
+    firetwin("farm", "resume", out, environment=slurm.environment)
+    until(lambda: running(slurm))
+    mine = {job for job, state in slurm.states().items() if state in ("RUNNING", "PENDING")}
+    firetwin("farm", "cancel", out, environment=slurm.environment)
+    states = slurm.wait()
+    assert {states[job] for job in mine} == {"CANCELLED"}
+    firetwin("farm", "assemble", out, status=1)
+    firetwin("farm", "resume", out, environment=slurm.environment)
+    slurm.wait()
+    assert pictures(out) == pictures(film[1])
+    assert len(rendered(out)) == len(set(rendered(out))) == 21

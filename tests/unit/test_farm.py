@@ -1,0 +1,364 @@
+"""Farm jobs: chunks, tasks, entries, engines' texts and what counts as done, without any engine."""
+
+import json
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import firetwin.farm
+import pytest
+from firetwin import cli
+from firetwin.errors import FULL, Error, InputError, UsageError, input_error
+from firetwin.farm import arguments, assemble, assets, entries, plan, status, task
+from firetwin.farm.engines import Batch, known
+from firetwin.farm.engines.slurm import arrays
+from firetwin.farm.entries import Entry
+from firetwin.farm.plan import Job, Task
+from firetwin.farm.private import Private, intact
+from firetwin.render import fingerprint
+from firetwin.render.picture import Picture
+from firetwin.render.store import Store, describe
+from firetwin.run import content
+from firetwin.shot.frames import part_of
+from firetwin.shot.settings import scene_file
+from firetwin.shot.shot import Shot
+from firetwin_core import run as runs
+from hypothesis import given
+from hypothesis import strategies as st
+
+VERSIONS = {"firetwin": "0", "blender": "4.5.15"}
+CAMERA = """\
+[[cameras]]
+name = "{name}"
+frames = "{frames}"
+keys = [{{latitude = 38.904, longitude = -120.592, height = 300, target = "fire"}}]
+"""
+
+
+def job(tasks, filmed=None, passes=("rgb",), count=100, **more):
+    filmed = filmed or {"drone": ""}
+    every = {name: tuple(passes) for name in filmed}
+    about = {"scene": "/scene.toml", "scene_sha256": "", "versions": VERSIONS, "assets": ()} | more
+    return Job(count=count, filmed=filmed, passes=every, tasks=tuple(tasks), **about)
+
+
+@pytest.fixture
+def make_shot(make_run, tmp_path):
+    """A shot of the small run: make(frames, cameras={name: frames}, chunk=..., smoke=..., more=...)."""
+    run = make_run()
+
+    def make(frames=10, cameras=None, chunk=480, smoke='method = "puffs"', more=""):
+        path = tmp_path / "scene.toml"
+        text = (
+            f'run = "run"\n[time]\nframes = {frames}\n[smoke]\n{smoke}\n[render]\nchunk = {chunk}\n{more}\n'
+        )
+        listed = cameras or {"drone": ""}
+        path.write_text(text + "".join(CAMERA.format(name=n, frames=f) for n, f in listed.items()))
+        return Shot(scene_file.read(path), runs.open(run))
+
+    return make
+
+
+@given(st.sets(st.integers(1, 400), min_size=1), st.integers(1, 60), st.integers(0, 60))
+def test_chunks_have_every_frame_once_and_whole_parts(frames, size, built):
+    listed = sorted(frames)
+    found = plan.chunks(listed, size, built)
+    assert [frame for part in found for frame in part] == listed
+    if built:
+        of = [{part_of(frame, built) for frame in part} for part in found]
+        assert sum(map(len, of)) == len(set().union(*of))  # no part is built by two tasks
+        most = -(-size // built) * built
+        assert all(part[-1] - part[0] < most for part in found)
+    else:
+        assert all(len(part) == size for part in found[:-1])
+
+
+def test_tasks_are_cameras_by_chunks_and_pictures_each_once(make_shot):
+    shot = make_shot(10, {"drone": "", "other": "2-9:2"}, chunk=3, more='passes = ["rgb", "depth"]')
+    made = plan.make(shot, shot.settings.path, 4)
+    assert [(each.cameras, each.frames) for each in made.tasks] == [
+        (("drone",), "1-6"),
+        (("drone",), "7-10"),
+        (("other",), "2,4,6"),
+        (("other",), "8"),
+    ]
+    pictures = [picture for each in made.tasks for picture in made.pictures(each)]
+    assert len(pictures) == len(set(pictures)) == 2 * (10 + 4)
+
+
+def test_cameras_that_give_each_other_pictures_share_tasks(make_shot):
+    mounted = '\n[[cameras]]\nname = "sensor"\nkind = "mounted"\nfollows = "drone"\npasses = ["thermal"]\n'
+    shot = make_shot(3, more='passes = ["rgb"]')
+    text = shot.settings.path.read_text()
+    shot.settings.path.write_text(text + 'passes = ["fused"]\n' + mounted)
+    made = plan.make(Shot(scene_file.read(shot.settings.path), shot.run), shot.settings.path)
+    assert [each.cameras for each in made.tasks] == [("drone", "sensor")]
+
+
+def test_a_solved_flow_has_a_bake_for_each_camera(make_shot):
+    cameras = {"drone": "", "other": "1"}
+    for smoke, stages in (('method = "flow"', 2), ('method = "puffs"', 0), ("enabled = false", 0)):
+        shot = make_shot(2, cameras, smoke=smoke)
+        made = plan.make(shot, shot.settings.path)
+        assert len(made.numbers("bake")) == stages
+        assert made.numbers("render") == [stages + 1, stages + 2]
+
+
+def test_a_long_film_of_many_cameras_is_planned_in_few_steps(make_shot):
+    """10,000 frames of 20 cameras: steps, not seconds, are counted, and the texts of all engines measured."""
+    shot = make_shot(10_000, {f"camera{k}": "" for k in range(20)}, chunk=48, smoke='method = "flow"')
+    calls = 0
+
+    def count(frame, event, argument):
+        nonlocal calls
+        calls += event == "call"
+
+    sys.setprofile(count)
+    try:
+        made = plan.make(shot, shot.settings.path)
+    finally:
+        sys.setprofile(None)
+    assert calls < 1_000_000
+    assert len(made.tasks) == 20 + 20 * 209
+    out = shot.settings.path.parent / "out"
+    plan.write(made, out)
+    assert plan.read(out) == made
+    batch = Batch(made, out, tuple(range(1, len(made.tasks) + 1)))
+    for engine in known().values():
+        engine().write(batch)
+    sizes = {path: path.stat().st_size for path in (out / "farm").rglob("*") if path.is_file()}
+    assert len(sizes) >= 9
+    assert not {path: size for path, size in sizes.items() if size > 1_000_000}
+
+
+def test_what_is_needed_is_listed_and_must_be_there(make_shot, tmp_path):
+    shot = make_shot(more='\n[fire]\nobserved = "seen.shp"\n')
+    fields = {path.absolute() for path in (tmp_path / "run").iterdir() if path.name[0] != "."}
+    with pytest.raises(InputError, match=r"seen\.shp: is missing"):
+        assets.needed(shot)
+    parts = [tmp_path / f"seen.{end}" for end in ("shp", "dbf", "shx")]
+    for part in parts:
+        part.touch()
+    assert set(assets.needed(shot)) == fields | {shot.settings.path, *parts}
+    assert assets.elsewhere(parts, tmp_path) == []
+    assert assets.elsewhere(parts, tmp_path / "run") == parts
+
+
+def test_another_job_is_not_overwritten(tmp_path):
+    first = job([Task("render", ("drone",), "1-3")])
+    plan.write(first, tmp_path)
+    plan.write(first, tmp_path)
+    with pytest.raises(InputError, match="another job"):
+        plan.write(replace(first, count=7), tmp_path)
+    assert plan.read(tmp_path) == first
+    (tmp_path / "farm" / "job.json").write_text("{}")
+    with pytest.raises(InputError, match="no farm job"):
+        plan.read(tmp_path)
+    with pytest.raises(InputError, match="firetwin farm SCENE"):
+        plan.read(tmp_path / "nothing")
+
+
+entry = st.builds(
+    Entry,
+    *(st.text(), st.integers(0, 10**12), st.text("0123456789abcdef", min_size=64, max_size=64), st.text()),
+    *(st.text(), st.text(), st.integers(1, 10**6), st.text()),
+)
+
+
+@given(st.lists(entry, max_size=5), st.integers(1, 30))
+def test_entries_come_back_and_a_line_that_is_cut_off_counts_for_nothing(tmp_path_factory, found, cut):
+    out = tmp_path_factory.mktemp("out")
+    with entries.attempt(out, 12) as log:
+        log.write(*found)
+        log.end(0)
+    (read,) = entries.attempts(out, 12)
+    assert (read.number, read.ended, read.entries) == (12, 0, found)
+    assert entries.attempts(out, 13) == []
+    text = log.path.read_bytes()
+    log.path.write_bytes(text[:-cut])
+    (read,) = entries.attempts(out)
+    assert (read.ended, read.entries) == (None, found)
+
+
+@pytest.fixture
+def film(tmp_path):
+    """A folder with a job of two tasks of two frames, made with settings that are only names."""
+    made_with = {("drone", "rgb"): {"settings": "these"}}
+    plan.write(job([Task("render", ("drone",), "1-2"), Task("render", ("drone",), "3-4")]), tmp_path)
+    return tmp_path, made_with
+
+
+def render(out, made_with, number, frames, ended: int | None = 0, content_of=b"picture %d"):
+    """What a task leaves behind that has rendered frames."""
+    key = content.fingerprint(made_with["drone", "rgb"])
+    with entries.attempt(out, number) as log:
+        for frame in frames:
+            for path in Picture("drone", frame, "rgb").files():
+                file = out / path
+                file.parent.mkdir(parents=True, exist_ok=True)
+                file.write_bytes(content_of % frame)
+                about = describe(file)
+                log.write(Entry(path, about["bytes"], about["sha256"], key, "drone", "rgb", frame, "now"))
+        if ended is not None:
+            log.end(ended, "" if ended == 0 else "no luck")
+
+
+def test_assemble_names_what_is_missing_and_refuses_what_is_damaged(film):
+    out, made_with = film
+    made = plan.read(out)
+    render(out, made_with, 1, [1, 2])
+    render(out, made_with | {("drone", "rgb"): {"settings": "others"}}, 2, [3])
+    (out / Picture("drone", 2, "rgb").files()[0]).write_bytes(b"pictUre 2")
+    whole, lost = assemble.check(made, out, made_with)
+    assert [found[0].frame for found in whole] == [1]
+    assert list(assemble.described(lost)) == [
+        f"drone rgb 2: {assemble.DAMAGED}",
+        f"drone rgb 3: {assemble.OTHER}",
+        f"drone rgb 4: {assemble.NOT_MADE}",
+    ]
+    assert assemble.tasks_of(made, lost) == [1, 2]
+    assert assemble.tasks_of(made, [Picture("drone", 4, "rgb")]) == [2]
+    render(out, made_with, 1, [2])
+    render(out, made_with, 2, [3, 4])
+    whole, lost = assemble.check(made, out, made_with)
+    assert lost == {}
+    with Store(out, create=True) as store:
+        assemble.enter(store, whole, made_with)
+        number = store.number()
+        assemble.enter(store, whole, made_with)
+        assert store.number() == number  # twice is once
+        key = content.fingerprint(made_with["drone", "rgb"])
+        assert sorted(store.pictures("drone", "rgb", key, ".png")) == [1, 2, 3, 4]
+
+
+def test_of_attempts_at_once_either_file_counts(film):
+    out, made_with = film
+    render(out, made_with, 1, [1], content_of=b"other bytes %d")
+    render(out, made_with, 1, [1])
+    assert len(assemble.check(plan.read(out), out, made_with)[0]) == 1
+    known = [each for found in entries.attempts(out, 1) for each in found.entries]
+    assert len(intact(known, out, made_with)) == len(Picture("drone", 1, "rgb").files())
+
+
+def test_a_task_publishes_what_it_made_and_keeps_what_was_whole(film, tmp_path_factory):
+    out, made_with = film
+    render(out, made_with, 1, [1], ended=None)
+    place = tmp_path_factory.mktemp("private")
+    known = [each for found in entries.attempts(out, 1) for each in found.entries]
+    with entries.attempt(out, 1) as log:
+        private = Private(place, out, log)
+        private.seed(intact(known, out, made_with), made_with)
+        private.publish()
+        assert len(log.path.read_text().splitlines()) == 1  # nothing new
+        with Store(place) as store:
+            paths = Picture("drone", 2, "rgb").files()
+            made = {}
+            for path in paths:
+                (place / path).write_bytes(b"new")
+                about = {"camera": "drone", "pass": "rgb", "frame": 2, "time": "now"}
+                made[path] = describe(place / path) | about
+            store.add(made_with["drone", "rgb"], made)
+        private.publish()
+        private.publish()
+    assert [each.path for each in entries.attempts(out, 1)[-1].entries] == list(paths)
+    assert (out / paths[0]).read_bytes() == b"new"
+    assert len(assemble.check(plan.read(out), out, made_with)[0]) == 2
+
+
+def test_status_is_told_by_files_alone(film):
+    out, made_with = film
+    assert status.gather(out).waiting == [1, 2]
+    assert status.gather(out).seconds_left is None
+    render(out, made_with, 1, [1], ended=None)
+    found = status.gather(out)
+    assert (found.running, found.waiting, found.finished, found.pictures) == ([1], [2], 1, 4)
+    late = status.gather(out, now=found_time(out) + 2 * status.PATIENCE)
+    assert late.failed == [1]
+    assert "no sign" in late.errors[1]
+    render(out, made_with, 1, [2])
+    render(out, made_with, 2, [3], ended=75)
+    found = status.gather(out)
+    assert (found.done, found.failed, found.errors) == ([1], [2], {2: "no luck"})
+    assert "task 2 failed: no luck" in status.page(found)
+    json.dumps(found.plain())
+    (out / Picture("drone", 1, "rgb").files()[0]).unlink()
+    assert status.gather(out).waiting == [1]
+
+
+def found_time(out):
+    return max(each.last for each in entries.attempts(out))
+
+
+def test_the_exit_status_says_whether_to_try_again():
+    assert task.status_of(UsageError("no such task")) == 2
+    assert task.status_of(input_error("scene.toml", 1, 1, "wrong")) == 2
+    assert task.status_of(input_error("x", 0, 0, FULL)) == 75
+    assert task.status_of(OSError(28, "No space left on device")) == 75
+    assert task.status_of(Error(f"{task.NO_DEVICE} here")) == 75
+    assert task.status_of(Error("Blender stopped")) == 1
+    assert task.status_of(SystemExit(143)) == 143
+    devices = Path(firetwin.farm.__file__).parents[1] / "blender" / "devices.py"
+    assert task.NO_DEVICE in devices.read_text("utf-8")
+
+
+def test_a_task_refuses_other_versions_and_a_changed_scene(tmp_path):
+    scene = tmp_path / "scene.toml"
+    scene.write_text("")
+    here = job([], scene=str(scene), scene_sha256=content.sha256(scene), versions=fingerprint.versions())
+    choice = task.source(here, tmp_path)
+    assert choice.cache == str(tmp_path / "farm" / "cache")
+    with pytest.raises(UsageError, match="Firetwin 0 with Blender"):
+        task.source(replace(here, versions=VERSIONS), tmp_path)
+    scene.write_text("seed = 2")
+    with pytest.raises(UsageError, match="has changed"):
+        task.source(here, tmp_path)
+
+
+@given(st.sets(st.integers(1, 5000), min_size=1), st.integers(1, 1001))
+def test_arrays_have_every_task_once_and_small_indices(numbers, most):
+    found = []
+    for base, listed in arrays(sorted(numbers), most):
+        indices = [n for part in listed.split(",") for n in _span(part)]
+        assert 0 <= min(indices) <= max(indices) < most
+        found += [base + index for index in indices]
+    assert found == sorted(numbers)
+
+
+def _span(part):
+    low, _, high = part.partition("-")
+    return range(int(low), int(high or low) + 1)
+
+
+def test_a_bundle_names_all_files_and_values(tmp_path):
+    made = job([Task("bake", ("drone",), "1-4"), Task("render", ("drone",), "1-4")], assets=("/a/run.toml",))
+    known()["deadline"]().write(Batch(made, tmp_path, (1, 2)))
+    folder = tmp_path / "farm" / "deadline"
+    template, values, references = (
+        json.loads((folder / f"{name}.json").read_text())
+        for name in ("template", "parameter_values", "asset_references")
+    )
+    given_values = {each["name"] for each in values["parameterValues"]}
+    assert {each["name"] for each in template["parameterDefinitions"]} <= given_values
+    steps = {
+        each["name"]: [d["dependsOn"] for d in each.get("dependencies", ())] for each in template["steps"]
+    }
+    assert steps == {"Bake": [], "Render": ["Bake"], "Assemble": ["Bake", "Render"]}
+    inputs = references["assetReferences"]["inputs"]["filenames"]
+    assert inputs == ["/a/run.toml", str(tmp_path / "farm" / "job.json")]
+
+
+@pytest.mark.parametrize("verb", arguments.VERBS)
+def test_every_verb_has_help(verb, capsys):
+    with pytest.raises(SystemExit) as ended:
+        cli.main(["farm", verb, "--help"])
+    assert ended.value.code == 0
+    assert capsys.readouterr().out
+
+
+def test_the_command_line_takes_a_scene_or_a_verb():
+    assert arguments.normal(["render", "x", "--"]) == (["render", "x", "--"], [])
+    line = ["farm", "scene.toml", "--engine", "slurm", "--", "--mem=1G", "-p", "x"]
+    assert arguments.normal(line) == (["farm", "plan", *line[1:4]], ["--mem=1G", "-p", "x"])
+    assert arguments.normal(["farm", "status", "out"]) == (["farm", "status", "out"], [])
+    assert set(arguments._engines()) == set(known())
+    assert all(engine.name == name for name, engine in known().items())
