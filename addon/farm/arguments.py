@@ -68,7 +68,7 @@ def add(parser: argparse.ArgumentParser, path: Callable[[str], Path], count: Cal
     )
     plan.add_argument("--submit", action="store_true", help="submit the job")
     for name, summary in (
-        ("status", "tell how far a job is, from its files alone"),
+        ("status", "print the progress of a job, from its files alone"),
         ("resume", "submit the tasks whose pictures are missing or damaged"),
         ("cancel", "cancel what was submitted"),
         ("task", "run tasks of a job, as engines do"),

@@ -59,7 +59,7 @@ def run_plan(arguments: argparse.Namespace, choice: ShotSource) -> None:
 
 
 def run_status(arguments: argparse.Namespace) -> None:
-    """Tell how far a job is."""
+    """Print the progress of a job."""
     found = status.gather(arguments.out)
     result(json.dumps(found.plain(), indent=1) if arguments.json else status.page(found))
 

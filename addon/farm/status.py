@@ -1,4 +1,4 @@
-"""How far a job is, from its files alone: no engine is asked, and no picture is read."""
+"""Progress of a job, from its files alone: no engine is asked, and no picture is read."""
 
 from __future__ import annotations
 
