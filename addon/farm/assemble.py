@@ -61,26 +61,26 @@ def check(job: Job, out: Path, made_with: Fingerprints) -> tuple[list[list[Entry
     """
     known = entries.by_path(entries.attempts(out))
     keys = {pair: content.fingerprint(values) for pair, values in made_with.items()}
-    whole, lost = [], {}
+    whole: list[list[Entry]] = []
+    lost: dict[Picture, str] = {}
     for picture in (each for part in job.tasks for each in job.pictures(part)):
         key = keys[picture.camera, picture.name]
-        found = [_whole(known.get(path, []), out, key) for path in picture.files()]
-        wrong = next((each for each in found if isinstance(each, str)), None)
-        if wrong:
-            lost[picture] = wrong
+        found = [known.get(path, []) for path in picture.files()]
+        right = [next((e for e in made if e.fingerprint == key and e.whole(out)), None) for made in found]
+        made = [each for each in right if each is not None]
+        if len(made) == len(right):
+            whole.append(made)
         else:
-            whole.append(found)
+            lost[picture] = _why(found[right.index(None)], out, key)
     return whole, lost
 
 
-def _whole(found: list[Entry], out: Path, key: str) -> Entry | str:
-    """The entry of a file that it agrees with; else why it is missing."""
+def _why(found: list[Entry], out: Path, key: str) -> str:
+    """Why a file is missing that has these entries."""
     ours = [each for each in found if each.fingerprint == key]
     if not ours:
         return OTHER if found else NOT_MADE
-    if not (out / ours[0].path).exists():
-        return NOT_MADE
-    return next((each for each in ours if each.whole(out)), DAMAGED)
+    return DAMAGED if (out / ours[0].path).exists() else NOT_MADE
 
 
 def enter(store: Store, whole: Iterable[list[Entry]], made_with: Fingerprints) -> None:

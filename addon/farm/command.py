@@ -31,8 +31,9 @@ def run(arguments: argparse.Namespace, choice: Callable[[argparse.Namespace], Sh
         Gives the scene of a command line.
     """
     if arguments.verb == "plan":
-        return run_plan(arguments, choice(arguments))
-    verbs = {
+        run_plan(arguments, choice(arguments))
+        return 0
+    verbs: dict[str, Callable[[argparse.Namespace], int | None]] = {
         "status": run_status,
         "resume": run_resume,
         "cancel": run_cancel,

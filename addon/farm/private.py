@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import json
 import os
 import shutil
@@ -54,7 +55,7 @@ class Private:
         entries = []
         for _, path, key, text in rows:
             made = json.loads(text)
-            files.write(self.out / path, lambda part, path=path: _same(self.folder / path, part))
+            files.write(self.out / path, functools.partial(_same, self.folder / path))
             content = made["bytes"], made["sha256"], key
             entries.append(Entry(path, *content, made["camera"], made["pass"], made["frame"], made["time"]))
         if entries:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import signal
 import sys
 import tempfile
@@ -46,9 +47,8 @@ def run(out: Path, numbers: list[int], scene: str = "") -> None:
         choice = source(job, out, scene)
         for done, number in enumerate(numbers):
             with entries.attempt(out, number) as log:
-                _logged(
-                    log, lambda log=log, n=number, i=done: _task(job, choice, out, n, log, i, len(numbers))
-                )
+                progress = _told(done, len(numbers))
+                _logged(log, functools.partial(_task, job, choice, out, number, log, progress))
 
 
 def source(job: Job, out: Path, scene: str = "") -> ShotSource:
@@ -106,8 +106,8 @@ def _logged(log: Log, work: Callable[[], None]) -> None:
     log.end(0)
 
 
-def _task(job: Job, choice: ShotSource, out: Path, number: int, log: Log, done: int, of: int) -> None:
-    task, progress = job.task(number), _told(done, of)
+def _task(job: Job, choice: ShotSource, out: Path, number: int, log: Log, progress: Progress) -> None:
+    task = job.task(number)
     words = f"{' and '.join(task.cameras)}, frames {task.frames}"
     print(f"openjd_status: {task.stage} {words}", flush=True)
     if task.stage == "bake":

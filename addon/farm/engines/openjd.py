@@ -42,7 +42,7 @@ def paths(batch: Batch) -> dict[str, str]:
 def template(batch: Batch) -> dict[str, Any]:
     """A job template of specification jobtemplate-2023-09 with TASK_CHUNKING."""
     _, *arguments = python()
-    steps = []
+    steps: list[dict[str, Any]] = []
     for stage in ("bake", "render"):
         if numbers := batch.stage(stage):
             before = [each["name"] for each in steps]
