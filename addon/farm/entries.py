@@ -7,6 +7,7 @@ writes to it. A line that is cut off counts for nothing.
 
 from __future__ import annotations
 
+import functools
 import json
 import os
 import socket
@@ -14,7 +15,7 @@ import time
 from collections import defaultdict
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -81,20 +82,27 @@ class Attempt:
         Its exit status; None: it runs, or was killed.
     said
         Why it failed.
+    text
+        Its lines that are whole.
     """
 
     number: int
+    text: str
+    last: float
     began: float = 0.0
-    last: float = 0.0
     host: str = ""
     ended: int | None = None
     said: str = ""
-    entries: list[Entry] = field(default_factory=list)
 
     @property
-    def frames(self) -> int:
-        """How many frames it finished."""
-        return len({(each.camera.partition("@")[0], each.frame) for each in self.entries})
+    def entries(self) -> list[Entry]:
+        """What it finished."""
+        return [Entry(*line) for line in _lines(self.text) if isinstance(line, list)]
+
+    @functools.cached_property
+    def paths(self) -> set[str]:
+        """Paths of these entries. Quick: names of cameras and passes need no escapes."""
+        return {line[: line.index('"')] for line in self.text.split('\n["')[1:]}
 
 
 class Log:
@@ -154,19 +162,19 @@ def by_path(found: list[Attempt]) -> dict[str, list[Entry]]:
 
 
 def _read(path: Path) -> Attempt:
-    made = Attempt(int(path.name.partition("-")[0]), last=path.stat().st_mtime)
-    for line in _lines(path.read_text(encoding="utf-8")):
-        if isinstance(line, list):
-            made.entries.append(Entry(*line))
-        elif "began" in line:
-            made.began, made.host = line["began"], line["host"]
-        else:
-            made.ended, made.said, made.last = line["ended"], line["said"], line["at"]
+    text = path.read_text(encoding="utf-8")
+    whole = text[: text.rfind("\n") + 1]
+    made = Attempt(int(path.name.partition("-")[0]), whole, path.stat().st_mtime)
+    first, last = _value(whole.partition("\n")[0]), _value(whole[:-1].rpartition("\n")[2])
+    if isinstance(first, dict) and "began" in first:
+        made.began, made.host = first["began"], first["host"]
+    if isinstance(last, dict) and "ended" in last:
+        made.ended, made.said, made.last = last["ended"], last["said"], last["at"]
     return made
 
 
 def _lines(text: str) -> list[Any]:
-    """Values of all lines that are whole."""
+    """Values of the lines of a text."""
     lines = text.split("\n")[:-1]
     try:
         return list(json.loads(f"[{','.join(lines)}]"))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections import defaultdict
 from dataclasses import asdict, dataclass
@@ -9,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ..progress import count, duration
+from ..shot import passes
 from . import entries, plan
 from .entries import Attempt
 from .plan import Job
@@ -28,8 +30,8 @@ class Status:
     pictures, finished
         Pictures of the film, and those that are there.
     seconds_left
-        At the mean time of a frame so far, for as many tasks at once as run now (none: one). None where no
-        frame is finished yet.
+        At the mean time of a file so far, for as many tasks at once as run now (none: one). None where none
+        is finished yet.
     errors
         What failed tasks said, by number.
     """
@@ -62,20 +64,20 @@ def gather(out: Path, now: float | None = None) -> Status:
     tried = defaultdict(list)
     for each in entries.attempts(out):
         tried[each.number].append(each)
-    frame_s = _frame_seconds([each for found in tried.values() for each in found])
+    file_s = _file_seconds([each for found in tried.values() for each in found])
     there = _Folders(out)
     groups: dict[str, list[int]] = {"done": [], "running": [], "failed": [], "waiting": []}
-    wanted = finished = frames_left = 0
+    wanted = finished = files_left = 0
     errors = {}
     for number in range(1, len(job.tasks) + 1):
-        made, lacking, frames = _made(job, number, tried[number], there)
-        wanted, finished, frames_left = wanted + made + lacking, finished + made, frames_left + frames
+        made, every, lacking = _made(job, number, tried[number], there)
+        wanted, finished, files_left = wanted + every, finished + made, files_left + lacking
         state = _state(job, number, tried[number], lacking, now)
         groups[state].append(number)
         if state == "failed":
             last = tried[number][-1]
             errors[number] = last.said or f"no sign of it since, on {last.host}"
-    left = None if frame_s is None else frame_s * frames_left / max(len(groups["running"]), 1)
+    left = None if file_s is None else file_s * files_left / max(len(groups["running"]), 1)
     return Status(
         len(job.tasks), **groups, pictures=wanted, finished=finished, seconds_left=left, errors=errors
     )
@@ -96,32 +98,51 @@ def page(status: Status) -> str:
 
 
 class _Folders:
-    """Names of the files in folders of pictures, each listed once."""
+    """Paths of the files in folders of pictures, each folder listed once."""
 
     def __init__(self, out: Path) -> None:
         self.out = out
-        self._names: dict[str, set[str]] = {}
+        self._paths: dict[str, set[str]] = {}
 
-    def has(self, path: str) -> bool:
-        folder, _, name = path.rpartition("/")
-        if folder not in self._names:
+    def paths(self, folder: str) -> set[str]:
+        """Paths of its files, relative to the output folder."""
+        if folder not in self._paths:
             try:
-                self._names[folder] = {each.name for each in (self.out / folder).iterdir()}
+                self._paths[folder] = set(map(f"{folder}/".__add__, os.listdir(self.out / folder)))
             except OSError:
-                self._names[folder] = set()
-        return name in self._names[folder]
+                self._paths[folder] = set()
+        return self._paths[folder]
 
 
 def _made(job: Job, number: int, tried: list[Attempt], there: _Folders) -> tuple[int, int, int]:
-    """Pictures of a task that are there and entered, those that are not, and the frames of those."""
-    entered = {entry.path for each in tried for entry in each.entries}
-    made, lacking = 0, []
-    for picture in job.pictures(job.task(number)):
-        if all(path in entered and there.has(path) for path in picture.files()):
-            made += 1
-        else:
-            lacking.append(picture)
-    return made, len(lacking), len({(each.camera.partition("@")[0], each.frame) for each in lacking})
+    """Pictures of a task that are there and entered, all that it has, and the files of those that lack."""
+    task, entered = job.task(number), set[str]().union(*(each.paths for each in tried))
+    made = every = lacking = 0
+    if task.stage != "render":
+        return 0, 0, 0
+    for camera in task.cameras:
+        listed = job.frames(task, camera)
+        for view in job.views(camera):
+            for name in job.passes[view]:
+                files = _files(view, name, listed)
+                known = there.paths(files[0][0].rpartition("/")[0]) if listed else set()
+                if all(entered.issuperset(each) and known.issuperset(each) for each in files):
+                    found = len(listed)
+                else:
+                    both = entered & known
+                    found = sum(both.issuperset(picture) for picture in zip(*files, strict=True))
+                made, every = made + found, every + len(listed)
+                lacking += (len(listed) - found) * len(files)
+    return made, every, lacking
+
+
+def _files(view: str, name: str, listed: list[int]) -> list[list[str]]:
+    """Paths of a view's frames in a pass, a list for each kind of file."""
+    found = []
+    for end in passes.known()[name].files:
+        head, _, tail = passes.file_of(view, name, 0, end).rpartition("000000")
+        found.append([f"{head}{frame:06d}{tail}" for frame in listed])
+    return found
 
 
 def _state(job: Job, number: int, tried: list[Attempt], lacking: int, now: float) -> str:
@@ -135,8 +156,8 @@ def _state(job: Job, number: int, tried: list[Attempt], lacking: int, now: float
     return "running" if tried[-1].ended is None and now - tried[-1].last < PATIENCE else "failed"
 
 
-def _frame_seconds(tried: list[Attempt]) -> float | None:
-    """Mean seconds of a frame, with what its task took to start."""
-    worked = [each for each in tried if each.frames]
-    frames = sum(each.frames for each in worked)
-    return sum(max(each.last - each.began, 0.0) for each in worked) / frames if frames else None
+def _file_seconds(tried: list[Attempt]) -> float | None:
+    """Mean seconds of a file, with what its task took to start."""
+    worked = [each for each in tried if each.paths]
+    files = sum(len(each.paths) for each in worked)
+    return sum(max(each.last - each.began, 0.0) for each in worked) / files if files else None

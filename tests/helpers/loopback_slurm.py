@@ -126,11 +126,12 @@ class Slurm:
         self._start(node, "slurmd-wlm", "-D", "-N", node, "-d", str(self._sbin / "slurmstepd-wlm"))
 
     def kill_node(self, node: str) -> None:
-        """Have a machine fall over: its daemon and all that it started are killed."""
+        """Have a machine fall over: its daemon and all that it started are killed, its own disk is lost."""
         daemon = self._running.pop(node)
         daemon.kill()
         self._kill_tasks(node)
         daemon.wait()
+        shutil.rmtree(self.folder / f"spool-{node}")
 
     def _kill_tasks(self, node: str) -> None:
         """Kill the tasks of a node: what is in a session with a script from the node's folder."""
