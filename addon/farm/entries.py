@@ -25,7 +25,7 @@ from ..run.content import sha256
 from .plan import place
 
 FOLDER = "entries"
-SIGN = 30.0  # s between two signs of life of an attempt
+HEARTBEAT = 30.0  # s between two heartbeats of an attempt
 
 
 class Entry(NamedTuple):
@@ -77,7 +77,7 @@ class Attempt:
     number
         Of the task.
     began, last
-        When it began and when it gave the last sign of life, s since 1970.
+        When it began and when its last heartbeat was, s since 1970.
     ended
         Its exit status; None: it runs, or was killed.
     said
@@ -121,8 +121,8 @@ class Log:
             self._file.flush()
             os.fsync(self._file.fileno())
 
-    def sign(self) -> None:
-        """Give a sign of life: the file's time of change."""
+    def heartbeat(self) -> None:
+        """Set the file's time of change."""
         os.utime(self.path)
 
     def end(self, status: int, said: str = "") -> None:
@@ -140,7 +140,7 @@ def attempt(out: Path, number: int) -> Iterator[Log]:
     log = Log(_folder(out) / f"{number:05d}-{leases.new_owner()}.jsonl")
     try:
         log.write({"began": time.time(), "host": socket.gethostname()})
-        with leases.signs(SIGN, log.sign):
+        with leases.signs(HEARTBEAT, log.heartbeat):
             yield log
     finally:
         log.close()

@@ -15,7 +15,7 @@ from . import entries, plan
 from .entries import Attempt
 from .plan import Job
 
-PATIENCE = 10.0 * entries.SIGN  # s without a sign of life, after which an attempt counts as lost
+PATIENCE = 10.0 * entries.HEARTBEAT  # s without a heartbeat, after which an attempt counts as lost
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,7 @@ def gather(out: Path, now: float | None = None) -> Status:
         groups[state].append(number)
         if state == "failed":
             last = tried[number][-1]
-            errors[number] = last.said or f"no sign of it since, on {last.host}"
+            errors[number] = last.said or f"no heartbeat any more, on {last.host}"
     left = None if file_s is None else file_s * files_left / max(len(groups["running"]), 1)
     return Status(
         len(job.tasks), **groups, pictures=wanted, finished=finished, seconds_left=left, errors=errors

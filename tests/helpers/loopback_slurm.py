@@ -164,7 +164,12 @@ class Slurm:
         with (self.folder / f"{name}.out").open("ab") as log:
             command = [str(self._sbin / program), *arguments]
             self._running[name] = subprocess.Popen(
-                command, env=self.environment, stdout=log, stderr=log, stdin=subprocess.DEVNULL
+                command,
+                env=self.environment,
+                cwd=self.folder,
+                stdout=log,
+                stderr=log,
+                stdin=subprocess.DEVNULL,
             )
 
     def _end(self, name: str) -> None:

@@ -274,7 +274,7 @@ def test_status_is_told_by_files_alone(film):
     assert (found.running, found.waiting, found.finished, found.pictures) == ([1], [2], 1, 4)
     late = status.gather(out, now=found_time(out) + 2 * status.PATIENCE)
     assert late.failed == [1]
-    assert "no sign" in late.errors[1]
+    assert "no heartbeat" in late.errors[1]
     render(out, made_with, 1, [2])
     render(out, made_with, 2, [3], ended=75)
     found = status.gather(out)
