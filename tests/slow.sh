@@ -41,7 +41,7 @@ slow 2 "${pytest[@]}" tests/render
 slow 3 tests/system/fuzz/run.sh --runs 20000
 slow 3 .venv/bin/python tests/system/fuzz/scenes.py --builds 20 --seconds 150
 slow 3 .venv/bin/python tests/system/fuzz/convert.py --each 200
-slow 3 "${pytest[@]}" tests/system
+slow 3 "${pytest[@]}" tests/system --ignore tests/system/farm
 built=false
 if [[ -d $FIRETWIN_PORTABLE/wheels ]]; then
   built=true
@@ -57,6 +57,7 @@ if [[ $built == false ]]; then
     summary+=("left out: tests/system/extension.sh needs the wheels")
   fi
 fi
+slow 10 "${pytest[@]}" tests/system/farm
 slow 16 tests/system/window.sh
 slow 20 tests/system/sanitize.sh
 printf '%s\n' "== what tests/run.sh leaves out" "${summary[@]}"
