@@ -118,7 +118,7 @@ def test_heat_comes_through_smoke_by_its_depth_in_long_steps_too(
 
 
 def test_sunlit_ground_is_warmer_than_shaded_and_crowns_are_near_the_air(plates, scene, shoot, shot):
-    towards = np.array(temperature.sun.direction(*temperature.sun.at(shot.run, shot.frames.first)))
+    towards = np.array(temperature.sun.direction(*temperature.sun.position(shot.run, shot.frames.first)))
 
     def surface(normal, bare):
         return lambda tree, shot, stage: infrared.emitted(
@@ -128,7 +128,7 @@ def test_sunlit_ground_is_warmer_than_shaded_and_crowns_are_near_the_air(plates,
     plates(surface(towards, 1.0), surface(-towards, 1.0), surface(towards, 0.0))
     scene.frame_set(1)
     lit, _, shade, _, crowns = shoot(scene, "thermal")[2, :, 0]
-    light = temperature.sun.direct(temperature.sun.at(shot.run, shot.frames.first)[1])
+    light = temperature.sun.direct(temperature.sun.position(shot.run, shot.frames.first)[1])
     assert 700.0 < light < 1000.0
     assert lit - shade == pytest.approx(0.85 * light / 30.0, rel=0.01)
     assert crowns - shade == pytest.approx((0.85 * light - 70.0) / 80.0 + 70.0 / 30.0, rel=0.01)

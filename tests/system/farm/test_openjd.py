@@ -71,7 +71,7 @@ def test_a_task_finds_its_files_where_an_engine_has_mapped_them(openjd, film, tm
     rule = {"source_path_format": "POSIX", "source_path": str(here), "destination_path": str(there)}
     rules = json.dumps({"version": "pathmapping-1.0", "path_mapping_rules": [rule]})
     moved = [each.replace(str(here), str(there)) for each in command]  # values in the file stay
-    last = json.dumps([{"Tasks": "4"}])
+    last = json.dumps([{"Tasks": "4-4"}])
     openjd(*moved, "--path-mapping-rules", rules, "--step", "Render", "--tasks", last)
     assert len(rendered(there / "out")) == 3
     assert not here.exists()
