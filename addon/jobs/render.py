@@ -188,6 +188,8 @@ def in_blender(
         Entries up to `begun` count as finished.
     selection
         Frames, camera and passes that the render is asked for (see `render.plan.pictures`).
+    films
+        Make films too.
 
     Returns
     -------
