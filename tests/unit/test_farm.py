@@ -10,7 +10,7 @@ import pytest
 from firetwin import cli
 from firetwin.errors import FULL, Error, InputError, UsageError, input_error
 from firetwin.farm import arguments, assemble, assets, entries, plan, status, task
-from firetwin.farm.engines import Batch, known
+from firetwin.farm.engines import Batch, deadline, known, openjd
 from firetwin.farm.engines.slurm import arrays
 from firetwin.farm.entries import Entry
 from firetwin.farm.plan import Job, Task
@@ -129,6 +129,19 @@ def test_a_long_film_of_many_cameras_is_planned_in_few_steps(make_shot):
     sizes = {path: path.stat().st_size for path in (out / "farm").rglob("*") if path.is_file()}
     assert len(sizes) >= 9
     assert not {path: size for path, size in sizes.items() if size > 1_000_000}
+
+
+def test_a_bundle_lists_every_asset_and_bakes_before_it_renders(make_shot, tmp_path):
+    shot = make_shot(4, {"drone": "", "other": ""}, chunk=2, smoke='method = "flow"')
+    made, out = plan.make(shot, shot.settings.path, 2), tmp_path / "out"
+    batch = Batch(made, out, tuple(range(1, len(made.tasks) + 1)))
+    steps = [each["name"] for each in openjd.template(batch)["steps"]]
+    assert steps == ["Bake", "Render", "Assemble"]
+    command = deadline.Deadline().write(batch)
+    listed = json.loads((Path(command[-1]) / "asset_references.json").read_text())
+    assert set(made.assets) < set(listed["assetReferences"]["inputs"]["filenames"])
+    partial = Batch(made, out, tuple(made.numbers("render")[:1]))
+    assert [each["name"] for each in openjd.template(partial)["steps"]] == ["Render", "Assemble"]
 
 
 def test_what_is_needed_is_listed_and_must_be_there(make_shot, tmp_path):
