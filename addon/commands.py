@@ -61,7 +61,7 @@ def new(arguments: argparse.Namespace) -> None:
         raise UsageError(f"-o: {arguments.out} exists already; choose another name, or add --overwrite")
     asked = arguments.start, arguments.end
     text = _fitted(arguments.run, arguments.out, arguments.out.parent / "cache", asked)
-    files.write(arguments.out, lambda part: part.write_text(text, encoding="utf-8"))
+    files.write_text(arguments.out, text)
     result(arguments.out)
 
 
@@ -104,7 +104,7 @@ def score(arguments: argparse.Namespace) -> None:
         from .run.score import report
 
         text = report.html(run, found, observed, *runs)
-        files.write(arguments.report, lambda part: part.write_text(text, encoding="utf-8"))
+        files.write_text(arguments.report, text)
         say(f"wrote {arguments.report}")
     if not runs and (none := used.nothing(found["uses"])):
         raise Error(none)
@@ -211,7 +211,7 @@ def track(arguments: argparse.Namespace) -> None:
     (view,) = alone.paths
     moments = [alone.utc(frame) for frame in range(1, alone.frames.count + 1)]
     text = track_xml.gpx_text(view.camera.name, *alone.local_frame.reverse(view.position), moments)
-    files.write(arguments.out, lambda part: part.write_text(text, encoding="utf-8"))
+    files.write_text(arguments.out, text)
     result(arguments.out)
 
 
@@ -344,7 +344,7 @@ def _choice(arguments: argparse.Namespace) -> ShotSource:
     if folder.sniff(scene):
         text = _fitted(scene, cache / "scene.toml", cache)
         scene = cache / f"{scene.absolute().name}-{hashlib.sha256(text.encode()).hexdigest()[:12]}.toml"
-        files.write(scene, lambda part: part.write_text(text, encoding="utf-8"))
+        files.write_text(scene, text)
         say(f"these settings are in {scene}; to change them: firetwin new {arguments.scene} -o SCENE.toml")
     return ShotSource(scene=str(scene), beside=getattr(arguments, "run", None) or "")
 

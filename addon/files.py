@@ -51,6 +51,11 @@ def write(path: Path, put: Callable[[Path], object]) -> None:
             part.unlink(missing_ok=True)
 
 
+def write_text(path: Path, text: str, newline: str | None = None) -> None:
+    """Write a text atomically, as UTF-8 (see `write`)."""
+    write(path, lambda part: part.write_text(text, encoding="utf-8", newline=newline))
+
+
 def _sync_folder(folder: Path) -> None:
     """Flush a folder's entries to the disk, where the system supports it; Windows does not."""
     with contextlib.suppress(OSError):

@@ -219,7 +219,7 @@ def write(job: Job, out: Path) -> None:
     if path.exists() and read(out) != job:
         raise input_error(path, 0, 0, "is another job, or of a changed scene file; choose another --out")
     text = json.dumps({"format": _FORMAT} | asdict(job), separators=(",", ":")) + "\n"
-    files.write(path, lambda part: part.write_text(text, encoding="utf-8"))
+    files.write_text(path, text)
 
 
 def read(out: Path) -> Job:

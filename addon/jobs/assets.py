@@ -80,7 +80,7 @@ def run(
         choice.shot()
     task = {"choice": choice.plain(), "out": str(out / BLEND)}
     count = worker.run(f"{__name__}:in_blender", task, progress, stop=stop, tell=tell)
-    files.write(out / CATALOGUE, lambda part: part.write_text(catalogue(), encoding="utf-8"))
+    files.write_text(out / CATALOGUE, catalogue())
     return count
 
 

@@ -42,4 +42,4 @@ def read(out: Path) -> dict[str, Any]:
 def write(out: Path, settings: dict[str, Any], entries: dict[str, Any]) -> None:
     """Write the manifest atomically: a reader gets the new one or the previous one."""
     text = json.dumps({"format": _FORMAT, "settings": settings, "files": entries}, indent=1) + "\n"
-    files.write(out / NAME, lambda path: path.write_text(text, encoding="utf-8"))
+    files.write_text(out / NAME, text)

@@ -35,7 +35,7 @@ def facts(run: Run, about: str, find: Callable[[], dict[str, Any]]) -> dict[str,
     if content.settled(stamps.values()) and content.stamps(run) == stamps:
         text = json.dumps({"key": key, "facts": result})
         with contextlib.suppress(OSError, InputError):
-            files.write(place, lambda part: part.write_text(text, encoding="utf-8"))
+            files.write_text(place, text)
     return result
 
 

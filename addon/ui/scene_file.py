@@ -89,5 +89,5 @@ def written(scene: bpy.types.Scene) -> Path:
     text = scene_file.text(settings(scene, folder() / "scene.toml"))
     path = folder() / f"{hashlib.sha256(text.encode()).hexdigest()[:16]}.toml"
     if not path.is_file():
-        files.write(path, lambda part: part.write_text(text, encoding="utf-8"))
+        files.write_text(path, text)
     return path

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from ... import files
 from ..plan import Job, place
 
 
@@ -73,8 +72,3 @@ class Engine(ABC):
 def python() -> list[str]:
     """The command that runs this Firetwin."""
     return [sys.executable, "-m", __package__.partition(".")[0]]
-
-
-def put(path: Path, text: str) -> None:
-    """Write a text as a whole."""
-    files.write(path, lambda part: part.write_text(text, encoding="utf-8"))

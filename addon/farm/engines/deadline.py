@@ -5,10 +5,11 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+from ... import files
 from ...errors import UsageError
 from ..plan import FILE, place
 from . import openjd
-from ._engine import Batch, Engine, put
+from ._engine import Batch, Engine
 
 _TRIES = 3
 
@@ -31,7 +32,7 @@ class Deadline(Engine):
             "asset_references.json": {"assetReferences": _references(batch)},
         }
         for name, found in texts.items():
-            put(folder / name, json.dumps(found, indent=1) + "\n")
+            files.write_text(folder / name, json.dumps(found, indent=1) + "\n")
         return ["deadline", "bundle", "submit", *batch.options, str(folder)]
 
     def cancel(self, out: Path) -> list[str]:

@@ -6,10 +6,11 @@ import json
 from pathlib import Path
 from typing import Any
 
+from ... import files
 from ...errors import UsageError
 from ...shot.settings import frame_list
 from ..plan import FILE, place
-from ._engine import Batch, Engine, put, python
+from ._engine import Batch, Engine, python
 
 _GRACE = 60  # s from the notice to a task until it is ended for certain
 _CHUNK_SECONDS = 600  # an engine that may, gives tasks one after the other to a command for so long
@@ -25,8 +26,8 @@ class OpenJD(Engine):
         """Write the template and the values of its parameters."""
         folder = self.folder(batch.out)
         path, values = folder / "template.json", folder / "parameters.json"
-        put(path, json.dumps(template(batch), indent=1) + "\n")
-        put(values, json.dumps(paths(batch) | {"Python": python()[0]}, indent=1) + "\n")
+        files.write_text(path, json.dumps(template(batch), indent=1) + "\n")
+        files.write_text(values, json.dumps(paths(batch) | {"Python": python()[0]}, indent=1) + "\n")
         return ["openjd", "run", str(path), "--job-param", f"file://{values}", *batch.options]
 
     def cancel(self, out: Path) -> list[str]:

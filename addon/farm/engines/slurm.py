@@ -8,9 +8,10 @@ import subprocess
 from collections import defaultdict
 from pathlib import Path
 
+from ... import files
 from ...errors import UsageError
 from ...shot.settings import frame_list
-from ._engine import Batch, Engine, put, python
+from ._engine import Batch, Engine, python
 
 LARGEST = 1001  # Slurm's own MaxArraySize: indices are below it
 _WARNING = 120  # s before the time limit at which a task is told to end
@@ -81,8 +82,8 @@ class Slurm(Engine):
             name: shlex.quote(str(folder / name)) for name in ("task.sh", "assemble.sh", "jobs.txt", "log")
         }
         about = {"command": shlex.join(python()), "out": shlex.quote(str(batch.out)), "tries": _TRIES}
-        put(folder / "task.sh", _TASK.format(name="task.sh", **about))
-        put(folder / "assemble.sh", _ASSEMBLE.format(**about))
+        files.write_text(folder / "task.sh", _TASK.format(name="task.sh", **about))
+        files.write_text(folder / "assemble.sh", _ASSEMBLE.format(**about))
         submit = _SUBMIT.format(
             options=shlex.join(batch.options),
             ids=names["jobs.txt"],
@@ -91,7 +92,7 @@ class Slurm(Engine):
             lines="\n".join(_lines(batch, names["task.sh"], largest())),
             assemble=names["assemble.sh"],
         )
-        put(folder / "submit.sh", submit)
+        files.write_text(folder / "submit.sh", submit)
         return ["bash", str(folder / "submit.sh")]
 
     def cancel(self, out: Path) -> list[str]:

@@ -180,7 +180,7 @@ def _journal(part: Path, inputs: str, done: int, open_files: dict[str, BinaryIO]
         file.flush()
         os.fsync(file.fileno())
     text = json.dumps({"inputs": inputs, "times": done})
-    files.write(part / JOURNAL, lambda path: path.write_text(text, encoding="utf-8"))
+    files.write_text(part / JOURNAL, text)
 
 
 def _done(part: Path, inputs: str) -> int:

@@ -51,7 +51,7 @@ def save(whole: Settings) -> None:
     except (OSError, UnicodeDecodeError):
         raw, new = b"", text(whole)
     newline = "\r\n" if b"\r\n" in raw else "\n"
-    files.write(path, lambda part: part.write_text(new, encoding="utf-8", newline=newline))
+    files.write_text(path, new, newline)
 
 
 def updated(there: str, whole: Settings) -> str:
