@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from scene_text import NO_PLANTS, TINY
+from scene_text import NO_PLANTS, PUFFS, TINY
 
 SCENE = (
     """\
@@ -22,12 +22,7 @@ end = 2014-09-17T22:00:00Z
 frames = {frames}
 """
     + NO_PLANTS
-    + """\
-[smoke]
-enabled = {smoke}
-method = "puffs"
-voxel_size = 120.0
-"""
+    + PUFFS
     + TINY
     + """\
 passes = ["rgb", "depth"]

@@ -37,6 +37,13 @@ NO_SMOKE = """\
 enabled = false
 """
 
+PUFFS = """\
+[smoke]
+enabled = {smoke}
+method = "puffs"
+voxel_size = 120.0
+"""
+
 DRONE = """\
 [[cameras]]
 name = "drone"

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from firetwin.render.store import Store
 from firetwin_core import sensor
-from scene_text import NO_PLANTS, TINY
+from scene_text import NO_PLANTS, PUFFS, TINY
 
 FRAMES = 4
 KILLS = int(os.environ.get("FIRETWIN_KILLS", "2"))
@@ -28,12 +28,7 @@ cache = "{cache}"
 frames = {frames}
 """
     + NO_PLANTS
-    + """\
-[smoke]
-enabled = {smoke}
-method = "puffs"
-voxel_size = 120.0
-"""
+    + PUFFS
     + TINY
     + """\
 passes = ["rgb", "depth", "normal", "thermal"]
