@@ -18,8 +18,8 @@ from ..shot.source import ShotSource
 from . import assemble, assets, plan, status, task
 from .engines import Batch, known
 
-_SUBMITTED = "submitted.json"
-_MOST = 10**9 - 1  # tasks, far more than there are
+_SUBMISSION = "submitted.json"
+_MAX_TASK_NUMBER = 10**9 - 1  # tasks, far more than there are
 
 
 def run(arguments: argparse.Namespace, choice: Callable[[argparse.Namespace], ShotSource]) -> int | None:
@@ -71,7 +71,7 @@ def run_resume(arguments: argparse.Namespace) -> None:
     job = plan.read(out)
     shot = task.source(job, out).shot()
     _, lost = assemble.check(job, out, assemble.fingerprints(job, shot, Reporter()))
-    before = _before(out)
+    before = _last_submission(out)
     solved = {*status.gather(out).done}
     renders = assemble.tasks_of(job, lost)
     bakes = [number for number in job.numbers("bake") if renders and number not in solved]
@@ -84,7 +84,7 @@ def run_cancel(arguments: argparse.Namespace) -> int:
     """Cancel what was submitted."""
     out = arguments.out.absolute()
     plan.read(out)
-    return _call(known()[_before(out)["engine"]]().cancel(out))
+    return _call(known()[_last_submission(out)["engine"]]().cancel(out))
 
 
 def run_task(arguments: argparse.Namespace) -> int:
@@ -92,7 +92,7 @@ def run_task(arguments: argparse.Namespace) -> int:
 
     def work() -> None:
         try:
-            numbers = frame_list.parse(arguments.numbers, _MOST)
+            numbers = frame_list.parse(arguments.numbers, _MAX_TASK_NUMBER)
         except ValueError as error:
             raise UsageError(f"tasks: {error}") from None
         task.run(arguments.out.absolute(), numbers, _scene(arguments))
@@ -132,16 +132,16 @@ def _submit(out: Path, engine: str, options: Sequence[str], numbers: Iterable[in
     batch = Batch(plan.read(out), out, tuple(sorted(numbers)), tuple(options))
     command = known()[engine]().write(batch)
     about = json.dumps({"engine": engine, "options": list(options)}) + "\n"
-    files.write(plan.place(out) / _SUBMITTED, lambda part: part.write_text(about, encoding="utf-8"))
+    files.write_text(plan.place(out) / _SUBMISSION, about)
     if not now:
         result(shlex.join(command))
     elif status := _call(command):
         raise Error(f"{shlex.join(command)} ended with exit status {status}")
 
 
-def _before(out: Path) -> dict[str, Any]:
+def _last_submission(out: Path) -> dict[str, Any]:
     """Engine and options of the last time."""
-    return dict(json.loads((plan.place(out) / _SUBMITTED).read_text(encoding="utf-8")))
+    return dict(json.loads((plan.place(out) / _SUBMISSION).read_text(encoding="utf-8")))
 
 
 def _call(command: list[str]) -> int:

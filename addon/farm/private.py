@@ -18,7 +18,7 @@ from ..run.content import fingerprint
 from .entries import Entry, Log
 
 
-class Private:
+class PrivateFolder:
     """A folder with a store of its own, on the machine's own disk.
 
     Parameters
@@ -63,7 +63,7 @@ class Private:
             self.published = rows[-1][0]
 
 
-def intact(found: Iterable[Entry], out: Path, made_with: Fingerprints) -> list[Entry]:
+def verified_entries(found: Iterable[Entry], out: Path, made_with: Fingerprints) -> list[Entry]:
     """Of each file an entry of the right settings that it agrees with."""
     keys = {pair: fingerprint(values) for pair, values in made_with.items()}
     known: dict[str, Entry] = {}

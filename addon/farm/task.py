@@ -20,7 +20,7 @@ from ..shot.source import ShotSource
 from . import entries, plan
 from .entries import Log
 from .plan import Job, Task
-from .private import Private, intact
+from .private import PrivateFolder, verified_entries
 
 WRONG, AGAIN, TERMINATED = 2, 75, 128 + signal.SIGTERM
 """Exit status: the input is wrong; try again (EX_TEMPFAIL: device or disk); ended by SIGTERM."""
@@ -47,7 +47,7 @@ def run(out: Path, numbers: list[int], scene: str = "") -> None:
         choice = source(job, out, scene)
         for done, number in enumerate(numbers):
             with entries.attempt(out, number) as log:
-                progress = _told(done, len(numbers))
+                progress = _openjd_progress(done, len(numbers))
                 _logged(log, functools.partial(_task, job, choice, out, number, log, progress))
 
 
@@ -61,7 +61,8 @@ def source(job: Job, out: Path, scene: str = "") -> ShotSource:
     """
     here = fingerprint.versions()
     if here != job.versions:
-        raise UsageError(f"this is {_words(here)}, and the job is of {_words(job.versions)}; use those here")
+        planned = _describe_versions(job.versions)
+        raise UsageError(f"this is {_describe_versions(here)}, and the job is of {planned}; use those here")
     path = Path(scene or job.scene)
     if path.is_file() and sha256(path) != job.scene_sha256:
         raise UsageError(f"{path} has changed since the job was planned; plan it again with another --out")
@@ -78,7 +79,7 @@ def status_of(error: BaseException) -> int:
     return WRONG if isinstance(error, UsageError | InputError) else 1
 
 
-def _words(versions: dict[str, str]) -> str:
+def _describe_versions(versions: dict[str, str]) -> str:
     return f"Firetwin {versions['firetwin']} with Blender {versions['blender']}"
 
 
@@ -134,8 +135,8 @@ def _render(job: Job, choice: ShotSource, out: Path, number: int, log: Log, prog
     made_with = fingerprint.of_pictures(shot, list(job.pictures(task)))
     known = [entry for each in entries.attempts(out, number) for entry in each.entries]
     with tempfile.TemporaryDirectory(prefix="firetwin-farm-", ignore_cleanup_errors=True) as place:
-        private = Private(Path(place), out, log)
-        private.seed(intact(known, out, made_with), made_with)
+        private = PrivateFolder(Path(place), out, log)
+        private.seed(verified_entries(known, out, made_with), made_with)
         work = [(camera, listed) for camera in task.cameras if (listed := job.frames(task, camera))]
         frames, before = sum(len(listed) for _, listed in work), 0
         try:
@@ -157,7 +158,7 @@ def _render(job: Job, choice: ShotSource, out: Path, number: int, log: Log, prog
             private.publish()
 
 
-def _told(done: int, of: int) -> Progress:
+def _openjd_progress(done: int, of: int) -> Progress:
     """Progress of a task that is one of several, in lines that engines read."""
     last = ""
 

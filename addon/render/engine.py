@@ -76,7 +76,7 @@ def _cycles(settings: Settings, scene: bpy.types.Scene) -> None:
     cycles.film_exposure = 1.0
     scene.render.use_persistent_data = False  # guiding saved no time in three frames and takes memory
     cycles.pixel_filter_type, cycles.filter_width = "BLACKMAN_HARRIS", 1.5
-    cycles.fast_gi_method = "ADD"  # as often as the world's settings say: `light.build`
+    cycles.fast_gi_method = "ADD"  # as often as the world's settings say: `scene.light.build`
     filled = cycles.use_fast_gi = scene.world is not None and owned.ours(scene.world)
     cycles.diffuse_bounces = 0 if filled else 1  # the fill light approximates the first bounce too
     if scene.world is not None:  # the sky has no sun disc: a map of its own resolution costs 2 s a frame

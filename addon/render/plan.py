@@ -22,7 +22,7 @@ def pictures(
 ) -> list[Picture]:
     """Requested pictures: those of the scene file, filtered by the command line; by camera, then run.
 
-    Pictures of other cameras that they are composed from are added and come first (see `shot.mount`).
+    Pictures of other cameras that they are composed from are added and come first (see `shot.cameras.mount`).
     Comparisons of runs come last. The passes that they need are added before them.
 
     Parameters

@@ -44,8 +44,8 @@ class RenderSession:
         All pictures that the render is asked for, also finished ones.
     finished
         Pictures that this session finished. They stay finished whatever another render writes.
-    seen
-        Names of the leases of others that were met.
+    others_leases
+        Names of all leases that other renders held at a poll, also of those that have expired since.
     """
 
     store: Store
@@ -55,7 +55,7 @@ class RenderSession:
     since: int = 0
     asked: Collection[Picture] = ()
     finished: set[Picture] = field(default_factory=set)
-    seen: set[str] = field(default_factory=set)
+    others_leases: set[str] = field(default_factory=set)
 
     def missing(self, wanted: list[Picture]) -> list[Picture]:
         """Pictures that are not finished."""
@@ -106,7 +106,7 @@ class RenderSession:
     def leased_by_others(self) -> set[str]:
         """Names of the leases of other renders."""
         others = self.leases.of_others()
-        self.seen.update(others)
+        self.others_leases.update(others)
         return others
 
     @contextmanager
@@ -207,7 +207,7 @@ class FrameQueue:
         for frame in list(self.waiting):
             if _name(*frame) not in others and self.leases.take(_name(*frame)):
                 if missing := self.session.missing(self.waiting.pop(frame)):
-                    if _name(*frame) in self.session.seen:
+                    if _name(*frame) in self.session.others_leases:
                         self.tell(
                             f"taking over {frame[0]} frame {frame[1]}, which another render left unfinished"
                         )

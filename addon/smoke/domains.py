@@ -1,6 +1,6 @@
 """Flow domains: a box around the fire, and a finer nest where cameras look. Needs no Blender.
 
-Lengths and times here apply to cells of `scale.REFERENCE`; they scale with the shot's cells.
+Lengths and times here apply to cells of `smoke_scale.REFERENCE`; they scale with the shot's cells.
 """
 
 from __future__ import annotations

@@ -51,7 +51,7 @@ _THIN = 5.0e-5  # 1/m; thinner smoke is not stored
 _AGES = 20.0, 600.0  # s, ages of dark and of white smoke
 _BLOCK, _ROUND = 16, 300.0  # voxels of a culling block; m of margin for multiply scattered light
 
-# Lengths, times and extinctions are those of a fire on cells of `scale.REFERENCE` m.
+# Lengths, times and extinctions are those of a fire on cells of `smoke_scale.REFERENCE` m.
 
 Array = NDArray[np.float64]
 Brick = tuple[NDArray[np.float32], float, list[float]]

@@ -25,6 +25,10 @@ _NAMES = ("smoke", "age", "rise", "temperature_excess", "drift", "low", "weights
 Fields = dict[str, NDArray[Any]]
 
 
+_UNREADABLE = (OSError, EOFError, LookupError, TypeError, ValueError, zipfile.BadZipFile, zlib.error)
+"""Errors of reading a damaged .npz file."""
+
+
 class BrokenError(Exception):
     """The file is truncated or is no snapshot of this flow."""
 
@@ -123,7 +127,7 @@ def load_smoke(path: Path) -> tuple[tuple[int, int], NDArray[np.float32]]:
         with np.load(path, allow_pickle=False) as file:
             west, south = file["low"]
             return (int(west), int(south)), file["smoke"]
-    except (OSError, EOFError, LookupError, TypeError, ValueError, zipfile.BadZipFile, zlib.error) as error:
+    except _UNREADABLE as error:
         raise BrokenError(path) from error
 
 
@@ -158,7 +162,7 @@ def read(path: Path) -> Fields:
             return {name: file[name] for name in file.files}
     except FileNotFoundError:
         raise
-    except (OSError, EOFError, LookupError, TypeError, ValueError, zipfile.BadZipFile, zlib.error) as error:
+    except _UNREADABLE as error:
         raise BrokenError(path) from error
 
 

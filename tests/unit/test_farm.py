@@ -14,7 +14,7 @@ from firetwin.farm.engines import Batch, deadline, known, openjd
 from firetwin.farm.engines.slurm import arrays
 from firetwin.farm.entries import Entry
 from firetwin.farm.plan import Job, Task
-from firetwin.farm.private import Private, intact
+from firetwin.farm.private import PrivateFolder, verified_entries
 from firetwin.render import fingerprint
 from firetwin.render.picture import Picture
 from firetwin.render.store import Store, describe
@@ -250,7 +250,7 @@ def test_of_attempts_at_once_either_file_counts(film):
     render(out, made_with, 1, [1])
     assert len(assemble.check(plan.read(out), out, made_with)[0]) == 1
     known = [each for found in entries.attempts(out, 1) for each in found.entries]
-    assert len(intact(known, out, made_with)) == len(Picture("drone", 1, "rgb").files())
+    assert len(verified_entries(known, out, made_with)) == len(Picture("drone", 1, "rgb").files())
 
 
 def test_a_task_publishes_what_it_made_and_keeps_what_was_whole(film, tmp_path_factory):
@@ -259,8 +259,8 @@ def test_a_task_publishes_what_it_made_and_keeps_what_was_whole(film, tmp_path_f
     place = tmp_path_factory.mktemp("private")
     known = [each for found in entries.attempts(out, 1) for each in found.entries]
     with entries.attempt(out, 1) as log:
-        private = Private(place, out, log)
-        private.seed(intact(known, out, made_with), made_with)
+        private = PrivateFolder(place, out, log)
+        private.seed(verified_entries(known, out, made_with), made_with)
         private.publish()
         assert len(log.path.read_text().splitlines()) == 1  # nothing new
         with Store(place) as store:

@@ -16,7 +16,10 @@ Array = NDArray[np.float64]
 
 
 def fractal(position: Array, size: float, octaves: int, roughness: float) -> Array:
-    """Fractal noise (n,) 0..1 at points (n, 3), m: equals `Grain.noise` where pixels are small."""
+    """Fractal noise (n,) 0..1 at points (n, 3), m.
+
+    It equals `band_limited_noise.Grain.noise` where pixels are small.
+    """
     total, weight, whole = np.zeros(len(position)), 1.0, 0.0
     for octave in range(octaves + 1):
         total += weight * _SCALE * terrain.perlin_in_space(position * (2.0**octave / size))

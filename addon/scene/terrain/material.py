@@ -36,7 +36,7 @@ def build(
 ) -> bpy.types.Material:
     """Build "Firetwin Ground" from the images of fields, coloured by these orthophotos.
 
-    `maps` are the user's land use by `land_use.LAYERS`.
+    `maps` are the user's land use by `shot.terrain.land_use.LAYERS`.
     """
     material, tree = nodes.material("Firetwin Ground", (0.30, 0.26, 0.17))
     biome = biomes.choose(shot)

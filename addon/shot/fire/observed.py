@@ -38,7 +38,7 @@ _STEP = 20.0  # m between points, so that lines follow the terrain
 class DrapedLine:
     """A closed line: points (n, 3) in the scene (m), and model times (s) of its start, fade and end.
 
-    `kind` is one of `heat.KINDS`; it is "" for perimeters and satellite pixels.
+    `kind` is one of `infrared_detections.KINDS`; it is "" for perimeters and satellite pixels.
     """
 
     points: NDArray[np.float64]

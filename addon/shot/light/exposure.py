@@ -22,7 +22,8 @@ from . import exposure_meter, sky
 
 _KEYS = 13  # frames of a shot at most that are metered
 _DAY, _CLEAR = 0.5, 0.19  # stops at the reference, a clear afternoon with this log-average luminance
-_ADAPTATION = 0.6, 0.3  # part of the stops followed below and above that: white smoke is to be white; by eye
+# Fractions of the stops that exposure follows, below and above that: white smoke is to be white; by eye.
+_ADAPTATION_DARK, _ADAPTATION_BRIGHT = 0.6, 0.3
 _WHITE = 0.55  # largest display luminance of the brightest tenth of the glow; above, AgX desaturates it
 _AMID = 0.1  # largest mean of the glow over the picture: flames and trees must show in glowing smoke; by eye
 _LEAST, _MOST = -3.0, 4.0  # stops
@@ -93,7 +94,7 @@ def _stops(luminance: Array, glow: Array) -> float:
     """Stops for these luminances (n,) and the glow (n,) of flame-lit smoke among them."""
     mean = np.log2(np.maximum(luminance, 1.0e-4)).mean()
     below = np.log2(_CLEAR) - mean
-    wanted = _DAY + _ADAPTATION[0] * max(below, 0.0) + _ADAPTATION[1] * min(below, 0.0)
+    wanted = _DAY + _ADAPTATION_DARK * max(below, 0.0) + _ADAPTATION_BRIGHT * min(below, 0.0)
     bright = np.sort(glow)[-max(len(glow) // 10, 1) :].mean()
     most = min(_WHITE / max(bright, 1.0e-6), _AMID / max(glow.mean(), 1.0e-6))
     return float(np.clip(min(wanted, np.log2(most)), _LEAST, _MOST))

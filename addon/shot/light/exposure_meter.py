@@ -38,7 +38,7 @@ _BLOCK, _FIRES = 600.0, 80  # m, size within which heat is one fire, at 15 km; f
 # s, age of smoke parcels, for a fire of 15 km.
 _TIMES = np.array([30.0, 90.0, 180.0, 300.0, 480.0, 720.0, 1080.0, 1600.0])
 _HIDES, _FRONT = 0.3, 1.5  # optical depth from which a parcel occludes; radii from its front to its centre
-_THROUGH = 0.5  # fraction of smoke's optical depth that attenuates its light: `smoke.flow_material`
+_THROUGH = 0.5  # fraction of smoke's optical depth that attenuates its light: `scene.smoke.flow_material`
 _TOP = 3500.0  # m above the fire, upper limit of plume rise
 _BRIGGS = 1.6, 0.7 * constants.BUOYANCY_FLUX  # rise is 1.6 F^(1/3) x^(2/3) / u; 0.7 of the heat is convected
 # m2/J: 4 m2/g of smoke, which is a fiftieth of the fuel.
