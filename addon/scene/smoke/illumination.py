@@ -23,7 +23,7 @@ _TABLE = 180.0, 360.0, 0.5  # K, of the air; and step of the radiance table's te
 def material(stage: Stage) -> bpy.types.Material | None:
     """Material of the scene's smoke."""
     objects = stage.root.all_objects
-    volumes = [thing.data for thing in objects if thing.type == "VOLUME" and ours(thing)]
+    volumes = [obj.data for obj in objects if obj.type == "VOLUME" and ours(obj)]
     return next((each.materials[0] for each in volumes if len(each.materials) and each.materials[0]), None)
 
 

@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
     """Build "Firetwin Roofs"; None where the map has no buildings."""
     known = land_use.read_map(shot)
-    houses = [feature for feature in known.things if feature.kind == "building"] if known else []
+    houses = [feature for feature in known.features if feature.kind == "building"] if known else []
     points: list[Array] = []
     faces: list[tuple[int, ...]] = []
     colours: list[tuple[float, float, float]] = []

@@ -4,9 +4,9 @@ The picture has the camera's size, and at least 720 rows for legibility. Depth h
 frame of a shot; temperatures have those of the thermal pass. Sensors on the camera's mount supply what it
 does not record itself (see `shot.cameras.mount`). All panels are registered: a point has the same position
 in each. A sensor with a smaller field of view fills its part of the panel and is outlined in the visible
-picture. The map is the picture of a minimap that follows the camera; else relief and canopy of the run are drawn, north
-up, around the camera. Over either are drawn the front, the burned area (the last half hour in orange), the
-camera, its path and field of view.
+picture. The map is the picture of a minimap that follows the camera; else relief and canopy of the run are
+drawn, north up, around the camera. Over either are drawn the front, the burned area (the last half hour in
+orange), the camera, its path and field of view.
 """
 
 from __future__ import annotations

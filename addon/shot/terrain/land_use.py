@@ -111,7 +111,7 @@ _WIDTHS = {  # m, by highway or waterway
 
 
 @dataclass(frozen=True)
-class Thing:
+class MappedFeature:
     """A map feature in scene coordinates.
 
     Attributes
@@ -142,7 +142,7 @@ class Thing:
 class Map:
     """Land use map in scene coordinates: features, and the corners (2,) of its extent, m."""
 
-    things: tuple[Thing, ...]
+    features: tuple[MappedFeature, ...]
     low: Array
     high: Array
 
@@ -208,7 +208,7 @@ def pictures(shot: ShotView) -> dict[str, list[OrthophotoImage]]:
     if shot not in _PICTURES:
         frames = _frames(shot, known)
         layers = [
-            layer for layer in LAYERS if any(KINDS[feature.kind].layer == layer for feature in known.things)
+            layer for layer in LAYERS if any(KINDS[feature.kind].layer == layer for feature in known.features)
         ]
         _PICTURES[shot] = {
             layer: [_drawn(shot, known, layer, *frame) for frame in frames] for layer in layers
@@ -269,27 +269,29 @@ def _placed(shot: ShotView, known: list[tuple[str, Feature]]) -> Map:
     def scene(ring: Array) -> Array:
         return shot.bare_ground.point(ring[:, 1], ring[:, 0])[:, :2]
 
-    things = []
+    features = []
     for number, (kind, each) in enumerate(known):
         words = {key.lower(): str(value).lower() for key, value in each.properties.items()}
-        told = feature.finite(words.get("width", "").removesuffix("m"))
+        width = feature.finite(words.get("width", "").removesuffix("m"))
         usual = _WIDTHS.get(words.get("highway", words.get("waterway", "")), KINDS[kind].width)
         levels = feature.finite(words.get("building:levels"))
         height = feature.finite(words.get("height", "").removesuffix("m"))
-        things.append(
-            Thing(
+        features.append(
+            MappedFeature(
                 kind,
                 tuple(tuple(map(scene, polygon)) for polygon in each.polygons),
                 tuple(map(scene, each.lines)),
-                min(told or usual, 200.0),
+                min(width or usual, 200.0),
                 min(height or (levels or 0.0) * _STOREY or _ROOF, 400.0),
                 number,
             )
         )
     order = list(KINDS)
-    things.sort(key=lambda thing: order.index(thing.kind))
-    every = np.concatenate([ring for t in things for ring in (*(p[0] for p in t.polygons), *t.lines)])
-    return Map(tuple(things), every.min(axis=0), every.max(axis=0))
+    features.sort(key=lambda item: order.index(item.kind))
+    every = np.concatenate(
+        [ring for item in features for ring in (*(p[0] for p in item.polygons), *item.lines)]
+    )
+    return Map(tuple(features), every.min(axis=0), every.max(axis=0))
 
 
 def _frames(shot: ShotView, known: Map) -> list[tuple[Array, Array]]:
@@ -311,7 +313,7 @@ def _drawn(shot: ShotView, known: Map, layer: str, low: Array, high: Array) -> O
     size = np.clip(np.ceil((high - low) / _FINEST), 2, _LARGEST).astype(int)
     pixel = (high - low) / size
     pixels = np.zeros((size[1], size[0], 4), np.uint8)
-    for mapped in known.things:
+    for mapped in known.features:
         kind = KINDS[mapped.kind]
         if kind.layer != layer:
             continue
@@ -328,7 +330,9 @@ def _drawn(shot: ShotView, known: Map, layer: str, low: Array, high: Array) -> O
     return OrthophotoImage(low, high, pixels)
 
 
-def _covers(feature: Thing, low: Array, pixel: Array, shape: tuple[int, int]) -> list[rasterize.Covered]:
+def _covers(
+    feature: MappedFeature, low: Array, pixel: Array, shape: tuple[int, int]
+) -> list[rasterize.Covered]:
     found = [
         rasterize.filled([(ring - low) / pixel for ring in polygon], shape) for polygon in feature.polygons
     ]
