@@ -163,3 +163,13 @@ def test_any_scene_file_saved_over_any_other_reads_back(before, after):
     assert kept[0] == "0"  # its layout was kept
     assert kept == known or before.cameras or before.runs
     assert toml_update.updated(found, after) == found
+
+
+@pytest.mark.parametrize("cull", [False, True])
+def test_former_names_give_way_to_present_ones_in_their_places(cull):
+    text = "# Ours\n[ground]\napron = 7000.0 # far\n[render]\nskip = false # for comparison\n"
+    found = read(text)
+    wanted = dataclasses.replace(found, render=dataclasses.replace(found.render, cull=cull))
+    expected = text.replace("[ground]", "[terrain]").replace("skip = false", f"cull = {str(cull).lower()}")
+    assert toml_update.updated(text, wanted) == expected
+    assert read(expected).notes == ()

@@ -20,8 +20,8 @@ from tomlkit.items import AoT
 from ... import files
 from ...errors import Error
 from .scene_file import parse, text
-from .settings import FORMER, Settings
-from .toml_positions import Path, tables
+from .settings import FORMER, FORMER_KEYS, Settings
+from .toml_positions import Path, places, tables
 
 Values = dict[str, Any]
 
@@ -75,9 +75,17 @@ def _values(there: str, whole: Settings) -> Values:
 
 
 def _with_current_names(there: str) -> str:
+    """The text with the present names of sections and keys that have former ones."""
     for former, now in FORMER.items():
         there = re.sub(rf"(?m)^(\s*\[\s*){former}(?=\s*[\].])", rf"\g<1>{now}", there)
-    return there
+    tomllib.loads(there)  # positions are those of a valid text
+    lines, positions = there.split("\n"), places(there)
+    for (section, former), now in FORMER_KEYS.items():
+        line, column = positions.get((section, former), (1, 1))
+        before, key = lines[line - 1][: column - 1], lines[line - 1][column - 1 :]
+        if key.startswith(former):
+            lines[line - 1] = before + now + key.removeprefix(former)
+    return "\n".join(lines)
 
 
 def _written(there: str, fresh: str, whole: Settings) -> str:
