@@ -19,6 +19,7 @@ from ..shot.shot import Shot
 from . import entries, plan, task
 from .entries import Entry
 from .plan import Job
+from .private import verified_entries
 
 NOT_MADE, DAMAGED, OTHER = "not rendered", "not what was rendered", "of other settings"
 
@@ -60,18 +61,17 @@ def check(job: Job, out: Path, made_with: Fingerprints) -> tuple[list[list[Entry
     The entries of each whole picture, and why each other one is missing.
     """
     known = entries.by_path(entries.attempts(out))
+    every = (entry for made in known.values() for entry in made)
+    verified = {entry.path: entry for entry in verified_entries(every, out, made_with)}
     keys = {pair: content.fingerprint(values) for pair, values in made_with.items()}
     whole: list[list[Entry]] = []
     lost: dict[Picture, str] = {}
     for picture in (each for part in job.tasks for each in job.pictures(part)):
-        key = keys[picture.camera, picture.name]
-        found = [known.get(path, []) for path in picture.files()]
-        right = [next((e for e in made if e.fingerprint == key and e.whole(out)), None) for made in found]
-        made = [each for each in right if each is not None]
-        if len(made) == len(right):
-            whole.append(made)
+        paths = picture.files()
+        if lacking := [path for path in paths if path not in verified]:
+            lost[picture] = _why(known.get(lacking[0], []), out, keys[picture.camera, picture.name])
         else:
-            lost[picture] = _why(found[right.index(None)], out, key)
+            whole.append([verified[path] for path in paths])
     return whole, lost
 
 

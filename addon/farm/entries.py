@@ -140,7 +140,7 @@ def attempt(out: Path, number: int) -> Iterator[Log]:
     log = Log(_folder(out) / f"{number:05d}-{leases.new_owner()}.jsonl")
     try:
         log.write({"began": time.time(), "host": socket.gethostname()})
-        with leases.signs(HEARTBEAT, log.heartbeat):
+        with leases.heartbeats(HEARTBEAT, log.heartbeat):
             yield log
     finally:
         log.close()
