@@ -1,10 +1,13 @@
 """Leases: mutual exclusion and work sharing between processes, also of several machines.
 
-- `alone`: a lock for one piece of work at a time. It is SQLite's lock of an empty database, which all systems
-support and which ends with the process in any case. - `Claims`: leases on pieces of work, for processes of
-several machines, in a database in the shared folder. An owner sends heartbeats. Without one for `PATIENCE`
-seconds its leases expire. Heartbeats are counters without dates, as clocks differ; the waiting process
-measures the seconds. - `signs`: heartbeats from a thread.
+`lock` is a lock for one piece of work at a time. It is SQLite's lock of an empty database, which all systems
+support and which ends with the process in any case.
+
+`Leases` are leases on pieces of work, for processes of several machines, in a database in the shared folder.
+An owner sends heartbeats. Without one for `PATIENCE` seconds its leases expire. Heartbeats are counters
+without dates, as clocks differ; the waiting process measures the seconds.
+
+`heartbeats` calls a function from a thread, periodically.
 """
 
 from __future__ import annotations
@@ -21,20 +24,20 @@ from pathlib import Path
 from .database import Database
 from .errors import Error, writing
 
-BEAT = 3.0  # s between heartbeats of an owner
+HEARTBEAT = 3.0  # s between heartbeats of an owner
 PATIENCE = 16.0  # s without a heartbeat after which leases expire
 TABLES = """
 CREATE TABLE owners (owner TEXT PRIMARY KEY, beat INTEGER);
 CREATE TABLE claims (name TEXT PRIMARY KEY, owner TEXT);
 """
-"""Tables of the database that holds `Claims`."""
+"""Tables of the database that holds `Leases`."""
 
-_LOOK = 0.5  # s between polls of a waiting process
+_POLL_INTERVAL = 0.5  # s between polls of a waiting process
 _PART = ".part-"
 
 
 @contextlib.contextmanager
-def signs(every: float, give: Callable[[], None]) -> Iterator[None]:
+def heartbeats(every: float, give: Callable[[], None]) -> Iterator[None]:
     """Call `give` from a thread every so many seconds; a failed call is repeated at the next one."""
     over = threading.Event()
 
@@ -53,7 +56,7 @@ def signs(every: float, give: Callable[[], None]) -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def alone(path: Path, done: Callable[[], bool], wait: Callable[[], None]) -> Iterator[bool]:
+def lock(path: Path, done: Callable[[], bool], wait: Callable[[], None]) -> Iterator[bool]:
     """Lock the file `path`; False, without the lock, if the work is done while another process has it.
 
     On a file system without locks all processes proceed: the work is done twice with the same result.
@@ -74,7 +77,7 @@ def alone(path: Path, done: Callable[[], bool], wait: Callable[[], None]) -> Ite
         mine = _lock(database)
         while not mine and not done():
             wait()
-            time.sleep(_LOOK)
+            time.sleep(_POLL_INTERVAL)
             mine = _lock(database)
         yield mine
 
@@ -88,7 +91,7 @@ def _lock(database: sqlite3.Connection) -> bool:
     return True
 
 
-class Claims:
+class Leases:
     """Leases of one process, the `owner`; a thread sends heartbeats until it is closed.
 
     Parameters
@@ -103,9 +106,9 @@ class Claims:
         _beat(data, owner)
         sweep(data)
         self._life = contextlib.ExitStack()
-        self._life.enter_context(signs(BEAT, self._send_heartbeat))
+        self._life.enter_context(heartbeats(HEARTBEAT, self._send_heartbeat))
 
-    def __enter__(self) -> Claims:
+    def __enter__(self) -> Leases:
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -17,7 +17,7 @@ from typing import Any
 
 from .. import leases
 from ..errors import input_error
-from ..leases import Claims, new_owner
+from ..leases import Leases, new_owner
 from ..progress import MessageCallback, count, duration, no_message
 from ..run.content import fingerprint
 from . import plan
@@ -49,7 +49,7 @@ class RenderSession:
     """
 
     store: Store
-    leases: Claims
+    leases: Leases
     made_with: Fingerprints
     after: int = 0
     since: int = 0
@@ -139,7 +139,7 @@ def open_session(
     asked: Collection[Picture] = (),
 ) -> Iterator[RenderSession]:
     """Open a render session in an output folder; creates the store where it is missing."""
-    with Store(out, create=True) as store, Claims(store.data, owner or new_owner()) as held:
+    with Store(out, create=True) as store, Leases(store.data, owner or new_owner()) as held:
         yield RenderSession(store, held, made_with, after, since, frozenset(asked))
 
 

@@ -77,7 +77,7 @@ def in_use(*folders: Path) -> Iterator[None]:
     for folder in folders:
         with writing(folder):
             os.utime(folder)
-    with leases.signs(_HEARTBEAT, sign):
+    with leases.heartbeats(_HEARTBEAT, sign):
         yield
 
 

@@ -106,7 +106,7 @@ class Flow:
                 if self.stop.is_set():
                     raise IntegratorStoppedError
 
-            with leases.alone(folder / "state.lock", lambda: self.has(frame), wait) as mine:
+            with leases.lock(folder / "state.lock", lambda: self.has(frame), wait) as mine:
                 if mine and not self.has(frame):
                     if self._integrator is None or self._integrator.frame >= frame:
                         self._integrator = Integrator(self.shot, self.domains, self.stop, frame)

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from firetwin import leases
 from firetwin.database import Database
-from firetwin.leases import Claims
+from firetwin.leases import Leases
 from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
@@ -20,7 +20,7 @@ HOLD = """
 import sys, time
 from pathlib import Path
 from firetwin import leases
-with leases.alone(Path(sys.argv[1]), lambda: False, lambda: None) as mine:
+with leases.lock(Path(sys.argv[1]), lambda: False, lambda: None) as mine:
     print(mine, flush=True)
     time.sleep(600)
 """
@@ -40,7 +40,7 @@ def holder(tmp_path):
 
 
 def test_what_a_killed_process_held_is_free(holder, monkeypatch):
-    monkeypatch.setattr(leases, "_LOOK", 0.01)
+    monkeypatch.setattr(leases, "_POLL_INTERVAL", 0.01)
     process, path = holder
     looks = []
 
@@ -49,31 +49,31 @@ def test_what_a_killed_process_held_is_free(holder, monkeypatch):
         process.kill()
         process.wait()
 
-    with leases.alone(path, lambda: False, wait) as mine:
+    with leases.lock(path, lambda: False, wait) as mine:
         assert mine
     assert looks[0] is None
 
 
 def test_who_waits_ends_when_the_work_is_done_or_it_was_stopped(holder, monkeypatch):
-    monkeypatch.setattr(leases, "_LOOK", 0.01)
+    monkeypatch.setattr(leases, "_POLL_INTERVAL", 0.01)
     _, path = holder
     done = iter([False, False, True])
-    with leases.alone(path, lambda: next(done), lambda: None) as mine:
+    with leases.lock(path, lambda: next(done), lambda: None) as mine:
         assert not mine
 
     def stop():
         raise KeyboardInterrupt
 
-    with pytest.raises(KeyboardInterrupt), leases.alone(path, lambda: False, stop):
+    with pytest.raises(KeyboardInterrupt), leases.lock(path, lambda: False, stop):
         pass
 
 
 def test_threads_of_one_process_are_alone_too(tmp_path, monkeypatch):
-    monkeypatch.setattr(leases, "_LOOK", 0.001)
+    monkeypatch.setattr(leases, "_POLL_INTERVAL", 0.001)
     inside, most = [], []
 
     def work():
-        with leases.alone(tmp_path / "lock", lambda: False, lambda: None):
+        with leases.lock(tmp_path / "lock", lambda: False, lambda: None):
             inside.append(1)
             most.append(len(inside))
             time.sleep(0.01)
@@ -89,7 +89,7 @@ def test_threads_of_one_process_are_alone_too(tmp_path, monkeypatch):
 
 def test_where_nothing_can_be_locked_everybody_works(tmp_path):
     (tmp_path / "lock").write_bytes(b"no database" * 100)
-    with leases.alone(tmp_path / "lock", lambda: False, lambda: None) as mine:
+    with leases.lock(tmp_path / "lock", lambda: False, lambda: None) as mine:
         assert mine
 
 
@@ -102,7 +102,7 @@ def test_a_sign_that_fails_is_followed_by_others():
             enough.set()
         raise OSError("the folder is gone")
 
-    with leases.signs(0.001, give):
+    with leases.heartbeats(0.001, give):
         assert enough.wait(10.0)
     after = len(given)
     time.sleep(0.01)
@@ -110,8 +110,8 @@ def test_a_sign_that_fails_is_followed_by_others():
 
 
 def test_what_one_claims_another_cannot(tmp_path):
-    with opened(tmp_path) as made, Claims(made, "a") as a:
-        with Claims(made, "b") as b:
+    with opened(tmp_path) as made, Leases(made, "a") as a:
+        with Leases(made, "b") as b:
             assert a.take("frame 1")
             assert not b.take("frame 1")
             assert b.take("frame 2")
@@ -124,11 +124,11 @@ def test_what_one_claims_another_cannot(tmp_path):
 
 
 def test_the_claims_of_who_gives_no_sign_of_life_are_taken_over(tmp_path, monkeypatch):
-    monkeypatch.setattr(leases, "BEAT", 0.05)
+    monkeypatch.setattr(leases, "HEARTBEAT", 0.05)
     monkeypatch.setattr(leases, "PATIENCE", 0.5)
-    with opened(tmp_path) as made, Claims(made, "living") as living, Claims(made, "me") as me:
+    with opened(tmp_path) as made, Leases(made, "living") as living, Leases(made, "me") as me:
         assert living.take("frame 1")
-        dead = Claims(made, "dead")
+        dead = Leases(made, "dead")
         with dead.part_folder():
             assert dead.take("frame 2")
             dead._life.close()  # as a kill, a crash or a pulled plug would
@@ -142,12 +142,12 @@ def test_the_claims_of_who_gives_no_sign_of_life_are_taken_over(tmp_path, monkey
 
 
 def test_files_in_the_making_are_cleared_away(tmp_path):
-    with opened(tmp_path) as made, Claims(made, "alive"):
+    with opened(tmp_path) as made, Leases(made, "alive"):
         left = tmp_path / ".part-gone"
         left.mkdir()
         alive = tmp_path / ".part-alive"
         alive.mkdir()
-        with Claims(made, "me") as me, me.part_folder() as folder:
+        with Leases(made, "me") as me, me.part_folder() as folder:
             assert folder.is_dir()
             (folder / "x").write_text("x")
             assert [path for path in (left, folder, alive) if path.exists()] == [folder, alive]
@@ -164,7 +164,7 @@ class Sharing(RuleBasedStateMachine):
         super().__init__()
         self.folder = tempfile.TemporaryDirectory()
         self.data = Database(Path(self.folder.name) / "work.sqlite", leases.TABLES, create=True)
-        self.claims = {owner: Claims(self.data, owner) for owner in "abc"}
+        self.claims = {owner: Leases(self.data, owner) for owner in "abc"}
         self.held = {}
 
     @rule(owner=owners, name=names)

@@ -49,7 +49,7 @@ class SingleVolume(Source):
         time = float(self.times[frame - 1])
         more: dict[str, Any] = {
             "grids": None if self.shot.settings.smoke.complete else SHOWN,
-            "views": self.sight(frame),
+            "views": self.view_set(frame),
             "metadata": self.metadata(time, self.made_from),
         }
         position, power = self.lights(time)

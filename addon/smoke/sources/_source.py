@@ -167,7 +167,7 @@ class Source(ABC):
         """Visibility for culling (see `visibility.Visibility`); None if all smoke is wanted."""
         return None if self.shot.settings.smoke.complete else self.shot.visibility
 
-    def sight(self, frame: int) -> lod.ViewSet | None:
+    def view_set(self, frame: int) -> lod.ViewSet | None:
         """View set of a frame for culling; None if all smoke is wanted."""
         return self.visibility.view_set(frame) if self.visibility else None
 

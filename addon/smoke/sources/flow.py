@@ -100,7 +100,7 @@ class FlowSource(Source):
         for painter in self.painters:
             place = painter.layer.file(path.parent, frame)
             mine = files.part_of(place)
-            what = mine, frame, self._glow(time), self.sight(frame), metadata, eyes, beyond
+            what = mine, frame, self._glow(time), self.view_set(frame), metadata, eyes, beyond
             with writing(place):
                 written, beyond = self._unbroken(frame, functools.partial(painter.write, *what))
             cache.publish(mine, place, written.bytes)
@@ -115,7 +115,7 @@ class FlowSource(Source):
     def bricks(self, frame: int) -> list[volume.Bricks]:
         """Bricks of a frame for ray marching, without a file."""
         self.flow.ready(frame)
-        what = (frame, self._glow(float(self.times[frame - 1])), self.sight(frame))
+        what = (frame, self._glow(float(self.times[frame - 1])), self.view_set(frame))
         result: list[volume.Bricks] = []
         beyond: flow_frames.Beyond | None = None
         painters = list(self.painters)
