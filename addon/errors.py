@@ -8,24 +8,88 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from os import PathLike, strerror
 from pathlib import Path
+from typing import Any
 
 from firetwin_core import Error, InputError
 
-__all__ = ["FULL", "Error", "InputError", "UsageError", "disk_is_full", "input_error", "no_room", "writing"]
+__all__ = [
+    "FULL",
+    "Error",
+    "FullDiskError",
+    "InputError",
+    "TryAgainError",
+    "UnavailableError",
+    "UsageError",
+    "disk_is_full",
+    "full_disk_error",
+    "input_error",
+    "is_worth_another_try",
+    "no_room",
+    "plain",
+    "restored",
+    "writing",
+]
 
 FULL = "the disk is full; free some room or choose another place, then run it again: what is finished is kept"
 _LITTLE = 1 << 22  # bytes
 _NO_ROOM = (errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC))
 
 
-def input_error(path: str | PathLike[str], line: int, column: int, reason: str) -> InputError:
+class TryAgainError(Error):
+    """This machine cannot do now what is asked for; the same may succeed later or elsewhere."""
+
+
+class UnavailableError(InputError, TryAgainError):
+    """The same, with the place of what asks for it: a file, line and column."""
+
+
+class FullDiskError(UnavailableError):
+    """A file cannot be written because the disk is full."""
+
+
+def input_error(
+    path: str | PathLike[str], line: int, column: int, reason: str, kind: type[InputError] = InputError
+) -> InputError:
     """InputError at 1-based `line` and `column` (0: none), in the format of the core's messages."""
     place = str(path)
     if line > 0:
         place += f":{line}" + (f":{column}" if column > 0 else "")
-    error = InputError(f"{place}: {reason}")
+    error = kind(f"{place}: {reason}")
     error.path, error.line, error.column, error.reason = str(path), line, column, reason
     return error
+
+
+def full_disk_error(path: str | PathLike[str]) -> InputError:
+    """FullDiskError of a file."""
+    return input_error(path, 0, 0, FULL, FullDiskError)
+
+
+def plain(error: Error) -> dict[str, Any]:
+    """An error as JSON carries it to another process; `restored` is the reverse."""
+    kind = next(name for each in type(error).__mro__ if (name := each.__name__) in _KINDS)
+    if isinstance(error, InputError):
+        return {"kind": kind, "place": [error.path, error.line, error.column, error.reason]}
+    return {"kind": kind, "text": " ".join(str(error).split())}
+
+
+def restored(found: dict[str, Any], more: str = "") -> Error:
+    """An error of another process.
+
+    Parameters
+    ----------
+    more
+        To append to the message of an error without a place.
+    """
+    kind = _KINDS[found["kind"]]
+    if "place" in found:
+        path, line, column, reason = found["place"]
+        return input_error(path, line, column, reason, kind)
+    return kind(found["text"] + more)
+
+
+_KINDS: dict[str, Any] = {
+    kind.__name__: kind for kind in (FullDiskError, UnavailableError, InputError, TryAgainError, Error)
+}
 
 
 @contextmanager
@@ -35,26 +99,40 @@ def writing(path: str | PathLike[str]) -> Iterator[None]:
     Raises
     ------
     InputError
-        Replaces an OSError, and the core's own error of a full disk.
+        Replaces an OSError.
+    FullDiskError
+        Replaces those of a full disk, also the core's own.
     """
     try:
         yield
     except OSError as error:
-        reason = FULL if disk_is_full(error) else f"cannot be written ({_words(error)}); choose another place"
+        if disk_is_full(error):
+            raise full_disk_error(path) from error
+        reason = f"cannot be written ({_words(error)}); choose another place"
         raise input_error(path, 0, 0, reason) from error
+    except FullDiskError:
+        raise
     except Error as error:
         silent = "cannot be written" in str(error) and no_room(Path(path))
-        if (silent or disk_is_full(error)) and FULL not in str(error):
-            raise input_error(path, 0, 0, FULL) from error
+        if silent or disk_is_full(error):
+            raise full_disk_error(path) from error
         raise
 
 
 def disk_is_full(error: BaseException) -> bool:
     """Whether an error of Python, NumPy, the core or SQLite means that the disk is full."""
+    if isinstance(error, FullDiskError):
+        return True
     if isinstance(error, OSError) and error.errno is not None:
         return error.errno in _NO_ROOM
     text = str(error)
     return any(words in text for words in (strerror(errno.ENOSPC), "disk is full", " requested and "))
+
+
+def is_worth_another_try(error: BaseException) -> bool:
+    """Whether the same may succeed later or on another machine."""
+    full = isinstance(error, OSError) and error.errno in _NO_ROOM
+    return full or isinstance(error, TryAgainError)
 
 
 def no_room(path: Path) -> bool:

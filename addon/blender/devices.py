@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..errors import Error
+from ..errors import TryAgainError
 
 KINDS = ("OPTIX", "CUDA", "HIP", "ONEAPI", "METAL")  # ordered by speed
 _NAMES = {"OPTIX": "OptiX", "CUDA": "CUDA", "HIP": "HIP", "ONEAPI": "oneAPI", "METAL": "Metal"}
@@ -21,13 +21,13 @@ def take(wanted: str, scene: bpy.types.Scene) -> str:
 
     Raises
     ------
-    Error
+    TryAgainError
         A GPU is requested and there is none.
     """
     kind, names = ("NONE", []) if wanted == "cpu" else _gpus()
     if wanted == "gpu" and not names:
         tried = ", ".join(_NAMES.values())
-        raise Error(
+        raise TryAgainError(
             f'device = "gpu", but Cycles finds no GPU here (tried {tried}); set it to "auto" or "cpu"'
         )
     scene.cycles.device = "GPU" if names else "CPU"

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from ..errors import FULL, Error, InputError, UsageError, disk_is_full
+from ..errors import Error, InputError, UsageError, is_worth_another_try
 from ..jobs import render, solve, worker
 from ..progress import Progress, say
 from ..render import fingerprint
@@ -24,7 +24,6 @@ from .private import PrivateFolder, verified_entries
 
 WRONG, AGAIN, TERMINATED = 2, 75, 128 + signal.SIGTERM
 """Exit status: the input is wrong; try again (EX_TEMPFAIL: device or disk); ended by SIGTERM."""
-NO_DEVICE = "Cycles finds no GPU"
 
 
 def run(out: Path, numbers: list[int], scene: str = "") -> None:
@@ -73,8 +72,7 @@ def status_of(error: BaseException) -> int:
     """Exit status for what ended a task."""
     if isinstance(error, SystemExit):
         return int(error.code or 0)
-    text = str(error)
-    if FULL in text or NO_DEVICE in text or disk_is_full(error):
+    if is_worth_another_try(error):
         return AGAIN
     return WRONG if isinstance(error, UsageError | InputError) else 1
 

@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 
 from .. import files
-from ..errors import FULL, disk_is_full, input_error, no_room
+from ..errors import disk_is_full, full_disk_error, input_error, no_room
 from ..progress import READING, MessageCallback, Progress, no_message, notify_if_slow, silent
 from ..shot import camera_warnings
 from ..shot.source import ShotSource
@@ -92,8 +92,10 @@ def save(out: Path, **how: bool) -> None:
         bpy.ops.wm.save_as_mainfile(filepath=str(part), compress=True, **how)
         files.publish(part, out)
     except RuntimeError as error:
+        if disk_is_full(error) or no_room(out):
+            raise full_disk_error(out) from None
         reason = f"cannot be written: {' '.join(str(error).split())}"
-        raise input_error(out, 0, 0, FULL if disk_is_full(error) or no_room(out) else reason) from None
+        raise input_error(out, 0, 0, reason) from None
     finally:
         with contextlib.suppress(OSError):
             part.unlink(missing_ok=True)

@@ -237,7 +237,7 @@ def _check_device(shot: Shot) -> None:
     import bpy
 
     from ..blender import devices
-    from ..errors import Error
+    from ..errors import TryAgainError, UnavailableError, input_error
     from ..shot.settings import scene_file
 
     render, path = shot.settings.render, shot.settings.path
@@ -245,10 +245,11 @@ def _check_device(shot: Shot) -> None:
         return
     try:
         devices.take(render.device, bpy.context.scene)
-    except Error as error:
-        if path.is_file():
-            raise scene_file.error_at(path, ("render", "device"), str(error)) from None
-        raise
+    except TryAgainError as error:
+        if not path.is_file():
+            raise
+        at = scene_file.error_at(path, ("render", "device"), str(error))
+        raise input_error(at.path, at.line, at.column, at.reason, UnavailableError) from None
 
 
 def frames_of(pictures: list[Any]) -> int:

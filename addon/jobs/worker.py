@@ -19,10 +19,13 @@ import tempfile
 import threading
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .. import memory
 from ..progress import MessageCallback, Progress, duration, no_message, silent
+
+if TYPE_CHECKING:
+    from ..errors import Error
 
 _signs: list[Callable[[], None]] = []
 
@@ -94,7 +97,7 @@ def run(
     Raises
     ------
     InputError, Error
-        An error that the function raised, or an Error that describes how the process ended.
+        An error that the function raised, of the same kind, or an Error that describes how the process ended.
     StoppedError
         `stop` was used.
     EndedError
@@ -128,21 +131,19 @@ def run(
     if stop is not None and stop.asked:
         forget()
         raise StoppedError
-    from ..errors import Error, input_error
+    from ..errors import Error, restored
 
-    if "input_error" in answer:
+    found, log_at = answer.get("error"), f" (the log of Blender is {log.name})" if blender else ""
+    if found and ("place" in found or not blender):
         forget()
-        raise input_error(*answer["input_error"])
+    if found:
+        raise restored(found, log_at)
     if not blender:
         forget()
-        if "error" in answer:
-            raise Error(answer["error"])
         if watch.over:
             raise EndedError(f"made no progress for {duration(patience)} and was ended")
         raise EndedError(_stopped(child.returncode))
-    if "error" in answer:
-        raise Error(f"{answer['error']} (the log of Blender is {log.name})")
-    raise Error(f"{_ending(child.returncode, eevee)} (the log of Blender is {log.name})")
+    raise Error(f"{_ending(child.returncode, eevee)}{log_at}")
 
 
 def _end_on_sigterm() -> None:
@@ -292,7 +293,7 @@ def serve(blender: bool = True) -> None:
     if blender:
         import bpy  # noqa: F401 (before the core: the first of two libtbb.so.12 wins, and it must be Blender's)
 
-    from ..errors import Error, InputError
+    from ..errors import InputError, plain
 
     module, _, function = request["task"].partition(":")
     try:
@@ -303,20 +304,29 @@ def serve(blender: bool = True) -> None:
             **request["arguments"],
         )
     except InputError as error:
-        answer(input_error=[error.path, error.line, error.column, error.reason])
+        answer(error=plain(error))
     except Exception as error:
         import traceback
 
         traceback.print_exc()
-        if isinstance(error, OSError) and isinstance(error.filename, str) and error.strerror:
-            answer(input_error=[error.filename, 0, 0, error.strerror])
-            os._exit(0)
-        text = str(error) if isinstance(error, Error | OSError) else f"{type(error).__name__}: {error}"
-        answer(error=" ".join(text.split()))
+        answer(error=plain(_of_ours(error)))
     else:
         answer(result=result)
     sys.stderr.flush()
     os._exit(0)  # Blender as a module may crash while the interpreter shuts down
+
+
+def _of_ours(error: Exception) -> Error:
+    """An error as one of ours."""
+    from ..errors import Error, TryAgainError, full_disk_error, input_error, is_worth_another_try
+
+    if isinstance(error, Error):
+        return error
+    again = is_worth_another_try(error)
+    if isinstance(error, OSError) and isinstance(error.filename, str) and error.strerror:
+        return full_disk_error(error.filename) if again else input_error(error.filename, 0, 0, error.strerror)
+    text = str(error) if isinstance(error, OSError) else f"{type(error).__name__}: {error}"
+    return TryAgainError(text) if again else Error(text)
 
 
 def sign() -> None:

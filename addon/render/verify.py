@@ -8,7 +8,7 @@ from pathlib import Path
 
 from firetwin_core import sensor
 
-from ..errors import FULL, Error, input_error, no_room
+from ..errors import Error, full_disk_error, input_error, no_room
 
 _PNG_END = b"\0\0\0\0IEND\xaeB`\x82"
 
@@ -72,6 +72,6 @@ def _end(path: Path, count: int) -> bytes:
 
 
 def _damaged(path: Path, reason: str) -> Exception:
-    return input_error(
-        path, 0, 0, FULL if no_room(path) else f"{reason}; Blender left it damaged, so render it again"
-    )
+    if no_room(path):
+        return full_disk_error(path)
+    return input_error(path, 0, 0, f"{reason}; Blender left it damaged, so render it again")

@@ -18,7 +18,17 @@ import numpy as np
 import pytest
 from firetwin import files
 from firetwin.data import sample
-from firetwin.errors import FULL, InputError, disk_is_full, no_room, writing
+from firetwin.errors import (
+    FULL,
+    FullDiskError,
+    InputError,
+    TryAgainError,
+    UnavailableError,
+    disk_is_full,
+    is_worth_another_try,
+    no_room,
+    writing,
+)
 from firetwin.jobs import worker
 from firetwin.render import png, verify
 from firetwin.render.store import NAME, Store
@@ -331,3 +341,44 @@ sys.modules["fcntl"] = None
 import firetwin.render.store, firetwin.leases, firetwin.jobs.render, firetwin.smoke.bake
 """
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
+
+
+RAISING = """
+from firetwin.errors import Error, TryAgainError, UnavailableError, full_disk_error, input_error
+
+
+def work(what, **_):
+    raise {
+        "full": full_disk_error("a.png"),
+        "room": OSError(28, "No space left on device", "b.png"),
+        "nameless": OSError(28, "No space left on device"),
+        "other": OSError(5, "Input/output error", "c.png"),
+        "device": TryAgainError("no GPU"),
+        "asked": input_error("scene.toml", 3, 4, "no GPU", UnavailableError),
+        "wrong": input_error("scene.toml", 3, 4, "the disk is full, says a name"),
+        "plain": Error("stopped"),
+        "bug": ValueError("odd"),
+    }[what]
+"""
+
+
+def test_errors_cross_processes_with_their_kind(tmp_path, monkeypatch):
+    (tmp_path / "raising.py").write_text(RAISING)
+    path = os.pathsep.join(filter(None, [str(tmp_path), os.environ.get("PYTHONPATH")]))
+    monkeypatch.setenv("PYTHONPATH", path)
+    expected = {
+        "full": (FullDiskError, f"a.png: {FULL}", True),
+        "room": (FullDiskError, f"b.png: {FULL}", True),
+        "nameless": (TryAgainError, "[Errno 28] No space left on device", True),
+        "other": (InputError, "c.png: Input/output error", False),
+        "device": (TryAgainError, "no GPU", True),
+        "asked": (UnavailableError, "scene.toml:3:4: no GPU", True),
+        "wrong": (InputError, "scene.toml:3:4: the disk is full, says a name", False),
+        "plain": (Error, "stopped", False),
+        "bug": (Error, "ValueError: odd", False),
+    }
+    for what, (kind, text, again) in expected.items():
+        with pytest.raises(Error) as caught:
+            worker.run("raising:work", {"what": what}, blender=False)
+        assert (type(caught.value), str(caught.value)) == (kind, text)
+        assert is_worth_another_try(caught.value) == again
