@@ -69,6 +69,12 @@ class Engine(ABC):
         return place(out) / self.name
 
 
-def python() -> list[str]:
-    """The command that runs this Firetwin."""
-    return [sys.executable, "-m", __package__.partition(".")[0]]
+def find_command() -> list[str]:
+    """The command that runs this Firetwin: by Python, or by Blender's executable if it runs there.
+
+    In Blender's executable Firetwin is an extension, a module of which no Python outside knows.
+    """
+    blender = sys.modules["bpy"].app.binary_path if "bpy" in sys.modules else ""
+    if blender:
+        return [blender, "--background", "--disable-autoexec", "--command", "firetwin"]
+    return [sys.executable, "-m", __package__.removesuffix(".farm.engines")]

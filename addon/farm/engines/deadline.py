@@ -9,7 +9,7 @@ from ... import files
 from ...errors import UsageError
 from ..plan import FILE, place
 from . import openjd
-from ._engine import Batch, Engine
+from ._engine import Batch, Engine, find_command
 
 _TRIES = 3
 
@@ -23,7 +23,8 @@ class Deadline(Engine):
     def write(self, batch: Batch) -> list[str]:
         """Write the bundle."""
         folder = self.folder(batch.out)
-        values = openjd.paths(batch) | {"Python": "python", "deadline:maxRetriesPerTask": _TRIES}
+        program = "python" if find_command()[1] == "-m" else "blender"  # those of the workers
+        values = openjd.paths(batch) | {"Program": program, "deadline:maxRetriesPerTask": _TRIES}
         texts = {
             "template.json": openjd.template(batch),
             "parameter_values.json": {

@@ -10,7 +10,7 @@ from ... import files
 from ...errors import UsageError
 from ...shot.settings import frame_list
 from ..plan import FILE, place
-from ._engine import Batch, Engine, python
+from ._engine import Batch, Engine, find_command
 
 _GRACE = 60  # s from the notice to a task until it is ended for certain
 _CHUNK_SECONDS = 600  # an engine that may, gives tasks one after the other to a command for so long
@@ -27,7 +27,7 @@ class OpenJD(Engine):
         folder = self.folder(batch.out)
         path, values = folder / "template.json", folder / "parameters.json"
         files.write_text(path, json.dumps(template(batch), indent=1) + "\n")
-        files.write_text(values, json.dumps(paths(batch) | {"Python": python()[0]}, indent=1) + "\n")
+        files.write_text(values, json.dumps(paths(batch) | {"Program": find_command()[0]}, indent=1) + "\n")
         return ["openjd", "run", str(path), "--job-param", f"file://{values}", *batch.options]
 
     def cancel(self, out: Path) -> list[str]:
@@ -42,7 +42,7 @@ def paths(batch: Batch) -> dict[str, str]:
 
 def template(batch: Batch) -> dict[str, Any]:
     """A job template of specification jobtemplate-2023-09 with TASK_CHUNKING."""
-    _, *arguments = python()
+    _, *arguments = find_command()
     steps: list[dict[str, Any]] = []
     for stage in ("bake", "render"):
         if numbers := batch.stage(stage):
@@ -58,7 +58,7 @@ def template(batch: Batch) -> dict[str, Any]:
             _path("Out", "DIRECTORY", "OUT"),
             _path("Job", "FILE", "IN"),
             _path("Scene", "FILE", "IN"),
-            {"name": "Python", "type": "STRING", "default": "python"},
+            {"name": "Program", "type": "STRING", "default": "python"},
         ],
         "steps": steps,
     }
@@ -71,7 +71,7 @@ def _path(name: str, kind: str, flow: str) -> dict[str, str]:
 def _step(name: str, command: list[str], last: list[str], before: list[str]) -> dict[str, Any]:
     """A step that runs a command of ours; the scene file is where the engine has mapped it to."""
     action = {
-        "command": "{{Param.Python}}",
+        "command": "{{Param.Program}}",
         "args": [*command, "--scene", "{{Param.Scene}}", "{{Param.Out}}", *last],
         "cancelation": {"mode": "NOTIFY_THEN_TERMINATE", "notifyPeriodInSeconds": _GRACE},
     }

@@ -11,26 +11,22 @@ from pathlib import Path
 from ... import files
 from ...errors import UsageError
 from ...shot.settings import frame_list
-from ._engine import Batch, Engine, python
+from . import _shell
+from ._engine import Batch, Engine, find_command
 
 LARGEST = 1001  # Slurm's own MaxArraySize: indices are below it
 _WARNING = 120  # s before the time limit at which a task is told to end
 _TRIES = 3  # how often a task is put into the queue again
 
-_TASK = """\
+_TASK = (
+    """\
 #!/bin/bash
 # Runs task BASE + SLURM_ARRAY_TASK_ID of the job: sbatch --array=... {name} BASE
-child=
-forward() {{ [ -z "$child" ] || kill -TERM "$child" 2>/dev/null; }}
-trap forward TERM
-{command} farm task {out} $(($1 + ${{SLURM_ARRAY_TASK_ID:-0}})) &
-child=$!
-wait "$child"
+"""
+    + _shell.RUN
+    + """\
+run {command} farm task {out} $(($1 + ${{SLURM_ARRAY_TASK_ID:-0}}))
 status=$?
-while kill -0 "$child" 2>/dev/null; do # a signal ends wait, not the child
-  wait "$child"
-  status=$?
-done
 # 75: no device or disk now; 143: the time limit is near. A task that was cancelled is not RUNNING any more.
 if [[ $status = 75 || $status = 143 ]] && [ "${{SLURM_RESTART_COUNT:-0}}" -lt {tries} ] &&
   [ "$(squeue -h -j "$SLURM_JOB_ID" -o %T)" = RUNNING ]; then
@@ -38,6 +34,7 @@ if [[ $status = 75 || $status = 143 ]] && [ "${{SLURM_RESTART_COUNT:-0}}" -lt {t
 fi
 exit "$status"
 """
+)
 
 _ASSEMBLE = """\
 #!/bin/bash
@@ -48,6 +45,7 @@ _SUBMIT = """\
 #!/bin/bash
 # Submits the job; options of sbatch that follow are for all of it.
 set -euo pipefail
+shopt -s inherit_errexit
 options=({options} "$@")
 ids={ids}
 : >"$ids"
@@ -81,7 +79,7 @@ class Slurm(Engine):
         names = {
             name: shlex.quote(str(folder / name)) for name in ("task.sh", "assemble.sh", "jobs.txt", "log")
         }
-        about = {"command": shlex.join(python()), "out": shlex.quote(str(batch.out)), "tries": _TRIES}
+        about = {"command": shlex.join(find_command()), "out": shlex.quote(str(batch.out)), "tries": _TRIES}
         files.write_text(folder / "task.sh", _TASK.format(name="task.sh", **about))
         files.write_text(folder / "assemble.sh", _ASSEMBLE.format(**about))
         submit = _SUBMIT.format(
