@@ -17,6 +17,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 PACKAGES = ("slurmctld", "slurmd", "slurm-client", "slurm-wlm-basic-plugins", "libmunge2")
+PBS_PACKAGES = ("slurm-wlm-torque", "libslurm-perl", "libslurmdb-perl", "libslurm38", "libswitch-perl")
 ROOT = Path(__file__).parents[2] / "build" / "slurm"
 NODES = ("n0", "n1")
 _CONFIGURATION = """\
@@ -62,18 +63,27 @@ class UnavailableError(Exception):
 def unpacked() -> Path:
     """The folder with the packages' files; they are downloaded by apt if they are not there."""
     tree = ROOT / "root"
-    if (tree / "usr/sbin/slurmctld-wlm").exists():
-        return tree
+    if not (tree / "usr/sbin/slurmctld-wlm").exists():
+        _unpack(tree, PACKAGES)
+    return tree
+
+
+def unpack_pbs() -> None:
+    """Have Slurm's own qsub, qdel and their like beside its commands, as `unpacked`."""
+    if not (unpacked() / "usr/bin/qsub").exists():
+        _unpack(unpacked(), PBS_PACKAGES)
+
+
+def _unpack(tree: Path, packages: tuple[str, ...]) -> None:
     if not shutil.which("apt-get") or not shutil.which("dpkg-deb"):
         raise UnavailableError("Slurm comes from Debian packages, and there is no apt-get here")
-    debs = ROOT / "debs"
+    debs = ROOT / packages[0]
     debs.mkdir(parents=True, exist_ok=True)
-    found = subprocess.run(["apt-get", "download", *PACKAGES], cwd=debs, capture_output=True, text=True)
+    found = subprocess.run(["apt-get", "download", *packages], cwd=debs, capture_output=True, text=True)
     if found.returncode:
         raise UnavailableError(f"apt-get download: {found.stderr.strip().splitlines()[-1]}")
     for deb in debs.glob("*.deb"):
         subprocess.run(["dpkg-deb", "-x", deb, tree], check=True)
-    return tree
 
 
 class Slurm:
@@ -103,6 +113,7 @@ class Slurm:
             "SLURM_CONF": str(folder / "slurm.conf"),
             "LD_LIBRARY_PATH": f"{libraries}:{libraries.parent}",
             "PATH": f"{tree / 'usr/bin'}:{os.environ['PATH']}",
+            "PERL5LIB": ":".join(map(str, [*tree.glob("usr/lib/*/perl5/*"), tree / "usr/share/perl5"])),
         }
         self._running: dict[str, subprocess.Popen[bytes]] = {}
 

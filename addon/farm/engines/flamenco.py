@@ -1,0 +1,111 @@
+"""Flamenco 3: a job type, which compiles a job to tasks on the Manager, and its settings."""
+
+from __future__ import annotations
+
+import json
+import platform
+import shlex
+from pathlib import Path
+
+from ... import files
+from ...errors import UsageError
+from ...shot.settings import frame_list
+from ._engine import Batch, Engine, find_command
+
+MANAGER = "http://localhost:8080"
+
+JOB_TYPE = """\
+// Flamenco job type of all Firetwin films: belongs into the folder "scripts" beside flamenco-manager.
+const JOB_TYPE = {
+  label: "Firetwin film",
+  settings: [
+    { key: "command", type: "string", required: true, description: "Command of Firetwin, a JSON list" },
+    { key: "out", type: "string", required: true, description: "Folder of the film" },
+    { key: "bakes", type: "string", default: "", description: "Numbers of the tasks that solve smoke" },
+    { key: "renders", type: "string", default: "", description: "Numbers of the tasks that render" },
+  ],
+};
+
+function compileJob(job) {
+  const [exe, ...first] = JSON.parse(job.settings.command);
+
+  function addTask(name, type, last, before) {
+    const task = author.Task(name, type);
+    task.addCommand(author.Command("exec", { exe: exe, args: first.concat(["farm"], last) }));
+    before.forEach((each) => task.addDependency(each));
+    job.addTask(task);
+    return task;
+  }
+
+  function addStage(stage, numbers, before) {
+    const listed = numbers ? frameChunker(numbers, 1) : [];
+    return listed.map((number) =>
+      addTask(stage + "-" + number, "blender", ["task", job.settings.out, number], before));
+  }
+
+  const bakes = addStage("bake", job.settings.bakes, []);
+  const renders = addStage("render", job.settings.renders, bakes);
+  addTask("assemble", "misc", ["assemble", job.settings.out], bakes.concat(renders));
+}
+"""
+
+_SUBMIT = """\
+#!/bin/bash
+# Submits the job to a Flamenco Manager: submit.sh [ADDRESS [OPTIONS OF CURL]]
+set -euo pipefail
+cd {folder}
+manager=${{1:-{manager}}}
+call() {{ curl -fsS "${{@:2}}" "$manager/api/v3/jobs$1"; }}
+if ! call /type/firetwin -o job_type.json "${{@:2}}"; then
+  echo "$manager: no job type of Firetwin there; copy $PWD/firetwin.js into the Manager's folder scripts" >&2
+  exit 1
+fi
+call "" -H 'Content-Type: application/json' --data @job.json -o submitted.json "${{@:2}}"
+id=$(grep -o '"id": *"[^"]*"' submitted.json | head -n 1 | cut -d '"' -f 4)
+echo "$manager/api/v3/jobs/$id" >jobs.txt
+echo "submitted Flamenco job $id"
+"""
+
+
+class Flamenco(Engine):
+    """A job type that is the same for all films, and the numbers of the tasks as its settings."""
+
+    name = "flamenco"
+    help = "Flamenco 3: a job type, and curl to its Manager"
+
+    def write(self, batch: Batch) -> list[str]:
+        """Write the job type, the job and a script that submits it."""
+        folder = self.folder(batch.out)
+        files.write_text(folder / "firetwin.js", JOB_TYPE)
+        files.write_text(folder / "job.json", json.dumps(_job(batch), indent=1) + "\n")
+        submit = _SUBMIT.format(folder=shlex.quote(str(folder)), manager=MANAGER)
+        files.write_text(folder / "submit.sh", submit)
+        return ["bash", str(folder / "submit.sh"), *batch.options]
+
+    def cancel(self, out: Path) -> list[str]:
+        """Cancel the job that was submitted last."""
+        jobs = self.folder(out) / "jobs.txt"
+        if not jobs.exists():
+            raise UsageError(f"{out}: nothing was submitted to Flamenco from here")
+        asked = json.dumps({"status": "cancel-requested", "reason": "firetwin farm cancel"})
+        address = f"{jobs.read_text('utf-8').strip()}/setstatus"
+        return ["curl", "-fsS", "-H", "Content-Type: application/json", "--data", asked, address]
+
+
+def _job(batch: Batch) -> dict[str, object]:
+    """A job as the Manager's API takes it."""
+    return {
+        "name": f"Firetwin {Path(batch.job.scene).stem}",
+        "type": "firetwin",
+        "priority": 50,
+        "submitter_platform": platform.system().lower(),
+        "settings": {
+            "command": json.dumps(find_command()),
+            "out": str(batch.out),
+            "bakes": frame_list.write(batch.stage("bake")),
+            "renders": frame_list.write(batch.stage("render")),
+        },
+    }
+
+
+ENGINE = Flamenco

@@ -1,0 +1,110 @@
+"""HTCondor: a DAG with a node for each task, whose final node assembles whatever became of the others."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterable
+from pathlib import Path
+
+from ... import files
+from ...errors import UsageError
+from ._engine import Batch, Engine, find_command
+
+_TRIES = 3  # how often a task is put into the queue again that has no device or disk
+_GRACE = 60  # s from SIGTERM to SIGKILL
+
+_DESCRIPTION = """\
+universe = vanilla
+executable = {executable}
+arguments = {arguments}
+transfer_executable = false
+should_transfer_files = NO
+kill_sig = SIGTERM
+job_max_vacate_time = {grace}
+log = log/nodes.log
+output = log/{name}.out
+error = log/{name}.out
+batch_name = firetwin
+{more}
+queue
+"""
+
+_RETRY = """\
+max_retries = {tries}
+retry_until = ExitCode =!= 75
+"""
+
+_SUBMIT = """\
+#!/bin/bash
+# Submits the job; options of condor_submit_dag that follow are for the DAG.
+set -euo pipefail
+cd {folder}
+condor_submit_dag -force {options} "$@" film.dag | tee submitted.txt
+grep -o 'submitted to cluster [0-9]*' submitted.txt | grep -o '[0-9]*$' >jobs.txt
+"""
+
+
+class HTCondor(Engine):
+    """Bake before render by PARENT and CHILD, and a FINAL node."""
+
+    name = "htcondor"
+    help = "HTCondor: condor_submit_dag with a node for each task"
+
+    def write(self, batch: Batch) -> list[str]:
+        """Write the DAG, the descriptions of its nodes and a script that submits it."""
+        folder = self.folder(batch.out)
+        (folder / "log").mkdir(parents=True, exist_ok=True)
+        lines = [each for each in batch.options if "=" in each and not each.startswith("-")]
+        options = [each for each in batch.options if each not in lines]
+        out, retry = str(batch.out), _RETRY.format(tries=_TRIES).splitlines()
+        task = _describe("$(stage)-$(number)", ["task", out, "$(number)"], [*retry, *lines])
+        files.write_text(folder / "task.sub", task)
+        files.write_text(folder / "assemble.sub", _describe("assemble", ["assemble", out], lines))
+        files.write_text(folder / "film.dag", _write_dag(batch))
+        submit = _SUBMIT.format(folder=shlex.quote(str(folder)), options=shlex.join(options))
+        files.write_text(folder / "submit.sh", submit)
+        return ["bash", str(folder / "submit.sh")]
+
+    def cancel(self, out: Path) -> list[str]:
+        """Remove the DAG that was submitted last, and so its nodes."""
+        jobs = self.folder(out) / "jobs.txt"
+        found = jobs.read_text("utf-8").split() if jobs.exists() else []
+        if not found:
+            raise UsageError(f"{out}: nothing was submitted to HTCondor from here")
+        return ["condor_rm", *found]
+
+
+def _describe(name: str, last: list[str], more: Iterable[str]) -> str:
+    """The description of nodes."""
+    program, *first = find_command()
+    macros = {"$(number)"}
+    arguments = " ".join(each if each in macros else _quote(each) for each in [*first, "farm", *last])
+    return _DESCRIPTION.format(
+        executable=program.replace("$", "$(DOLLAR)"),
+        arguments=f'"{arguments}"',
+        grace=_GRACE,
+        name=name,
+        more="\n".join(more),
+    )
+
+
+def _quote(text: str) -> str:
+    """An argument as HTCondor's double-quoted lists have it."""
+    text = text.replace('"', '""').replace("'", "''").replace("$", "$(DOLLAR)")
+    return f"'{text}'"
+
+
+def _write_dag(batch: Batch) -> str:
+    """A node t1, t2, ... for each task, and the edges from bakes to renders."""
+    stages = {stage: batch.stage(stage) for stage in ("bake", "render")}
+    lines = []
+    for stage, numbers in stages.items():
+        for number in numbers:
+            lines += [f"JOB t{number} task.sub", f'VARS t{number} stage="{stage}" number="{number}"']
+    before, after = (" ".join(f"t{number}" for number in stages[stage]) for stage in stages)
+    if before and after:
+        lines.append(f"PARENT {before} CHILD {after}")
+    return "\n".join([*lines, "FINAL assemble assemble.sub"]) + "\n"
+
+
+ENGINE = HTCondor

@@ -1,0 +1,60 @@
+"""A film by HTCondor's DAGMan on a pool of this machine: that of one process, also if it was removed."""
+
+import shlex
+import shutil
+import subprocess
+
+import pytest
+from farm_film import firetwin, pictures, rendered, until, without
+from personal_condor import Condor, UnavailableError, prepare
+
+
+@pytest.fixture(scope="module")
+def condor():
+    try:
+        prepare()
+    except UnavailableError as error:
+        pytest.skip(str(error))
+    with Condor() as found:
+        yield found
+
+
+def test_a_film_by_dagman_is_that_of_one_process(condor, film):
+    path, one = film
+    out = condor.films / "the film's out"
+    about = "--engine", "htcondor", "--out", out, "--chunk", 2, "--submit"
+    firetwin("farm", path, *about, "--", "request_memory = 900", environment=condor.environment)
+    condor.wait()
+    said = {each.name: each.read_text() for each in (out / "farm" / "htcondor" / "log").glob("*.out")}
+    assert set(said) == {f"render-{number}.out" for number in range(1, 5)} | {"assemble.out"}
+    assert (out / "manifest.json").exists(), said
+    assert pictures(out) == pictures(one)
+    assert len(rendered(out)) == len(set(rendered(out))) == 21
+
+
+def test_a_removed_job_is_resumed_with_what_is_missing(condor, film, tasks, tmp_path):
+    out = condor.films / "removed"
+    shutil.move(without(tasks, tmp_path / "out", 2, 3), out)
+    (out / "farm" / "submitted.json").write_text('{"engine": "htcondor", "options": []}')
+    firetwin("farm", "resume", out, environment=condor.environment)
+    until(lambda: any(out.glob("farm/entries/0000[23]-*.jsonl")))
+    firetwin("farm", "cancel", out, environment=condor.environment)
+    condor.wait()
+    assert any(state in firetwin("farm", "status", out) for state in ("1 failed", "2 failed", "1 waiting"))
+    firetwin("farm", "resume", out, environment=condor.environment)
+    condor.wait()
+    assert pictures(out) == pictures(film[1])
+    assert len(rendered(out)) == len(set(rendered(out))) == 21
+
+
+def test_a_task_with_wrong_input_runs_once_and_the_final_node_still_runs(condor, film, tasks, tmp_path):
+    out = condor.films / "wrong"
+    shutil.move(without(tasks, tmp_path / "out", 3), out)
+    command = firetwin("farm", film[0], "--engine", "htcondor", "--out", out, "--chunk", 2)
+    dag = out / "farm" / "htcondor" / "film.dag"
+    dag.write_text(dag.read_text().replace('number="3"', 'number="99"'))
+    subprocess.run(shlex.split(command), env=condor.environment, check=True)
+    condor.wait()
+    log = out / "farm" / "htcondor" / "log"
+    assert (log / "render-99.out").read_text().count("there is no task 99") == 1
+    assert "not rendered" in (log / "assemble.out").read_text()

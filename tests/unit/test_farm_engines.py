@@ -1,0 +1,183 @@
+"""What engines write of a job: graph, quoting, limits, and what is submitted again. No engine is asked."""
+
+import ast
+import json
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+from firetwin.errors import UsageError
+from firetwin.farm.engines import _engine, known, pbs
+from small_job import BAKES, RENDERS, batch, write
+
+FARM = [sys.executable, "-m", "firetwin", "farm"]
+RECORD = """\
+#!{python}
+import json, sys
+from pathlib import Path
+log = Path({log!r})
+calls = log.read_text().splitlines() if log.exists() else []
+print({says!r}.format(len(calls) + 1))
+log.write_text("\\n".join([*calls, json.dumps(sys.argv)]) + "\\n")
+"""
+
+
+@pytest.fixture
+def asked(tmp_path, monkeypatch):
+    """Commands that record how they are called: asked(what they say, names...) -> a function that tells."""
+
+    def make(says, *names):
+        place, log = tmp_path / "bin", tmp_path / "calls.txt"
+        place.mkdir()
+        for name in names:
+            text = RECORD.format(python=sys.executable, log=str(log), says=says)
+            (place / name).write_text(text)
+            (place / name).chmod(0o755)
+        monkeypatch.setenv("PATH", f"{place}:/usr/bin:/bin")
+        return lambda: [
+            [Path(each[0]).name, *each[1:]] for each in map(json.loads, log.read_text().splitlines())
+        ]
+
+    return make
+
+
+def test_inside_of_blender_its_executable_runs_tasks(monkeypatch):
+    blender = SimpleNamespace(app=SimpleNamespace(binary_path=""))  # as a module
+    monkeypatch.setitem(sys.modules, "bpy", blender)
+    assert _engine.find_command() == [sys.executable, "-m", "firetwin"]
+    blender.app.binary_path = "/opt/blender"
+    program, *options, last = _engine.find_command()
+    assert (program, options[-1], last) == ("/opt/blender", "--command", "firetwin")
+
+
+def test_workers_of_deadline_run_their_own_blender_or_python(monkeypatch, tmp_path):
+    for path, program, first in (("", "python", "-m"), ("/opt/blender", "blender", "--background")):
+        bpy = SimpleNamespace(app=SimpleNamespace(binary_path=path))
+        monkeypatch.setitem(sys.modules, "bpy", bpy)
+        folder, _ = write("deadline", batch(tmp_path))
+        values = json.loads((folder / "parameter_values.json").read_text())["parameterValues"]
+        assert {"name": "Program", "value": program} in values
+        step = json.loads((folder / "template.json").read_text())["steps"][0]
+        assert step["script"]["actions"]["onRun"]["args"][0] == first
+
+
+@pytest.mark.parametrize("name", known())
+def test_what_was_never_submitted_is_not_cancelled(name, tmp_path):
+    with pytest.raises(UsageError):
+        known()[name]().cancel(tmp_path)
+
+
+def test_pbs_has_an_array_for_each_stage_and_holds_the_first(tmp_path, asked):
+    calls = asked("{}[].server", "qsub", "qrls")
+    folder, command = write("pbs", batch(tmp_path, options=("-A", "the project")))
+    subprocess.run(command, check=True)
+    common = ["qsub", "-r", "y", "-j", "oe", "-A", "the project"]
+    assert calls() == [
+        [*common, "-h", "-J", "0-1", "-N", "firetwin-bake", "bake-1.sh"],
+        [*common, "-W", "depend=afterok:1[].server", "-J", "0-4", "-N", "firetwin-render", "render-1.sh"],
+        [*common, "-W", "depend=afterany:1[].server:2[].server", "-N", "firetwin-film", "assemble.sh"],
+        ["qrls", "1[].server"],
+    ]
+    assert (folder / "jobs.txt").read_text().split() == ["1[].server", "2[].server", "3[].server"]
+
+
+def test_pbs_submits_what_is_missing_and_splits_at_its_limit(tmp_path, asked, monkeypatch):
+    calls = asked("{}[].server", "qsub", "qrls")
+    monkeypatch.setattr(pbs, "find_largest", lambda: 2)
+    subprocess.run(write("pbs", batch(tmp_path, (3, 5, 6)))[1], check=True)
+    common = ["-r", "y", "-j", "oe"]
+    assert [each[1:] for each in calls()] == [
+        [*common, "-h", "-J", "0-1", "-N", "firetwin-render", "render-1.sh"],
+        [*common, "-h", "-N", "firetwin-render", "render-2.sh"],  # an array of one is none
+        [*common, "-W", "depend=afterany:1[].server:2[].server", "-N", "firetwin-film", "assemble.sh"],
+        ["1[].server", "2[].server"],
+    ]
+
+
+def test_a_submission_that_fails_ends_the_script(tmp_path, monkeypatch):
+    (tmp_path / "qsub").write_text("#!/bin/sh\nexit 3\n")
+    (tmp_path / "qsub").chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
+    assert subprocess.run(write("pbs", batch(tmp_path))[1]).returncode == 3
+
+
+def test_pbs_tasks_run_the_number_at_their_index(tmp_path, monkeypatch):
+    program = tmp_path / "firetwin"
+    program.write_text(
+        f"#!{sys.executable}\nimport sys\nprint(sys.argv[1:])\nsys.exit(75 if '5' in sys.argv else 1)\n"
+    )
+    program.chmod(0o755)
+    monkeypatch.setattr(pbs, "find_command", lambda: [str(program)])
+    monkeypatch.setattr(pbs, "_PAUSE", 0)
+    whole = batch(tmp_path, (3, 5, 6))
+    folder, _ = write("pbs", whole)
+    for index, number, status, tries in ((1, 5, 75, 3), (2, 6, 1, 1)):
+        run = ["env", f"PBS_ARRAY_INDEX={index}", "bash", folder / "render-1.sh"]
+        assert subprocess.run(run).returncode == status
+        said = (folder / "log" / f"render-{number}.out").read_text().splitlines()
+        assert said == [str(["farm", "task", str(whole.out), str(number)])] * tries
+
+
+def test_flamenco_has_the_tasks_as_settings(tmp_path, asked):
+    calls = asked('{{"id": "12-ab"}}', "curl")
+    folder, command = write("flamenco", batch(tmp_path, (4, 6, 7), ("http://farm:8080", "-k")))
+    settings = json.loads((folder / "job.json").read_text())["settings"]
+    assert (settings["bakes"], settings["renders"]) == ("", "4,6-7")
+    assert json.loads(settings["command"]) == FARM[:-1]
+    (folder / "submitted.json").write_text('{"activity":"","id":"12-ab","name":"x","tag":{"id":"7"}}')
+    subprocess.run(command, check=True)
+    assert [each[-3:] for each in calls()] == [
+        ["job_type.json", "-k", "http://farm:8080/api/v3/jobs/type/firetwin"],
+        ["submitted.json", "-k", "http://farm:8080/api/v3/jobs"],
+    ]
+    cancel = known()["flamenco"]().cancel(folder.parents[1])
+    assert cancel[-1] == "http://farm:8080/api/v3/jobs/12-ab/setstatus"
+
+
+def test_opencue_has_the_stages_as_layers(tmp_path):
+    whole = batch(tmp_path, (*BAKES, 3, 5))
+    folder, command = write("opencue", whole)
+    assert command == ["python3", str(folder / "launch.py")]
+    lines = (folder / "launch.py").read_text().splitlines()
+    (layers,) = (line for line in lines if line.startswith("LAYERS = "))
+    found = ast.literal_eval(layers.partition("= ")[2].partition("  #")[0])
+    tasks = [*FARM, "task", str(whole.out), "#IFRAME#"]
+    assert [(name, shlex.split(text), frames) for name, text, frames in found] == [
+        ("bake", tasks, "1-2"),
+        ("render", tasks, "3,5"),
+        ("assemble", [*FARM, "assemble", str(whole.out)], "1-1"),
+    ]
+
+
+def dag(folder):
+    """Numbers of the nodes, edges between them and the final node of a DAG."""
+    lines = [shlex.split(line) for line in (folder / "film.dag").read_text().splitlines()]
+    nodes = {line[1]: line[3] for line in lines if line[0] == "VARS"}
+    assert {line[1] for line in lines if line[0] == "JOB"} == set(nodes)
+    edges = set()
+    for line in lines:
+        if line[0] == "PARENT":
+            at = line.index("CHILD")
+            edges |= {(before, after) for before in line[1:at] for after in line[at + 1 :]}
+    return nodes, edges, [line[1:] for line in lines if line[0] == "FINAL"]
+
+
+def test_htcondor_has_a_node_for_each_task(tmp_path):
+    folder, _ = write("htcondor", batch(tmp_path, options=("request_gpus = 1", "-maxjobs", "9")))
+    nodes, edges, final = dag(folder)
+    assert nodes == {f"t{number}": f"number={number}" for number in BAKES + RENDERS}
+    assert edges == {(f"t{before}", f"t{after}") for before in BAKES for after in RENDERS}
+    assert final == [["assemble", "assemble.sub"]]
+    assert "\nrequest_gpus = 1\n" in (folder / "task.sub").read_text()
+    assert " -maxjobs 9 " in (folder / "submit.sh").read_text()
+    nodes, edges, final = dag(write("htcondor", batch(tmp_path, (4, 6)))[0])
+    assert (set(nodes), edges, len(final)) == ({"t4", "t6"}, set(), 1)
+
+
+def test_htcondor_quotes_arguments(tmp_path):
+    folder, _ = write("htcondor", batch(tmp_path))
+    (line,) = (each for each in (folder / "task.sub").read_text().splitlines() if "arguments" in each)
+    assert line.endswith("it''s a $(DOLLAR)(film)' $(number)\"")
