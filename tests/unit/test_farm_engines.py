@@ -1,6 +1,5 @@
 """What engines write of a job: graph, quoting, limits, and what is submitted again. No engine is asked."""
 
-import ast
 import json
 import shlex
 import subprocess
@@ -10,7 +9,7 @@ from types import SimpleNamespace
 
 import pytest
 from firetwin.errors import UsageError
-from firetwin.farm.engines import _engine, known, pbs
+from firetwin.farm.engines import _engine, flamenco, htcondor, known, opencue, pbs
 from small_job import BAKES, RENDERS, batch, write
 
 FARM = [sys.executable, "-m", "firetwin", "farm"]
@@ -133,7 +132,7 @@ def test_flamenco_has_the_tasks_as_settings(tmp_path, asked):
         ["job_type.json", "-k", "http://farm:8080/api/v3/jobs/type/firetwin"],
         ["submitted.json", "-k", "http://farm:8080/api/v3/jobs"],
     ]
-    cancel = known()["flamenco"]().cancel(folder.parents[1])
+    cancel = flamenco.Flamenco().cancel(folder.parents[1])
     assert cancel[-1] == "http://farm:8080/api/v3/jobs/12-ab/setstatus"
 
 
@@ -141,9 +140,8 @@ def test_opencue_has_the_stages_as_layers(tmp_path):
     whole = batch(tmp_path, (*BAKES, 3, 5))
     folder, command = write("opencue", whole)
     assert command == ["python3", str(folder / "launch.py")]
-    lines = (folder / "launch.py").read_text().splitlines()
-    (layers,) = (line for line in lines if line.startswith("LAYERS = "))
-    found = ast.literal_eval(layers.partition("= ")[2].partition("  #")[0])
+    found = opencue.find_layers(whole)
+    assert repr(found) in (folder / "launch.py").read_text()
     tasks = [*FARM, "task", str(whole.out), "#IFRAME#"]
     assert [(name, shlex.split(text), frames) for name, text, frames in found] == [
         ("bake", tasks, "1-2"),
@@ -177,7 +175,11 @@ def test_htcondor_has_a_node_for_each_task(tmp_path):
     assert (set(nodes), edges, len(final)) == ({"t4", "t6"}, set(), 1)
 
 
-def test_htcondor_quotes_arguments(tmp_path):
-    folder, _ = write("htcondor", batch(tmp_path))
-    (line,) = (each for each in (folder / "task.sub").read_text().splitlines() if "arguments" in each)
-    assert line.endswith("it''s a $(DOLLAR)(film)' $(number)\"")
+def test_htcondor_quotes_arguments():
+    quoted = {
+        "plain": "'plain'",
+        "it's a film": "'it''s a film'",
+        'a "b"': '\'a ""b""\'',
+        "$(x)": "'$(DOLLAR)(x)'",
+    }
+    assert {text: htcondor.quote_argument(text) for text in quoted} == quoted

@@ -78,7 +78,7 @@ def _describe(name: str, last: list[str], more: Iterable[str]) -> str:
     """The description of nodes."""
     program, *first = find_command()
     macros = {"$(number)"}
-    arguments = " ".join(each if each in macros else _quote(each) for each in [*first, "farm", *last])
+    arguments = " ".join(each if each in macros else quote_argument(each) for each in [*first, "farm", *last])
     return _DESCRIPTION.format(
         executable=program.replace("$", "$(DOLLAR)"),
         arguments=f'"{arguments}"',
@@ -88,7 +88,7 @@ def _describe(name: str, last: list[str], more: Iterable[str]) -> str:
     )
 
 
-def _quote(text: str) -> str:
+def quote_argument(text: str) -> str:
     """An argument as HTCondor's double-quoted lists have it."""
     text = text.replace('"', '""').replace("'", "''").replace("$", "$(DOLLAR)")
     return f"'{text}'"

@@ -62,7 +62,7 @@ class OpenCue(Engine):
     def write(self, batch: Batch) -> list[str]:
         """Write the script."""
         path = self.folder(batch.out) / "launch.py"
-        about = {"name": _find_name(batch), "layers": _layers(batch), "of_layers": _OF_LAYERS}
+        about = {"name": _find_name(batch), "layers": find_layers(batch), "of_layers": _OF_LAYERS}
         files.write_text(path, _SCRIPT.format(**about))
         return ["python3", str(path), *batch.options]
 
@@ -79,7 +79,7 @@ def _find_name(batch: Batch) -> str:
     return re.sub(r"[^a-z0-9_]+", "_", f"firetwin_{Path(batch.job.scene).stem}".lower())
 
 
-def _layers(batch: Batch) -> list[tuple[str, str, str]]:
+def find_layers(batch: Batch) -> list[tuple[str, str, str]]:
     """Name, command and frames of each layer; a worker's shell reads the command."""
     out = shlex.quote(str(batch.out))
     farm = f"{shlex.join(find_command())} farm"
