@@ -4,10 +4,12 @@ import json
 import shlex
 import subprocess
 import sys
+import time
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from farm_film import until
 from firetwin.errors import UsageError
 from firetwin.farm.engines import _engine, flamenco, htcondor, known, opencue, pbs
 from small_job import BAKES, RENDERS, batch, write
@@ -96,28 +98,50 @@ def test_pbs_submits_what_is_missing_and_splits_at_its_limit(tmp_path, asked, mo
     ]
 
 
-def test_a_submission_that_fails_ends_the_script(tmp_path, monkeypatch):
-    (tmp_path / "qsub").write_text("#!/bin/sh\nexit 3\n")
-    (tmp_path / "qsub").chmod(0o755)
+@pytest.mark.parametrize(("engine", "program"), [("pbs", "qsub"), ("slurm", "sbatch")])
+def test_a_submission_that_fails_is_the_last(engine, program, tmp_path, monkeypatch):
+    calls = tmp_path / "calls.txt"
+    (tmp_path / program).write_text(f"#!/bin/sh\necho called >>'{calls}'\nexit 3\n")
+    (tmp_path / program).chmod(0o755)
     monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
-    assert subprocess.run(write("pbs", batch(tmp_path))[1]).returncode == 3
+    assert subprocess.run(write(engine, batch(tmp_path))[1]).returncode == 3
+    assert calls.read_text() == "called\n"
 
 
-def test_pbs_tasks_run_the_number_at_their_index(tmp_path, monkeypatch):
+@pytest.fixture
+def pbs_script(tmp_path, monkeypatch):
+    """Start a PBS script of tasks 3, 5 and 6, of which 5 ends with 75: pbs_script(pause, index) -> process, log."""
     program = tmp_path / "firetwin"
     program.write_text(
         f"#!{sys.executable}\nimport sys\nprint(sys.argv[1:])\nsys.exit(75 if '5' in sys.argv else 1)\n"
     )
     program.chmod(0o755)
     monkeypatch.setattr(pbs, "find_command", lambda: [str(program)])
-    monkeypatch.setattr(pbs, "_PAUSE", 0)
-    whole = batch(tmp_path, (3, 5, 6))
-    folder, _ = write("pbs", whole)
+
+    def start(pause, index):
+        monkeypatch.setattr(pbs, "_PAUSE", pause)
+        folder, _ = write("pbs", batch(tmp_path, (3, 5, 6)))
+        script = ["env", f"PBS_ARRAY_INDEX={index}", "bash", folder / "render-1.sh"]
+        return subprocess.Popen(script), folder / "log" / f"render-{(3, 5, 6)[index]}.out"
+
+    return start
+
+
+def test_pbs_tasks_run_the_number_at_their_index(tmp_path, pbs_script):
     for index, number, status, tries in ((1, 5, 75, 3), (2, 6, 1, 1)):
-        run = ["env", f"PBS_ARRAY_INDEX={index}", "bash", folder / "render-1.sh"]
-        assert subprocess.run(run).returncode == status
-        said = (folder / "log" / f"render-{number}.out").read_text().splitlines()
-        assert said == [str(["farm", "task", str(whole.out), str(number)])] * tries
+        process, log = pbs_script(0, index)
+        assert process.wait() == status
+        command = ["farm", "task", str(batch(tmp_path).out), str(number)]
+        assert log.read_text().splitlines() == [str(command)] * tries
+
+
+def test_a_pbs_task_that_is_told_to_end_does_not_try_again(pbs_script):
+    process, log = pbs_script(60, 1)
+    until(lambda: log.exists() and log.read_text().count("\n") == 1, 20)
+    time.sleep(0.5)  # into the pause
+    process.terminate()
+    assert process.wait(20) == 75
+    assert log.read_text().count("\n") == 1
 
 
 def test_flamenco_has_the_tasks_as_settings(tmp_path, asked):

@@ -28,8 +28,7 @@ exec >>{logs}/{stage}-"$number".out 2>&1
 for try in {tries}; do # users of PBS may not put a job that runs back into the queue
   run {command} farm task {out} "$number"
   status=$?
-  [[ $status = 75 && $try != {last} && -z $ended ]] || break
-  run sleep {pause}
+  [[ $status = 75 && $try != {last} && -z $ended ]] && run sleep {pause} || break
 done
 exit "$status"
 """

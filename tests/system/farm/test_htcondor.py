@@ -30,6 +30,10 @@ def test_a_film_by_dagman_is_that_of_one_process(condor, film):
     assert (out / "manifest.json").exists(), said
     assert pictures(out) == pictures(one)
     assert len(rendered(out)) == len(set(rendered(out))) == 21
+    (out / "manifest.json").unlink()
+    firetwin("farm", "resume", out, environment=condor.environment)  # nothing but the final node
+    condor.wait()
+    assert pictures(out) == pictures(one)
 
 
 def test_a_removed_job_is_resumed_with_what_is_missing(condor, film, tasks, tmp_path):
@@ -58,3 +62,17 @@ def test_a_task_with_wrong_input_runs_once_and_the_final_node_still_runs(condor,
     log = out / "farm" / "htcondor" / "log"
     assert (log / "render-99.out").read_text().count("there is no task 99") == 1
     assert "not rendered" in (log / "assemble.out").read_text()
+
+
+def test_a_task_without_a_device_is_tried_again(condor, film):
+    out = condor.films / "again"
+    command = firetwin("farm", film[0], "--engine", "htcondor", "--out", out, "--chunk", 99)
+    folder = out / "farm" / "htcondor"
+    lines = (folder / "task.sub").read_text().splitlines()
+    end = """arguments = "'-c' 'import sys; sys.exit(75)'" """
+    text = "\n".join(end if line.startswith("arguments") else line for line in lines)
+    (folder / "task.sub").write_text(text + "\n")
+    subprocess.run(shlex.split(command), env=condor.environment, check=True)
+    condor.wait()
+    log = (folder / "log" / "nodes.log").read_text()
+    assert log.count("Job executing on host") == 2 * 4 + 1  # two tasks, and the final node
