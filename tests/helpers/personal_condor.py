@@ -99,7 +99,11 @@ class Condor:
     """
 
     def __init__(self) -> None:
-        self._place = tempfile.TemporaryDirectory(prefix="condor-", ignore_cleanup_errors=True)
+        self._place = tempfile.TemporaryDirectory(
+            prefix="condor-",
+            dir="/var/tmp",
+            ignore_cleanup_errors=True,  # DAGMan refuses /tmp
+        )
         self.folder = Path(self._place.name)
         self.films = self.folder / "films"
         for name in ("films", "bin", "log", "spool", "execute", "lock"):

@@ -23,7 +23,7 @@ def batch(folder: Path, numbers: tuple[int, ...] = BAKES + RENDERS, options: tup
         tasks=tuple(Task(stage, ("drone",), "1-9") for stage in stages),
         assets=(),
     )
-    return Batch(job, folder / "it's a $(film)", numbers, options)
+    return Batch(job, folder / "it's a film", numbers, options)
 
 
 def write(engine: str, found: Batch) -> tuple[Path, list[str]]:

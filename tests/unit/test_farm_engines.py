@@ -110,7 +110,7 @@ def test_a_submission_that_fails_is_the_last(engine, program, tmp_path, monkeypa
 
 @pytest.fixture
 def pbs_script(tmp_path, monkeypatch):
-    """Start a PBS script of tasks 3, 5 and 6, of which 5 ends with 75: pbs_script(pause, index) -> process, log."""
+    """Start a script of tasks 3, 5 and 6; 5 ends with 75: pbs_script(pause, index) -> process, its log."""
     program = tmp_path / "firetwin"
     program.write_text(
         f"#!{sys.executable}\nimport sys\nprint(sys.argv[1:])\nsys.exit(75 if '5' in sys.argv else 1)\n"
@@ -207,3 +207,8 @@ def test_htcondor_quotes_arguments():
         "$(x)": "'$(DOLLAR)(x)'",
     }
     assert {text: htcondor.quote_argument(text) for text in quoted} == quoted
+
+
+def test_htcondor_refuses_a_folder_that_it_takes_for_a_macro(tmp_path):
+    with pytest.raises(UsageError, match="another --out"):
+        write("htcondor", batch(tmp_path / "$(film)"))

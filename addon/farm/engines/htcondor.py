@@ -51,7 +51,15 @@ class HTCondor(Engine):
     help = "HTCondor: condor_submit_dag with a node for each task"
 
     def write(self, batch: Batch) -> list[str]:
-        """Write the DAG, the descriptions of its nodes and a script that submits it."""
+        """Write the DAG, the descriptions of its nodes and a script that submits it.
+
+        Raises
+        ------
+        UsageError
+            The output folder has a name that HTCondor takes for a macro.
+        """
+        if "$(" in str(batch.out):
+            raise UsageError(f"{batch.out}: HTCondor takes $( for a macro; choose another --out")
         folder = self.folder(batch.out)
         (folder / "log").mkdir(parents=True, exist_ok=True)
         lines = [each for each in batch.options if "=" in each and not each.startswith("-")]

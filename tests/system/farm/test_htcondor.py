@@ -7,6 +7,7 @@ import subprocess
 import pytest
 from farm_film import firetwin, pictures, rendered, until, without
 from personal_condor import Condor, UnavailableError, prepare
+from small_job import batch, write
 
 
 @pytest.fixture(scope="module")
@@ -64,15 +65,14 @@ def test_a_task_with_wrong_input_runs_once_and_the_final_node_still_runs(condor,
     assert "not rendered" in (log / "assemble.out").read_text()
 
 
-def test_a_task_without_a_device_is_tried_again(condor, film):
-    out = condor.films / "again"
-    command = firetwin("farm", film[0], "--engine", "htcondor", "--out", out, "--chunk", 99)
-    folder = out / "farm" / "htcondor"
+def test_a_task_without_a_device_is_tried_again(condor):
+    folder, command = write("htcondor", batch(condor.films))  # bakes, renders, the final node
     lines = (folder / "task.sub").read_text().splitlines()
-    end = """arguments = "'-c' 'import sys; sys.exit(75)'" """
+    end = """arguments = "'-c' 'import sys; sys.exit(75 if $(number) == 2 else 0)'" """
     text = "\n".join(end if line.startswith("arguments") else line for line in lines)
     (folder / "task.sub").write_text(text + "\n")
-    subprocess.run(shlex.split(command), env=condor.environment, check=True)
+    subprocess.run(command, env=condor.environment, check=True)
     condor.wait()
     log = (folder / "log" / "nodes.log").read_text()
-    assert log.count("Job executing on host") == 2 * 4 + 1  # two tasks, and the final node
+    assert log.count("Job executing on host") == 1 + 4 + 1  # no render after a bake that failed
+    assert "no farm job here" in (folder / "log" / "assemble.out").read_text()
