@@ -68,7 +68,7 @@ def test_a_task_with_wrong_input_runs_once_and_the_final_node_still_runs(condor,
 def test_a_task_without_a_device_is_tried_again(condor):
     folder, command = write("htcondor", batch(condor.films))  # bakes, renders, the final node
     lines = (folder / "task.sub").read_text().splitlines()
-    end = """arguments = "'-c' 'import sys; sys.exit(75 if $(number) == 2 else 0)'" """
+    end = """arguments = "'-c' 'import sys; sys.exit(2 if $(number) == 1 else 75)'" """
     text = "\n".join(end if line.startswith("arguments") else line for line in lines)
     (folder / "task.sub").write_text(text + "\n")
     subprocess.run(command, env=condor.environment, check=True)
