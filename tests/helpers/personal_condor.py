@@ -66,9 +66,28 @@ STARTD_NOCLAIM_SHUTDOWN = 0
 _ENTER = """\
 #!/bin/sh
 # Runs {name} as HTCondor's user in the folder, where a film's own folder is at the same path.
-chmod -R a+rwX . 2>/dev/null
+case $PWD in */farm/htcondor) chmod -R a+rwX ../.. ;; esac
 exec nsenter --mount=/proc/{pid}/ns/mnt chroot {tree} setpriv --reuid={user} --regid={user} --clear-groups \\
   env -i -C "$PWD" {environment} {name} "$@"
+"""
+
+
+_STAND_IN = """\
+#!/bin/sh
+# Runs {python} of this machine as root, which alone reads folders of tests, and gives SIGTERM to it.
+outside="/usr/sbin/outside /host /usr/bin/setpriv --reuid=0 --regid=0 --clear-groups"
+$outside /usr/bin/env -C "$PWD" {python} "$@" &
+child=$!
+told=
+trap 'told=1; $outside /bin/kill -TERM "$child"' TERM
+wait "$child"
+status=$?
+while [ "$told" ]; do
+  told=
+  wait "$child"
+  status=$?
+done
+exit "$status"
 """
 
 
@@ -143,8 +162,7 @@ class Condor:
     def _start(self) -> None:
         stand_in = TREE / sys.executable.lstrip("/")
         stand_in.parent.mkdir(parents=True, exist_ok=True)
-        outside = '/usr/sbin/outside /host /usr/bin/env -C "$PWD"'
-        stand_in.write_text(f'#!/bin/sh\nexec {outside} {sys.executable} "$@"\n')
+        stand_in.write_text(_STAND_IN.format(python=sys.executable))
         stand_in.chmod(0o755)
         shutil.copy(TREE / "usr/sbin/chroot", TREE / "usr/sbin/outside")
         (TREE / "usr/sbin/outside").chmod(0o4755)
