@@ -6,6 +6,7 @@ import subprocess
 
 import pytest
 from farm_film import firetwin, pictures, rendered, until, without
+from firetwin.farm.engines import htcondor
 from personal_condor import Condor, UnavailableError, prepare
 from small_job import batch, write
 
@@ -65,14 +66,33 @@ def test_a_task_with_wrong_input_runs_once_and_the_final_node_still_runs(condor,
     assert "not rendered" in (log / "assemble.out").read_text()
 
 
-def test_a_task_without_a_device_is_tried_again(condor):
-    folder, command = write("htcondor", batch(condor.films))  # bakes, renders, the final node
+def stand_in(folder, code):
+    """Have tasks run some Python instead; $(number) in it is theirs."""
     lines = (folder / "task.sub").read_text().splitlines()
-    end = """arguments = "'-c' 'import sys; sys.exit(2 if $(number) == 1 else 75)'" """
+    end = f"""arguments = "'-c' '{code}'" """
     text = "\n".join(end if line.startswith("arguments") else line for line in lines)
     (folder / "task.sub").write_text(text + "\n")
+
+
+def test_a_task_without_a_device_is_tried_again(condor):
+    folder, command = write("htcondor", batch(condor.films))  # bakes, renders, the final node
+    stand_in(folder, "import sys; sys.exit(2 if $(number) == 1 else 75)")
     subprocess.run(command, env=condor.environment, check=True)
     condor.wait()
     log = (folder / "log" / "nodes.log").read_text()
     assert log.count("Job executing on host") == 1 + 4 + 1  # no render after a bake that failed
     assert "no farm job here" in (folder / "log" / "assemble.out").read_text()
+
+
+def test_a_removed_task_is_told_to_end_and_the_final_node_runs(condor):
+    made = batch(condor.films / "told", (1,))
+    folder, command = write("htcondor", made)
+    told = "lambda *_: (print(7 * 191, flush=True), sys.exit(143))"
+    stand_in(folder, f"import signal, sys; signal.signal(15, {told}); print(1, flush=True); signal.pause()")
+    subprocess.run(command, env=condor.environment, check=True)
+    log = folder / "log" / "bake-1.out"
+    until(lambda: log.exists() and log.read_text() == "1\n")
+    subprocess.run(htcondor.HTCondor().cancel(made.out), env=condor.environment, check=True)
+    condor.wait()
+    assert log.read_text() == "1\n1337\n"
+    assert (folder / "log" / "assemble.out").exists()
