@@ -43,7 +43,7 @@ def run(
         dataset.write(store)
         store.export()
     if not lost:
-        render.run(choice, render.RenderRequest(out, resume=True), progress, tell)
+        render.run(choice, render.RenderRequest(out, resume=True), progress, tell, shot=shot)
     return lost
 
 

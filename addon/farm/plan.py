@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass
@@ -23,7 +24,7 @@ from . import assets
 
 FOLDER, FILE, CACHE = "farm", "job.json", "cache"
 CHUNK = 24
-"""Frames per task, where a film is built at once."""
+"""Frames per task at most; `docs/pipelines.md` has what tasks cost beside their frames."""
 _FORMAT = 1
 
 
@@ -115,7 +116,7 @@ def make(shot: Shot, scene: Path, size: int = CHUNK) -> Job:
     scene
         Its scene file.
     size
-        Frames per task at least. Where `render.chunk` splits a camera's film, a multiple of it is taken.
+        Frames per task at most.
 
     Raises
     ------
@@ -157,13 +158,27 @@ def chunks(listed: list[int], size: int, built: int) -> list[list[int]]:
     listed
         Frames, ascending.
     size
-        Frames per task.
+        Frames per task at most.
     built
-        Frames that are built together. A task has whole parts of them. 0: all are, and a task has `size`.
+        Frames that are built together; 0: all are. A task has whole parts of them, or frames of one part,
+        which it then builds whole, so that its pictures do not depend on `size`.
     """
-    if not built:
-        return [listed[i : i + size] for i in range(0, len(listed), size)]
-    return list(frames.parts(listed, -(-size // built) * built).values())
+    found: list[list[int]] = []
+    split = True
+    for part in frames.parts(listed, built).values():
+        if not split and len(found[-1]) + len(part) <= size:
+            found[-1] += part
+        else:
+            split = len(part) > size
+            found += _evenly(part, size)
+    return found
+
+
+def _evenly(listed: list[int], size: int) -> Iterator[list[int]]:
+    """As few parts of at most `size` frames as there can be, equally long but for one frame."""
+    count = -(-len(listed) // size)
+    ends = [len(listed) * k // count for k in range(count + 1)]
+    return (listed[i:j] for i, j in itertools.pairwise(ends))
 
 
 def _groups(linked: Iterable[set[str]]) -> list[set[str]]:

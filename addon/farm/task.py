@@ -135,23 +135,18 @@ def _render(job: Job, choice: ShotSource, out: Path, number: int, log: Log, prog
     with tempfile.TemporaryDirectory(prefix="firetwin-farm-", ignore_cleanup_errors=True) as place:
         private = PrivateFolder(Path(place), out, log)
         private.seed(verified_entries(known, out, made_with), made_with)
-        work = [(camera, listed) for camera in task.cameras if (listed := job.frames(task, camera))]
-        frames, before = sum(len(listed) for _, listed in work), 0
+
+        def follow(done: int, total: int, what: str = "", note: str = "") -> None:
+            if what == "rendering":
+                private.publish()
+                progress(done, total)
+
+        def tell(text: str) -> None:
+            say(text.replace(place, str(out)))
+
+        asked = render.RenderRequest(Path(place), task.frames, task.cameras, resume=True, films=False)
         try:
-            for camera, listed in work:
-
-                def follow(
-                    done: int, total: int, what: str = "", note: str = "", before: int = before
-                ) -> None:
-                    if what == "rendering":
-                        private.publish()
-                        progress(before + done, frames)
-
-                asked = render.RenderRequest(
-                    Path(place), frame_list.write(listed), camera, resume=True, films=False
-                )
-                render.run(choice, asked, follow, lambda text: say(text.replace(place, str(out))))
-                before += len(listed)
+            render.run(choice, asked, follow, tell, shot=shot)
         finally:
             private.publish()
 

@@ -17,6 +17,9 @@ from ..shot.shot import Shot
 from ..shot.source import ShotSource
 from . import solve, worker
 
+Selection = tuple[str | None, str | tuple[str, ...] | None, str | None]
+"""Frames, camera and passes, as `render.plan.pictures` takes them."""
+
 
 @dataclass(frozen=True)
 class RenderRequest:
@@ -24,6 +27,8 @@ class RenderRequest:
 
     Attributes
     ----------
+    camera
+        One, or several that one process shall render.
     resume
         Keep finished pictures of equal settings.
     films
@@ -32,14 +37,14 @@ class RenderRequest:
 
     out: Path
     frames: str | None = None
-    camera: str | None = None
+    camera: str | tuple[str, ...] | None = None
     passes: str | None = None
     resume: bool = False
     films: bool = True
 
-    def selection(self) -> list[str | None]:
-        """Frames, camera and passes, as `render.plan.pictures` takes them."""
-        return [self.frames, self.camera, self.passes]
+    def selection(self) -> Selection:
+        """What is asked for of the scene file's pictures."""
+        return (self.frames, self.camera, self.passes)
 
 
 @dataclass(frozen=True)
@@ -60,8 +65,15 @@ def run(
     progress: Progress = silent,
     tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
+    shot: Shot | None = None,
 ) -> RenderResult:
-    """Render the requested pictures that are not finished, then the films."""
+    """Render the requested pictures that are not finished, then the films.
+
+    Parameters
+    ----------
+    shot
+        Of `choice`, where it is resolved already.
+    """
     from ..errors import UsageError
     from ..render import dataset, films, fingerprint, plan
     from ..render.store import Store
@@ -73,7 +85,7 @@ def run(
             f"--out: {out} is a run folder, and pictures do not belong among its fields; choose another"
         )
     with notify_if_slow(READING):
-        shot = choice.shot()
+        shot = shot or choice.shot()
         wanted = plan.pictures(shot, *asked.selection())
     made_with = fingerprint.of_pictures(shot, wanted, progress)
     with Store(out) as store:
@@ -171,7 +183,7 @@ def in_blender(
     owner: str,
     begun: int,
     resume: bool,
-    selection: list[str | None],
+    selection: Selection,
     progress: Progress,
     tell: MessageCallback,
     films: bool = True,

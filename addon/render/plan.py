@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Collection
 
 from ..errors import UsageError
 from ..run.content import fingerprint
@@ -18,7 +19,10 @@ from .store import Store
 
 
 def pictures(
-    shot: Shot, frames: str | None = None, camera: str | None = None, names: str | None = None
+    shot: Shot,
+    frames: str | None = None,
+    camera: str | Collection[str] | None = None,
+    names: str | None = None,
 ) -> list[Picture]:
     """Requested pictures: those of the scene file, filtered by the command line; by camera, then run.
 
@@ -30,7 +34,7 @@ def pictures(
     frames
         Frame numbers such as "1-10", intersected with each camera's own frames; None: all.
     camera
-        Only this camera, in all runs; ``camera@run``: in that run.
+        Only this camera, or these, in all runs; ``camera@run``: in that run.
     names
         Passes such as "rgb,thermal", in place of those of the scene file.
 
@@ -46,12 +50,16 @@ def pictures(
         wanted = frame_list.parse(frames or "", shot.frames.count)
     except ValueError as error:
         raise UsageError(f"--frames: {error}") from None
-    if camera is not None:
-        shot.camera(camera)  # its error lists the cameras
+    chosen_cameras = (camera,) if isinstance(camera, str) else camera
+    if chosen_cameras is not None:
+        for each in chosen_cameras:
+            shot.camera(each)  # its error lists the cameras
     elif not settings.cameras:
         raise UsageError(f"{settings.path} has no [[cameras]]; add one to render pictures")
     views = [
-        view for view in scene_runs.views(shot.settings) if camera in (None, view, view.partition("@")[0])
+        view
+        for view in scene_runs.views(shot.settings)
+        if chosen_cameras is None or {view, view.partition("@")[0]} & {*chosen_cameras}
     ]
     chosen = _passes(names) if names is not None else ()
     for name, view in itertools.product(chosen, views):
