@@ -15,9 +15,9 @@ from ..render import fingerprint
 from ..render import plan as pictures
 from ..render.picture import Picture
 from ..run.content import sha256
-from ..shot import frames, scene_runs
+from ..shot import comparison, frames, scene_runs
 from ..shot.settings import frame_list
-from ..shot.settings.settings import Camera, Settings
+from ..shot.settings.settings import Settings
 from ..shot.shot import Shot
 from ..smoke import sources
 from . import assets
@@ -200,21 +200,22 @@ def _renders(shot: Shot, settings: Settings, groups: list[set[str]], size: int) 
 
 
 def _bakes(shot: Shot) -> Iterator[Task]:
-    """One for every view that shows a solved flow."""
+    """One for every flow; a view needs none whose flow is part of that of another view."""
     settings = shot.settings
     if not settings.smoke.enabled:
         return
+    needed = {}
     for view in scene_runs.views(settings):
-        run = scene_runs.of_view(shot, view)
-        source = sources.choose(settings.smoke.method, run.fields)
-        if source.is_prepared is not sources.Source.is_prepared:
-            camera = _camera(settings, view)
-            yield Task("bake", (view,), frame_list.write(shot.frames_of(camera)))
-
-
-def _camera(settings: Settings, view: str) -> Camera:
-    name = view.partition("@")[0]
-    return next(camera for camera in settings.cameras if camera.name == name)
+        own = comparison.for_view(shot, view)
+        if solutions := sources.select(own).solutions():
+            needed[view] = solutions, set(own.frames_of(*own.settings.cameras))
+    solved: dict[str, set[int]] = {}
+    for view, (solutions, listed) in sorted(needed.items(), key=lambda each: len(each[1][0]), reverse=True):
+        host = next((other for other in solved if solutions <= needed[other][0]), view)
+        solved.setdefault(host, set()).update(listed)
+    for view in needed:
+        if view in solved:
+            yield Task("bake", (view,), frame_list.write(sorted(solved[view])))
 
 
 def place(out: Path) -> Path:

@@ -126,6 +126,10 @@ class Source(ABC):
         """Whether a frame can be written at once."""
         return True
 
+    def solutions(self) -> frozenset[str]:
+        """Names of the cache folders of what is solved before frames are painted; views may share them."""
+        return frozenset()
+
     def prepare(self, frames: Iterable[int], progress: Progress = silent) -> None:
         """Prepare these frames before several threads write them."""
         _ = self.visibility

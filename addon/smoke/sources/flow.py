@@ -62,6 +62,10 @@ class FlowSource(Source):
         """Whether the frame's snapshots exist."""
         return self.flow.has(frame)
 
+    def solutions(self) -> frozenset[str]:
+        """Folders of its snapshots."""
+        return frozenset(self.flow.key())
+
     def prepare(self, frames: Iterable[int], progress: Progress = silent) -> None:
         """Solve the flow up to the last of these frames."""
         super().prepare(frames, progress)
