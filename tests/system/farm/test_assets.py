@@ -1,0 +1,57 @@
+"""What a job lists is all that its tasks read: pictures of these files alone; what is missing is named."""
+
+import json
+import shutil
+from pathlib import Path
+
+import farm_inputs
+import pytest
+from farm_film import firetwin, pictures, start
+
+
+@pytest.fixture(scope="module")
+def here(run_folder, tmp_path_factory):
+    """The scene file, beside all that it names and more."""
+    return farm_inputs.write(tmp_path_factory.mktemp("inputs") / "here", run_folder)
+
+
+def listed(out: Path) -> list[str]:
+    return json.loads((out / "farm" / "job.json").read_text())["assets"]
+
+
+def test_a_task_needs_nothing_but_what_its_job_lists(here, tmp_path):
+    out, bare = tmp_path / "out", tmp_path / "bare"
+    firetwin("farm", here, "--engine", "deadline", "--out", out)
+    places = {Path(each).relative_to(here.parent).as_posix() for each in listed(out)}
+    run = {f"run/{path.name}" for path in (here.parent / "run").glob("*.npy")} | {"run/run.toml"}
+    assert places == {"scene.toml", *run, *farm_inputs.NAMED}
+    for place in places:
+        (bare / place).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(here.parent / place, bare / place)
+    shutil.copytree(out, tmp_path / "moved")
+    firetwin("render", here, "--out", tmp_path / "one")
+    away = here.parent.rename(tmp_path / "away")  # a task that looks there finds nothing
+    try:
+        moved = tmp_path / "moved"
+        for verb in (("task", moved, "1-2"), ("assemble", moved)):
+            firetwin("farm", *verb, "--scene", bare / "scene.toml")
+    finally:
+        away.rename(here.parent)
+    assert pictures(moved) == pictures(tmp_path / "one")
+    assert len(pictures(moved)) == 2 * 2
+
+
+@pytest.mark.parametrize("name", [*farm_inputs.NAMED, "run/run.toml", "run/elevation.npy", "scene.toml"])
+def test_what_is_missing_is_named_before_anything_is_submitted(here, tmp_path, name):
+    path, away = here.parent / name, tmp_path / "away"
+    path.rename(away)
+    try:
+        process = start("farm", here, "--engine", "slurm", "--out", tmp_path / "out", "--submit")
+        _, errors = process.communicate(timeout=60)
+    finally:
+        away.rename(path)
+    assert process.returncode == 1
+    folder_is_named = name.startswith("observed/")  # of what it holds nothing is known
+    assert ("fire.observed" if folder_is_named else path.stem) in errors
+    assert "Traceback" not in errors
+    assert not (tmp_path / "out").exists()
