@@ -6,19 +6,16 @@ import argparse
 import json
 import shlex
 import subprocess
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
-from .. import files
 from ..errors import Error, UsageError
 from ..progress import Reporter, count, result, say
 from ..shot.settings import frame_list
 from ..shot.source import ShotSource
-from . import assemble, assets, plan, status, task
-from .engines import Batch, known
+from . import assemble, plan, status, submission, task
+from .submission import Submission
 
-_SUBMISSION = "submitted.json"
 _MAX_TASK_NUMBER = 10**9 - 1  # tasks, far more than there are
 
 
@@ -48,15 +45,13 @@ def run_plan(arguments: argparse.Namespace, choice: ShotSource) -> None:
     scene, out = Path(choice.scene).absolute(), arguments.out.absolute()
     job = plan.make(choice.shot(), scene, arguments.chunk or plan.CHUNK)
     plan.write(job, out)
-    pictures = sum(1 for each in job.tasks for _ in job.pictures(each))
-    bakes, renders = (len(job.numbers(stage)) for stage in ("bake", "render"))
-    say(
-        f"{count(bakes, 'bake task')}, {count(renders, 'render task')}, {count(pictures, 'picture')} in {out}"
-    )
-    away = assets.elsewhere([Path(each) for each in job.assets], scene.parent)
-    if away:
-        say(f"{count(len(away), 'file')} outside of the scene's folder, such as {away[0]}: keep these paths")
-    _submit(out, arguments.engine, arguments.options, range(1, len(job.tasks) + 1), arguments.submit)
+    for line in submission.describe(job, out):
+        say(line)
+    command = submission.prepare(out, Submission(arguments.engine, tuple(arguments.options)))
+    if arguments.submit:
+        _submit(command)
+    else:
+        result(shlex.join(command))
 
 
 def run_status(arguments: argparse.Namespace) -> None:
@@ -68,23 +63,16 @@ def run_status(arguments: argparse.Namespace) -> None:
 def run_resume(arguments: argparse.Namespace) -> None:
     """Submit the tasks of missing pictures, by the engine and with the options of before."""
     out = arguments.out.absolute()
-    job = plan.read(out)
-    shot = task.source(job, out).shot()
-    _, lost = assemble.check(job, out, assemble.fingerprints(job, shot, Reporter()))
-    before = _last_submission(out)
-    solved = {*status.gather(out).done}
-    renders = assemble.tasks_of(job, lost)
-    bakes = [number for number in job.numbers("bake") if renders and number not in solved]
-    say(f"{count(len(lost), 'picture')} missing: {count(len(bakes) + len(renders), 'task')} to submit")
-    options = arguments.options or before["options"]
-    _submit(out, before["engine"], options, [*bakes, *renders], True)
+    lost, numbers = submission.missing(out, Reporter())
+    before = submission.last(out)
+    say(f"{count(len(lost), 'picture')} missing: {count(len(numbers), 'task')} to submit")
+    options = tuple(arguments.options) or before.options
+    _submit(submission.prepare(out, Submission(before.engine, options), numbers))
 
 
 def run_cancel(arguments: argparse.Namespace) -> int:
     """Cancel what was submitted."""
-    out = arguments.out.absolute()
-    plan.read(out)
-    return _call(known()[_last_submission(out)["engine"]]().cancel(out))
+    return _call(submission.cancellation(arguments.out.absolute()))
 
 
 def run_task(arguments: argparse.Namespace) -> int:
@@ -127,21 +115,10 @@ def _scene(arguments: argparse.Namespace) -> str:
     return str(arguments.scene) if arguments.scene else ""
 
 
-def _submit(out: Path, engine: str, options: Sequence[str], numbers: Iterable[int], now: bool) -> None:
-    """Write the engine's text of these tasks, and submit it or say how."""
-    batch = Batch(plan.read(out), out, tuple(sorted(numbers)), tuple(options))
-    command = known()[engine]().write(batch)
-    about = json.dumps({"engine": engine, "options": list(options)}) + "\n"
-    files.write_text(plan.place(out) / _SUBMISSION, about)
-    if not now:
-        result(shlex.join(command))
-    elif status := _call(command):
+def _submit(command: list[str]) -> None:
+    """Run the command that submits."""
+    if status := _call(command):
         raise Error(f"{shlex.join(command)} ended with exit status {status}")
-
-
-def _last_submission(out: Path) -> dict[str, Any]:
-    """Engine and options of the last time."""
-    return dict(json.loads((plan.place(out) / _SUBMISSION).read_text(encoding="utf-8")))
 
 
 def _call(command: list[str]) -> int:
@@ -149,6 +126,4 @@ def _call(command: list[str]) -> int:
     try:
         return subprocess.run(command).returncode
     except FileNotFoundError:
-        raise UsageError(
-            f"{command[0]} is not installed here; on a machine that has it: {shlex.join(command)}"
-        ) from None
+        raise submission.absent(command) from None

@@ -233,7 +233,9 @@ def write(job: Job, out: Path) -> None:
     """
     path = place(out) / FILE
     if path.exists() and read(out) != job:
-        raise input_error(path, 0, 0, "is another job, or of a changed scene file; choose another --out")
+        raise input_error(
+            path, 0, 0, "is another job, or of a changed scene file; choose another output folder"
+        )
     text = json.dumps({"format": _FORMAT} | asdict(job), separators=(",", ":")) + "\n"
     files.write_text(path, text)
 

@@ -83,18 +83,27 @@ def gather(out: Path, now: float | None = None) -> Status:
     )
 
 
-def page(status: Status) -> str:
-    """For people."""
+def rows(status: Status) -> list[tuple[str, str]]:
+    """Labels, and what stands beside them."""
     parts = [f"{len(getattr(status, name))} {name}" for name in ("done", "running", "failed", "waiting")]
-    lines = [
-        f"tasks     {', '.join(parts)}, of {status.tasks}",
-        f"pictures  {status.finished:,} of {count(status.pictures, 'picture')}",
+    found = [
+        ("tasks", f"{', '.join(parts)}, of {status.tasks}"),
+        ("pictures", f"{status.finished:,} of {count(status.pictures, 'picture')}"),
     ]
     if status.finished < status.pictures and status.seconds_left is not None:
         at_once = max(len(status.running), 1)
-        lines.append(f"left      {duration(status.seconds_left)} with {count(at_once, 'task')} at once")
-    lines += [f"task {number} failed: {said}" for number, said in status.errors.items()]
-    return "\n".join(lines)
+        found.append(("left", f"{duration(status.seconds_left)} with {count(at_once, 'task')} at once"))
+    return found
+
+
+def failures(status: Status) -> list[str]:
+    """A sentence for each failed task."""
+    return [f"task {number} failed: {said}" for number, said in status.errors.items()]
+
+
+def page(status: Status) -> str:
+    """For people."""
+    return "\n".join([*(f"{label:<10}{text}" for label, text in rows(status)), *failures(status)])
 
 
 class _Folders:

@@ -9,6 +9,8 @@ from . import (
     camera_targets,
     cameras_panel,
     command,
+    farm,
+    farm_watch,
     foreign,
     former_names,
     go_to,
@@ -49,6 +51,7 @@ classes = (
     *place_names.classes,
     *render.classes,
     *background.classes,
+    *farm.classes,
     *section_panels.classes,
     *report.classes,
     *assets.classes,
@@ -69,6 +72,7 @@ def unregister() -> None:
     """Undo `register` in reverse order; running tasks are cancelled."""
     working.abandon()
     queue.clear()
+    farm_watch.forget()
     maps.forget()
     former_names.unregister()
     open.unregister()

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import bpy
 
+from ..farm import plan
 from ..shot.settings.settings import Settings
-from . import camera_list, keys, other_runs, render, run, scene_file, sections, time
+from . import camera_list, farm, keys, other_runs, render, run, scene_file, sections, time
 
 _BLEND_RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"}
 _SETTINGS = sections.properties(sections.single() + sections.sections(), Settings)
@@ -100,6 +101,26 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings):
         name="Keep finished",
         description="Render only pictures that are missing or have other settings",
         default=True,
+    )
+    farm_engine: bpy.props.EnumProperty(
+        name="Engine", description="Engine that runs the tasks", items=farm.ITEMS, default="slurm"
+    )
+    farm_output: bpy.props.StringProperty(
+        name="Output",
+        description="Folder for the film and the job, which all machines of the farm see under this path; "
+        "each job has its own",
+        subtype="DIR_PATH",
+        default="//firetwin_farm",
+        options=_BLEND_RELATIVE,
+    )
+    farm_chunk: bpy.props.IntProperty(
+        name="Frames per task",
+        description="Frames per task; rounded up to multiples of Chunk where that splits the film",
+        default=plan.CHUNK,
+        min=1,
+    )
+    farm_options: bpy.props.StringProperty(
+        name="Options", description="Options of the engine's own command, as on a command line"
     )
 
 

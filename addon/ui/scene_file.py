@@ -50,9 +50,14 @@ def fill(scene: bpy.types.Scene, whole: Settings) -> None:
 
 def output(panel: bpy.types.PropertyGroup, *inside: str) -> str:
     """The output folder, or its default; empty while it depends on an unsaved .blend file."""
-    if panel.output.startswith("//") and not bpy.data.filepath:
+    return resolved(panel.output, *inside)
+
+
+def resolved(folder: str, *inside: str) -> str:
+    """Path of a folder's property; empty while it depends on an unsaved .blend file."""
+    if folder.startswith("//") and not bpy.data.filepath:
         return ""
-    return str(Path(bpy.path.abspath(panel.output), *inside)) if panel.output else ""
+    return str(Path(bpy.path.abspath(folder), *inside)) if folder else ""
 
 
 def own_folder() -> Path:
@@ -87,7 +92,30 @@ def folder() -> Path:
 def written(scene: bpy.types.Scene) -> Path:
     """Path of the panel's scene file, written for a job; its name changes with its text."""
     text = scene_file.text(settings(scene, folder() / "scene.toml"))
-    path = folder() / f"{hashlib.sha256(text.encode()).hexdigest()[:16]}.toml"
+    return _kept(folder() / f"{_digest(text)}.toml", text)
+
+
+def beside(scene: bpy.types.Scene) -> tuple[Path, bool]:
+    """The panel's scene file beside the saved .blend file, for other computers.
+
+    Its name changes with its text: what is written later does not change the scene of an earlier job.
+
+    Returns
+    -------
+    path, whether it was not there before
+    """
+    blend = Path(bpy.data.filepath)
+    text = scene_file.text(settings(scene, blend.with_suffix(".toml")))
+    path = blend.with_name(f"{blend.stem}_farm_{_digest(text)[:8]}.toml")
+    fresh = not path.is_file()
+    return _kept(path, text), fresh
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def _kept(path: Path, text: str) -> Path:
     if not path.is_file():
         files.write_text(path, text)
     return path

@@ -8,6 +8,7 @@ import panel_scene
 import pytest
 from bl_operators.presets import AddPresetBase
 from bpy_extras.io_utils import ExportHelper, ImportHelper
+from firetwin.farm import submission
 from firetwin.jobs import assets, convert, render, render_blend, sample
 from firetwin.ui import navigation, queue, working
 from mathutils import Euler, Matrix
@@ -114,6 +115,11 @@ KEEPS = {
     "render_background": {},
     "queue": {"what": "pause"},
     "assets": {},
+    "farm_write": {},
+    "farm_submit": {},
+    "farm_status": {},
+    "farm_resume": {},
+    "farm_cancel": {},
 }
 LISTENS = {"queue_esc", "stop"}  # for Esc, and while something goes on
 
@@ -135,6 +141,8 @@ def test_undo_and_redo_go_round_every_operator(panel, blend, tmp_path, monkeypat
     monkeypatch.setattr(render, "run", lambda *_, **__: render.RenderResult(1))
     monkeypatch.setattr(assets, "run", lambda *_, **__: 1)
     monkeypatch.setattr(render_blend, "run", lambda *_, **__: 1)
+    monkeypatch.setattr(submission, "call", lambda *_, **__: None)
+    monkeypatch.setattr(submission, "cancellation", lambda out: [])
     monkeypatch.setattr(bpy.utils, "user_resource", lambda *_, path="", **__: str(tmp_path / path))
     (tmp_path / "presets" / "firetwin").mkdir(parents=True)
     bpy.ops.ed.undo_push(message="opened")

@@ -1,0 +1,306 @@
+"""Farm operators and panel: the film as a job of a render farm, as `firetwin farm` makes it."""
+
+from __future__ import annotations
+
+import functools
+import shlex
+import zlib
+from collections.abc import Callable, Generator
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from ..errors import Error
+from ..farm import engines, plan, status, submission
+from ..farm.status import Status
+from ..farm.submission import Submission
+from ..jobs.worker import Stop, StoppedError
+from ..progress import MessageCallback, Progress, count
+from ..shot.source import ShotSource
+from . import camera_edits, farm_watch, job, keys, run, scene_file, working
+from .job import InThread, Message, Steps
+from .text import labelled, paragraph
+from .working import Working
+
+NOT_SAVED = "Save the .blend file first: the job's scene file lies beside it"
+NO_OUTPUT = "Choose an output folder for the farm first"
+NO_JOB = "has no farm job; Write job writes one"
+
+
+def _items() -> tuple[tuple[str, str, str, str, int], ...]:
+    """Every engine; its number in the .blend file stays the same when others are added."""
+    texts = {name: engine.help.partition(":") for name, engine in engines.known().items()}
+    return tuple(
+        (name, label, keys.sentence(words.strip()), "NONE", zlib.crc32(name.encode()) >> 1)
+        for name, (label, _, words) in texts.items()
+    )
+
+
+ITEMS = _items()
+
+
+def _out(panel: bpy.types.PropertyGroup) -> Path:
+    return Path(scene_file.resolved(panel.farm_output))
+
+
+def _options(panel: bpy.types.PropertyGroup) -> tuple[str, ...]:
+    """The engine's own options.
+
+    Raises
+    ------
+    Error
+        A quotation mark is not closed.
+    """
+    try:
+        return tuple(shlex.split(panel.farm_options))
+    except ValueError as error:
+        raise Error(f"Options: {str(error).lower()}; write them as on a command line") from None
+
+
+def _has_output(cls: type[bpy.types.Operator], panel: bpy.types.PropertyGroup) -> bool:
+    """Whether a folder is chosen; otherwise sets the poll message."""
+    if panel.farm_output.startswith("//") and not bpy.data.filepath:
+        cls.poll_message_set(NOT_SAVED)
+        return False
+    if not panel.farm_output:
+        cls.poll_message_set(NO_OUTPUT)
+    return bool(panel.farm_output)
+
+
+def _writable(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+    """Whether a job can be written; otherwise sets the poll message."""
+    if not run.ready(cls, context):
+        return False
+    if not bpy.data.filepath:
+        cls.poll_message_set(NOT_SAVED)
+        return False
+    return _has_output(cls, context.scene.firetwin)
+
+
+def _present(out: Path) -> None:
+    """Check that a folder has a job, and say it as the panel does."""
+    if not (plan.place(out) / plan.FILE).is_file():
+        raise Error(f"{out} {NO_JOB}")
+
+
+def _write(
+    scene: Path,
+    out: Path,
+    size: int,
+    chosen: Submission,
+    progress: Progress,
+    tell: MessageCallback,
+    stop: Stop,
+) -> list[str]:
+    """Plan and write a job in a thread; the command that submits it."""
+    found = plan.make(ShotSource(str(scene)).shot(), scene, size)
+    if stop.asked:
+        raise StoppedError
+    plan.write(found, out)
+    for line in submission.describe(found, out):
+        tell(line)
+    return submission.prepare(out, chosen)
+
+
+def _missing(
+    out: Path,
+    options: Callable[[str], tuple[str, ...]],
+    progress: Progress,
+    tell: MessageCallback,
+    stop: Stop,
+) -> list[str]:
+    """Look for missing pictures in a thread; the command that submits their tasks."""
+
+    def followed(done: int, total: int, what: str = "", note: str = "") -> None:
+        if stop.asked:
+            raise StoppedError
+        progress(done, total, what, note)
+
+    lost, numbers = submission.missing(out, followed)
+    if stop.asked:
+        raise StoppedError
+    tell(f"{count(len(lost), 'picture')} missing: {count(len(numbers), 'task')} to submit")
+    before = submission.last(out)
+    chosen = Submission(before.engine, options(before.engine) or before.options)
+    return submission.prepare(out, chosen, numbers)
+
+
+def _written(context: bpy.types.Context) -> Generator[InThread | Message, Any, list[str]]:
+    """Write the panel's scene file beside the .blend file, and the job of it; returns the command."""
+    panel = context.scene.firetwin
+    for text in camera_edits.pull(context.scene):
+        yield Message(text, "WARNING")
+    chosen = Submission(panel.farm_engine, _options(panel))
+    out, size = _out(panel), panel.farm_chunk
+    scene, fresh = scene_file.beside(context.scene)
+    try:
+        yield Message(f"The scene file of the job is {scene}")
+        work = functools.partial(_write, scene, out, size, chosen)
+        return (yield InThread("planning the film", work))
+    except BaseException:
+        if fresh:
+            scene.unlink(missing_ok=True)
+        raise
+
+
+def _submitted(command: list[str], out: Path, last: str) -> Steps:
+    """Run an engine's command, then look at the job."""
+    yield InThread("submitting", functools.partial(submission.call, command, out))
+    yield InThread("reading the status", lambda **_: farm_watch.read(out))
+    farm_watch.start(out)
+    return last
+
+
+class FIRETWIN_OT_farm_write(Working, bpy.types.Operator):
+    """Plan the film as tasks of a render farm and write the engine's job; nothing is submitted"""
+
+    bl_idname = "firetwin.farm_write"
+    bl_label = "Write job"
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return _writable(cls, context)
+
+    def steps(self, context: bpy.types.Context) -> Steps:
+        """Plan in a thread."""
+        command = yield from _written(context)
+        return f"To submit it: {shlex.join(command)}"
+
+
+class FIRETWIN_OT_farm_submit(Working, bpy.types.Operator):
+    """Plan the film as tasks of a render farm, write the engine's job and submit it"""
+
+    bl_idname = "firetwin.farm_submit"
+    bl_label = "Submit"
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return _writable(cls, context)
+
+    def steps(self, context: bpy.types.Context) -> Steps:
+        """Plan in a thread, then wait for the engine's command."""
+        out = _out(context.scene.firetwin)
+        command = yield from _written(context)
+        return (yield from _submitted(command, out, f"Submitted the job of {out}"))
+
+
+class _OfJob(Working):
+    """An operator on the job of the output folder."""
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return working.editable(cls, context) and _has_output(cls, context.scene.firetwin)
+
+
+class FIRETWIN_OT_farm_status(_OfJob, bpy.types.Operator):
+    """Read how many tasks and pictures of the job are finished, from its files alone"""
+
+    bl_idname = "firetwin.farm_status"
+    bl_label = "Status"
+    bl_options = {"REGISTER"}
+
+    def steps(self, context: bpy.types.Context) -> Steps:
+        """Read the files in a thread; the panel reads them again while tasks are unfinished."""
+        out = _out(context.scene.firetwin)
+        _present(out)
+        found = yield InThread("reading the status", lambda **_: farm_watch.read(out))
+        if farm_watch.unfinished(found):
+            farm_watch.start(out)
+        return "; ".join(text for _, text in status.rows(found))
+
+
+class FIRETWIN_OT_farm_resume(_OfJob, bpy.types.Operator):
+    """Read all pictures of the job and submit the tasks of those that are missing or damaged"""
+
+    bl_idname = "firetwin.farm_resume"
+    bl_label = "Resume"
+    bl_options = {"REGISTER"}
+
+    def steps(self, context: bpy.types.Context) -> Steps:
+        """Read the pictures in a thread, then wait for the engine's command."""
+        panel = context.scene.firetwin
+        out, engine, own = _out(panel), panel.farm_engine, _options(panel)
+        _present(out)
+        work = functools.partial(_missing, out, lambda before: own if before == engine else ())
+        command = yield InThread("reading the pictures", work)
+        return (yield from _submitted(command, out, f"Submitted what is missing in {out}"))
+
+
+class FIRETWIN_OT_farm_cancel(_OfJob, bpy.types.Operator):
+    """Cancel what was submitted of the job; finished pictures are kept"""
+
+    bl_idname = "firetwin.farm_cancel"
+    bl_label = "Cancel job"
+    bl_options = {"REGISTER"}
+
+    def steps(self, context: bpy.types.Context) -> Steps:
+        """Wait for the engine's command."""
+        out = _out(context.scene.firetwin)
+        _present(out)
+        command = submission.cancellation(out)
+        yield InThread("cancelling", functools.partial(submission.call, command, out))
+        return f"Cancelled the job of {out}; Resume goes on with it"
+
+
+class FIRETWIN_PT_farm(bpy.types.Panel):
+    """The film as a job of a render farm, as `firetwin farm` makes it: all cameras, all frames"""
+
+    bl_idname = "FIRETWIN_PT_farm"
+    bl_label = "On a farm"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Firetwin"
+    bl_parent_id = "FIRETWIN_PT_render"
+    bl_options = {"DEFAULT_CLOSED"}
+    bl_order = 1
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, panel = self.layout, context.scene.firetwin
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        column = layout.column()
+        column.enabled = job.Job.current is None
+        column.prop(panel, "farm_engine")
+        column.prop(panel, "farm_output")
+        column.prop(panel, "farm_chunk")
+        column.prop(panel, "farm_options", placeholder="--partition=gpu --time=4:00:00")
+        if not bpy.data.filepath:
+            paragraph(context, layout.column(align=True), NOT_SAVED, "INFO")
+        working.button(layout.row(align=True), FIRETWIN_OT_farm_write, "FILE_TICK")
+        working.button(layout.row(align=True), FIRETWIN_OT_farm_submit, "EXPORT")
+        working.button(layout.row(align=True), FIRETWIN_OT_farm_status, "FILE_REFRESH")
+        row = layout.row(align=True)
+        working.button(row, FIRETWIN_OT_farm_resume, "PLAY")
+        working.button(row, FIRETWIN_OT_farm_cancel, "CANCEL")
+        for operator in _WORKS:
+            working.messages(context, layout, operator)
+        if panel.farm_output and scene_file.resolved(panel.farm_output):
+            _draw_status(context, layout, farm_watch.known(_out(panel)))
+
+
+def _draw_status(context: bpy.types.Context, layout: bpy.types.UILayout, found: Status | str | None) -> None:
+    """What was read last of the job: tasks, pictures, time left, and what failed."""
+    if found is None:
+        return
+    box = layout.box().column(align=True)
+    if isinstance(found, str):
+        paragraph(context, box, found, "ERROR")
+        return
+    box.progress(factor=found.finished / max(found.pictures, 1), text=status.rows(found)[1][1])
+    for label, text in status.rows(found):
+        labelled(box, keys.sentence(label)).label(text=text)
+    for line in status.failures(found):
+        paragraph(context, box, keys.sentence(line), "ERROR")
+
+
+_WORKS = (
+    FIRETWIN_OT_farm_write,
+    FIRETWIN_OT_farm_submit,
+    FIRETWIN_OT_farm_status,
+    FIRETWIN_OT_farm_resume,
+    FIRETWIN_OT_farm_cancel,
+)
+classes = (*_WORKS, FIRETWIN_PT_farm)

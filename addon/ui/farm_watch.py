@@ -1,0 +1,80 @@
+"""Status of farm jobs: read in a thread every few seconds, never while a panel is drawn."""
+
+from __future__ import annotations
+
+import threading
+from pathlib import Path
+
+import bpy
+
+from ..farm import status
+from ..farm.status import Status
+from . import job, working
+
+_PERIOD = 10.0  # s between two readings
+_SHORT = 0.5  # s between two looks at the thread
+
+_known: dict[Path, Status | str] = {}
+_thread: threading.Thread | None = None
+_out: Path | None = None
+
+
+def known(out: Path) -> Status | str | None:
+    """Status of the job of a folder when it was last read, or what is wrong with it; None: not read yet."""
+    return _known.get(out)
+
+
+def read(out: Path) -> Status:
+    """Read the files of a job.
+
+    Raises
+    ------
+    InputError
+        There is none, or it is damaged.
+    """
+    found = _known[out] = status.gather(out)
+    return found
+
+
+def start(out: Path) -> None:
+    """Read the status of a job again and again, until its tasks are done or another file is opened."""
+    global _out
+    _out = out
+    if not bpy.app.background and not bpy.app.timers.is_registered(_tick):
+        bpy.app.timers.register(_tick, first_interval=_PERIOD)
+
+
+def forget() -> None:
+    """End the watch; nothing is known any more."""
+    global _out
+    _out = None
+    if bpy.app.timers.is_registered(_tick):
+        bpy.app.timers.unregister(_tick)
+    _known.clear()
+
+
+def unfinished(found: Status | str | None) -> bool:
+    """Whether tasks are left of which something may be heard."""
+    return isinstance(found, Status) and bool(found.running or found.waiting)
+
+
+def _tick() -> float | None:
+    global _thread
+    if _thread is None:
+        if _out is None:
+            return None
+        _thread = threading.Thread(target=_look, args=(_out,), name="Firetwin farm", daemon=True)
+        _thread.start()
+        return _SHORT
+    if _thread.is_alive():
+        return _SHORT
+    _thread = None
+    working.redraw()
+    return _PERIOD if _out is not None and unfinished(known(_out)) else None
+
+
+def _look(out: Path) -> None:
+    try:
+        read(out)
+    except Exception as error:
+        _known[out] = job.describe_error(error)
