@@ -24,9 +24,11 @@ def needed(shot: Shot) -> list[Path]:
     found = [settings.path]
     for run in (shot.run, *shot.others.values()):
         found += [Path(run.path) / name for name in content.stamps(run)]
-    terrain, labels = settings.terrain, settings.labels
+    terrain, labels, stations = settings.terrain, settings.labels, settings.stations
     photo = [terrain.photo, orthophoto.world_file(terrain.photo)] if terrain.photo else []
     optional = [terrain.elevation, *photo, terrain.land_use, labels.file if labels.enabled else None]
+    if stations.enabled:
+        optional += [stations.file, stations.footprints, stations.routes_file]
     found += [path for path in optional if path is not None]
     found += [part for path in observed.files(settings) for part in _with_parts(path)]
     found += [path for camera in settings.cameras for path in camera.rig.input_files()]

@@ -15,7 +15,7 @@ import firetwin_core
 from ..progress import Progress, silent
 from ..run import content
 from ..run.content import fingerprint
-from ..shot import code_fingerprint, comparison, frames, labels, passes
+from ..shot import code_fingerprint, comparison, frames, labels, passes, places
 from ..shot.cameras import mount
 from ..shot.fire import observed
 from ..shot.settings import schema
@@ -119,6 +119,7 @@ def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silen
         orthophoto.inputs(shot.settings, progress)
         | land_use.inputs(shot.settings, progress)
         | labels.inputs(shot.settings)
+        | places.inputs(shot.settings)
     )
     more |= observed.inputs(shot.settings, progress)
     shots = {

@@ -198,7 +198,8 @@ def _leave_out(layer: bpy.types.ViewLayer, each: RenderedPass, parts: Collection
     for child in _parts(layer):
         part = str(child.collection[owned.MARK]).lower()
         if parts is None or part in parts:
-            child.exclude = part in each.excludes or (each.shading != "light" and part == "labels")
+            written = part in ("labels", "stations")  # seen by eyes alone
+            child.exclude = part in each.excludes or (each.shading != "light" and written)
 
 
 def _parts(layer: bpy.types.ViewLayer) -> Iterator[bpy.types.LayerCollection]:

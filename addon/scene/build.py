@@ -18,6 +18,7 @@ from .forest import build as forest
 from .forest import stand
 from .labels import build as labels
 from .light import build as light
+from .places import build as stations
 from .smoke import build as smoke
 from .terrain import build as ground
 
@@ -29,6 +30,7 @@ PARTS = {
     "light": "setting the sun",
     "cameras": "setting the cameras",
     "labels": "naming the places",
+    "stations": "putting up the stations",
 }
 """Parts that can be built on their own, each with its progress message."""
 
@@ -99,6 +101,7 @@ def steps(
         "light": lit,
         "cameras": lambda: camera.build(shot, stage()),
         "labels": lambda: labels.build(shot, stage()),
+        "stations": lambda: stations.build(shot, stage()),
     }
     for part, text in PARTS.items():
         if part in parts:

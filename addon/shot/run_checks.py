@@ -6,7 +6,7 @@ import numpy as np
 from firetwin_core.run import Run
 
 from ..run import areas, labels, times
-from . import frames
+from . import frames, places
 from .fire import observed
 from .settings import scene_file
 from .settings.settings import Settings
@@ -28,6 +28,7 @@ def check(settings: Settings, run: Run) -> None:
     observed.check(settings)
     if settings.labels.enabled and settings.labels.file:
         labels.read(settings.labels.file)
+    places.check(settings)
     for index, camera in enumerate(settings.cameras):
         for where, latitude, longitude in camera.rig.coordinates():
             _near(settings, run, ("cameras", index, *where), camera.name, latitude, longitude)

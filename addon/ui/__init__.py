@@ -29,6 +29,7 @@ from . import (
     run,
     section_panels,
     time,
+    vr,
     working,
 )
 
@@ -48,6 +49,7 @@ classes = (
     *navigation.classes,
     *camera_targets.classes,
     *go_to.classes,
+    *vr.classes,
     *place_names.classes,
     *render.classes,
     *background.classes,

@@ -9,7 +9,7 @@ import bpy
 from ..blender import owned
 from ..errors import Error
 from ..scene.build import PARTS
-from ..shot import camera_warnings
+from ..shot import camera_warnings, places
 from ..shot.shot import Shot
 from . import (
     auto_framing,
@@ -18,6 +18,7 @@ from . import (
     choice,
     job,
     keys,
+    landmarks,
     panel_order,
     quality,
     run,
@@ -114,6 +115,8 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     then = changed_settings.digests(settings)
     chosen, smoke = choice.from_panel(settings), settings.bake_smoke and "smoke" in parts
     shot = yield InThread("reading the run", lambda **_: chosen.shot())
+    if part == ALL:
+        moving = yield InThread("finding the fire", lambda **_: places.moving(shot))
     if smoke and shot.settings.smoke.enabled:
         yield InThread("smoke", functools.partial(bake.run, chosen, together=True))
     yield "removing the previous build"
@@ -126,6 +129,8 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     yield from build.steps(shot, owned.scene(uid), parts, told.append)
     changed_settings.remember(owned.scene(uid).firetwin, then, parts)
     _finish(owned.scene(uid), shot, parts, new)
+    if part == ALL:
+        landmarks.store(owned.scene(uid).firetwin, moving)
     yield from solve.price(uid)
     for text in (*shot.warnings(), *camera_warnings.mono_vr(shot.settings), *told):
         yield Message(text, "WARNING")
@@ -187,6 +192,7 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
         scene = context.scene
         view.narrow(scene)
         time.forget(scene.firetwin)
+        landmarks.forget(scene.firetwin)
         changed_settings.forget(scene.firetwin)
         target_scene.remove(scene)
         self.report({"INFO"}, "Removed what Firetwin built")

@@ -74,7 +74,7 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
         empty = other
         if target != "object":
             assert way is not None
-            empty = _empty(scene, at if target == "station" else target, way)
+            empty = moving_empty(scene, f"Aim at {at if target == 'station' else target}", way)
         if empty is None or empty == obj:
             return "Select another object as the target first"
         hook = obj.constraints.new("TRACK_TO")
@@ -83,9 +83,9 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
         return f"{name} looks at {empty.name}"
 
 
-def _empty(scene: bpy.types.Scene, target: str, way: np.ndarray) -> bpy.types.Object:
-    """A new empty that follows a path (frames, 3) in few keyframes."""
-    empty = bpy.data.objects.new(f"Aim at {target}", None)
+def moving_empty(scene: bpy.types.Scene, name: str, way: np.ndarray) -> bpy.types.Object:
+    """A new empty, the artist's own, that follows a path (frames, 3) in few keyframes."""
+    empty = bpy.data.objects.new(name, None)
     empty.empty_display_type, empty.empty_display_size = "SPHERE", 100.0
     scene.collection.objects.link(empty)
     empty.location = way[0]

@@ -15,7 +15,7 @@ from ..shot.settings.schema import Field, fields
 from ..shot.settings.settings import Settings
 from . import keys
 
-ALONE = ("terrain", "forest", "fire", "smoke", "light", "labels")
+ALONE = ("terrain", "forest", "fire", "smoke", "light", "labels", "stations")
 """Parts that depend on their own settings only, once they are built.
 
 The other parts depend on the time window and on the cameras, so they are up to date only when all parts were

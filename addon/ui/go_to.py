@@ -13,12 +13,15 @@ from mathutils import Euler, Quaternion, Vector
 from ..blender import owned
 from ..escaped import escaped
 from ..scene.camera import ground_raycast, read_edits
-from . import place_names, run, working
+from . import landmarks, place_names, run, working
 from .navigation import can_navigate, space
 
 _NUMBER = r"\s*(-?\d+(?:\.\d*)?)\s*°?\s*"
 _PAIR = re.compile(rf"{_NUMBER}([NS]?)[\s,;]*(?<=[\sNSns,;]){_NUMBER}([EW]?)\s*", re.IGNORECASE)
 _DATE = re.compile(r"\s*(\d{4}-\d\d-\d\d)[ T](\d\d?:\d\d)\s*(Z|UTC)?\s*", re.IGNORECASE)
+_TILTS = (1.05, 0.8, 0.5, 0.2, 0.0)  # rad from straight down, of views at the end of a flight
+_CLEARANCE = 30.0  # m of the eye over the terrain
+_SHOWN = 40  # names of a kind in the menu
 _SECONDS, _STEP = 1.5, 1.0 / 30.0  # s of the flight, and between its redraws
 
 
@@ -50,8 +53,13 @@ def frame_of(panel: bpy.types.PropertyGroup, when: datetime) -> int:
 
 
 def place(scene: bpy.types.Scene, text: str) -> Vector | None:
-    """Position in the scene of a text: coordinates on the terrain, a place name, or an object's name."""
+    """Position in the scene of a text: coordinates on the terrain, head or ignition, or a name.
+
+    A name is that of a place, a station or an object.
+    """
     stage, pair = owned.stage(scene), coordinates(text)
+    if pair is None and (found := landmarks.find(scene.firetwin, text)):
+        return found
     if pair is None and (label := place_names.find(scene.firetwin, text)):
         pair = label.latitude, label.longitude
     if pair:
@@ -73,7 +81,7 @@ class FIRETWIN_OT_go(bpy.types.Operator):
 
     text: bpy.props.StringProperty(name="Where", description="Place, date or event; empty: the text of Go to")
     smooth: bpy.props.BoolProperty(
-        name="Smooth", description="Move the view smoothly; off: jump", default=True
+        name="Smooth", description="Move the view smoothly; off: cut to it", default=True
     )
     distance: bpy.props.FloatProperty(
         name="Distance", description="Distance from the place", default=2500.0, min=1.0, unit="LENGTH"
@@ -115,7 +123,7 @@ def _fly(
         region.view_location = camera.translation - camera.col[2].to_3d() * distance
     start = region.view_location.copy(), region.view_rotation.copy(), region.view_distance
     bearing = region.view_rotation.to_euler().z
-    end = where, Euler((1.05, 0.0, bearing)).to_quaternion(), distance
+    end = where, above(owned.stage(context.scene), where, bearing, distance), distance
     if not smooth:
         _flight_point(region, start, end, 1.0)
         return
@@ -132,6 +140,17 @@ def _fly(
     bpy.app.timers.register(step)
 
 
+def above(stage: owned.Stage, where: Vector, bearing: float, distance: float) -> Quaternion:
+    """Rotation of a view that looks at a point from above the terrain: as flat as that allows."""
+    for tilt in _TILTS:
+        turn = Euler((tilt, 0.0, bearing)).to_quaternion()
+        eye = where + turn @ Vector((0.0, 0.0, distance))
+        ground = ground_raycast.up(stage, eye)
+        if ground is None or eye.z > ground + _CLEARANCE:
+            break
+    return turn
+
+
 def _flight_point(
     region: bpy.types.RegionView3D,
     start: tuple[Vector, Quaternion, float],
@@ -145,4 +164,32 @@ def _flight_point(
     region.view_distance = start[2] + (end[2] - start[2]) * part + over
 
 
-classes = (FIRETWIN_OT_go,)
+class FIRETWIN_MT_go(bpy.types.Menu):
+    """Go to the head of the fire, the ignition, a station, a place, or the time of an event"""
+
+    bl_idname = "FIRETWIN_MT_go"
+    bl_label = "Go to"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, panel = self.layout, context.scene.firetwin
+        groups = (
+            ("FORCE_TURBULENCE", landmarks.known(panel)),
+            ("HOME", [each.name for each in place_names.stations(panel)[:_SHOWN]]),
+            ("BOOKMARKS", [each.name for each in place_names.known(panel)[:_SHOWN]]),
+            ("TIME", _events(panel)),
+        )
+        for icon, names in groups:
+            for name in names:
+                pressed = layout.operator(FIRETWIN_OT_go.bl_idname, text=name, icon=icon)
+                pressed.text, pressed.smooth = name, panel.go_smoothly
+            if names:
+                layout.separator()
+        layout.prop(panel, "go_smoothly")
+
+
+def _events(panel: bpy.types.PropertyGroup) -> list[str]:
+    """Words of the run's dated events."""
+    return [words for _, words in run.read(panel.facts)["moments"]] if panel.facts else []
+
+
+classes = (FIRETWIN_OT_go, FIRETWIN_MT_go)

@@ -286,7 +286,8 @@ class FIRETWIN_PT_flying(bpy.types.Panel):
         column.menu(FIRETWIN_MT_lenses.bl_idname, icon="CAMERA_DATA")
         row = column.row(align=True)
         row.prop(scene.firetwin, "go_to", text="", icon="VIEWZOOM", placeholder="38.82 -120.55")
-        row.operator("firetwin.go", text="", icon="FORWARD")
+        row.operator("firetwin.go", text="", icon="FORWARD").smooth = scene.firetwin.go_smoothly
+        row.menu("FIRETWIN_MT_go", text="", icon="DOWNARROW_HLT")
 
 
 classes = (

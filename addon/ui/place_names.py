@@ -9,6 +9,8 @@ import bpy
 
 from ..errors import Error
 from ..run import labels
+from ..shot import stations_file
+from ..shot.stations_file import Station
 from . import run
 
 
@@ -24,15 +26,32 @@ def known(panel: bpy.types.PropertyGroup) -> tuple[labels.Label, ...]:
         return ()
 
 
+def stations(panel: bpy.types.PropertyGroup) -> tuple[Station, ...]:
+    """Stations of the user's file; empty if it cannot be read, which building them reports."""
+    if not panel.stations.file:
+        return ()
+    path = Path(bpy.path.abspath(panel.stations.file))
+    try:
+        return _read_stations(path, path.stat().st_mtime_ns)
+    except (Error, OSError):
+        return ()
+
+
+@functools.lru_cache(maxsize=4)
+def _read_stations(path: Path, changed: int) -> tuple[Station, ...]:
+    return tuple(stations_file.read(path)[0])
+
+
 @functools.lru_cache(maxsize=4)
 def _read(path: Path, changed: int) -> tuple[labels.Label, ...]:
     return tuple(labels.read(path))
 
 
-def find(panel: bpy.types.PropertyGroup, text: str) -> labels.Label | None:
-    """The place of this name, or the first whose name contains it."""
+def find(panel: bpy.types.PropertyGroup, text: str) -> labels.Label | Station | None:
+    """The place or station of this name, or the first whose name contains it."""
     wanted = text.strip().lower()
-    matches = [place for place in known(panel) if wanted and wanted in place.name.lower()]
+    every: list[labels.Label | Station] = [*known(panel), *stations(panel)]
+    matches = [place for place in every if wanted and wanted in place.name.lower()]
     return min(matches, key=lambda place: place.name.lower() != wanted, default=None)
 
 

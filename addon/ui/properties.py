@@ -54,6 +54,7 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings):
     smoke_cost: bpy.props.StringProperty(options={"HIDDEN"})
     facts: bpy.props.StringProperty(options={"HIDDEN"})
     built: bpy.props.StringProperty(options={"HIDDEN"})
+    landmarks: bpy.props.StringProperty(options={"HIDDEN"})
     changed: bpy.props.StringProperty(options={"HIDDEN"})
     problem: bpy.props.StringProperty(options={"HIDDEN"})
     bake_smoke: bpy.props.BoolProperty(
@@ -80,9 +81,13 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings):
     )
     go_to: bpy.props.StringProperty(
         name="Go to",
-        description="Latitude and longitude (38.82 -120.55), the name of an object or a place, a date and "
-        "time (2014-09-17 15:30, in the zone of the film), or words of a reported event",
+        description="Latitude and longitude (38.82 -120.55), the name of a station, a place or an object, "
+        "head or ignition, a date and time (2014-09-17 15:30, in the zone of the film), or words of a "
+        "reported event",
         options={"SKIP_SAVE"},
+    )
+    go_smoothly: bpy.props.BoolProperty(
+        name="Smooth", description="Go to a place smoothly; off: cut to it", default=True
     )
     camera: bpy.props.EnumProperty(name="Camera", description="Cameras to render", items=render.camera_items)
     which: bpy.props.EnumProperty(

@@ -5,14 +5,16 @@ import firetwin
 import numpy as np
 import panel_scene
 import pytest
+import stations
 from firetwin.blender import owned
 from firetwin.errors import Error
 from firetwin.scene.camera import ground_raycast, read_edits
-from firetwin.shot.cameras import rigs
+from firetwin.shot import places
+from firetwin.shot.cameras import rigs, targets
 from firetwin.shot.cameras.lenses import LENSES
 from firetwin.shot.cameras.rigs.poses import Poses
-from firetwin.ui import camera_list, camera_targets, go_to, navigation
-from mathutils import Euler, Matrix
+from firetwin.ui import camera_list, camera_targets, choice, go_to, landmarks, navigation
+from mathutils import Euler, Matrix, Vector
 
 EYE = Matrix.Translation((-500.0, -2500.0, 2400.0)) @ Euler((1.2, 0.0, -0.2)).to_matrix().to_4x4()
 
@@ -180,3 +182,64 @@ def test_one_goes_to_places_names_and_moments(panel):
     assert bpy.ops.firetwin.go(text="run begins") == {"FINISHED"}  # a dated moment of the run
     assert scene.frame_current == 1
     assert bpy.ops.firetwin.go(text="nowhere at all") == {"CANCELLED"}
+
+
+def test_head_ignition_and_stations_are_gone_to(panel, tmp_path):
+    scene = bpy.context.scene
+    path = stations.write(
+        tmp_path / "stations.gpkg", [(1, "Base Two", 38.84, -120.55, "exercise base", "exercise")]
+    )
+    panel.stations.file = str(path)
+    assert (go_to.place(scene, "base two") - go_to.place(scene, "38.84 -120.55")).length < 0.01
+    shot = choice.from_panel(panel).shot()
+    latitude, longitude = places.ignition(shot)
+    assert (go_to.place(scene, "ignition") - go_to.place(scene, f"{latitude} {longitude}")).length < 5.0
+    wanted = targets.follow("head", shot.bare_ground, shot.frames.times, places._ABOVE)
+    for frame in (1, 3):
+        scene.frame_set(frame)
+        assert np.array(go_to.place(scene, "Head of the fire")) == pytest.approx(wanted[frame - 1], abs=0.1)
+        assert go_to.place(scene, "head") == go_to.place(scene, "Head of the fire")
+    assert landmarks.known(panel) == ["Head of the fire", "Ignition"]
+
+
+def test_a_view_at_a_place_is_above_the_terrain(panel, monkeypatch):
+    stage = owned.stage(bpy.context.scene)
+    where = go_to.place(bpy.context.scene, "38.84 -120.55")
+
+    def height(turn, distance):
+        eye = where + turn @ Vector((0.0, 0.0, distance))
+        return eye.z - ground_raycast.up(stage, eye)
+
+    assert height(go_to.above(stage, where, 0.3, 2000.0), 2000.0) > go_to._CLEARANCE
+    flat = go_to.above(stage, where, 0.3, 2000.0)
+    monkeypatch.setattr(ground_raycast, "up", lambda stage, eye: where.z + 1200.0)  # a ridge
+    steep = go_to.above(stage, where, 0.3, 2000.0)
+    assert (steep @ Vector((0, 0, 1))).z > (flat @ Vector((0, 0, 1))).z + 0.1
+
+
+def test_vr_landmarks_stand_on_the_ground_and_go_with_the_head(panel, tmp_path):
+    scene = bpy.context.scene
+    with pytest.raises(RuntimeError, match="Enable VR Scene Inspection"):
+        bpy.ops.firetwin.vr_landmarks()
+    bpy.ops.preferences.addon_enable(module="viewport_vr_preview")
+    try:
+        path = tmp_path / "stations.gpkg"
+        stations.write(path, [(1, "Base Two", 38.87, -120.55, "exercise base", "exercise")])
+        panel.stations.file = str(path)
+        for _ in range(2):  # a second time changes none
+            assert bpy.ops.firetwin.vr_landmarks() == {"FINISHED"}
+        found = {each.name: each for each in scene.vr_landmarks}
+        assert len(scene.vr_landmarks) == len(found)
+        base, began = found["Base Two"], go_to.place(scene, "ignition")
+        assert (Vector(base.base_pose_location) - go_to.place(scene, "base two")).length < 0.01
+        ahead = Matrix.Rotation(base.base_pose_angle, 3, "Z") @ Vector((0.0, 1.0, 0.0))
+        way = (began - Vector(base.base_pose_location)) * Vector((1.0, 1.0, 0.0))
+        assert ahead.angle(way) < 1e-3
+        empty = found["Head of the fire"].base_pose_object
+        assert found["Head of the fire"].type == "OBJECT"
+        for frame in (1, 3):
+            scene.frame_set(frame)
+            assert (empty.matrix_world.translation - go_to.place(scene, "head")).length < 1.1
+        assert len([obj for obj in scene.objects if obj.name.startswith("Head of the fire")]) == 1
+    finally:
+        bpy.ops.preferences.addon_disable(module="viewport_vr_preview")

@@ -103,6 +103,7 @@ CHANGES = {
     "f12_files": {},
     "run_add": {},
     "run_remove": {},
+    "vr_landmarks": {},
 }
 KEEPS = {
     "copy": {"message": "this"},
@@ -141,6 +142,7 @@ def test_undo_and_redo_go_round_every_operator(panel, blend, tmp_path, monkeypat
     monkeypatch.setattr(render, "run", lambda *_, **__: render.RenderResult(1))
     monkeypatch.setattr(assets, "run", lambda *_, **__: 1)
     monkeypatch.setattr(render_blend, "run", lambda *_, **__: 1)
+    bpy.ops.preferences.addon_enable(module="viewport_vr_preview")
     monkeypatch.setattr(submission, "call", lambda *_, **__: None)
     monkeypatch.setattr(submission, "cancellation", lambda out: [])
     monkeypatch.setattr(bpy.utils, "user_resource", lambda *_, path="", **__: str(tmp_path / path))

@@ -290,6 +290,9 @@ def test_settings_come_back_from_their_text(tmp_path_factory, whole):
     )
     labels = dataclasses.replace(back.labels, **moved(back.labels, folder, "file"))
     fire = dataclasses.replace(back.fire, **moved(back.fire, folder, "observed"))
+    stations = dataclasses.replace(
+        back.stations, **moved(back.stations, folder, "file", "footprints", "routes_file")
+    )
     cameras = tuple(
         dataclasses.replace(camera, rig=dataclasses.replace(camera.rig, **moved(camera.rig, folder, "track")))
         for camera in back.cameras
@@ -301,6 +304,7 @@ def test_settings_come_back_from_their_text(tmp_path_factory, whole):
         runs=runs,
         terrain=terrain,
         labels=labels,
+        stations=stations,
         fire=fire,
         cameras=cameras,
         **moved(back, folder, "run", "cache"),

@@ -10,20 +10,33 @@ from ...shot.light import exposure
 from ...shot.shot import Shot
 
 FADE = "fade"
-COLOURS = {"Letters": (0.95, 0.95, 0.92), "Rim": (0.004, 0.004, 0.005)}
+RIM = "Rim"
+COLOURS = {"Letters": (0.95, 0.95, 0.92), RIM: (0.004, 0.004, 0.005)}
 _LIGHT = 4.0  # radiance of white at exposure 0, which AgX shows nearly white
 _SOLID = 0.999  # opacity of letters; a fully opaque one would count as a surface in depth
 _CLEAR = 0.15  # transparency of the outline
 
 
-def build(shot: Shot, name: str, colour: tuple[float, float, float]) -> bpy.types.Material:
-    """Build "Firetwin Labels <name>", as bright in a picture by night as by day."""
-    material, tree = nodes.material(f"Firetwin Labels {name}", colour)
+def build(
+    shot: Shot,
+    name: str,
+    colour: tuple[float, float, float],
+    title: str = "Labels",
+    whose: str = "INSTANCER",
+) -> bpy.types.Material:
+    """Build "Firetwin <title> <name>", as bright in a picture by night as by day.
+
+    Parameters
+    ----------
+    whose
+        Whose attribute `FADE` is: that of the point where it is an INSTANCER's, or of the GEOMETRY itself.
+    """
+    material, tree = nodes.material(f"Firetwin {title} {name}", colour)
     stops = float(exposure.at(shot, np.array([0.5 * (1 + shot.frames.count)]))[0])
     shown = tree.input("Colour", colour, "As it shows in the picture", "Label")
     bright = tree.input("Brightness", _LIGHT * 2.0**-stops, "Against the exposure of the picture", "Label")
-    solid = _SOLID if name == "Letters" else 1.0 - _CLEAR
-    part = tree.attribute(FADE, "INSTANCER") * solid
+    solid = 1.0 - _CLEAR if name == RIM else _SOLID
+    part = tree.attribute(FADE, whose) * solid
     nodes.flames(tree, tree.separate(shown)[0] * bright * part, 0.0, 0.0)  # smoke is in front or behind
     left = 1.0 - part  # a sum, not a mix of shaders, of which rays would sample one: that is noise
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": tree.combine(left, left, left)})

@@ -41,6 +41,6 @@ PASS = RenderedPass(
     samples=1,
     pixel_centres=True,
     geometry_only=True,
-    aspects=frozenset({"time", "camera", "picture", "terrain", "forest"}),
+    aspects=frozenset({"time", "camera", "picture", "terrain", "forest", "stations"}),
     finish=finish,
 )

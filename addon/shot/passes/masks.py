@@ -88,6 +88,6 @@ PASS = RenderedPass(
     shading="masks",
     channels="colour",
     pixel_centres=True,
-    aspects=frozenset({"time", "camera", "picture", "terrain", "forest", "fire", "smoke"}),
+    aspects=frozenset({"time", "camera", "picture", "terrain", "forest", "fire", "smoke", "stations"}),
     finish=finish,
 )

@@ -19,5 +19,5 @@ PASS = RenderedPass(
     samples=1,
     channels="colour",
     pixel_centres=True,
-    aspects=frozenset({"time", "camera", "picture", "terrain", "forest"}),
+    aspects=frozenset({"time", "camera", "picture", "terrain", "forest", "stations"}),
 )

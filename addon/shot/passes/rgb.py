@@ -14,6 +14,18 @@ PASS = RenderedPass(
     bits=16,
     film=True,
     aspects=frozenset(
-        {"time", "camera", "picture", "terrain", "forest", "fire", "smoke", "light", "grain", "labels"}
+        {
+            "time",
+            "camera",
+            "picture",
+            "terrain",
+            "forest",
+            "fire",
+            "smoke",
+            "light",
+            "grain",
+            "labels",
+            "stations",
+        }
     ),
 )

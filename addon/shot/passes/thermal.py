@@ -85,7 +85,19 @@ PASS = RenderedPass(
     through_smoke=True,
     film=True,
     aspects=frozenset(
-        {"time", "camera", "picture", "terrain", "forest", "fire", "smoke", "light", "grain", "thermal"}
+        {
+            "time",
+            "camera",
+            "picture",
+            "terrain",
+            "forest",
+            "fire",
+            "smoke",
+            "light",
+            "grain",
+            "thermal",
+            "stations",
+        }
     ),
     finish=finish,
 )

@@ -344,6 +344,44 @@ class LabelSettings:
 
 
 @dataclass(frozen=True)
+class StationSettings:
+    """Stations and their resources: signs and routes in the visible picture, buildings in every picture."""
+
+    enabled: bool = key(False, "draw the stations")
+    file: Path | None = key(None, "stations and their resources, .gpkg", affects=())
+    signs: bool = key(True, "a sign at each station, which faces the camera")
+    show: tuple[str, ...] = key(
+        ("kind", "resources", "minutes"),
+        "lines below the name",
+        choices=("kind", "resources", "minutes"),
+    )
+    size: float = key(0.022, "letter height", unit="heights of the picture", at_least=0.001, at_most=0.5)
+    detail: float = key(
+        8000.0,
+        "distance from the camera beyond which a sign has the name alone",
+        unit="m",
+        at_least=1,
+        at_most=10_000_000,
+    )
+    distance: float = key(
+        60_000.0,
+        "distance from the camera at which signs have faded out",
+        unit="m",
+        at_least=1,
+        at_most=10_000_000,
+    )
+    buildings: bool = key(True, "a building at each station")
+    footprints: Path | None = key(
+        None, "outlines of buildings; without one a station has a plain model", affects=()
+    )
+    routes: bool = key(False, "a straight line from each station to the ignition")
+    routes_file: Path | None = key(None, "lines to draw in place of straight ones, .geojson", affects=())
+    route_width: float = key(
+        0.004, "width of a route", unit="heights of the picture", at_least=0.0005, at_most=0.1
+    )
+
+
+@dataclass(frozen=True)
 class Thermal:
     """The infrared camera of the thermal view. By default the detector is ideal."""
 
@@ -524,6 +562,9 @@ class Settings:
     light: Light = key(default_factory=Light, help="haze, exposure and the light of the flames")
     labels: LabelSettings = key(
         default_factory=LabelSettings, help="labels of towns, lakes and summits in the picture"
+    )
+    stations: StationSettings = key(
+        default_factory=StationSettings, help="stations, their buildings and routes to the fire"
     )
     thermal: Thermal = key(default_factory=Thermal, help="infrared camera of the thermal view")
     render: Render = key(default_factory=Render, help="how frames are rendered")

@@ -1,0 +1,101 @@
+"""Letters as meshes in the plane of x and y, and how labels and signs are seen: by cameras alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import NamedTuple
+
+import bpy
+
+from ...blender import compat, owned
+
+RIM = 0.035
+"""Width of the outline of letters, in letter heights."""
+
+_THIN = 0.045  # half-width of a stem
+
+
+class Part(NamedTuple):
+    """Points and faces of a part of a mesh, and the index of its material."""
+
+    points: list[tuple[float, float, float]]
+    faces: list[list[int]]
+    material: int
+
+
+@contextmanager
+def typeface() -> Iterator[bpy.types.VectorFont | None]:
+    """Blender's typeface; it stays in the file no longer than before."""
+    before, font = set(bpy.data.fonts), compat.typeface()
+    try:
+        yield font
+    finally:
+        if font is not None and font not in before:
+            bpy.data.fonts.remove(font)
+
+
+def letters(
+    text: str,
+    base: float,
+    offset: float,
+    front: float,
+    font: bpy.types.VectorFont | None,
+    material: int,
+    size: float = 1.0,
+) -> Part:
+    """A line of text, its middle above the origin.
+
+    Parameters
+    ----------
+    base
+        y of the baseline.
+    offset
+        How much its outline is expanded, in letter heights.
+    front
+        z.
+    """
+    curve = bpy.data.curves.new("Firetwin Letters", "FONT")
+    curve.body, curve.align_x, curve.offset, curve.resolution_u = text, "CENTER", offset, 3
+    if font is not None:
+        curve.font = font
+    obj = bpy.data.objects.new("Firetwin Letters", curve)
+    mesh = obj.to_mesh()
+    points = [(v.co.x * size, v.co.y * size + base, front) for v in mesh.vertices]
+    faces = [list(polygon.vertices) for polygon in mesh.polygons]
+    bpy.data.objects.remove(obj)
+    bpy.data.curves.remove(curve)
+    return Part(points, faces, material)
+
+
+def rectangle(left: float, right: float, low: float, high: float, front: float, material: int) -> Part:
+    """An upright rectangle."""
+    points = [(left, low, front), (right, low, front), (right, high, front), (left, high, front)]
+    return Part(points, [[0, 1, 2, 3]], material)
+
+
+def stem(top: float, material: int) -> Part:
+    """A line from the origin up."""
+    return rectangle(-_THIN, _THIN, 0.0, top, 0.01, material)
+
+
+def mesh(name: str, parts: Sequence[Part], looks: Sequence[bpy.types.Material]) -> bpy.types.Mesh:
+    """One mesh of ours from parts, with these materials."""
+    data = owned.mark(bpy.data.meshes.new(name))
+    start, vertices, faces, index = 0, [], [], []
+    for points, polygons, material in parts:
+        vertices += points
+        faces += [[start + k for k in polygon] for polygon in polygons]
+        index += [material] * len(polygons)
+        start += len(points)
+    data.from_pydata(vertices, [], faces)
+    data.polygons.foreach_set("material_index", index)
+    for look in looks:
+        data.materials.append(look)
+    return data
+
+
+def camera_rays_only(obj: bpy.types.Object) -> None:
+    """Make an object visible to camera rays only."""
+    obj.visible_shadow = obj.visible_diffuse = obj.visible_glossy = False
+    obj.visible_volume_scatter = obj.visible_transmission = False

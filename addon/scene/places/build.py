@@ -1,0 +1,20 @@
+"""Stations: signs and routes in "Firetwin Stations", which eyes alone see, and true buildings beside it."""
+
+from __future__ import annotations
+
+from ...blender.owned import Stage
+from ...shot import places
+from ...shot.shot import Shot
+from . import buildings, routes, signs
+
+
+def build(shot: Shot, stage: Stage) -> None:
+    """Build signs, buildings and routes; nothing where stations are off."""
+    settings = shot.settings.stations
+    written, walls = stage.part("Stations"), stage.part("Buildings")
+    shown = places.signs(shot)
+    if shown and settings.signs:
+        signs.build(shot, written, shown)
+    if shown and settings.buildings:
+        buildings.build(shot, stage, walls, shown)
+    routes.build(shot, written, places.routes(shot, shown))

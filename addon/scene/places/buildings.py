@@ -1,0 +1,67 @@
+"""Buildings of stations at their true size: over the user's outlines, else a plain hall with three gates."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...blender import owned
+from ...blender.owned import Stage
+from ...run import areas
+from ...shot.places import Sign
+from ...shot.shot import Shot
+from ..terrain import buildings
+from ..terrain.buildings import Buildings
+
+_LONG, _WIDE, _HIGH = 24.0, 15.0, 6.0  # m, a plain hall for three engines (assumed); height of all walls
+_GATE, _GATE_HIGH, _OUT = 4.3, 4.3, 0.06  # m, width and height of a gate, and how far it stands out
+_BRICK, _ROOF, _DOOR = (0.23, 0.060, 0.040), (0.105, 0.105, 0.110), (0.42, 0.030, 0.022)  # by eye
+
+Array = NDArray[np.float64]
+
+
+def build(
+    shot: Shot, stage: Stage, collection: bpy.types.Collection, shown: Sequence[Sign]
+) -> bpy.types.Object | None:
+    """Build "Firetwin Halls" at the stations; None without any."""
+    made = Buildings()
+    for sign in shown:
+        outline = sign.footprint
+        ring = hall(shot, sign) if outline is None else _metres(shot, outline)
+        roof = made.add(shot, ring, _HIGH, _ROOF, _BRICK)
+        if outline is None:
+            _gates(made, ring, roof - _HIGH)
+    if not made.points:
+        return None
+    data = made.mesh("Firetwin Halls", buildings.material(shot, stage, "Firetwin Halls"))
+    return owned.add(collection, "Halls", data)
+
+
+def hall(shot: Shot, sign: Sign) -> Array:
+    """Corners (4, 2) of a plain hall whose middle is the station and whose gates look south, m."""
+    x, y, _ = shot.ground.point(sign.latitude, sign.longitude)[0]
+    half = 0.5 * np.array([_LONG, _WIDE])
+    return np.array([x, y]) + half * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
+
+
+def _metres(shot: Shot, outline: Array) -> Array:
+    """Outline (n, 2) in the scene, m, counter-clockwise."""
+    longitude = areas.turned(outline[:, 0], float(np.mean(shot.ground.fields.longitude)))
+    ring = shot.ground.point(outline[:, 1], longitude)[:, :2]
+    x, y = ring.T
+    clockwise = np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y) < 0.0
+    return ring[::-1] if clockwise else ring
+
+
+def _gates(made: Buildings, ring: Array, floor: float) -> None:
+    """Append three gates on the south wall."""
+    (left, south), right = ring[0], ring[1][0]
+    for k in range(3):
+        middle = left + (right - left) * (k + 0.5) / 3.0
+        first = len(made.points)
+        for x, z in ((-0.5, 0.0), (0.5, 0.0), (0.5, 1.0), (-0.5, 1.0)):
+            made.points.append(np.array([middle + x * _GATE, south - _OUT, floor + z * _GATE_HIGH]))
+        made.face((first, first + 1, first + 2, first + 3), _DOOR)

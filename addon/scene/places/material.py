@@ -1,0 +1,32 @@
+"""Colours of signs and routes, by what is shown: a fact, an exercise, or the user's own."""
+
+from __future__ import annotations
+
+import bpy
+
+from ...shot.places import FACT, INVENTED, USER
+from ...shot.shot import Shot
+from ..labels import material
+
+TITLE = "Stations"
+ACCENTS = {FACT: (0.95, 0.95, 0.92), INVENTED: (1.0, 0.42, 0.03), USER: (0.25, 0.62, 1.0)}
+"""Linear colours as they show in the picture, by eye: white, amber, blue."""
+
+
+def signs(shot: Shot) -> list[bpy.types.Material]:
+    """Materials of signs: letters, plate, then an accent for each of `ACCENTS`."""
+    plain = [material.build(shot, name, colour, TITLE) for name, colour in material.COLOURS.items()]
+    return plain + [material.build(shot, name.title(), colour, TITLE) for name, colour in ACCENTS.items()]
+
+
+def accent(origin: str) -> int:
+    """Index of an accent in `signs`."""
+    return len(material.COLOURS) + list(ACCENTS).index(origin)
+
+
+def routes(shot: Shot) -> list[bpy.types.Material]:
+    """Materials of routes, one for each of `ACCENTS`."""
+    return [
+        material.build(shot, f"Route {name.title()}", colour, TITLE, "GEOMETRY")
+        for name, colour in ACCENTS.items()
+    ]

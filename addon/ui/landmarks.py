@@ -1,0 +1,61 @@
+"""Landmarks: where the fire began and where its head is at each frame, stored with the scene at a build."""
+
+from __future__ import annotations
+
+import functools
+import json
+
+import bpy
+import numpy as np
+from mathutils import Vector
+from numpy.typing import NDArray
+
+from ..shot.places import Moving
+
+HEAD, IGNITION = "Head of the fire", "Ignition"
+
+_KNOTS = 49  # positions of the head that are stored; it is linear between
+_WORDS = {"head": HEAD, "head of the fire": HEAD, "ignition": IGNITION}
+
+
+def store(panel: bpy.types.PropertyGroup, found: Moving) -> None:
+    """Store them in the .blend file."""
+    frames = np.unique(np.linspace(0, len(found.head) - 1, _KNOTS).round().astype(int))
+    ignition = None if found.ignition is None else np.round(found.ignition, 1).tolist()
+    head = np.round(found.head[frames], 1).tolist()
+    panel.landmarks = json.dumps({"ignition": ignition, "frames": (frames + 1).tolist(), "head": head})
+
+
+def forget(panel: bpy.types.PropertyGroup) -> None:
+    """Nothing is built."""
+    panel.landmarks = ""
+
+
+def known(panel: bpy.types.PropertyGroup) -> list[str]:
+    """Names of those that the scene has."""
+    found = _read(panel.landmarks)
+    if not found or found["ignition"] is None:
+        return []
+    return [HEAD, IGNITION]
+
+
+def find(panel: bpy.types.PropertyGroup, text: str) -> Vector | None:
+    """Position in the scene of the head at the current frame, or of the ignition, by name."""
+    name = _WORDS.get(text.strip().lower())
+    if name not in known(panel):
+        return None
+    if name == IGNITION:
+        return Vector(_read(panel.landmarks)["ignition"])
+    return Vector(track(panel)[min(max(panel.id_data.frame_current, 1), panel.frames) - 1])
+
+
+def track(panel: bpy.types.PropertyGroup) -> NDArray[np.float64]:
+    """Positions (frames, 3) of the head, above the ground."""
+    found = _read(panel.landmarks)
+    head, every = np.array(found["head"]), np.arange(1, panel.frames + 1)
+    return np.stack([np.interp(every, found["frames"], head[:, axis]) for axis in range(3)], axis=-1)
+
+
+@functools.lru_cache(maxsize=4)
+def _read(text: str) -> dict[str, list]:
+    return json.loads(text) if text else {}

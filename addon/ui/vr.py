@@ -1,0 +1,90 @@
+"""Landmarks of Blender's own VR viewer: stations, the ignition, and the moving head of the fire.
+
+Its add-on "VR Scene Inspection" keeps them with the scene. A landmark at a place stands on the ground and
+looks at where the fire began; that of the head belongs to an empty, which is the artist's own.
+"""
+
+from __future__ import annotations
+
+import math
+
+import bpy
+import numpy as np
+from mathutils import Vector
+
+from ..progress import count
+from . import camera_targets, go_to, landmarks, navigation, place_names, working
+
+NO_VIEWER = "Enable VR Scene Inspection in Blender's preferences (Add-ons) first"
+MOST = 100  # stations
+
+
+class FIRETWIN_OT_vr_landmarks(bpy.types.Operator):
+    """Add stations, the ignition and the moving head of the fire as landmarks of Blender's VR viewer"""
+
+    bl_idname = "firetwin.vr_landmarks"
+    bl_label = "VR landmarks"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not hasattr(context.scene, "vr_landmarks"):
+            cls.poll_message_set(NO_VIEWER)
+            return False
+        return navigation.can_navigate(cls, context)
+
+    @working.reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        scene, panel = context.scene, context.scene.firetwin
+        began = landmarks.find(panel, landmarks.IGNITION)
+        names = [each.name for each in place_names.stations(panel)[:MOST]]
+        places = {name: where for name in names if (where := go_to.place(scene, name)) is not None}
+        for name, where in places.items():
+            _stand(scene, name, where, began)
+        if began is not None:
+            _stand(scene, landmarks.IGNITION, began, None)
+            _ride(scene, began)
+        total = len(places) + (0 if began is None else 2)
+        if not total:
+            self.report({"WARNING"}, "There are no stations, and nothing burns")
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"Added {count(total, 'landmark')} to the tab VR")
+        return {"FINISHED"}
+
+
+def _landmark(scene: bpy.types.Scene, name: str) -> bpy.types.PropertyGroup:
+    """The landmark of this name, selected; a new one where it is missing."""
+    index = next((k for k, each in enumerate(scene.vr_landmarks) if each.name == name), None)
+    if index is None:
+        index = len(scene.vr_landmarks)
+        scene.vr_landmarks.add().name = name
+    scene.vr_landmarks_selected = index
+    return scene.vr_landmarks[index]
+
+
+def _stand(scene: bpy.types.Scene, name: str, where: Vector, to: Vector | None) -> None:
+    """A landmark on the ground that looks at a point; without one it looks north."""
+    found = _landmark(scene, name)
+    found.type = "CUSTOM"
+    found.base_pose_location = where
+    found.base_pose_angle = 0.0 if to is None else _angle(to - where)
+
+
+def _ride(scene: bpy.types.Scene, began: Vector) -> None:
+    """A landmark on an empty that goes with the head of the fire and looks where it went."""
+    track = landmarks.track(scene.firetwin)
+    for old in [obj for obj in scene.objects if obj.name == landmarks.HEAD and obj.type == "EMPTY"]:
+        bpy.data.objects.remove(old)
+    empty = camera_targets.moving_empty(scene, landmarks.HEAD, track)
+    empty.rotation_euler.z = _angle(Vector(track[-1]) - began)
+    found = _landmark(scene, landmarks.HEAD)
+    found.type = "OBJECT"
+    found.base_pose_object = empty
+
+
+def _angle(way: Vector) -> float:
+    """Rotation about the vertical, rad, that turns north into this direction."""
+    return math.atan2(-way.x, way.y) if np.hypot(way.x, way.y) > 0.0 else 0.0
+
+
+classes = (FIRETWIN_OT_vr_landmarks,)
