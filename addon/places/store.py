@@ -1,0 +1,135 @@
+"""Places in memory: records of a file, and the arrays that searches use."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .records import Area, Availability, Resource, Source, Station, Type
+
+Array = NDArray[np.float64]
+
+WATER_KG_L = 1.0  # density of water, kg/l
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Values of all resources (n,), in the order of `Places.resources`; NaN where one is not known.
+
+    Attributes
+    ----------
+    station
+        Index into `Places.stations`.
+    latitude, longitude
+        Degrees of its station.
+    load_kg
+        Load of one unit; where the resource gives none, its type's least tank of water.
+    """
+
+    id: NDArray[np.int64]
+    station: NDArray[np.int64]
+    latitude: Array
+    longitude: Array
+    count: NDArray[np.int64]
+    load_kg: Array
+    speed_km_h: Array
+    mobilise_min: Array
+    radius_km: Array
+    line_m_h: Array
+    cost_mobilise: Array
+    cost_hour: Array
+    cost_day: Array
+    night: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Places:
+    """Content of a file of places, or of several."""
+
+    stations: tuple[Station, ...] = ()
+    resources: tuple[Resource, ...] = ()
+    availability: tuple[Availability, ...] = ()
+    sources: tuple[Source, ...] = ()
+    types: tuple[Type, ...] = ()
+    areas: tuple[Area, ...] = ()
+
+    @cached_property
+    def source_of(self) -> dict[int, Source]:
+        """Sources by their number."""
+        return {source.id: source for source in self.sources}
+
+    @cached_property
+    def type_of(self) -> dict[str, Type]:
+        """Types by their code."""
+        return {each.code: each for each in self.types}
+
+    @cached_property
+    def station_row(self) -> dict[int, int]:
+        """Index into `stations` by a station's number."""
+        return {station.id: row for row, station in enumerate(self.stations)}
+
+    @property
+    def exercise(self) -> bool:
+        """Whether any row was invented for an exercise; what shows it says so."""
+        return any(each.origin == "exercise" for rows in (self.stations, self.resources) for each in rows)
+
+    @cached_property
+    def positions(self) -> tuple[Array, Array]:
+        """Latitude and longitude (n,) of all stations, degrees."""
+        stations = self.stations
+        return (
+            np.array([each.latitude for each in stations], np.float64),
+            np.array([each.longitude for each in stations], np.float64),
+        )
+
+    @cached_property
+    def columns(self) -> Columns:
+        """Values of all resources as arrays."""
+        resources, (latitude, longitude) = self.resources, self.positions
+        tanks = {each.code: (each.tank_l or np.nan) * WATER_KG_L for each in self.types}
+        station = _whole(self.station_row[each.station] for each in resources)
+        own = _floats(resources, lambda each: each.load_kg)
+        least = _floats(resources, lambda each: tanks.get(each.type))
+        return Columns(
+            id=_whole(each.id for each in resources),
+            station=station,
+            latitude=latitude[station],
+            longitude=longitude[station],
+            count=_whole(each.count for each in resources),
+            load_kg=np.where(np.isnan(own), least, own),
+            speed_km_h=_floats(resources, lambda each: each.speed_km_h),
+            mobilise_min=_floats(resources, lambda each: each.mobilise_min),
+            radius_km=_floats(resources, lambda each: each.radius_km),
+            line_m_h=_floats(resources, lambda each: each.line_m_h),
+            cost_mobilise=_floats(resources, lambda each: each.cost_mobilise),
+            cost_hour=_floats(resources, lambda each: each.cost_hour),
+            cost_day=_floats(resources, lambda each: each.cost_day),
+            night=np.array([each.night for each in resources], np.bool_),
+        )
+
+
+def read(path: str | Path) -> Places:
+    """Read a file of places.
+
+    Raises
+    ------
+    InputError
+        The file is missing, is no file of places, or is damaged.
+    """
+    from . import reading  # which makes Places
+
+    return reading.read(Path(path))
+
+
+def _floats(resources: Sequence[Resource], value: Callable[[Resource], float | None]) -> Array:
+    found = (value(each) for each in resources)
+    return np.array([np.nan if each is None else each for each in found], np.float64)
+
+
+def _whole(values: Iterable[int]) -> NDArray[np.int64]:
+    return np.fromiter(values, np.int64)
