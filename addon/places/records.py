@@ -30,7 +30,7 @@ EXERCISE = "Exercise: not operational advice"
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """Where rows come from: its name, licence, the day (ISO 8601) of the data, address and the file's hash."""
+    """Where rows come from: name, licence, day of the data (ISO 8601), address, and hash of the file."""
 
     id: int
     name: str

@@ -1,12 +1,24 @@
-"""Search: which resources answer a query, when they are there, what they cost and what they deliver."""
+"""Search: which resources answer a query, when they are there, what they cost and what they deliver.
+
+Five words of a query have one meaning each. Area of coverage: the polygons of the station's areas, else the
+resource's radius, else what it reaches within the query's minutes. Budget: mobilising and the hours of work,
+summed over the set. Tonnage: water or retardant that the set delivers by round trips, t/h. Operational mode:
+one of `records.MODES`. Availability: the status at the query's time.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from datetime import datetime
 
+import numpy as np
+from numpy.typing import NDArray
+
+from . import cover, measures
 from .records import Resource, Station
 from .store import Places
+
+Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -16,7 +28,7 @@ class Query:
     Attributes
     ----------
     near
-        Place that resources go to, degrees north and east; needed by distances and times.
+        Place that resources go to, degrees north and east; distances, times and tonnage need it.
     within_km
         Greatest straight distance, km.
     minutes
@@ -30,13 +42,15 @@ class Query:
     tonnes_per_hour
         Water or retardant that the set has to deliver, t/h.
     budget
-        Greatest cost of the set.
+        Greatest cost of the set, in `currency`.
+    currency
+        Currency of costs; what costs another one is left out of sets.
     hours
         Hours of work that are paid, h.
     detour
         Length of roads by straight distance.
     refill_km
-        Distance of the place of refilling, km; air tankers go back to their station.
+        Straight distance to the place of refilling, km; air tankers go back to their station.
     turnaround_min
         Time to fill and to discharge in each round trip, min.
     """
@@ -52,6 +66,7 @@ class Query:
     at: datetime | None = None
     tonnes_per_hour: float | None = None
     budget: float | None = None
+    currency: str = "USD"
     hours: float = 12.0
     detour: float = 1.4
     refill_km: float = 5.0
@@ -87,11 +102,34 @@ class Match:
 
 @dataclass(frozen=True)
 class Found:
-    """Matches by arrival, how many resources each reason left out, and why a set falls short."""
+    """Answer of a search.
+
+    Attributes
+    ----------
+    matches
+        By minutes, then by number; where the query has a budget or a tonnage, those of the set alone.
+    left_out
+        Number of resources that each reason left out; the first reason of each counts.
+    candidates
+        Number of resources that the set was chosen from.
+    shortfall
+        Why there is no set that delivers enough; empty where there is one.
+    """
 
     matches: list[Match]
     left_out: dict[str, int] = field(default_factory=dict)
+    candidates: int = 0
     shortfall: str = ""
+
+    @property
+    def cost(self) -> float:
+        """Sum of known costs."""
+        return sum(each.cost or 0.0 for each in self.matches)
+
+    @property
+    def tonnes_per_hour(self) -> float:
+        """Sum of known deliveries, t/h."""
+        return sum(each.tonnes_per_hour or 0.0 for each in self.matches)
 
 
 def find(places: Places, query: Query) -> list[Match]:
@@ -100,5 +138,67 @@ def find(places: Places, query: Query) -> list[Match]:
 
 
 def survey(places: Places, query: Query) -> Found:
-    """Resources that answer a query, and how many each reason left out."""
-    raise NotImplementedError
+    """Resources that answer a query, and how many each reason left out.
+
+    Without budget and tonnage these are all that pass the other conditions. With a tonnage it is the cheapest
+    set that delivers it, by `cover.cheapest`, within the budget if there is one. With a budget alone it is
+    what arrives first, as far as the budget goes.
+    """
+    measured = measures.measure(places, query)
+    left_out: dict[str, int] = {}
+    kept = np.ones(len(places.resources), np.bool_)
+    for reason, fails in measured.tests:
+        out = kept & fails
+        if out.any():
+            left_out[reason] = int(np.count_nonzero(out))
+            kept &= ~fails
+    rows = np.flatnonzero(kept)
+    rows = rows[np.lexsort((places.columns.id[rows], measured.minutes[rows]))]  # NaN comes last
+    chosen, shortfall = _set(rows, measured, query)
+    is_set = query.tonnes_per_hour is not None or query.budget is not None
+    candidates = len(rows) if is_set else 0
+    return Found([_match(places, measured, row) for row in chosen], left_out, candidates, shortfall)
+
+
+def _set(rows: NDArray[np.int64], measured: measures.Measures, query: Query) -> tuple[NDArray[np.int64], str]:
+    """Rows of the set that the budget and the tonnage of a query choose, and why there is none."""
+    if query.tonnes_per_hour is None:
+        return (rows, "") if query.budget is None else (_first(rows, measured.cents[rows], query.budget), "")
+    by_id = np.sort(rows)
+    need = int(np.ceil(query.tonnes_per_hour * 1000.0 - 1e-9))
+    chosen = cover.cheapest(measured.cents[by_id], measured.kg_h[by_id], need)
+    none = rows[:0]
+    if chosen is None:
+        most = measured.kg_h[by_id].sum() / 1000.0
+        return none, f"all {len(rows)} together deliver {most:.1f} t/h, less than {query.tonnes_per_hour:g}"
+    cost = measured.cents[by_id[chosen]].sum() / 100.0
+    if query.budget is not None and cost > query.budget:
+        return none, (f"the cheapest set costs {cost:,.2f} {query.currency}, more than {query.budget:,.2f}")
+    return rows[np.isin(rows, by_id[chosen])], ""
+
+
+def _first(rows: NDArray[np.int64], cents: NDArray[np.int64], budget: float) -> NDArray[np.int64]:
+    """Rows in their order that a budget still pays; one that it does not pay is passed over."""
+    left, taken = round(budget * 100), []
+    for row, cost in zip(rows.tolist(), cents.tolist(), strict=True):
+        if cost <= left:
+            taken.append(row)
+            left -= cost
+    return np.array(taken, np.int64)
+
+
+def _match(places: Places, measured: measures.Measures, row: int) -> Match:
+    resource = places.resources[row]
+    return Match(
+        resource,
+        places.stations[places.columns.station[row]],
+        _known(measured.distance_km[row]),
+        _known(measured.minutes[row]),
+        _known(measured.cost[row]),
+        _known(measured.tonnes_per_hour[row]),
+        measures.COVERAGE[measured.coverage[row]],
+    )
+
+
+def _known(value: float) -> float | None:
+    return None if np.isnan(value) else float(value)

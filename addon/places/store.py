@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .records import Area, Availability, Resource, Source, Station, Type
+from .words import Words
 
 Array = NDArray[np.float64]
 
@@ -45,6 +46,17 @@ class Columns:
     cost_hour: Array
     cost_day: Array
     night: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Codes:
+    """Words of all resources, in the order of `Places.resources`; `type` is without its kind."""
+
+    kind: Words
+    type: Words
+    mode: Words
+    staffing: Words
+    currency: Words
 
 
 @dataclass(frozen=True)
@@ -110,6 +122,18 @@ class Places:
             cost_hour=_floats(resources, lambda each: each.cost_hour),
             cost_day=_floats(resources, lambda each: each.cost_day),
             night=np.array([each.night for each in resources], np.bool_),
+        )
+
+    @cached_property
+    def codes(self) -> Codes:
+        """Words of all resources."""
+        types, resources = self.type_of, self.resources
+        return Codes(
+            kind=Words.of(types[each.type].kind for each in resources),
+            type=Words.of(types[each.type].type for each in resources),
+            mode=Words.of(each.mode for each in resources),
+            staffing=Words.of(each.staffing for each in resources),
+            currency=Words.of(each.currency for each in resources),
         )
 
 

@@ -77,6 +77,26 @@ def _parts(blob: bytes) -> Iterator[Part]:
     yield from _Binary(blob, 8 + _ENVELOPES[flags >> 1 & 7]).geometry()
 
 
+def points(blob: bytes) -> list[Ring]:
+    """Points (2,) of a geometry blob, east and north; none of one that is damaged or no point."""
+    return _of_kind(blob, "point")
+
+
+def polygons(blob: bytes) -> tuple[Polygon, ...]:
+    """Polygons of a geometry blob as rings (n, 2), the outer first; none of one that is damaged."""
+    return tuple(
+        tuple(each[:-1] if len(each) > 1 and (each[0] == each[-1]).all() else each for each in rings)
+        for rings in _of_kind(blob, "polygon")
+    )
+
+
+def _of_kind(blob: bytes, kind: str) -> list[Any]:
+    try:
+        return [part for found, part in _parts(blob) if found == kind]
+    except (struct.error, ValueError, IndexError, TypeError):
+        return []
+
+
 class _Binary:
     """Parser of well-known binary (ISO 19125): byte order, type, then counts and float64 coordinates."""
 

@@ -1,0 +1,127 @@
+"""The cheapest set of resources that delivers enough: a 0-1 minimum knapsack cover, solved exactly.
+
+Costs and deliveries are whole numbers (cents and kg/h). States are pairs of cost and delivery; of two states
+the one that costs no less and delivers no more is dropped (Nemhauser and Ullmann, Discrete dynamic
+programming and capital allocation, Management Science 15, 1969). A state is also dropped when even the linear
+relaxation of what it lacks costs more than a set already known.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Whole = NDArray[np.int64]
+
+_MOST = 4e18  # sum of prices that 64 bits hold
+
+
+class _States(NamedTuple):
+    """Sets of items, by ascending cost and delivery; `before` is a state of the step before."""
+
+    cost: Whole
+    gain: Whole
+    before: Whole
+    taken: NDArray[np.bool_]
+
+
+def cheapest(cost: Whole, gain: Whole, need: int) -> Whole | None:
+    """Indices (k,), ascending, of the items with the least cost whose gains sum to `need` or more.
+
+    Of sets of one cost it is one of the fewest items. Items of equal cost and gain are taken in their order.
+    None where all items together are not enough.
+
+    Parameters
+    ----------
+    cost, gain
+        (n,) not negative.
+    """
+    if need <= 0:
+        return np.empty(0, np.int64)
+    items = np.flatnonzero(gain > 0)
+    gains = np.minimum(gain[items], need)
+    if int(gains.sum()) < need:
+        return None
+    factor = len(items) + 1  # of two sets of one cost the one of fewer items
+    if float(cost[items].sum()) * factor > _MOST:
+        return _picked(items, cost[items], gains, need)
+    return _picked(items, cost[items] * factor + 1, gains, need)
+
+
+def _picked(items: Whole, prices: Whole, gains: Whole, need: int) -> Whole:
+    kept, bound = _needed(prices, gains, need)
+    chosen = _solve(prices[kept], gains[kept], need, bound)
+    return np.sort(items[kept[chosen]])
+
+
+def _needed(prices: Whole, gains: Whole, need: int) -> tuple[Whole, int]:
+    """Items that a cheapest set may hold, by ascending price of a gain, and the price of some set."""
+    order = np.lexsort((np.arange(len(prices)), -gains, prices / gains))
+    order = order[_first_alike(prices[order], gains[order], need)]
+    p, g = prices[order], gains[order]
+    last = int(np.searchsorted(np.cumsum(g), need))
+    bound = _greedy(p, g, need, last)
+    rate = p[last] / g[last]  # price of a unit in the linear relaxation
+    relaxed = float(np.sum(p[:last])) + rate * float(need - np.sum(g[:last]))
+    outside = np.arange(len(p)) >= last
+    extra = np.where(outside, p - rate * g, 0.0)  # reduced cost: taking such an item costs this more at least
+    return order[relaxed + extra <= bound * (1.0 + 1e-12) + 1e-6], bound
+
+
+def _first_alike(prices: Whole, gains: Whole, need: int) -> NDArray[np.bool_]:
+    """Of alike items, which lie side by side, no more than are enough by themselves."""
+    new = np.concatenate([[True], (np.diff(prices) != 0) | (np.diff(gains) != 0)])
+    starts = np.flatnonzero(new)
+    rank = np.arange(len(prices)) - starts[np.cumsum(new) - 1]
+    return rank < -(-need // gains)
+
+
+def _greedy(prices: Whole, gains: Whole, need: int, last: int) -> int:
+    """Price of a set: the items before `last`, and the cheapest one that completes them."""
+    lacking = need - int(np.sum(gains[:last]))
+    rest = prices[last:][gains[last:] >= lacking]
+    return int(np.sum(prices[:last])) + int(rest.min())
+
+
+def _solve(prices: Whole, gains: Whole, need: int, bound: int) -> Whole:
+    """Indices of the cheapest set of items that come by ascending price of a gain."""
+    zero = np.zeros(1, np.int64)
+    steps = [_States(zero, zero, zero, np.zeros(1, np.bool_))]
+    sums, spent = (np.concatenate([zero, np.cumsum(each)]) for each in (gains, prices))
+    for item, (price, gain) in enumerate(zip(prices, gains, strict=True)):
+        steps.append(_grown(steps[-1], int(price), int(gain), need))
+        states = steps[-1]
+        lacking = np.maximum(need - states.gain, 0)
+        done, paid = sums[item + 1], spent[item + 1]
+        least = np.interp(lacking + done, sums[item + 1 :], spent[item + 1 :]) - paid
+        keep = (lacking <= sums[-1] - done) & (states.cost + least <= bound * (1.0 + 1e-12) + 1e-6)
+        steps[-1] = _States(*(each[keep] for each in states))
+        enough = steps[-1].gain >= need
+        if enough.any():
+            bound = min(bound, int(steps[-1].cost[enough].min()))
+    return _traced(steps, int(np.flatnonzero(steps[-1].gain >= need)[0]))
+
+
+def _grown(states: _States, price: int, gain: int, need: int) -> _States:
+    """States without and with one more item; of equal ones that without comes first."""
+    cost = np.concatenate([states.cost, states.cost + price])
+    sums = np.minimum(np.concatenate([states.gain, states.gain + gain]), need)
+    before = np.tile(np.arange(len(states.cost)), 2)
+    taken = np.repeat([False, True], len(states.cost))
+    order = np.lexsort((taken, -sums, cost))
+    best = np.maximum.accumulate(sums[order])
+    keep = order[np.concatenate([[True], best[1:] > best[:-1]])]
+    return _States(cost[keep], sums[keep], before[keep], taken[keep])
+
+
+def _traced(steps: list[_States], state: int) -> Whole:
+    """Items of a state of the last step."""
+    found = []
+    for item in range(len(steps) - 1, 0, -1):
+        step = steps[item]
+        if step.taken[state]:
+            found.append(item - 1)
+        state = int(step.before[state])
+    return np.array(found[::-1], np.int64)

@@ -1,0 +1,165 @@
+"""What a query measures of every resource at once: distance, minutes, cost, tonnes, and what rules it out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import datetime
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .distance import covers, distance_km
+from .records import AIR
+from .store import Places
+
+if TYPE_CHECKING:
+    from .search import Query
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+COVERAGE = ("time", "radius", "area")
+"""What an area of coverage is, by its number in `Measures.coverage`."""
+
+_MOST = 10**10  # cents and kg/h
+
+
+@dataclass(frozen=True)
+class Measures:
+    """Values (n,) of all resources, of all units of a row; NaN is not known.
+
+    Attributes
+    ----------
+    coverage
+        Index into `COVERAGE`.
+    cents, kg_h
+        Cost rounded to cents and delivery rounded down to kg/h, for sums without rounding; 0 is not known.
+    tests
+        Reasons why resources are ruled out, each with a mask (n,) of those; the most evident first.
+    """
+
+    distance_km: Array
+    minutes: Array
+    cost: Array
+    tonnes_per_hour: Array
+    coverage: NDArray[np.int64]
+    cents: NDArray[np.int64]
+    kg_h: NDArray[np.int64]
+    tests: tuple[tuple[str, Mask], ...]
+
+
+def measure(places: Places, query: Query) -> Measures:
+    """Measure all resources for a query."""
+    columns, codes = places.columns, places.codes
+    nothing = np.full(len(columns.id), np.nan)
+    air = codes.kind.among(AIR)
+    far = nothing
+    if query.near is not None:
+        far = distance_km(*places.positions, query.near)[columns.station]
+    way = np.where(air, 1.0, query.detour)
+    minutes = columns.mobilise_min + 60.0 * far * way / columns.speed_km_h
+    cost = cost_of(places, query.hours)
+    tonnes = delivery(places, query, far, air, way)
+    coverage, covered = coverages(places, query, far)
+    return Measures(
+        far,
+        minutes,
+        cost,
+        tonnes,
+        coverage,
+        _whole(np.round(cost * 100.0)),
+        _whole(np.floor(tonnes * 1000.0 + 1e-6)),
+        tuple(_tests(places, query, far, minutes, cost, tonnes, covered)),
+    )
+
+
+def cost_of(places: Places, hours: float) -> Array:
+    """Cost (n,) of mobilising and of hours of work: by the hour, or by days without a rate by the hour.
+
+    What costs nothing to mobilise need not say so. NaN without a rate.
+    """
+    columns = places.columns
+    days = columns.cost_day * np.ceil(hours / 24.0)
+    work = np.where(np.isnan(columns.cost_hour), days, columns.cost_hour * hours)
+    return columns.count * (np.nan_to_num(columns.cost_mobilise) + work)
+
+
+def delivery(places: Places, query: Query, far: Array, air: Mask, way: Array) -> Array:
+    """Delivery (n,), t/h, by round trips between the place and where the tank is filled.
+
+    Air tankers fill at their station, all others at `Query.refill_km`. 0 for what carries nothing.
+    """
+    columns = places.columns
+    home = places.codes.kind.among(("airtanker",))
+    one_way = np.where(home, far, query.refill_km) * way
+    trip = 2.0 * one_way / columns.speed_km_h + query.turnaround_min / 60.0
+    with np.errstate(divide="ignore"):
+        return columns.count * np.where(np.isnan(columns.load_kg), 0.0, columns.load_kg / 1000.0 / trip)
+
+
+def coverages(places: Places, query: Query, far: Array) -> tuple[NDArray[np.int64], Mask]:
+    """What the area of coverage of each resource is, and whether the place lies in it (n,)."""
+    columns = places.columns
+    drawn = np.zeros(len(places.stations), np.bool_)
+    inside = np.zeros(len(places.stations), np.bool_)
+    for area in places.areas:
+        row = places.station_row[area.station]
+        drawn[row] = True
+        inside[row] |= query.near is not None and covers(area, *query.near)
+    by_area, by_radius = drawn[columns.station], ~np.isnan(columns.radius_km)
+    coverage = np.where(by_area, 2, np.where(by_radius, 1, 0))
+    if query.near is None:
+        return coverage, np.ones(len(coverage), np.bool_)
+    within = ~by_radius | (far <= columns.radius_km)
+    return coverage, np.where(by_area, inside[columns.station], within)
+
+
+def _tests(
+    places: Places, query: Query, far: Array, minutes: Array, cost: Array, tonnes: Array, covered: Mask
+) -> list[tuple[str, Mask]]:
+    codes, tests = places.codes, []
+    for word, wanted, column in (
+        ("kind", query.kinds, codes.kind),
+        ("type", query.types, codes.type),
+        ("mode", query.modes, codes.mode),
+        ("staffing", query.staffing, codes.staffing),
+    ):
+        if wanted:
+            tests.append((f"of another {word}", ~column.among(wanted)))
+    if query.night:
+        tests.append(("not at night", ~places.columns.night))
+    if query.at is not None:
+        status = statuses(places, query.at)
+        tests += [("of unknown status then", status < 0), ("not available then", status == 0)]
+    if query.within_km is not None:
+        tests.append((f"farther than {query.within_km:g} km", ~(far <= query.within_km)))
+    tests.append(("outside of their area of coverage", ~covered))
+    if query.minutes is not None:
+        tests += [
+            ("of unknown speed or time to mobilise", np.isnan(minutes)),
+            (f"later than {query.minutes:g} min", minutes > query.minutes),
+        ]
+    if query.tonnes_per_hour is not None:
+        tests += [("of unknown tonnage", np.isnan(tonnes)), ("carry nothing", tonnes <= 0.0)]
+    if query.budget is not None or query.tonnes_per_hour is not None:
+        other = ~codes.currency.among((query.currency,))
+        tests += [("of unknown cost", np.isnan(cost)), (f"not paid in {query.currency}", other)]
+    return tests
+
+
+def statuses(places: Places, at: datetime) -> NDArray[np.int64]:
+    """Status (n,) of all resources at a time: 1 available, 0 not, -1 not known.
+
+    Of windows that overlap the one that begins last counts.
+    """
+    row = {number: row for row, number in enumerate(places.columns.id.tolist())}
+    found = np.full(len(row), -1, np.int64)
+    now = [window for window in places.availability if window.begins <= at < window.ends]
+    for window in sorted(now, key=lambda each: each.begins):
+        found[row[window.resource]] = window.status == "available"
+    return found
+
+
+def _whole(values: Array) -> NDArray[np.int64]:
+    return np.clip(np.nan_to_num(values), 0.0, _MOST).astype(np.int64)

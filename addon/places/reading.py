@@ -1,0 +1,186 @@
+"""Reading of a file of places, also of one that QGIS edited."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import sqlite3
+from collections.abc import Callable
+from dataclasses import fields
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any, NoReturn, TypeVar
+
+from ..errors import input_error
+from ..run.observations import geopackage
+from . import geometry
+from .records import MODES, ORIGINS, STATUSES, Area, Availability, Resource, Source, Station, Type
+from .store import Places
+
+Record = TypeVar("Record", Source, Type, Resource)
+
+_NO_PLACES = "is no file of places; make one: firetwin places import FILE --out PLACES.gpkg"
+
+
+def read(path: Path) -> Places:
+    """Read all tables; the position of a station is that of its geometry.
+
+    Raises
+    ------
+    InputError
+        The file is missing, is no file of places, or a row is damaged.
+    """
+    if not path.is_file():
+        raise input_error(path, 0, 0, "there is no such file; check the path")
+    try:
+        with contextlib.closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
+            tables = {name for (name,) in base.execute("SELECT name FROM sqlite_master WHERE type = 'table'")}
+            if not {"source", "type", "station", "resource", "availability", "area"} <= tables:
+                raise input_error(path, 0, 0, _NO_PLACES)
+            return _Reader(path, base).places()
+    except sqlite3.DatabaseError as error:
+        reason = _NO_PLACES if "not a database" in str(error) else f"cannot be read: {error}"
+        raise input_error(path, 0, 0, reason) from None
+
+
+def _same(value: Any) -> Any:
+    return value
+
+
+_MADE: dict[str, Callable[[Any], Any]] = {"str": lambda value: value or "", "bool": bool}
+
+
+class _Reader:
+    def __init__(self, path: Path, base: sqlite3.Connection) -> None:
+        self.path, self.base = path, base
+
+    def places(self) -> Places:
+        places = Places(
+            self.stations(),
+            self.records(Resource, "resource", "id"),
+            self.availability(),
+            self.records(Source, "source", "id"),
+            self.records(Type, "type", "fid"),
+            self.areas(),
+        )
+        self.check(places)
+        return places
+
+    def records(self, kind: type[Record], table: str, key: str) -> tuple[Record, ...]:
+        """Records whose fields are named as the table's columns are; a text that is missing is empty."""
+        made: list[Callable[[Any], Any]] = [_MADE.get(str(each.type), _same) for each in fields(kind)]
+        names = ", ".join(each.name for each in fields(kind))
+        rows = self.base.execute(f"SELECT {names} FROM {table} ORDER BY {key}")
+        return tuple(kind(*(make(value) for make, value in zip(made, row, strict=True))) for row in rows)
+
+    def stations(self) -> tuple[Station, ...]:
+        command = (
+            "SELECT fid, geom, name, origin, source, kind, agency, address, source_id, picture "
+            "FROM station ORDER BY fid"
+        )
+        found = []
+        for number, blob, name, origin, source, *texts in self.base.execute(command):
+            latitude, longitude = self.position(number, blob)
+            found.append(
+                Station(number, name, latitude, longitude, origin, source, *(each or "" for each in texts))
+            )
+        return tuple(found)
+
+    def position(self, number: int, blob: Any) -> tuple[float, float]:
+        found = geometry.position(blob) if isinstance(blob, bytes) else None
+        if found is None and isinstance(blob, bytes):
+            points = geopackage.points(blob)
+            found = (float(points[0][1]), float(points[0][0])) if points else None
+        if found is None or not (abs(found[0]) <= 90.0 and abs(found[1]) <= 540.0):
+            self.wrong("station", number, "has no position in degrees; move it in a map, or remove it")
+        return found
+
+    def availability(self) -> tuple[Availability, ...]:
+        command = "SELECT id, resource, begins, ends, status, area FROM availability ORDER BY id"
+        return tuple(
+            Availability(
+                resource,
+                self.time(number, "begins", begins),
+                self.time(number, "ends", ends),
+                status,
+                area or "",
+            )
+            for number, resource, begins, ends, status, area in self.base.execute(command)
+        )
+
+    def time(self, number: int, column: str, text: Any) -> datetime:
+        try:
+            when = datetime.fromisoformat(text)
+        except (TypeError, ValueError):
+            self.wrong("availability", number, f"has no time in {column}; write 2014-09-17T22:42:00Z")
+        return when.astimezone(UTC) if when.tzinfo else when.replace(tzinfo=UTC)
+
+    def areas(self) -> tuple[Area, ...]:
+        found = []
+        command = "SELECT fid, geom, name, kind, station FROM area ORDER BY fid"
+        for number, blob, name, kind, station in self.base.execute(command):
+            polygons = geopackage.polygons(blob) if isinstance(blob, bytes) else ()
+            if not polygons:
+                self.wrong("area", number, "has no polygon; draw it again, or remove it")
+            found.append(Area(number, name or "", kind or "", station, polygons))
+        return tuple(found)
+
+    def check(self, places: Places) -> None:
+        """Check what other programs may have written: references, words and numbers."""
+        stations, sources = places.station_row, places.source_of
+        resources = {each.id for each in places.resources}
+        for station in places.stations:
+            self.origin("station", station.id, station.origin, station.source in sources)
+        for each in places.resources:
+            self.origin("resource", each.id, each.origin, each.source in sources)
+            if each.station not in stations:
+                self.wrong("resource", each.id, f"stands at station {each.station}, which there is not")
+            if each.type not in places.type_of:
+                self.wrong("resource", each.id, f'has type "{each.type}", which table type has not')
+            if each.mode not in MODES:
+                self.wrong("resource", each.id, f'has mode "{each.mode}"; modes are {", ".join(MODES)}')
+            self.numbers(each)
+        for window in places.availability:
+            if window.resource not in resources:
+                self.wrong("resource", window.resource, "has a window of availability, and is not there")
+            if window.status not in STATUSES:
+                reason = f'has status "{window.status}"; they are {", ".join(STATUSES)}'
+                self.wrong("resource", window.resource, reason)
+        for area in places.areas:
+            if area.station not in stations:
+                self.wrong("area", area.id, f"is of station {area.station}, which there is not")
+
+    def origin(self, table: str, number: int, origin: str, known: bool) -> None:
+        if origin not in ORIGINS:
+            self.wrong(table, number, f'has origin "{origin}"; it is one of {", ".join(ORIGINS)}')
+        if not known:
+            self.wrong(table, number, "has no source; each row names one of table source")
+
+    def numbers(self, each: Resource) -> None:
+        """Check that numbers are finite and not negative, that a speed is above 0, and that it counts."""
+        for name in NUMBERS:
+            value = getattr(each, name)
+            if value is None:
+                continue
+            if not isinstance(value, int | float) or not 0.0 <= value < math.inf:
+                self.wrong("resource", each.id, f"has {name} {value!r}; it is a number from 0")
+        if each.speed_km_h == 0.0:
+            self.wrong("resource", each.id, "has speed_km_h 0; leave it empty where it is not known")
+        if not isinstance(each.count, int) or each.count < 1:
+            self.wrong("resource", each.id, f"has count {each.count!r}; it is a whole number from 1")
+
+    def wrong(self, table: str, number: int, reason: str) -> NoReturn:
+        raise input_error(self.path, 0, 0, f"{table} {number} {reason}")
+
+
+NUMBERS = (
+    "load_kg",
+    "speed_km_h",
+    "mobilise_min",
+    "radius_km",
+    "line_m_h",
+    "cost_mobilise",
+    "cost_hour",
+    "cost_day",
+)
+"""Numbers of a resource, each of which may be unknown."""

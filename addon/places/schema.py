@@ -1,0 +1,133 @@
+"""Tables of a file of places: what a GeoPackage (OGC 12-128, version 1.4) wants, then our own.
+
+`station` and `area` are features; the other tables are attributes. Geometry is WGS84. The index of
+stations is that of the GeoPackage's own extension (Annex F.3), so that QGIS uses it and keeps it right.
+"""
+
+from __future__ import annotations
+
+from .records import MODES, ORIGINS, STATUSES
+
+APPLICATION_ID = 0x47504B47  # "GPKG"
+USER_VERSION = 10400
+WGS84 = 4326
+
+FEATURES = {"station": "POINT", "area": "MULTIPOLYGON"}
+ATTRIBUTES = ("source", "type", "resource", "availability")
+INDEX = "rtree_station_geom"
+
+
+def _one_of(column: str, words: tuple[str, ...]) -> str:
+    return f"CHECK ({column} IN ({', '.join(repr(word) for word in words)}))"
+
+
+_STANDARD = """
+CREATE TABLE gpkg_spatial_ref_sys (
+  srs_name TEXT NOT NULL, srs_id INTEGER PRIMARY KEY, organization TEXT NOT NULL,
+  organization_coordsys_id INTEGER NOT NULL, definition TEXT NOT NULL, description TEXT);
+CREATE TABLE gpkg_contents (
+  table_name TEXT NOT NULL PRIMARY KEY, data_type TEXT NOT NULL, identifier TEXT UNIQUE,
+  description TEXT DEFAULT '', last_change DATETIME NOT NULL DEFAULT (strftime('%Y-%m-%dT%H:%M:%fZ','now')),
+  min_x DOUBLE, min_y DOUBLE, max_x DOUBLE, max_y DOUBLE, srs_id INTEGER,
+  CONSTRAINT fk_gc_r_srs_id FOREIGN KEY (srs_id) REFERENCES gpkg_spatial_ref_sys(srs_id));
+CREATE TABLE gpkg_geometry_columns (
+  table_name TEXT NOT NULL, column_name TEXT NOT NULL, geometry_type_name TEXT NOT NULL,
+  srs_id INTEGER NOT NULL, z TINYINT NOT NULL, m TINYINT NOT NULL,
+  CONSTRAINT pk_geom_cols PRIMARY KEY (table_name, column_name),
+  CONSTRAINT uk_gc_table_name UNIQUE (table_name),
+  CONSTRAINT fk_gc_tn FOREIGN KEY (table_name) REFERENCES gpkg_contents(table_name),
+  CONSTRAINT fk_gc_srs FOREIGN KEY (srs_id) REFERENCES gpkg_spatial_ref_sys(srs_id));
+CREATE TABLE gpkg_extensions (
+  table_name TEXT, column_name TEXT, extension_name TEXT NOT NULL, definition TEXT NOT NULL,
+  scope TEXT NOT NULL,
+  CONSTRAINT ge_tce UNIQUE (table_name, column_name, extension_name));
+"""
+
+_OURS = f"""
+CREATE TABLE source (
+  id INTEGER PRIMARY KEY, name TEXT NOT NULL, licence TEXT NOT NULL, retrieved TEXT NOT NULL,
+  url TEXT NOT NULL, sha256 TEXT NOT NULL);
+CREATE TABLE type (
+  fid INTEGER PRIMARY KEY, code TEXT NOT NULL UNIQUE, kind TEXT NOT NULL, category TEXT NOT NULL,
+  type TEXT NOT NULL, tank_l DOUBLE, payload_kg DOUBLE, pump_l_min DOUBLE, people INTEGER,
+  standard TEXT NOT NULL);
+CREATE TABLE station (
+  fid INTEGER PRIMARY KEY, geom POINT NOT NULL, name TEXT NOT NULL, kind TEXT NOT NULL,
+  agency TEXT NOT NULL, address TEXT NOT NULL, source INTEGER NOT NULL REFERENCES source(id),
+  source_id TEXT NOT NULL, origin TEXT NOT NULL {_one_of("origin", ORIGINS)}, picture TEXT NOT NULL);
+CREATE TABLE resource (
+  id INTEGER PRIMARY KEY, station INTEGER NOT NULL REFERENCES station(fid),
+  type TEXT NOT NULL REFERENCES type(code), name TEXT NOT NULL,
+  count INTEGER NOT NULL CHECK (count >= 1), load_kg DOUBLE, speed_km_h DOUBLE, mobilise_min DOUBLE,
+  radius_km DOUBLE, line_m_h DOUBLE, cost_mobilise DOUBLE, cost_hour DOUBLE, cost_day DOUBLE,
+  currency TEXT NOT NULL, mode TEXT NOT NULL {_one_of("mode", MODES)}, staffing TEXT NOT NULL,
+  night BOOLEAN NOT NULL, origin TEXT NOT NULL {_one_of("origin", ORIGINS)},
+  source INTEGER NOT NULL REFERENCES source(id), note TEXT NOT NULL);
+CREATE TABLE availability (
+  id INTEGER PRIMARY KEY, resource INTEGER NOT NULL REFERENCES resource(id), begins DATETIME NOT NULL,
+  ends DATETIME NOT NULL, status TEXT NOT NULL {_one_of("status", STATUSES)}, area TEXT NOT NULL);
+CREATE TABLE area (
+  fid INTEGER PRIMARY KEY, geom MULTIPOLYGON NOT NULL, name TEXT NOT NULL, kind TEXT NOT NULL,
+  station INTEGER NOT NULL REFERENCES station(fid));
+CREATE VIRTUAL TABLE {INDEX} USING rtree(id, minx, maxx, miny, maxy);
+"""
+
+TABLES = _STANDARD + _OURS
+
+_BOX = "ST_MinX(NEW.geom), ST_MaxX(NEW.geom), ST_MinY(NEW.geom), ST_MaxY(NEW.geom)"
+_NEW, _OLD = (f"({row}.geom NOTNULL AND NOT ST_IsEmpty({row}.geom))" for row in ("NEW", "OLD"))
+
+
+def _trigger(name: str, event: str, when: str, *then: str) -> str:
+    lines = " ".join(f"{each};" for each in then)
+    return f"CREATE TRIGGER {INDEX}_{name} AFTER {event} ON station WHEN {when} BEGIN {lines} END;\n"
+
+
+_INSERT = f"INSERT OR REPLACE INTO {INDEX} VALUES (NEW.fid, {_BOX})"
+_SET = (
+    "minx = ST_MinX(NEW.geom), maxx = ST_MaxX(NEW.geom), miny = ST_MinY(NEW.geom), maxy = ST_MaxY(NEW.geom)"
+)
+_DELETE = f"DELETE FROM {INDEX} WHERE id = OLD.fid"
+
+TRIGGERS = (
+    _trigger("insert", "INSERT", _NEW, _INSERT)
+    + _trigger("update2", "UPDATE OF geom", f"OLD.fid = NEW.fid AND NOT {_NEW}", _DELETE)
+    + _trigger(
+        "update4",
+        "UPDATE",
+        f"OLD.fid != NEW.fid AND NOT {_NEW}",
+        f"DELETE FROM {INDEX} WHERE id IN (OLD.fid, NEW.fid)",
+    )
+    + _trigger("update5", "UPDATE", f"OLD.fid != NEW.fid AND {_NEW}", _DELETE, _INSERT)
+    + _trigger(
+        "update6",
+        "UPDATE OF geom",
+        f"OLD.fid = NEW.fid AND {_NEW} AND {_OLD}",
+        f"UPDATE {INDEX} SET {_SET} WHERE id = NEW.fid",
+    )
+    + _trigger("update7", "UPDATE OF geom", f"OLD.fid = NEW.fid AND {_NEW} AND NOT {_OLD}", _INSERT)
+    + _trigger("delete", "DELETE", "OLD.geom NOT NULL", _DELETE)
+)
+"""Keep the index of stations; their functions are those of the program that edits the file, such as QGIS."""
+
+_WKT = (
+    'GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563,AUTHORITY["EPSG","7030"]],'
+    'AUTHORITY["EPSG","6326"]],PRIMEM["Greenwich",0,AUTHORITY["EPSG","8901"]],'
+    'UNIT["degree",0.0174532925199433,AUTHORITY["EPSG","9122"]],AUTHORITY["EPSG","4326"]]'
+)
+
+SYSTEMS = (
+    ("WGS 84 geodetic", WGS84, "EPSG", WGS84, _WKT, "longitude and latitude in degrees on WGS 84"),
+    ("Undefined Cartesian SRS", -1, "NONE", -1, "undefined", "undefined Cartesian coordinates"),
+    ("Undefined geographic SRS", 0, "NONE", 0, "undefined", "undefined geographic coordinates"),
+)
+"""Rows of gpkg_spatial_ref_sys, all of which the standard demands."""
+
+EXTENSION = (
+    "station",
+    "geom",
+    "gpkg_rtree_index",
+    "http://www.geopackage.org/spec140/#extension_rtree",
+    "write-only",
+)
+"""Row of gpkg_extensions."""
