@@ -20,6 +20,7 @@ from typing import NoReturn
 
 from .escaped import escaped
 from .farm import arguments as farm
+from .places import arguments as places
 
 EPILOG = """\
 a first film, from the sample run:
@@ -265,6 +266,13 @@ def _parser() -> argparse.ArgumentParser:
     )
     cache.add_argument(
         "--dry-run", action="store_true", help="list what --prune would remove; remove nothing"
+    )
+
+    places.add_places(
+        command("places", "make or list a file of stations and resources", places.PLACES), _path
+    )
+    places.add_resources(
+        command("resources", "list resources that answer a query", places.RESOURCES), _path, _moment
     )
 
     assets = command("assets", "write an asset library of trees, materials and node groups", ASSETS)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from .jobs.cache import CachedVolumes
     from .jobs.render import RenderResult
+    from .places.command import Fire
     from .shot.source import ShotSource
 
 
@@ -194,6 +195,20 @@ def farm(arguments: argparse.Namespace) -> int | None:
     return command.run(arguments, _choice)
 
 
+def places(arguments: argparse.Namespace) -> None:
+    """Make or list a file of stations and resources."""
+    from .places import command
+
+    command.run_places(arguments, _fire)
+
+
+def resources(arguments: argparse.Namespace) -> int:
+    """List resources that answer a query."""
+    from .places import command
+
+    return command.find_resources(arguments, _fire)
+
+
 def track(arguments: argparse.Namespace) -> None:
     """Write a camera's path as a GPX track."""
     from . import files
@@ -330,6 +345,29 @@ def _open(folder: Path) -> Run:
     from .run import readers
 
     return readers.open(folder)
+
+
+def _fire(path: Path) -> Fire:
+    """Run of a folder, or the first one of a scene file, with the head of its fire."""
+    from .places.command import Fire
+    from .run import times
+    from .shot.cameras import targets
+    from .shot.settings.settings import Settings
+    from .shot.terrain.terrain import Terrain
+
+    run = next(iter(_runs(path).values())) if path.suffix == ".toml" and path.is_file() else _open(path)
+
+    def head(at: datetime) -> tuple[float, float] | None:
+        import numpy as np
+
+        arrival, time = run.fuel_arrival_time(), times.seconds(run, at)
+        if not (arrival <= time).any():
+            return None
+        ground = Terrain(Settings(run=Path(run.path)), run, arrival)
+        latitude, longitude = ground.geodetic(*targets.head(ground, np.array([time])))
+        return float(latitude[0]), float(longitude[0])
+
+    return Fire(run, head)
 
 
 def _choice(arguments: argparse.Namespace) -> ShotSource:

@@ -1,0 +1,150 @@
+"""When the fire of a run reaches a place, and between which times it may.
+
+The time is that of the flames and scores: the front moves at constant speed between two cell centres, and one
+that has stopped lies half-way between them (`run.score.shapes.mirrored`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import datetime
+
+import numpy as np
+from firetwin_core.run import Run
+from firetwin_core.terrain import bilinear
+from numpy.typing import ArrayLike, NDArray
+
+from ..run import areas, times
+from ..run.score.grid import ScoreGrid
+from ..run.score.shapes import mirrored, wider
+
+Array = NDArray[np.float64]
+
+OUTSIDE, NEVER, BEFORE, REACHED = range(4)
+STATES = ("outside of the run", "never", "burned before the run", "reached")
+"""What the fire does at a place; never is within the run's times."""
+
+OWN = "fuel_arrival_time"
+
+
+@dataclass(frozen=True)
+class Arrivals:
+    """Arrival of the fire at places (n,).
+
+    Attributes
+    ----------
+    state
+        Index into `STATES`.
+    time, earliest, latest
+        Model times, s since the run began, NaN where the fire does not come. It comes between the earliest
+        and the latest of the four cell centres around the place. Of a run without arrival times of its own
+        these are the model's cells, and one interval of its output more. Where one of the cells never burns
+        the front stops near the place, and the latest is the run's end.
+    """
+
+    state: NDArray[np.int64]
+    time: Array
+    earliest: Array
+    latest: Array
+
+    def utc(self, run: Run, index: int) -> tuple[datetime, datetime, datetime] | None:
+        """Time, earliest and latest of a place, UTC; None where the fire does not come."""
+        if np.isnan(self.time[index]):
+            return None
+        first, second, third = (
+            times.utc(run, float(each[index])) for each in (self.time, self.earliest, self.latest)
+        )
+        return first, second, third
+
+
+def sample(run: Run, latitude: ArrayLike, longitude: ArrayLike) -> Arrivals:
+    """Arrival of a run's fire at places (n,), degrees north and east."""
+    grid = _Corners.of(ScoreGrid.of(run), latitude, longitude)
+    last = float(run.times[-1])
+    end = max(last, float(np.nanmax(grid.field, initial=last)))
+    since = bilinear(mirrored(grid.field - end), grid.row, grid.column)
+    burned = grid.inside & (since <= 0.0) & np.isfinite(grid.time)
+    time = np.where(burned, grid.time, np.nan)
+    earliest, latest = grid.earliest, grid.latest
+    if not run.has(OWN):
+        earliest, latest = _of_model(run, latitude, longitude, earliest, latest)
+    latest = np.where(grid.stops, np.maximum(latest, end), latest)
+    state = np.where(burned, np.where(time < run.times[0], BEFORE, REACHED), NEVER)
+    return Arrivals(
+        np.where(grid.inside, state, OUTSIDE),
+        time,
+        np.where(burned, np.minimum(earliest, time), np.nan),
+        np.where(burned, np.maximum(latest, time), np.nan),
+    )
+
+
+def first_burned(run: Run) -> tuple[float, float] | None:
+    """Latitude and longitude of the middle of the fuel cells that burn first; None without a fire."""
+    grid = ScoreGrid.of(run)
+    if not np.isfinite(grid.arrival).any():
+        return None
+    row, column = np.nonzero(grid.arrival == np.nanmin(grid.arrival))
+    return float(grid.latitude[row].mean()), float(grid.longitude[column].mean())
+
+
+@dataclass(frozen=True)
+class _Corners:
+    """Arrival times on a grid with a margin, and what the four cells around each place (n,) say."""
+
+    field: Array
+    row: Array
+    column: Array
+    inside: NDArray[np.bool_]
+    time: Array
+    earliest: Array
+    latest: Array
+    stops: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, grid: ScoreGrid, latitude: ArrayLike, longitude: ArrayLike) -> _Corners:
+        """Find the cells; the time is bilinear between those that burn."""
+        field = np.pad(grid.arrival, 1, constant_values=np.nan)
+        y, x = wider(grid.latitude), wider(grid.longitude)
+        turned = areas.turned(longitude, grid.middle)
+        row, column = (
+            np.interp(np.asarray(at, np.float64), axis, np.arange(len(axis)), left=np.nan, right=np.nan)
+            for at, axis in ((latitude, y), (turned, x))
+        )
+        south, north = areas.edges(grid.latitude)[[0, -1]]
+        west, east = areas.edges(grid.longitude)[[0, -1]]
+        inside = np.isfinite(row) & np.isfinite(column)
+        inside &= (turned >= west) & (turned <= east)
+        inside &= (np.asarray(latitude) >= south) & (np.asarray(latitude) <= north)
+        row, column = np.where(inside, row, 0.0), np.where(inside, column, 0.0)
+        low = [
+            np.minimum(at.astype(np.int64), n - 2) for at, n in zip((row, column), field.shape, strict=True)
+        ]
+        v, u = row - low[0], column - low[1]
+        corner = np.stack([field[low[0] + i, low[1] + j] for i in (0, 1) for j in (0, 1)])
+        weight = np.stack([(v if i else 1 - v) * (u if j else 1 - u) for i in (0, 1) for j in (0, 1)])
+        weight[:, ~inside] = 0.0
+        burns = np.isfinite(corner) & (weight > 0.0)
+        total = np.where(burns, weight, 0.0).sum(axis=0)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            time = np.where(burns, corner * weight, 0.0).sum(axis=0) / total
+        return cls(
+            field,
+            row,
+            column,
+            inside,
+            np.where(total > 0.0, time, np.nan),
+            np.where(burns, corner, np.inf).min(axis=0),
+            np.where(burns, corner, -np.inf).max(axis=0),
+            (~np.isfinite(corner) & (weight > 0.0)).any(axis=0),
+        )
+
+
+def _of_model(
+    run: Run, latitude: ArrayLike, longitude: ArrayLike, earliest: Array, latest: Array
+) -> tuple[Array, Array]:
+    """Widen times to those of the model's cells around, and by an interval of the output."""
+    order = [slice(None, None, -1 if axis[0] > axis[-1] else 1) for axis in (run.latitude, run.longitude)]
+    time = np.asarray(run.arrival_time(), np.float64)[order[0], order[1]]
+    model = _Corners.of(ScoreGrid(run.latitude[order[0]], run.longitude[order[1]], time), latitude, longitude)
+    step = float(np.max(np.diff(run.times), initial=0.0))
+    return np.minimum(earliest, model.earliest) - step, np.maximum(latest, model.latest) + step
