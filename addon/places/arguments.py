@@ -9,6 +9,8 @@ from collections.abc import Callable
 from datetime import date, datetime
 from pathlib import Path
 
+from .records import MODES, STAFFING
+
 PLACES = """\
 Makes and lists files of stations and resources (GeoPackage, which QGIS opens too).
 
@@ -34,8 +36,6 @@ printed. With --run the list says when the fire reaches each station, with the e
 A file without resources lists its stations, as --stations does."""
 
 _LENGTHS = {"": 1.0, "km": 1.0, "m": 0.001, "mi": 1.609344}
-_MODES = ("attack", "structure", "drop", "line", "water", "lift", "command")  # as `records.MODES`
-_STAFFING = ("career", "seasonal", "volunteer", "call-when-needed")
 
 
 def add_places(parser: argparse.ArgumentParser, path: Callable[[str], Path]) -> None:
@@ -58,7 +58,7 @@ def add_places(parser: argparse.ArgumentParser, path: Callable[[str], Path]) -> 
     made.add_argument("--licence", metavar="TEXT", default="", help="licence of the data (the format's)")
     made.add_argument("--url", metavar="URL", default="", help="address of the source (the format's)")
     made.add_argument(
-        "--date", metavar="DAY", type=_day, default="", help="day of the data, 2026-11-25 (the file's)"
+        "--date", metavar="DAY", type=_day, default=None, help="day of the data, 2026-11-25 (the file's)"
     )
 
     exercise = verb("exercise", "invent an exercise's resources around the fire of a run")
@@ -95,8 +95,8 @@ def add_resources(
     parser.add_argument(
         "--type", metavar="LIST", type=_types, default=(), help="types, such as 3, 1-3 or VLAT"
     )
-    parser.add_argument("--mode", metavar="LIST", type=_among(_MODES), default=(), help="operational modes")
-    parser.add_argument("--staffing", metavar="LIST", type=_among(_STAFFING), default=(), help="employment")
+    parser.add_argument("--mode", metavar="LIST", type=_among(MODES), default=(), help="operational modes")
+    parser.add_argument("--staffing", metavar="LIST", type=_among(STAFFING), default=(), help="employment")
     parser.add_argument("--night", action="store_true", help="only what works at night")
     parser.add_argument("--available-at", metavar="TIME", type=moment, help="time, 2014-09-17T16:00-07:00")
     parser.add_argument(

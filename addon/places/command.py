@@ -43,7 +43,7 @@ def run_places(arguments: argparse.Namespace, fire: OpenFire) -> None:
 def import_files(arguments: argparse.Namespace) -> None:
     """Make a file of places of others."""
     _check_out(arguments)
-    about = merging.About(arguments.source, arguments.licence, arguments.date, arguments.url)
+    about = merging.About(arguments.source, arguments.licence, arguments.date or "", arguments.url)
     batches = [(path, importers.read(path)) for path in arguments.files]
     places, messages = merging.merge(batches, about)
     for message in messages:
