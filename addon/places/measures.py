@@ -153,11 +153,9 @@ def statuses(places: Places, at: datetime) -> NDArray[np.int64]:
 
     Of windows that overlap the one that begins last counts.
     """
-    row = {number: row for row, number in enumerate(places.columns.id.tolist())}
-    found = np.full(len(row), -1, np.int64)
-    now = [window for window in places.availability if window.begins <= at < window.ends]
-    for window in sorted(now, key=lambda each: each.begins):
-        found[row[window.resource]] = window.status == "available"
+    found, windows, time = np.full(len(places.resources), -1, np.int64), places.windows, at.timestamp()
+    now = (windows.begins <= time) & (time < windows.ends)
+    found[windows.row[now]] = windows.available[now]  # of one row the last stays
     return found
 
 

@@ -88,7 +88,7 @@ class Answer:
             lines.append(f"fire: of the run {self.run.name}, until {self._text(float(self.run.times[-1]))}")
             if not self.run.has(ahead.OWN):
                 lines.append(
-                    "fire: arrival times are estimated from heat fluxes, within the times in brackets"
+                    "fire: times are estimated from heat fluxes; what burned before the run counts as never"
                 )
         return lines
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import math
 import sqlite3
-from collections.abc import Callable
 from dataclasses import fields
 from datetime import UTC, datetime
 from pathlib import Path
@@ -43,13 +42,6 @@ def read(path: Path) -> Places:
         raise input_error(path, 0, 0, reason) from None
 
 
-def _same(value: Any) -> Any:
-    return value
-
-
-_MADE: dict[str, Callable[[Any], Any]] = {"str": lambda value: value or "", "bool": bool}
-
-
 class _Reader:
     def __init__(self, path: Path, base: sqlite3.Connection) -> None:
         self.path, self.base = path, base
@@ -68,10 +60,18 @@ class _Reader:
 
     def records(self, kind: type[Record], table: str, key: str) -> tuple[Record, ...]:
         """Records whose fields are named as the table's columns are; a text that is missing is empty."""
-        made: list[Callable[[Any], Any]] = [_MADE.get(str(each.type), _same) for each in fields(kind)]
-        names = ", ".join(each.name for each in fields(kind))
-        rows = self.base.execute(f"SELECT {names} FROM {table} ORDER BY {key}")
-        return tuple(kind(*(make(value) for make, value in zip(made, row, strict=True))) for row in rows)
+        names = [each.name for each in fields(kind)]
+        texts = [k for k, each in enumerate(fields(kind)) if each.type == "str"]
+        flags = [k for k, each in enumerate(fields(kind)) if each.type == "bool"]
+        found = []
+        for row in self.base.execute(f"SELECT {', '.join(names)} FROM {table} ORDER BY {key}"):
+            values = list(row)
+            for k in texts:
+                values[k] = values[k] or ""
+            for k in flags:
+                values[k] = bool(values[k])
+            found.append(kind(*values))
+        return tuple(found)
 
     def stations(self) -> tuple[Station, ...]:
         command = (

@@ -157,7 +157,7 @@ def survey(places: Places, query: Query) -> Found:
     chosen, shortfall = _set(rows, measured, query)
     is_set = query.tonnes_per_hour is not None or query.budget is not None
     candidates = len(rows) if is_set else 0
-    return Found([_match(places, measured, row) for row in chosen], left_out, candidates, shortfall)
+    return Found(_matches(places, measured, chosen), left_out, candidates, shortfall)
 
 
 def _set(rows: NDArray[np.int64], measured: measures.Measures, query: Query) -> tuple[NDArray[np.int64], str]:
@@ -187,18 +187,16 @@ def _first(rows: NDArray[np.int64], cents: NDArray[np.int64], budget: float) -> 
     return np.array(taken, np.int64)
 
 
-def _match(places: Places, measured: measures.Measures, row: int) -> Match:
-    resource = places.resources[row]
-    return Match(
-        resource,
-        places.stations[places.columns.station[row]],
-        _known(measured.distance_km[row]),
-        _known(measured.minutes[row]),
-        _known(measured.cost[row]),
-        _known(measured.tonnes_per_hour[row]),
-        measures.COVERAGE[measured.coverage[row]],
+def _matches(places: Places, measured: measures.Measures, rows: NDArray[np.int64]) -> list[Match]:
+    """Matches of rows, in their order."""
+    values = (
+        [None if value != value else value for value in column[rows].tolist()]
+        for column in (measured.distance_km, measured.minutes, measured.cost, measured.tonnes_per_hour)
     )
-
-
-def _known(value: float) -> float | None:
-    return None if np.isnan(value) else float(value)
+    station, coverage = places.columns.station[rows].tolist(), measured.coverage[rows].tolist()
+    return [
+        Match(places.resources[row], places.stations[at], far, minutes, cost, tonnes, measures.COVERAGE[kind])
+        for row, at, kind, far, minutes, cost, tonnes in zip(
+            rows.tolist(), station, coverage, *values, strict=True
+        )
+    ]

@@ -49,6 +49,26 @@ class Columns:
 
 
 @dataclass(frozen=True)
+class Windows:
+    """Windows of availability (m,), by their beginning.
+
+    Attributes
+    ----------
+    row
+        Index into `Places.resources`.
+    begins, ends
+        Seconds since 1970.
+    available
+        Whether the status is ``available``.
+    """
+
+    row: NDArray[np.int64]
+    begins: Array
+    ends: Array
+    available: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
 class Codes:
     """Words of all resources, in the order of `Places.resources`; `type` is without its kind."""
 
@@ -122,6 +142,19 @@ class Places:
             cost_hour=_floats(resources, lambda each: each.cost_hour),
             cost_day=_floats(resources, lambda each: each.cost_day),
             night=np.array([each.night for each in resources], np.bool_),
+        )
+
+    @cached_property
+    def windows(self) -> Windows:
+        """Windows of availability as arrays."""
+        row = {each.id: row for row, each in enumerate(self.resources)}
+        begins = np.array([each.begins.timestamp() for each in self.availability], np.float64)
+        order = np.argsort(begins, kind="stable")
+        return Windows(
+            _whole(row[each.resource] for each in self.availability)[order],
+            begins[order],
+            np.array([each.ends.timestamp() for each in self.availability], np.float64)[order],
+            np.array([each.status == "available" for each in self.availability], np.bool_)[order],
         )
 
     @cached_property

@@ -130,7 +130,7 @@ def test_geojson_of_openstreetmap_with_outlines(tmp_path):
     (station,) = places.stations
     assert (station.latitude, station.longitude) == pytest.approx((38.95, -120.55))
     assert station.source_id == "way/9"
-    assert "1 refused of other things" in "\n".join(messages)
+    assert "1 refused without amenity=fire_station" in "\n".join(messages)
 
 
 STATIONS = """name,lat,lon,kind,id,phone

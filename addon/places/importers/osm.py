@@ -22,7 +22,7 @@ NAME = "OpenStreetMap, (c) OpenStreetMap contributors"
 LICENCE = "ODbL 1.0"
 URL = "https://www.openstreetmap.org/copyright"
 
-_OTHER = "of other things than fire stations"
+_OTHER = "without amenity=fire_station"
 _AMBULANCE = ("ambulance_station",)
 
 
