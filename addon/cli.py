@@ -21,6 +21,7 @@ from typing import NoReturn
 from .escaped import escaped
 from .farm import arguments as farm
 from .places import arguments as places
+from .tiles import arguments as tiles
 
 EPILOG = """\
 a first film, from the sample run:
@@ -246,6 +247,8 @@ def _parser() -> argparse.ArgumentParser:
     render.add_argument("--json", action="store_true", help="write JSON: files and memory")
 
     farm.add(command("farm", "plan a film for a render farm", farm.DETAIL), _path, _count)
+
+    tiles.add(command("tiles", "read 3D tilesets", tiles.DETAIL), _count)
 
     track = command("track", "write a camera's path as a GPX track", TRACK)
     _scene(track)

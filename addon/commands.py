@@ -209,6 +209,13 @@ def resources(arguments: argparse.Namespace) -> int:
     return command.find_resources(arguments, _fire)
 
 
+def tiles(arguments: argparse.Namespace) -> None:
+    """Read a tileset."""
+    from .tiles import command
+
+    command.run(arguments)
+
+
 def track(arguments: argparse.Namespace) -> None:
     """Write a camera's path as a GPX track."""
     from . import files

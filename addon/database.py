@@ -25,6 +25,8 @@ class Database:
         SQL that makes them.
     create
         Make the file where there is none; otherwise an empty one in memory stands in for it.
+    journal
+        Of a new file. ``WAL`` is quicker, but for processes of one machine alone.
 
     Raises
     ------
@@ -32,7 +34,7 @@ class Database:
         The file is something else, or the disk is full.
     """
 
-    def __init__(self, path: Path, tables: str, create: bool) -> None:
+    def __init__(self, path: Path, tables: str, create: bool, journal: str = "DELETE") -> None:
         self.path = path
         there = path.exists()
         if create:
@@ -42,7 +44,7 @@ class Database:
             place = path if there or create else ":memory:"
             self._data = sqlite3.connect(place, timeout=_WAIT, isolation_level=None)
         try:
-            self._prepare(tables)
+            self._prepare(tables, journal)
         except BaseException:
             self._data.close()
             raise
@@ -82,9 +84,9 @@ class Database:
         with self._told():
             return self._data.execute(command, values).fetchall()
 
-    def _prepare(self, tables: str) -> None:
+    def _prepare(self, tables: str, journal: str) -> None:
         if self._format() == 0:
-            self.do("PRAGMA journal_mode = DELETE")  # a write-ahead log is of one machine alone
+            self.do(f"PRAGMA journal_mode = {journal}")
             with self.change():
                 if self._format() == 0 and not self.one("SELECT 1 FROM sqlite_master"):
                     for command in tables.strip().rstrip(";").split(";"):

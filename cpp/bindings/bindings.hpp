@@ -26,5 +26,6 @@ void init_volume(Module module);
 void init_sensor(Module module);
 void init_flow(Module module);
 void init_flow_detail(Module module);
+void init_tiles_select(Module module);
 
 } // namespace firetwin::bindings

@@ -71,9 +71,16 @@ ViewSet::ViewSet(std::vector<View> views, std::shared_ptr<const Occluder> occlud
 std::size_t ViewSet::grow(std::size_t first, std::size_t last) {
   const std::size_t here = branches_.size();
   branches_.push_back(branch(first, last));
+  const auto as_wide = [&](const View& view) {
+    return view.half_width == views_[first].half_width &&
+           view.half_height == views_[first].half_height;
+  };
+  const auto begin = views_.begin();
   const bool one = branches_[here].moved == 0.0 && branches_[here].turned == 0.0 &&
                    branches_[here].sun_moved == 0.0 &&
-                   branches_[here].perspective != branches_[here].orthographic;
+                   branches_[here].perspective != branches_[here].orthographic &&
+                   std::all_of(begin + static_cast<std::ptrdiff_t>(first),
+                               begin + static_cast<std::ptrdiff_t>(last), as_wide);
   if (last - first > 1 && !one) {
     const std::size_t half = first + (last - first) / 2;
     const std::size_t left = grow(first, half);
@@ -189,6 +196,16 @@ bool ViewSet::is_visible(std::size_t number, const BoundingSphere& sphere,
   }
   return is_visible(b.left, sphere, options, leaf, ridge) ||
          is_visible(b.right, sphere, options, leaf, ridge);
+}
+
+std::vector<double> ViewSet::largest_of_branches(std::span<const double> of_view) const {
+  std::vector<double> most;
+  most.reserve(branches_.size());
+  for (const Branch& b : branches_) {
+    most.push_back(*std::max_element(of_view.begin() + static_cast<std::ptrdiff_t>(b.first),
+                                     of_view.begin() + static_cast<std::ptrdiff_t>(b.last)));
+  }
+  return most;
 }
 
 double ViewSet::distance(const Vector& place) const {

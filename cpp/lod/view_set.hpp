@@ -41,8 +41,29 @@ public:
   /// Distance of a place from the nearest perspective camera, m; infinite without one.
   double distance(const Vector& place) const;
 
+  /// Largest value over the views that see a sphere; -1 where none does.
+  ///
+  /// A branch is left out where its bound is no larger than what was found elsewhere. Its bound is
+  /// the value of its views where they have the same camera.
+  /// @param bound bound(branch, camera, moved) >= 0: upper bound of the values of a branch, whose
+  /// cameras are
+  ///        within `moved` m of `camera`
+  template <class Bound>
+  double largest(const BoundingSphere& sphere, const CullOptions& options,
+                 const Bound& bound) const {
+    double most = -1.0, ridge = 0.0;
+    if (!branches_.empty()) {
+      largest(0, sphere, options, bound, most, ridge);
+    }
+    return most;
+  }
+
+  /// Largest of a number of each view, for each branch, as `largest` numbers them.
+  std::vector<double> largest_of_branches(std::span<const double> of_view) const;
+
   /// Number of views.
   std::size_t size() const { return views_.size(); }
+  const View& view(std::size_t number) const { return views_[number]; }
 
 private:
   friend class Tiles;
@@ -84,6 +105,25 @@ private:
   bool is_visible(std::size_t branch, const BoundingSphere& sphere, const CullOptions& options,
                   std::size_t& leaf, double& ridge) const;
   void distance(std::size_t branch, const Vector& place, double& least) const;
+  template <class Bound>
+  void largest(std::size_t number, const BoundingSphere& sphere, const CullOptions& options,
+               const Bound& bound, double& most, double& ridge) const {
+    const Branch& b = branches_[number];
+    const auto bound_of = [&](std::size_t n) {
+      return bound(n, views_[branches_[n].middle].position, branches_[n].moved);
+    };
+    const double value = bound_of(number);
+    if (!(value > most) || !may_be_visible(b, sphere, options, occluder_.get(), ridge)) {
+      return;
+    }
+    if (b.left == 0) {
+      most = value;
+      return;
+    }
+    const bool swap = bound_of(b.right) > bound_of(b.left);
+    largest(swap ? b.right : b.left, sphere, options, bound, most, ridge);
+    largest(swap ? b.left : b.right, sphere, options, bound, most, ridge);
+  }
 
   std::vector<View> views_;
   std::vector<Branch> branches_; ///< [0] is the root

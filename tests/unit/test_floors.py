@@ -21,7 +21,7 @@ NEVER_BPY = (
         "firetwin.progress",
     ),
     *("firetwin.cli", "firetwin.commands", "firetwin.data"),
-    *("firetwin.run", "firetwin.places", "firetwin.imaging", "firetwin.shot", "firetwin.smoke"),
+    *("firetwin.run", "firetwin.places", "firetwin.imaging", "firetwin.shot", "firetwin.smoke", "firetwin.tiles"),
     *("firetwin.jobs", "firetwin.farm", "firetwin.bench"),
     *(
         f"firetwin.render.{name}"

@@ -10,6 +10,7 @@ from . import particles as particles
 from . import run as run
 from . import sensor as sensor
 from . import terrain as terrain
+from . import tiles as tiles
 from . import volume as volume
 
 __version__: str

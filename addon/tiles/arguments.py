@@ -1,0 +1,39 @@
+"""The command line of `firetwin tiles`; nothing heavy is imported here."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+
+DETAIL = """\
+  firetwin tiles info SOURCE   levels, contents, errors, extent and credits of a tileset
+
+SOURCE is a tileset.json, its folder, a .3tz archive, a URL, or an asset of Cesium ion such as ion:96188. Keys
+of services are read from the environment: GOOGLE_MAPS_API_KEY, CESIUM_ION_TOKEN."""
+
+
+def add(parser: argparse.ArgumentParser, count: Callable[[str], int]) -> None:
+    """Define the verbs.
+
+    Parameters
+    ----------
+    count
+        Type of arguments.
+    """
+    verbs = parser.add_subparsers(dest="verb", metavar="VERB", required=True)
+    summary = "list the content of a tileset"
+    info = verbs.add_parser("info", help=summary, description=f"{summary[0].upper()}{summary[1:]}.")
+    info.add_argument("--debug", action="store_true", help="show a traceback when something fails")
+    info.add_argument("source", metavar="SOURCE", help="tileset.json, folder, .3tz archive, URL or ion:ASSET")
+    info.add_argument("--json", action="store_true", help="write JSON")
+    info.add_argument(
+        "--files",
+        metavar="N",
+        type=count,
+        help="most JSON files and subtrees to read (all; 50 of a server, 1 where it forbids more)",
+    )
+    info.add_argument("--offline", action="store_true", help="use what is in the cache alone")
+    info.add_argument(
+        "--host", metavar="HOST", action="append", default=[], help="further host that files may lie on"
+    )
+    info.add_argument("--private", action="store_true", help="allow addresses of private networks")

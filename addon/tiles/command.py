@@ -1,0 +1,32 @@
+"""What each verb of `firetwin tiles` does."""
+
+from __future__ import annotations
+
+import argparse
+import json
+
+from ..progress import notify_if_slow, result
+from . import info
+from .loader import Loader
+from .sources import Network, Source, open_source
+
+_FILES = 50  # of a server
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """List the content of a tileset."""
+    network = Network(online=not arguments.offline, hosts=tuple(arguments.host), private=arguments.private)
+    source = open_source(arguments.source, network)
+    try:
+        with notify_if_slow(f"reading {source.name(source.root)}"):
+            facts = info.gather(Loader(source), arguments.files or _most(source))
+    finally:
+        source.close()
+    result(json.dumps(facts, indent=1) if arguments.json else info.page(facts))
+
+
+def _most(source: Source) -> int | None:
+    """Files to read without being asked for more."""
+    if not source.policy.may_prefetch:
+        return 1
+    return None if source.local else _FILES

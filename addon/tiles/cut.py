@@ -1,0 +1,268 @@
+"""One choice of tiles for a whole shot: the same for each of its frames, whatever their order."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from firetwin_core import lod, tiles
+from numpy.typing import ArrayLike, NDArray
+
+from .loader import Loader
+from .tree import MODEL
+from .volumes import Volumes
+
+
+@dataclass(frozen=True)
+class Views:
+    """Every view of every frame of a shot.
+
+    Attributes
+    ----------
+    view_set
+        m views, in the scene.
+    pixels
+        (m,) pixels of 1 m at a distance of 1 m in the picture's centre (see `pixels`). Orthographic: pixels
+        of 1 m.
+    eyes
+        (k, 3) places of the perspective cameras, m.
+    """
+
+    view_set: lod.ViewSet
+    pixels: NDArray[np.float64]
+    eyes: NDArray[np.float64]
+
+
+def pixels(height: ArrayLike, half_height: ArrayLike) -> NDArray[np.float64]:
+    """`Views.pixels` of pictures with `height` pixels.
+
+    Parameters
+    ----------
+    half_height
+        Perspective: tangent of half the vertical angle of view. Orthographic: half the height, m.
+    """
+    return np.asarray(height, float) / (2.0 * np.asarray(half_height, float))
+
+
+@dataclass(frozen=True)
+class Budget:
+    """Most tiles, bytes and triangles of a choice; None: no limit."""
+
+    tiles: int | None = None
+    bytes: int | None = None
+    triangles: int | None = None
+
+
+@dataclass(frozen=True)
+class Choice:
+    """The tiles of a shot.
+
+    Attributes
+    ----------
+    tiles
+        (n,) numbers in the tree, ascending.
+    contents
+        (k,) numbers of their contents, ascending.
+    error
+        Screen-space error above which tiles are refined, pixels.
+    asked
+        What was asked for, pixels; less than `error` where the budget does not suffice.
+    fits
+        Whether the budget suffices at all.
+    stands
+        Tiles that stand in for broken ones below them.
+    missing
+        Why contents or children of tiles cannot be had, by tile.
+    """
+
+    tiles: NDArray[np.int64]
+    contents: NDArray[np.int64]
+    error: float
+    asked: float
+    fits: bool
+    bytes: int
+    triangles: int
+    stands: NDArray[np.int64]
+    missing: Mapping[int, str]
+
+    def sentence(self) -> str:
+        """What a user should know of a choice that is coarser than asked for, or not whole; else nothing."""
+        parts = []
+        if self.error > self.asked:
+            parts.append(
+                f"tiles are shown to {self.error:.3g} pixels, not {self.asked:.3g}, to keep the budget"
+            )
+        if not self.fits:
+            parts.append("even the coarsest tiles are beyond the budget")
+        if self.missing:
+            first = next(iter(self.missing.values()))
+            parts.append(f"{len(self.missing)} tiles are missing, the first: {first}")
+        return "; ".join(parts)
+
+
+@dataclass
+class _Measured:
+    """Screen-space errors and request volumes of the tiles that are known so far."""
+
+    loader: Loader
+    views: Views
+    matrix: NDArray[np.float64]
+    margin: float
+    shadows: bool
+    error: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
+    shut: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, bool))
+
+    def extend(self) -> None:
+        """Measure the tiles that are new."""
+        tree, known = self.loader.tree, len(self.error)
+        if known == tree.size:
+            return
+        new = np.arange(known, tree.size)
+        volumes = self.placed(tree.volumes.taken(new))
+        self.error = np.concatenate([self.error, self.seen(volumes, tree.error[known:])])
+        shut = np.zeros(len(new), bool)
+        asking = [tile for tile in sorted(tree.request) if tile >= known]
+        if asking:
+            request = self.placed(Volumes.joined([tree.request[tile] for tile in asking]))
+            inside = tiles.holds_any(*_arrays(request), self.views.eyes)
+            shut[np.array(asking) - known] = ~inside
+        self.shut = np.concatenate([self.shut, shut])
+
+    def placed(self, volumes: Volumes) -> Volumes:
+        """Volumes in the scene."""
+        return volumes.moved(self.matrix[None], np.zeros(len(volumes.round), np.int64))
+
+    def seen(self, volumes: Volumes, error: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Screen-space errors of volumes in the scene, pixels; -1: no view sees them."""
+        scale = float(np.linalg.norm(self.matrix[:3, :3], ord=2))
+        return tiles.screen_error(
+            *_arrays(volumes),
+            error * scale,
+            self.views.view_set,
+            self.views.pixels,
+            margin=self.margin,
+            shadows=self.shadows,
+        )
+
+
+def choose(
+    loader: Loader,
+    views: Views,
+    matrix: NDArray[np.float64],
+    error: float,
+    budget: Budget | None = None,
+    *,
+    margin: float = 0.0,
+    shadows: bool = False,
+    fetch: bool = True,
+    put: Callable[[int, bytes], object] | None = None,
+    triangles: Mapping[int, int] | None = None,
+) -> Choice:
+    """Choose the tiles that a shot shows; reads as much of the tree as that needs.
+
+    Parameters
+    ----------
+    matrix
+        (4, 4) from the tileset's root to the scene (`place.ecef_to_frame`).
+    error
+        Screen-space error to which tiles are refined, pixels.
+    margin
+        Width added to each view frustum, m: for light from outside of the picture, and blur.
+    shadows
+        Whether a tile counts as visible if its shadow falls on a visible place.
+    fetch
+        Fetch the contents, to know that they are there and what they are.
+    put
+        Receives number and bytes of contents as they are fetched; some may not be part of the choice.
+    triangles
+        Of contents, as far as known.
+
+    Raises
+    ------
+    InputError
+        A file of the tileset is wrong, or refused, or the source does not go on.
+    """
+    measured = _Measured(loader, views, matrix, margin, shadows)
+    sizes = _Sizes(loader, triangles or {}, put)
+    limits = [
+        -1 if most is None else most
+        for most in ((budget.tiles, budget.bytes, budget.triangles) if budget else (None, None, None))
+    ]
+    while True:
+        measured.extend()
+        tree = loader.tree
+        flags = tree.flags() | np.where(measured.shut, np.uint8(tiles.SHUT), np.uint8(0))
+        cut = tiles.select(tree.parent, flags, measured.error, *sizes.arrays(), error, *limits)
+        if len(cut.expand):
+            loader.expand(cut.expand)
+            continue
+        contents = _shown(measured, cut)
+        if limits[1] >= 0 and sizes.learn(contents):
+            continue
+        if not fetch or not sizes.check(contents):
+            return Choice(
+                *(cut.tiles, contents, cut.error, error, cut.fits, cut.bytes, cut.triangles, cut.stands),
+                dict(sorted(tree.broken.items())),
+            )
+
+
+class _Sizes:
+    """Bytes and triangles of tiles, as far as they are known."""
+
+    def __init__(
+        self, loader: Loader, triangles: Mapping[int, int], put: Callable[[int, bytes], object] | None
+    ) -> None:
+        self.loader, self.triangles, self.put = loader, triangles, put
+        self.known: dict[int, int] = {}
+
+    def arrays(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Bytes (n,) and triangles (n,) of all tiles, 0 where unknown."""
+        result = np.zeros((2, self.loader.tree.size), np.int64)
+        for row, numbers in zip(result, (self.known, self.triangles), strict=True):
+            if numbers:
+                owner = self.loader.tree.content[list(numbers), 0]
+                np.add.at(row, owner, np.array(list(numbers.values())))
+        return result[0], result[1]
+
+    def learn(self, contents: NDArray[np.int64]) -> bool:
+        """Ask the source for the bytes of contents; whether there is something new."""
+        source, new = self.loader.source, False
+        for content in map(int, contents):
+            if content not in self.known and (size := source.size(self.loader.content_uri(content))):
+                self.known[content] = size
+                new = True
+        return new
+
+    def check(self, contents: NDArray[np.int64]) -> bool:
+        """Fetch contents that are new; whether the tree, or a size that counts, has changed."""
+
+        def keep(content: int, data: bytes) -> None:
+            self.known[content] = len(data)
+            if self.put is not None:
+                self.put(content, data)
+
+        before = dict(self.known)
+        return self.loader.check(contents, keep) or self.known != before
+
+
+def _shown(measured: _Measured, cut: tiles.Cut) -> NDArray[np.int64]:
+    """Contents of the tiles of a cut. Added tiles lack those whose own volume no view sees."""
+    tree = measured.loader.tree
+    contents = tree.contents_of(cut.tiles)
+    contents = contents[tree.content_kind[contents] == MODEL]
+    own = [content for content in map(int, contents) if content in tree.content_volume]
+    if not own:
+        return contents
+    parent = tree.parent[tree.content[own, 0]]
+    added = (parent >= 0) & ~tree.replaces[parent]
+    volumes = measured.placed(Volumes.joined([tree.content_volume[content] for content in own]))
+    unseen = measured.seen(volumes, np.zeros(len(own))) < 0.0
+    return np.setdiff1d(contents, np.array(own)[added & unseen])
+
+
+_Four = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
+
+
+def _arrays(volumes: Volumes) -> _Four:
+    return volumes.centre, volumes.axis, volumes.half, volumes.round

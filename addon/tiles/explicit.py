@@ -1,0 +1,332 @@
+"""Reading of a tileset.json into rows of a tree, with the lenience that tilesets in use need."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import implicit, metadata, volumes
+from .json_text import Node, parse
+from .tree import EXTERNAL, Document, Rows, Tree
+from .volumes import Volumes
+
+VERSIONS = ("0.0", "1.0", "1.1")
+KNOWN_EXTENSIONS = {
+    "3DTILES_content_gltf",
+    "3DTILES_implicit_tiling",
+    "3DTILES_metadata",
+    "3DTILES_multiple_contents",
+}
+MOST_CONTENTS = 64  # of a tile
+MOST_NESTED = 64  # tilesets in one another
+_SINGULAR = 1e-12  # determinant of columns of length 1
+
+
+@dataclass(frozen=True)
+class External:
+    """A tileset that a tile holds, to be read.
+
+    Attributes
+    ----------
+    content
+        Number of the content in the tree.
+    """
+
+    content: int
+
+
+@dataclass
+class _Pending:
+    """A tile to visit: its JSON, and what it has from its parent."""
+
+    node: Node
+    parent: int
+    error: float
+    raw_error: float
+    replaces: bool
+    matrix: int
+
+
+def is_tileset(data: bytes) -> bool:
+    """Whether a content is a tileset, not a JSON glTF or anything else."""
+    if data.removeprefix(b"\xef\xbb\xbf").lstrip()[:1] != b"{":
+        return False
+    value = parse(data, "content").value
+    return isinstance(value, dict) and "root" in value
+
+
+def read(
+    tree: Tree,
+    data: bytes,
+    uri: str,
+    name: str,
+    holder: int = -1,
+    load: Callable[[str], Node | None] = lambda _: None,
+) -> int:
+    """Append the tiles of a tileset.json to a tree.
+
+    Parameters
+    ----------
+    uri, name
+        Of the file: for its source and for messages.
+    holder
+        Tile that holds the tileset; -1: it is the root's.
+    load
+        Reads a JSON file that this one refers to; None where it is not there.
+
+    Returns
+    -------
+    Number of its first tile.
+
+    Raises
+    ------
+    InputError
+        It is no tileset that can be read; nothing was appended.
+    """
+    node = parse(data, name)
+    document = _document(tree, node, uri, name, holder, load)
+    return _Walk(tree, node, document, holder).run()
+
+
+def _document(
+    tree: Tree, node: Node, uri: str, name: str, holder: int, load: Callable[[str], Node | None]
+) -> Document:
+    asset = node.need("asset")
+    version = asset.need("version").text()
+    if version not in VERSIONS:
+        raise asset.error(f"version {version[:40]!r} is not one of {', '.join(VERSIONS)}")
+    if (required := node.get("extensionsRequired")) is not None:
+        for each in required.items():
+            if each.text() not in KNOWN_EXTENSIONS:
+                raise each.error(f"the required extension {each.text()[:80]!r} is not known to Firetwin")
+    above = tree.documents[int(tree.document[holder])].chain if holder >= 0 else ()
+    if uri in above:
+        raise node.error("the tileset holds itself, through other tilesets")
+    if len(above) >= MOST_NESTED:
+        raise node.error(f"more than {MOST_NESTED} tilesets in one another")
+    up_axis = asset.get("gltfUpAxis")
+    text = asset.get("copyright")
+    return Document(
+        uri,
+        name,
+        (*above, uri),
+        up_axis.text().upper() if up_axis is not None else "Y",
+        text.text() if text is not None else "",
+        metadata.schema_of(node, load),
+    )
+
+
+class _Walk:
+    """Visits the tiles of one document with a stack of its own."""
+
+    def __init__(self, tree: Tree, node: Node, document: Document, holder: int) -> None:
+        self.tree, self.holder, self.document = tree, holder, document
+        self.number = len(tree.documents)
+        self.first = tree.size
+        if holder < 0:
+            matrix, error, replaces = 0, np.inf, True
+        else:
+            matrix = int(tree.matrix[holder])
+            error, replaces = float(tree.error[holder]), bool(tree.replaces[holder])
+        self.matrices = {matrix: (tree.matrix_of(holder) if holder >= 0 else np.eye(4), 1.0)}
+        if holder >= 0:
+            self.matrices[matrix] = self._scaled(self.matrices[matrix][0])
+        stated = node.get("geometricError")
+        self.whole = _error(stated) if stated is not None else None
+        self.stack = [_Pending(node.need("root"), holder, error, -1.0, replaces, matrix)]
+        self.texts: list[str] = []
+        self.new_matrices: list[NDArray[np.float64]] = []
+        self.parent: list[int] = []
+        self.error: list[float] = []
+        self.replaces: list[bool] = []
+        self.matrix: list[int] = []
+        self.paths: list[str] = []
+        self.numbers: dict[str, tuple[list[int], list[list[float]]]] = {
+            kind: ([], []) for kind in volumes.KINDS
+        }
+        self.contents: list[tuple[int, ...]] = []
+        self.external: list[int] = []
+        self.request: dict[int, Volumes] = {}
+        self.content_volume: dict[int, Volumes] = {}
+        self.jobs: dict[int, list[Any]] = {}
+        self.placeholders: list[int] = []
+
+    def run(self) -> int:
+        """Visit all; then append them."""
+        while self.stack:
+            self._visit(self.stack.pop())
+        tree = self.tree
+        tree.add_document(self.document)
+        for text in self.texts:
+            tree.add_text(text)
+        for matrix in self.new_matrices:
+            tree.add_matrix(matrix)
+        first_content = tree.contents
+        first = tree.append(self._rows())
+        for content in self.external:
+            tree.set_kind(first_content + content, EXTERNAL)
+        return first
+
+    def _rows(self) -> Rows:
+        n = len(self.parent)
+        matrix = np.array(self.matrix, np.int64)
+        return Rows(
+            np.array(self.parent, np.int64),
+            np.array(self.error),
+            np.array(self.replaces, bool),
+            self._volumes(matrix),
+            matrix,
+            np.full(n, self.number),
+            np.array(self.contents, np.int64).reshape(-1, 7),
+            self.request,
+            self.content_volume,
+            self.jobs,
+            self.placeholders,
+            self.paths,
+        )
+
+    def _volumes(self, matrix: NDArray[np.int64]) -> Volumes:
+        """Bounding volumes of all rows in the root's frame."""
+        used, which = np.unique(matrix, return_inverse=True)
+        matrices = np.stack([self.matrices[int(each)][0] for each in used])
+        order, parts = [], []
+        for kind, (rows, numbers) in self.numbers.items():
+            if rows:
+                part = volumes.of(kind, np.array(numbers))
+                parts.append(part if kind == "region" else part.moved(matrices, which[rows]))
+                order += rows
+        return Volumes.joined(parts).taken(np.argsort(np.array(order, np.int64)))
+
+    def _visit(self, tile: _Pending) -> None:
+        node, row = tile.node, len(self.parent)
+        self.tree.room(row + 1, self.document.name)
+        node.object()
+        matrix = self._transform(node, tile.matrix)
+        overrides = metadata.of_tile(node, self.document.schema)
+        raw = self._raw_error(node, tile, overrides)
+        replaces = self._refine(node, tile.replaces)
+        error = raw * self.matrices[matrix][1]
+        if not np.isfinite(error):
+            raise node.error("geometricError times the scale of its transform is not finite")
+        self.parent.append(tile.parent)
+        self.error.append(error)
+        self.replaces.append(replaces)
+        self.matrix.append(matrix)
+        self.paths.append(node.path)
+        bounds = node.need("boundingVolume")
+        kind, numbers = overrides.volume or volumes.read(bounds)
+        numbers = overrides.with_heights(kind, numbers)
+        self.numbers[kind][0].append(row)
+        self.numbers[kind][1].append(numbers)
+        if (request := node.get("viewerRequestVolume")) is not None:
+            self.request[row] = self._moved(*volumes.read(request), matrix)
+        contents = _contents(node)
+        scheme = implicit.read(node)
+        if scheme is not None:
+            place = implicit.Place(kind, numbers, matrix, error, replaces, self.document, self.number)
+            self.jobs[row] = [implicit.Subtree(scheme, place, contents, (0, 0, 0, 0))]
+            self.placeholders.append(row)
+            return
+        for content in contents:
+            self._content(content, row, matrix)
+        if (children := node.get("children")) is not None:
+            below = [
+                _Pending(each, self.first + row, error, raw, replaces, matrix) for each in children.items()
+            ]
+            self.stack += reversed(below)
+
+    def _transform(self, node: Node, above: int) -> int:
+        """Number of the product of a tile's transform and those above."""
+        transform = node.get("transform")
+        if transform is None:
+            return above
+        local = np.array(transform.numbers(16)).reshape(4, 4).T
+        if np.abs(local[3] - [0.0, 0.0, 0.0, 1.0]).max() > 1e-9:
+            raise transform.error("is not affine: every fourth number must be 0, the last one 1")
+        with np.errstate(over="ignore", invalid="ignore"):
+            matrix = self.matrices[above][0] @ local
+            lengths = np.linalg.norm(local[:3, :3], axis=0)
+            unit = local[:3, :3] / np.where(lengths > 0.0, lengths, 1.0)
+            singular = not abs(np.linalg.det(unit)) > _SINGULAR if np.isfinite(unit).all() else True
+        if singular or not np.isfinite(matrix).all():
+            raise transform.error("cannot be inverted (determinant 0), or is not finite with those above it")
+        number = self.tree.matrix_count + len(self.new_matrices)
+        self.new_matrices.append(matrix)
+        self.matrices[number] = self._scaled(matrix)
+        return number
+
+    @staticmethod
+    def _scaled(matrix: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
+        return matrix, float(volumes.largest_scale(matrix[None, :3, :3])[0])
+
+    def _raw_error(self, node: Node, tile: _Pending, overrides: metadata.Overrides) -> float:
+        """Geometric error in the tile's own frame; half the parent's where it is missing."""
+        if overrides.error is not None:
+            return overrides.error
+        stated = node.get("geometricError")
+        if stated is not None:
+            return _error(stated)
+        if tile.raw_error >= 0.0:
+            return 0.5 * tile.raw_error
+        if self.whole is None:
+            raise node.error("geometricError is missing, and the tileset has none either")
+        return self.whole
+
+    @staticmethod
+    def _refine(node: Node, above: bool) -> bool:
+        refine = node.get("refine")
+        if refine is None:
+            return above
+        if (word := refine.text().upper()) not in ("ADD", "REPLACE"):
+            raise refine.error(f"must be ADD or REPLACE, not {word[:40]!r}")
+        return word == "REPLACE"
+
+    def _moved(self, kind: str, numbers: list[float], matrix: int) -> Volumes:
+        found = volumes.of(kind, np.array([numbers]))
+        if kind == "region":
+            return found
+        return found.moved(self.matrices[matrix][0][None], np.zeros(1, np.int64))
+
+    def _content(self, content: Node, row: int, matrix: int) -> None:
+        uri = content.need("uri", "url").text()
+        if not uri.strip():
+            return
+        number = len(self.contents)
+        if (bounds := content.get("boundingVolume")) is not None:
+            self.content_volume[number] = self._moved(*volumes.read(bounds), matrix)
+        self.contents.append((row, self.number, len(self.tree.texts) + len(self.texts), -1, 0, 0, 0))
+        self.texts.append(uri)
+        if _path_of(uri).endswith(".json"):
+            self.external.append(number)
+            self.jobs.setdefault(row, []).append(External(self.tree.contents + number))
+
+
+def _error(node: Node) -> float:
+    value = node.number()
+    if value < 0.0:
+        raise node.error("must not be negative")
+    return value
+
+
+def _contents(node: Node) -> list[Node]:
+    """Contents of a tile, of which a 1.0 tileset has several by an extension."""
+    holder = node
+    if (extensions := node.get("extensions")) is not None:
+        holder = extensions.get("3DTILES_multiple_contents") or node
+    if (
+        several := holder.get("contents", "content") if holder is not node else node.get("contents")
+    ) is not None:
+        found = list(several.items())
+        if len(found) > MOST_CONTENTS:
+            raise several.error(f"has more than {MOST_CONTENTS} contents")
+        return found
+    one = node.get("content")
+    return [one] if one is not None else []
+
+
+def _path_of(uri: str) -> str:
+    return uri.partition("#")[0].partition("?")[0].lower()

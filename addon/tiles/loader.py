@@ -1,0 +1,170 @@
+"""A tree that grows as it is asked for: tilesets within tilesets and subtrees, fetched side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+
+from . import contents, explicit, implicit
+from .explicit import External
+from .implicit import Subtree
+from .json_text import MOST_BYTES, Node, parse
+from .sources import MissingError, Source
+from .tree import MODEL, Tree
+
+Job = External | Subtree
+
+
+class Loader:
+    """Reads a source's tileset.
+
+    Attributes
+    ----------
+    tree
+        What has been read.
+    files
+        Number of JSON files and subtrees that have been read.
+
+    Raises
+    ------
+    InputError
+        The root cannot be read.
+    """
+
+    def __init__(self, source: Source) -> None:
+        self.source, self.tree, self.files = source, Tree(), 1
+        self._kinds: dict[int, str] = {}
+        data = source.read(source.root, MOST_BYTES)
+        explicit.read(self.tree, data, source.root, source.name(source.root), load=self._json(source.root))
+
+    def expand(self, some: Iterable[int]) -> None:
+        """Read what tells the children of some tiles. What is missing makes a tile broken.
+
+        Raises
+        ------
+        InputError
+            A file is there, but cannot be read, or is refused.
+        """
+        jobs = [(tile, job) for tile in sorted(map(int, some)) for job in self.tree.jobs.get(tile, [])]
+        uris = [self._uri(job) for _, job in jobs]
+        found = self._fetch(uris, MOST_BYTES)
+        for (tile, job), uri, data in zip(jobs, uris, found, strict=True):
+            self.tree.jobs.pop(tile, None)
+            if isinstance(data, MissingError):
+                self.tree.broken[tile] = str(data)
+            else:
+                self.files += 1
+                self._graft(tile, job, uri, data)
+
+    def expand_all(self, most: int | None = None) -> bool:
+        """Read all, or at most so many files; whether all has been read."""
+        while self.tree.jobs:
+            tiles = sorted(self.tree.jobs)
+            if most is not None:
+                tiles = tiles[: max(most - self.files, 0)]
+            if not tiles:
+                return False
+            self.expand(tiles)
+        return True
+
+    def content_uri(self, content: int) -> str:
+        """URI of a content, as the source knows it."""
+        document = self.tree.documents[int(self.tree.content[content, 1])]
+        return self.source.resolve(document.uri, self.tree.reference(content))
+
+    def check(self, some: Iterable[int], put: Callable[[int, bytes], object] | None = None) -> bool:
+        """Fetch contents, and find out what they are.
+
+        One that is a tileset is grafted, one that is missing makes its tile broken.
+
+        Parameters
+        ----------
+        put
+            Receives the number and the bytes of each content that can be shown.
+
+        Returns
+        -------
+        Whether the tree has changed.
+        """
+        numbers = [number for number in map(int, some) if number not in self._kinds]
+        changed = False
+        for first in range(0, len(numbers), 64):
+            part = numbers[first : first + 64]
+            uris = [self.content_uri(number) for number in part]
+            for number, uri, data in zip(part, uris, self._fetch(uris), strict=True):
+                changed |= self._note(number, uri, data, put)
+        return changed
+
+    def kind(self, content: int) -> str:
+        """Kind of a content: as `check` found it, otherwise by its name."""
+        return self._kinds.get(content) or contents.kind_by_name(self.tree.reference(content))
+
+    def _note(
+        self,
+        content: int,
+        uri: str,
+        data: bytes | MissingError,
+        put: Callable[[int, bytes], object] | None,
+    ) -> bool:
+        tile = int(self.tree.content[content, 0])
+        if isinstance(data, MissingError):
+            self._kinds[content] = "missing"
+            self.tree.broken[tile] = str(data)
+            return True
+        self._kinds[content] = contents.kind(data)
+        if self._kinds[content] == "json" and explicit.is_tileset(data):
+            self._kinds[content] = "tileset"
+            self.tree.set_kind(content, explicit.EXTERNAL)
+            self._graft(tile, External(content), uri, data)
+            return True
+        if self._kinds[content] == "json":
+            self._kinds[content] = "gltf"
+        if (short := contents.cut_off(data)) is not None:
+            self._kinds[content] = "missing"
+            self.tree.broken[tile] = f"{self.source.name(uri)}: ends early: {short}"
+            return True
+        if put is not None:
+            put(content, data)
+        return False
+
+    def _uri(self, job: Job) -> str:
+        if isinstance(job, External):
+            return self.content_uri(job.content)
+        return self.source.resolve(job.place.document.uri, job.reference)
+
+    def _graft(self, tile: int, job: Job, uri: str, data: bytes) -> None:
+        name = self.source.name(uri)
+        if isinstance(job, Subtree):
+            implicit.expand(self.tree, job, tile, data, name, self._bytes(uri))
+        elif explicit.is_tileset(data):
+            self._kinds[job.content] = "tileset"
+            explicit.read(self.tree, data, uri, name, tile, self._json(uri))
+        else:
+            self.tree.set_kind(job.content, MODEL)  # such as a glTF with a name that ends in .json
+
+    def _fetch(self, uris: list[str], most: int | None = None) -> list[bytes | MissingError]:
+        """Contents of files, or why they are missing."""
+
+        def one(uri: str) -> bytes | MissingError:
+            try:
+                return self.source.read(uri) if most is None else self.source.read(uri, most)
+            except MissingError as error:
+                return error
+
+        if self.source.parallel == 1 or len(uris) < 2:
+            return [one(uri) for uri in uris]
+        with ThreadPoolExecutor(self.source.parallel) as pool:
+            return list(pool.map(one, uris))
+
+    def _bytes(self, base: str) -> Callable[[str], bytes]:
+        return lambda reference: self.source.read(self.source.resolve(base, reference), MOST_BYTES)
+
+    def _json(self, base: str) -> Callable[[str], Node | None]:
+        def load(reference: str) -> Node | None:
+            uri = self.source.resolve(base, reference)
+            try:
+                return parse(self.source.read(uri, MOST_BYTES), self.source.name(uri))
+            except MissingError:
+                return None
+
+        return load

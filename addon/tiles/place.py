@@ -1,0 +1,30 @@
+"""Places of tiles: Earth-centred metres to a local frame."""
+
+from __future__ import annotations
+
+import numpy as np
+from firetwin_core import geo
+from numpy.typing import NDArray
+
+from .volumes import ecef, enu_axes
+
+
+def ecef_to_frame(frame: geo.LocalFrame, undulation: float = 0.0) -> NDArray[np.float64]:
+    """Matrix (4, 4) from Earth-centred (WGS84, EPSG:4978) to local east-north-up metres.
+
+    It is to be multiplied with the tiles' own matrices in double precision: in the sum of both nothing
+    Earth-centred is left, whose float32 would be wrong by 0.5 m.
+
+    Parameters
+    ----------
+    undulation
+        Height of the geoid above the ellipsoid at the scene, m. A scene of orthometric heights shows
+        what is h above the ellipsoid at h - undulation.
+    """
+    latitude, longitude = np.radians(frame.latitude), np.radians(frame.longitude)
+    matrix = np.eye(4)
+    matrix[:3, :3] = enu_axes(latitude, longitude)
+    origin = ecef(np.array(latitude), np.array(longitude), np.array(frame.height))
+    matrix[:3, 3] = -matrix[:3, :3] @ origin
+    matrix[2, 3] -= undulation
+    return matrix

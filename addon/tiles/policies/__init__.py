@@ -1,0 +1,80 @@
+"""What a source of tiles allows, as data: one file for each service, without keys."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Policy:
+    """Terms of a source. A source's HTTP headers may be stricter.
+
+    Attributes
+    ----------
+    name
+        For messages.
+    hosts
+        Hosts it holds for, with those below them.
+    key_variable
+        Environment variable that holds the user's key; empty: it needs none.
+    key_parameter
+        Parameter of URLs that carries the key; empty: a bearer header does.
+    session_parameter
+        Parameter of URLs that carries a session; empty: there are none.
+    may_store
+        Answers may be kept in the cache, as their headers say.
+    may_work_offline
+        What is in the cache may be used without the server.
+    may_prefetch
+        Tiles that no view shows may be fetched, as `firetwin tiles info` does.
+    may_flatten
+        The surface may be changed.
+    may_analyse
+        Masks, depth, poses and measurements may be made from it.
+    may_pack
+        It may be packed into a .blend file.
+    may_export
+        It may be written to other formats.
+    other_geocoder
+        Places may be searched with other gazetteers than the source's.
+    pixel_error
+        Screen-space error that the source recommends, pixels; 0: none.
+    logo
+        Words that must stand in each picture besides the tiles' credits.
+    """
+
+    name: str = ""
+    hosts: tuple[str, ...] = ()
+    key_variable: str = ""
+    key_parameter: str = ""
+    session_parameter: str = ""
+    may_store: bool = True
+    may_work_offline: bool = True
+    may_prefetch: bool = True
+    may_flatten: bool = True
+    may_analyse: bool = True
+    may_pack: bool = True
+    may_export: bool = True
+    other_geocoder: bool = True
+    pixel_error: float = 0.0
+    logo: str = ""
+
+
+OPEN = Policy("a server that you name")
+
+
+def known() -> Iterator[Policy]:
+    """Policy of each service."""
+    for module in sorted(pkgutil.iter_modules(__path__), key=lambda each: each.name):
+        yield importlib.import_module(f".{module.name}", __name__).POLICY
+
+
+def of_host(host: str) -> Policy:
+    """Policy of a host; `OPEN` for one that no service claims."""
+    for policy in known():
+        if any(host == each or host.endswith(f".{each}") for each in policy.hosts):
+            return policy
+    return OPEN

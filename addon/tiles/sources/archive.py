@@ -1,0 +1,106 @@
+"""Tilesets in a .3tz archive: a zip file with a tileset.json."""
+
+from __future__ import annotations
+
+import posixpath
+import threading
+import zipfile
+import zlib
+from pathlib import Path
+
+from ...errors import InputError, input_error
+from ._source import GROWTH, MOST_BYTES, Source, check_size, missing, unpack
+from .local import relative
+
+_METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
+_MOST_MEMBERS = 2_000_000
+_FREE = 1 << 20  # bytes to which any member may grow
+_ENCRYPTED = 0x1
+
+
+class Archive(Source):
+    """A .3tz file. Its members are read one after another.
+
+    Raises
+    ------
+    InputError
+        It is no such archive, or a member's name leads out of it.
+    """
+
+    root = "tileset.json"
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        try:
+            self._zip = zipfile.ZipFile(path)
+        except (OSError, zipfile.BadZipFile, ValueError, NotImplementedError) as error:
+            raise input_error(path, 0, 0, f"cannot be opened as a .3tz archive: {error}") from error
+        self._lock = threading.Lock()
+        try:
+            self._members = self._checked()
+        except InputError:
+            self._zip.close()
+            raise
+
+    def resolve(self, base: str, reference: str) -> str:
+        """Name of a member."""
+        return relative(base, reference, self.name(base))
+
+    def read(self, uri: str, most: int = MOST_BYTES) -> bytes:
+        """Read a member; its length and CRC are checked."""
+        name, member = self.name(uri), self._members.get(uri)
+        if member is None:
+            raise missing(name, "is not in the archive")
+        check_size(member.file_size, most, name)
+        if member.file_size > max(GROWTH * member.compress_size, _FREE):
+            raise input_error(name, 0, 0, f"grows more than {GROWTH} times when decompressed")
+        if member.compress_type not in _METHODS:
+            reason = (
+                f"is compressed by method {member.compress_type}; pack the archive with deflate, or without"
+            )
+            raise input_error(name, 0, 0, reason)
+        if member.flag_bits & _ENCRYPTED:
+            raise input_error(name, 0, 0, "is encrypted; pack the archive without a password")
+        try:
+            with self._lock, self._zip.open(member) as file:
+                data = file.read(member.file_size + 1)
+        except (OSError, EOFError, zipfile.BadZipFile, zlib.error, NotImplementedError) as error:
+            raise missing(name, f"is damaged: {error}") from error
+        if len(data) != member.file_size:
+            raise missing(name, f"has {len(data):,} bytes, not {member.file_size:,} as the archive says")
+        return unpack(data, most, name)
+
+    def size(self, uri: str) -> int | None:
+        """Bytes in the archive."""
+        member = self._members.get(uri)
+        return None if member is None else member.compress_size
+
+    def name(self, uri: str) -> str:
+        """Archive and member."""
+        return f"{self.path}/{uri}"
+
+    def close(self) -> None:
+        """Close the file."""
+        self._zip.close()
+
+    def _checked(self) -> dict[str, zipfile.ZipInfo]:
+        members = self._zip.infolist()
+        if len(members) > _MOST_MEMBERS:
+            raise input_error(self.path, 0, 0, f"has more than {_MOST_MEMBERS:,} members")
+        found: dict[str, zipfile.ZipInfo] = {}
+        for member in members:
+            name = member.filename
+            if member.is_dir():
+                continue
+            plain = (
+                not name.startswith("/") and posixpath.normpath(name) == name and not name.startswith("..")
+            )
+            # orig_filename: zipfile itself cuts names at a NUL and turns the system's separators.
+            if not plain or any(c in member.orig_filename for c in "\\:\0"):
+                raise input_error(
+                    self.path, 0, 0, f"the member {member.orig_filename[:200]!r} leaves the archive"
+                )
+            if name in found:
+                raise input_error(self.path, 0, 0, f"the member {name[:200]!r} is there twice")
+            found[name] = member
+        return found

@@ -1,0 +1,198 @@
+"""HTTP requests by urllib3, which Blender brings along: checked addresses, verified TLS, limits of size."""
+
+from __future__ import annotations
+
+import logging
+import ssl
+import threading
+import zlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+from urllib.parse import urlsplit
+
+import firetwin_core
+
+from ...errors import UsageError, input_error
+from ._source import GROWTH
+from .address import Guard, origin
+from .secret import Redactor
+
+TIMEOUT = 30.0  # s without anything arriving
+_PIECE = 1 << 16  # bytes
+_FREE = 1 << 20  # bytes to which anything may grow
+
+
+class TransportError(Exception):
+    """No answer, or not all of it.
+
+    Attributes
+    ----------
+    cut_off
+        The answer began, and ended early.
+    """
+
+    def __init__(self, text: str, cut_off: bool = False) -> None:
+        super().__init__(text)
+        self.cut_off = cut_off
+
+
+@dataclass(frozen=True)
+class Response:
+    """An answer; its body is unpacked."""
+
+    status: int
+    headers: Mapping[str, str]
+    body: bytes
+
+
+class Connection:
+    """Connections to the hosts of a source.
+
+    Raises
+    ------
+    UsageError
+        urllib3 is not there.
+    """
+
+    def __init__(self, private: bool, redactor: Redactor) -> None:
+        self._library, self._guard, self._redactor = _urllib3(), Guard(private), redactor
+        self._pools: dict[tuple[str, str, int], Any] = {}
+        self._lock = threading.Lock()
+        logging.getLogger("urllib3.connectionpool").addFilter(redactor)
+
+    def ask(self, url: str, headers: dict[str, str], most: int, name: str) -> Response:
+        """One GET, without redirects and repetitions.
+
+        Parameters
+        ----------
+        most
+            Bytes of the body, as it comes and unpacked.
+        name
+            Of the URL, for messages.
+
+        Raises
+        ------
+        TransportError
+            No answer came, or not all of it.
+        InputError
+            The certificate or the address is refused, or the answer is too large.
+        """
+        parts, library = urlsplit(url), self._library
+        path = (parts.path or "/") + (f"?{parts.query}" if parts.query else "")
+        everything = {
+            "User-Agent": f"Firetwin/{firetwin_core.__version__}",
+            "Accept-Encoding": "gzip",
+            **headers,
+        }
+        try:
+            response = self._pool(url, name).request(
+                "GET",
+                path,
+                headers=everything,
+                redirect=False,
+                retries=False,
+                preload_content=False,
+                decode_content=False,
+                timeout=library.Timeout(connect=TIMEOUT, read=TIMEOUT),
+            )
+        except library.exceptions.SSLError as error:
+            reason = f"its certificate cannot be verified ({self._redactor.text(str(error))[:200]})"
+            raise input_error(name, 0, 0, reason) from None
+        except (library.exceptions.HTTPError, OSError) as error:
+            raise TransportError(self._redactor.text(str(error))) from None
+        try:
+            body = self._body(response, most, name)
+        except (library.exceptions.HTTPError, OSError) as error:
+            timed_out = isinstance(error, library.exceptions.ReadTimeoutError | TimeoutError)
+            raise TransportError(self._redactor.text(str(error)), cut_off=not timed_out) from None
+        finally:
+            response.release_conn()
+        return Response(response.status, response.headers, body)
+
+    def close(self) -> None:
+        """Close all."""
+        for pool in self._pools.values():
+            pool.close()
+        logging.getLogger("urllib3.connectionpool").removeFilter(self._redactor)
+
+    def _body(self, response: Any, most: int, name: str) -> bytes:
+        """Body within the limits, unpacked; gzip's own checksum is compared."""
+        coding = response.headers.get("Content-Encoding", "identity").strip().lower()
+        if coding not in ("identity", "gzip", ""):
+            raise TransportError(f"has the content encoding {coding!r}, which was not asked for")
+        engine = zlib.decompressobj(31) if coding == "gzip" else None
+        raw, size, pieces = 0, 0, []
+        while piece := response.read(_PIECE):
+            raw += len(piece)
+            limit = most if engine is None else min(most, max(GROWTH * raw, _FREE))
+            if engine is not None:
+                piece = self._inflated(engine, piece, limit + 1 - size)
+            size += len(piece)
+            if size > limit or raw > most:
+                response.close()
+                raise input_error(
+                    name, 0, 0, f"is larger than {most:,} bytes, or grows more than {GROWTH} times"
+                )
+            pieces.append(piece)
+        stated = response.headers.get("Content-Length", "")
+        if stated.isdecimal() and raw != int(stated):
+            raise TransportError(f"has {raw:,} bytes, not {int(stated):,} as announced", cut_off=True)
+        if engine is not None and not engine.eof:
+            raise TransportError("its compressed body ends early", cut_off=True)
+        return b"".join(pieces)
+
+    @staticmethod
+    def _inflated(engine: Any, piece: bytes, room: int) -> bytes:
+        try:
+            return engine.decompress(piece, max(room, 1))
+        except zlib.error as error:
+            raise TransportError(f"its compressed body is damaged: {error}", cut_off=True) from None
+
+    def _pool(self, url: str, name: str) -> Any:
+        found = origin(url, name)
+        key = (found.scheme, found.host, found.port)
+        with self._lock:
+            if key not in self._pools:
+                self._pools[key] = self._made(*key)
+            return self._pools[key]
+
+    def _made(self, scheme: str, host: str, port: int) -> Any:
+        """Pool whose connections go to addresses that the guard has checked."""
+        guard, library = self._guard, self._library
+        base: Any = library.connection.HTTPConnection
+        if scheme == "https":
+            base = library.connection.HTTPSConnection
+
+        class Guarded(base):
+            def _new_conn(self) -> Any:
+                return guard.connect(self.host, self.port, TIMEOUT)
+
+        if scheme == "https":
+            pool = library.HTTPSConnectionPool(host, port, maxsize=8, ssl_context=_tls())
+        else:
+            pool = library.HTTPConnectionPool(host, port, maxsize=8)
+        pool.ConnectionCls = Guarded
+        return pool
+
+
+def _tls() -> ssl.SSLContext:
+    """Verifies certificates, by the system's authorities and those that come with Blender."""
+    context = ssl.create_default_context()
+    try:
+        import certifi
+    except ImportError:
+        return context
+    context.load_verify_locations(certifi.where())
+    return context
+
+
+def _urllib3() -> Any:
+    try:
+        import urllib3
+        import urllib3.connection
+        import urllib3.exceptions
+    except ImportError:
+        text = "tiles of servers need urllib3; install it with: pip install 'firetwin[tiles]'"
+        raise UsageError(text) from None
+    return urllib3

@@ -1,0 +1,68 @@
+"""Tilesets in a folder."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ...errors import input_error
+from ._source import MOST_BYTES, Source, check_size, missing, unpack
+from .local import relative
+
+
+class Folder(Source):
+    """A tileset.json and what lies in its folder and below.
+
+    Parameters
+    ----------
+    path
+        The file, or its folder.
+
+    Raises
+    ------
+    InputError
+        There is no such file.
+    """
+
+    def __init__(self, path: Path) -> None:
+        file = path / "tileset.json" if path.is_dir() else path
+        if not file.is_file():
+            raise input_error(
+                file, 0, 0, "is not there; name a tileset.json, its folder, a .3tz file or a URL"
+            )
+        self.folder = file.parent.resolve()
+        self.root = file.name
+
+    def resolve(self, base: str, reference: str) -> str:
+        """Path below the folder."""
+        return relative(base, reference, self.name(base))
+
+    def read(self, uri: str, most: int = MOST_BYTES) -> bytes:
+        """Read a file that lies in the folder, links followed."""
+        path = self._path(uri)
+        try:
+            check_size(path.stat().st_size, most, self.name(uri))
+            with path.open("rb") as file:
+                data = file.read(most + 1)
+        except OSError as error:
+            raise missing(self.name(uri), f"cannot be read ({error.strerror})") from error
+        check_size(len(data), most, self.name(uri))
+        return unpack(data, most, self.name(uri))
+
+    def size(self, uri: str) -> int | None:
+        """Bytes on the disk."""
+        try:
+            return self._path(uri).stat().st_size
+        except OSError:
+            return None
+
+    def name(self, uri: str) -> str:
+        """Path of the file."""
+        return str(self.folder / uri)
+
+    def _path(self, uri: str) -> Path:
+        path = (self.folder / uri).resolve()
+        if not path.is_relative_to(self.folder):
+            raise input_error(self.name(uri), 0, 0, "is a link that leaves the tileset's folder")
+        if path.exists() and not path.is_file():
+            raise missing(self.name(uri), "is not a file")
+        return path

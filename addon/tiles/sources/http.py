@@ -1,0 +1,323 @@
+"""Tilesets of servers, over https, through the cache."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from urllib.parse import urljoin
+
+from ...errors import InputError, input_error
+from .. import contents, policies
+from ..json_text import parse
+from ..policies import Policy
+from . import secret
+from ._source import MOST_BYTES, Source, missing, unpack
+from .address import Origin, origin
+from .connection import Connection, Response, TransportError
+from .http_cache import LIMIT, Answer, HttpCache, folder
+from .waiting import LONGEST, TRIES, Clock, Pause, seconds
+
+_GONE = (404, 410)
+_DENIED = (400, 401, 403)
+_LATER = (408, 425, 429, 500, 502, 503, 504)
+_MOVED = (301, 302, 303, 307, 308)
+_MOST_REDIRECTS = 5
+_MOST_FAILURES = 3  # files in a row that all repetitions could not get
+_DEEPEST_SESSION = 4  # files from the root to the one that names the session
+_WORDS = 300  # characters of a service's own words
+
+
+@dataclass(frozen=True)
+class Network:
+    """What a source may ask of the network.
+
+    Attributes
+    ----------
+    online
+        Servers may be asked; otherwise only the cache answers.
+    setting
+        Where that is set, for messages.
+    hosts
+        Further hosts that files may lie on, besides the root's.
+    private
+        Addresses of private networks are allowed.
+    cache
+        Folder of the cache; None: none.
+    limit
+        Bytes of the cache.
+    """
+
+    online: bool = True
+    setting: str = "leave out --offline"
+    hosts: tuple[str, ...] = ()
+    private: bool = False
+    cache: Path | None = field(default_factory=folder)
+    limit: int = LIMIT
+
+
+class Http(Source):
+    """A tileset of a server.
+
+    Parameters
+    ----------
+    url
+        Of its root; secrets in it go to its own host alone.
+    bearer
+        Token for the header Authorization, to the root's host alone.
+    renew
+        Gives URL and bearer of the root once more, where a service hands them out.
+
+    Attributes
+    ----------
+    missing
+        URIs that could not be had without the network.
+    """
+
+    local = False
+    parallel = 8
+
+    def __init__(
+        self,
+        url: str,
+        network: Network | None = None,
+        clock: Clock | None = None,
+        bearer: str = "",
+        policy: Policy | None = None,
+        renew: Callable[[], tuple[str, str]] | None = None,
+    ) -> None:
+        self.network, self.clock, self.renew = network or Network(), clock or Clock(), renew
+        self.redactor = secret.Redactor()
+        self.root, self._secrets = secret.split(url)
+        self.redactor.add(*self._secrets.values(), bearer)
+        self.bearer = bearer
+        self.home = origin(self.root, self.name(self.root))
+        self.policy = policy or policies.of_host(self.home.host)
+        self.missing: list[str] = []
+        self._session = self._secrets.pop(self.policy.session_parameter, "")
+        self._add_key()
+        keep = self.network.cache is not None and self.policy.may_store
+        self._cache = (
+            HttpCache(self.network.cache, self.network.limit) if keep and self.network.cache else None
+        )
+        self._connection = Connection(self.network.private, self.redactor)
+        self._pause = Pause(self.clock)
+        self._lock = threading.Lock()
+        self._failures = 0
+        self._own: dict[str, dict[str, str]] = {}
+
+    def resolve(self, base: str, reference: str) -> str:
+        """URL without secrets; a session in it holds for all that follows."""
+        name = self.name(base)
+        try:
+            url, secrets = secret.split(urljoin(base, reference.strip()))
+        except ValueError as error:
+            raise input_error(name, 0, 0, f"refers to no URL: {self._say(error)}") from None
+        self.redactor.add(*secrets.values())
+        self._allowed(url, name)
+        session = secrets.pop(self.policy.session_parameter, "")
+        if session and not self._session:
+            self._session = session
+        if secrets:
+            self._own[url] = secrets
+        return url
+
+    def read(self, uri: str, most: int = MOST_BYTES) -> bytes:
+        """Body of the answer, from the cache where it is fresh."""
+        now, name = self.clock.now(), self.name(uri)
+        fresh_root = uri == self.root and bool(self.policy.session_parameter)
+        kept = self._cache.find(uri, now) if self._cache and not fresh_root else None
+        if kept is not None and now < kept.expires:
+            return unpack(kept.body, most, name)
+        if not self.network.online:
+            return self._offline(uri, kept, most)
+        return unpack(self._fetched(uri, kept, most), most, name)
+
+    def name(self, uri: str) -> str:
+        """The URL; secrets are not part of it."""
+        return self.redactor.text(uri)
+
+    def close(self) -> None:
+        """Close connections and the cache."""
+        self._connection.close()
+        if self._cache:
+            self._cache.close()
+
+    def _offline(self, uri: str, kept: Answer | None, most: int) -> bytes:
+        """What the cache has without asking the server."""
+        if kept is not None and not kept.strict and self.policy.may_work_offline:
+            return unpack(kept.body, most, self.name(uri))
+        self.missing.append(uri)
+        state = (
+            "is not in the cache" if kept is None else "is in the cache, but must not be used without asking"
+        )
+        reason = f"{state}, and the network may not be used: {self.network.setting}"
+        if uri == self.root:
+            raise input_error(self.name(uri), 0, 0, reason)
+        raise missing(self.name(uri), reason)
+
+    def _allowed(self, url: str, name: str) -> Origin:
+        """Origin of a URL, which must be the root's or a host that the user named."""
+        found = origin(url, name)
+        if found != self.home and not (found.scheme == "https" and found.host in self.network.hosts):
+            reason = f"refers to {found}, another host than {self.home}; --host {found.host} allows it"
+            raise input_error(name, 0, 0, self.redactor.text(reason))
+        return found
+
+    def _add_key(self) -> None:
+        """Take the user's key from the environment, where the service wants one and the URL has none."""
+        import os
+
+        policy = self.policy
+        if not policy.key_parameter or policy.key_parameter in self._secrets:
+            return
+        key = os.environ.get(policy.key_variable, "")
+        if not key:
+            reason = f"{policy.name} needs a key: set the environment variable {policy.key_variable}"
+            raise input_error(self.name(self.root), 0, 0, reason)
+        self.redactor.add(key)
+        self._secrets[policy.key_parameter] = key
+
+    def _fetched(self, uri: str, kept: Answer | None, most: int) -> bytes:
+        """Body from the server, asked again as long as that helps."""
+        name, tries, cut_off, refreshed = self.name(uri), 0, 0, False
+        while True:
+            self._pause.wait()
+            session = self._session
+            why, asked = "", None
+            try:
+                response = self._ask(uri, kept, most, session)
+            except TransportError as error:
+                if error.cut_off:
+                    cut_off += 1
+                    if cut_off > 1:
+                        raise missing(name, f"ends early, twice: {self._say(error)}") from None
+                    continue
+                why = self._say(error)
+            else:
+                status = response.status
+                if status == 304 and kept is not None:
+                    return self._confirmed(uri, kept, response)
+                if status == 200:
+                    if (fault := contents.cut_off(response.body)) is None:
+                        return self._kept(uri, response)
+                    cut_off += 1
+                    if cut_off > 1:
+                        raise missing(name, f"ends early, twice: {fault}")
+                    continue
+                if status in _GONE:
+                    raise missing(name, f"is not there (status {status})")
+                if status in _DENIED:
+                    if not refreshed and (session or self.renew):
+                        self._refresh(session)
+                        refreshed = True
+                        continue
+                    raise self._denied(uri, response, bool(session or self.renew))
+                if status not in _LATER:
+                    raise missing(name, f"cannot be had (status {status}{self._words(response)})")
+                why, asked = f"status {status}{self._words(response)}", response.headers.get("Retry-After")
+            self._later(name, why, asked, tries)
+            tries += 1
+
+    def _later(self, name: str, why: str, asked: str | None, tries: int) -> None:
+        """Pause the source before a repetition; or give up."""
+        if tries >= TRIES:
+            with self._lock:
+                self._failures += 1
+                stop = self._failures >= _MOST_FAILURES
+            if stop:
+                raise input_error(name, 0, 0, f"the server does not answer ({why}); try again later")
+            raise missing(name, f"cannot be had after {TRIES + 1} attempts ({why})")
+        wait = seconds(asked, tries, self.clock)
+        if wait > LONGEST:
+            raise input_error(name, 0, 0, f"the server asks to wait {wait:,.0f} s ({why}); try again then")
+        self._pause.ask_for(wait)
+
+    def _ask(self, uri: str, kept: Answer | None, most: int, session: str) -> Response:
+        """One request, with redirects within the host."""
+        url = uri
+        headers = {}
+        if kept is not None and kept.etag:
+            headers["If-None-Match"] = kept.etag
+        elif kept is not None and kept.modified:
+            headers["If-Modified-Since"] = kept.modified
+        for _ in range(_MOST_REDIRECTS):
+            response = self._connection.ask(*self._with_secrets(url, session, headers), most, self.name(uri))
+            if response.status not in _MOVED:
+                return response
+            target, secrets = secret.split(urljoin(url, response.headers.get("Location", "")))
+            self.redactor.add(*secrets.values())
+            there, here = origin(target, self.name(uri)), origin(url, self.name(uri))
+            if there != here:
+                reason = f"is redirected to {there}, another host; name its URL there"
+                raise input_error(self.name(uri), 0, 0, self.redactor.text(reason))
+            self._own[target] = self._own.get(target, {}) | secrets
+            url = target
+        raise missing(self.name(uri), f"is redirected more than {_MOST_REDIRECTS} times")
+
+    def _with_secrets(self, url: str, session: str, headers: dict[str, str]) -> tuple[str, dict[str, str]]:
+        """URL and headers as they are sent: secrets of the root go to its own host alone."""
+        secrets = dict(self._own.get(url, {}))
+        if origin(url, self.name(url)) == self.home:
+            secrets = self._secrets | secrets
+            if session and self.policy.session_parameter and url != self.root:
+                secrets[self.policy.session_parameter] = session
+            if self.bearer:
+                headers = headers | {"Authorization": f"Bearer {self.bearer}"}
+        return secret.joined(url, secrets), headers
+
+    def _kept(self, uri: str, response: Response) -> bytes:
+        with self._lock:
+            self._failures = 0
+        if self._cache:
+            self._cache.put(uri, response.body, response.headers, self.clock.now())
+        return response.body
+
+    def _confirmed(self, uri: str, kept: Answer, response: Response) -> bytes:
+        if self._cache:
+            self._cache.refresh(uri, response.headers, self.clock.now())
+        return kept.body
+
+    def _refresh(self, session: str) -> None:
+        """Ask the root for a new session, unless another thread has one already."""
+        with self._lock:
+            if self._session != session:
+                return
+            if self.renew:
+                url, self.bearer = self.renew()
+                self.redactor.add(self.bearer, *secret.split(url)[1].values())
+                self._secrets |= secret.split(url)[1]
+                return
+            self._session = self._new_session(session)
+
+    def _new_session(self, old: str) -> str:
+        """Session that the root names now, itself or in the first file that it leads to."""
+        url, parameter = self.root, self.policy.session_parameter
+        for _ in range(_DEEPEST_SESSION):
+            response = self._ask(url, None, MOST_BYTES, "")
+            if response.status != 200:
+                raise self._denied(url, response, True)
+            reference = next(contents.references(parse(response.body, self.name(url)).value), "")
+            target, secrets = secret.split(urljoin(url, reference))
+            self.redactor.add(*secrets.values())
+            if secrets.get(parameter, old) != old:
+                return secrets[parameter]
+            self._allowed(target, self.name(url))
+            url = target
+        raise input_error(self.name(self.root), 0, 0, "names no new session; try again later")
+
+    def _denied(self, uri: str, response: Response, within_session: bool) -> InputError:
+        """Error of a request that was refused; a file of an open server is then missing."""
+        reason = f"is refused (status {response.status}{self._words(response)})"
+        if within_session or uri == self.root or self.bearer:
+            return input_error(self.name(uri), 0, 0, f"{reason}; check the key and its rights")
+        return missing(self.name(uri), reason)
+
+    def _words(self, response: Response) -> str:
+        """The service's own words."""
+        text = " ".join(response.body[:4096].decode("utf-8", "replace").split())
+        return f": {self.redactor.text(text)[:_WORDS]}" if text else ""
+
+    def _say(self, error: Exception) -> str:
+        return self.redactor.text(str(error))

@@ -1,0 +1,238 @@
+"""Answers of servers kept on the disk, as their headers allow (RFC 9111, a private cache)."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import os
+import sys
+import threading
+import uuid
+from collections.abc import Mapping
+from dataclasses import dataclass
+from email.utils import parsedate_to_datetime
+from pathlib import Path
+
+from ... import files
+from ...database import Database
+from ...errors import InputError
+
+LIMIT = 4_000_000_000  # bytes
+_TABLES = """
+CREATE TABLE answer (key TEXT PRIMARY KEY, url TEXT NOT NULL, file TEXT NOT NULL, length INTEGER NOT NULL,
+    sha256 TEXT NOT NULL, etag TEXT NOT NULL, modified TEXT NOT NULL, expires REAL NOT NULL,
+    strict INTEGER NOT NULL, used REAL NOT NULL);
+CREATE INDEX answer_used ON answer (used)
+"""
+_COLUMNS = "key, url, file, length, sha256, etag, modified, expires, strict, used"
+_TOUCH = 60.0  # s between notes of a use
+_KEPT = 0.9  # of the limit, after the oldest have gone
+
+
+@dataclass(frozen=True)
+class Answer:
+    """An answer in the cache.
+
+    Attributes
+    ----------
+    expires
+        Seconds since 1970 until which it is fresh.
+    strict
+        It must not be used later without asking the server (must-revalidate, no-cache).
+    """
+
+    body: bytes
+    etag: str
+    modified: str
+    expires: float
+    strict: bool
+
+
+@dataclass(frozen=True)
+class Rules:
+    """What the headers of an answer say about keeping it."""
+
+    store: bool
+    expires: float
+    strict: bool
+
+
+def folder() -> Path:
+    """The user's folder of tiles."""
+    if sys.platform == "win32":
+        base = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData/Local")
+    elif sys.platform == "darwin":
+        base = Path.home() / "Library/Caches"
+    else:
+        base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    return base / "firetwin" / "tiles"
+
+
+def rules(headers: Mapping[str, str], now: float) -> Rules:
+    """Rules of the headers of an answer, received at `now` (seconds since 1970).
+
+    Without max-age and Expires an answer is asked about each time.
+    """
+    words: dict[str, str] = {}
+    for each in headers.get("Cache-Control", "").lower().split(","):
+        name, _, value = each.strip().partition("=")
+        words[name] = value.strip('" ')
+    age = 0.0
+    if "max-age" in words:
+        with contextlib.suppress(ValueError):
+            age = float(int(words["max-age"])) - float(int(headers.get("Age", "0") or "0"))
+    elif "Expires" in headers:
+        with contextlib.suppress(ValueError, TypeError):
+            date = headers.get("Date")
+            sent = parsedate_to_datetime(date).timestamp() if date else now
+            age = parsedate_to_datetime(headers["Expires"]).timestamp() - sent
+    if "no-cache" in words:
+        age = 0.0
+    strict = bool({"must-revalidate", "no-cache"} & set(words))
+    return Rules("no-store" not in words and headers.get("Vary", "") != "*", now + max(age, 0.0), strict)
+
+
+class HttpCache:
+    """Answers by their URLs without secrets. Several processes may use one folder.
+
+    Parameters
+    ----------
+    limit
+        Bytes; beyond them the least recently used go.
+    """
+
+    def __init__(self, place: Path, limit: int = LIMIT) -> None:
+        self.place, self.limit = place, limit
+        self._own = threading.local()
+        self._lock = threading.Lock()
+        self._size: int | None = None
+
+    def find(self, url: str, now: float) -> Answer | None:
+        """The answer of a URL; None where there is none, or it is damaged, which removes it."""
+        with self._told() as data:
+            row = data.one(f"SELECT {_COLUMNS} FROM answer WHERE key = ?", _key(url))
+            if row is None:
+                return None
+            key, _, name, length, sha256, etag, modified, expires, strict, used = row
+            try:
+                body = (self.place / name).read_bytes()
+            except OSError:
+                body = b""
+            if len(body) != length or hashlib.sha256(body).hexdigest() != sha256:
+                self._remove(data, key, name)
+                return None
+            if abs(now - used) > _TOUCH:
+                data.do("UPDATE answer SET used = ? WHERE key = ?", now, key)
+            return Answer(body, etag, modified, expires, bool(strict))
+        return None
+
+    def put(self, url: str, body: bytes, headers: Mapping[str, str], now: float) -> None:
+        """Keep an answer, where its headers allow; a disk without room keeps nothing."""
+        found, key = rules(headers, now), _key(url)
+        with self._told() as data:
+            before = data.one("SELECT file FROM answer WHERE key = ?", key)
+            if not found.store:
+                if before is not None:
+                    self._remove(data, key, before[0])
+                return
+            name = f"{key[:2]}/{key[2:18]}-{uuid.uuid4().hex[:12]}"
+            files.write(self.place / name, lambda part: part.write_bytes(body))
+            values = (
+                *(key, url, name, len(body), hashlib.sha256(body).hexdigest()),
+                *(headers.get("ETag", ""), headers.get("Last-Modified", "")),
+                *(found.expires, int(found.strict), now),
+            )
+            data.do(f"INSERT OR REPLACE INTO answer ({_COLUMNS}) VALUES ({', '.join('?' * 10)})", *values)
+            if before is not None:
+                self._unlink(before[0])
+            self._grown(data, len(body))
+
+    def refresh(self, url: str, headers: Mapping[str, str], now: float) -> None:
+        """Note that the server confirmed an answer (status 304)."""
+        found = rules(headers, now)
+        with self._told() as data:
+            command = "UPDATE answer SET expires = ?, strict = ?, used = ? WHERE key = ?"
+            data.do(command, found.expires, int(found.strict), now, _key(url))
+
+    def prune(self, limit: int | None = None) -> int:
+        """Remove the least recently used answers until `limit` bytes remain; returns the bytes left."""
+        with self._told() as data:
+            return self._prune(data, self.limit if limit is None else limit)
+        return 0
+
+    def close(self) -> None:
+        """Let go of this thread's database."""
+        data = getattr(self._own, "data", None)
+        if data is not None:
+            data.close()
+            self._own.data = None
+
+    def _grown(self, data: Database, more: int) -> None:
+        with self._lock:
+            if self._size is None:
+                self._size = _total(data)
+            else:
+                self._size += more
+            over = self._size > self.limit
+        if over:
+            left = self._prune(data, round(_KEPT * self.limit))
+            with self._lock:
+                self._size = left
+
+    def _prune(self, data: Database, limit: int) -> int:
+        gone = []
+        with data.change():
+            total = _total(data)
+            for key, name, length in data.all("SELECT key, file, length FROM answer ORDER BY used, key"):
+                if total <= limit:
+                    break
+                data.do("DELETE FROM answer WHERE key = ?", key)
+                gone.append(name)
+                total -= length
+        for name in gone:
+            self._unlink(name)
+        return total
+
+    def _remove(self, data: Database, key: str, name: str) -> None:
+        data.do("DELETE FROM answer WHERE key = ? AND file = ?", key, name)
+        self._unlink(name)
+
+    def _unlink(self, name: str) -> None:
+        with contextlib.suppress(OSError):
+            (self.place / name).unlink(missing_ok=True)
+
+    @contextlib.contextmanager
+    def _told(self):  # noqa: ANN202 (a generator of a context manager)
+        """The database of this thread. What goes wrong with it is as if nothing were kept."""
+        try:
+            yield self._data()
+        except InputError:  # no database, or the disk is full
+            self.close()
+            self._set_aside()
+
+    def _data(self) -> Database:
+        if getattr(self._own, "data", None) is None:
+            if not self.place.exists():
+                self.place.mkdir(mode=0o700, parents=True, exist_ok=True)
+            self._own.data = Database(self.place / "answers.db", _TABLES, create=True, journal="WAL")
+        return self._own.data
+
+    def _set_aside(self) -> None:
+        """Move a file away that is no database, so that the next use makes a new one."""
+        path = self.place / "answers.db"
+        try:
+            Database(path, _TABLES, create=True, journal="WAL").close()
+        except InputError as error:
+            if "is not a store" in error.reason:
+                for end in ("", "-wal", "-shm"):
+                    with contextlib.suppress(OSError):
+                        path.with_name(path.name + end).unlink(missing_ok=True)
+
+
+def _total(data: Database) -> int:
+    (total,) = data.one("SELECT COALESCE(SUM(length), 0) FROM answer") or (0,)
+    return int(total)
+
+
+def _key(url: str) -> str:
+    return hashlib.sha256(url.encode()).hexdigest()

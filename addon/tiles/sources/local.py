@@ -1,0 +1,46 @@
+"""References between files of a folder or an archive, which must not lead out of it."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from urllib.parse import unquote
+
+from ...errors import InputError, input_error
+
+_SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
+_ESCAPED = re.compile(r"%(2e|2f|5c|00|3a)", re.IGNORECASE)
+
+
+def relative(base: str, reference: str, name: str) -> str:
+    r"""Path within a folder, with `/`, of what the file `base` refers to.
+
+    Parameters
+    ----------
+    name
+        Of the file with the reference, for messages.
+
+    Raises
+    ------
+    InputError
+        The reference is a URL or absolute, has a drive letter, a backslash or an escaped `.`, `/` or `\\`, or
+        leaves the folder by `..`.
+    """
+    path = reference.partition("#")[0].partition("?")[0]
+
+    def refused(reason: str) -> InputError:
+        return input_error(name, 0, 0, f"the reference {reference[:200]!r} {reason}")
+
+    if _SCHEME.match(path) or path.startswith("//"):
+        raise refused("is not a file of the tileset: files of a folder refer to files of the folder")
+    if _ESCAPED.search(path):
+        raise refused("hides a dot, a slash, a backslash or a colon")
+    path = unquote(path)
+    if "\\" in path or "\0" in path or ":" in path:
+        raise refused("has a backslash, a colon or a NUL")
+    if path.startswith("/"):
+        raise refused("is absolute")
+    joined = posixpath.normpath(posixpath.join(posixpath.dirname(base), path))
+    if joined == ".." or joined.startswith("../") or not path:
+        raise refused("leaves the tileset's folder" if path else "names no file")
+    return joined

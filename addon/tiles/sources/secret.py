@@ -1,0 +1,69 @@
+"""Secrets of URLs: kept out of names, cache keys, messages and logs."""
+
+from __future__ import annotations
+
+import logging
+import re
+from urllib.parse import parse_qsl, urlencode, urlsplit, urlunsplit
+
+NAMES = frozenset(
+    (
+        *("key", "api_key", "apikey", "api-key", "subscription-key", "session", "sessionid"),
+        *("token", "access_token", "auth", "authorization", "password", "secret"),
+        *("sig", "signature", "x-amz-signature", "x-amz-credential", "x-amz-security-token"),
+        *("x-goog-signature", "x-goog-credential", "policy", "key-pair-id"),
+    )
+)
+"""Parameters of URLs that are secrets, in lower case."""
+
+HIDDEN = "..."
+_NAMED = re.compile(
+    rf"(?i)\b({'|'.join(map(re.escape, sorted(NAMES, key=len, reverse=True)))})"
+    r"""(["']?\s*[=:]\s*["']?)[^&\s"'#<>,;}]+"""
+)
+_BEARER = re.compile(r"(?i)\b(bearer\s+)[^\s\"',;]+")
+_SHORTEST = 4  # characters of what is hidden wherever it stands
+
+
+def split(url: str) -> tuple[str, dict[str, str]]:
+    """A URL without secrets and fragment, and the secrets by their parameters."""
+    parts = urlsplit(url)
+    every = parse_qsl(parts.query, keep_blank_values=True)
+    secrets = {name: value for name, value in every if name.lower() in NAMES}
+    if not secrets:
+        return urlunsplit(parts._replace(fragment="")), {}
+    rest = [(name, value) for name, value in every if name not in secrets]
+    return urlunsplit(parts._replace(query=urlencode(rest), fragment="")), secrets
+
+
+def joined(url: str, secrets: dict[str, str]) -> str:
+    """A URL with secrets."""
+    if not secrets:
+        return url
+    return f"{url}{'&' if urlsplit(url).query else '?'}{urlencode(secrets)}"
+
+
+class Redactor(logging.Filter):
+    """Hides secrets in texts, and in the records of a logger that it filters."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._values: set[str] = set()
+
+    def add(self, *values: str) -> None:
+        """Hide these wherever they stand."""
+        for value in values:
+            if len(value) >= _SHORTEST:
+                self._values |= {value, urlencode({"": value})[1:]}
+
+    def text(self, text: str) -> str:
+        """The text without secrets."""
+        for value in sorted(self._values, key=len, reverse=True):
+            text = text.replace(value, HIDDEN)
+        text = _BEARER.sub(rf"\1{HIDDEN}", text)
+        return _NAMED.sub(rf"\1\2{HIDDEN}", text)
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Hide them in what a record says."""
+        record.msg, record.args = self.text(record.getMessage()), ()
+        return True

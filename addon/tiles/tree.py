@@ -1,0 +1,310 @@
+"""The tree of a tileset as flat arrays, read as far as asked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from firetwin_core import tiles
+from numpy.typing import NDArray
+
+from ..errors import InputError, input_error
+from .volumes import Volumes
+
+MOST_TILES = 1_000_000
+MODEL, EXTERNAL = 0, 1
+"""Kinds of content: something to show, or another tileset."""
+
+
+@dataclass(frozen=True)
+class Document:
+    """A tileset.json that has been read.
+
+    Attributes
+    ----------
+    uri
+        As its source knows it.
+    name
+        For messages.
+    chain
+        Documents that lead to it, itself included.
+    up_axis
+        Axis of its glTF files that points up: "Y", unless it says otherwise (`asset.gltfUpAxis`).
+    copyright
+        `asset.copyright`, or nothing.
+    """
+
+    uri: str
+    name: str
+    chain: tuple[str, ...]
+    up_axis: str = "Y"
+    copyright: str = ""
+    schema: Any = None
+
+
+@dataclass
+class Rows:
+    """Tiles to append, and what they hold.
+
+    Attributes
+    ----------
+    parent
+        (n,) numbers in the tree, -1 for its root.
+    error
+        (n,) geometric errors, m of the root's frame.
+    replaces
+        (n,) whether children replace the tile.
+    volumes
+        In the root's frame.
+    matrix
+        (n,) of `Tree.matrices`.
+    document
+        (n,) of `Tree.documents`.
+    contents
+        (k, 7): the tile within these rows, document, text of `Tree.texts`, and level, x, y, z that go into
+        it; level -1: the text is the URI.
+    request
+        Row within these rows -> its viewer request volume.
+    content_volume
+        Content within these rows -> its own bounding volume.
+    jobs
+        Row within these rows -> what is to be read to know its children.
+    placeholders
+        Rows that stand for the root of an implicit tiling.
+    paths
+        JSON paths of the rows; empty for implicit tiles.
+    """
+
+    parent: NDArray[np.int64]
+    error: NDArray[np.float64]
+    replaces: NDArray[np.bool_]
+    volumes: Volumes
+    matrix: NDArray[np.int64]
+    document: NDArray[np.int64]
+    contents: NDArray[np.int64]
+    request: dict[int, Volumes] = field(default_factory=dict)
+    content_volume: dict[int, Volumes] = field(default_factory=dict)
+    jobs: dict[int, list[Any]] = field(default_factory=dict)
+    placeholders: list[int] = field(default_factory=list)
+    paths: list[str] = field(default_factory=list)
+
+
+class Tree:
+    """Tiles that have been read, a parent before its children.
+
+    Attributes
+    ----------
+    matrices
+        (m, 4, 4) products of transforms, each from a tile's content to the root's frame.
+    jobs
+        Tile -> what is to be read to know its children.
+    broken
+        Tile -> why its content or its children cannot be had.
+    placeholders
+        Tiles that stand for the root of an implicit tiling.
+    """
+
+    def __init__(self) -> None:
+        self.documents: list[Document] = []
+        self.texts: list[str] = []
+        self.jobs: dict[int, list[Any]] = {}
+        self.broken: dict[int, str] = {}
+        self.request: dict[int, Volumes] = {}
+        self.content_volume: dict[int, Volumes] = {}
+        self.placeholders: set[int] = set()
+        self._matrices: list[NDArray[np.float64]] = [np.eye(4)]
+        self._rows: list[Rows] = []
+        self._kinds: list[NDArray[np.uint8]] = []
+        self._columns: dict[str, NDArray] = {}
+        self._volumes: Volumes | None = None
+        self.size, self.contents = 0, 0
+
+    def add_document(self, document: Document) -> int:
+        """Number of a document, now part of the tree."""
+        self.documents.append(document)
+        return len(self.documents) - 1
+
+    def add_text(self, text: str) -> int:
+        """Number of a URI or a template of URIs."""
+        self.texts.append(text)
+        return len(self.texts) - 1
+
+    def add_matrix(self, matrix: NDArray[np.float64]) -> int:
+        """Number of a matrix (4, 4)."""
+        self._matrices.append(matrix)
+        return len(self._matrices) - 1
+
+    def room(self, more: int, name: str) -> None:
+        """Check that there may be so many more tiles.
+
+        Raises
+        ------
+        InputError
+            There may not.
+        """
+        if self.size + more > MOST_TILES:
+            raise input_error(name, 0, 0, f"makes more than {MOST_TILES:,} tiles; take a part of the tileset")
+
+    def append(self, rows: Rows) -> int:
+        """Append tiles; returns the number of the first one."""
+        first = self.size
+        self._rows.append(rows)
+        self._kinds.append(np.zeros(len(rows.contents), np.uint8))
+        self.jobs |= {first + row: jobs for row, jobs in rows.jobs.items()}
+        self.request |= {first + row: volume for row, volume in rows.request.items()}
+        self.content_volume |= {self.contents + k: volume for k, volume in rows.content_volume.items()}
+        self.placeholders |= {first + row for row in rows.placeholders}
+        self.size += len(rows.parent)
+        self.contents += len(rows.contents)
+        self._columns.clear()
+        self._volumes = None
+        return first
+
+    @property
+    def matrices(self) -> NDArray[np.float64]:
+        """(m, 4, 4)."""
+        return np.stack(self._matrices)
+
+    @property
+    def matrix_count(self) -> int:
+        """Number of matrices."""
+        return len(self._matrices)
+
+    def matrix_number(self, number: int) -> NDArray[np.float64]:
+        """(4, 4) by its number."""
+        return self._matrices[number]
+
+    def matrix_of(self, tile: int) -> NDArray[np.float64]:
+        """(4, 4) from the tile's frame to the root's."""
+        return self._matrices[int(self.matrix[tile])]
+
+    @property
+    def parent(self) -> NDArray[np.int64]:
+        """(n,) -1 for the root."""
+        return self._column("parent")
+
+    @property
+    def error(self) -> NDArray[np.float64]:
+        """(n,) geometric errors times the largest scale of the transforms, m."""
+        return self._column("error")
+
+    @property
+    def replaces(self) -> NDArray[np.bool_]:
+        """(n,) whether children replace the tile."""
+        return self._column("replaces")
+
+    @property
+    def matrix(self) -> NDArray[np.int64]:
+        """(n,) of `matrices`."""
+        return self._column("matrix")
+
+    @property
+    def document(self) -> NDArray[np.int64]:
+        """(n,) of `documents`."""
+        return self._column("document")
+
+    @property
+    def volumes(self) -> Volumes:
+        """Bounding volumes in the root's frame."""
+        if self._volumes is None:
+            self._volumes = Volumes.joined([rows.volumes for rows in self._rows])
+        return self._volumes
+
+    @property
+    def level(self) -> NDArray[np.int64]:
+        """(n,) number of ancestors."""
+        if "level" not in self._columns:
+            level = np.zeros(self.size, np.int64)
+            left, up = np.flatnonzero(self.parent >= 0), self.parent.copy()
+            while len(left):
+                level[left] += 1
+                up[left] = self.parent[up[left]]
+                left = left[up[left] >= 0]
+            self._columns["level"] = level
+        return self._columns["level"]
+
+    @property
+    def content(self) -> NDArray[np.int64]:
+        """(k, 7) contents: tile, document, text, and level, x, y, z (see `Rows`)."""
+        if "content" not in self._columns:
+            parts, first = [np.empty((0, 7), np.int64)], 0
+            for rows in self._rows:
+                parts.append(rows.contents + np.array([first, 0, 0, 0, 0, 0, 0]))
+                first += len(rows.parent)
+            self._columns["content"] = np.concatenate(parts)
+        return self._columns["content"]
+
+    @property
+    def content_kind(self) -> NDArray[np.uint8]:
+        """(k,) MODEL or EXTERNAL, as far as is known."""
+        if len(self._kinds) > 1:
+            self._kinds = [np.concatenate(self._kinds)]
+        return self._kinds[0] if self._kinds else np.empty(0, np.uint8)
+
+    def set_kind(self, content: int, kind: int) -> None:
+        """Note what a content is."""
+        self.content_kind[content] = kind
+
+    def reference(self, content: int) -> str:
+        """URI of a content as its document has it."""
+        _, _, text, level, x, y, z = map(int, self.content[content])
+        return self.texts[text] if level < 0 else filled(self.texts[text], level, x, y, z)
+
+    def contents_of(self, some: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Numbers of the contents of some tiles, ascending."""
+        return np.flatnonzero(np.isin(self.content[:, 0], some))
+
+    def flags(self) -> NDArray[np.uint8]:
+        """(n,) what `firetwin_core.tiles.select` needs to know; SHUT is left to the caller."""
+        owner, kind = self.content[:, 0], self.content_kind
+        model, external = np.zeros((2, self.size), bool)
+        model[owner[kind == MODEL]] = True
+        external[owner[kind == EXTERNAL]] = True
+        pending, broken = np.zeros((2, self.size), bool)
+        pending[list(self.jobs)] = True
+        broken[list(self.broken)] = True
+        model |= broken & external
+        inner = np.zeros(self.size, bool)
+        inner[self.parent[self.parent >= 0]] = True
+        inner |= pending
+        above = np.where(self.parent >= 0, self.error[self.parent], np.inf)
+        empty = ~model & ~external & inner & (self.error >= above)
+        stand_in = np.zeros(self.size, bool)
+        stand_in[list(self.placeholders)] = True
+        model |= broken & stand_in
+        holder = external | stand_in
+        return (
+            tiles.REPLACES * self.replaces
+            + tiles.UNCONDITIONAL * (holder | empty)
+            + tiles.CONTENT * model
+            + tiles.PENDING * pending
+            + tiles.BROKEN * broken
+            + tiles.PASSES * holder
+        ).astype(np.uint8)
+
+    def error_at(self, tile: int, reason: str) -> InputError:
+        """InputError that names a tile by its file and JSON path."""
+        document = self.documents[int(self.document[tile])]
+        return input_error(document.name, 0, 0, f"{self.path(tile)}: {reason}")
+
+    def path(self, tile: int) -> str:
+        """JSON path of a tile in its document; a tile of an implicit tiling has its number."""
+        for rows in self._rows:
+            if tile < len(rows.parent):
+                return rows.paths[tile] if rows.paths else f"implicit tile {tile}"
+            tile -= len(rows.parent)
+        raise IndexError(tile)
+
+    def _column(self, name: str) -> NDArray:
+        if name not in self._columns:
+            parts = [getattr(rows, name) for rows in self._rows]
+            self._columns[name] = np.concatenate(parts) if parts else np.empty(0, np.int64)
+        return self._columns[name]
+
+
+def filled(template: str, level: int, x: int, y: int, z: int) -> str:
+    """A template of URIs with its variables filled in."""
+    for name, value in (("{level}", level), ("{x}", x), ("{y}", y), ("{z}", z)):
+        template = template.replace(name, str(value))
+    return template
