@@ -56,7 +56,7 @@ def is_tileset(data: bytes) -> bool:
     if data.removeprefix(b"\xef\xbb\xbf").lstrip()[:1] != b"{":
         return False
     value = parse(data, "content").value
-    return isinstance(value, dict) and "root" in value
+    return isinstance(value, dict) and ("root" in value or "geometricError" in value)
 
 
 def read(

@@ -14,7 +14,7 @@ from urllib.parse import urlsplit
 import firetwin_core
 
 from ...errors import UsageError, input_error
-from ._source import GROWTH
+from ._source import GROWTH, missing
 from .address import Guard, origin
 from .secret import Redactor
 
@@ -103,7 +103,10 @@ class Connection:
             raise TransportError(self._redactor.text(str(error))) from None
         try:
             body = self._body(response, most, name)
-        except (library.exceptions.HTTPError, OSError) as error:
+        except BaseException as error:
+            response.close()  # what is left of it would be taken for the next answer
+            if not isinstance(error, library.exceptions.HTTPError | OSError):
+                raise
             timed_out = isinstance(error, library.exceptions.ReadTimeoutError | TimeoutError)
             raise TransportError(self._redactor.text(str(error)), cut_off=not timed_out) from None
         finally:
@@ -120,7 +123,7 @@ class Connection:
         """Body within the limits, unpacked; gzip's own checksum is compared."""
         coding = response.headers.get("Content-Encoding", "identity").strip().lower()
         if coding not in ("identity", "gzip", ""):
-            raise TransportError(f"has the content encoding {coding!r}, which was not asked for")
+            raise missing(name, f"has the content encoding {coding[:40]!r}, which was not asked for")
         engine = zlib.decompressobj(31) if coding == "gzip" else None
         raw, size, pieces = 0, 0, []
         while piece := response.read(_PIECE):
@@ -130,7 +133,6 @@ class Connection:
                 piece = self._inflated(engine, piece, limit + 1 - size)
             size += len(piece)
             if size > limit or raw > most:
-                response.close()
                 raise input_error(
                     name, 0, 0, f"is larger than {most:,} bytes, or grows more than {GROWTH} times"
                 )

@@ -292,19 +292,22 @@ class Http(Source):
             self._session = self._new_session(session)
 
     def _new_session(self, old: str) -> str:
-        """Session that the root names now, itself or in the first file that it leads to."""
+        """Session that the root names now, itself or in the first tileset that it holds."""
         url, parameter = self.root, self.policy.session_parameter
         for _ in range(_DEEPEST_SESSION):
             response = self._ask(url, None, MOST_BYTES, "")
             if response.status != 200:
                 raise self._denied(url, response, True)
-            reference = next(contents.references(parse(response.body, self.name(url)).value), "")
-            target, secrets = secret.split(urljoin(url, reference))
-            self.redactor.add(*secrets.values())
-            if secrets.get(parameter, old) != old:
-                return secrets[parameter]
-            self._allowed(target, self.name(url))
-            url = target
+            found = [
+                secret.split(urljoin(url, each))
+                for each in contents.references(parse(response.body, self.name(url)).value)
+            ]
+            for _, secrets in found:
+                self.redactor.add(*secrets.values())
+                if secrets.get(parameter, old) != old:
+                    return secrets[parameter]
+            url = next((each for each, _ in found if contents.kind_by_name(each) == "json"), url)
+            self._allowed(url, self.name(self.root))
         raise input_error(self.name(self.root), 0, 0, "names no new session; try again later")
 
     def _denied(self, uri: str, response: Response, within_session: bool) -> InputError:

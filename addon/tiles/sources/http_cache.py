@@ -206,7 +206,7 @@ class HttpCache:
         """The database of this thread. What goes wrong with it is as if nothing were kept."""
         try:
             yield self._data()
-        except InputError:  # no database, or the disk is full
+        except (InputError, OSError):  # no database, or the disk is full
             self.close()
             self._set_aside()
 
