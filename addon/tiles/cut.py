@@ -9,6 +9,7 @@ import numpy as np
 from firetwin_core import lod, tiles
 from numpy.typing import ArrayLike, NDArray
 
+from ..progress import Progress, silent
 from .loader import Loader
 from .tree import MODEL
 from .volumes import Volumes
@@ -158,6 +159,7 @@ def choose(
     fetch: bool = True,
     put: Callable[[int, bytes], object] | None = None,
     triangles: Mapping[int, int] | None = None,
+    progress: Progress = silent,
 ) -> Choice:
     """Choose the tiles that a shot shows; reads as much of the tree as that needs.
 
@@ -184,7 +186,7 @@ def choose(
         A file of the tileset is wrong, or refused, or the source does not go on.
     """
     measured = _Measured(loader, views, matrix, margin, shadows)
-    sizes = _Sizes(loader, triangles or {}, put)
+    sizes = _Sizes(loader, triangles or {}, put, progress)
     limits = [
         -1 if most is None else most
         for most in ((budget.tiles, budget.bytes, budget.triangles) if budget else (None, None, None))
@@ -211,9 +213,13 @@ class _Sizes:
     """Bytes and triangles of tiles, as far as they are known."""
 
     def __init__(
-        self, loader: Loader, triangles: Mapping[int, int], put: Callable[[int, bytes], object] | None
+        self,
+        loader: Loader,
+        triangles: Mapping[int, int],
+        put: Callable[[int, bytes], object] | None,
+        progress: Progress,
     ) -> None:
-        self.loader, self.triangles, self.put = loader, triangles, put
+        self.loader, self.triangles, self.put, self.progress = loader, triangles, put, progress
         self.known: dict[int, int] = {}
 
     def arrays(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -243,7 +249,7 @@ class _Sizes:
                 self.put(content, data)
 
         before = dict(self.known)
-        return self.loader.check(contents, keep) or self.known != before
+        return self.loader.check(contents, keep, self.progress) or self.known != before
 
 
 def _shown(measured: _Measured, cut: tiles.Cut) -> NDArray[np.int64]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import implicit, metadata, volumes
-from .json_text import Node, parse
+from .json_text import Node
 from .tree import EXTERNAL, Document, Rows, Tree
 from .volumes import Volumes
 
@@ -51,19 +51,15 @@ class _Pending:
     matrix: int
 
 
-def is_tileset(data: bytes) -> bool:
-    """Whether a content is a tileset, not a JSON glTF or anything else."""
-    if data.removeprefix(b"\xef\xbb\xbf").lstrip()[:1] != b"{":
-        return False
-    value = parse(data, "content").value
-    return isinstance(value, dict) and ("root" in value or "geometricError" in value)
+def is_tileset(node: Node) -> bool:
+    """Whether a JSON text is a tileset, not a glTF or anything else."""
+    return isinstance(node.value, dict) and ("root" in node or "geometricError" in node)
 
 
 def read(
     tree: Tree,
-    data: bytes,
+    node: Node,
     uri: str,
-    name: str,
     holder: int = -1,
     load: Callable[[str], Node | None] = lambda _: None,
 ) -> int:
@@ -71,8 +67,10 @@ def read(
 
     Parameters
     ----------
-    uri, name
-        Of the file: for its source and for messages.
+    node
+        All of the file.
+    uri
+        Of the file, for its source.
     holder
         Tile that holds the tileset; -1: it is the root's.
     load
@@ -87,14 +85,11 @@ def read(
     InputError
         It is no tileset that can be read; nothing was appended.
     """
-    node = parse(data, name)
-    document = _document(tree, node, uri, name, holder, load)
+    document = _document(tree, node, uri, holder, load)
     return _Walk(tree, node, document, holder).run()
 
 
-def _document(
-    tree: Tree, node: Node, uri: str, name: str, holder: int, load: Callable[[str], Node | None]
-) -> Document:
+def _document(tree: Tree, node: Node, uri: str, holder: int, load: Callable[[str], Node | None]) -> Document:
     asset = node.need("asset")
     version = asset.need("version").text()
     if version not in VERSIONS:
@@ -112,7 +107,7 @@ def _document(
     text = asset.get("copyright")
     return Document(
         uri,
-        name,
+        node.file,
         (*above, uri),
         up_axis.text().upper() if up_axis is not None else "Y",
         text.text() if text is not None else "",

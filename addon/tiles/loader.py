@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 
+from ..errors import InputError
+from ..progress import Progress, silent
 from . import contents, explicit, implicit
 from .explicit import External
 from .implicit import Subtree
 from .json_text import MOST_BYTES, Node, parse
 from .sources import MissingError, Source
-from .tree import MODEL, Tree
+from .tree import EXTERNAL, MODEL, Tree
 
 Job = External | Subtree
 
@@ -34,8 +37,8 @@ class Loader:
     def __init__(self, source: Source) -> None:
         self.source, self.tree, self.files = source, Tree(), 1
         self._kinds: dict[int, str] = {}
-        data = source.read(source.root, MOST_BYTES)
-        explicit.read(self.tree, data, source.root, source.name(source.root), load=self._json(source.root))
+        node = parse(source.read(source.root, MOST_BYTES), source.name(source.root))
+        explicit.read(self.tree, node, source.root, load=self._json(source.root))
 
     def expand(self, some: Iterable[int]) -> None:
         """Read what tells the children of some tiles. What is missing makes a tile broken.
@@ -53,7 +56,6 @@ class Loader:
             if isinstance(data, MissingError):
                 self.tree.broken[tile] = str(data)
             else:
-                self.files += 1
                 self._graft(tile, job, uri, data)
 
     def expand_all(self, most: int | None = None) -> bool:
@@ -72,7 +74,12 @@ class Loader:
         document = self.tree.documents[int(self.tree.content[content, 1])]
         return self.source.resolve(document.uri, self.tree.reference(content))
 
-    def check(self, some: Iterable[int], put: Callable[[int, bytes], object] | None = None) -> bool:
+    def check(
+        self,
+        some: Iterable[int],
+        put: Callable[[int, bytes], object] | None = None,
+        progress: Progress = silent,
+    ) -> bool:
         """Fetch contents, and find out what they are.
 
         One that is a tileset is grafted, one that is missing makes its tile broken.
@@ -93,6 +100,7 @@ class Loader:
             uris = [self.content_uri(number) for number in part]
             for number, uri, data in zip(part, uris, self._fetch(uris), strict=True):
                 changed |= self._note(number, uri, data, put)
+            progress(first + len(part), len(numbers), "fetching tiles")
         return changed
 
     def kind(self, content: int) -> str:
@@ -112,13 +120,15 @@ class Loader:
             self.tree.broken[tile] = str(data)
             return True
         self._kinds[content] = contents.kind(data)
-        if self._kinds[content] == "json" and explicit.is_tileset(data):
-            self._kinds[content] = "tileset"
-            self.tree.set_kind(content, explicit.EXTERNAL)
-            self._graft(tile, External(content), uri, data)
-            return True
         if self._kinds[content] == "json":
             self._kinds[content] = "gltf"
+            with contextlib.suppress(InputError):  # what is no JSON is no tileset; its reader says why
+                if explicit.is_tileset(node := parse(data, self.source.name(uri))):
+                    self._kinds[content] = "tileset"
+        if self._kinds[content] == "tileset":
+            self.tree.set_kind(content, EXTERNAL)
+            self._read(tile, node, uri)
+            return True
         if (short := contents.cut_off(data)) is not None:
             self._kinds[content] = "missing"
             self.tree.broken[tile] = f"{self.source.name(uri)}: ends early: {short}"
@@ -135,12 +145,17 @@ class Loader:
     def _graft(self, tile: int, job: Job, uri: str, data: bytes) -> None:
         name = self.source.name(uri)
         if isinstance(job, Subtree):
+            self.files += 1
             implicit.expand(self.tree, job, tile, data, name, self._bytes(uri))
-        elif explicit.is_tileset(data):
+        elif explicit.is_tileset(node := parse(data, name)):
             self._kinds[job.content] = "tileset"
-            explicit.read(self.tree, data, uri, name, tile, self._json(uri))
+            self._read(tile, node, uri)
         else:
             self.tree.set_kind(job.content, MODEL)  # such as a glTF with a name that ends in .json
+
+    def _read(self, holder: int, node: Node, uri: str) -> None:
+        self.files += 1
+        explicit.read(self.tree, node, uri, holder, self._json(uri))
 
     def _fetch(self, uris: list[str], most: int | None = None) -> list[bytes | MissingError]:
         """Contents of files, or why they are missing."""

@@ -149,7 +149,7 @@ def test_growth_damage_and_other_methods(tmp_path):
     with pytest.raises(MissingError, match="is damaged"):
         archive.Archive(tmp_path / "z.3tz").read("tileset.json")
     (tmp_path / "w.3tz").write_bytes(b"PK" + bytes(100))
-    with pytest.raises(InputError, match="cannot be opened as a .3tz"):
+    with pytest.raises(InputError, match=r"cannot be opened as a \.3tz"):
         archive.Archive(tmp_path / "w.3tz")
 
 

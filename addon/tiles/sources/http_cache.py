@@ -8,14 +8,17 @@ import os
 import sys
 import threading
 import uuid
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from email.utils import parsedate_to_datetime
 from pathlib import Path
+from typing import Any, TypeVar
 
 from ... import files
 from ...database import Database
 from ...errors import InputError
+
+_T = TypeVar("_T")
 
 LIMIT = 4_000_000_000  # bytes
 _TABLES = """
@@ -109,56 +112,27 @@ class HttpCache:
 
     def find(self, url: str, now: float) -> Answer | None:
         """The answer of a URL; None where there is none, or it is damaged, which removes it."""
-        with self._told() as data:
-            row = data.one(f"SELECT {_COLUMNS} FROM answer WHERE key = ?", _key(url))
-            if row is None:
-                return None
-            key, _, name, length, sha256, etag, modified, expires, strict, used = row
-            try:
-                body = (self.place / name).read_bytes()
-            except OSError:
-                body = b""
-            if len(body) != length or hashlib.sha256(body).hexdigest() != sha256:
-                self._remove(data, key, name)
-                return None
-            if abs(now - used) > _TOUCH:
-                data.do("UPDATE answer SET used = ? WHERE key = ?", now, key)
-            return Answer(body, etag, modified, expires, bool(strict))
-        return None
+        return self._try(lambda data: self._find(data, _key(url), now), None)
 
     def put(self, url: str, body: bytes, headers: Mapping[str, str], now: float) -> None:
         """Keep an answer, where its headers allow; a disk without room keeps nothing."""
-        found, key = rules(headers, now), _key(url)
-        with self._told() as data:
-            before = data.one("SELECT file FROM answer WHERE key = ?", key)
-            if not found.store:
-                if before is not None:
-                    self._remove(data, key, before[0])
-                return
-            name = f"{key[:2]}/{key[2:18]}-{uuid.uuid4().hex[:12]}"
-            files.write(self.place / name, lambda part: part.write_bytes(body))
-            values = (
-                *(key, url, name, len(body), hashlib.sha256(body).hexdigest()),
-                *(headers.get("ETag", ""), headers.get("Last-Modified", "")),
-                *(found.expires, int(found.strict), now),
-            )
-            data.do(f"INSERT OR REPLACE INTO answer ({_COLUMNS}) VALUES ({', '.join('?' * 10)})", *values)
-            if before is not None:
-                self._unlink(before[0])
-            self._grown(data, len(body))
+        found = rules(headers, now)
+        if found.store:
+            self._try(lambda data: self._put(data, url, body, headers, found, now), None)
+        else:
+            self._try(lambda data: self._replace(data, _key(url), None), None)
 
     def refresh(self, url: str, headers: Mapping[str, str], now: float) -> None:
         """Note that the server confirmed an answer (status 304)."""
         found = rules(headers, now)
-        with self._told() as data:
-            command = "UPDATE answer SET expires = ?, strict = ?, used = ? WHERE key = ?"
-            data.do(command, found.expires, int(found.strict), now, _key(url))
+        command = "UPDATE answer SET expires = ?, strict = ?, used = ? WHERE key = ?"
+        values = (found.expires, int(found.strict), now, _key(url))
+        self._try(lambda data: data.do(command, *values), None)
 
     def prune(self, limit: int | None = None) -> int:
         """Remove the least recently used answers until `limit` bytes remain; returns the bytes left."""
-        with self._told() as data:
-            return self._prune(data, self.limit if limit is None else limit)
-        return 0
+        most = self.limit if limit is None else limit
+        return self._try(lambda data: self._prune(data, most), 0)
 
     def close(self) -> None:
         """Let go of this thread's database."""
@@ -166,6 +140,51 @@ class HttpCache:
         if data is not None:
             data.close()
             self._own.data = None
+
+    def _find(self, data: Database, key: str, now: float) -> Answer | None:
+        row = data.one(f"SELECT {_COLUMNS} FROM answer WHERE key = ?", key)
+        if row is None:
+            return None
+        _, _, name, length, sha256, etag, modified, expires, strict, used = row
+        try:
+            body = (self.place / name).read_bytes()
+        except OSError:
+            body = b""
+        if len(body) != length or hashlib.sha256(body).hexdigest() != sha256:
+            data.do("DELETE FROM answer WHERE key = ? AND file = ?", key, name)
+            self._unlink(name)
+            return None
+        if abs(now - used) > _TOUCH:
+            data.do("UPDATE answer SET used = ? WHERE key = ?", now, key)
+        return Answer(body, etag, modified, expires, bool(strict))
+
+    def _put(
+        self, data: Database, url: str, body: bytes, headers: Mapping[str, str], found: Rules, now: float
+    ) -> None:
+        key = _key(url)
+        name = f"{key[:2]}/{key[2:18]}-{uuid.uuid4().hex[:12]}"
+        files.write(self.place / name, lambda part: part.write_bytes(body))
+        values = (
+            *(key, url, name, len(body), hashlib.sha256(body).hexdigest()),
+            *(headers.get("ETag", ""), headers.get("Last-Modified", "")),
+            *(found.expires, int(found.strict), now),
+        )
+        try:
+            self._replace(data, key, values)
+        except BaseException:
+            self._unlink(name)
+            raise
+        self._grown(data, len(body))
+
+    def _replace(self, data: Database, key: str, values: tuple[Any, ...] | None) -> None:
+        """Put a row in place of that of a key, or none; the file of the former row goes."""
+        with data.change():
+            before = data.one("SELECT file FROM answer WHERE key = ?", key)
+            data.do("DELETE FROM answer WHERE key = ?", key)
+            if values is not None:
+                data.do(f"INSERT INTO answer ({_COLUMNS}) VALUES ({', '.join('?' * 10)})", *values)
+        if before is not None:
+            self._unlink(before[0])
 
     def _grown(self, data: Database, more: int) -> None:
         with self._lock:
@@ -193,22 +212,18 @@ class HttpCache:
             self._unlink(name)
         return total
 
-    def _remove(self, data: Database, key: str, name: str) -> None:
-        data.do("DELETE FROM answer WHERE key = ? AND file = ?", key, name)
-        self._unlink(name)
-
     def _unlink(self, name: str) -> None:
         with contextlib.suppress(OSError):
             (self.place / name).unlink(missing_ok=True)
 
-    @contextlib.contextmanager
-    def _told(self):  # noqa: ANN202 (a generator of a context manager)
-        """The database of this thread. What goes wrong with it is as if nothing were kept."""
+    def _try(self, work: Callable[[Database], _T], otherwise: _T) -> _T:
+        """Work with the database of this thread. What goes wrong with it is as if nothing were kept."""
         try:
-            yield self._data()
+            return work(self._data())
         except (InputError, OSError):  # no database, or the disk is full
             self.close()
             self._set_aside()
+            return otherwise
 
     def _data(self) -> Database:
         if getattr(self._own, "data", None) is None:
