@@ -309,6 +309,9 @@ def _error(node: Node) -> float:
 
 def _contents(node: Node) -> list[Node]:
     """Contents of a tile, of which a 1.0 tileset has several by an extension."""
+    one = node.get("content")
+    if one is not None and "extensions" not in node and "contents" not in node:
+        return [one]
     holder = node
     if (extensions := node.get("extensions")) is not None:
         holder = extensions.get("3DTILES_multiple_contents") or node
@@ -319,7 +322,6 @@ def _contents(node: Node) -> list[Node]:
         if len(found) > MOST_CONTENTS:
             raise several.error(f"has more than {MOST_CONTENTS} contents")
         return found
-    one = node.get("content")
     return [one] if one is not None else []
 
 

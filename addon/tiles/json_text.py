@@ -60,10 +60,19 @@ def _depth(data: bytes) -> int:
 class Node:
     """A value of a JSON text, with its place."""
 
-    __slots__ = ("file", "path", "value")
+    __slots__ = ("_above", "_path", "file", "value")
 
-    def __init__(self, value: Any, file: str, path: str) -> None:
-        self.value, self.file, self.path = value, file, path
+    def __init__(self, value: Any, file: str, path: str, above: Node | None = None) -> None:
+        self.value, self.file, self._path, self._above = value, file, path, above
+
+    @property
+    def path(self) -> str:
+        """JSON path; of a member it is made when asked for."""
+        if self._above is not None:
+            name = self._path if _NAME.fullmatch(self._path) else f"[{self._path[:80]!r}]"
+            dot = "." if name == self._path else ""
+            self._path, self._above = f"{self._above.path}{dot}{name}", None
+        return self._path
 
     def error(self, reason: str) -> InputError:
         """InputError with file and JSON path."""
@@ -74,10 +83,13 @@ class Node:
 
     def get(self, *names: str) -> Node | None:
         """Member by the first of these names that is there; None without one."""
-        self.object()
+        value = self.value
+        if type(value) is not dict:
+            raise self.error("must be an object")
         for name in names:
-            if self.value.get(name) is not None:
-                return self._member(name)
+            found = value.get(name)
+            if found is not None:
+                return Node(found, self.file, name, self)
         return None
 
     def need(self, *names: str) -> Node:
@@ -103,7 +115,8 @@ class Node:
         """Elements of the value, which must be an array."""
         if not isinstance(self.value, list):
             raise self.error("must be an array")
-        return (Node(each, self.file, f"{self.path}[{i}]") for i, each in enumerate(self.value))
+        path = self.path
+        return (Node(each, self.file, f"{path}[{i}]") for i, each in enumerate(self.value))
 
     def text(self) -> str:
         """The value, which must be a string."""
@@ -113,10 +126,9 @@ class Node:
 
     def number(self) -> float:
         """The value, which must be a finite number."""
-        value = self.value
-        if isinstance(value, bool) or not isinstance(value, int | float) or not _finite(value):
+        if not _finite(self.value):
             raise self.error("must be a finite number")
-        return float(value)
+        return float(self.value)
 
     def index(self, most: int, least: int = 0) -> int:
         """The value, which must be a whole number from `least` to `most`."""
@@ -129,19 +141,17 @@ class Node:
     def numbers(self, count: int) -> list[float]:
         """The value, which must be `count` finite numbers."""
         value = self.value
-        if not isinstance(value, list) or len(value) != count:
+        if type(value) is not list or len(value) != count:
             raise self.error(f"must be {count} numbers")
-        for each in value:
-            if isinstance(each, bool) or not isinstance(each, int | float) or not _finite(each):
-                raise self.error(f"must be {count} finite numbers")
-        return [float(each) for each in value]
-
-    def _member(self, name: str) -> Node:
-        path = f"{self.path}.{name}" if _NAME.fullmatch(name) else f"{self.path}[{name[:80]!r}]"
-        return Node(self.value[name], self.file, path)
+        if not all(map(_finite, value)):
+            raise self.error(f"must be {count} finite numbers")
+        return list(map(float, value))
 
 
-def _finite(value: int | float) -> bool:
+def _finite(value: Any) -> bool:
+    kind = type(value)  # bool is no number here
+    if kind is not float and kind is not int:
+        return False
     try:
         return math.isfinite(value)
     except OverflowError:  # a whole number beyond every float

@@ -11,6 +11,9 @@ from ..ellipsoid import E2, A
 from .json_text import Node
 
 
+_SQUARE = 1e-14  # cosine of the angle between edges at right angles
+
+
 @dataclass(frozen=True)
 class Volumes:
     """Bounding volumes of n tiles.
@@ -45,6 +48,8 @@ class Volumes:
 
     def moved(self, matrices: NDArray[np.float64], which: NDArray[np.int64]) -> Volumes:
         """Volumes moved by ``matrices[which]``, (m, 4, 4) and (n,); a radius grows by their largest scale."""
+        if len(matrices) == 1 and np.array_equal(matrices[0], np.eye(4)):
+            return self
         linear = matrices[which, :3, :3]
         centre = np.einsum("nij,nj->ni", linear, self.centre) + matrices[which, :3, 3]
         edges = np.einsum("nij,nkj->nki", linear, self.axis * self.half[:, :, None])
@@ -84,6 +89,16 @@ def orthonormal(edges: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArra
     """
     if not len(edges):
         return np.empty((0, 3, 3)), np.empty((0, 3))
+    half = np.sqrt(np.einsum("nki,nki->nk", edges, edges))
+    axis = edges / np.where(half > 0.0, half, 1.0)[:, :, None]
+    askew = np.einsum("nki,nki->nk", axis, axis[:, [1, 2, 0]])
+    odd = (np.abs(askew).max(axis=1) > _SQUARE) | (half.min(axis=1) == 0.0)
+    axis[odd], half[odd] = _fitted(edges[odd])
+    return axis, half
+
+
+def _fitted(edges: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """`orthonormal` of edges that are not at right angles, or flat."""
     order = np.argsort(-np.linalg.norm(edges, axis=2), axis=1, kind="stable")
     sorted_edges = np.take_along_axis(edges, order[:, :, None], axis=1)
     # Lengths of 1 keep what is flat from rounding; columns are edges.
