@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from ..ellipsoid import E2, A
 from .json_text import Node
 
-
 _SQUARE = 1e-14  # cosine of the angle between edges at right angles
 
 

@@ -120,9 +120,10 @@ def test_the_error_is_that_of_the_nearest_point_in_pixels_of_the_picture():
     for target, wanted in ((10.79, ["b.glb"]), (10.81, ["a.glb"])):
         loader = load(root, files)
         assert names(loader, cut.choose(loader, looking(0.0), HERE, target)) == wanted
-    loader = load(root, files)
     scaled = np.diag([0.5, 0.5, 0.5, 1.0])  # half as large, half as far
-    assert names(loader, cut.choose(loader, looking(0.0), scaled, 10.79)) == ["b.glb"]
+    for target, wanted in ((10.79, ["b.glb"]), (10.81, ["a.glb"])):
+        loader = load(root, files)
+        assert names(loader, cut.choose(loader, looking(0.0), scaled, target)) == wanted
 
 
 def test_a_budget_is_kept_and_the_price_said():

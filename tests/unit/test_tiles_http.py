@@ -342,10 +342,14 @@ def test_a_tileset_stays_on_its_host(server, opened, reference, message):
 
 
 def test_a_host_that_the_user_names_is_allowed(opened):
-    source = opened(hosts=("tiles.example",))
+    source = opened(f"/t/tileset.json?key={SECRET}", WITH_SESSION, hosts=("tiles.example",))
+    source.bearer = "t0ken"
     assert source.resolve(source.root, "https://tiles.example/a.glb") == "https://tiles.example/a.glb"
     url, headers = source._with_secrets("https://tiles.example/a.glb", "session", {})
     assert (url, headers) == ("https://tiles.example/a.glb", {})
+    url, headers = source._with_secrets(f"{source.home}/a.glb", "of-now", {})
+    assert url == f"{source.home}/a.glb?key={SECRET}&session=of-now"
+    assert headers == {"Authorization": "Bearer t0ken"}
 
 
 @pytest.mark.parametrize(
@@ -432,7 +436,7 @@ def test_certificates_are_verified(monkeypatch, clock, tmp_path):
     assert connection._tls().check_hostname
 
 
-def test_sizes_and_growth_are_limited(server, opened):
+def test_sizes_and_growth_are_limited(server, opened, clock):
     packed = gzip.compress(b"0" * 8_000_000)
     server.answers |= {
         "/t/large": Reply(200, b"x" * 2000),
@@ -451,6 +455,7 @@ def test_sizes_and_growth_are_limited(server, opened):
         source.read(f"{server.url}/t/odd")
     server.answers["/t/fine"] = Reply(200, gzip.compress(GLB), {"Content-Encoding": "gzip"})
     assert source.read(f"{server.url}/t/fine") == GLB
+    assert clock.slept == []  # what was left of an answer is not taken for the next one
 
 
 def test_no_secret_is_in_logs_messages_keys_and_files(server, opened, tmp_path, caplog):
