@@ -86,22 +86,25 @@ def _greedy(prices: Whole, gains: Whole, need: int, last: int) -> int:
 
 
 def _solve(prices: Whole, gains: Whole, need: int, bound: int) -> Whole:
-    """Indices of the cheapest set of items that come by ascending price of a gain."""
+    """Indices of the cheapest set, of items by ascending price of a gain; its price is `bound` or less."""
     zero = np.zeros(1, np.int64)
     steps = [_States(zero, zero, zero, np.zeros(1, np.bool_))]
     sums, spent = (np.concatenate([zero, np.cumsum(each)]) for each in (gains, prices))
+    limit, best = bound + 1, zero[:0]
     for item, (price, gain) in enumerate(zip(prices, gains, strict=True)):
-        steps.append(_grown(steps[-1], int(price), int(gain), need))
-        states = steps[-1]
-        lacking = np.maximum(need - states.gain, 0)
-        done, paid = sums[item + 1], spent[item + 1]
-        least = np.interp(lacking + done, sums[item + 1 :], spent[item + 1 :]) - paid
-        keep = (lacking <= sums[-1] - done) & (states.cost + least <= bound * (1.0 + 1e-12) + 1e-6)
-        steps[-1] = _States(*(each[keep] for each in states))
-        enough = steps[-1].gain >= need
-        if enough.any():
-            bound = min(bound, int(steps[-1].cost[enough].min()))
-    return _traced(steps, int(np.flatnonzero(steps[-1].gain >= need)[0]))
+        states = _grown(steps[-1], int(price), int(gain), need)
+        for enough in np.flatnonzero(states.gain >= need):  # one at most, as others cost more
+            if states.cost[enough] < limit:
+                limit = int(states.cost[enough])
+                best = np.append(_traced(steps, int(states.before[enough])), item)
+        lacking, done = need - states.gain, sums[item + 1]
+        least = np.interp(lacking + done, sums[item + 1 :], spent[item + 1 :]) - spent[item + 1]
+        keep = (lacking > 0) & (lacking <= sums[-1] - done)
+        keep &= states.cost + least < limit - 0.5 + 1e-12 * limit  # prices are whole numbers
+        steps.append(_States(*(each[keep] for each in states)))
+        if not keep.any():
+            break
+    return best
 
 
 def _grown(states: _States, price: int, gain: int, need: int) -> _States:

@@ -37,9 +37,18 @@ def read(path: Path) -> Places:
             if not {"source", "type", "station", "resource", "availability", "area"} <= tables:
                 raise input_error(path, 0, 0, _NO_PLACES)
             return _Reader(path, base).places()
+    except UnicodeDecodeError:
+        raise input_error(path, 0, 0, "cannot be read: a text in it is not UTF-8") from None
     except sqlite3.DatabaseError as error:
         reason = _NO_PLACES if "not a database" in str(error) else f"cannot be read: {error}"
         raise input_error(path, 0, 0, reason) from None
+
+
+def _text(value: Any) -> str:
+    """Text of a column, into which SQLite lets other programs write anything."""
+    if isinstance(value, str):
+        return value
+    return "" if value is None else str(value)
 
 
 class _Reader:
@@ -67,7 +76,7 @@ class _Reader:
         for row in self.base.execute(f"SELECT {', '.join(names)} FROM {table} ORDER BY {key}"):
             values = list(row)
             for k in texts:
-                values[k] = values[k] or ""
+                values[k] = _text(values[k])
             for k in flags:
                 values[k] = bool(values[k])
             found.append(kind(*values))
@@ -82,7 +91,7 @@ class _Reader:
         for number, blob, name, origin, source, *texts in self.base.execute(command):
             latitude, longitude = self.position(number, blob)
             found.append(
-                Station(number, name, latitude, longitude, origin, source, *(each or "" for each in texts))
+                Station(number, _text(name), latitude, longitude, origin, source, *map(_text, texts))
             )
         return tuple(found)
 
@@ -103,7 +112,7 @@ class _Reader:
                 self.time(number, "begins", begins),
                 self.time(number, "ends", ends),
                 status,
-                area or "",
+                _text(area),
             )
             for number, resource, begins, ends, status, area in self.base.execute(command)
         )
@@ -122,7 +131,7 @@ class _Reader:
             polygons = geopackage.polygons(blob) if isinstance(blob, bytes) else ()
             if not polygons:
                 self.wrong("area", number, "has no polygon; draw it again, or remove it")
-            found.append(Area(number, name or "", kind or "", station, polygons))
+            found.append(Area(number, _text(name), _text(kind), station, polygons))
         return tuple(found)
 
     def check(self, places: Places) -> None:

@@ -93,6 +93,7 @@ def write_usgs(path):
 
 
 STATION = {"amenity": "fire_station", "name": "Made Up Station 5", "ref": "5", "phone": "+1-530-555-0104"}
+BOUNDS = {"minlat": 39.0, "minlon": -120.4, "maxlat": 39.2, "maxlon": -120.2}
 OVERPASS = {
     "version": 0.6,
     "generator": "Overpass API",
@@ -106,6 +107,8 @@ OVERPASS = {
          "tags": {"amenity": "fire_station", "name": "Made Up Compound"}},
         {"type": "node", "id": 3, "lat": 38.95, "lon": -120.65},
         {"type": "way", "id": 6, "tags": {"amenity": "fire_station", "name": "Made Up Outline"}},
+        {"type": "way", "id": 9, "bounds": BOUNDS,
+         "tags": {"amenity": "fire_station", "name": "Made Up Hall"}},
         {"type": "node", "id": 7, "lat": 38.9, "lon": -120.6, "tags": {"emergency": "ambulance_station"}},
         {"type": "node", "id": 8, "lat": 38.9, "lon": -120.6, "tags": {"amenity": "fire_station"}},
     ],

@@ -206,6 +206,22 @@ def test_points_as_other_programs_write_them_are_read(file):
     base.close()
 
 
+def test_texts_of_any_kind_are_texts(file):
+    path, _ = file
+    base = sqlite3.connect(path)
+    base.execute("UPDATE station SET name = 12, agency = x'41' WHERE fid = 7")
+    base.execute("UPDATE resource SET note = 3.5")
+    base.commit()
+    base.close()
+    found = reading.read(path)
+    assert found.stations[0].name == "12"
+    assert {each.note for each in found.resources} == {"3.5"}
+    damaged = path.read_bytes().replace(b"Station 1", b"Station \xff")
+    path.write_bytes(damaged)
+    with pytest.raises(InputError, match="not UTF-8"):
+        reading.read(path)
+
+
 def test_no_file_and_no_database(tmp_path):
     with pytest.raises(InputError, match="there is no such file"):
         store.read(tmp_path / "none.gpkg")

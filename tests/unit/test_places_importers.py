@@ -108,8 +108,11 @@ def test_overpass_nodes_and_centres_of_ways_and_relations(tmp_path):
         ("Made Up Station 5", "node/1"),
         ("Fire station 12", "way/2"),
         ("Made Up Compound", "relation/5"),
+        ("Made Up Hall", "way/9"),
         ("Fire station node/8", "node/8"),
     ]
+    hall = places.stations[3]
+    assert (hall.latitude, hall.longitude) == pytest.approx((39.1, -120.3))
     way = places.stations[1]
     assert (way.latitude, way.longitude, way.agency, way.address) == (
         38.95, -120.65, "Made Up District", "12 Example Lane",
@@ -235,6 +238,8 @@ def test_a_file_of_places_is_taken_over_beside_others(tmp_path):
         (b"name,lat,lon\nA\xff,1,2\n", "is no text in UTF-8"),
         (b"name,lat,lon,origin\nA,1,2,rumour\n", 'has origin "rumour"'),
         (b"SQLite format 3\0 and nothing else", "has no known format"),
+        (b'name,lat,lon\ra,1,2\r"b', "has no known format"),
+        (b'name,"lat\rlon', "is damaged or incomplete"),
     ],
 )
 def test_other_files_are_named(tmp_path, content, reason):

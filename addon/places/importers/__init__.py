@@ -46,9 +46,8 @@ def read(path: Path) -> Batch:
     InputError
         The file is missing, has no known format, or is damaged.
     """
-    module = importer(path)
     try:
-        return module.read(path)
+        return importer(path).read(path)
     except Error:
         raise
     except OSError as error:

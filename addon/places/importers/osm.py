@@ -15,6 +15,7 @@ import numpy as np
 
 from ...errors import input_error
 from ...run.observations import geojson
+from ...run.observations.feature import finite
 from .. import drafts
 from ..drafts import Batch, Draft
 
@@ -63,10 +64,23 @@ def _read_elements(path: Path, whole: Mapping[str, Any], batch: Batch) -> None:
         tags = element.get("tags")
         if not isinstance(tags, dict):
             continue  # a node of a way
-        centre = element.get("center")
-        at = element if "lat" in element else centre if isinstance(centre, dict) else {}
+        at = element if "lat" in element else _centre(element)
         identity = f"{element.get('type')}/{element.get('id')}"
         _add(batch, tags, at.get("lat"), at.get("lon"), identity, f"element {number}")
+
+
+def _centre(element: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Centre of a way or relation, which ``out center`` gives; else the middle of its ``bounds``."""
+    centre, bounds = element.get("center"), element.get("bounds")
+    if isinstance(centre, dict):
+        return centre
+    if not isinstance(bounds, dict):
+        return {}
+    middles = ([finite(bounds.get(f"{end}{axis}")) for end in ("min", "max")] for axis in ("lat", "lon"))
+    return {
+        name: None if low is None or high is None else 0.5 * (low + high)
+        for name, (low, high) in zip(("lat", "lon"), middles, strict=True)
+    }
 
 
 def _read_features(path: Path, batch: Batch) -> None:

@@ -11,7 +11,7 @@ from ...run import tables
 
 def columns(head: bytes) -> set[str]:
     """Names of the columns in the first line of a CSV, in lower case; none of what is no text."""
-    line = head.decode("utf-8-sig", "replace").partition("\n")[0].strip()
+    line = "\n".join(head.decode("utf-8-sig", "replace").splitlines()[:1]).strip()
     if not line or line[0] in "{[" or "\0" in line:
         return set()
     return set(named(line))
