@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..run import areas, times
 from ..run.score.grid import ScoreGrid
 from ..run.score.shapes import mirrored, wider
+from .distance import distance_km
 
 Array = NDArray[np.float64]
 
@@ -40,12 +41,17 @@ class Arrivals:
         and the latest of the four cell centres around the place. Of a run without arrival times of its own
         these are the model's cells, and one interval of its output more. Where one of the cells never burns
         the front stops near the place, and the latest is the run's end.
+    nearest_km, nearest_time
+        Distance to the nearest cell that ever burns, km, and its arrival time: 0 and `time` where the fire
+        comes itself. Cells without fuel, such as those of buildings, do not burn. NaN without a fire.
     """
 
     state: NDArray[np.int64]
     time: Array
     earliest: Array
     latest: Array
+    nearest_km: Array
+    nearest_time: Array
 
     def utc(self, run: Run, index: int) -> tuple[datetime, datetime, datetime] | None:
         """Time, earliest and latest of a place, UTC; None where the fire does not come."""
@@ -59,7 +65,8 @@ class Arrivals:
 
 def sample(run: Run, latitude: ArrayLike, longitude: ArrayLike) -> Arrivals:
     """Arrival of a run's fire at places (n,), degrees north and east."""
-    grid = _Corners.of(ScoreGrid.of(run), latitude, longitude)
+    cells = ScoreGrid.of(run)
+    grid = _Corners.of(cells, latitude, longitude)
     last = float(run.times[-1])
     end = max(last, float(np.nanmax(grid.field, initial=last)))
     since = bilinear(mirrored(grid.field - end), grid.row, grid.column)
@@ -70,11 +77,14 @@ def sample(run: Run, latitude: ArrayLike, longitude: ArrayLike) -> Arrivals:
         earliest, latest = _of_model(run, latitude, longitude, earliest, latest)
     latest = np.where(grid.stops, np.maximum(latest, end), latest)
     state = np.where(burned, np.where(time < run.times[0], BEFORE, REACHED), NEVER)
+    near, near_time = _nearest(cells, latitude, longitude, ~burned)
     return Arrivals(
         np.where(grid.inside, state, OUTSIDE),
         time,
         np.where(burned, np.minimum(earliest, time), np.nan),
         np.where(burned, np.maximum(latest, time), np.nan),
+        np.where(burned, 0.0, near),
+        np.where(burned, time, near_time),
     )
 
 
@@ -85,6 +95,25 @@ def first_burned(run: Run) -> tuple[float, float] | None:
         return None
     row, column = np.nonzero(grid.arrival == np.nanmin(grid.arrival))
     return float(grid.latitude[row].mean()), float(grid.longitude[column].mean())
+
+
+def _nearest(
+    grid: ScoreGrid, latitude: ArrayLike, longitude: ArrayLike, wanted: NDArray[np.bool_]
+) -> tuple[Array, Array]:
+    """Distance (n,) to the nearest cell that burns, km, and its arrival time; only of the `wanted` places."""
+    burned = np.isfinite(grid.arrival)
+    far, time = (np.full(wanted.shape, np.nan) for _ in range(2))
+    if not burned.any():
+        return far, time
+    padded = np.pad(burned, 1)
+    inner = padded[:-2, 1:-1] & padded[2:, 1:-1] & padded[1:-1, :-2] & padded[1:-1, 2:]
+    row, column = np.nonzero(burned & ~inner)  # the nearest cell has a side that never burns
+    y, x = np.asarray(latitude, np.float64), np.asarray(longitude, np.float64)
+    for k in np.flatnonzero(wanted):
+        distance = distance_km(grid.latitude[row], grid.longitude[column], (float(y[k]), float(x[k])))
+        at = int(np.argmin(distance))
+        far[k], time[k] = distance[at], grid.arrival[row[at], column[at]]
+    return far, time
 
 
 @dataclass(frozen=True)

@@ -32,7 +32,8 @@ attack, structure, drop, line, water, lift or command. Availability: its status 
 
 With --tonnes-per-hour the list is the cheapest set that delivers it; the exit status is 1 if there is none
 within --budget. With --budget alone it is what arrives first and can be paid. Units and assumptions are
-printed. With --run the list says when the fire reaches each station, with the earliest and the latest time.
+printed. With --run the list says when the fire reaches each station, with the earliest and the latest time,
+or how close it comes.
 A file without resources lists its stations, as --stations does."""
 
 _LENGTHS = {"": 1.0, "km": 1.0, "m": 0.001, "mi": 1.609344}
@@ -114,7 +115,13 @@ def add_resources(
     ):
         help = f"{what} ({usual:g})"
         parser.add_argument(f"--{name}", metavar=unit, type=_positive, default=usual, help=help)
-    parser.add_argument("--ahead", action="store_true", help="only where the fire of --run arrives later")
+    parser.add_argument(
+        "--ahead", action="store_true", help="only where the fire of --run arrives, soonest first"
+    )
+    parser.add_argument(
+        "--clearance", metavar="LENGTH", type=_length, default=0.5,
+        help="distance to the fire at which --ahead keeps a station that itself does not burn (500m)",
+    )  # fmt: skip
     parser.add_argument("--stations", action="store_true", help="list stations instead of resources")
     parser.add_argument("--json", action="store_true", help="write JSON")
 

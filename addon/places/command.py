@@ -102,7 +102,7 @@ def find_resources(arguments: argparse.Namespace, fire: OpenFire) -> int:
         found = search.survey(places, query)
     answer = page.Answer(places, query, found, opened.run if opened else None)
     if arguments.ahead:
-        answer = answer.ahead()
+        answer = answer.ahead(arguments.clearance)
     result(json.dumps(answer.plain(), indent=1, ensure_ascii=False) if arguments.json else answer.page())
     if answer.found.shortfall:
         say(f"no set: {answer.found.shortfall}")

@@ -42,19 +42,23 @@ class Answer:
         at = [each.station for each in self.matches]
         return ahead.sample(self.run, [each.latitude for each in at], [each.longitude for each in at])
 
-    def ahead(self) -> Answer:
-        """Matches whose station the fire reaches, after the query's time where there is one, by that time."""
+    def ahead(self, clearance_km: float) -> Answer:
+        """Matches whose station the fire reaches or comes close to, after the query's time if it has one.
+
+        They come by that time. What already burned before the run is left out.
+        """
         found, arrivals, run = self.found, self.arrivals, self.run
         if arrivals is None or run is None:
             return self
         then = -np.inf if self.query.at is None else times.seconds(run, self.query.at)
-        keep = (arrivals.state == ahead.REACHED) & (np.nan_to_num(arrivals.time) > then)
+        close = (arrivals.nearest_km <= clearance_km) & (arrivals.state != ahead.BEFORE)
+        keep = close & (arrivals.nearest_time > max(then, float(run.times[0])))
         reasons = Counter(
-            f"fire: {ahead.STATES[state]}" if state != ahead.REACHED else "fire: there before that time"
-            for state in arrivals.state[~keep].tolist()
+            "fire: there before that time" if near else f"fire: {ahead.STATES[state]}"
+            for near, state in zip(close[~keep].tolist(), arrivals.state[~keep].tolist(), strict=True)
         )
         order = np.flatnonzero(keep)
-        order = order[np.argsort(arrivals.time[order], kind="stable")]
+        order = order[np.argsort(arrivals.nearest_time[order], kind="stable")]
         matches: Any = [found.matches[k] for k in order]
         return replace(self, found=replace(found, matches=matches, left_out=found.left_out | dict(reasons)))
 
@@ -167,16 +171,24 @@ class Answer:
         assert arrivals is not None and run is not None  # noqa: PT018
         known = arrivals.utc(run, index)
         names = ("time", "earliest", "latest")
-        return {"state": ahead.STATES[arrivals.state[index]]} | {
-            name: None if known is None else times.iso(known[k]) for k, name in enumerate(names)
-        }
+        near = float(arrivals.nearest_km[index])
+        there = None if np.isnan(near) else times.utc(run, float(arrivals.nearest_time[index]))
+        return {
+            "state": ahead.STATES[arrivals.state[index]],
+            "nearest_km": None if there is None else near,
+            "nearest_time": None if there is None else times.iso(there),
+        } | {name: None if known is None else times.iso(known[k]) for k, name in enumerate(names)}
 
     def _fire_text(self, index: int) -> str:
         arrivals = self.arrivals
         assert arrivals is not None
         state = int(arrivals.state[index])
         if state != ahead.REACHED:
-            return ahead.STATES[state]
+            near = float(arrivals.nearest_km[index])
+            if state == ahead.BEFORE or np.isnan(near):
+                return ahead.STATES[state]
+            there = self._text(float(arrivals.nearest_time[index]))
+            return f"{ahead.STATES[state]}; at {near:.1f} km {there}"
         bounds = (self._text(float(each[index])) for each in (arrivals.earliest, arrivals.latest))
         return f"{self._text(float(arrivals.time[index]))} ({' to '.join(bounds)})"
 

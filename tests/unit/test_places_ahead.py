@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from firetwin.places import ahead
+from firetwin.places.distance import distance_km
 from firetwin.run import times
 from firetwin.shot.fire import fronts
 from firetwin_core import run as runs
@@ -94,4 +95,19 @@ def test_the_first_cells_and_a_run_without_fire(burning, make_run):
 def test_a_run_without_fire_reaches_nothing(make_run):
     run = runs.open(make_run(heat_flux=np.zeros_like(small_fields()["heat_flux"])))
     assert ahead.first_burned(run) is None
-    assert ahead.sample(run, [38.9], [-120.6]).state.tolist() == [ahead.NEVER]
+    found = ahead.sample(run, [38.9], [-120.6])
+    assert found.state.tolist() == [ahead.NEVER]
+    assert np.isnan(found.nearest_km[0])
+
+
+def test_how_close_the_fire_comes_to_what_does_not_burn(burning):
+    run, y, x, arrival = burning
+    latitude, longitude = np.array([38.0, y[7, 9], y[2, 2]]), np.array([-120.59, x[7, 9], x[2, 2]])
+    found = ahead.sample(run, latitude, longitude)
+    row, column = np.nonzero(np.isfinite(arrival))
+    for k in range(2):  # against all cells that burn
+        far = distance_km(y[row, column], x[row, column], (latitude[k], longitude[k]))
+        assert found.nearest_km[k] == pytest.approx(far.min())
+        at = np.flatnonzero(far <= far.min() + 1e-9)
+        assert found.nearest_time[k] in arrival[row[at], column[at]].astype(np.float32)
+    assert (found.nearest_km[2], found.nearest_time[2]) == (0.0, found.time[2])

@@ -144,11 +144,15 @@ def test_what_lies_ahead_of_the_fire_and_when(tmp_path, run, capsys):
     assert states["Middle"]["time"] == wanted
     assert states["Middle"]["earliest"] <= wanted <= states["Middle"]["latest"]
     later = times.utc(opened, 30.0).isoformat()
-    status, printed, _ = firetwin(capsys, "resources", out, "--run", run, "--ahead", "--available-at", later)
+    asked = ("resources", out, "--run", run, "--ahead", "--available-at", later)
+    status, printed, _ = firetwin(capsys, *asked)
     assert status == 0
-    assert "Middle" in printed
-    assert "PDT (" in printed
-    assert "South" not in printed
+    middle, north = (line for line in printed.splitlines() if line.startswith(" ?"))
+    assert "Middle" in middle
+    assert "PDT (16 Sep" in middle
+    assert "North" in north
+    assert "never; at 0.2 km 16 Sep" in north  # its cell does not burn, the one beside it does
+    printed = firetwin(capsys, *asked, "--clearance", "50m")[1]
     for line in ("1 fire: there before that time", "1 fire: never", "1 fire: outside of the run"):
         assert f"left out: {line}" in printed
 
@@ -239,7 +243,7 @@ def test_an_answer_without_a_run_is_not_ahead_of_anything(tmp_path):
     writing.write(places, tmp_path / "p.gpkg")
     read = store.read(tmp_path / "p.gpkg")
     answer = page.Answer(read, Query(near=CENTRE), search.survey(read, Query(near=CENTRE)))
-    assert answer.ahead() is answer
+    assert answer.ahead(1.0) is answer
     assert "fire" not in answer.plain()["matches"][0]
     assert page.facts(read)["windows"]["begins"] >= times.iso(NOON - timedelta(hours=6))
     assert len(ahead.STATES) == 4

@@ -209,6 +209,8 @@ def test_points_as_other_programs_write_them_are_read(file):
 def test_texts_of_any_kind_are_texts(file):
     path, _ = file
     base = sqlite3.connect(path)
+    for (name,) in base.execute("SELECT name FROM sqlite_master WHERE type = 'trigger'").fetchall():
+        base.execute(f"DROP TRIGGER {name}")
     base.execute("UPDATE station SET name = 12, agency = x'41' WHERE fid = 7")
     base.execute("UPDATE resource SET note = 3.5")
     base.commit()
@@ -218,7 +220,7 @@ def test_texts_of_any_kind_are_texts(file):
     assert {each.note for each in found.resources} == {"3.5"}
     damaged = path.read_bytes().replace(b"Station 1", b"Station \xff")
     path.write_bytes(damaged)
-    with pytest.raises(InputError, match="not UTF-8"):
+    with pytest.raises(InputError, match="UTF-8"):
         reading.read(path)
 
 

@@ -238,8 +238,6 @@ def test_a_file_of_places_is_taken_over_beside_others(tmp_path):
         (b"name,lat,lon\nA\xff,1,2\n", "is no text in UTF-8"),
         (b"name,lat,lon,origin\nA,1,2,rumour\n", 'has origin "rumour"'),
         (b"SQLite format 3\0 and nothing else", "has no known format"),
-        (b'name,lat,lon\ra,1,2\r"b', "has no known format"),
-        (b'name,"lat\rlon', "is damaged or incomplete"),
     ],
 )
 def test_other_files_are_named(tmp_path, content, reason):
@@ -248,6 +246,15 @@ def test_other_files_are_named(tmp_path, content, reason):
     with pytest.raises(InputError, match="file") as caught:
         importers.read(path)
     assert reason in str(caught.value)
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_lines_may_end_as_on_any_system(tmp_path, end):
+    path = tmp_path / "file.csv"
+    path.write_bytes(end.join(["name,lat,lon", "A,1,2", "B,,"]).encode())
+    batch = importers.read(path)
+    assert [each.name for each in batch.stations] == ["A"]
+    assert batch.refused.first == {drafts.MISSING: "line 3"}
 
 
 def test_a_missing_file_and_a_folder(tmp_path):
