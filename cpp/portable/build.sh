@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the wheels of firetwin_core that run on any x86-64 Linux with glibc 2.28 or newer, for the Pythons inside Blender
 # 4.5 and 5.0 (3.11) and 5.1 and later (3.13), checks them, and leaves them in build/portable/wheels.
-# The first run downloads the libraries (170 MB) and builds them; the next one builds Firetwin only.
+# The first run downloads the libraries (220 MB) and builds them; the next one builds Firetwin only.
 # Needs g++-12, cmake, ninja, make, dpkg-deb, curl, and Python 3 with venv. FIRETWIN_PORTABLE names another folder than
 # build/portable, FIRETWIN_JOBS the number of compilers that run at once.
 set -euo pipefail

@@ -121,6 +121,13 @@ build_fftw3() {
 
 build_fast-float() { with_cmake . -DFASTFLOAT_TEST=OFF; }
 
+# Headers alone.
+build_nlohmann-json() { cp -r include/nlohmann "$prefix/include/"; }
+
+build_meshoptimizer() { with_cmake . -DMESHOPT_BUILD_DEMO=OFF -DMESHOPT_BUILD_GLTFPACK=OFF; }
+
+build_draco() { with_cmake . -DDRACO_TESTS=OFF -DDRACO_TRANSCODER_SUPPORTED=OFF; }
+
 build_tomlplusplus() { cp -r usr/include/toml++ "$prefix/include/"; }
 
 unpack() { # archive
@@ -128,6 +135,7 @@ unpack() { # archive
     *.deb) dpkg-deb --extract "$1" . ;;
     *boost*) tar --extract --file "$1" --strip-components=1 --wildcards 'boost/LICENSE*' \
       'boost/libs/*/include' 'boost/libs/thread/src' 'boost/libs/chrono/src' ;;
+    *draco*) tar --extract --file "$1" --strip-components=1 --exclude '*/testdata' ;;
     *) tar --extract --file "$1" --strip-components=1 ;;
   esac
 }

@@ -1,4 +1,4 @@
-"""3D Tiles: the choice of tiles for a shot."""
+"""3D Tiles: content decoded to flat arrays, and the choice of tiles for a shot. Nothing here opens a file."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -119,4 +119,179 @@ def select(
     ------
     ValueError
         A shape does not fit, a parent does not come before its child, or an error is negative or NaN.
+    """
+
+class Image:
+    """An encoded picture of a tile, as it lies in the content or beside it."""
+
+    @property
+    def kind(self) -> str:
+        """jpeg, png or webp by its first bytes; empty where only the uri is known."""
+    @property
+    def width(self) -> int:
+        """Pixels, by its header; 0 where only the uri is known."""
+    @property
+    def height(self) -> int:
+        """Pixels, by its header; 0 where only the uri is known."""
+    @property
+    def data(self) -> bytes:
+        """The file; empty where only the uri is known."""
+    @property
+    def uri(self) -> str:
+        """Where it lies, relative to the content; empty where the content holds it."""
+
+class Material:
+    """What a range of triangles looks like. Lighting is not read: whoever draws it decides."""
+
+    @property
+    def colour(self) -> list[float]:
+        """Linear red, green, blue and alpha, to be multiplied with the picture's and the vertices'."""
+    @property
+    def image(self) -> int:
+        """Index of the picture in `Tile.images`; -1 for none."""
+    @property
+    def wrap_u(self) -> str:
+        """repeat, clamp or mirror beyond the picture's sides."""
+    @property
+    def wrap_v(self) -> str:
+        """The same beyond its top and bottom."""
+    @property
+    def alpha_mode(self) -> str:
+        """opaque, mask or blend."""
+    @property
+    def alpha_cutoff(self) -> float:
+        """Alpha below which a mask shows nothing."""
+    @property
+    def double_sided(self) -> bool:
+        """Whether triangles show from behind too."""
+
+class Range:
+    """Vertices and triangles of one material; ranges follow one another without gaps."""
+
+    @property
+    def material(self) -> int:
+        """Index in `Tile.materials`; -1 for none."""
+    @property
+    def first_vertex(self) -> int:
+        """Row of `Tile.position`."""
+    @property
+    def vertices(self) -> int:
+        """Number of rows."""
+    @property
+    def first_triangle(self) -> int:
+        """Row of `Tile.triangle`."""
+    @property
+    def triangles(self) -> int:
+        """Number of rows; 0 for points."""
+    @property
+    def points(self) -> bool:
+        """Whether its vertices are points of a cloud."""
+    @property
+    def has_normals(self) -> bool:
+        """Whether the content has normals. Else `Tile.normal` has smooth ones here, and 0 for points."""
+
+class Tile:
+    """Decoded content: read-only arrays of n vertices and m triangles about an origin."""
+
+    @property
+    def origin(self) -> NDArray[np.float64]:
+        """(3,) m in the scene's frame, whole metres: the middle of all vertices."""
+    @property
+    def position(self) -> NDArray[np.float32]:
+        """(n, 3) m from the origin. No vertex is a content without geometry, which is no error."""
+    @property
+    def normal(self) -> NDArray[np.float32]:
+        """(n, 3) unit vectors; smooth where the content has none (see `Range.has_normals`)."""
+    @property
+    def uv(self) -> NDArray[np.float32]:
+        """(n, 2) place in the picture, from its lower left corner; 0 where there is none."""
+    @property
+    def colour(self) -> NDArray[np.float32]:
+        """(n, 4) linear red, green, blue and alpha; (0, 4) where no vertex has a colour."""
+    @property
+    def triangle(self) -> NDArray[np.uint32]:
+        """(m, 3) rows of `position`, counter-clockwise from outside."""
+    @property
+    def ranges(self) -> list[Range]:
+        """By material; points come last."""
+    @property
+    def materials(self) -> list[Material]:
+        """Those that are used."""
+    @property
+    def images(self) -> list[Image]:
+        """Those that are used."""
+    @property
+    def copyright(self) -> str:
+        """Notices of the content, each once, with semicolons between them."""
+    @property
+    def spacing(self) -> float:
+        """Metres between neighbouring float32 numbers at the content's vertex farthest from its own origin.
+
+        Where positions are Earth-centred in float32 it is 0.5: no decoder can do better with such content.
+        """
+    @property
+    def not_finite(self) -> int:
+        """Vertices left out because they are NaN, infinite or more than 1e9 m away."""
+    @property
+    def lines(self) -> int:
+        """Primitives of lines, which are left out."""
+
+def decode(
+    content: bytes,
+    matrix: ArrayLike,
+    name: str,
+    resources: dict[str, bytes] | None = None,
+    earth_matrix: ArrayLike | None = None,
+    up_axis: str = "Y",
+) -> Tile:
+    """Decode a b3dm, i3dm, cmpt, pnts, glb or glTF, told by its first bytes.
+
+    All transforms are multiplied in float64: matrix, RTC_CENTER or an instance of i3dm, CESIUM_RTC (z up),
+    glTF's y to z, nodes, instances of EXT_mesh_gpu_instancing. Instances are expanded. Draco, meshopt and
+    quantised attributes are read. Skins, animations, morphs and features are ignored; pictures are not
+    decoded. Damaged Draco data may make Draco's own decoder ask for gigabytes or crash: content from
+    elsewhere belongs into a process of its own, with limits of memory and time.
+
+    Parameters
+    ----------
+    content
+        The file.
+    matrix
+        (4, 4), of columns on its right: the content's frame (z up) to the scene's, m.
+    name
+        What messages call the content.
+    resources
+        Files beside the content by uri (`resources_needed`). A picture may be among them; its header is
+        then checked and `Image.data` has it.
+    earth_matrix
+        (4, 4) the content's frame to the Earth-centred one; None where it is that one. Only EAST_NORTH_UP of
+        i3dm needs it.
+    up_axis
+        X, Y or Z: `asset.gltfUpAxis` of the tileset.
+
+    Raises
+    ------
+    InputError
+        The content is damaged, lacks a resource, requires an extension that is not known, or asks for more
+        than the limits: 10 million vertices, a million instances, 1 GB when decoded, pictures of 16384
+        pixels a side, cmpt in cmpt 8 deep. The reason begins with the place in the JSON.
+    ValueError
+        A matrix is not finite, not affine or has the determinant 0.
+    """
+
+def resources_needed(content: bytes, name: str, resources: dict[str, bytes] | None = None) -> list[str]:
+    """List uris, relative to the content, of files that `decode` needs beside those in `resources`.
+
+    These are buffers and models, sorted; pictures are not needed. Ask again with what was found until the
+    list is empty, for a model may need buffers. The uris are as the content writes them, percent signs and
+    dots included: whoever fetches them decides what may be fetched.
+    """
+
+def content_kind(content: bytes, name: str) -> str:
+    """Tell b3dm, i3dm, cmpt, pnts, glb, gltf, tileset or subtree by what is in it.
+
+    Raises
+    ------
+    InputError
+        It is none of these.
     """

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fuzzes the readers: text grids, .npy files, run.toml and whole run folders. Builds into build/fuzz.
+# Fuzzes the readers: text grids, .npy files, run.toml, whole run folders, and the content of 3-D Tiles. Builds into build/fuzz.
 #
 #   tests/system/fuzz/run.sh                   200,000 executions of each
 #   tests/system/fuzz/run.sh --runs 10000000   as many of each
@@ -11,9 +11,10 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../../.."
 
+all="text npy toml run b3dm i3dm cmpt pnts gltf"
 say() { echo "fuzz: $*" >&2; }
 usage() {
-  echo "usage: tests/system/fuzz/run.sh [--runs N | --seconds N] [--jobs N] [text|npy|toml|run ...]" >&2
+  echo "usage: tests/system/fuzz/run.sh [--runs N | --seconds N] [--jobs N] [${all// /|} ...]" >&2
   exit 2
 }
 
@@ -28,15 +29,15 @@ while (($#)); do
       printf -v "${1#--}" %s "$2"
       shift 2
       ;;
-    text | npy | toml | run)
+    *)
+      [[ $1 =~ ^(${all// /|})$ ]] || usage
       readers+=("$1")
       shift
       ;;
-    *) usage ;;
   esac
 done
 if ((${#readers[@]} == 0)); then
-  readers=(text npy toml run)
+  read -ra readers <<<"$all"
 fi
 
 find_clang() {
@@ -77,11 +78,13 @@ limit=-runs=$(((runs + jobs - 1) / jobs))
 
 # Becomes a fuzzer, with a log of its own for each job.
 fuzz() {
+  local words=tests/system/fuzz/$1.dict
+  [[ -f $words ]] || words=tests/system/fuzz/tiles.dict
   # Short stacks of allocations and no weights of rare features, which cost more than the readers do.
   export ASAN_OPTIONS=quarantine_size_mb=16:malloc_context_size=4
   exec "$build/fuzz_$1" "$limit" \
     -max_len=1024 -timeout=60 -rss_limit_mb=1024 -entropic=0 -print_final_stats=1 \
-    -dict="tests/system/fuzz/$1.dict" -artifact_prefix="$build/findings/$1-" \
+    -dict="$words" -artifact_prefix="$build/findings/$1-" \
     "$build/corpus/$1" "$build/seeds/$1" >"$build/$1.$2.log" 2>&1
 }
 

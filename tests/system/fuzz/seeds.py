@@ -1,7 +1,9 @@
-"""Write the inputs that fuzzing starts from: seeds.py FOLDER makes FOLDER/{text,npy,toml,run}/*."""
+"""Write the inputs that fuzzing starts from: seeds.py FOLDER makes FOLDER/READER/* for every reader."""
 
 import sys
 from pathlib import Path
+
+import tile_seeds
 
 TEXT = [
     "1 2\n3 4\n",
@@ -63,7 +65,7 @@ def seeds() -> dict[str, list[bytes]]:
     whole += [bytes([i]) + npy_file(HEADERS[0], data) for i in (3, 6, 8)]
     whole += [bytes([i]) + axis for i in (2, 5) for axis in (b"179.9 -180 -179.9\n", b"239.4,239.5,239.6,\n")]
     pieced = [bytes([piece]) + t for t in text for piece in (0, 6, 255)]
-    return {"text": pieced, "npy": npy, "toml": toml, "run": whole}
+    return {"text": pieced, "npy": npy, "toml": toml, "run": whole} | tile_seeds.seeds()
 
 
 def main(folder: Path) -> None:

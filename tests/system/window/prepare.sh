@@ -13,6 +13,7 @@ packages=(
   g++ cmake ninja-build pkgconf python3-dev python3-venv
   libopenvdb-dev libboost-dev libimath-dev libblosc-dev libtbb-dev libopenimageio-dev libopenexr-dev
   libgeographiclib-dev libtomlplusplus-dev libfast-float-dev libfftw3-dev
+  nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev
 )
 
 say() { echo "window: $*" >&2; }

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "tiles/bytes.hpp"
+#include "tiles/container.hpp"
+#include "tiles/json.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace firetwin::tiles {
+
+/// `uri` relative to a folder such as "models/".
+std::string beside(const std::string& folder, const std::string& uri);
+/// The folder of a uri, with its slash; nothing where it has none.
+std::string folder_of(const std::string& uri);
+bool is_data_uri(const std::string& uri);
+/// The bytes of a data: uri. @throws InputError where it is not base64
+std::vector<std::uint8_t> decode_data_uri(const Node& uri);
+
+/// Called with the size of what is about to be decoded; it may throw.
+using Take = std::function<void(std::size_t)>;
+
+/// Bytes of a document's buffers, and of their views decompressed. Each is decoded once, when it is
+/// asked for. The content and the resources must outlive it.
+class Buffers {
+public:
+  Buffers(const Container& container, const Resources& resources, std::string folder, Take take);
+
+  struct View {
+    Bytes bytes;
+    std::size_t stride = 0; ///< 0 where elements follow one another
+  };
+
+  /// The view that `index` names. @throws InputError
+  View view(const Node& index);
+
+  /// uris of buffers that are neither in the document nor among the resources, for `folder`.
+  std::vector<std::string> missing() const;
+
+private:
+  Bytes buffer(const Node& index);
+  Bytes slice(const Node& described);
+  Bytes decompressed(std::size_t index, const Node& view, const Node& extension);
+
+  std::vector<Node> buffers_;
+  std::vector<Node> views_;
+  std::optional<Bytes> binary_;
+  const Resources* resources_;
+  std::string folder_;
+  Take take_;
+  std::map<std::size_t, std::vector<std::uint8_t>> decoded_buffers_;
+  std::map<std::size_t, std::vector<std::uint8_t>> decoded_views_;
+};
+
+} // namespace firetwin::tiles

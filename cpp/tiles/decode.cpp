@@ -1,0 +1,229 @@
+#include "tiles/decode.hpp"
+
+#include "tiles/accessors.hpp"
+#include "tiles/assembler.hpp"
+#include "tiles/buffers.hpp"
+#include "tiles/container.hpp"
+#include "tiles/instances.hpp"
+#include "tiles/kind.hpp"
+#include "tiles/limits.hpp"
+#include "tiles/materials.hpp"
+#include "tiles/nodes.hpp"
+#include "tiles/points.hpp"
+#include "tiles/tables.hpp"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <stdexcept>
+#include <utility>
+
+namespace firetwin::tiles {
+namespace {
+
+/// glTF's axes to the content's, whose z points up.
+Matrix to_z_up(UpAxis axis) {
+  switch (axis) {
+  case UpAxis::x:
+    return from_columns({0, 0, 1}, {0, 1, 0}, {-1, 0, 0}, {});
+  case UpAxis::y:
+    return from_columns({1, 0, 0}, {0, 0, 1}, {0, -1, 0}, {});
+  default:
+    return identity;
+  }
+}
+
+/// Calls `each` with the contents within a cmpt.
+void split_composite(Bytes content, const std::string& name,
+                     const std::function<void(Bytes, const std::string&)>& each) {
+  const auto word = [](Bytes bytes, std::size_t i) {
+    return static_cast<std::size_t>(load<std::uint32_t>(bytes.data() + 4 * i));
+  };
+  if (content.size() < 16 || word(content, 2) > content.size() || word(content, 2) < 16) {
+    refuse(name, "is cut off: its cmpt header and its " + std::to_string(content.size()) +
+                     " bytes do not fit");
+  }
+  if (word(content, 1) != 1) {
+    refuse(name, "is cmpt version " + std::to_string(word(content, 1)) + "; version 1 is read");
+  }
+  const std::size_t count = word(content, 3);
+  Bytes rest = content.first(word(content, 2)).subspan(16);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string inner = name + "[" + std::to_string(i) + "]";
+    const std::size_t length = rest.size() < 12 ? 0 : word(rest, 2);
+    if (length < 12 || length > rest.size()) {
+      refuse(inner,
+             "its length does not fit the " + std::to_string(rest.size()) + " bytes that are left");
+    }
+    each(rest.first(length), inner);
+    rest = rest.subspan(length);
+  }
+}
+
+void check_depth(int depth, const std::string& name) {
+  if (depth > deepest_composite) {
+    refuse(name, "is a cmpt within more than " + std::to_string(deepest_composite) + " others");
+  }
+}
+
+[[noreturn]] void refuse_kind(Kind kind, const std::string& name) {
+  refuse(name, std::string("is a ") + name_of(kind) + ", which holds no geometry");
+}
+
+/// The glTF of an i3dm, and the folder of its files; no bytes where the resource is missing.
+struct Model {
+  Bytes content;
+  std::string uri;
+  std::string folder;
+};
+
+Model find_model(const Sections& sections, const std::string& name, const Resources& resources) {
+  if (sections.gltf_format > 1) {
+    refuse(name, "its gltfFormat is " + std::to_string(sections.gltf_format) + ", not 0 or 1");
+  }
+  if (sections.gltf_format == 1) {
+    return {sections.body, "", ""};
+  }
+  const std::string uri = read_model_uri(sections);
+  const auto found = resources.find(uri);
+  return {found == resources.end() ? Bytes() : found->second, uri, folder_of(uri)};
+}
+
+class Decoder {
+public:
+  Decoder(const Resources& resources, const DecodeOptions& options, Assembler& assembler)
+      : resources_(resources), options_(options), assembler_(assembler) {}
+
+  void decode(Bytes content, const std::string& name, int depth) {
+    const Kind kind = kind_of(content, name);
+    switch (kind) {
+    case Kind::b3dm:
+      return decode_b3dm(content, name);
+    case Kind::i3dm:
+      return decode_i3dm(content, name);
+    case Kind::pnts:
+      return decode_pnts(content, name);
+    case Kind::cmpt:
+      check_depth(depth, name);
+      return split_composite(content, name, [&](Bytes inner, const std::string& inner_name) {
+        decode(inner, inner_name, depth + 1);
+      });
+    case Kind::glb:
+    case Kind::gltf:
+      return decode_gltf(content, name, "", {options_.to_scene});
+    default:
+      refuse_kind(kind, name);
+    }
+  }
+
+private:
+  void decode_b3dm(Bytes content, const std::string& name) {
+    const Sections sections = read_sections(content, Kind::b3dm, name);
+    const FeatureTable table(sections, name);
+    const Matrix centre = translate(table.vector("RTC_CENTER").value_or(Vector{}));
+    decode_gltf(sections.body, name, "", {multiply(options_.to_scene, centre)});
+  }
+
+  void decode_i3dm(Bytes content, const std::string& name) {
+    const Sections sections = read_sections(content, Kind::i3dm, name);
+    const FeatureTable table(sections, name);
+    const Model model = find_model(sections, name, resources_);
+    if (model.content.empty()) {
+      refuse(name, "its model " + model.uri + " is not among the resources");
+    }
+    std::vector<Matrix> matrices = read_instances(table, options_.to_earth);
+    for (Matrix& matrix : matrices) {
+      matrix = multiply(options_.to_scene, matrix);
+    }
+    decode_gltf(model.content, model.uri.empty() ? name : name + " -> " + model.uri, model.folder,
+                matrices);
+  }
+
+  void decode_pnts(Bytes content, const std::string& name) {
+    const Sections sections = read_sections(content, Kind::pnts, name);
+    const FeatureTable table(sections, name);
+    const Vector centre = table.vector("RTC_CENTER").value_or(Vector{});
+    auto points = read_points(table, assembler_);
+    if (points->vertices() > 0) {
+      assembler_.add_draw(std::move(points), multiply(options_.to_scene, translate(centre)));
+    }
+  }
+
+  /// CESIUM_RTC lies outside of the change of axes, as in CesiumJS, cesium-native and
+  /// 3DTilesRendererJS: its centre has z up.
+  void decode_gltf(Bytes content, const std::string& name, const std::string& folder,
+                   std::vector<Matrix> to_scene) {
+    const Container container = open_gltf(content, name);
+    const Take take = [this](std::size_t bytes) { assembler_.take_bytes(bytes); };
+    Buffers buffers(container, resources_, folder, take);
+    Accessors accessors(container.root, buffers, take);
+    Materials materials(container.root, buffers, resources_, folder, assembler_);
+    const auto rtc = container.root.extension("CESIUM_RTC");
+    const Vector centre = rtc ? rtc->at("center").numbers<3>() : Vector{};
+    const Matrix axes = multiply(translate(centre), to_z_up(options_.up_axis));
+    for (Matrix& matrix : to_scene) {
+      matrix = multiply(matrix, axes);
+    }
+    assembler_.add_copyright(container.root.at("asset").text("copyright", ""));
+    draw_nodes(container.root, to_scene, {buffers, accessors, materials, assembler_});
+  }
+
+  const Resources& resources_;
+  const DecodeOptions& options_;
+  Assembler& assembler_;
+};
+
+void list_missing(Bytes content, const std::string& name, const std::string& folder,
+                  const Resources& resources, int depth, std::vector<std::string>& missing) {
+  const Kind kind = kind_of(content, name);
+  if (kind == Kind::cmpt) {
+    check_depth(depth, name);
+    split_composite(content, name, [&](Bytes inner, const std::string& inner_name) {
+      list_missing(inner, inner_name, folder, resources, depth + 1, missing);
+    });
+    return;
+  }
+  if (kind == Kind::tileset || kind == Kind::subtree) {
+    refuse_kind(kind, name);
+  }
+  if (kind == Kind::pnts) {
+    return;
+  }
+  Model model{content, "", folder};
+  if (kind == Kind::b3dm) {
+    model.content = read_sections(content, kind, name).body;
+  } else if (kind == Kind::i3dm) {
+    model = find_model(read_sections(content, kind, name), name, resources);
+  }
+  if (model.content.empty() && !model.uri.empty()) {
+    missing.push_back(model.uri);
+    return;
+  }
+  const Container container = open_gltf(model.content, name);
+  const auto more = Buffers(container, resources, model.folder, nullptr).missing();
+  missing.insert(missing.end(), more.begin(), more.end());
+}
+
+} // namespace
+
+Tile decode(Bytes content, const std::string& name, const Resources& resources,
+            const DecodeOptions& options) {
+  if (!is_affine(options.to_scene) || !is_affine(options.to_earth)) {
+    throw std::invalid_argument(
+        "matrix must be finite and affine, and its determinant must not be 0");
+  }
+  Assembler assembler(name);
+  Decoder(resources, options, assembler).decode(content, name, 0);
+  return assembler.finish();
+}
+
+std::vector<std::string> list_missing(Bytes content, const std::string& name,
+                                      const Resources& resources) {
+  std::vector<std::string> missing;
+  list_missing(content, name, "", resources, 0, missing);
+  std::sort(missing.begin(), missing.end());
+  missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
+  return missing;
+}
+
+} // namespace firetwin::tiles

@@ -1,0 +1,89 @@
+#include "tiles/kind.hpp"
+
+#include "tiles/json.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdio>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace firetwin::tiles {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Kind>, 6> magics = {{
+    {"b3dm", Kind::b3dm},
+    {"i3dm", Kind::i3dm},
+    {"cmpt", Kind::cmpt},
+    {"pnts", Kind::pnts},
+    {"glTF", Kind::glb},
+    {"subt", Kind::subtree},
+}};
+
+/// A byte order mark and blanks may come before JSON.
+bool looks_like_json(Bytes content) {
+  constexpr std::array<std::uint8_t, 3> mark = {0xEF, 0xBB, 0xBF};
+  if (content.size() >= 3 && std::equal(mark.begin(), mark.end(), content.begin())) {
+    content = content.subspan(3);
+  }
+  const auto first = std::find_if_not(content.begin(), content.end(),
+                                      [](std::uint8_t c) { return std::isspace(c) != 0; });
+  return first != content.end() && *first == '{';
+}
+
+Kind kind_of_json(Bytes content, const std::string& name) {
+  const Node root = parse_json(content, name);
+  return root.find("root") ? Kind::tileset : Kind::gltf;
+}
+
+std::string first_bytes(Bytes content) {
+  std::string shown;
+  for (const std::uint8_t byte : content.first(std::min<std::size_t>(content.size(), 4))) {
+    std::array<char, 4> hex{};
+    std::snprintf(hex.data(), hex.size(), "%02x ", byte);
+    shown += hex.data();
+  }
+  return shown.empty() ? "nothing" : shown.substr(0, shown.size() - 1);
+}
+
+} // namespace
+
+Kind kind_of(Bytes content, const std::string& name) {
+  const std::string_view start(reinterpret_cast<const char*>(content.data()),
+                               std::min<std::size_t>(content.size(), 4));
+  for (const auto& [magic, kind] : magics) {
+    if (start == magic) {
+      return kind;
+    }
+  }
+  if (!looks_like_json(content)) {
+    refuse(name, "is no 3-D Tiles content: it begins with " + first_bytes(content) +
+                     ", and not with b3dm, i3dm, cmpt, pnts, glTF or JSON");
+  }
+  return kind_of_json(content, name);
+}
+
+const char* name_of(Kind kind) {
+  switch (kind) {
+  case Kind::gltf:
+    return "gltf";
+  case Kind::glb:
+    return "glb";
+  case Kind::tileset:
+    return "tileset";
+  case Kind::subtree:
+    return "subtree";
+  default:
+    break;
+  }
+  for (const auto& [magic, each] : magics) {
+    if (each == kind) {
+      return magic.data();
+    }
+  }
+  return "";
+}
+
+} // namespace firetwin::tiles

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "tiles/accessors.hpp"
+#include "tiles/assembler.hpp"
+#include "tiles/buffers.hpp"
+#include "tiles/json.hpp"
+#include "tiles/materials.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace firetwin::tiles {
+
+/// What a glTF document is read with.
+struct Reader {
+  Buffers& buffers;
+  Accessors& accessors;
+  Materials& materials;
+  Assembler& assembler;
+};
+
+/// Reads the primitives of a mesh. Those without positions, of lines, or with no finite vertex are
+/// left out.
+/// @throws InputError
+std::vector<std::shared_ptr<const Primitive>> read_mesh(const Node& mesh, const Reader& reader);
+
+} // namespace firetwin::tiles

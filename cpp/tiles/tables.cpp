@@ -1,0 +1,202 @@
+#include "tiles/tables.hpp"
+
+#include "tiles/limits.hpp"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace firetwin::tiles {
+namespace {
+
+/// The least length that is no length but `{"` or `glTF` read as one (the first byte is a quotation
+/// mark): older b3dm headers are told by it.
+constexpr std::uint32_t text_as_length = 0x22000000;
+
+constexpr std::size_t length_of(Number number) {
+  return number == Number::u8 ? 1 : number == Number::u16 ? 2 : 4;
+}
+
+struct Lengths {
+  std::size_t header = 28;
+  std::array<std::size_t, 4> tables{}; ///< feature JSON, feature binary, batch JSON, batch binary
+};
+
+std::uint32_t word(Bytes content, std::size_t index) {
+  return load<std::uint32_t>(content.data() + 4 * index);
+}
+
+/// Older b3dm: [batches, batch table] in 20 bytes, or [batch JSON, batch binary, batches] in 24.
+Lengths read_lengths(Bytes content, Kind kind) {
+  Lengths lengths;
+  for (std::size_t i = 0; i < 4; ++i) {
+    lengths.tables[i] = word(content, 3 + i);
+  }
+  if (kind == Kind::i3dm) {
+    lengths.header = 32;
+  } else if (kind == Kind::b3dm && lengths.tables[2] >= text_as_length) {
+    lengths = {20, {0, 0, word(content, 4), 0}};
+  } else if (kind == Kind::b3dm && lengths.tables[3] >= text_as_length) {
+    lengths = {24, {0, 0, word(content, 3), word(content, 4)}};
+  }
+  return lengths;
+}
+
+/// The content cut to the length in its header.
+Bytes whole(Bytes content, Kind kind, const std::string& name) {
+  const std::size_t header = kind == Kind::i3dm ? 32 : 28;
+  if (content.size() < header) {
+    refuse(name, std::string("is cut off: a ") + name_of(kind) + " header has " +
+                     std::to_string(header) + " bytes, and there are " +
+                     std::to_string(content.size()));
+  }
+  if (word(content, 1) != 1) {
+    refuse(name, std::string("is ") + name_of(kind) + " version " +
+                     std::to_string(word(content, 1)) + "; version 1 is read");
+  }
+  const std::size_t length = word(content, 2);
+  if (length > content.size()) {
+    refuse(name, "is cut off: its header says " + std::to_string(length) +
+                     " bytes, and there are " + std::to_string(content.size()));
+  }
+  if (length < header) {
+    refuse(name, "its header says " + std::to_string(length) + " bytes, less than the header has");
+  }
+  return content.first(length);
+}
+
+Node parse_feature_table(Bytes text, const std::string& name) {
+  static constexpr std::array<std::uint8_t, 2> empty = {'{', '}'};
+  Node json = parse_json(text.empty() ? Bytes(empty) : text, name);
+  if (!json.is_object()) {
+    json.refuse("the feature table must be an object");
+  }
+  return json;
+}
+
+double number_at(const std::uint8_t* place, Number number) {
+  switch (number) {
+  case Number::u8:
+    return *place;
+  case Number::u16:
+    return load<std::uint16_t>(place);
+  default:
+    return static_cast<double>(load<float>(place));
+  }
+}
+
+/// Where a property of the binary part begins, when it is all there.
+std::size_t checked_offset(const Node& property, std::size_t length, std::size_t size) {
+  const Node place = property.at("byteOffset");
+  const std::size_t offset = place.integer();
+  if (!within(offset, length, size)) {
+    place.refuse("the property needs " + std::to_string(length) + " bytes from " +
+                 std::to_string(offset) + " on, and the table has " + std::to_string(size));
+  }
+  return offset;
+}
+
+} // namespace
+
+Sections read_sections(Bytes content, Kind kind, const std::string& name) {
+  content = whole(content, kind, name);
+  const Lengths lengths = read_lengths(content, kind);
+  std::array<Bytes, 4> tables;
+  Bytes rest = content.subspan(lengths.header);
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (lengths.tables[i] > rest.size()) {
+      refuse(name, "its tables are longer than the " + std::to_string(content.size()) +
+                       " bytes that its header says");
+    }
+    tables[i] = rest.first(lengths.tables[i]);
+    rest = rest.subspan(lengths.tables[i]);
+  }
+  return {tables[0], tables[1], rest, kind == Kind::i3dm ? word(content, 7) : 1};
+}
+
+FeatureTable::FeatureTable(const Sections& sections, const std::string& name)
+    : json_(parse_feature_table(sections.feature_json, name)), binary_(sections.feature_binary) {}
+
+std::size_t FeatureTable::count(const std::string& key, std::size_t most) const {
+  const Node found = json_.at(key);
+  const std::size_t n = found.integer();
+  if (n > most) {
+    found.refuse("is " + std::to_string(n) + "; " + std::to_string(most) + " are the most");
+  }
+  return n;
+}
+
+std::optional<Vector> FeatureTable::vector(const std::string& key) const {
+  const std::optional<std::vector<double>> found = values(key, Number::f32, 3, 1);
+  return found ? std::optional<Vector>({(*found)[0], (*found)[1], (*found)[2]}) : std::nullopt;
+}
+
+std::optional<std::vector<double>> FeatureTable::values(const std::string& key, Number number,
+                                                        std::size_t components,
+                                                        std::size_t n) const {
+  const std::optional<Node> property = json_.find(key);
+  if (!property) {
+    return std::nullopt;
+  }
+  std::vector<double> all;
+  if (property->is_object()) {
+    const std::size_t length = length_of(number) * components * n;
+    const std::uint8_t* place = binary_.data() + checked_offset(*property, length, binary_.size());
+    all.resize(components * n);
+    for (double& value : all) {
+      value = number_at(place, number);
+      place += length_of(number);
+    }
+    return all;
+  }
+  if (property->size() != components * n) {
+    property->refuse("must have " + std::to_string(components * n) + " numbers");
+  }
+  for (std::size_t i = 0; i < components * n; ++i) {
+    all.push_back(property->at(i).number());
+  }
+  return all;
+}
+
+std::vector<double> FeatureTable::positions(std::size_t n) const {
+  if (auto positions = values("POSITION", Number::f32, 3, n)) {
+    return *std::move(positions);
+  }
+  auto quantized = values("POSITION_QUANTIZED", Number::u16, 3, n);
+  const auto offset = vector("QUANTIZED_VOLUME_OFFSET"), scale = vector("QUANTIZED_VOLUME_SCALE");
+  if (!quantized || !offset || !scale) {
+    json_.refuse("the feature table has neither POSITION nor POSITION_QUANTIZED with its volume");
+  }
+  for (std::size_t i = 0; i < quantized->size(); ++i) {
+    (*quantized)[i] = (*quantized)[i] / 65535.0 * (*scale)[i % 3] + (*offset)[i % 3];
+  }
+  return *std::move(quantized);
+}
+
+/// Cigolla et al. 2014, A survey of efficient representations for independent unit vectors.
+std::optional<std::vector<double>> FeatureTable::directions(const std::string& key, Number number,
+                                                            std::size_t n) const {
+  const auto encoded = values(key, number, 2, n);
+  if (!encoded) {
+    return std::nullopt;
+  }
+  const double largest = number == Number::u8 ? 255.0 : 65535.0;
+  std::vector<double> all(3 * n);
+  for (std::size_t i = 0; i < n; ++i) {
+    double x = (*encoded)[2 * i] / largest * 2.0 - 1.0;
+    double y = (*encoded)[2 * i + 1] / largest * 2.0 - 1.0;
+    const double z = 1.0 - std::abs(x) - std::abs(y);
+    if (z < 0.0) {
+      const double folded = (1.0 - std::abs(y)) * (x < 0.0 ? -1.0 : 1.0);
+      y = (1.0 - std::abs(x)) * (y < 0.0 ? -1.0 : 1.0);
+      x = folded;
+    }
+    const double length = std::sqrt(x * x + y * y + z * z);
+    all[3 * i] = x / length;
+    all[3 * i + 1] = y / length;
+    all[3 * i + 2] = z / length;
+  }
+  return all;
+}
+
+} // namespace firetwin::tiles
