@@ -212,12 +212,12 @@ def test_texts_of_any_kind_are_texts(file):
     for (name,) in base.execute("SELECT name FROM sqlite_master WHERE type = 'trigger'").fetchall():
         base.execute(f"DROP TRIGGER {name}")
     base.execute("UPDATE station SET name = 12, agency = x'41' WHERE fid = 7")
-    base.execute("UPDATE resource SET note = 3.5")
+    base.execute("UPDATE resource SET note = x'41'")
     base.commit()
     base.close()
     found = reading.read(path)
     assert found.stations[0].name == "12"
-    assert {each.note for each in found.resources} == {"3.5"}
+    assert {each.note for each in found.resources} == {"b'A'"}
     damaged = path.read_bytes().replace(b"Station 1", b"Station \xff")
     path.write_bytes(damaged)
     with pytest.raises(InputError, match="UTF-8"):
