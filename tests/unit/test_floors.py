@@ -21,7 +21,8 @@ NEVER_BPY = (
         "firetwin.progress",
     ),
     *("firetwin.cli", "firetwin.commands", "firetwin.data"),
-    *("firetwin.run", "firetwin.places", "firetwin.imaging", "firetwin.shot", "firetwin.smoke", "firetwin.tiles"),
+    *("firetwin.run", "firetwin.places", "firetwin.tiles"),
+    *("firetwin.imaging", "firetwin.shot", "firetwin.smoke"),
     *("firetwin.jobs", "firetwin.farm", "firetwin.bench"),
     *(
         f"firetwin.render.{name}"
