@@ -9,20 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import implicit, metadata, volumes
+from . import documents, implicit, metadata, scheme, volumes
 from .json_text import Node
 from .tree import EXTERNAL, Document, Rows, Tree
 from .volumes import Volumes
 
-VERSIONS = ("0.0", "1.0", "1.1")
-KNOWN_EXTENSIONS = {
-    "3DTILES_content_gltf",
-    "3DTILES_implicit_tiling",
-    "3DTILES_metadata",
-    "3DTILES_multiple_contents",
-}
 MOST_CONTENTS = 64  # of a tile
-MOST_NESTED = 64  # tilesets in one another
 _SINGULAR = 1e-12  # determinant of columns of length 1
 
 
@@ -49,11 +41,6 @@ class _Pending:
     raw_error: float
     replaces: bool
     matrix: int
-
-
-def is_tileset(node: Node) -> bool:
-    """Whether a JSON text is a tileset, not a glTF or anything else."""
-    return isinstance(node.value, dict) and ("root" in node or "geometricError" in node)
 
 
 def read(
@@ -85,34 +72,8 @@ def read(
     InputError
         It is no tileset that can be read; nothing was appended.
     """
-    document = _document(tree, node, uri, holder, load)
+    document = documents.read(tree, node, uri, holder, load)
     return _Walk(tree, node, document, holder).run()
-
-
-def _document(tree: Tree, node: Node, uri: str, holder: int, load: Callable[[str], Node | None]) -> Document:
-    asset = node.need("asset")
-    version = asset.need("version").text()
-    if version not in VERSIONS:
-        raise asset.error(f"version {version[:40]!r} is not one of {', '.join(VERSIONS)}")
-    if (required := node.get("extensionsRequired")) is not None:
-        for each in required.items():
-            if each.text() not in KNOWN_EXTENSIONS:
-                raise each.error(f"the required extension {each.text()[:80]!r} is not known to Firetwin")
-    above = tree.documents[int(tree.document[holder])].chain if holder >= 0 else ()
-    if uri in above:
-        raise node.error("the tileset holds itself, through other tilesets")
-    if len(above) >= MOST_NESTED:
-        raise node.error(f"more than {MOST_NESTED} tilesets in one another")
-    up_axis = asset.get("gltfUpAxis")
-    text = asset.get("copyright")
-    return Document(
-        uri,
-        node.file,
-        (*above, uri),
-        up_axis.text().upper() if up_axis is not None else "Y",
-        text.text() if text is not None else "",
-        metadata.schema_of(node, load),
-    )
 
 
 class _Walk:
@@ -220,10 +181,10 @@ class _Walk:
         if (request := node.get("viewerRequestVolume")) is not None:
             self.request[row] = self._moved(*volumes.read(request), matrix)
         contents = _contents(node)
-        scheme = implicit.read(node)
-        if scheme is not None:
+        tiling = scheme.read(node)
+        if tiling is not None:
             place = implicit.Place(kind, numbers, matrix, error, replaces, self.document, self.number)
-            self.jobs[row] = [implicit.Subtree(scheme, place, contents, (0, 0, 0, 0))]
+            self.jobs[row] = [implicit.Subtree(tiling, place, contents, (0, 0, 0, 0))]
             self.placeholders.append(row)
             return
         for content in contents:

@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 from ..errors import InputError
 from ..progress import Progress, silent
-from . import contents, explicit, implicit
+from . import contents, documents, explicit, implicit
 from .explicit import External
 from .implicit import Subtree
 from .json_text import MOST_BYTES, Node, parse
@@ -123,7 +123,7 @@ class Loader:
         if self._kinds[content] == "json":
             self._kinds[content] = "gltf"
             with contextlib.suppress(InputError):  # what is no JSON is no tileset; its reader says why
-                if explicit.is_tileset(node := parse(data, self.source.name(uri))):
+                if documents.is_tileset(node := parse(data, self.source.name(uri))):
                     self._kinds[content] = "tileset"
         if self._kinds[content] == "tileset":
             self.tree.set_kind(content, EXTERNAL)
@@ -147,7 +147,7 @@ class Loader:
         if isinstance(job, Subtree):
             self.files += 1
             implicit.expand(self.tree, job, tile, data, name, self._bytes(uri))
-        elif explicit.is_tileset(node := parse(data, name)):
+        elif documents.is_tileset(node := parse(data, name)):
             self._kinds[job.content] = "tileset"
             self._read(tile, node, uri)
         else:

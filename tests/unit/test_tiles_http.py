@@ -15,8 +15,9 @@ from firetwin.tiles import cut, policies
 from firetwin.tiles.loader import Loader
 from firetwin.tiles.policies import Policy, google
 from firetwin.tiles.policies import ion as ion_policy
-from firetwin.tiles.sources import MissingError, address, connection, http, ion, open_source, secret, waiting
-from firetwin.tiles.sources.http import Http, Network
+from firetwin.tiles.sources import MissingError, address, connection, ion, open_source, secret, waiting
+from firetwin.tiles.sources.http import Http
+from firetwin.tiles.sources.network import Network
 from lying_server import Reply, serving
 from tile_views import HERE, looking, names
 from tilesets import GLB, as_bytes, box, tile, tileset
@@ -600,4 +601,4 @@ def test_every_request_has_our_name_and_no_cookie(server, opened):
     source.read(f"{server.url}/t/x")
     assert server.headers[-1]["User-Agent"].startswith("Firetwin/")
     assert "Cookie" not in server.headers[-1]
-    assert http.Network().cache.name == "tiles"
+    assert Network().cache.name == "tiles"

@@ -70,7 +70,7 @@ def trees(draw):
     return np.array(parent), np.array(flags), np.array(error)
 
 
-@settings(deadline=None, max_examples=150)
+@settings(deadline=None, max_examples=100)
 @given(trees(), st.integers(0, 50).map(float))
 def test_a_cut_is_what_recursion_finds(tree, target):
     assert select(*tree, target).tiles.tolist() == brute(*tree, target)

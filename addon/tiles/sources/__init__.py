@@ -9,7 +9,8 @@ from . import ion
 from ._source import MissingError, Source
 from .archive import Archive
 from .folder import Folder
-from .http import Http, Network
+from .http import Http
+from .network import Network
 
 __all__ = ["MissingError", "Network", "Source", "open_source"]
 

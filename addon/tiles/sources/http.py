@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from pathlib import Path
 from urllib.parse import urljoin
 
 from ...errors import InputError, input_error
@@ -16,7 +15,8 @@ from . import secret
 from ._source import MOST_BYTES, Source, missing, unpack
 from .address import Origin, origin
 from .connection import Connection, Response, TransportError
-from .http_cache import LIMIT, Answer, HttpCache, folder
+from .http_cache import Answer, HttpCache
+from .network import Network
 from .waiting import LONGEST, TRIES, Clock, Pause, seconds
 
 _GONE = (404, 410)
@@ -27,34 +27,6 @@ _MOST_REDIRECTS = 5
 _MOST_FAILURES = 3  # files in a row that all repetitions could not get
 _DEEPEST_SESSION = 4  # files from the root to the one that names the session
 _WORDS = 300  # characters of a service's own words
-
-
-@dataclass(frozen=True)
-class Network:
-    """What a source may ask of the network.
-
-    Attributes
-    ----------
-    online
-        Servers may be asked; otherwise only the cache answers.
-    setting
-        Where that is set, for messages.
-    hosts
-        Further hosts that files may lie on, besides the root's.
-    private
-        Addresses of private networks are allowed.
-    cache
-        Folder of the cache; None: none.
-    limit
-        Bytes of the cache.
-    """
-
-    online: bool = True
-    setting: str = "leave out --offline"
-    hosts: tuple[str, ...] = ()
-    private: bool = False
-    cache: Path | None = field(default_factory=folder)
-    limit: int = LIMIT
 
 
 class Http(Source):
@@ -167,8 +139,6 @@ class Http(Source):
 
     def _add_key(self) -> None:
         """Take the user's key from the environment, where the service wants one and the URL has none."""
-        import os
-
         policy = self.policy
         if not policy.key_parameter or policy.key_parameter in self._secrets:
             return

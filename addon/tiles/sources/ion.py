@@ -9,7 +9,8 @@ from ...errors import input_error
 from .. import policies
 from ..json_text import Node, parse
 from ..policies.ion import POLICY
-from .http import Http, Network
+from .http import Http
+from .network import Network
 from .waiting import Clock
 
 API = "https://api.cesium.com"
