@@ -37,6 +37,7 @@ class Loader:
     def __init__(self, source: Source) -> None:
         self.source, self.tree, self.files = source, Tree(), 1
         self._kinds: dict[int, str] = {}
+        self._pool: ThreadPoolExecutor | None = None
         node = parse(source.read(source.root, MOST_BYTES), source.name(source.root))
         explicit.read(self.tree, node, source.root, load=self._json(source.root))
 
@@ -168,8 +169,9 @@ class Loader:
 
         if self.source.parallel == 1 or len(uris) < 2:
             return [one(uri) for uri in uris]
-        with ThreadPoolExecutor(self.source.parallel) as pool:
-            return list(pool.map(one, uris))
+        if self._pool is None:  # kept, as each of its threads has the cache open
+            self._pool = ThreadPoolExecutor(self.source.parallel)
+        return list(self._pool.map(one, uris))
 
     def _bytes(self, base: str) -> Callable[[str], bytes]:
         return lambda reference: self.source.read(self.source.resolve(base, reference), MOST_BYTES)
