@@ -3,6 +3,7 @@
 #include "tiles/limits.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -15,9 +16,12 @@ namespace {
 
 Matrix local_matrix(const Node& node) {
   if (const auto matrix = node.find("matrix")) {
-    const Matrix m = transpose(matrix->numbers<16>());
-    if (m[12] != 0.0 || m[13] != 0.0 || m[14] != 0.0 || m[15] != 1.0) {
-      matrix->refuse("must be affine: its last row is not 0 0 0 1");
+    Matrix m = transpose(matrix->numbers<16>());
+    for (std::size_t i = 0; i < 4; ++i) { // exporters multiply in float32
+      if (std::abs(m[12 + i] - identity[12 + i]) > 1e-5) {
+        matrix->refuse("must be affine: its last row is not 0 0 0 1");
+      }
+      m[12 + i] = identity[12 + i];
     }
     return m;
   }

@@ -78,6 +78,13 @@ def test_matrices_in_their_order():
     np.testing.assert_allclose(places(decode(b3dm, matrix)), expected, atol=1e-5)
 
 
+def test_a_last_row_may_be_off_by_rounding():
+    content = made.square()
+    content.json["nodes"][0]["matrix"] = [1, 0, 0, 1e-7, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 0.9999998]
+    found = places(decode(content.glb(), shifted([0, 0, 1e6])))
+    np.testing.assert_allclose(found, SQUARE + np.array([5, -7, 1e6 + 6]), atol=1e-6)
+
+
 def test_float32_about_an_origin_of_whole_metres():
     """Earth-centred: float32 alone would be 0.5 m off."""
     centre = np.array([-2709464.3217, -4285102.8813, 3856521.4532])
