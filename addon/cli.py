@@ -1,4 +1,4 @@
-"""Command line: ``firetwin sample | info | new | maps | score | imager | build | bake | render | ...``.
+"""Command line: ``firetwin sample | info | new | maps | score | brief | build | bake | render | ...``.
 
 Results go to stdout, messages and progress to stderr. Exit status 0: done, 1: failed, 2: bad usage, 130:
 Ctrl-C, 143: SIGTERM. Heavy modules are imported on demand, so that help and usage errors answer at once.
@@ -18,6 +18,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import NoReturn
 
+from .brief import arguments as brief
 from .escaped import escaped
 from .farm import arguments as farm
 from .places import arguments as places
@@ -83,8 +84,8 @@ def _report(error: Exception) -> int:
         text = "Blender's Python module is missing; install it with: pip install 'firetwin[blender]'"
     elif isinstance(error, ModuleNotFoundError) and error.name == f"{__package__}.bench":
         text = "the benchmarks are not in Blender's extension; run them from a checkout (see the README)"
-    elif isinstance(error, ModuleNotFoundError) and error.name == "matplotlib":  # not in Blender
-        pip = f"{shlex.quote(sys.executable)} -m pip install matplotlib"
+    elif isinstance(error, ModuleNotFoundError) and error.name in ("matplotlib", "PIL"):  # not in Blender
+        pip = f"{shlex.quote(sys.executable)} -m pip install matplotlib"  # it brings Pillow
         text = f"maps and plots need matplotlib; install it with: {pip}"
     else:
         text = f"unexpected {type(error).__name__}: {error} (run again with --debug for the details)"
@@ -197,6 +198,8 @@ def _parser() -> argparse.ArgumentParser:
         "--report", metavar="X.html", type=_path, help="write an HTML report with maps and curves (none)"
     )
     score.add_argument("--json", action="store_true", help="write JSON")
+
+    brief.add(command("brief", "write a briefing page of a run", brief.DETAIL), _path, _size)
 
     imager = command("imager", "simulate a satellite imager's measurements of a run", IMAGER)
     imager.add_argument("run", metavar="RUN", type=_path, help="run folder")

@@ -23,7 +23,7 @@ NEVER_BPY = (
     *("firetwin.cli", "firetwin.commands", "firetwin.data"),
     *("firetwin.run", "firetwin.places", "firetwin.tiles"),
     *("firetwin.imaging", "firetwin.shot", "firetwin.smoke"),
-    *("firetwin.jobs", "firetwin.farm", "firetwin.bench"),
+    *("firetwin.jobs", "firetwin.farm", "firetwin.bench", "firetwin.brief"),
     *(
         f"firetwin.render.{name}"
         for name in (

@@ -51,7 +51,7 @@ def _rows(path: Path, base: sqlite3.Connection, table: sqlite3.Row) -> Iterator[
         blob = row[table["shape"]]
         parts: dict[str, list[Any]] = {"polygon": [], "line": [], "point": []}
         try:
-            for kind, points in [] if blob is None else _parts(blob):
+            for kind, points in [] if blob is None else parts_of(blob):
                 parts[kind].append(points)
         except _NoPolygonError:
             parts = {kind: [] for kind in parts}
@@ -67,8 +67,14 @@ def _rows(path: Path, base: sqlite3.Connection, table: sqlite3.Row) -> Iterator[
         yield Feature(outlines, {"layer": table["name"]} | properties, place, spots, lines)
 
 
-def _parts(blob: bytes) -> Iterator[Part]:
-    """Parse a geometry blob: bytes "GP", version, flags, srs, envelope, WKB."""
+def parts_of(blob: bytes) -> Iterator[Part]:
+    """Parse a geometry blob: bytes "GP", version, flags, srs, envelope, WKB.
+
+    Raises
+    ------
+    struct.error, ValueError, IndexError, TypeError
+        The geometry is damaged.
+    """
     if blob[:2] != b"GP":
         raise ValueError("no geometry of a GeoPackage")
     flags = blob[3]
@@ -92,7 +98,7 @@ def polygons(blob: bytes) -> tuple[Polygon, ...]:
 
 def _of_kind(blob: bytes, kind: str) -> list[Any]:
     try:
-        return [part for found, part in _parts(blob) if found == kind]
+        return [part for found, part in parts_of(blob) if found == kind]
     except (struct.error, ValueError, IndexError, TypeError):
         return []
 

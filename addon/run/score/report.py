@@ -71,6 +71,13 @@ def html(run: Run, results: dict[str, Any], seen: Any, other: Run | None = None)
     )
 
 
+def tables(results: dict[str, Any]) -> Iterator[str]:
+    """Tables of the scores against observations alone, for another page; headings are h3."""
+    for part in (_uses(results), _scores(results), _more(results)):
+        for text in part:
+            yield text.replace("<h2>", "<h3>").replace("</h2>", "</h3>")
+
+
 def _head(run: Run, results: dict[str, Any], other: Run | None) -> Iterator[str]:
     zone = results["zone"]
     first, last = (times.text(times.utc(run, float(run.times[i])), zone) for i in (0, -1))

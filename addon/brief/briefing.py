@@ -1,0 +1,233 @@
+"""Briefing: content of the page, gathered from a run, its scene file, stations, film and observations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from firetwin_core.run import Run
+
+from ..errors import UsageError
+from ..run import areas, content, info, labels, observations, readers, score, times, zone
+from ..run.labels import Label
+from ..run.observations import Perimeter
+from ..shot.settings.settings import Settings
+from ..shot.source import ShotSource
+from ..shot.terrain.elevation import Elevation
+from . import film, fronts, layers, places, reached
+from .arguments import LIMIT
+from .film import Film
+from .fronts import Front
+from .layers import Layer
+from .places import Places, Station
+from .reached import Reached
+
+
+@dataclass(frozen=True)
+class Request:
+    """What the page is made of.
+
+    Attributes
+    ----------
+    scene
+        Scene file, or run folder.
+    places, film
+        GeoPackage of stations, and folder of a film; None: the page has none.
+    against
+        Files of observations; empty: those in the run's folder.
+    limit
+        Bytes of the page at most.
+    """
+
+    scene: Path
+    places: Path | None = None
+    film: Path | None = None
+    against: Sequence[str | Path] = ()
+    limit: int = LIMIT
+
+
+@dataclass(frozen=True)
+class Point:
+    """A place on the map and in the lists: a named place, or a station with its resources.
+
+    Attributes
+    ----------
+    id
+        Of the place in this page.
+    latitude, longitude
+        Degrees.
+    """
+
+    id: str
+    name: str
+    latitude: float
+    longitude: float
+    reached: Reached
+    station: Station | None = None
+
+    @property
+    def kind(self) -> str:
+        """Kind of place: "station" or "place"."""
+        return "station" if self.station else "place"
+
+
+@dataclass(frozen=True)
+class Briefing:
+    """Content of the page.
+
+    Attributes
+    ----------
+    facts
+        See `info.gather`.
+    tolerance
+        By which lines of fronts may differ from the run's, m.
+    points
+        Stations, then named places.
+    observed
+        Perimeters within the run's time.
+    scores
+        See `score.score`; None without observations. Else `no_scores` may say why there are none.
+    others
+        Names of the scene file's comparison runs, which the page leaves out.
+    inputs
+        What was drawn, and the names of files whose licences Firetwin does not know.
+    """
+
+    run: Run
+    zone: str
+    facts: dict[str, Any]
+    layers: list[Layer]
+    fronts: list[Front]
+    tolerance: float
+    points: list[Point]
+    places: Places | None
+    film: Film | None
+    observed: list[Perimeter]
+    scores: dict[str, Any] | None
+    no_scores: str
+    others: list[str]
+    inputs: list[tuple[str, str]]
+
+    @cached_property
+    def moments(self) -> list[str]:
+        """Local times of the fronts."""
+        return [times.text(front.utc, self.zone) for front in self.fronts]
+
+    @staticmethod
+    def moment(text: str) -> datetime | None:
+        """Time of a text in ISO 8601, of UTC if it names no zone; None for any other text."""
+        try:
+            when = datetime.fromisoformat(text)
+        except ValueError:
+            return None
+        return when if when.tzinfo else when.replace(tzinfo=UTC)
+
+    def local(self, text: str) -> str:
+        """Local time of a text in ISO 8601; any other text as it is."""
+        when = self.moment(text)
+        return text if when is None else times.text(when, self.zone)
+
+
+def gather(request: Request) -> Briefing:
+    """Gather the content; clips get the room that half of the page's limit leaves.
+
+    Raises
+    ------
+    InputError
+        A file cannot be used; the error names it and what to do.
+    """
+    run, settings, elevation = _open(request.scene)
+    stations = places.read(request.places) if request.places else None
+    shown = film.read(request.film, _hashes(run), request.limit // 2) if request.film else None
+    clock = settings.time.zone if settings else zone.time_zone(run)
+    named = request.against or observations.beside(Path(run.path))
+    seen = observations.read(named)
+    scores, reason = _scores(run, seen, clock, bool(request.against))
+    files = sorted({observations.dates.without(each)[0].name for each in named})
+    lines, tolerance = fronts.find(run, clock)
+    return Briefing(
+        run=run,
+        zone=clock,
+        facts=info.gather(run, clock),
+        layers=layers.draw(run, elevation.fuel, clock),
+        fronts=lines,
+        tolerance=tolerance,
+        points=_points(run, settings, stations),
+        places=stations,
+        film=shown,
+        observed=[p for p in seen.perimeters if run.times[0] <= times.seconds(run, p.time) <= run.times[-1]],
+        scores=scores,
+        no_scores=reason,
+        others=[other.name for other in settings.runs] if settings else [],
+        inputs=[*_inputs(settings), *(("Observations", name) for name in files)],
+    )
+
+
+def _hashes(run: Run) -> dict[str, str]:
+    """Hashes of the fields that tell runs apart, which are small."""
+    few = {"elevation", "fuel_arrival_time", "fuel_latitude", "fuel_longitude", "latitude", "longitude"}
+    hashes = content.inputs(run, Path("cache"), set(run.fields) - few)
+    return {name: value for name, value in hashes.items() if name != "run.toml"}  # a name may change
+
+
+def _points(run: Run, settings: Settings | None, stations: Places | None) -> list[Point]:
+    """Stations, then named places within the run's grid, and how the fire reaches each."""
+    file = settings.labels.file if settings else None
+    towns = labels.read(file) if file else labels.known(run)
+    spots: list[Station | Label] = [*(stations.stations if stations else ()), *towns]
+    found = reached.find(run, [s.latitude for s in spots], [s.longitude for s in spots])
+    middle = 0.5 * float(run.longitude[0] + run.longitude[-1])
+    return [
+        Point(
+            f"p{k}", spot.name, spot.latitude, float(areas.turned(spot.longitude, middle)), how,
+            spot if isinstance(spot, Station) else None,
+        )
+        for k, (spot, how) in enumerate(zip(spots, found, strict=True))
+        if isinstance(spot, Station) or how.state != "outside"
+    ]  # fmt: skip
+
+
+def _open(scene: Path) -> tuple[Run, Settings | None, Elevation]:
+    """Run, settings and elevation of a scene file; of a run folder there are no settings."""
+    if scene.suffix == ".toml" and scene.is_file():
+        shot = ShotSource(scene=str(scene)).shot()
+        return shot.run, shot.settings, shot.relief
+    run = readers.open(scene)
+    return run, None, Elevation(run)
+
+
+def _scores(
+    run: Run, seen: observations.Observations, clock: str, asked: bool
+) -> tuple[dict[str, Any] | None, str]:
+    """Scores; else why there are none, if there are observations.
+
+    Raises
+    ------
+    UsageError
+        Scores were asked for, and a package is missing.
+    """
+    if not seen.perimeters and not seen.detections:
+        return None, ""
+    try:
+        return score.score(run, seen, zone=clock), ""
+    except UsageError as error:
+        if asked:
+            raise
+        return None, str(error)
+
+
+def _inputs(settings: Settings | None) -> list[tuple[str, str]]:
+    """Files of a scene file that were drawn."""
+    if settings is None:
+        return []
+    named = (
+        ("Elevation model", settings.terrain.elevation),
+        ("Orthophoto of the film", settings.terrain.photo),
+        ("Land use of the film", settings.terrain.land_use),
+        ("Named places", settings.labels.file),
+    )
+    return [(what, path.name) for what, path in named if path]

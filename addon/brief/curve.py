@@ -1,0 +1,114 @@
+"""Curve of burned area by time, as SVG that takes its colours from the page, beside reported areas."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from datetime import datetime, timedelta
+from typing import Any
+from zoneinfo import ZoneInfo
+
+import numpy as np
+
+from ..data.history import SQUARE_METRES_PER_ACRE
+from ..run import times
+from .fronts import Front
+from .text import quote
+
+WIDTH, HEIGHT = 900, 300  # of the drawing; the page scales it
+LEFT, RIGHT, TOP, BOTTOM = 66, 58, 20, 52
+_STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
+_HOURS = (1, 2, 3, 6, 12, 24, 48, 96, 240)
+_MOST_DATES = 7
+
+
+@dataclass(frozen=True)
+class Axes:
+    """Place in the drawing of times (UTC) and areas (m2)."""
+
+    first: datetime
+    last: datetime
+    high: float
+
+    def x(self, when: datetime) -> float:
+        """Horizontal place of a time."""
+        span = max((self.last - self.first).total_seconds(), 1.0)
+        share = (when - self.first).total_seconds() / span
+        return round(LEFT + share * (WIDTH - LEFT - RIGHT), 1)
+
+    def y(self, area: float) -> float:
+        """Vertical place of an area."""
+        return round(HEIGHT - BOTTOM - area / self.high * (HEIGHT - TOP - BOTTOM), 1)
+
+
+def axes(fronts: Sequence[Front], reported: Sequence[dict[str, Any]]) -> Axes:
+    """Axes that hold the run, and the reports of its time."""
+    areas = [front.area for front in fronts] + [row["reported"] for row in _covered(reported)]
+    return Axes(fronts[0].utc, fronts[-1].utc, max(*areas, 1.0) * 1.06)
+
+
+def svg(fronts: Sequence[Front], reported: Sequence[dict[str, Any]], zone: str) -> str:
+    """Curve of the run, dots of reported acres, acres on the left and hectares on the right."""
+    place = axes(fronts, reported)
+    line = " ".join(f"{place.x(front.utc)},{place.y(front.area)}" for front in fronts)
+    foot = HEIGHT - BOTTOM
+    parts = [
+        *_scale(place, SQUARE_METRES_PER_ACRE, LEFT - 8, "end", "acres", True),
+        *_scale(place, 1e4, WIDTH - RIGHT + 8, "start", "ha", False),
+        *_dates(place, zone),
+        f'<polygon class="area" points="{LEFT},{foot} {line} {WIDTH - RIGHT},{foot}"/>',
+        f'<polyline class="run" points="{line}"/>',
+        f'<line id="cursor" class="cursor" x1="{LEFT}" x2="{LEFT}" y1="{TOP}" y2="{foot}"/>',
+        *(_dot(place, row, zone) for row in _covered(reported)),
+    ]
+    label = "Burned area by time, of the run and as reported; the table below has the reports' numbers"
+    return (
+        f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{label}" class="curve">'
+        + "".join(parts)
+        + "</svg>"
+    )
+
+
+def _covered(reported: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Reports of the run's time."""
+    return [row for row in reported if row["run"] is not None]
+
+
+def _dot(place: Axes, row: dict[str, Any], zone: str) -> str:
+    when = datetime.fromisoformat(row["time"])
+    acres = f"{row['reported'] / SQUARE_METRES_PER_ACRE:,.0f} acres reported"
+    title = quote(f"{times.text(when, zone)}: {acres} ({row['source']})")
+    spot = f'cx="{place.x(when)}" cy="{place.y(row["reported"])}"'
+    return f'<circle class="reported" r="5" {spot}><title>{title}</title></circle>'
+
+
+def _scale(place: Axes, unit: float, x: float, anchor: str, name: str, lines: bool) -> Iterator[str]:
+    """Ticks of an area axis in a unit (m2)."""
+    high = place.high / unit
+    power = 10.0 ** np.floor(np.log10(high / 4.0))
+    step = next(step * power for step in _STEPS if step * power >= high / 4.0 * 0.999)
+    for value in np.arange(0.0, high, step):
+        y = place.y(float(value) * unit)
+        if lines:
+            yield f'<line class="grid" x1="{LEFT}" x2="{WIDTH - RIGHT}" y1="{y}" y2="{y}"/>'
+        yield f'<text x="{x}" y="{y + 4}" text-anchor="{anchor}" class="{anchor}">{value:,g}</text>'
+    yield f'<text x="{x}" y="{TOP - 6}" text-anchor="{anchor}" class="unit {anchor}">{name}</text>'
+
+
+def _dates(place: Axes, zone: str) -> Iterator[str]:
+    """Round hours of the zone's clock below the curve."""
+    hours = (place.last - place.first).total_seconds() / 3600.0
+    if hours < 2.0:
+        ticks = [place.first, place.last]
+    else:
+        step = next((step for step in _HOURS if hours / step <= _MOST_DATES), int(hours / _MOST_DATES) + 1)
+        start = place.first.astimezone(ZoneInfo(zone)).replace(hour=0, minute=0, second=0, microsecond=0)
+        count = int((hours + 24.0) / step) + 2
+        every = [start + timedelta(hours=step * k) for k in range(count)]
+        ticks = [tick for tick in every if place.first <= tick <= place.last]
+    for tick in ticks:
+        local, x = tick.astimezone(ZoneInfo(zone)), place.x(tick)
+        foot = HEIGHT - BOTTOM
+        yield f'<line class="tick" x1="{x}" x2="{x}" y1="{foot}" y2="{foot + 5}"/>'
+        yield f'<text x="{x}" y="{foot + 20}" text-anchor="middle">{local:%H:%M}</text>'
+        yield f'<text x="{x}" y="{foot + 42}" text-anchor="middle" class="day">{local.day} {local:%b}</text>'

@@ -1,0 +1,171 @@
+"""Fronts by time for the page's map: GeoJSON lines, and the burned area at each time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Any
+from zoneinfo import ZoneInfo
+
+import numpy as np
+from firetwin_core.run import Run
+from numpy.typing import NDArray
+
+from ..ellipsoid import metres_per_degree
+from ..run import areas, info, times
+from ..run.observations import Perimeter
+from ..shot.fire.fronts import Reach, reach
+
+MOST = 48
+"""Times between the first and the last, at most."""
+_STEPS = (60, 120, 300, 600, 900, 1800, 3600, 7200, 10800, 21600, 43200, 86400)  # s
+_TOLERANCE = 0.5  # of a fuel cell, by which a line may differ from the front
+_MOST_POINTS = 150_000  # of all fronts, about 3 MB; for more the tolerance is doubled
+
+Line = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Front:
+    """Front at a model time (s): its UTC, closed lines of degrees east and north (n, 2), burned area, m2."""
+
+    time: float
+    utc: datetime
+    lines: list[Line]
+    area: float
+
+
+def find(run: Run, zone: str) -> tuple[list[Front], float]:
+    """Fronts of a run at round times of a zone's clock, and at the first and the last time of the run.
+
+    Returns
+    -------
+    list of Front
+        Simplified lines, of `_MOST_POINTS` points together at most.
+    float
+        Tolerance, m, by which lines may differ from the front: half a fuel cell, or more for a long front.
+    """
+    moments = choose_times(run, zone)
+    fire = reach(run)
+    whole = [trace(fire, time) for time in moments]
+    tolerance = cell_tolerance(fire)
+    lines = _simplified(whole, fire, tolerance)
+    while sum(len(line) for front in lines for line in front) > _MOST_POINTS and any(map(_is_long, whole)):
+        tolerance *= 2.0
+        lines = _simplified(whole, fire, tolerance)
+    found = zip(moments, lines, info.burned(run, moments), strict=True)
+    return [Front(time, times.utc(run, time), front, area) for time, front, area in found], tolerance
+
+
+def cell_tolerance(fire: Reach) -> float:
+    """Half of a fuel cell, m."""
+    return _TOLERANCE * min(areas.cell_size(fire.latitude, fire.longitude))
+
+
+def choose_times(run: Run, zone: str) -> list[float]:
+    """Model times (s), ascending: even steps of the zone's clock between the run's first and last time."""
+    first, last = float(run.times[0]), float(run.times[-1])
+    span = last - first
+    step = next((step for step in _STEPS if span / step <= MOST), 86400 * int(np.ceil(span / 86400 / MOST)))
+    start = times.utc(run, first)
+    offset = start.astimezone(ZoneInfo(zone)).utcoffset()
+    clock = start.timestamp() + (offset.total_seconds() if offset else 0.0)
+    steps = np.arange(first + step - clock % step, last, step)
+    inner = [float(time) for time in steps if min(time - first, last - time) > 0.25 * step]
+    return [first, *inner, *([last] if last > first else [])]
+
+
+def trace(fire: Reach, time: float) -> list[Line]:
+    """Closed lines of the front at a model time (s); the first point is also the last."""
+    latitude, longitude, after = fire.line(time)
+    lines, left = [], np.ones(len(after), bool)
+    for start in range(len(after)):
+        if not left[start]:
+            continue
+        ring, at = [], start
+        while left[at]:
+            left[at] = False
+            ring.append(at)
+            at = int(after[at])
+        lines.append(np.column_stack([longitude[[*ring, start]], latitude[[*ring, start]]]))
+    return lines
+
+
+def _simplified(fronts: list[list[Line]], fire: Reach, tolerance: float) -> list[list[Line]]:
+    """Simplified lines; islands smaller than the tolerance are left out once it exceeds that of the cells."""
+    scale = _scale(fire, tolerance)
+    least = 0.0 if tolerance <= cell_tolerance(fire) else 2.0
+    return [
+        [simplify(line, scale) for line in lines if np.ptp(line * scale, 0).max() >= least]
+        for lines in fronts
+    ]
+
+
+def _is_long(lines: list[Line]) -> bool:
+    """Whether a front still can be simplified: it has more than a few points."""
+    return any(len(line) > 9 for line in lines)
+
+
+def _scale(fire: Reach, tolerance: float) -> NDArray[np.float64]:
+    """Tolerances (m) in a degree east and north."""
+    north, east = metres_per_degree(float(fire.latitude.mean()))
+    return np.array([east, north]) / tolerance
+
+
+def simplify(points: Line, scale: NDArray[np.float64]) -> Line:
+    """Closed line with fewer points, each left out by less than one unit of `scale` (per degree).
+
+    Douglas and Peucker, The Canadian Cartographer 10(2) (1973), from the first point and the one farthest
+    from it.
+    """
+    xy = (points - points[0]) * scale
+    half = int(np.argmax(np.hypot(*xy.T)))
+    kept, parts = {0, half, len(xy) - 1}, [(0, half), (half, len(xy) - 1)]
+    while parts:
+        first, last = parts.pop()
+        if last - first < 2:
+            continue
+        along = xy[last] - xy[first]
+        offset = xy[first + 1 : last] - xy[first]
+        length = float(along @ along)
+        share = np.clip(offset @ along / length, 0.0, 1.0) if length else np.zeros(len(offset))
+        away = np.hypot(*(offset - share[:, None] * along).T)
+        farthest = int(np.argmax(away))
+        if away[farthest] >= 1.0:
+            middle = first + 1 + farthest
+            kept.add(middle)
+            parts += [(first, middle), (middle, last)]
+    return points[sorted(kept)] if len(kept) > 3 else points
+
+
+def feature_collection(fronts: list[Front], tolerance: float) -> dict[str, Any]:
+    """GeoJSON (RFC 7946) of all fronts, with their time (UTC) and burned area (m2)."""
+    features = [
+        _feature({"time": times.iso(front.utc), "area": round(front.area)}, front.lines, tolerance)
+        for front in fronts
+    ]
+    return {"type": "FeatureCollection", "features": features}
+
+
+def perimeter_collection(run: Run, perimeters: Sequence[Perimeter]) -> dict[str, Any]:
+    """GeoJSON of observed perimeters, simplified by half a fuel cell, with their time (UTC) and file."""
+    fire, middle = reach(run), 0.5 * float(run.longitude[0] + run.longitude[-1])
+    tolerance = cell_tolerance(fire)
+    features = []
+    for perimeter in perimeters:
+        rings = [np.asarray(ring, np.float64) for polygon in perimeter.polygons for ring in polygon]
+        closed = [np.vstack([ring, ring[:1]]) for ring in rings]
+        turned = [np.column_stack([areas.turned(ring[:, 0], middle), ring[:, 1]]) for ring in closed]
+        lines = [simplify(ring, _scale(fire, tolerance)) for ring in turned]
+        properties = {"time": times.iso(perimeter.time), "source": perimeter.source}
+        features.append(_feature(properties, lines, tolerance))
+    return {"type": "FeatureCollection", "features": features}
+
+
+def _feature(properties: dict[str, Any], lines: list[Line], tolerance: float) -> dict[str, Any]:
+    """Lines with as many digits as the tolerance (m) needs: a step is a third of it at most."""
+    digits = int(np.ceil(-np.log10(tolerance / 3.0 / metres_per_degree(0.0)[0])))
+    coordinates = [np.round(line, digits).tolist() for line in lines]
+    geometry = {"type": "MultiLineString", "coordinates": coordinates}
+    return {"type": "Feature", "properties": properties, "geometry": geometry}

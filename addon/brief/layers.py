@@ -1,0 +1,158 @@
+"""Layers of the page's map: hill shading, fuel and arrival time, as PNG pictures in Web Mercator."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import matplotlib
+import numpy as np
+from firetwin_core.run import Run
+from matplotlib.colors import LightSource, to_hex
+from numpy.typing import NDArray
+from PIL import Image
+
+from ..run import areas, thumbnails, times
+from . import mercator
+from .mercator import Box
+
+LONGEST = 1100  # pixels of a picture's longer side at most
+_LEAST = 600  # pixels, so that a coarse grid's hill shading is smooth
+_LEVELS = 24  # colours of a ramp
+_GREYS = 48  # levels of the hill shading
+_BEFORE = "#6b6560"  # burned before the run began
+_ARRIVAL = [to_hex(c) for c in matplotlib.colormaps["plasma"](np.linspace(0.05, 0.97, _LEVELS))]
+_STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
+
+
+@dataclass(frozen=True)
+class Legend:
+    """Colours from low to high, labels at places from 0 to 1, and colours with a meaning of their own."""
+
+    title: str
+    colours: tuple[str, ...]
+    ticks: tuple[tuple[float, str], ...]
+    notes: tuple[tuple[str, str], ...] = ()
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A picture over its box; `legend` is None where colours mean nothing by themselves.
+
+    Attributes
+    ----------
+    opacity
+        From 0 to 1, as the page opens.
+    shown
+        Whether the page opens with it.
+    """
+
+    name: str
+    title: str
+    box: Box
+    png: bytes
+    legend: Legend | None
+    opacity: float
+    shown: bool
+
+
+def draw(run: Run, elevation: NDArray[np.floating], zone: str) -> list[Layer]:
+    """Draw all layers of a run, the lowest first.
+
+    Parameters
+    ----------
+    elevation
+        (fy, fx) m on the fuel grid, which may come from a user's elevation model.
+    zone
+        Time zone of the legend.
+    """
+    return [_hillshade(run, elevation), _fuel(run), _arrival(run, zone)]
+
+
+def _hillshade(run: Run, elevation: NDArray[np.floating]) -> Layer:
+    """Hill shading, lit from the north-west."""
+    known = elevation[np.isfinite(elevation)]
+    height = np.nan_to_num(elevation.astype(np.float64), nan=float(known.min()) if known.size else 0.0)
+    latitude, longitude = np.argsort(-run.fuel_latitude), np.argsort(run.fuel_longitude)
+    if min(height.shape) < 3:
+        shade = np.full(height.shape, 0.7)
+    else:
+        dx, dy = areas.spacing(run.fuel_latitude, run.fuel_longitude)
+        lit = LightSource(azdeg=315, altdeg=45)
+        shade = np.empty(height.shape)
+        facing_north = height[np.ix_(latitude, longitude)]
+        shade[np.ix_(latitude, longitude)] = lit.hillshade(facing_north, vert_exag=2.0, dx=dx, dy=dy)
+    grey = np.round((0.35 + 0.63 * shade) * (_GREYS - 1)) / (_GREYS - 1)
+    box, pixels = _sampled(run, np.round(255.0 * grey).astype(np.uint8), _LEAST)
+    return Layer("hillshade", "Terrain (hill shading)", box, _png(Image.fromarray(pixels)), None, 1.0, True)
+
+
+def _fuel(run: Run) -> Layer:
+    """Surface and canopy fuel, kg/m2; transparent without fuel."""
+    fuel = np.nan_to_num(run.surface_fuel) + np.nan_to_num(run.canopy_fuel)
+    burnable = fuel[fuel > 0.0]
+    high = _round_up(float(np.percentile(burnable, 99.5))) if burnable.size else 1.0
+    index = np.where(fuel > 0.0, 1 + np.minimum(fuel / high * _LEVELS, _LEVELS - 1), 0).astype(np.uint8)
+    ramp = thumbnails.coloured(np.linspace(0.0, 1.0, _LEVELS), thumbnails.FUEL)
+    colours = tuple(to_hex(colour) for colour in ramp.reshape(-1, 3))
+    box, pixels = _sampled(run, index)
+    ticks = [(share, f"{share * high:g}") for share in (0.0, 0.25, 0.5)]
+    legend = Legend("Fuel load, kg/m²", colours, (*ticks, (1.0, f"{high:g} and more")))
+    return Layer("fuel", "Fuel load", box, _indexed(pixels, ["#000000", *colours]), legend, 0.75, False)
+
+
+def _arrival(run: Run, zone: str) -> Layer:
+    """When the fire arrives at each fuel cell; transparent where it does not within the run."""
+    arrival = np.asarray(run.fuel_arrival_time(), np.float64)
+    first, last = float(run.times[0]), float(run.times[-1])
+    share = np.clip(np.nan_to_num((arrival - first) / max(last - first, 1.0)), 0.0, 1.0)
+    index = (2 + np.minimum(share * _LEVELS, _LEVELS - 1)).astype(np.uint8)
+    with np.errstate(invalid="ignore"):
+        index[arrival < first] = 1
+        index[~(arrival <= last)] = 0
+    box, pixels = _sampled(run, index)
+    ticks = tuple((at, _clock(run, first + at * (last - first), zone)) for at in (0.0, 0.5, 1.0))
+    notes = ((_BEFORE, "burned before this run"),) if (index == 1).any() else ()
+    legend = Legend(f"Fire arrives, {_zone_name(run, zone)}", tuple(_ARRIVAL), ticks, notes)
+    png = _indexed(pixels, ["#000000", _BEFORE, *_ARRIVAL])
+    return Layer("arrival", "Arrival time of the fire", box, png, legend, 0.8, True)
+
+
+def _sampled(run: Run, values: NDArray[np.uint8], least: int = 0) -> tuple[Box, NDArray[np.uint8]]:
+    """Values of the fuel cells (fy, fx) as pixels in Web Mercator, from north and west."""
+    latitude, longitude = run.fuel_latitude, run.fuel_longitude
+    box = Box.of_grid(run, latitude, longitude)
+    columns, rows = box.size(min(max(*values.shape, least), LONGEST))
+    row, column = mercator.cells(latitude, box.rows(rows)), mercator.cells(longitude, box.columns(columns))
+    return box, values[np.ix_(row, column)]
+
+
+def _indexed(pixels: NDArray[np.uint8], colours: Sequence[str]) -> bytes:
+    """PNG with a palette; the first colour is transparent."""
+    picture = Image.fromarray(pixels)
+    picture.putpalette([int(colour[i : i + 2], 16) for colour in colours for i in (1, 3, 5)])
+    return _png(picture, transparency=0)
+
+
+def _png(picture: Image.Image, **options: int) -> bytes:
+    data = io.BytesIO()
+    picture.save(data, "PNG", optimize=True, **options)
+    return data.getvalue()
+
+
+def _round_up(value: float) -> float:
+    """Next of 1, 2, 2.5 and 5 times a power of ten."""
+    unit = 10.0 ** np.floor(np.log10(value))
+    return float(next(step * unit for step in _STEPS if step * unit >= value * (1.0 - 1e-9)))
+
+
+def _clock(run: Run, time: float, zone: str) -> str:
+    """Day and hour of a model time (s)."""
+    return (
+        times.text(times.utc(run, time), zone).rpartition(" ")[0].replace(f" {times.utc(run, time):%Y} ", " ")
+    )
+
+
+def _zone_name(run: Run, zone: str) -> str:
+    return times.text(times.utc(run, float(run.times[0])), zone).rpartition(" ")[2]

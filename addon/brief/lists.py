@@ -1,0 +1,202 @@
+"""Lists of the page: stations with their resources, and named places, with the time the fire reaches each."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+
+from ..run import times
+from .briefing import Briefing, Point
+from .places import EXERCISE, Resource, Station, is_exercise
+from .reached import Reached
+from .text import quote
+
+_FIRE = (
+    ("", "any"),
+    ("now", "reached by the time shown"),
+    ("reached", "reached in the run"),
+    ("never", "never reached"),
+)
+
+
+def section(briefing: Briefing) -> str:
+    """Search, filters and lists; empty without any place."""
+    if not briefing.points:
+        return ""
+    stations = [point for point in briefing.points if point.station is not None]
+    towns = [point for point in briefing.points if point.station is None]
+    title = "Stations and when the fire reaches them" if stations else "When the fire reaches places"
+    return "\n".join(
+        (
+            f'<section aria-labelledby="places-title"><h2 id="places-title">{title}</h2>',
+            *_warning(briefing),
+            _filters([point.station for point in stations if point.station]),
+            '<div class="list" tabindex="0" role="region" aria-label="Places">',
+            *([_stations(briefing, stations)] if stations else []),
+            *([_towns(briefing, towns)] if towns else []),
+            f"</div>{_METHOD}</section>",
+        )
+    )
+
+
+def reach_text(briefing: Briefing, reached: Reached) -> tuple[str, str]:
+    """When the fire reaches a place, and a note on it: UTC, or how near it came."""
+    run, zone = briefing.run, briefing.zone
+    if reached.time is not None:
+        moment = times.utc(run, reached.time)
+        return times.text(moment, zone), f"{moment:%d %b %H:%M} UTC"
+    if reached.state == "before":
+        return "before the run began", f"by {briefing.moments[0]}"
+    if reached.state == "outside":
+        return "not known", "outside of the run's grid"
+    near = "" if reached.distance is None else f"; front then {distance(reached.distance)} away"
+    return "never", f"until {briefing.moments[-1]}{near}"
+
+
+def distance(metres: float) -> str:
+    """A distance in km and miles, to about two digits."""
+    km = metres / 1000.0
+    digits = max(0, min(2, 1 - math.floor(math.log10(max(km, 0.1)))))
+    return f"{km:.{digits}f} km ({km / 1.609344:.{digits}f} mi)"
+
+
+def _warning(briefing: Briefing) -> Iterator[str]:
+    if briefing.places is not None and is_exercise(briefing.places):
+        yield (
+            f'<p class="warn"><b>{EXERCISE}.</b> Rows marked "exercise" are made up: which engine stands '
+            "where, its crew, its times and its costs.</p>"
+        )
+
+
+def _filters(stations: Sequence[Station]) -> str:
+    kinds = sorted({station.kind for station in stations if station.kind})
+    types = sorted({each.type for station in stations for each in station.resources if each.type})
+    origins = sorted({origin for station in stations for origin in _origins(station)})
+    selects = [
+        *([_select("kind", "kind", [("", "all"), *_same([*kinds, "named place"])])] if stations else []),
+        *([_select("types", "resource", [("", "all"), *_same(types)])] if types else []),
+        *([_select("origin", "origin", [("", "all"), *_same(origins)])] if origins else []),
+        _select("fire", "fire", _FIRE),
+    ]
+    return (
+        '<div class="filters" role="search"><input type="search" id="search" placeholder="Search (press /)" '
+        f'aria-label="Search places" autocomplete="off" spellcheck="false">{"".join(selects)}'
+        '<span id="count" role="status" class="soft"></span></div>'
+    )
+
+
+def _same(words: Iterable[str]) -> list[tuple[str, str]]:
+    return [(word, word) for word in words]
+
+
+def _select(name: str, label: str, options: Iterable[tuple[str, str]]) -> str:
+    inside = "".join(f'<option value="{quote(value)}">{quote(text)}</option>' for value, text in options)
+    return f'<label>{label} <select name="{name}">{inside}</select></label>'
+
+
+def _origins(station: Station) -> set[str]:
+    return {station.origin, *(resource.origin for resource in station.resources)}
+
+
+def _stations(briefing: Briefing, points: Sequence[Point]) -> str:
+    head = ("Station, resource", "What", "Fire arrives", "Origin and source", "Position")
+    inside = "\n".join(_station(briefing, point) for point in points)
+    return _table("Stations and resources", head, inside)
+
+
+def _table(caption: str, head: Iterable[str], inside: str, kind: str = "") -> str:
+    top = "".join(f'<th scope="col">{name}</th>' for name in head)
+    return f"<table{kind}><caption>{caption}</caption><thead><tr>{top}</tr></thead>\n{inside}</table>"
+
+
+def _station(briefing: Briefing, point: Point) -> str:
+    station = point.station
+    assert station is not None
+    words = ", ".join(filter(None, (station.kind, station.agency)))
+    types = "|".join(dict.fromkeys(resource.type for resource in station.resources))
+    address = f"<small>{quote(station.address)}</small>" if station.address else ""
+    rows = [
+        f"<tr><td>{_button(point)}</td><td>{quote(words)}{address}</td><td>{_when(briefing, point)}</td>"
+        f"<td>{_origin(station.origin, station.source)}</td><td>{_web_map(point)}</td></tr>",
+        *(_resource(briefing, station, resource) for resource in station.resources),
+    ]
+    data = _data(point, station.kind, "|".join(sorted(_origins(station))), types)
+    return f"<tbody {data}>{''.join(rows)}</tbody>"
+
+
+def _resource(briefing: Briefing, station: Station, resource: Resource) -> str:
+    number = f"{resource.count:,} × " if resource.count > 1 else ""
+    facts = ", ".join(f"{label} {value}" for label, value in resource.facts)
+    lines = [resource.note, *_availability(briefing, resource)]
+    small = "".join(f"<small>{quote(line)}</small>" for line in lines if line)
+    name = f"{number}{resource.type}" + (f", {resource.name}" if resource.name else "")
+    source = resource.source if resource.source != station.source else ""
+    return (
+        f'<tr class="resource"><td>{quote(name)}</td><td colspan="2">{quote(facts)}{small}</td>'
+        f"<td>{_origin(resource.origin, source)}</td><td></td></tr>"
+    )
+
+
+def _availability(briefing: Briefing, resource: Resource) -> Iterator[str]:
+    """Periods that overlap the run's time, in local time; how many do not."""
+    first, last = briefing.fronts[0].utc, briefing.fronts[-1].utc
+    left = 0
+    for begins, ends, status, area in resource.availability:
+        start, end = (briefing.moment(text) for text in (begins, ends))
+        if (start and start > last) or (end and end <= first):
+            left += 1
+            continue
+        span = " to ".join(filter(None, (briefing.local(begins), briefing.local(ends))))
+        yield ": ".join(filter(None, (span, ", ".join(filter(None, (status, area))))))
+    if left:
+        yield f"{left} more periods before or after the run"
+
+
+def _towns(briefing: Briefing, points: Sequence[Point]) -> str:
+    rows = "\n".join(_town(briefing, point) for point in points)
+    head = ("Place", "Fire arrives", "Position")
+    return _table("Named places", head, f"<tbody>{rows}</tbody>", ' class="plain"')
+
+
+def _town(briefing: Briefing, point: Point) -> str:
+    cells = (_button(point), _when(briefing, point), _web_map(point))
+    inside = "".join(f"<td>{cell}</td>" for cell in cells)
+    return f"<tr {_data(point, 'named place', '', '')}>{inside}</tr>"
+
+
+def _data(point: Point, kind: str, origins: str, types: str) -> str:
+    fire = {"before": "reached"}.get(point.reached.state, point.reached.state)
+    pairs = {"id": point.id, "kind": kind, "origin": origins, "types": types, "fire": fire}
+    return " ".join(f'data-{key}="{quote(value)}"' for key, value in pairs.items())
+
+
+def _button(point: Point) -> str:
+    name = quote(point.name)
+    return f'<button type="button" class="name" title="Show on the map">{name}</button>'
+
+
+def _when(briefing: Briefing, point: Point) -> str:
+    when, note = reach_text(briefing, point.reached)
+    return f'<span class="when">{quote(when)}</span><small>{quote(note)}</small>'
+
+
+def _origin(origin: str, source: str) -> str:
+    more = f"<small>{quote(source)}</small>" if source else ""
+    return f'<span class="tag {origin}">{origin}</span>{more}'
+
+
+def _web_map(point: Point) -> str:
+    """Ordinary link, which loads nothing until a reader follows it."""
+    at = f"{point.latitude:.5f}", f"{(point.longitude + 180.0) % 360.0 - 180.0:.5f}"
+    address = f"https://www.openstreetmap.org/?mlat={at[0]}&mlon={at[1]}#map=14/{at[0]}/{at[1]}"
+    label = quote(f"Open {point.name} in web map")
+    return (
+        f'<a href="{quote(address)}" target="_blank" rel="noopener noreferrer" aria-label="{label}">'
+        f"Open in web map</a><small>{quote(', '.join(at))}</small>"
+    )
+
+
+_METHOD = (
+    '<p class="soft">A place burns when the fuel cell that holds it does. A place without fuel never burns, '
+    "even with fire around it: mind the distance. The run's fire does not feel what crews do.</p>"
+)

@@ -1,0 +1,161 @@
+"""Briefing page as one HTML file, from `page.html`, `page.css`, `page.js` and Leaflet beside this module.
+
+Its content security policy lets nothing be loaded and nothing be sent, by any script or text.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from string import Template
+from typing import Any
+
+import firetwin_core
+import numpy as np
+
+from ..errors import UsageError
+from ..run import times
+from . import curve, fronts, lists, map_panel, sections
+from .briefing import Briefing, Point
+from .mercator import Box
+from .places import EXERCISE, is_exercise
+from .text import quote, script_json, size
+
+POLICY = (
+    "default-src 'none'; img-src data:; media-src data:; style-src 'unsafe-inline'; "
+    "script-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
+)
+_FOLDER = Path(__file__).parent
+_PLAY_MS = 12_000.0  # of all steps
+_STEP_MS = (120.0, 700.0)
+_CREDIT = 48  # characters of a source's name in the map's corner
+
+
+def html(briefing: Briefing, limit: int) -> str:
+    """Build the page.
+
+    Parameters
+    ----------
+    limit
+        Bytes of the page at most.
+
+    Raises
+    ------
+    UsageError
+        The page is larger.
+    """
+    parts = {
+        "policy": POLICY,
+        "generator": f"Firetwin {firetwin_core.__version__}",
+        "name": quote(briefing.run.name),
+        "leaflet_style": _leaflet_style(),
+        "style": _read("page.css"),
+        "head": sections.head(briefing),
+        "static_map": map_panel.still(briefing),
+        "last": str(len(briefing.fronts) - 1),
+        "layers": map_panel.switches(briefing),
+        "places": lists.section(briefing),
+        "growth": sections.growth(briefing),
+        "film": sections.film(briefing),
+        "scores": sections.scores(briefing),
+        "sources": sections.sources(briefing),
+        "data": script_json(_data(briefing)),
+        "leaflet_script": _leaflet_script(),
+        "script": _read("page.js"),
+        "foot": "",
+    }
+    template = Template(_read("page.html"))
+    count = len(template.substitute(parts).encode())
+    if count > limit:
+        words = f"the page would have {size(count)}, more than {size(limit)}"
+        raise UsageError(f"{words}; leave --film out, or allow more with --limit")
+    parts["foot"] = f"This page is one file of {size(count)} and loads nothing from elsewhere."
+    return template.substitute(parts)
+
+
+def notes(briefing: Briefing) -> list[str]:
+    """What whoever makes the page should know: what is made up, left out or not computed."""
+    made_up = ["this run is synthetic, and the page says so"] if briefing.run.synthetic else []
+    if briefing.places is not None and is_exercise(briefing.places):
+        made_up.append(f'the page says "{EXERCISE}": rows of its stations are made up')
+    left_out = [f"left out: {text}" for text in briefing.film.left_out] if briefing.film else []
+    unscored = [f"no scores: {briefing.no_scores}"] if briefing.no_scores else []
+    others = f"only the first run is in the page, not: {', '.join(briefing.others)}"
+    return [*made_up, *left_out, *unscored, *([others] if briefing.others else [])]
+
+
+def _read(name: str) -> str:
+    return (_FOLDER / name).read_text(encoding="utf-8")
+
+
+def _leaflet_style() -> str:
+    """Leaflet's style without the pictures that it would load; the page uses none of them."""
+    return re.sub(r"[\w-]+:\s*url\([^)]*\);?", "", _read("leaflet/leaflet.css"))
+
+
+def _leaflet_script() -> str:
+    """Leaflet's script without the address of its source map."""
+    return re.sub(r"\n//# sourceMappingURL=.*\s*$", "\n", _read("leaflet/leaflet.js"))
+
+
+def _data(briefing: Briefing) -> dict[str, Any]:
+    """What the page's script reads."""
+    whole = map_panel.bounds(briefing.layers)
+    count = max(len(briefing.fronts) - 1, 1)
+    sources = briefing.places.sources if briefing.places else ()
+    return {
+        "view": _corners(map_panel.view(briefing.fronts, whole)),
+        "bounds": _corners(whole),
+        "credit": ", ".join(_short(name) for name in (briefing.run.name, *(each.name for each in sources))),
+        "overlays": {
+            layer.name: {"bounds": _corners(layer.box), "opacity": layer.opacity, "order": order}
+            for order, layer in enumerate(briefing.layers, 1)
+        },
+        "fronts": fronts.feature_collection(briefing.fronts, briefing.tolerance),
+        "observed": fronts.perimeter_collection(briefing.run, briefing.observed)
+        if briefing.observed
+        else None,
+        "times": _times(briefing),
+        "step_ms": round(float(np.clip(_PLAY_MS / count, *_STEP_MS))),
+        "points": [_point(briefing, point) for point in briefing.points],
+    }
+
+
+def _short(name: str) -> str:
+    """Name for the corner of the map; the list of sources has the whole."""
+    return name if len(name) <= _CREDIT else f"{name[: _CREDIT - 1]}…"
+
+
+def _corners(box: Box) -> list[list[float]]:
+    return [[box.south, box.west], [box.north, box.east]]
+
+
+def _times(briefing: Briefing) -> list[dict[str, Any]]:
+    place = curve.axes(briefing.fronts, briefing.facts["reported"])
+    return [
+        {
+            "utc": times.iso(front.utc),
+            "utc_text": f"{front.utc:%d %b %H:%M} UTC",
+            "local": local,
+            "area": sections.area(front.area),
+            "x": place.x(front.utc),
+        }
+        for front, local in zip(briefing.fronts, briefing.moments, strict=True)
+    ]
+
+
+def _point(briefing: Briefing, point: Point) -> dict[str, Any]:
+    reached = point.reached
+    station = point.station
+    origins = [station.origin, *(each.origin for each in station.resources)] if station else []
+    return {
+        "id": point.id,
+        "name": point.name,
+        "kind": point.kind,
+        "latitude": round(point.latitude, 6),
+        "longitude": round(point.longitude, 6),
+        "state": reached.state,
+        "time": None if reached.time is None else times.iso(times.utc(briefing.run, reached.time)),
+        "text": ", ".join(lists.reach_text(briefing, reached)),
+        "exercise": "exercise" in origins,
+    }

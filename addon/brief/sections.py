@@ -1,0 +1,215 @@
+"""Parts of the page other than map and lists: title, burned area, film, scores, sources and licences."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+import firetwin_core
+
+from ..data.history import SQUARE_METRES_PER_ACRE
+from ..run import times
+from ..run.score import report, used
+from . import curve
+from .briefing import Briefing
+from .film import CLIP, WIDTH, Film, Shown
+from .places import EXERCISE, Source, is_exercise
+from .text import quote, size
+
+_LEAFLET = Path(__file__).parent / "leaflet"
+_NOT_KNOWN = "its licence is its maker's; Firetwin does not know it"
+
+
+def area(square_metres: float) -> str:
+    """Area in acres and hectares."""
+    return f"{square_metres / SQUARE_METRES_PER_ACRE:,.0f} acres ({square_metres / 1e4:,.0f} ha)"
+
+
+def head(briefing: Briefing) -> str:
+    """Times, warnings and key facts below the title."""
+    return "\n".join(_head(briefing))
+
+
+def _head(briefing: Briefing) -> Iterator[str]:
+    first, last = briefing.fronts[0], briefing.fronts[-1]
+    utc = f"{first.utc:%d %b %Y %H:%M} to {last.utc:%d %b %Y %H:%M} UTC"
+    yield f'<p class="soft">{quote(briefing.moments[0])} to {quote(briefing.moments[-1])} ({utc})</p>'
+    warnings = []
+    if briefing.run.synthetic:
+        warnings.append(
+            "<b>This run is synthetic:</b> made up, not the output of a fire model. "
+            "It says nothing of where a fire went or will go."
+        )
+    if briefing.places is not None and is_exercise(briefing.places):
+        warnings.append(f"<b>{EXERCISE}.</b>")
+    if warnings:
+        yield f'<p class="warn">{"<br>".join(warnings)}</p>'
+    grid = briefing.facts["grid"]
+    facts = (
+        ("Burned at first", area(first.area)),
+        ("Burned at last", area(last.area)),
+        ("Area of the run", " x ".join(f"{side / 1e3:.1f}" for side in reversed(grid["extent"])) + " km"),
+        ("Units", f"acres and hectares, km, kg/m²; times are UTC and {briefing.zone}"),
+    )
+    pairs = "".join(f"<div><dt>{name}</dt><dd>{quote(value)}</dd></div>" for name, value in facts)
+    yield f'<dl class="facts">{pairs}</dl>'
+
+
+def growth(briefing: Briefing) -> str:
+    """Curve of burned area, and a table of reports beside the run."""
+    reported = briefing.facts["reported"]
+    key = '<span><i style="background:var(--fire)"></i>this run</span>'
+    rows = [row for row in reported if row["run"] is not None]
+    if rows:
+        key += '<span><i style="background:var(--ink);border-radius:50%"></i>reported at the time</span>'
+    outside = len(reported) - len(rows)
+    more = (
+        f"<p class='soft'>{outside} more reports are of times before or after this run.</p>"
+        if outside
+        else ""
+    )
+    drawn = curve.svg(briefing.fronts, reported, briefing.zone)
+    table = _reports(rows, briefing.zone, briefing.run.synthetic) if rows else ""
+    return f'<div class="key">{key}</div><figure>{drawn}</figure>{table}{more}'
+
+
+def _reports(rows: Sequence[dict[str, Any]], zone: str, synthetic: bool) -> str:
+    lines = "".join(
+        f"<tr><td>{quote(times.text(datetime.fromisoformat(row['time']), zone))}</td>"
+        f"<td>{row['run'] / SQUARE_METRES_PER_ACRE:,.0f}</td>"
+        f"<td>{row['reported'] / SQUARE_METRES_PER_ACRE:,.0f}</td>"
+        f"<td>{round(100 * row['difference'], 1) + 0.0:+.1f} %</td>"
+        f'<td class="text">{quote(row["source"])}<small>{quote(row["note"])}</small></td></tr>\n'
+        for row in rows
+    )
+    titles = ("time", "run, acres", "reported, acres", "difference")
+    head = "".join(f'<th scope="col">{title}</th>' for title in titles)
+    tuned = (
+        '<p class="soft">The synthetic run was tuned to these reports: that they agree proves nothing.</p>'
+        if synthetic
+        else ""
+    )
+    return (
+        f'<div class="wide"><table><thead><tr>{head}<th scope="col" class="text">source</th></tr></thead>'
+        f"<tbody>{lines}</tbody></table></div>{tuned}"
+    )
+
+
+def film(briefing: Briefing) -> str:
+    """Frames and clips; empty without a film."""
+    if briefing.film is None:
+        return ""
+    shown = briefing.film
+    frames = "".join(_frame(briefing, each) for each in shown.frames)
+    clips = "".join(_clip(each) for each in shown.clips)
+    parts = [f'<div class="gallery">{frames}</div>'] if frames else []
+    if clips:
+        parts.append(f'<h3 class="screen">Clips</h3><div class="gallery screen">{clips}</div>')
+    return (
+        '<section aria-labelledby="film-title"><h2 id="film-title">Pictures</h2>'
+        f"{''.join(parts)}{_left_out(shown)}"
+        f'<p class="soft">Rendered with Blender from this run, at most {WIDTH} pixels wide here. They are '
+        "drawings of what the run says, not photographs.</p></section>"
+    )
+
+
+def _frame(briefing: Briefing, shown: Shown) -> str:
+    title = quote(f"{shown.camera}, {shown.name}")
+    when = "" if shown.time is None else f"<br>{quote(times.text(shown.time, briefing.zone))}"
+    utc = "" if shown.time is None else f" ({shown.time:%d %b %H:%M} UTC)"
+    return (
+        f'<figure><img src="{shown.uri}" data-view="{title}" alt="Rendered picture of {title}">'
+        f"<figcaption><b>{title}</b>{when}{utc}</figcaption></figure>"
+    )
+
+
+def _clip(shown: Shown) -> str:
+    title = quote(f"{shown.camera}, {shown.name}")
+    return (
+        f'<figure><video controls muted playsinline preload="metadata" src="{shown.uri}" data-view="{title}" '
+        f'aria-label="Clip of {title}"></video><figcaption><b>{title}</b></figcaption></figure>'
+    )
+
+
+def _left_out(shown: Film) -> str:
+    if not shown.left_out:
+        return ""
+    items = "".join(f"<li>{quote(text)}</li>" for text in shown.left_out)
+    title = f"Left out of this page (a clip has {size(CLIP)} at most):"
+    return f'<p class="soft">{title}</p><ul class="soft">{items}</ul>'
+
+
+def scores(briefing: Briefing) -> str:
+    """Scores against observations with their error; empty without observations."""
+    if briefing.scores is None and not briefing.no_scores:
+        return ""
+    if briefing.scores is None:
+        inside = f'<p class="warn">Not computed: {quote(briefing.no_scores)}</p>'
+    else:
+        inside = "".join(report.tables(briefing.scores))
+        none = used.nothing(briefing.scores["uses"])
+        if not none and briefing.run.synthetic:
+            warning = "Of a synthetic run scores say how the tools work, and nothing of a model."
+            inside = f'<p class="soft">{warning}</p>{inside}'
+    title = '<h2 id="scores-title">Scores against observations</h2>'
+    return f'<section aria-labelledby="scores-title">{title}{inside}</section>'
+
+
+def sources(briefing: Briefing) -> str:
+    """Where everything in the page comes from, and under which licence."""
+    items = "".join(f"<li>{item}</li>" for item in _sources(briefing))
+    licence = quote((_LEAFLET / "LICENSE").read_text(encoding="utf-8").replace("\n", "\f")).replace(
+        "\\x0c", "\n"
+    )
+    return (
+        f'<ul class="sources">{items}</ul>'
+        f"<details><summary>Licence of Leaflet 1.9.4</summary><pre>{licence}</pre></details>"
+    )
+
+
+def _sources(briefing: Briefing) -> Iterator[str]:
+    run, source = briefing.run, briefing.facts["source"]
+    source = source if isinstance(source, dict) else {}
+    made = f", made from {source['model']}" if source.get("model") else ""
+    kind = "; synthetic, written by Firetwin (GPL-3.0-or-later)" if run.synthetic and not made else ""
+    licence = "" if kind else f"; {_NOT_KNOWN}"
+    yield (
+        f"<b>Run</b>: {quote(run.name)}{quote(made)}{kind}{licence}. "
+        "Terrain, fuel, arrival times and fronts are its; the map's fronts are simplified by at most "
+        f"{briefing.tolerance:.3g} m."
+    )
+    for text in source.get("assumptions", []):
+        yield f"<b>Assumption of the run</b>: {quote(text)}"
+    for what, name in briefing.inputs:
+        yield f"<b>{what}</b>: {quote(name)}; {_NOT_KNOWN}"
+    if briefing.facts["reported"]:
+        yield "<b>Reported areas</b>: agencies and newspapers as named beside each number; facts as printed"
+    if any(point.station is None for point in briefing.points) and not any(
+        what == "Named places" for what, _ in briefing.inputs
+    ):
+        yield "<b>Named places</b>: positions as gazetteers print them (Firetwin's data/king_fire.toml)"
+    for each in briefing.places.sources if briefing.places else ():
+        yield f"<b>Stations and resources</b>: {_source(each)}"
+    if briefing.film:
+        yield "<b>Pictures and clips</b>: rendered by Firetwin with Blender from this run"
+    if briefing.points:
+        yield (
+            "<b>Open in web map</b>: links to openstreetmap.org, whose map is © OpenStreetMap contributors "
+            "(ODbL); nothing of it is in this page, and nothing is loaded before a link is followed"
+        )
+    yield (
+        '<b>Map script</b>: <a href="https://leafletjs.com" rel="noopener noreferrer">Leaflet</a> 1.9.4, '
+        "© 2010-2023 Volodymyr Agafonkin, © 2010-2011 CloudMade, BSD-2-Clause (below)"
+    )
+    version = firetwin_core.__version__
+    yield f"<b>This page</b>: its own script and style are Firetwin's {version}, GPL-3.0-or-later"
+
+
+def _source(source: Source) -> str:
+    date = f", data of {source.retrieved}" if source.retrieved else ", date of the data not known"
+    name = quote(source.name)
+    if source.url.startswith(("https://", "http://")):
+        name = f'<a href="{quote(source.url)}" rel="noopener noreferrer">{name}</a>'
+    return f"{name}{quote(date)}; licence: {quote(source.licence or 'not known')}"

@@ -1,0 +1,39 @@
+"""Text and data inside of HTML: escaped, so that no text of a file becomes a tag, a script or a reference."""
+
+from __future__ import annotations
+
+import base64
+import html
+import json
+from typing import Any
+
+from ..escaped import escaped
+
+_IN_SCRIPT = {character: f"\\u{ord(character):04x}" for character in "<>&\u2028\u2029"}
+
+
+def quote(text: object) -> str:
+    """Text for an element or an attribute in quotes; controls and marks that turn text are spelt out."""
+    return html.escape(escaped(str(text)), quote=True)
+
+
+def script_json(value: Any) -> str:
+    """JSON for a script element: no "</script>" and no "<!--" can occur in it.
+
+    Raises
+    ------
+    ValueError
+        A number is NaN or infinite, which JSON lacks.
+    """
+    text = json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    return "".join(_IN_SCRIPT.get(character, character) for character in text)
+
+
+def data_uri(kind: str, content: bytes) -> str:
+    """Content of a media type such as "image/png" as a data URI."""
+    return f"data:{kind};base64,{base64.b64encode(content).decode('ascii')}"
+
+
+def size(count: int) -> str:
+    """Format bytes of a page or a clip: ``420 kB``, ``2.8 MB``."""
+    return f"{count / 1e6:.1f} MB" if count >= 999_500 else f"{count / 1e3:.0f} kB"

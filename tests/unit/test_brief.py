@@ -1,0 +1,473 @@
+"""The briefing page: what it holds, that texts of files stay texts, and its size."""
+
+import hashlib
+import json
+import re
+import sqlite3
+import struct
+from dataclasses import replace
+from pathlib import Path
+
+import briefed_stations
+import numpy as np
+import pytest
+import whole_run
+from firetwin import cli
+from firetwin.brief import arguments, briefing, curve, film, lists, page, places, reached, sections, text
+from firetwin.data import history
+from firetwin.errors import InputError, UsageError
+from firetwin.render import manifest
+from firetwin.run import content
+from firetwin_core import run as runs
+from page_parts import PageParts
+from PIL import Image
+
+HOSTILE = (
+    "</script><script>alert(1)</script>\"' onload='alert(2)' <img src=x onerror=alert(3)> & \u202eabc\u2028"
+)
+LEAFLET = Path(page.__file__).parent / "leaflet"
+PLACES = [("Alpha", 38.9, -120.6), ("Bravo", 38.905, -120.595), ("Far", 38.9, -100.0)]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A fire of 6 hours at the King Fire's place and time."""
+    path = tmp_path_factory.mktemp("brief") / "run"
+    times = tuple(np.arange(0.0, 21601.0, 1800.0))
+    return whole_run.write(path, cell=60.0, cells=100, times=times, start="2014-09-17T04:00:00Z", speed=0.1)
+
+
+def change(folder, **lines):
+    """Replace or add lines of run.toml."""
+    toml = (folder / "run.toml").read_text().split("[units]")
+    kept = [line for line in toml[0].splitlines() if line.split(" ")[0] not in lines]
+    new = [f"{key} = {json.dumps(value, ensure_ascii=False)}" for key, value in lines.items()]
+    (folder / "run.toml").write_text("\n".join([*new, *kept, "[units]"]) + toml[1], encoding="utf-8")
+
+
+@pytest.fixture
+def own(folder, tmp_path):
+    """A copy of the run that a test may change."""
+    import shutil
+
+    return Path(shutil.copytree(folder, tmp_path / "own"))
+
+
+def parts(scene, limit=10_000_000, **options):
+    return PageParts(page.html(briefing.gather(briefing.Request(scene, **options)), limit))
+
+
+@pytest.fixture
+def gpkg(tmp_path):
+    return briefed_stations.write(tmp_path / "places.gpkg", PLACES)
+
+
+def test_leaflet_is_the_published_one_with_its_licence():
+    table = re.findall(r"\| `(\w[\w.]+)` \| `([0-9a-f]{64})` \|", (LEAFLET / "README.md").read_text())
+    assert [name for name, _ in table] == ["leaflet.js", "leaflet.css", "LICENSE"]
+    for name, digest in table:
+        assert hashlib.sha256((LEAFLET / name).read_bytes()).hexdigest() == digest
+
+
+def test_the_page_says_what_is_where_and_when(folder):
+    made = parts(folder)
+    assert (
+        "16 Sep 2014 20:00 -08 to 17 Sep 2014 02:00 -08 (17 Sep 2014 04:00 to 17 Sep 2014 10:00 UTC)"
+        in made.text
+    )
+    assert "times are UTC and Etc/GMT+8" in made.text
+    run = runs.open(folder)
+    acres = np.isfinite(run.fuel_arrival_time()).sum() * 3600.0 / history.SQUARE_METRES_PER_ACRE
+    assert f"Burned at last {acres:,.0f} acres" in made.text
+    assert [each["utc"] for each in made.data["times"]][:: len(made.data["times"]) - 1] == [
+        "2014-09-17T04:00:00Z",
+        "2014-09-17T10:00:00Z",
+    ]
+    assert len(made.data["fronts"]["features"]) == len(made.data["times"])
+    layers = [attributes["data-layer"] for attributes, _ in made.all("img") if "data-layer" in attributes]
+    assert layers == ["hillshade", "fuel", "arrival"]
+    assert "synthetic" not in made.text
+    assert "Exercise" not in made.text
+    assert not made.all("input", id="search")  # nothing to search
+
+
+def test_a_synthetic_run_is_called_synthetic(own):
+    change(own, synthetic=True)
+    assert "This run is synthetic: made up, not the output of a fire model." in parts(own).text
+
+
+def test_nothing_can_be_loaded_or_sent(folder, gpkg):
+    made = parts(folder, places=gpkg)
+    ((policy, _),) = made.all("meta", **{"http-equiv": "Content-Security-Policy"})
+    rules = dict(rule.strip().split(" ", 1) for rule in policy["content"].split(";"))
+    assert rules == {
+        "default-src": "'none'",
+        "img-src": "data:",
+        "media-src": "data:",
+        "style-src": "'unsafe-inline'",
+        "script-src": "'unsafe-inline'",
+        "base-uri": "'none'",
+        "form-action": "'none'",
+    }
+    for tag, attributes, inside in made.elements:
+        assert tag not in ("iframe", "object", "embed", "form", "base")
+        assert attributes.get("src", "data:").startswith("data:")
+        assert not any(name.startswith("on") for name in attributes)
+        if tag == "style":
+            assert "url(" not in "".join(inside)
+        if tag == "link":
+            assert attributes["href"] == "data:,"
+        if tag == "a" and not attributes["href"].startswith("#"):
+            assert attributes["href"].startswith("https://")
+            assert "noreferrer" in attributes["rel"]
+    assert "sourceMappingURL" not in "".join("".join(inside) for _, _, inside in made.elements)
+
+
+def test_hostile_texts_of_files_stay_texts(own, tmp_path):
+    change(own, name=HOSTILE)
+    harmless = briefed_stations.write(tmp_path / "harmless.gpkg", [("Alpha", 38.9, -120.6)])
+    gpkg = briefed_stations.write(tmp_path / "hostile.gpkg", [(HOSTILE, 38.9, -120.6)])
+    with sqlite3.connect(gpkg) as base:
+        base.execute(
+            "UPDATE source SET name = ?, licence = ?, url = 'javascript:alert(4)'", (HOSTILE, HOSTILE)
+        )
+        base.execute("UPDATE station SET agency = ?, kind = ?, address = ?", [HOSTILE] * 3)
+        base.execute("UPDATE resource SET name = ?, note = ?, mode = ?, currency = ?", [HOSTILE] * 4)
+        base.execute("UPDATE availability SET status = ?, begins = ?", [HOSTILE] * 2)
+        base.execute("UPDATE type SET kind = ?", [HOSTILE])
+    base.close()
+    plain, hostile = parts(own), parts(own, places=gpkg)
+    assert len(hostile.all("script")) == len(plain.all("script")) == 3
+    assert {tag for tag, _, _ in hostile.elements} == {
+        tag for tag, _, _ in parts(own, places=harmless).elements
+    }
+    assert all(not name.startswith("on") for _, attributes, _ in hostile.elements for name in attributes)
+    assert not any("javascript:" in attributes.get("href", "") for _, attributes, _ in hostile.elements)
+    shown = HOSTILE.replace("\u202e", "\\u202e").replace("\u2028", "\\u2028")
+    assert hostile.all("h1")[0][1] == shown
+    assert hostile.all("button", **{"class": "name"})[0][1] == shown
+    assert hostile.data["points"][0]["name"] == HOSTILE
+
+
+def test_json_in_a_script_cannot_end_it():
+    value = {"a": "</script><!-- &", "b": ["\u2028", 1.5, None]}
+    made = text.script_json(value)
+    assert not set("<>&\u2028") & set(made)
+    assert json.loads(made) == value
+    with pytest.raises(ValueError, match="JSON"):
+        text.script_json(float("nan"))
+
+
+def test_each_exercise_row_says_exercise(folder, gpkg):
+    made = parts(folder, places=gpkg)
+    assert made.text.count("Exercise: not operational advice") == 2  # of the page, and of its list
+    rows = [inside for attributes, inside in made.all("tr") if attributes.get("class") == "resource"]
+    groups = [inside for attributes, inside in made.all("tbody") if "data-id" in attributes]
+    assert len(rows) == 4
+    assert len(groups) == 3
+    assert all("exercise" in inside for inside in rows)
+    assert all("exercise" in inside and "Made up for tests" in inside for inside in groups)
+    assert all(point["exercise"] for point in made.data["points"])
+    assert "Made up for tests, data of 2026-01-01; licence: CC0-1.0" in made.text
+
+
+def test_availability_is_that_of_the_runs_time(folder, gpkg):
+    with sqlite3.connect(gpkg) as base:
+        for begins, ends, status in (
+            ("2014-09-16T00:00:00Z", "2014-09-17T03:59:00Z", "reserved"),
+            ("2014-09-17T05:00:00Z", "", "committed"),
+            ("2014-09-17T11:00:00Z", "2014-09-18T00:00:00Z", "reserved"),
+        ):
+            base.execute("INSERT INTO availability VALUES (10, ?, ?, ?, 'Local')", (begins, ends, status))
+    base.close()
+    made = parts(folder, places=gpkg)
+    assert "16 Sep 2014 21:00 -08: committed, Local" in made.text
+    assert "reserved, Local" not in made.text
+    assert made.text.count("2 more periods before or after the run") == 1
+
+
+def test_facts_are_called_facts_beside_the_resources_of_an_exercise(folder, tmp_path):
+    made = parts(folder, places=briefed_stations.write(tmp_path / "facts.gpkg", PLACES[1:], origin="fact"))
+    tags = [
+        inside for attributes, inside in made.all("span") if attributes.get("class", "").startswith("tag")
+    ]
+    assert sorted(tags) == ["exercise", "exercise", "fact", "fact"]
+    assert "Exercise: not operational advice" in made.text
+
+
+def test_stations_have_an_ordinary_link_to_a_web_map(folder, gpkg):
+    made = parts(folder, places=gpkg)
+    links = [attributes for attributes, inside in made.all("a") if inside == "Open in web map"]
+    assert (
+        links[0]["href"]
+        == "https://www.openstreetmap.org/?mlat=38.90000&mlon=-120.60000#map=14/38.90000/-120.60000"
+    )
+    assert links[0]["aria-label"] == "Open Alpha in web map"
+
+
+def test_the_fire_reaches_a_place_when_its_fuel_cell_burns(folder):
+    run = runs.open(folder)
+    arrival = run.fuel_arrival_time()
+    row, column = np.unravel_index(np.nanargmax(arrival), arrival.shape)
+    latitude, longitude = run.fuel_latitude[row], run.fuel_longitude[column]
+    never_row, never_column = np.argwhere(np.isnan(arrival))[0]
+    far = float(run.fuel_latitude[never_row]), float(run.fuel_longitude[never_column])
+    found = reached.find(run, [latitude + 1e-4, *far[:1], 10.0], [longitude - 1e-4 + 360.0, far[1], 10.0])
+    assert [each.state for each in found] == ["reached", "never", "outside"]
+    assert found[0].time == pytest.approx(float(arrival[row, column]))
+    burned = np.argwhere(np.isfinite(arrival))
+    metres = whole_run.areas.metres_per_degree(38.9)
+    away = np.hypot(
+        (run.fuel_latitude[burned[:, 0]] - far[0]) * metres[0],
+        (run.fuel_longitude[burned[:, 1]] - far[1]) * metres[1],
+    ).min()
+    assert found[1].distance == pytest.approx(away, abs=60.0)  # a cell
+
+
+def test_places_burned_before_the_run_began_are_told(folder):
+    run = runs.open(folder)
+
+    class Later:
+        times = run.times[4:]
+
+        def __getattr__(self, name):
+            return getattr(run, name)
+
+    (found,) = reached.find(Later(), [38.9], [-120.6])
+    assert found == reached.Reached("before")
+
+
+def test_what_a_list_says_of_a_place(folder, gpkg):
+    made = parts(folder, places=gpkg)
+    states = {point["name"]: (point["state"], point["text"]) for point in made.data["points"]}
+    assert states["Alpha"][0] == "reached"
+    assert re.fullmatch(r"16 Sep 2014 20:\d\d -08, 17 Sep 04:\d\d UTC", states["Alpha"][1])
+    assert states["Far"] == ("outside", "not known, outside of the run's grid")
+    assert lists.distance(140.0) == "0.14 km (0.09 mi)"
+    assert lists.distance(14_000.0) == "14 km (9 mi)"
+
+
+def test_named_places_of_a_known_fire_come_without_a_file(make_run):
+    made = parts(make_run("npy"))  # event = "king_fire"
+    known = {place.name for place in history.load("king_fire").places}
+    names = [inside for attributes, inside in made.all("button") if attributes.get("class") == "name"]
+    assert set(names) <= known
+    assert "This run is synthetic" in made.text
+
+
+def test_burned_area_stands_beside_reports(make_run):
+    made = parts(make_run("npy"))
+    assert "11,520" in made.text
+    assert "Wikipedia (earlier revision)" in made.text
+    assert "more reports are of times before or after this run" in made.text
+
+
+def test_the_curve_has_its_points_where_the_axes_say(folder):
+    found = briefing.gather(briefing.Request(folder))
+    reported = [{"time": found.fronts[-1].utc.isoformat(), "reported": 5e6, "run": 1.0, "source": "<b>"}]
+    place = curve.axes(found.fronts, reported)
+    drawn = PageParts(curve.svg(found.fronts, reported, found.zone))
+    ((dot, _),) = drawn.all("circle")
+    assert float(dot["cx"]) == place.x(found.fronts[-1].utc) == curve.WIDTH - curve.RIGHT
+    assert float(dot["cy"]) == place.y(5e6)
+    ((line, _),) = drawn.all("polyline")
+    assert len(line["points"].split()) == len(found.fronts)
+    assert "(<b>)" in drawn.text
+
+
+def perimeter(path, folder):
+    """Observation: the box of what the run burned by its end."""
+    run = runs.open(folder)
+    row, column = (np.flatnonzero(np.isfinite(run.fuel_arrival_time()).any(axis)) for axis in (1, 0))
+    south, north = (float(run.fuel_latitude[i]) for i in row[[0, -1]])
+    west, east = (float(run.fuel_longitude[i]) for i in column[[0, -1]])
+    ring = [[west, south], [east, south], [east, north], [west, north], [west, south]]
+    geometry = {"type": "Polygon", "coordinates": [ring]}
+    feature = {"type": "Feature", "properties": {"date": "2014-09-17T09:00:00Z"}, "geometry": geometry}
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(json.dumps({"type": "FeatureCollection", "features": [feature]}))
+
+
+def test_scores_against_observations_have_their_error(own):
+    assert "Scores against observations" not in parts(own).text
+    perimeter(own / "observations" / "seen.geojson", own)
+    made = parts(own)
+    assert "Scores against observations" in made.text
+    assert "±" in made.text
+    assert "Observations: seen.geojson" in made.text
+    assert made.data["observed"]["features"][0]["properties"]["time"] == "2014-09-17T09:00:00Z"
+    assert [a["data-layer"] for a, _ in made.all("div") if "data-layer" in a][:2] == ["front", "observed"]
+
+
+def rendered(out, folder, frames=5, clip=1000, **other):
+    """A film's folder: pictures of one colour, a clip, and the manifest."""
+    hashes = {"run.toml": "other", **content.inputs(runs.open(folder), out), **other}
+    entries = {}
+    for frame in range(1, frames + 1):
+        path = f"drone/rgb/drone_rgb_{frame:06d}.png"
+        (out / path).parent.mkdir(parents=True, exist_ok=True)
+        Image.new("RGB", (1920, 1080), (10 * frame, 0, 0)).save(out / path)
+        time = f"2014-09-17T0{3 + frame}:00:00+00:00"
+        entries[path] = {"camera": "drone", "pass": "rgb", "frame": frame, "time": time, "settings": "a"}
+    (out / "drone/drone_rgb.mp4").write_bytes(b"x" * clip)
+    entries["drone/drone_rgb.mp4"] = {"camera": "drone", "pass": "rgb", "settings": "b"}
+    manifest.write(out, {"a": {"run": hashes}, "b": {}}, entries)
+    return out
+
+
+def test_a_films_frames_are_made_smaller_and_its_clips_come_along(folder, tmp_path):
+    made = parts(folder, film=rendered(tmp_path / "film", folder))
+    pictures = [attributes for attributes, _ in made.all("img") if "data-view" in attributes]
+    assert len(pictures) == film.EACH
+    assert all(attributes["src"].startswith("data:image/jpeg;base64,") for attributes in pictures)
+    assert "drone, rgb 16 Sep 2014 20:00 -08 (17 Sep 04:00 UTC)" in made.text
+    assert "17 Sep 2014 00:00 -08" in made.text
+    ((clip, _),) = made.all("video")
+    assert clip["src"].startswith("data:video/mp4;base64,eHh4")
+    shown = film.read(tmp_path / "film", {}, 10_000)
+    import base64
+    import io
+
+    small = Image.open(io.BytesIO(base64.b64decode(shown.frames[0].uri.partition(",")[2])))
+    assert small.size == (film.WIDTH, 540)
+
+
+def test_clips_without_room_are_left_out_and_told(folder, tmp_path, monkeypatch):
+    out = rendered(tmp_path / "film", folder, clip=30_000)
+    assert film.read(out, {}, 39_999).left_out == [
+        "drone/drone_rgb.mp4 of 30 kB: the page would be too large"
+    ]
+    assert film.read(out, {}, 40_000).left_out == []
+    monkeypatch.setattr(film, "CLIP", 29_999)
+    assert "a clip has 30 kB at most" in film.read(out, {}, 40_000).left_out[0]
+    made = parts(folder, film=out)
+    assert not made.all("video")
+    assert "drone/drone_rgb.mp4" in made.text
+
+
+def test_a_film_of_another_run_is_refused(folder, tmp_path):
+    out = rendered(tmp_path / "film", folder, **{"elevation.npy": "0"})
+    with pytest.raises(InputError, match=r"shows another run: elevation.npy differ"):
+        parts(folder, film=out)
+
+
+def test_a_folder_without_pictures_is_refused(folder, tmp_path):
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(InputError, match="has no finished pictures"):
+        parts(folder, film=tmp_path / "empty")
+
+
+def test_a_manifest_cannot_bring_files_from_elsewhere(folder, tmp_path):
+    (tmp_path / "secret.mp4").write_bytes(b"secret")
+    out = rendered(tmp_path / "film", folder)
+    kept = manifest.read(out)
+    entry = {"camera": "drone", "pass": "rgb", "settings": "b"}
+    manifest.write(out, kept["settings"], {**kept["files"], "../secret.mp4": entry})
+    assert len(film.read(out, {}, 10_000).clips) == 1
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ("UPDATE station SET lat = 'north' WHERE fid = 2", "row 2 of station has lat = 'north'"),
+        ("UPDATE station SET lon = 1e9", "row 1 of station has lon = 1000000000.0"),
+        (
+            "UPDATE resource SET origin = 'guess'",
+            "row 10 of resource has origin = 'guess'; it is one of: fact",
+        ),
+        ("DROP TABLE resource", "is no file of stations"),
+    ],
+)
+def test_a_wrong_file_of_stations_is_one_clear_error(gpkg, change, message):
+    with sqlite3.connect(gpkg) as base:
+        base.execute(change)
+    base.close()
+    with pytest.raises(InputError, match=re.escape(message)):
+        places.read(gpkg)
+
+
+def test_stations_may_have_a_point_instead_of_columns(gpkg):
+    with sqlite3.connect(gpkg) as base:
+        for fid, latitude, longitude in base.execute("SELECT fid, lat, lon FROM station").fetchall():
+            point = b"GP\x00\x01" + struct.pack("<i", 4326) + struct.pack("<BIdd", 1, 1, longitude, latitude)
+            base.execute("UPDATE station SET geom = ? WHERE fid = ?", (point, fid))
+        base.execute("ALTER TABLE station DROP COLUMN lat")
+        base.execute("ALTER TABLE station DROP COLUMN lon")
+    found = places.read(gpkg).stations
+    assert [(each.name, each.latitude, each.longitude) for each in found] == PLACES
+    with sqlite3.connect(gpkg) as base:
+        base.execute("UPDATE station SET geom = x'00' WHERE fid = 2")
+    base.close()
+    with pytest.raises(InputError, match="row 2 of station has no point as its geometry"):
+        places.read(gpkg)
+
+
+def test_a_file_that_is_no_geopackage_is_one_clear_error(tmp_path):
+    (tmp_path / "notes.gpkg").write_text("notes " * 100)
+    with pytest.raises(InputError, match=r"notes.gpkg: is no file of stations; name a GeoPackage"):
+        places.read(tmp_path / "notes.gpkg")
+
+
+def test_resources_say_what_is_known_of_them(gpkg):
+    first = places.read(gpkg).stations[0]
+    engine, crew = first.resources
+    assert (engine.type, engine.count, engine.name) == ("Engine Type 3", 2, "E-31-1")
+    assert ("tank", "1,893 l") in engine.facts
+    assert ("cost", "210 USD per hour") in engine.facts
+    assert crew.availability == (("2014-09-17T00:00:00Z", "2014-09-19T00:00:00Z", "available", "Local"),)
+
+
+@pytest.mark.parametrize("odd", [{"cells": 1}, {"cells": 2}, {"times": (0.0,)}, {"arrival": False}], ids=str)
+def test_small_runs_have_a_page_too(tmp_path, odd):
+    made = parts(whole_run.write(tmp_path / "run", **({"cells": 20} | odd)))
+    assert len(made.data["times"]) == len(made.data["fronts"]["features"]) >= 1
+
+
+def test_a_place_on_the_other_side_of_the_antimeridian_is_drawn_beside_the_run(tmp_path):
+    run = whole_run.write(tmp_path / "run", cells=60, at=(52.0, 179.999))
+    made = parts(run, places=briefed_stations.write(tmp_path / "p.gpkg", [("Alpha", 52.0, -179.9995)]))
+    (point,) = made.data["points"]
+    assert point["longitude"] == pytest.approx(180.0005)
+    assert point["state"] != "outside"
+    (_, west), (_, east) = made.data["bounds"]
+    assert west < 180.0005 < east
+    assert "mlon=-179.99950" in next(a["href"] for a, text in made.all("a") if text == "Open in web map")
+
+
+def test_the_page_says_its_size_and_has_a_limit(folder):
+    found = briefing.gather(briefing.Request(folder))
+    made = page.html(found, 10_000_000)
+    assert len(made.encode()) < 1_000_000  # of a small run: Leaflet is 0.16 MB of it
+    told = f"This page is one file of {text.size(len(made.encode()))} and loads nothing from elsewhere."
+    assert told in PageParts(made).text
+    with pytest.raises(UsageError, match=r"the page would have \d+ kB, more than 100 kB; .* --limit"):
+        page.html(found, 100_000)
+
+
+def test_sources_and_licences_are_all_named(folder, gpkg):
+    found = replace(briefing.gather(briefing.Request(folder, gpkg)), inputs=[("Elevation model", "a<b.tif")])
+    made = PageParts(sections.sources(found))
+    for words in ("Leaflet 1.9.4", "BSD 2-Clause License", "GPL-3.0-or-later", "a<b.tif", "© OpenStreetMap"):
+        assert words in made.text
+    assert "Volodymyr Agafonkin" in made.text
+
+
+def test_the_command_writes_the_file_and_tells_what_to_know(folder, gpkg, tmp_path, capsys):
+    out = tmp_path / "made" / "page.html"
+    assert cli.main(["brief", str(folder), "--out", str(out), "--places", str(gpkg)]) == 0
+    told = capsys.readouterr()
+    assert told.out.strip() == str(out)
+    assert "Exercise: not operational advice" in told.err
+    assert "kB, which loads nothing from elsewhere" in told.err
+    assert out.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
+
+
+def test_the_command_wants_an_html_file(folder, tmp_path, capsys):
+    assert cli.main(["brief", str(folder), "--out", str(tmp_path / "page.txt")]) == 2
+    assert "name an .html file" in capsys.readouterr().err
+
+
+def test_a_page_has_32_megabytes_at_most_unless_more_is_asked_for(folder, tmp_path, capsys):
+    assert arguments.LIMIT == 32_000_000
+    assert cli.main(["brief", str(folder), "--out", str(tmp_path / "page.html"), "--limit", "10KB"]) == 2
+    assert "more than 10 kB" in capsys.readouterr().err
