@@ -10,7 +10,9 @@ from ..blender import owned
 from ..errors import Error
 from ..scene.build import PARTS
 from ..shot import camera_warnings, places
+from ..shot.places import Moving
 from ..shot.shot import Shot
+from ..shot.source import ShotSource
 from . import (
     auto_framing,
     camera_edits,
@@ -114,9 +116,7 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     settings = owned.scene(uid).firetwin
     then = changed_settings.digests(settings)
     chosen, smoke = choice.from_panel(settings), settings.bake_smoke and "smoke" in parts
-    shot = yield InThread("reading the run", lambda **_: chosen.shot())
-    if part == ALL:
-        moving = yield InThread("finding the fire", lambda **_: places.moving(shot))
+    shot, moving = yield InThread("reading the run", lambda **_: _read(chosen, part == ALL))
     if smoke and shot.settings.smoke.enabled:
         yield InThread("smoke", functools.partial(bake.run, chosen, together=True))
     yield "removing the previous build"
@@ -129,13 +129,19 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     yield from build.steps(shot, owned.scene(uid), parts, told.append)
     changed_settings.remember(owned.scene(uid).firetwin, then, parts)
     _finish(owned.scene(uid), shot, parts, new)
-    if part == ALL:
+    if moving is not None:
         landmarks.store(owned.scene(uid).firetwin, moving)
     yield from solve.price(uid)
     for text in (*shot.warnings(), *camera_warnings.mono_vr(shot.settings), *told):
         yield Message(text, "WARNING")
     what = f"{shot.frames.count} frames" if part == ALL else f"the {part}"
     return f"Built {what} of {shot.run.name}" + (f"; {words}" if words else "")
+
+
+def _read(chosen: ShotSource, whole: bool) -> tuple[Shot, Moving | None]:
+    """The shot, and for a build of all parts where its fire began and is."""
+    shot = chosen.shot()
+    return shot, places.moving(shot) if whole else None
 
 
 def _finish(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], new: bool) -> None:

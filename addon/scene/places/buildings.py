@@ -18,7 +18,7 @@ from ..terrain.buildings import Buildings
 
 _LONG, _WIDE, _HIGH = 24.0, 15.0, 6.0  # m, a plain hall for three engines (assumed); height of all walls
 _GATE, _GATE_HIGH, _OUT = 4.3, 4.3, 0.06  # m, width and height of a gate, and how far it stands out
-_BRICK, _ROOF, _DOOR = (0.23, 0.060, 0.040), (0.105, 0.105, 0.110), (0.42, 0.030, 0.022)  # by eye
+_WALL, _ROOF, _DOOR = (0.17, 0.13, 0.10), (0.105, 0.105, 0.110), (0.14, 0.014, 0.010)  # by eye
 
 Array = NDArray[np.float64]
 
@@ -31,7 +31,7 @@ def build(
     for sign in shown:
         outline = sign.footprint
         ring = hall(shot, sign) if outline is None else _metres(shot, outline)
-        roof = made.add(shot, ring, _HIGH, _ROOF, _BRICK)
+        roof = made.add(shot, ring, _HIGH, _ROOF, _WALL)
         if outline is None:
             _gates(made, ring, roof - _HIGH)
     if not made.points:

@@ -21,7 +21,7 @@ from . import material
 _SMALL = 0.62  # letter height of the lines below the name, in that of the name
 _GAP = 0.42  # between two lines, in letter heights
 _EDGE = 0.35  # between text and the edge of the plate
-_STEM, _TIER = 3.0, (3.4, 1.9)  # plate over the ground; from row to row, of both forms
+_STEM, _TIER = 3.0, (4.5, 2.9)  # plate over the ground; from row to row, of both forms
 _SHORT = "Exercise"  # on the short form
 
 _LETTERS, _PLATE = 0, 1

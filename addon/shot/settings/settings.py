@@ -355,7 +355,7 @@ class StationSettings:
         "lines below the name",
         choices=("kind", "resources", "minutes"),
     )
-    size: float = key(0.022, "letter height", unit="heights of the picture", at_least=0.001, at_most=0.5)
+    size: float = key(0.03, "letter height", unit="heights of the picture", at_least=0.001, at_most=0.5)
     detail: float = key(
         8000.0,
         "distance from the camera beyond which a sign has the name alone",
