@@ -7,6 +7,8 @@ import bpy
 import numpy as np
 import pytest
 import stations
+from firetwin.blender import owned
+from firetwin.render import layers
 from firetwin.scene import build
 from firetwin.scene.places import buildings, routes, signs
 from firetwin.shot import places
@@ -128,3 +130,18 @@ def test_routes_lie_on_the_ground_as_wide_in_every_picture(stationed, run, scene
 def test_off_by_default(settings, run, scene):
     build.build(Shot(settings, run), scene, ("cameras", "stations"))
     assert not {"Firetwin Signs", "Firetwin Halls", "Firetwin Routes"} & {o.name for o in bpy.data.objects}
+
+
+def test_eyes_alone_see_signs_and_every_pass_sees_buildings(stationed, run, scene, stage, plain_looks):
+    shot = Shot(stationed, run)
+    build.build(shot, scene)
+    layers.build(shot.settings, stage)
+    seen = {}
+    for layer in scene.view_layers:
+        (root,) = [each for each in layer.layer_collection.children if owned.ours(each.collection, "root")]
+        parts = {str(each.collection[owned.MARK]): not each.exclude for each in root.children}
+        seen[layer.name] = parts["Stations"], parts["Buildings"]
+    assert len(seen) > 1
+    assert all(walls for _, walls in seen.values())
+    assert {signs for signs, _ in seen.values()} == {True, False}
+    assert seen["rgb"][0]

@@ -165,6 +165,16 @@ def test_what_is_needed_is_listed_and_must_be_there(make_shot, tmp_path):
     assert assets.elsewhere(parts, tmp_path / "run") == parts
 
 
+def test_files_of_stations_are_needed_where_stations_are_on(make_shot, tmp_path):
+    names = 'file = "a.gpkg"\nfootprints = "b.geojson"\nroutes_file = "c.geojson"\n'
+    wanted = {tmp_path / name for name in ("a.gpkg", "b.geojson", "c.geojson")}
+    for path in wanted:
+        path.touch()
+    for enabled in ("true", "false"):
+        needed = set(assets.needed(make_shot(more=f"\n[stations]\nenabled = {enabled}\n{names}")))
+        assert needed & wanted == (wanted if enabled == "true" else set())
+
+
 def test_another_job_is_not_overwritten(tmp_path):
     first = job([Task("render", ("drone",), "1-3")])
     plan.write(first, tmp_path)
