@@ -7,6 +7,7 @@ from firetwin.data import sample, stored
 from firetwin.errors import InputError, UsageError
 from firetwin.imaging import split_screen
 from firetwin.render import fingerprint, plan
+from firetwin.run import front
 from firetwin.run.score import shapes
 from firetwin.shot import comparison, passes, scene_runs
 from firetwin.shot.cameras import path
@@ -192,7 +193,7 @@ def test_a_front_is_the_outline_that_scores_know(seed):
     time = random_fire(seed)
     latitude, longitude = np.arange(30.0), np.arange(40.0)
     shape = shapes.of_front(longitude, latitude, time - 250.0)  # by contourpy
-    y, x, after = fronts.contour(shapes.mirrored(np.pad(time - 250.0, 1, constant_values=np.nan)))
+    y, x, after = front.contour(shapes.mirrored(np.pad(time - 250.0, 1, constant_values=np.nan)))
     y, x = y - 1.0, x - 1.0
     area = 0.5 * np.sum(x * y[after] - x[after] * y)  # burned ground is left, so holes count negative
     assert area == pytest.approx(shape.area, rel=0.02)  # the two join corners in another way
@@ -203,7 +204,7 @@ def test_a_front_is_the_outline_that_scores_know(seed):
 
 def test_what_has_burned_is_within_the_front(scene):
     run = ShotSource(scene=str(scene)).shot().others["wide"]
-    reach = fronts.Reach(run)
+    reach = front.Reach(run)
     rng = np.random.default_rng(5)
     latitude, longitude = rng.uniform(38.89, 38.92, 4000), rng.uniform(-120.62, -120.57, 4000)
     burned = reach.burned(latitude, longitude + 360.0, 135.0)

@@ -18,7 +18,7 @@ from matplotlib.patches import Polygon, Rectangle
 from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
-from ..fire import fronts
+from ...run import front
 
 if TYPE_CHECKING:
     from ..cameras.path import Path
@@ -85,7 +85,7 @@ def _places(shot: Shot, here: NDArray, east: NDArray, north: NDArray) -> tuple[N
 
 def _fire(axes: Axes, shot: Shot, here: NDArray, east: NDArray, north: NDArray, time: float) -> None:
     """Draw the burned area at a model time (s) and its front over the ground."""
-    reach, places = fronts.reach(shot.run), _places(shot, here, east, north)
+    reach, places = front.reach(shot.run), _places(shot, here, east, north)
     burned = reach.burned(*places, time).reshape(len(north), -1) == 1.0
     age = time - shot.ground.arrival_at(*shot.ground.indices(*places)).reshape(burned.shape)
     fresh = np.clip(1.0 - np.nan_to_num(age, nan=0.0) / _LATELY, 0.0, 1.0)[..., None]

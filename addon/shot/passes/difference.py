@@ -58,7 +58,7 @@ def classes(shot: Shot, points: NDArray[np.float64], frame: int) -> list[NDArray
     import numpy as np
 
     from ...run import times
-    from ..fire.fronts import reach
+    from ...run.front import reach
 
     ground = np.isfinite(points).all(axis=-1)
     latitude, longitude, _ = shot.local_frame.reverse(points[ground])
