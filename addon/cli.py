@@ -22,6 +22,7 @@ from .brief import arguments as brief
 from .escaped import escaped
 from .farm import arguments as farm
 from .places import arguments as places
+from .places.allocation import arguments as allocation
 from .tiles import arguments as tiles
 
 EPILOG = """\
@@ -252,6 +253,12 @@ def _parser() -> argparse.ArgumentParser:
     farm.add(command("farm", "plan a film for a render farm", farm.DETAIL), _path, _count)
 
     tiles.add(command("tiles", "read 3D tilesets", tiles.DETAIL), _count)
+    allocation.add(
+        command("allocate", "suggest an allocation of resources (exercise)", allocation.DETAIL),
+        _path,
+        _count,
+        _moment,
+    )
 
     track = command("track", "write a camera's path as a GPX track", TRACK)
     _scene(track)

@@ -239,6 +239,31 @@ def tiles(arguments: argparse.Namespace) -> None:
     command.run(arguments)
 
 
+def allocate(arguments: argparse.Namespace) -> None:
+    """Suggest an allocation of resources. Exercise: not operational advice."""
+    from .errors import Error
+    from .jobs import allocate
+    from .places.allocation import page, read
+    from .places.allocation.problem import Request
+    from .run import times
+
+    run = _open(arguments.run)
+    start = arguments.start or times.utc(run, allocate.first_order(run))
+    units, left = read.read(arguments.places, start)
+    request = Request(
+        arguments.budget,
+        arguments.response,
+        arguments.minutes,
+        arguments.loss_hectare,
+        arguments.escape_loss,
+    )
+    found = allocate.suggest(units, run, request, start, arguments.hours, arguments.divisions)
+    found["left_out"] += left
+    result(json.dumps(found, indent=1) if arguments.json else page.page(found))
+    if found["reasons"]:
+        raise Error("; ".join(found["reasons"]))
+
+
 def track(arguments: argparse.Namespace) -> None:
     """Write a camera's path as a GPX track."""
     from . import files

@@ -1,0 +1,134 @@
+"""Allocation job: a suggested allocation, solved in a process of its own. Exercise: not operational advice.
+
+SciPy is not in Blender's process, and a search can be stopped.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import asdict
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from firetwin_core.run import Run
+
+from ..errors import UsageError, input_error
+from ..places.allocation import containment, divisions, nearest, shortfall, suggestion
+from ..places.allocation.containment import Answer
+from ..places.allocation.divisions import HOUR
+from ..places.allocation.model import USUAL, Options
+from ..places.allocation.nearest import Nearest
+from ..places.allocation.problem import Problem, Request, state
+from ..places.allocation.resources import Resource, usable
+from ..progress import MessageCallback, Progress, no_message, silent
+from ..run import times
+from . import worker
+
+HOURS = 12
+"""Hours after the order, if the run is long enough."""
+
+
+def suggest(
+    resources: Iterable[Resource],
+    run: Run,
+    request: Request,
+    start: datetime | None = None,
+    hours: int | None = None,
+    count: int = 4,
+    options: Options = USUAL,
+    stop: worker.Stop | None = None,
+) -> dict[str, Any]:
+    """Suggest an allocation of resources to `count` divisions of a run's front (see `suggestion.describe`).
+
+    Parameters
+    ----------
+    start, hours
+        Time of the order (by default the ignition) and hours after it.
+
+    Raises
+    ------
+    InputError, UsageError
+        The run has no fire, or none of these hours.
+    Error
+        SciPy is missing, or no answer was found in time.
+    StoppedError
+        `stop` was used.
+    """
+    order = first_order(run) if start is None else times.seconds(run, start)
+    hours = _period(run, order, hours)
+    if not 1 <= count <= divisions.MOST:
+        raise UsageError(f"--divisions: must be from 1 to {divisions.MOST}, not {count}")
+    kept, left = usable(resources)
+    parts = divisions.divide(run, order, hours, count)
+    if not parts.perimeter.any():
+        raise UsageError("--from: the run has no front in these hours; choose a later time or more hours")
+    problem, burning = state(kept, parts, request)
+    asked = suggestion.Asked(kept, left, parts, burning, problem)
+    solved = worker.run(
+        f"{__name__}:in_process",
+        {"problem": problem.as_json(), "names": asked.names, "options": asdict(options)},
+        blender=False,
+        stop=stop,
+    )
+    answer = None if solved["answer"] is None else _answer(solved["answer"])
+    pairs = [Nearest(*each) for each in solved["nearest"]]
+    found = suggestion.describe(asked, answer, pairs, solved["reasons"])
+    return {"run": run.name, "from": times.iso(times.utc(run, order)), **found}
+
+
+def first_order(run: Run) -> float:
+    """Model time (s) of the ignition, or of the first frame if it burns already.
+
+    Raises
+    ------
+    InputError
+        The run has no fire.
+    """
+    moment = divisions.ignition(run)
+    if not np.isfinite(moment):
+        raise input_error(Path(run.path), 0, 0, "has no fire; there is nothing to allocate to")
+    return max(moment, float(run.times[0]))
+
+
+def in_process(
+    problem: dict[str, Any],
+    names: list[str],
+    options: dict[str, Any],
+    progress: Progress = silent,
+    tell: MessageCallback = no_message,
+) -> dict[str, Any]:
+    """Worker side: solve, or find out why there is no answer."""
+    asked, chosen = Problem.from_json(problem), Options(**options)
+    answer = containment.solve(asked, chosen)
+    reasons: list[str] = []
+    if answer is None:
+        reasons = shortfall.reasons(asked, tuple(names), chosen)
+        reasons = reasons or ["budget, line and standard response cannot be met together"]
+    else:
+        containment.check(asked, answer)
+    plain = None if answer is None else asdict(answer) | _lists(answer)
+    return {"answer": plain, "nearest": nearest.nearest(asked), "reasons": reasons}
+
+
+def _lists(answer: Answer) -> dict[str, Any]:
+    return {"division": answer.division.tolist(), "hour": answer.hour.tolist()}
+
+
+def _answer(plain: dict[str, Any]) -> Answer:
+    return Answer(**plain | {name: np.array(plain[name], np.int64) for name in ("division", "hour")})
+
+
+def _period(run: Run, order: float, hours: int | None) -> int:
+    """Hours after the order, within the run."""
+    last = float(run.times[-1])
+    there = int((last - order) // HOUR) if order >= float(run.times[0]) else 0
+    if there < 1:
+        first, end = (times.iso(times.utc(run, float(run.times[i]))) for i in (0, -1))
+        raise UsageError(
+            f"--from: an hour from {times.iso(times.utc(run, order))} is not in the run, {first} to {end}"
+        )
+    if hours is not None and hours > there:
+        raise UsageError(f"--hours: the run ends {there} h after the order; ask for at most {there}")
+    return min(HOURS, there) if hours is None else hours

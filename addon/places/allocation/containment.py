@@ -1,0 +1,117 @@
+"""Containment as an integer program after Donovan and Rideout (2003), solved by SciPy's HiGHS.
+
+Over resources i, divisions k and hours t, with binaries x_ik (i is sent to k) and y_kt (k is contained at
+t, or at no hour: it escapes); resources that differ by their ids alone share an integer::
+
+    minimise    sum cost_i x_ik + sum loss_kt y_kt
+    subject to  sum_t y_kt = 1                                          each division once
+                sum_k x_ik <= 1                                         a resource in one division
+                sum_i line_ikt x_ik >= sum_{s<=t} perimeter_ks y_ks     line as long as the front
+                sum cost_i x_ik <= budget
+                sum of x_ik that arrive in time >= number               for each type of the response
+
+The third is `line >= perimeter - M (1 - y)` with the least M, the perimeter itself, for all hours so far at
+once: what has been built only grows. One resource's line counts up to the longest front of these hours.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import Error
+from .model import KM, USUAL, Model, Options
+from .problem import SMALLEST, Problem
+
+Array = NDArray[np.float64]
+
+_SHORT = 0.01  # m of line, the solver's tolerance
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What the solver found.
+
+    Attributes
+    ----------
+    division
+        (n,) division that each resource is sent to; -1: not sent.
+    hour
+        (k,) index of the hour of containment; -1: escapes.
+    cost, loss
+        Sums, in the currency.
+    bound
+        Least that cost and loss can be together.
+    in_time
+        Whether the search ended by itself, and so in the same way each time.
+    """
+
+    division: NDArray[np.int64]
+    hour: NDArray[np.int64]
+    cost: float
+    loss: float
+    bound: float
+    in_time: bool
+
+
+def solve(problem: Problem, options: Options = USUAL) -> Answer | None:
+    """Cheapest allocation; None if there is none.
+
+    Raises
+    ------
+    Error
+        SciPy is missing, or no answer was found in time.
+    """
+    model = Model(problem)
+    values, bound, in_time = model.run(model.objective(), options)
+    if values is None:
+        return None
+    division, hour = model.read(values)
+    answer = valued(problem, division, hour)
+    return replace(answer, bound=min(bound, answer.cost + answer.loss), in_time=in_time)
+
+
+def shortest_line(problem: Problem, options: Options = USUAL) -> tuple[Array, NDArray[np.int64]]:
+    """Line (k,), m, that all resources lack at least, and the hour (k,) at which each division lacks it."""
+    model = Model(replace(problem, request=replace(problem.request, budget=None)), slack=True)
+    values, _, _ = model.run(model.lacking(), options)
+    assert values is not None
+    return KM * values[model.slack], model.read(values)[1]
+
+
+def valued(problem: Problem, division: NDArray[np.int64], hour: NDArray[np.int64]) -> Answer:
+    """Answer with its sums, exact by the problem's arrays."""
+    sent, held = division >= 0, np.flatnonzero(hour >= 0)
+    losses = float(problem.loss[held, hour[held]].sum())
+    if (lost := np.flatnonzero(hour < 0)).size:
+        losses += float(problem.escape[lost].sum())
+    cost = float(problem.cost[sent].sum())
+    return Answer(division, hour, cost, losses, cost + losses, True)
+
+
+def built(problem: Problem, division: NDArray[np.int64]) -> Array:
+    """Line (k, t), m, that the resources sent have built."""
+    at = division[:, None] == np.arange(len(problem.perimeter))
+    return np.einsum("nk,nkt->kt", at, problem.line)
+
+
+def check(problem: Problem, answer: Answer) -> None:
+    """Check an answer against the problem itself, beyond the solver's tolerances.
+
+    Raises
+    ------
+    Error
+        It is no answer.
+    """
+    line = built(problem, answer.division)
+    for k in np.flatnonzero(answer.hour >= 0):
+        short = problem.perimeter[k, answer.hour[k]] - line[k, answer.hour[k]]
+        if not short <= _SHORT:
+            raise Error(
+                f"the solver's answer is {short:.3f} m of line short in a division; please report this"
+            )
+    budget = problem.request.budget
+    if budget is not None and answer.cost > budget + SMALLEST:
+        raise Error(f"the solver's answer costs {answer.cost:.2f}, over the budget; please report this")

@@ -1,0 +1,142 @@
+"""Divisions of a run's front: sectors about the fire's centre, with the length of their front by the hour."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from firetwin_core.run import Run
+from numpy.typing import ArrayLike, NDArray
+
+from ...ellipsoid import metres_per_degree
+from ...run import front
+from ...run.score.grid import ScoreGrid
+
+MOST = 26  # divisions, which letters name
+HOUR = 3600.0  # s
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Divisions:
+    """Sectors of equal angle about a centre, clockwise from north.
+
+    Attributes
+    ----------
+    centre
+        Latitude and longitude, degrees.
+    hours
+        (t,) hours after the order: 1, 2, ...
+    perimeter
+        (k, t) length of the outer front in each sector, m. Slopes are not counted.
+    burned
+        (k, t) burned area in each sector, m2.
+    place
+        (k, 2) latitude and longitude of the middle of the first front in each sector, degrees; NaN without.
+    """
+
+    centre: tuple[float, float]
+    hours: Array
+    perimeter: Array
+    burned: Array
+    place: Array
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Letters, as divisions of an incident have."""
+        return tuple(chr(ord("A") + k) for k in range(len(self.perimeter)))
+
+    def bearings(self, k: int) -> tuple[float, float]:
+        """Bearings between which a division lies, degrees clockwise from north."""
+        width = 360.0 / len(self.perimeter)
+        return k * width, (k + 1) * width
+
+
+def divide(run: Run, start: float, hours: int, count: int) -> Divisions:
+    """Divide a run's front.
+
+    Parameters
+    ----------
+    start
+        Model time of the order, s.
+    hours
+        Number of hours after it.
+    count
+        Number of divisions, 1 to `MOST`.
+    """
+    grid, reach = ScoreGrid.of(run), front.reach(run)
+    centre = _centre(grid, start)
+    rows, columns = np.meshgrid(grid.latitude, grid.longitude, indexing="ij")
+    cell = sector(*_metres(rows, columns, centre), count)
+    after = np.arange(1, hours + 1, dtype=np.float64)
+    perimeter, burned, place = np.zeros((count, hours)), np.zeros((count, hours)), np.full((count, 2), np.nan)
+    for t, moment in enumerate(start + HOUR * after):
+        line = reach.line(moment)
+        perimeter[:, t], middle = lengths(*line, centre, count)
+        place = np.where(np.isnan(place), middle, place)
+        burned[:, t] = np.bincount(cell.ravel(), (grid.areas * grid.burned(moment)).ravel(), count)
+    return Divisions(centre, after, perimeter, burned, place)
+
+
+def ignition(run: Run) -> float:
+    """Model time (s) at which the run's fire begins; infinite without fire."""
+    arrival = ScoreGrid.of(run).arrival
+    return float(np.min(arrival, initial=np.inf, where=np.isfinite(arrival)))
+
+
+def sector(east: ArrayLike, north: ArrayLike, count: int) -> NDArray[np.int64]:
+    """Sector, from 0 clockwise from north, of points in metres from the centre."""
+    bearing = np.arctan2(east, north) / (2.0 * np.pi) % 1.0
+    return np.minimum((bearing * count).astype(np.int64), count - 1)
+
+
+def lengths(
+    latitude: Array, longitude: Array, after: NDArray[np.int64], centre: tuple[float, float], count: int
+) -> tuple[Array, Array]:
+    """Length (k,), m, of closed lines in each sector, and the middle (k, 2) of these parts, degrees.
+
+    A segment counts for the sector of its middle. Lines around unburned islands are left out.
+
+    Parameters
+    ----------
+    latitude, longitude, after
+        Lines (n,) and the index of each point's next, with the burned side on the left.
+    """
+    outer = outlines(*_metres(latitude, longitude, centre), after)
+    ends = np.stack([latitude, longitude], axis=-1)[np.stack([outer, after[outer]])]
+    (middle, way) = (0.5 * (ends[0] + ends[1]), ends[1] - ends[0])
+    north, east = metres_per_degree(middle[:, 0])
+    length = np.hypot(way[:, 0] * north, way[:, 1] * east)
+    own = sector(*_metres(middle[:, 0], middle[:, 1], centre), count)
+    total = np.bincount(own, length, count).astype(np.float64)
+    sums = np.stack([np.bincount(own, length * middle[:, axis], count) for axis in (0, 1)], axis=-1)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return total, sums / total[:, None]
+
+
+def outlines(x: Array, y: Array, after: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Indices of the points of closed lines that run counter-clockwise: around burned ground, not islands."""
+    ring = np.arange(len(after))
+    step = after
+    for _ in range(len(after).bit_length()):  # least index of each ring, by doubling the step
+        ring = np.minimum(ring, ring[step])
+        step = step[step]
+    area = np.bincount(ring, x * y[after] - x[after] * y, len(after))
+    return np.flatnonzero(area[ring] > 0.0)
+
+
+def _metres(latitude: ArrayLike, longitude: ArrayLike, centre: tuple[float, float]) -> tuple[Array, Array]:
+    """Metres east and north of the centre."""
+    north, east = metres_per_degree(centre[0])
+    return (np.asarray(longitude) - centre[1]) * east, (np.asarray(latitude) - centre[0]) * north
+
+
+def _centre(grid: ScoreGrid, start: float) -> tuple[float, float]:
+    """Centre of the ground that has burned by the order; else of what burns first."""
+    first = float(np.min(grid.arrival, initial=np.inf, where=np.isfinite(grid.arrival)))
+    weight = np.where(grid.arrival <= max(start, first), grid.areas, 0.0)
+    if weight.sum() == 0.0:
+        return 0.5 * float(grid.latitude[0] + grid.latitude[-1]), grid.middle
+    weight = weight / weight.sum()
+    return float(weight.sum(1) @ grid.latitude), float(weight.sum(0) @ grid.longitude)

@@ -1,0 +1,73 @@
+"""A suggestion as text for people."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+
+def page(found: dict[str, Any]) -> str:
+    """Lines with the label first and last, divisions, sums, assumptions and limits."""
+    return "\n".join(_lines(found))
+
+
+def _lines(found: dict[str, Any]) -> Iterator[str]:
+    label, cost = f"*** {found['label']} ***", found["units"]["cost"]
+    money = f" {cost}" if cost else ""
+    yield label
+    yield f"run {found['run']}, ordered {found['from']}, {found['hours'][-1]:g} h"
+    for reason in found["reasons"]:
+        yield f"no allocation: {reason}"
+    for division in found["divisions"]:
+        yield ""
+        yield from _division(division, found, money)
+    if found["sums"]:
+        sums = found["sums"]
+        yield ""
+        of = "" if found["budget"] is None else f" of a budget of {found['budget']:,.2f}"
+        yield f"cost {sums['cost']:,.2f}{of}{money}, loss {sums['loss']:,.2f}{money}"
+        if sums["above_bound"] > 0.0:
+            yield f"another allocation may be up to {100.0 * sums['above_bound']:.2g} % cheaper"
+        if not sums["same_each_time"]:
+            yield "the time limit ended the search: the next one may find another allocation"
+    yield from _listed("nearest of each kind, no resource twice", map(_pair, found["nearest"]))
+    yield from _listed("left out", found["left_out"])
+    yield from _listed("assumptions", found["assumptions"])
+    yield from _listed("limits", found["limits"])
+    yield ""
+    yield label
+
+
+def _division(division: dict[str, Any], found: dict[str, Any], money: str) -> Iterator[str]:
+    low, high = division["bearings"]
+    front = division["perimeter"]
+    head = f"division {division['name']}, {low:g} to {high:g} degrees from north"
+    if not any(front):
+        yield f"{head}: no front"
+        return
+    if found["sums"] is None:
+        yield f"{head}: front {front[0]:,.0f} m at hour 1, {front[-1]:,.0f} m at hour {found['hours'][-1]:g}"
+        return
+    hour = division["contained_at_hour"]
+    if hour is None:
+        yield f"{head}: escapes, with a front of {front[-1]:,.0f} m at hour {found['hours'][-1]:g}"
+    else:
+        there = front[found["hours"].index(hour)]
+        yield f"{head}: contained at hour {hour:g}, line {division['line']:,.0f} m of {there:,.0f} m"
+    for each in division["resources"]:
+        yield (
+            f"  {each['id']:<8} {each['type']:<14} {each['name']:<28} arrives after {each['arrival']:>4.0f} "
+            f"min, line {each['line']:>7,.0f} m, cost {each['cost']:>10,.2f}{money} ({each['origin']})"
+        )
+
+
+def _pair(each: dict[str, Any]) -> str:
+    return f"{each['kind']} for {each['division']}: {each['id']}, {each['arrival']:.0f} min"
+
+
+def _listed(title: str, lines: Any) -> Iterator[str]:
+    lines = list(lines)
+    if lines:
+        yield ""
+        yield f"{title}:"
+        yield from (f"- {line}" for line in lines)

@@ -1,0 +1,77 @@
+"""Why there is no allocation: which type, how much line or how much money is missing."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from . import containment
+from .model import USUAL, Options
+from .problem import SMALLEST, Problem
+
+_LEAST = 0.1  # m of line
+
+
+def reasons(problem: Problem, names: tuple[str, ...], options: Options = USUAL) -> list[str]:
+    """Sentences on what is missing, in this order: types of the standard response, line, money.
+
+    Parameters
+    ----------
+    names
+        (k,) names of the divisions.
+    """
+    if found := _response(problem):
+        return found
+    if problem.request.escape is None and (found := _line(problem, names, options)):
+        return found
+    return _budget(problem, options)
+
+
+def _response(problem: Problem) -> list[str]:
+    found, limit = [], problem.request.limit
+    for kind, number in problem.request.response.items():
+        of_kind = problem.of(kind)
+        there = int((of_kind & problem.in_time.any(axis=1)).sum())
+        if there >= number:
+            continue
+        text = (
+            f"the standard response lacks {number - there} of {number} {kind}: {there} can arrive within "
+            f"{limit:g} min"
+        )
+        late = np.sort(problem.minutes[of_kind].min(axis=1, initial=np.inf))[there:number]
+        if late.size == number - there:
+            text += f"; with {np.ceil(late[-1]):.0f} min there would be {number}"
+        else:
+            text += f", and the list has {int(of_kind.sum())}"
+        found.append(text)
+    return found
+
+
+def _line(problem: Problem, names: tuple[str, ...], options: Options) -> list[str]:
+    lacking, hour = containment.shortest_line(problem, options)
+    found = []
+    for k in np.flatnonzero(lacking > _LEAST):
+        hours, front = problem.hours[hour[k]], problem.perimeter[k, hour[k]]
+        found.append(
+            f"the line rate is too low: all resources together lack {lacking[k]:,.0f} m of the "
+            f"{front:,.0f} m of division {names[k]} at hour {hours:g}, which is "
+            f"{lacking[k] / hours:,.0f} m/h from the order on"
+        )
+    return found
+
+
+def _budget(problem: Problem, options: Options) -> list[str]:
+    limit = problem.request.budget
+    if limit is None:
+        return []
+    free = replace(problem.request, budget=None, loss=0.0)
+    cheapest = replace(problem, request=free, loss=np.where(np.isnan(problem.loss), np.nan, 0.0))
+    answer = containment.solve(cheapest, options)
+    if answer is None:
+        return []
+    short = max(answer.cost - limit, SMALLEST)
+    return [
+        f"the budget of {limit:,.2f} is too small by {short:,.2f}: the cheapest allocation that does it "
+        f"costs {answer.cost:,.2f}"
+    ]

@@ -1,0 +1,129 @@
+"""A suggestion as JSON holds it: divisions with their resources, sums, assumptions and limits."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from . import LABEL, LIMITS, containment
+from .containment import Answer
+from .divisions import Divisions
+from .nearest import Nearest
+from .problem import Problem
+from .resources import AIR, DETOUR, Resource
+
+UNITS = {"perimeter": "m", "line": "m", "arrival": "min", "hour": "h", "position": "degrees"}
+
+
+@dataclass(frozen=True)
+class Asked:
+    """Resources (n), divisions and which of them burn (k), and the problem that they make."""
+
+    resources: Sequence[Resource]
+    left_out: list[str]
+    divisions: Divisions
+    burning: list[int]
+    problem: Problem
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the divisions of the problem."""
+        return tuple(self.divisions.names[k] for k in self.burning)
+
+
+def describe(asked: Asked, answer: Answer | None, pairs: list[Nearest], reasons: list[str]) -> dict[str, Any]:
+    """The suggestion; without an answer, the reasons why there is none."""
+    request, divisions = asked.problem.request, asked.divisions
+    return {
+        "label": LABEL,
+        "status": "suggested" if answer is not None else "infeasible",
+        "reasons": reasons,
+        "centre": {"latitude": divisions.centre[0], "longitude": divisions.centre[1]},
+        "hours": divisions.hours.tolist(),
+        "budget": request.budget,
+        "standard_response": request.response,
+        "response_minutes": request.limit,
+        "divisions": [_division(asked, answer, k) for k in range(len(divisions.names))],
+        "sums": None if answer is None else _sums(answer),
+        "nearest": [_pair(asked, each) for each in pairs],
+        "left_out": asked.left_out,
+        "units": UNITS | {"cost": _currency(asked)},
+        "assumptions": _assumptions(asked),
+        "limits": list(LIMITS),
+    }
+
+
+def _division(asked: Asked, answer: Answer | None, which: int) -> dict[str, Any]:
+    divisions = asked.divisions
+    found: dict[str, Any] = {
+        "name": divisions.names[which],
+        "bearings": list(divisions.bearings(which)),
+        "perimeter": divisions.perimeter[which].round(1).tolist(),
+        "contained_at_hour": None,
+        "resources": [],
+    }
+    if answer is None or which not in asked.burning:
+        return found
+    k, problem = asked.burning.index(which), asked.problem
+    hour = int(answer.hour[k])
+    line = containment.built(problem, answer.division)[k, hour]
+    held = hour >= 0
+    found |= {
+        "contained_at_hour": float(problem.hours[hour]) if held else None,
+        "line": round(float(line), 1),
+    }
+    found["resources"] = [
+        {
+            "id": problem.ids[i],
+            "type": problem.types[i],
+            "name": getattr(asked.resources[i], "name", ""),
+            "origin": getattr(asked.resources[i], "origin", "exercise"),
+            "arrival": round(float(problem.minutes[i, k]), 1),
+            "line": round(float(problem.line[i, k, hour]), 1),
+            "cost": round(float(problem.cost[i]), 2),
+        }
+        for i in np.flatnonzero(answer.division == k)
+    ]
+    return found
+
+
+def _sums(answer: Answer) -> dict[str, Any]:
+    total = answer.cost + answer.loss
+    return {
+        "cost": round(answer.cost, 2),
+        "loss": round(answer.loss, 2),
+        "above_bound": 0.0 if total <= 0.0 else max(0.0, round(1.0 - answer.bound / total, 6)),
+        "same_each_time": answer.in_time,
+    }
+
+
+def _pair(asked: Asked, each: Nearest) -> dict[str, Any]:
+    return {
+        "kind": each.kind,
+        "division": asked.names[each.division],
+        "id": asked.problem.ids[each.resource],
+        "arrival": round(each.minutes, 1),
+    }
+
+
+def _currency(asked: Asked) -> str:
+    return next((name for each in asked.resources if (name := getattr(each, "currency", ""))), "")
+
+
+def _assumptions(asked: Asked) -> list[str]:
+    request, period = asked.problem.request, asked.divisions.hours[-1]
+    escape = (
+        "has to be contained" if request.escape is None else f"may escape at a loss of {request.escape:,.2f}"
+    )
+    return [
+        f"divisions are sectors about the centre of what has burned by the order; each {escape}",
+        "a division is contained at the hour at which its line is as long as the run's front there, measured "
+        "on the map without slopes",
+        f"a resource that is sent works in one division and is paid for the whole {period:g} h",
+        f"on roads a way is {DETOUR:g} times the straight distance, and {', '.join(AIR)} fly straight, "
+        "to the middle of the division's first front",
+        f"burned ground is a loss of {request.loss:,.2f} per hectare",
+    ]

@@ -1,0 +1,392 @@
+"""Suggested allocation: against brute force and closed forms, the same each time, and why there is none."""
+
+import argparse
+import itertools
+import json
+import re
+import sqlite3
+import sys
+from dataclasses import replace
+from datetime import UTC, datetime, timedelta
+
+import numpy as np
+import pytest
+from fires import LATITUDE, LONGITUDE, axes, round_fire
+from firetwin import cli
+from firetwin.errors import Error, InputError, UsageError
+from firetwin.jobs import allocate
+from firetwin.places.allocation import (
+    LABEL,
+    LIMITS,
+    arguments,
+    containment,
+    divisions,
+    nearest,
+    page,
+    read,
+    resources,
+    shortfall,
+    ties,
+)
+from firetwin.places.allocation.model import Options
+from firetwin.places.allocation.problem import Problem, Request
+from firetwin.places.allocation.resources import Unit
+from firetwin.run import areas, readers
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+pytest.importorskip("scipy")
+
+EXACT = Options(gap=0.0)
+TYPES = ("engine/3", "dozer/2", "crew/IHC", "helicopter/2")
+START = datetime(2014, 9, 17, 4, 45, tzinfo=UTC)
+
+
+def made(seed, n, k, t, **request):
+    """A problem of random numbers; some resources are alike, and some costs are the same."""
+    rng = np.random.default_rng(seed)
+    like = np.sort(rng.integers(0, max(n - n // 3, 1), n))
+    perimeter = np.cumsum(rng.uniform(100, 900, (k, t)), axis=1)
+    return Problem(
+        tuple(f"{i}" for i in range(n)),
+        tuple(np.array(TYPES)[rng.integers(0, 4, n)][like]),
+        rng.uniform(10, 120, (n, k))[like],
+        rng.choice([0.0, 150.0, 300.0, 600.0], n)[like],
+        rng.choice([500.0, 900.0, 1234.56], n)[like],
+        np.arange(1.0, t + 1),
+        perimeter,
+        np.round(perimeter * rng.uniform(0, 3), 2),
+        Request(**request),
+    )
+
+
+def brute_force(problem):
+    """Least cost and loss of all assignments, ties broken; None if none is allowed."""
+    n, k = problem.minutes.shape
+    to_send, to_hold = ties.ranks(problem)
+    choices = np.array(list(itertools.product(range(-1, k), repeat=n)), np.int64).reshape(-1, n)
+    sent = choices >= 0
+    total = sent @ problem.cost
+    allowed = np.ones(len(choices), bool)
+    if problem.request.budget is not None:
+        allowed &= total <= problem.request.budget + 1e-9
+    in_time = np.column_stack([problem.in_time, np.zeros(n, bool)])[np.arange(n), choices]
+    for kind, number in problem.request.response.items():
+        allowed &= (in_time & problem.of(kind)).sum(1) >= number
+    rank = np.column_stack([to_send, np.zeros(n)])[np.arange(n), choices].sum(1)
+    for division in range(k):
+        line = (choices == division).astype(float) @ problem.line[:, division]
+        worth = problem.loss[division] + to_hold[division]
+        each = np.where(line >= problem.perimeter[division] - 1e-3, worth, np.inf).min(1)
+        if problem.request.escape is not None:
+            each = np.minimum(each, problem.escape[division])
+        total = total + each
+    total = np.where(allowed, total + rank, np.inf)
+    return None if not np.isfinite(total).any() else float(total.min())
+
+
+def worth(problem, answer):
+    """Cost and loss of an answer, with what breaks ties."""
+    to_send, to_hold = ties.ranks(problem)
+    sent, held = np.flatnonzero(answer.division >= 0), np.flatnonzero(answer.hour >= 0)
+    rank = to_send[sent, answer.division[sent]].sum() + to_hold[held, answer.hour[held]].sum()
+    return answer.cost + answer.loss + rank
+
+
+@given(
+    st.integers(0, 10**6), st.integers(1, 5), st.integers(1, 3), st.sampled_from([None, 2000.0, 4000.0]),
+    st.sampled_from([None, 0.0, 3000.0]), st.sampled_from([{}, {"engine": 1}, {"crew/IHC": 1, "dozer/2": 1}]),
+)  # fmt: skip
+@settings(deadline=None, max_examples=60)
+def test_it_is_the_best_of_all_assignments(seed, n, k, budget, escape, response):
+    problem = made(seed, n, k, 3, budget=budget, escape=escape, response=response, limit=90.0)
+    best, answer = brute_force(problem), containment.solve(problem, EXACT)
+    if best is None:
+        assert answer is None
+        assert shortfall.reasons(problem, tuple("ABC"[:k]), EXACT)
+        return
+    containment.check(problem, answer)
+    assert worth(problem, answer) == pytest.approx(best, abs=2e-3, rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_twelve_resources_are_the_best_of_all_assignments(seed):
+    problem = made(seed, 12, 2, 3, budget=9000.0, escape=2500.0)
+    assert worth(problem, containment.solve(problem, EXACT)) == pytest.approx(brute_force(problem), abs=2e-3)
+
+
+def test_it_is_the_same_each_time_and_in_any_order():
+    """Sixty resources, of which many cost and build the same: the lowest ids go."""
+    rng = np.random.default_rng(4)
+    units = [
+        Unit(f"{i}", TYPES[i % 2], 200.0, 20.0, 60.0, 100.0 + 50.0 * (i % 3), 38.9 + 0.01 * (i % 5), -120.6)
+        for i in range(60)
+    ]
+    found = []
+    for order in (range(60), range(60), reversed(range(60)), rng.permutation(60)):
+        kept, _ = resources.usable([units[i] for i in order])
+        problem = replace(
+            made(1, 60, 3, 4),
+            ids=tuple(unit.id for unit in kept),
+            types=tuple(unit.type for unit in kept),
+            minutes=resources.minutes(kept, [[38.9, -120.5], [38.8, -120.5], [38.9, -120.7]]),
+            rate=np.array([unit.line_m_h for unit in kept]),
+            cost=np.array([unit.cost_hour for unit in kept]),
+        )
+        answer = containment.solve(problem)
+        found.append([(unit.id, int(k)) for unit, k in zip(kept, answer.division, strict=True) if k >= 0])
+    assert found[0]
+    assert found == found[:1] * 4
+    assert [unit.id for unit in resources.usable(units[::-1])[0]] == [str(i) for i in range(60)]
+
+
+def test_of_the_same_resources_the_lowest_ids_go():
+    problem = made(0, 9, 1, 3)
+    like = replace(problem, types=("engine/3",) * 9, minutes=np.full((9, 1), 30.0), rate=np.full(9, 200.0))
+    like = replace(like, cost=np.full(9, 100.0), perimeter=np.array([[2000.0, 990.0, 5000.0]]))
+    like = replace(like, loss=np.zeros((1, 3)))
+    answer = containment.solve(like, EXACT)
+    assert answer.division.tolist() == [0] * 4 + [-1] * 5  # 300 m each by hour 2
+    assert answer.hour.tolist() == [1]
+
+
+def test_weights_of_ties_are_less_than_the_smallest_coin_and_rise_with_the_id():
+    problem = made(0, 40, 4, 12)
+    to_send, to_hold = ties.ranks(problem)
+    assert to_send.sum() + to_hold.sum() < 0.005
+    assert (np.diff(to_send.ravel()) > 0.0).all()
+    assert (np.diff(to_hold, axis=1) > 0.0).all()
+
+
+def test_five_hundred_resources_are_soon_allocated():
+    """Within the ten processor seconds that a test may take."""
+    problem = made(2, 500, 4, 12, escape=1e6, response={"engine/3": 4}, limit=100.0, budget=50_000.0)
+    answer = containment.solve(problem)
+    containment.check(problem, answer)
+    assert answer.in_time
+    assert answer.cost + answer.loss <= 1.0011 * answer.bound
+    at = problem.in_time[np.arange(500), answer.division] & (answer.division >= 0) & problem.of("engine/3")
+    assert at.sum() >= 4
+
+
+def simple(**request):
+    """Two engines and a dozer before one division of 1,000 m, in two hours."""
+    return Problem(
+        ("1", "2", "3"), ("engine/3", "engine/3", "dozer/2"), np.array([[60.0], [70.0], [60.0]]),
+        np.array([100.0, 100.0, 300.0]), np.array([1000.0, 1000.0, 4000.0]), np.array([1.0, 2.0]),
+        np.array([[500.0, 400.0]]), np.array([[0.0, 0.0]]), Request(**request),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("request_", "words"),
+    [
+        ({"budget": 4500.0}, "budget of 4,500.00 is too small by 500.00: the cheapest .* costs 5,000.00"),
+        ({"response": {"engine": 2}}, "lacks 1 of 2 engine: 1 can arrive within 60 min; with 70 min"),
+        ({"response": {"crew/IHC": 2}}, "lacks 2 of 2 crew/IHC: 0 can .* within 60 min, and the list has 0"),
+    ],
+)
+def test_it_says_why_there_is_none(request_, words):
+    problem = simple(**request_)
+    assert containment.solve(problem, EXACT) is None
+    (reason,) = shortfall.reasons(problem, ("A",), EXACT)
+    assert re.search(words, reason), reason
+
+
+def test_it_says_how_much_line_is_missing():
+    """At hour 2 the three have 100, 83.3 and 300 m."""
+    problem = replace(simple(), perimeter=np.array([[500.0, 600.0]]))
+    assert containment.solve(problem, EXACT) is None
+    (reason,) = shortfall.reasons(problem, ("C",), EXACT)
+    assert "lack 117 m of the 600 m of division C at hour 2, which is 58 m/h" in reason
+    lacking, _ = containment.shortest_line(problem, EXACT)
+    assert lacking[0] == pytest.approx(600.0 - 100.0 - 250.0 / 3.0 - 300.0)
+
+
+def test_a_division_cannot_be_contained_before_the_fire_comes():
+    late = replace(simple(), perimeter=np.array([[np.nan, 90.0]]), loss=np.array([[np.nan, 0.0]]))
+    answer = containment.solve(late, EXACT)
+    assert (answer.hour.tolist(), answer.division.tolist()) == ([1], [0, -1, -1])
+
+
+def test_the_nearest_of_each_kind_are_paired_one_to_one():
+    minutes = np.array([[10.0, 11.0], [12.0, 30.0], [50.0, 60.0]])
+    problem = replace(made(0, 3, 2, 2), types=("engine/3", "engine/6", "dozer/2"), minutes=minutes)
+    found = {(each.kind, each.division): problem.ids[each.resource] for each in nearest.nearest(problem)}
+    assert found == {("engine", 0): "1", ("engine", 1): "0", ("dozer", 0): "2"}
+
+
+def test_minutes_are_by_road_or_straight():
+    north, _ = areas.metres_per_degree(38.9)
+    engine = Unit("1", "engine/3", 0.0, 5.0, 60.0, 0.0, 38.9 - 30_000.0 / north, -120.6)
+    both = resources.minutes([engine, engine._replace(type="helicopter/2")], [[38.9, -120.6]])
+    assert both[:, 0] == pytest.approx([5.0 + 42.0, 5.0 + 30.0], rel=5e-3)
+
+
+@pytest.fixture
+def round_run(make_run):
+    """A run of two hours whose fire begins at the middle and grows as a circle by 0.5 m/s from 300 m on."""
+    latitude, longitude = axes(160)
+    coarse = axes(32, 250.0)
+    flux, fuel = np.zeros((9, 32, 32), np.float32), np.ones((160, 160), np.float32)
+    time = round_fire(latitude, longitude, 0.5) - 600.0
+    fields = {
+        "latitude": coarse[0], "longitude": coarse[1], "fuel_latitude": latitude, "fuel_longitude": longitude,
+        "elevation": np.zeros((32, 32), np.float32), "surface_fuel": fuel, "canopy_fuel": fuel,
+        "heat_flux": flux, "temperature": None, "wind_east": None, "wind_north": None,
+        "fuel_arrival_time": np.where(time > 7000.0, np.nan, time).astype(np.float32),
+    }  # fmt: skip
+    toml = 'name = "Round"\nstart = 2014-09-17T04:45:00Z\ninterval_s = 900.0\nvertical = "orthometric"\n'
+    return make_run(toml=toml, **fields)
+
+
+def test_divisions_of_a_circle_have_its_arcs(round_run):
+    parts = divisions.divide(readers.open(round_run), 0.0, 1, 6)
+    radius = 300.0 + 0.5 * 3600.0
+    assert parts.perimeter[:, 0] == pytest.approx(2.0 * np.pi * radius / 6.0, rel=0.03)
+    assert parts.perimeter.sum() == pytest.approx(2.0 * np.pi * radius, rel=0.002)
+    assert parts.burned.sum() == pytest.approx(np.pi * radius**2, rel=0.01)
+    assert parts.centre == pytest.approx((LATITUDE, LONGITUDE), abs=1e-6)
+    assert parts.names == ("A", "B", "C", "D", "E", "F")
+    assert parts.bearings(1) == (60.0, 120.0)
+    east = (parts.place[:, 1] - LONGITUDE)[[1, 4]]
+    assert east[0] > 0.0 > east[1]
+
+
+def test_islands_need_no_line():
+    """A ring of burned ground: its outer line counts, the one around the island does not."""
+    turn = np.linspace(0.0, 2.0 * np.pi, 60, endpoint=False)
+    x = np.concatenate([2.0 * np.cos(turn), np.cos(-turn)])
+    y = np.concatenate([2.0 * np.sin(turn), np.sin(-turn)])
+    after = np.concatenate([np.roll(np.arange(60), -1), 60 + np.roll(np.arange(60), -1)])
+    assert divisions.outlines(x, y, after).tolist() == list(range(60))
+
+
+UNITS = [
+    Unit(f"{i}", TYPES[i % 3], 6000.0, 15.0, 60.0, 100.0, 38.9 + 0.01 * i, -120.7, f"Station {i}")
+    for i in range(12)
+]
+
+
+def test_a_suggestion_says_what_it_is(round_run):
+    found = allocate.suggest(UNITS, readers.open(round_run), Request(), hours=1)
+    assert found["label"] == LABEL
+    assert found["status"] == "suggested"
+    assert json.loads(json.dumps(found)) == found
+    for part in found["divisions"]:
+        assert part["line"] >= part["perimeter"][int(part["contained_at_hour"]) - 1]
+        assert sum(each["line"] for each in part["resources"]) == pytest.approx(part["line"], abs=1.0)
+    sent = [each["id"] for part in found["divisions"] for each in part["resources"]]
+    assert len(sent) == len(set(sent))
+    assert found["sums"]["cost"] == 100.0 * len(sent)
+    text = page.page(found)
+    assert text.startswith(f"*** {LABEL} ***")
+    assert text.endswith(f"*** {LABEL} ***")
+    assert all(f"- {limit}" in text for limit in LIMITS)
+    assert found == allocate.suggest(UNITS[::-1], readers.open(round_run), Request(), hours=1)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"hours": 9}, "--hours: the run ends 2 h after the order; ask for at most 2"),
+        (
+            {"start": START + timedelta(hours=3)},
+            "--from: an hour from 2014-09-17T07:45:00Z is not in the run",
+        ),
+        ({"count": 27}, "--divisions: must be from 1 to 26, not 27"),
+    ],
+)
+def test_what_the_run_has_not_is_told(round_run, options, words):
+    with pytest.raises(UsageError, match=words):
+        allocate.suggest(UNITS, readers.open(round_run), Request(), **options)
+
+
+def test_a_run_without_fire_has_nothing_to_allocate_to(make_run):
+    run = readers.open(make_run(heat_flux=np.zeros((3, 4, 5), np.float32)))
+    with pytest.raises(InputError, match="has no fire"):
+        allocate.suggest(UNITS, run, Request())
+
+
+def test_without_scipy_it_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "scipy.optimize", None)
+    with pytest.raises(Error, match=r"needs the Python package scipy.*pip install 'scipy>=1.11'"):
+        containment.solve(simple())
+
+
+def test_what_lacks_a_number_is_left_out_and_told():
+    units = [Unit("1", "engine/3", None, 5.0, 60.0, 10.0, 38.9, -120.6)]
+    units += [units[0]._replace(id="2", speed_km_h=None), units[0]._replace(id="3", cost_hour=-1.0)]
+    kept, left = resources.usable(units)
+    assert [unit.id for unit in kept] == ["1"]
+    assert left == ["2 (engine/3) has no speed_km_h", "3 (engine/3) has no cost_hour"]
+
+
+TABLES = """
+CREATE TABLE station(fid INTEGER PRIMARY KEY, name TEXT, lat REAL, lon REAL);
+CREATE TABLE resource(id INTEGER PRIMARY KEY, station INTEGER, type TEXT, name TEXT, count INTEGER,
+  speed_km_h REAL, mobilise_min REAL, line_m_h REAL, cost_hour REAL, currency TEXT, origin TEXT NOT NULL);
+CREATE TABLE availability(resource INTEGER, begins TEXT, ends TEXT, status TEXT, area TEXT);
+INSERT INTO station VALUES (1, 'North', 38.95, -120.6), (2, 'West', 38.9, -120.7);
+"""
+ROW = "INSERT INTO resource VALUES (?, ?, ?, ?, ?, 60, 10, 8000, 100, ?, 'exercise')"
+
+
+@pytest.fixture
+def places(tmp_path):
+    """A file of places: seven engines, and a dozer that is committed until five."""
+    path = tmp_path / "places.gpkg"
+    with sqlite3.connect(path) as base:
+        base.executescript(TABLES)
+        base.execute(ROW, (7, 1, "engine/3", None, 7, "USD"))
+        base.execute(ROW, (9, 2, "dozer/2", "Dozer", 1, "USD"))
+        base.execute("INSERT INTO availability VALUES (9, NULL, '2014-09-17T05:00:00Z', 'Committed', NULL)")
+        base.execute("INSERT INTO availability VALUES (9, '2014-09-17T05:00:00Z', NULL, 'Available', NULL)")
+    base.close()
+    return path
+
+
+def test_resources_are_read_as_they_are_at_the_time(places):
+    units, left = read.read(places, START)
+    assert [unit.id for unit in units] == [f"7-{k}" for k in range(1, 8)]
+    assert (units[0].name, units[0].lat, units[0].currency) == ("North", 38.95, "USD")
+    assert left == ["9 (dozer/2) is committed"]
+    assert [unit.id for unit in read.read(places, START + timedelta(minutes=15))[0]][-1] == "9"
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ("UPDATE resource SET line_m_h = 'fast' WHERE id = 9", "resource 9 has line_m_h = 'fast', no number"),
+        ("UPDATE resource SET currency = 'EUR' WHERE id = 9", "has costs in EUR and USD"),
+        ("UPDATE resource SET count = -1", "resource 7 has a count of -1"),
+        ("UPDATE availability SET begins = 'noon'", 'availability has "noon", no time'),
+        ("DROP TABLE station", "has no resources and stations to allocate"),
+    ],
+)
+def test_what_is_wrong_in_a_file_of_places_is_told(places, change, words):
+    with sqlite3.connect(places) as base:
+        base.execute(change)
+    base.close()
+    with pytest.raises(InputError, match=words):
+        read.read(places, START + timedelta(hours=1))
+
+
+def test_the_command_prints_a_suggestion_or_why_there_is_none(round_run, places, capsys):
+    line = ["allocate", str(places), str(round_run), "--hours", "2", "--divisions", "3"]
+    assert cli.main([*line, "--standard-response", "engine/3=2", "--minutes", "45"]) == 0
+    text = capsys.readouterr().out
+    assert "division A" in text
+    assert "cost     200.00 USD (exercise)" in text
+    assert "- 9 (dozer/2) is committed" in text
+    assert cli.main([*line, "--budget", "1", "--json"]) == 1
+    out, err = capsys.readouterr()
+    assert json.loads(out)["status"] == "infeasible"
+    assert "the budget of 1.00 is too small by" in err
+
+
+@pytest.mark.parametrize("text", ["engine", "engine=0", "engine=x", "=3", "engine=1,engine=2", ""])
+def test_a_response_that_cannot_be_read_is_told(text):
+    with pytest.raises(argparse.ArgumentTypeError, match=r"must be as|names engine twice"):
+        arguments.response(text)
+    assert arguments.response("engine/3=4, dozer=1") == {"engine/3": 4, "dozer": 1}
