@@ -189,6 +189,10 @@ along a GPX, KML or CSV track. `firetwin track SCENE.toml --camera NAME --out FI
 way; a drone with `track = "FILE.gpx"` flies it again. Heights of tracks count from the datum of the run's
 elevations.
 
+A `tour` visits places for a film: by a label's name, by position, the "head" of the fire or its "ignition".
+Times of stays and flights are shares of the whole film. It comes from the side of the place before, stands
+still, and flies on with an eased start and end, above the terrain.
+
 `vr` needs Cycles. The left eye's equirectangular picture lies above the right one's. Stills say so in XMP
 (GPano), films in `st3d` and `sv3d`. A `satellite` looks straight down and to scale from above all smoke, or
 from its longitude over the equator in perspective.

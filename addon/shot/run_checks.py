@@ -30,7 +30,7 @@ def check(settings: Settings, run: Run) -> None:
         labels.read(settings.labels.file)
     places.check(settings)
     for index, camera in enumerate(settings.cameras):
-        for where, latitude, longitude in camera.rig.coordinates():
+        for where, latitude, longitude in (*camera.rig.coordinates(), *camera.rig.coordinates_in(run)):
             _near(settings, run, ("cameras", index, *where), camera.name, latitude, longitude)
         if invalid := camera.rig.validate_against(run, frames.resolve(settings.time, run)):
             reason = f'camera "{camera.name}" {invalid[1]}'

@@ -29,6 +29,9 @@ def any_value(part):
     if part.name == "keys":
         at = st.lists(st.floats(0, 1), unique=True, min_size=1, max_size=3).map(sorted)
         return at.flatmap(lambda at: st.tuples(*(any_table(part.table, at=st.just(a)) for a in at)))
+    if part.name == "stops":
+        place = any_table(part.table, latitude=st.floats(-90, 90), longitude=st.floats(-180, 180))
+        return st.lists(place, min_size=1, max_size=3).map(tuple)
     if part.tables:
         return st.lists(any_table(part.table), max_size=3, unique_by=lambda t: t.name).map(tuple)
     if part.table:

@@ -107,6 +107,8 @@ def plain(kind):
         camera["keys"] = [PLACE | {"height": 1700.0 if kind == "poses" else 400.0}]
     if kind in ("drone", "vr"):
         camera["keys"][0]["target"] = "fire"
+    if kind == "tour":
+        camera["stops"] = [PLACE | {"distance": 300.0}, {"place": "head"}]
     if kind == "lookout":
         camera["keys"] = [{"pan": 40.0}]
     cameras = [camera]

@@ -19,6 +19,7 @@ from firetwin.shot.cameras.rigs.mounted import Mounted
 from firetwin.shot.cameras.rigs.orbit import Orbit
 from firetwin.shot.cameras.rigs.poses import Pose, Poses
 from firetwin.shot.cameras.rigs.satellite import Satellite
+from firetwin.shot.cameras.rigs.tour import Stop, Tour
 from firetwin.shot.settings.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core import sensor
@@ -37,6 +38,8 @@ RIGS = {
     "mounted": Mounted(follows="drone", focal_length=20.0),
     "poses": Poses(keys=(Pose(0.0, 38.810, -120.57, 2600.0, 30.0, 25.0, 5.0),
                          Pose(1.0, 38.815, -120.57, 2500.0, 40.0, 25.0, lens=40.0))),
+    "tour": Tour(stops=(Stop("ignition", distance=2500.0, height=1200.0),
+                        Stop("head", distance=2500.0, height=1200.0))),
     "minimap": Minimap(follows="drone", swath=3000.0),
     "satellite": Satellite(swath=6000.0),
     "geostationary": Satellite(swath=6000.0, geostationary=-137.0),

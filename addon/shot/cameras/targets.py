@@ -18,6 +18,7 @@ _RECENT = 1800.0  # s; in a large fire, ground that burned within this time belo
 _KNOTS = 24  # times at which the target is computed; it is interpolated between
 _BLOCK = 1500.0  # m, blocks of a large fire's front that are compared
 _LARGE = 20_000.0  # m, fire size from which block and time apply; they shrink with smaller fires
+_AT_ONCE = 1.0  # s, cells that begin to burn within this time are one ignition
 _CELLS = 4.0  # fuel cells, lower bound of block size and front depth
 _HYSTERESIS = 4.0  # blocks; distance in which another head must be e times as strong to be followed
 
@@ -48,6 +49,15 @@ def middle(ground: Terrain, times: Array) -> tuple[Array, Array]:
     east, north, arrival, speed = _burned(ground)
     recent = _scale(ground, speed, times[-1])[1]
     return _follow(times, lambda t, last: _middle_at(t, last, east, north, arrival, recent))
+
+
+def ignition(ground: Terrain) -> tuple[float, float]:
+    """East and north of the ground that burns first."""
+    east, north, arrival, _ = _burned(ground)
+    if len(arrival) == 0:
+        return 0.0, 0.0
+    first = arrival <= arrival.min() + _AT_ONCE
+    return float(east[first].mean()), float(north[first].mean())
 
 
 def smoothed(values: Array) -> Array:

@@ -51,6 +51,10 @@ class Rig:
         """Coordinates in its table: place and latitude, longitude; all must lie on the terrain."""
         return []
 
+    def coordinates_in(self, run: Run) -> list[Place]:
+        """Coordinates that its table names and only the run knows, as of `coordinates`."""
+        return []
+
     def input_files(self) -> list[Path]:
         """Files that its path depends on."""
         return []
