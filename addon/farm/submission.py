@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import shlex
 import subprocess
@@ -140,7 +141,9 @@ def _wait(child: subprocess.Popen[bytes], out: Path, progress: Progress, stop: S
             child.terminate()
             asked = True
         if time.monotonic() - looked > _LOOK:
-            found, looked = status.gather(out), time.monotonic()
-            progress(found.finished, found.pictures, "rendering")
+            looked = time.monotonic()
+            with contextlib.suppress(Error, OSError):  # files of a shared folder may be away for a time
+                found = status.gather(out)
+                progress(found.finished, found.pictures, "rendering")
         time.sleep(_TICK)
     return asked

@@ -21,6 +21,7 @@ from ..run.content import sha256
 from ..run.observations import Detections, Feature, features
 from . import stations_file
 from .cameras import targets
+from .settings import scene_file
 from .settings.settings import Settings
 from .shot import Shot
 from .stations_file import Resource, Station
@@ -164,11 +165,14 @@ def check(settings: Settings) -> None:
     Raises
     ------
     InputError
-        One cannot be read.
+        One cannot be read, or there is none.
     """
     known = settings.stations
     if not known.enabled:
         return
+    if known.file is None and known.routes_file is None:
+        reason = "stations.enabled needs stations.file, a GeoPackage of stations, or stations.routes_file"
+        raise scene_file.error_at(settings.path, ("stations", "enabled"), reason)
     if known.file is not None:
         stations_file.read(known.file)
     for path in (known.footprints, known.routes_file):

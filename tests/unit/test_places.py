@@ -113,6 +113,14 @@ def test_one_clear_error(tmp_path, rows, resources, reason):
     assert str(path) in str(caught.value)
 
 
+def test_stations_without_a_file_are_an_error_that_names_the_key(shot_of):
+    settings = shot_of().settings
+    settings.path.write_text('run = "run"\n[stations]\nenabled = true\n')
+    with pytest.raises(InputError, match=r"scene\.toml:3:\d+: stations\.enabled needs stations\.file"):
+        places.check(scene_file.read(settings.path))
+    places.check(settings)
+
+
 def test_another_file_is_told(tmp_path):
     with pytest.raises(InputError, match="there is no such file"):
         stations_file.read(tmp_path / "nowhere.gpkg")
