@@ -46,16 +46,16 @@ def made(seed, n, k, t, **request):
     """A problem of random numbers; some resources are alike, and some costs are the same."""
     rng = np.random.default_rng(seed)
     like = np.sort(rng.integers(0, max(n - n // 3, 1), n))
-    perimeter = np.cumsum(rng.uniform(100, 900, (k, t)), axis=1)
+    perimeter = 100.0 + np.abs(np.cumsum(rng.uniform(-500, 900, (k, t)), axis=1))
     return Problem(
         tuple(f"{i}" for i in range(n)),
         tuple(np.array(TYPES)[rng.integers(0, 4, n)][like]),
         rng.uniform(10, 120, (n, k))[like],
-        rng.choice([0.0, 150.0, 300.0, 600.0], n)[like],
+        rng.choice([0.0, 300.0, 600.0, 1500.0], n)[like],
         rng.choice([500.0, 900.0, 1234.56], n)[like],
         np.arange(1.0, t + 1),
         perimeter,
-        np.round(perimeter * rng.uniform(0, 3), 2),
+        np.round(np.cumsum(perimeter, axis=1) * rng.uniform(0, 3), 2),
         Request(**request),
     )
 
