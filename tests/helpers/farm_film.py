@@ -44,6 +44,30 @@ def scene(path: Path, run: Path, frames: int = 4, smoke: str = "true") -> Path:
     return path
 
 
+FLOW = """\
+[smoke]
+method = "flow"
+cell_budget = 0.1
+spin_up = 120.0
+voxel_size = 150.0
+"""
+"""Smoke of a flow that is solved in seconds."""
+
+
+def flow_scene(path: Path, run: Path, frames: int = 24) -> Path:
+    """Write the scene file of six minutes of the fire, with smoke of a flow, in parts of 12 frames."""
+    text = scene(path, run, frames).read_text()
+    for old, new in (
+        (PUFFS.format(smoke="true"), FLOW),
+        ("end = 2014-09-17T22:00:00Z", "end = 2014-09-17T21:06:00Z"),
+        ("chunk = 2\n", "chunk = 12\n"),
+    ):
+        assert old in text
+        text = text.replace(old, new)
+    path.write_text(text)
+    return path
+
+
 def start(*arguments: object, environment: dict[str, str] | None = None) -> subprocess.Popen[str]:
     """Start the command."""
     return subprocess.Popen(
@@ -83,6 +107,15 @@ def rendered(out: Path) -> list[str]:
     for path in sorted((out / "farm" / "entries").glob("*.jsonl")):
         lines = [json.loads(line) for line in path.read_text().splitlines()]
         found += [line[0] for line in lines if isinstance(line, list)]
+    return found
+
+
+def ended(out: Path) -> list[int | None]:
+    """Exit status of every attempt at a task; None of those that were killed."""
+    found = []
+    for path in sorted((out / "farm" / "entries").glob("*.jsonl")):
+        last = json.loads(path.read_text().splitlines()[-1])
+        found.append(last.get("ended") if isinstance(last, dict) else None)
     return found
 
 

@@ -33,6 +33,7 @@ PluginDir={plugins}
 PlugStackConfig=/dev/null
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
+TaskProlog={folder}/prolog.sh
 SelectType=select/cons_tres
 SelectTypeParameters=CR_Core
 JobAcctGatherType=jobacct_gather/none
@@ -53,6 +54,10 @@ SlurmctldLogFile={folder}/ctld.log
 SlurmdLogFile={folder}/%n.log
 NodeName=n[0-1] NodeHostname={host} NodeAddr=127.0.0.1 Port=[{ports[1]}-{ports[2]}] CPUs=1 RealMemory=2000
 PartitionName=farm Nodes=n[0-1] Default=YES MaxTime=INFINITE State=UP
+"""
+_PROLOG = """\
+#!/bin/sh
+echo "export TMPDIR={folder}/disk-$SLURMD_NODENAME"
 """
 
 
@@ -109,6 +114,11 @@ class Slurm:
             ports=_ports(),
         )
         (folder / "slurm.conf").write_text(text)
+        prolog = folder / "prolog.sh"
+        prolog.write_text(_PROLOG.format(folder=folder))
+        prolog.chmod(0o755)
+        for node in NODES:
+            self.disk(node).mkdir()
         self.environment = os.environ | {
             "SLURM_CONF": str(folder / "slurm.conf"),
             "LD_LIBRARY_PATH": f"{libraries}:{libraries.parent}",
@@ -143,6 +153,12 @@ class Slurm:
         self._kill_tasks(node)
         daemon.wait()
         shutil.rmtree(self.folder / f"spool-{node}")
+        shutil.rmtree(self.disk(node))
+        self.disk(node).mkdir()
+
+    def disk(self, node: str) -> Path:
+        """A node's own disk for temporary files."""
+        return self.folder / f"disk-{node}"
 
     def _kill_tasks(self, node: str) -> None:
         """Kill the tasks of a node: what is in a session with a script from the node's folder."""

@@ -262,6 +262,21 @@ def test_assemble_names_what_is_missing_and_refuses_what_is_damaged(film):
         assert sorted(store.pictures("drone", "rgb", key, ".png")) == [1, 2, 3, 4]
 
 
+def test_a_bundle_that_is_submitted_again_carries_what_was_made(film):
+    out, made_with = film
+    bundle = deadline.Deadline()
+
+    def folders(number):
+        bundle.write(Batch(plan.read(out), out, (number,)))
+        text = (out / "farm" / "deadline" / "asset_references.json").read_text()
+        return json.loads(text)["assetReferences"]["inputs"]["directories"]
+
+    assert folders(1) == []
+    render(out, made_with, 1, [1, 2])
+    (out / "farm" / "cache").mkdir()
+    assert folders(2) == [str(out / place) for place in ("farm/entries", "farm/cache", "drone")]
+
+
 def test_of_attempts_at_once_either_file_counts(film):
     out, made_with = film
     render(out, made_with, 1, [1], content_of=b"other bytes %d")

@@ -7,7 +7,8 @@ from pathlib import Path
 
 from ... import files
 from ...errors import UsageError
-from ..plan import FILE, place
+from .. import entries
+from ..plan import CACHE, FILE, place
 from . import openjd
 from ._engine import Batch, Engine, find_command
 
@@ -45,10 +46,17 @@ def _references(batch: Batch) -> dict[str, object]:
     """Files that travel to the workers, and the folder that comes back."""
     job = [str(place(batch.out) / FILE)]
     return {
-        "inputs": {"filenames": [*batch.job.assets, *job], "directories": []},
+        "inputs": {"filenames": [*batch.job.assets, *job], "directories": _made_before(batch)},
         "outputs": {"directories": [str(batch.out)]},
         "referencedPaths": [],
     }
+
+
+def _made_before(batch: Batch) -> list[str]:
+    """Folders of entries, flows and pictures that there are: what is submitted again goes on from them."""
+    own, out = place(batch.out), batch.out
+    folders = [own / entries.FOLDER, own / CACHE, *(out / view for view in batch.job.passes)]
+    return [str(folder) for folder in folders if folder.is_dir()]
 
 
 ENGINE = Deadline

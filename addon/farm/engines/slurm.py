@@ -52,14 +52,16 @@ ids={ids}
 submit() {{ # submit DEPENDENCY ARGUMENTS...: prints the number of the Slurm job
   local number
   number=$(sbatch --parsable --requeue --open-mode=append ${{1:+"--dependency=$1"}} \\
-    "${{options[@]}}" "${{@:2}}")
+    "${{defaults[@]}}" "${{options[@]}}" "${{@:2}}")
   number=${{number%%;*}}
   echo "$number" >>"$ids"
   echo "$number"
 }}
-array=(--signal=B:TERM@{warning} --output={logs}/%x-%A_%a.out)
+array=(--output={logs}/%x-%A_%a.out)
+defaults=(--signal=B:TERM@{warning}) # of tasks; options given above win
 bake= render=
 {lines}
+defaults=()
 submit "${{render:+afterany$render}}" --job-name=firetwin-assemble --output={logs}/%x-%j.out \\
   {assemble} >/dev/null
 echo "submitted Slurm jobs $(tr '\\n' ' ' <"$ids")"

@@ -1,36 +1,33 @@
 """A film by Open Job Description's own command: its job is checked, run, and run where paths are others."""
 
 import json
-import os
 import shlex
+import signal
 import subprocess
-import sys
-from pathlib import Path
 
+import own_environment
 import pytest
-from farm_film import firetwin, pictures, rendered
+from farm_film import ended, firetwin, pictures, rendered, until
 
-VERSION = "0.8.0"
-PLACE = Path(__file__).parents[3] / "build" / "openjd"
+PACKAGE = "openjd-cli==0.8.0"
 
 
 @pytest.fixture(scope="module")
 def openjd():
-    """Run openjd-cli from a virtual environment of its own: openjd(arguments...) -> what it prints."""
-    if not (PLACE / "bin" / "openjd").exists():
-        made = [sys.executable, "-m", "venv", PLACE]
-        got = [PLACE / "bin" / "pip", "install", "-q", f"openjd-cli=={VERSION}"]
-        for each in (made, got):
-            done = subprocess.run(each, capture_output=True, text=True)
-            if done.returncode:
-                pytest.skip(f"openjd-cli cannot be installed here: {done.stderr.strip()[-300:]}")
+    """Run openjd-cli from its own environment: openjd(arguments...) -> what it prints; openjd.start(...)."""
+    programs = own_environment.installed("openjd", PACKAGE)
+
+    def start(*arguments):
+        command = [programs / "openjd", *arguments]
+        return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def run(*arguments):
-        command = [PLACE / "bin" / "openjd", *arguments]
-        done = subprocess.run(command, env=dict(os.environ), capture_output=True, text=True)
-        assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
-        return done.stdout
+        done = start(*arguments)
+        said, errors = done.communicate()
+        assert done.returncode == 0, said[-3000:] + errors[-3000:]
+        return said
 
+    run.start = start
     return run
 
 
@@ -60,6 +57,24 @@ def test_a_film_by_openjd_is_that_of_one_process(openjd, film, tmp_path):
     assert "openjd_progress: 100.0" in said
     assert pictures(out) == pictures(one)
     assert len(rendered(out)) == len(set(rendered(out))) == 21
+
+
+def test_a_long_film_that_is_cancelled_twice_is_that_of_one_process(openjd, long_film, tmp_path):
+    path, one = long_film
+    out = tmp_path / "out"
+    arguments = shlex.split(firetwin("farm", path, "--engine", "openjd", "--out", out, "--chunk", 6))[1:]
+    for end in (signal.SIGINT, signal.SIGTERM):
+        before = len(rendered(out)) if (out / "farm" / "entries").exists() else 0
+        run = openjd.start(*arguments)
+        until(lambda before=before: len(rendered(out)) >= before + 4)
+        run.send_signal(end)
+        said = run.communicate(timeout=120)
+        assert run.returncode != 0, said
+    assert ended(out).count(143) == 2
+    assert len(rendered(out)) < (24 + 23) * 3
+    openjd(*arguments)
+    assert pictures(out) == pictures(one)  # with the two films
+    assert len(rendered(out)) == len(set(rendered(out))) == (24 + 23) * 3
 
 
 def test_a_task_finds_its_files_where_an_engine_has_mapped_them(openjd, film, tmp_path):

@@ -1,7 +1,9 @@
 """A film by Slurm on two nodes of this machine: that of one process, whatever happens to nodes and tasks."""
 
+import subprocess
+
 import pytest
-from farm_film import firetwin, pictures, rendered, until, without
+from farm_film import ended, firetwin, pictures, rendered, until, without
 from loopback_slurm import Slurm, UnavailableError, unpacked
 
 
@@ -63,3 +65,64 @@ def test_a_cancelled_job_stays_so_until_it_is_resumed(slurm, film, tasks, tmp_pa
     slurm.wait()
     assert pictures(out) == pictures(film[1])
     assert len(rendered(out)) == len(set(rendered(out))) == 21
+
+
+def test_a_long_film_with_a_bake_is_that_of_one_process(slurm, long_film, tmp_path):
+    path, one = long_film
+    out = tmp_path / "out"
+    firetwin(
+        "farm", path, "--engine", "slurm", "--out", out, "--chunk", 6, "--submit",
+        environment=slurm.environment,
+    )  # fmt: skip
+    states = slurm.wait()
+    assert set(states.values()) <= {"COMPLETED", "CANCELLED"}, states  # cancelled by the test before
+    assert ended(out) == [0] * (1 + 4 + 4)
+    assert pictures(out) == pictures(one)  # with the two films
+    assert len(rendered(out)) == len(set(rendered(out))) == (24 + 23) * 3
+
+
+def test_a_task_whose_time_runs_out_goes_on_where_it_was(slurm, long_film, tmp_path):
+    path, one = long_film
+    out = tmp_path / "out"
+    about = "--engine", "slurm", "--out", out, "--chunk", 24, "--submit"
+    firetwin("farm", path, *about, "--", "--time=30", environment=slurm.environment)
+    until(lambda: rendered(out))
+    (task, *_) = (job for job in running(slurm))
+    slurm.call("scontrol", "update", f"JobId={task}", "TimeLimit=1")
+    until(lambda: 143 in ended(out))
+    slurm.call("scontrol", "update", f"JobId={task}", "TimeLimit=30")
+    slurm.wait()
+    assert sorted(ended(out)) == [0, 0, 0, 143]
+    assert pictures(out) == pictures(one)
+    assert len(rendered(out)) == len(set(rendered(out))) == (24 + 23) * 3
+
+
+def test_a_full_disk_of_a_node_loses_nothing(slurm, film, tasks, tmp_path):
+    out = without(tasks, tmp_path / "out", 2, 3)
+    disk = slurm.disk("n0")
+    mount = ["mount", "-t", "tmpfs", "-o", "size=24k", "tmpfs", disk]
+    if subprocess.run(mount, capture_output=True).returncode:
+        pytest.skip("a small disk cannot be mounted here")
+    try:
+        firetwin("farm", "resume", out, environment=slurm.environment)
+        until(lambda: 75 in ended(out))
+        subprocess.run(["mount", "-o", "remount,size=64m", disk], check=True)
+        slurm.wait()
+    finally:
+        subprocess.run(["umount", disk], check=True)
+    assert sorted(ended(out))[:4] == [0] * 4
+    assert set(ended(out)) == {0, 75}
+    assert pictures(out) == pictures(film[1])
+    assert len(rendered(out)) == len(set(rendered(out))) == 21
+
+
+def test_a_task_that_is_submitted_twice_ends_as_one(slurm, film, tasks, tmp_path):
+    out = without(tasks, tmp_path / "out", 2)
+    for _ in range(2):
+        firetwin("farm", "resume", out, environment=slurm.environment)
+    until(lambda: len(running(slurm)) == 2)
+    slurm.wait()
+    assert ended(out) == [0] * 5
+    assert pictures(out) == pictures(film[1])
+    assert 21 <= len(rendered(out)) <= 21 + 6
+    assert "14 of 14 pictures" in firetwin("farm", "status", out)

@@ -6,7 +6,8 @@ import signal
 import subprocess
 
 import pytest
-from farm_film import firetwin, pictures, rendered, start, until, without
+from farm_film import firetwin, flow_scene, pictures, rendered, start, until, without
+from firetwin.run.content import sha256
 
 OTHER_3 = ["other/depth/other_depth_000003.exr", "other/rgb/other_rgb_000003.png"]
 
@@ -60,6 +61,35 @@ def test_a_task_that_is_told_to_end_drops_its_frame_and_goes_on_later(film, task
     firetwin("farm", "assemble", out)
     assert pictures(out) == pictures(film[1])
     assert len(rendered(out)) == len(set(rendered(out)))  # nothing whole was made again
+
+
+def test_a_bake_that_is_told_to_end_goes_on_from_its_checkpoint(run_folder, tmp_path):
+    path = flow_scene(tmp_path / "scene.toml", run_folder, 4)
+    text = path.read_text()
+    path.write_text(text.replace("cell_budget = 0.1", "cell_budget = 0.25").replace("21:06", "22:00"))
+    stopped, whole = tmp_path / "stopped", tmp_path / "whole"
+    for out in (stopped, whole):
+        firetwin("farm", path, "--engine", "slurm", "--out", out)
+    task = start("farm", "task", stopped, 1)
+    until(lambda: list(stopped.rglob("state.npz")) or task.poll() is not None)
+    if task.poll() is not None:
+        pytest.skip("this machine solves the flow before there is a checkpoint")
+    task.send_signal(signal.SIGTERM)
+    assert task.wait(60) == 143
+    first = [_first_progress(firetwin("farm", "task", out, 1)) for out in (stopped, whole)]
+    assert first[0] > 25.0
+    assert first[1] == 0.0
+    assert _snapshots(stopped) == _snapshots(whole)
+    assert len(_snapshots(whole)) >= 4
+
+
+def _first_progress(said):
+    return next(float(line.split()[1]) for line in said.splitlines() if line.startswith("openjd_progress"))
+
+
+def _snapshots(out):
+    folder = out / "farm" / "cache"
+    return {path.relative_to(folder): sha256(path) for path in folder.rglob("moment_*.npz")}
 
 
 def test_a_full_disk_is_a_reason_to_try_again(film, tasks, tmp_path):
