@@ -217,29 +217,28 @@ def test_a_view_at_a_place_is_above_the_terrain(panel, monkeypatch):
     assert (steep @ Vector((0, 0, 1))).z > (flat @ Vector((0, 0, 1))).z + 0.1
 
 
-def test_vr_landmarks_stand_on_the_ground_and_go_with_the_head(panel, tmp_path):
-    scene = bpy.context.scene
+def test_vr_landmarks_need_the_viewer(panel):
     with pytest.raises(RuntimeError, match="Enable VR Scene Inspection"):
         bpy.ops.firetwin.vr_landmarks()
-    bpy.ops.preferences.addon_enable(module="viewport_vr_preview")
-    try:
-        path = tmp_path / "stations.gpkg"
-        stations.write(path, [(1, "Base Two", 38.87, -120.55, "exercise base", "exercise")])
-        panel.stations.file = str(path)
-        for _ in range(2):  # a second time changes none
-            assert bpy.ops.firetwin.vr_landmarks() == {"FINISHED"}
-        found = {each.name: each for each in scene.vr_landmarks}
-        assert len(scene.vr_landmarks) == len(found)
-        base, began = found["Base Two"], go_to.place(scene, "ignition")
-        assert (Vector(base.base_pose_location) - go_to.place(scene, "base two")).length < 0.01
-        ahead = Matrix.Rotation(base.base_pose_angle, 3, "Z") @ Vector((0.0, 1.0, 0.0))
-        way = (began - Vector(base.base_pose_location)) * Vector((1.0, 1.0, 0.0))
-        assert ahead.angle(way) < 1e-3
-        empty = found["Head of the fire"].base_pose_object
-        assert found["Head of the fire"].type == "OBJECT"
-        for frame in (1, 3):
-            scene.frame_set(frame)
-            assert (empty.matrix_world.translation - go_to.place(scene, "head")).length < 1.1
-        assert len([obj for obj in scene.objects if obj.name.startswith("Head of the fire")]) == 1
-    finally:
-        bpy.ops.preferences.addon_disable(module="viewport_vr_preview")
+
+
+def test_vr_landmarks_stand_on_the_ground_and_go_with_the_head(vr_viewer, panel, tmp_path):
+    scene = bpy.context.scene
+    path = tmp_path / "stations.gpkg"
+    stations.write(path, [(1, "Base Two", 38.87, -120.55, "exercise base", "exercise")])
+    panel.stations.file = str(path)
+    for _ in range(2):  # a second time changes none
+        assert bpy.ops.firetwin.vr_landmarks() == {"FINISHED"}
+    found = {each.name: each for each in scene.vr_landmarks}
+    assert len(scene.vr_landmarks) == len(found)
+    base, began = found["Base Two"], go_to.place(scene, "ignition")
+    assert (Vector(base.base_pose_location) - go_to.place(scene, "base two")).length < 0.01
+    ahead = Matrix.Rotation(base.base_pose_angle, 3, "Z") @ Vector((0.0, 1.0, 0.0))
+    way = (began - Vector(base.base_pose_location)) * Vector((1.0, 1.0, 0.0))
+    assert ahead.angle(way) < 1e-3
+    empty = found["Head of the fire"].base_pose_object
+    assert found["Head of the fire"].type == "OBJECT"
+    for frame in (1, 3):
+        scene.frame_set(frame)
+        assert (empty.matrix_world.translation - go_to.place(scene, "head")).length < 1.1
+    assert len([obj for obj in scene.objects if obj.name.startswith("Head of the fire")]) == 1

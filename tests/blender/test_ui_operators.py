@@ -134,7 +134,7 @@ def call(name, options, folder):
 
 
 @pytest.mark.slow  # every operator, undone and redone
-def test_undo_and_redo_go_round_every_operator(panel, blend, tmp_path, monkeypatch):
+def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path, monkeypatch):
     """What an operator changes comes back with undo and again with redo; others change nothing."""
     assert {*CHANGES, *KEEPS, *LISTENS} == set(OPERATORS)
     monkeypatch.setattr(convert, "beside", lambda paths, *_, **__: (paths[0], True))
@@ -142,7 +142,6 @@ def test_undo_and_redo_go_round_every_operator(panel, blend, tmp_path, monkeypat
     monkeypatch.setattr(render, "run", lambda *_, **__: render.RenderResult(1))
     monkeypatch.setattr(assets, "run", lambda *_, **__: 1)
     monkeypatch.setattr(render_blend, "run", lambda *_, **__: 1)
-    bpy.ops.preferences.addon_enable(module="viewport_vr_preview")
     monkeypatch.setattr(submission, "call", lambda *_, **__: None)
     monkeypatch.setattr(submission, "cancellation", lambda out: [])
     monkeypatch.setattr(bpy.utils, "user_resource", lambda *_, path="", **__: str(tmp_path / path))

@@ -48,6 +48,7 @@ __all__ = [
     "shoot",
     "shot",
     "stage",
+    "vr_viewer",
     "whole_forest",
 ]
 
@@ -285,6 +286,14 @@ def panel():
     yield bpy.context.scene.firetwin
     if hasattr(bpy.types.Scene, "firetwin"):  # a test may have unregistered it
         firetwin.unregister()
+
+
+@pytest.fixture
+def vr_viewer():
+    """Blender's own add-on for VR, enabled."""
+    bpy.ops.preferences.addon_enable(module="viewport_vr_preview")
+    yield
+    bpy.ops.preferences.addon_disable(module="viewport_vr_preview")
 
 
 @pytest.fixture
