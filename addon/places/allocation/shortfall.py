@@ -50,15 +50,20 @@ def _response(problem: Problem) -> list[str]:
 
 def _line(problem: Problem, names: tuple[str, ...], options: Options) -> list[str]:
     lacking, hour = containment.shortest_line(problem, options)
-    found = []
-    for k in np.flatnonzero(lacking > _LEAST):
-        hours, front = problem.hours[hour[k]], problem.perimeter[k, hour[k]]
-        found.append(
-            f"the line rate is too low: all resources together lack {lacking[k]:,.0f} m of the "
-            f"{front:,.0f} m of division {names[k]} at hour {hours:g}, which is "
-            f"{lacking[k] / hours:,.0f} m/h from the order on"
-        )
-    return found
+    short = np.flatnonzero(lacking > _LEAST)
+    if not short.size:
+        return []
+    hours = problem.hours[hour]
+    each = ", ".join(
+        f"{lacking[k]:,.0f} m of the {problem.perimeter[k, hour[k]]:,.0f} m of division {names[k]} at hour "
+        f"{hours[k]:g}"
+        for k in short
+    )
+    rate = (lacking / hours)[short].sum()
+    return [
+        f"the line rate is too low: all resources together lack {each}, which is {rate:,.0f} m/h from the "
+        "order on"
+    ]
 
 
 def _budget(problem: Problem, options: Options) -> list[str]:
@@ -71,7 +76,8 @@ def _budget(problem: Problem, options: Options) -> list[str]:
     if answer is None:
         return []
     short = max(answer.cost - limit, SMALLEST)
+    least = "" if answer.bound > answer.cost - SMALLEST else f"; none costs less than {answer.bound:,.2f}"
     return [
-        f"the budget of {limit:,.2f} is too small by {short:,.2f}: the cheapest allocation that does it "
-        f"costs {answer.cost:,.2f}"
+        f"the budget of {limit:,.2f} is too small by {short:,.2f}: the cheapest allocation found costs "
+        f"{answer.cost:,.2f}{least}"
     ]
