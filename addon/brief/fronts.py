@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from ..ellipsoid import metres_per_degree
 from ..run import areas, info, times
+from ..run.front import Reach, reach
 from ..run.observations import Perimeter
-from ..shot.fire.fronts import Reach, reach
 
 MOST = 48
 """Times between the first and the last, at most."""

@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..ellipsoid import metres_per_degree
 from ..run import areas
+from ..run.front import reach
 from ..run.score.grid import ScoreGrid
-from ..shot.fire.fronts import reach
 
 State = Literal["reached", "before", "never", "outside"]
 _TOGETHER = 2_000_000  # distances computed at once

@@ -10,7 +10,7 @@ import whole_run
 from firetwin.brief import fronts, layers, map_panel, mercator
 from firetwin.brief.mercator import Box
 from firetwin.errors import InputError
-from firetwin.shot.fire.fronts import reach
+from firetwin.run.front import reach
 from firetwin_core import run as runs
 from PIL import Image
 
