@@ -14,9 +14,10 @@ from firetwin_core.run import Run
 from firetwin_core.terrain import bilinear
 from numpy.typing import ArrayLike, NDArray
 
-from ..run import areas, times
+from ..run import front, times
+from ..run.front import Reach
 from ..run.score.grid import ScoreGrid
-from ..run.score.shapes import mirrored, wider
+from ..run.score.shapes import mirrored
 from .distance import distance_km
 
 Array = NDArray[np.float64]
@@ -62,13 +63,29 @@ class Arrivals:
         )
         return first, second, third
 
+    def text(self, run: Run, index: int, zone: str) -> str:
+        """Time of a place in a time zone; else its state, with how near the fire comes and when."""
+        state, near = int(self.state[index]), float(self.nearest_km[index])
+        there = float(self.nearest_time[index])
+        moment = "" if np.isnan(there) else times.text(times.utc(run, there), zone)
+        if state == REACHED:
+            return moment
+        far = "" if state == BEFORE or not moment else f"; at {near:.1f} km {moment}"
+        return STATES[state] + far
 
-def sample(run: Run, latitude: ArrayLike, longitude: ArrayLike) -> Arrivals:
-    """Arrival of a run's fire at places (n,), degrees north and east."""
+
+def sample(run: Run, latitude: ArrayLike, longitude: ArrayLike, until: float | None = None) -> Arrivals:
+    """Arrival of a run's fire at places (n,), degrees north and east.
+
+    Parameters
+    ----------
+    until
+        Model time, s, after which nothing counts; by default all that the run has.
+    """
     cells = ScoreGrid.of(run)
-    grid = _Corners.of(cells, latitude, longitude)
+    grid = _Corners.of(front.reach(run), latitude, longitude)
     last = float(run.times[-1])
-    end = max(last, float(np.nanmax(grid.field, initial=last)))
+    end = max(last, float(np.nanmax(grid.field, initial=last))) if until is None else until
     since = bilinear(mirrored(grid.field - end), grid.row, grid.column)
     burned = grid.inside & (since <= 0.0) & np.isfinite(grid.time)
     time = np.where(burned, grid.time, np.nan)
@@ -77,7 +94,7 @@ def sample(run: Run, latitude: ArrayLike, longitude: ArrayLike) -> Arrivals:
         earliest, latest = _of_model(run, latitude, longitude, earliest, latest)
     latest = np.where(grid.stops, np.maximum(latest, end), latest)
     state = np.where(burned, np.where(time < run.times[0], BEFORE, REACHED), NEVER)
-    near, near_time = _nearest(cells, latitude, longitude, ~burned)
+    near, near_time = _nearest(cells, latitude, longitude, ~burned, end)
     return Arrivals(
         np.where(grid.inside, state, OUTSIDE),
         time,
@@ -98,10 +115,10 @@ def first_burned(run: Run) -> tuple[float, float] | None:
 
 
 def _nearest(
-    grid: ScoreGrid, latitude: ArrayLike, longitude: ArrayLike, wanted: NDArray[np.bool_]
+    grid: ScoreGrid, latitude: ArrayLike, longitude: ArrayLike, wanted: NDArray[np.bool_], end: float
 ) -> tuple[Array, Array]:
-    """Distance (n,) to the nearest cell that burns, km, and its arrival time; only of the `wanted` places."""
-    burned = np.isfinite(grid.arrival)
+    """Distance (n,) to the nearest cell that burns by `end`, km, and its arrival time; of `wanted` places."""
+    burned = grid.arrival <= end
     far, time = (np.full(wanted.shape, np.nan) for _ in range(2))
     if not burned.any():
         return far, time
@@ -130,20 +147,12 @@ class _Corners:
     stops: NDArray[np.bool_]
 
     @classmethod
-    def of(cls, grid: ScoreGrid, latitude: ArrayLike, longitude: ArrayLike) -> _Corners:
+    def of(cls, fire: Reach, latitude: ArrayLike, longitude: ArrayLike) -> _Corners:
         """Find the cells; the time is bilinear between those that burn."""
-        field = np.pad(grid.arrival, 1, constant_values=np.nan)
-        y, x = wider(grid.latitude), wider(grid.longitude)
-        turned = areas.turned(longitude, grid.middle)
-        row, column = (
-            np.interp(np.asarray(at, np.float64), axis, np.arange(len(axis)), left=np.nan, right=np.nan)
-            for at, axis in ((latitude, y), (turned, x))
-        )
-        south, north = areas.edges(grid.latitude)[[0, -1]]
-        west, east = areas.edges(grid.longitude)[[0, -1]]
-        inside = np.isfinite(row) & np.isfinite(column)
-        inside &= (turned >= west) & (turned <= east)
-        inside &= (np.asarray(latitude) >= south) & (np.asarray(latitude) <= north)
+        field = fire.arrival
+        row, column = fire.at(latitude, longitude)
+        inside = (row >= 0.5) & (row <= len(field) - 1.5)  # within the edges of cells, half-way to the margin
+        inside &= (column >= 0.5) & (column <= field.shape[1] - 1.5)
         row, column = np.where(inside, row, 0.0), np.where(inside, column, 0.0)
         low = [
             np.minimum(at.astype(np.int64), n - 2) for at, n in zip((row, column), field.shape, strict=True)
@@ -174,6 +183,7 @@ def _of_model(
     """Widen times to those of the model's cells around, and by an interval of the output."""
     order = [slice(None, None, -1 if axis[0] > axis[-1] else 1) for axis in (run.latitude, run.longitude)]
     time = np.asarray(run.arrival_time(), np.float64)[order[0], order[1]]
-    model = _Corners.of(ScoreGrid(run.latitude[order[0]], run.longitude[order[1]], time), latitude, longitude)
+    grid = ScoreGrid(run.latitude[order[0]], run.longitude[order[1]], time)
+    model = _Corners.of(Reach(grid), latitude, longitude)
     step = float(np.max(np.diff(run.times), initial=0.0))
     return np.minimum(earliest, model.earliest) - step, np.maximum(latest, model.latest) + step

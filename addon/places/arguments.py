@@ -9,7 +9,7 @@ from collections.abc import Callable
 from datetime import date, datetime
 from pathlib import Path
 
-from .records import MODES, STAFFING
+from .records import DETOUR, MODES, STAFFING
 
 PLACES = """\
 Makes and lists files of stations and resources (GeoPackage, which QGIS opens too).
@@ -109,7 +109,7 @@ def add_resources(
     )
     for name, unit, usual, what in (
         ("hours", "H", 12.0, "hours of work that are paid"),
-        ("detour", "FACTOR", 1.4, "length of roads by straight distance"),
+        ("detour", "FACTOR", DETOUR, "length of roads by straight distance"),
         ("refill", "KM", 5.0, "distance of the place of refilling, km; air tankers fill at their base"),
         ("turnaround", "MIN", 10.0, "time to fill and to discharge in a round trip, min"),
     ):

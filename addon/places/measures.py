@@ -7,10 +7,10 @@ from datetime import datetime
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from .distance import covers, distance_km
-from .records import AIR
+from .records import AIR, DETOUR
 from .store import Places
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ def measure(places: Places, query: Query) -> Measures:
     if query.near is not None:
         far = distance_km(*places.positions, query.near)[columns.station]
     way = np.where(air, 1.0, query.detour)
-    minutes = columns.mobilise_min + 60.0 * far * way / columns.speed_km_h
+    minutes = travel_minutes(far, air, columns.speed_km_h, columns.mobilise_min, query.detour)
     cost = cost_of(places, query.hours)
     tonnes = delivery(places, query, far, air, way)
     coverage, covered = coverages(places, query, far)
@@ -74,15 +74,39 @@ def measure(places: Places, query: Query) -> Measures:
     )
 
 
+def travel_minutes(
+    far_km: ArrayLike, air: ArrayLike, speed_km_h: Array, mobilise_min: Array, detour: float = DETOUR
+) -> Array:
+    """Minutes from the order to the arrival: mobilising and the way, which is straight by air.
+
+    NaN where the speed or the time to mobilise is. All broadcast.
+    """
+    way = np.asarray(far_km, np.float64) * np.where(air, 1.0, detour)
+    return mobilise_min + 60.0 * way / speed_km_h
+
+
+def least_minutes(places: Places, near: tuple[float, float]) -> Array:
+    """Least minutes (stations,) of what stands at each station; NaN where nothing has them."""
+    columns, least = places.columns, np.full(len(places.stations), np.nan)
+    far = distance_km(*places.positions, near)[columns.station]
+    minutes = travel_minutes(far, places.codes.kind.among(AIR), columns.speed_km_h, columns.mobilise_min)
+    np.fmin.at(least, columns.station, minutes)
+    return least
+
+
 def cost_of(places: Places, hours: float) -> Array:
-    """Cost (n,) of mobilising and of hours of work: by the hour, or by days without a rate by the hour.
+    """Cost (n,) of mobilising and of hours of work; see `unit_cost`."""
+    columns = places.columns
+    return columns.count * unit_cost(columns.cost_mobilise, columns.cost_hour, columns.cost_day, hours)
+
+
+def unit_cost(mobilise: Array, hour: Array, day: Array, hours: float) -> Array:
+    """Cost (n,) of one unit: mobilising, and work by the hour, or by days without a rate by the hour.
 
     What costs nothing to mobilise need not say so. NaN without a rate.
     """
-    columns = places.columns
-    days = columns.cost_day * np.ceil(hours / 24.0)
-    work = np.where(np.isnan(columns.cost_hour), days, columns.cost_hour * hours)
-    return columns.count * (np.nan_to_num(columns.cost_mobilise) + work)
+    work = np.where(np.isnan(hour), day * np.ceil(hours / 24.0), hour * hours)
+    return np.nan_to_num(mobilise) + work
 
 
 def delivery(places: Places, query: Query, far: Array, air: Mask, way: Array) -> Array:
@@ -149,13 +173,21 @@ def _tests(
 
 
 def statuses(places: Places, at: datetime) -> NDArray[np.int64]:
-    """Status (n,) of all resources at a time: 1 available, 0 not, -1 not known.
+    """Status (n,) of all resources at a time: 1 available, 0 not, -1 not known."""
+    found = windows_at(places, at)
+    known = found >= 0
+    found[known] = places.windows.available[found[known]]
+    return found
 
-    Of windows that overlap the one that begins last counts.
+
+def windows_at(places: Places, at: datetime) -> NDArray[np.int64]:
+    """Index (n,) into `Places.windows` of what counts for each resource at a time; -1 without any.
+
+    Of windows that overlap it is the one that begins last.
     """
     found, windows, time = np.full(len(places.resources), -1, np.int64), places.windows, at.timestamp()
     now = (windows.begins <= time) & (time < windows.ends)
-    found[windows.row[now]] = windows.available[now]  # of one row the last stays
+    found[windows.row[now]] = np.flatnonzero(now)  # of one row the last stays
     return found
 
 

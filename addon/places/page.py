@@ -180,17 +180,13 @@ class Answer:
         } | {name: None if known is None else times.iso(known[k]) for k, name in enumerate(names)}
 
     def _fire_text(self, index: int) -> str:
-        arrivals = self.arrivals
-        assert arrivals is not None
-        state = int(arrivals.state[index])
-        if state != ahead.REACHED:
-            near = float(arrivals.nearest_km[index])
-            if state == ahead.BEFORE or np.isnan(near):
-                return ahead.STATES[state]
-            there = self._text(float(arrivals.nearest_time[index]))
-            return f"{ahead.STATES[state]}; at {near:.1f} km {there}"
+        arrivals, run = self.arrivals, self.run
+        assert arrivals is not None and run is not None  # noqa: PT018
+        text = arrivals.text(run, index, zone.time_zone(run))
+        if arrivals.state[index] != ahead.REACHED:
+            return text
         bounds = (self._text(float(each[index])) for each in (arrivals.earliest, arrivals.latest))
-        return f"{self._text(float(arrivals.time[index]))} ({' to '.join(bounds)})"
+        return f"{text} ({' to '.join(bounds)})"
 
     def _text(self, seconds: float) -> str:
         assert self.run is not None

@@ -26,6 +26,9 @@ STATUSES = ("available", "committed", "reserved", "unavailable")
 AIR = ("airtanker", "helicopter")
 """Kinds that fly straight; all others follow roads."""
 
+DETOUR = 1.4
+"""Length of roads by straight distance, an assumption: there is no road network."""
+
 EXERCISE = "Exercise: not operational advice"
 """What stands on everything that shows an exercise's places."""
 
@@ -100,6 +103,11 @@ class Station:
     address: str = ""
     source_id: str = ""
     picture: str = ""
+
+    @property
+    def title(self) -> str:
+        """Its name; without one, its number: ``station 7``."""
+        return self.name if self.name.strip() else f"station {self.id}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import cover, measures
-from .records import Resource, Station
+from .records import DETOUR, Resource, Station
 from .store import Places
 
 Mask = NDArray[np.bool_]
@@ -68,7 +68,7 @@ class Query:
     budget: float | None = None
     currency: str = "USD"
     hours: float = 12.0
-    detour: float = 1.4
+    detour: float = DETOUR
     refill_km: float = 5.0
     turnaround_min: float = 10.0
 

@@ -56,6 +56,8 @@ class Windows:
     ----------
     row
         Index into `Places.resources`.
+    number
+        Index into `Places.availability`.
     begins, ends
         Seconds since 1970.
     available
@@ -63,6 +65,7 @@ class Windows:
     """
 
     row: NDArray[np.int64]
+    number: NDArray[np.int64]
     begins: Array
     ends: Array
     available: NDArray[np.bool_]
@@ -104,6 +107,22 @@ class Places:
     def station_row(self) -> dict[int, int]:
         """Index into `stations` by a station's number."""
         return {station.id: row for row, station in enumerate(self.stations)}
+
+    @cached_property
+    def resources_of(self) -> dict[int, list[Resource]]:
+        """Resources of each station by its number; none of a station without any."""
+        found: dict[int, list[Resource]] = {station.id: [] for station in self.stations}
+        for each in self.resources:
+            found[each.station].append(each)
+        return found
+
+    @cached_property
+    def windows_of(self) -> dict[int, list[Availability]]:
+        """Windows of availability of each resource by its number, by their beginning."""
+        found: dict[int, list[Availability]] = {each.id: [] for each in self.resources}
+        for window in sorted(self.availability, key=lambda each: each.begins):
+            found[window.resource].append(window)
+        return found
 
     @property
     def exercise(self) -> bool:
@@ -152,6 +171,7 @@ class Places:
         order = np.argsort(begins, kind="stable")
         return Windows(
             _whole(row[each.resource] for each in self.availability)[order],
+            order.astype(np.int64),
             begins[order],
             np.array([each.ends.timestamp() for each in self.availability], np.float64)[order],
             np.array([each.status == "available" for each in self.availability], np.bool_)[order],

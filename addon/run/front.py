@@ -25,11 +25,17 @@ Array = NDArray[np.float64]
 
 
 class Reach:
-    """Burned area of a run as a function of time."""
+    """Burned area of a run as a function of time.
 
-    def __init__(self, run: Run) -> None:
-        self.run = run
-        grid = ScoreGrid.of(run)
+    Attributes
+    ----------
+    latitude, longitude
+        Cell centres with one more at each end, degrees.
+    arrival
+        Arrival times at these (ny, nx), s; NaN where never, as in the margin.
+    """
+
+    def __init__(self, grid: ScoreGrid) -> None:
         self.latitude, self.longitude = wider(grid.latitude), wider(grid.longitude)
         self.arrival = np.pad(grid.arrival, 1, constant_values=np.nan)
         self.divided = max(1, int(np.ceil(max(grid.cell) / _FINE)))
@@ -38,16 +44,21 @@ class Reach:
     def _middle(self) -> float:
         return 0.5 * float(self.longitude[0] + self.longitude[-1])
 
-    def burned(self, latitude: ArrayLike, longitude: ArrayLike, time: float) -> Array:
-        """Burned state of points (degrees) at a model time (s): 1 burned, 0 not, NaN outside of the grid."""
+    def at(self, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
+        """Fractional rows and columns of points (degrees) in `arrival`; NaN beyond the margin."""
         longitude = areas.turned(longitude, self._middle)
         row, column = (
             np.interp(np.asarray(at, np.float64), axis, np.arange(len(axis)), left=np.nan, right=np.nan)
             for at, axis in ((latitude, self.latitude), (longitude, self.longitude))
         )
         inside = np.isfinite(row) & np.isfinite(column)
+        return np.where(inside, row, np.nan), np.where(inside, column, np.nan)
+
+    def burned(self, latitude: ArrayLike, longitude: ArrayLike, time: float) -> Array:
+        """Burned state of points (degrees) at a model time (s): 1 burned, 0 not, NaN outside of the grid."""
+        row, column = self.at(latitude, longitude)
         since = bilinear(mirrored(self.arrival - time), np.nan_to_num(row), np.nan_to_num(column))
-        return np.where(inside, since <= 0.0, np.nan)
+        return np.where(np.isfinite(row), since <= 0.0, np.nan)
 
     def line(self, time: float) -> tuple[Array, Array, NDArray[np.int64]]:
         """Front contour at a model time (s): latitude, longitude (n,) and the index of each point's next."""
@@ -76,7 +87,7 @@ class Reach:
 @functools.lru_cache(maxsize=_CACHED)
 def reach(run: Run) -> Reach:
     """Burned area of a run; those of the last runs are cached."""
-    return Reach(run)
+    return Reach(ScoreGrid.of(run))
 
 
 def contour(field: Array) -> tuple[Array, Array, NDArray[np.int64]]:

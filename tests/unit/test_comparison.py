@@ -204,7 +204,7 @@ def test_a_front_is_the_outline_that_scores_know(seed):
 
 def test_what_has_burned_is_within_the_front(scene):
     run = ShotSource(scene=str(scene)).shot().others["wide"]
-    reach = front.Reach(run)
+    reach = front.reach(run)
     rng = np.random.default_rng(5)
     latitude, longitude = rng.uniform(38.89, 38.92, 4000), rng.uniform(-120.62, -120.57, 4000)
     burned = reach.burned(latitude, longitude + 360.0, 135.0)

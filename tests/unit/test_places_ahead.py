@@ -48,7 +48,7 @@ def test_the_front_passes_a_place_at_its_time(burning):
     run, y, x, _ = burning
     rng = np.random.default_rng(2)
     latitude, longitude = rng.uniform(y.min(), y.max(), 500), rng.uniform(x.min(), x.max(), 500)
-    found, reach = ahead.sample(run, latitude, longitude), front.Reach(run)
+    found, reach = ahead.sample(run, latitude, longitude), front.reach(run)
     burned = reach.burned(latitude, longitude, float(run.times[-1])) == 1.0
     assert (np.isfinite(found.time) == burned).all()
     whole = np.isfinite(found.time) & (found.latest < float(run.times[-1]))  # no cell that stays around
