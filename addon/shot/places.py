@@ -6,7 +6,7 @@ Everything of an exercise says so: a sign whose station or resources are an exer
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
@@ -16,22 +16,21 @@ from numpy.typing import NDArray
 
 from ..ellipsoid import metres_per_degree
 from ..errors import input_error
+from ..places import ahead, measures, store
+from ..places.records import EXERCISE, ORIGINS, Resource, Station
+from ..places.store import Places
 from ..run import areas
 from ..run.content import sha256
 from ..run.observations import Detections, Feature, features
-from . import stations_file
 from .cameras import targets
 from .settings import scene_file
 from .settings.settings import Settings
 from .shot import Shot
-from .stations_file import Resource, Station
 from .terrain.terrain import Terrain
 
-EXERCISE = "Exercise: not operational advice"
-FACT, INVENTED, USER = stations_file.ORIGINS
+FACT, INVENTED, USER = ORIGINS
 
-_AIR = ("airtanker", "helicopter")  # kinds that fly straight
-_DETOUR = 1.4  # length of roads by straight distance (assumed)
+_LONGEST = 80  # characters of a name on a sign
 _TYPES = 3  # types of resources that a sign lists
 _BESIDE = 120.0  # m from a station to the nearest corner of its own building
 _ABOVE = 100.0  # m, height of the head over the ground
@@ -95,14 +94,13 @@ def signs(shot: Shot) -> list[Sign]:
     settings = shot.settings.stations
     if not settings.enabled or settings.file is None:
         return []
-    stations, resources = stations_file.read(settings.file)
-    here = [station for station in stations if covers(shot.ground, station.latitude, station.longitude)]
-    outlines = _outlines(shot.settings)
-    began = ignition(shot)
-    own: dict[int, list[Resource]] = {}
-    for resource in resources:
-        own.setdefault(resource.station, []).append(resource)
-    return [_sign(settings.show, each, own.get(each.id, []), began, outlines) for each in here]
+    known = store.read(settings.file)
+    here = [each for each in known.stations if covers(shot.ground, each.latitude, each.longitude)]
+    outlines, minutes, fire = _outlines(shot.settings), _minutes(shot, known, here), _fire(shot, here)
+    return [
+        _sign(settings.show, station, known.resources_of[station.id], least, arrival, outlines)
+        for station, least, arrival in zip(here, minutes, fire, strict=True)
+    ]
 
 
 def routes(shot: Shot, shown: Iterable[Sign]) -> list[Route]:
@@ -130,11 +128,8 @@ def routes(shot: Shot, shown: Iterable[Sign]) -> list[Route]:
 
 
 def ignition(shot: Shot) -> tuple[float, float] | None:
-    """Latitude and longitude of the fuel cell that burns first; None where nothing burns."""
-    if not np.isfinite(shot.arrival).any():
-        return None
-    row, column = np.unravel_index(np.nanargmin(shot.arrival), shot.arrival.shape)
-    return float(shot.run.fuel_latitude[row]), float(shot.run.fuel_longitude[column])
+    """Latitude and longitude of the middle of the fuel cells that burn first; None where nothing burns."""
+    return ahead.first_burned(shot.run)
 
 
 def moving(shot: Shot) -> Moving:
@@ -174,7 +169,7 @@ def check(settings: Settings) -> None:
         reason = "stations.enabled needs stations.file, a GeoPackage of stations, or stations.routes_file"
         raise scene_file.error_at(settings.path, ("stations", "enabled"), reason)
     if known.file is not None:
-        stations_file.read(known.file)
+        store.read(known.file)
     for path in (known.footprints, known.routes_file):
         if path is not None:
             _features(path)
@@ -190,46 +185,49 @@ def summary(resources: Iterable[Resource]) -> str:
     return ", ".join(words) + (f" and {more} more type{'s' * (more > 1)}" if more > 0 else "")
 
 
-def minutes(station: Station, resources: Iterable[Resource], to: tuple[float, float]) -> float | None:
-    """Least time from the order to the arrival, min; None where no resource has a speed.
+def _minutes(shot: Shot, known: Places, here: Sequence[Station]) -> list[str]:
+    """Least minutes from the order to the arrival at the ignition; empty where not known or not shown."""
+    began = ignition(shot)
+    if "minutes" not in shot.settings.stations.show or began is None:
+        return [""] * len(here)
+    least = measures.least_minutes(known, began)[[known.station_row[each.id] for each in here]]
+    return ["" if np.isnan(each) else f"{each:.0f} min to the ignition" for each in least]
 
-    Air goes straight, the ground `_DETOUR` times as far; distances on a plane, within 1 % to 100 km.
-    """
-    north, east = metres_per_degree(0.5 * (station.latitude + to[0]))
-    turned = float(areas.turned(station.longitude, to[1]))
-    far = float(np.hypot((station.latitude - to[0]) * north, (turned - to[1]) * east)) / 1000.0
-    found = [
-        (each.mobilise_min or 0.0)
-        + 60.0 * far * (1.0 if each.type.partition("/")[0] in _AIR else _DETOUR) / each.speed_km_h
-        for each in resources
-        if each.speed_km_h
-    ]
-    return min(found, default=None)
+
+def _fire(shot: Shot, here: Sequence[Station]) -> list[str]:
+    """When the fire of the run reaches stations; empty where it is not shown."""
+    if "fire" not in shot.settings.stations.show:
+        return [""] * len(here)
+    found = ahead.sample(shot.run, [each.latitude for each in here], [each.longitude for each in here])
+    return [f"fire: {found.text(shot.run, k, shot.settings.time.zone)}" for k in range(len(here))]
 
 
 def _sign(
     show: tuple[str, ...],
     station: Station,
     resources: list[Resource],
-    began: tuple[float, float] | None,
+    minutes: str,
+    fire: str,
     outlines: list[Array],
 ) -> Sign:
-    lines = [station.kind] if "kind" in show and station.kind else []
+    kind = " ".join(station.kind.split())[:_LONGEST]
+    lines = [kind] if "kind" in show and kind else []
     told = False  # whether something of the resources is shown
     if "resources" in show and (text := summary(resources)):
         lines.append(text)
         told = True
-    if "minutes" in show and began is not None and (least := minutes(station, resources, began)) is not None:
-        lines.append(f"{least:.0f} min to the ignition")
+    if minutes:
+        lines.append(minutes)
         told = True
+    if fire:
+        lines.append(fire)
     origins = {station.origin} | ({each.origin for each in resources} if told else set())
     origin = next(each for each in (INVENTED, USER, FACT) if each in origins)
     if origin == INVENTED:
         lines.append(EXERCISE)
     outline = _outline(outlines, station.latitude, station.longitude)
-    return Sign(
-        station.name, station.kind, station.latitude, station.longitude, tuple(lines), origin, outline
-    )
+    name = " ".join(station.title.split())[:_LONGEST]
+    return Sign(name, kind, station.latitude, station.longitude, tuple(lines), origin, outline)
 
 
 def _outlines(settings: Settings) -> list[Array]:
@@ -258,4 +256,4 @@ def _features(path: Path) -> list[Feature]:
 
 def _origin(feature: Feature) -> str:
     given = str(feature.properties.get("origin", USER))
-    return given if given in stations_file.ORIGINS else USER
+    return given if given in ORIGINS else USER

@@ -8,9 +8,9 @@ from pathlib import Path
 import bpy
 
 from ..errors import Error
+from ..places import store
+from ..places.records import Station
 from ..run import labels
-from ..shot import stations_file
-from ..shot.stations_file import Station
 from . import run
 
 
@@ -39,7 +39,7 @@ def stations(panel: bpy.types.PropertyGroup) -> tuple[Station, ...]:
 
 @functools.lru_cache(maxsize=4)
 def _read_stations(path: Path, changed: int) -> tuple[Station, ...]:
-    return tuple(stations_file.read(path)[0])
+    return store.read(path).stations
 
 
 @functools.lru_cache(maxsize=4)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import stations
 from firetwin.blender import owned
+from firetwin.places.records import EXERCISE
 from firetwin.render import layers
 from firetwin.scene import build
 from firetwin.scene.places import buildings, routes, signs
@@ -70,7 +71,7 @@ def test_signs_face_the_camera_keep_their_size_and_have_two_forms(stationed, run
 
 def test_every_form_of_an_exercise_says_so(stationed, run):
     near, base = places.signs(Shot(stationed, run))
-    assert signs.full(base)[-1] == (places.EXERCISE, True)
+    assert signs.full(base)[-1] == (EXERCISE, True)
     assert signs.short(base)[-1] == ("Exercise", True)
     assert not any("xercise" in text for text, _ in signs.full(near) + signs.short(near))
 

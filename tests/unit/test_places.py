@@ -6,12 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import stations
-from firetwin.errors import InputError
-from firetwin.shot import places, stations_file
+from firetwin.places import ahead, measures, store
+from firetwin.places.records import EXERCISE, Station
+from firetwin.run import times
+from firetwin.shot import places
 from firetwin.shot.settings import scene_file
 from firetwin.shot.settings.settings import StationSettings
 from firetwin.shot.shot import Shot
-from firetwin.shot.stations_file import Resource
 from firetwin_core import run as runs
 
 ROWS = [
@@ -50,34 +51,52 @@ def test_signs_have_name_kind_resources_minutes_and_origin(shot_of):
         "exercise base",
         "2 x engine/3, 1 x helicopter/2",
         f"{least:.0f} min to the ignition",
-        places.EXERCISE,
+        EXERCISE,
     )
 
 
+def test_a_sign_says_when_the_fire_reaches_it_where_that_is_asked_for(shot_of):
+    shot = shot_of(show=("fire",))
+    fact, base = places.signs(shot)
+    found = ahead.sample(shot.run, [fact.latitude, base.latitude], [fact.longitude, base.longitude])
+    assert found.state.tolist() == [ahead.REACHED, ahead.NEVER]
+    assert fact.lines == (f"fire: {times.text(found.utc(shot.run, 0)[0], shot.settings.time.zone)}",)
+    assert base.lines[0].startswith("fire: never; at ")
+    assert base.lines[1:] == (EXERCISE,)
+
+
 def test_what_an_exercise_adds_to_a_fact_is_an_exercise(shot_of, tmp_path):
-    (tmp_path / "stations.gpkg").unlink(missing_ok=True)
     invented = [(1, "engine/3", 1, None, None, "exercise")]
     for show, origin in ((("kind", "resources"), "exercise"), (("kind",), "fact")):
-        (tmp_path / "stations.gpkg").unlink(missing_ok=True)
         fact = places.signs(shot_of(invented, show=show))[0]
         assert fact.origin == origin
-        assert (places.EXERCISE in fact.lines) == (origin == "exercise")
+        assert (EXERCISE in fact.lines) == (origin == "exercise")
 
 
-def test_air_goes_straight_and_the_ground_by_roads():
-    station = stations_file.Station(1, "A", 39.0, -120.5, "fact", "")
+def test_air_goes_straight_and_the_ground_by_roads(tmp_path):
     to = (39.0 + 10.0 / 111.02, -120.5)  # 10 km to the north
-    ground, air = (Resource(1, type_, 1, 60.0, 3.0, "fact") for type_ in ("engine/3", "helicopter/1"))
-    assert places.minutes(station, [ground], to) == pytest.approx(3.0 + 14.0, abs=0.05)
-    assert places.minutes(station, [ground, air], to) == pytest.approx(3.0 + 10.0, abs=0.05)
-    assert places.minutes(station, [replace(ground, speed_km_h=None)], to) is None
-    many = [Resource(1, f"engine/{k}", k, None, None, "fact") for k in range(1, 6)]
+    rows = [(k, f"Station {k}", 39.0, -120.5, "", "fact") for k in range(1, 5)]
+    known = [("engine/3", 60.0, 3.0), ("helicopter/1", 60.0, 3.0), ("engine/3", None, 3.0)]
+    sent = [(1, *known[0]), (2, *known[0]), (2, *known[1]), (3, *known[2])]
+    resources = [(station, type_, 1, speed, minutes, "fact") for station, type_, speed, minutes in sent]
+    found = store.read(stations.write(tmp_path / "stations.gpkg", rows, resources))
+    least = measures.least_minutes(found, to)
+    np.testing.assert_allclose(least, [3.0 + 14.0, 3.0 + 10.0, np.nan, np.nan], atol=0.05)
+
+
+def test_a_sign_sums_up_resources_and_has_a_short_name(shot_of):
+    many = [stations.resource(k, 1, f"engine/{k}", k) for k in range(1, 6)]
     assert places.summary(many) == "5 x engine/5, 4 x engine/4, 3 x engine/3 and 2 more types"
+    shot = shot_of()
+    at = shot.settings.stations.file
+    names = ["A " * 99, " \n"]
+    stations.put(at, [Station(k, name, *ROWS[0][2:4], "fact", 1) for k, name in enumerate(names, 1)])
+    first, second = places.signs(shot)
+    assert (len(first.name), second.name) == (80, "station 2")
 
 
 def test_routes_are_straight_lines_or_the_users(shot_of, tmp_path):
     assert not places.routes(shot_of(), [])
-    (tmp_path / "stations.gpkg").unlink()
     shot = shot_of(routes=True)
     found = places.routes(shot, places.signs(shot))
     assert [route.origin for route in found] == ["fact", "exercise"]
@@ -97,33 +116,9 @@ def test_files_are_inputs_of_pictures_only_where_stations_are_on(shot_of):
     assert not places.inputs(replace(settings, stations=replace(settings.stations, enabled=False)))
 
 
-@pytest.mark.parametrize(
-    ("rows", "resources", "reason"),
-    [
-        ([(1, "A", 38.9, -120.6, "x", "rumour")], [], 'origin is "rumour"; it is fact, exercise, user'),
-        ([(1, "", 38.9, -120.6, "x", "fact")], [], "a name has 1 to 80 letters, not 0"),
-        (ROWS, [(1, "engine/3", 1, 0.0, 1.0, "fact")], "row 1 of resource has a value"),
-        (ROWS, [(1, "engine/3", "many", 9.0, 1.0, "fact")], "row 1 of resource has a value"),
-    ],
-)
-def test_one_clear_error(tmp_path, rows, resources, reason):
-    path = stations.write(tmp_path / "stations.gpkg", rows, resources)
-    with pytest.raises(InputError, match=reason) as caught:
-        stations_file.read(path)
-    assert str(path) in str(caught.value)
-
-
 def test_stations_without_a_file_are_an_error_that_names_the_key(shot_of):
     settings = shot_of().settings
     settings.path.write_text('run = "run"\n[stations]\nenabled = true\n')
     with pytest.raises(InputError, match=r"scene\.toml:3:\d+: stations\.enabled needs stations\.file"):
         places.check(scene_file.read(settings.path))
     places.check(settings)
-
-
-def test_another_file_is_told(tmp_path):
-    with pytest.raises(InputError, match="there is no such file"):
-        stations_file.read(tmp_path / "nowhere.gpkg")
-    (tmp_path / "text.gpkg").write_text("no database")
-    with pytest.raises(InputError, match="no GeoPackage"):
-        stations_file.read(tmp_path / "text.gpkg")

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import bpy
 
 from ...blender import owned
-from ...shot import places
+from ...places.records import EXERCISE
 from ...shot.places import Sign
 from ...shot.shot import Shot
 from ..labels import facing, lettering
@@ -47,7 +47,7 @@ def build(shot: Shot, collection: bpy.types.Collection, shown: Sequence[Sign]) -
 
 def full(sign: Sign) -> list[tuple[str, bool]]:
     """Lines of a sign from top to bottom, and whether each is in the colour of its origin."""
-    return [(sign.name, False), *((line, line == places.EXERCISE) for line in sign.lines)]
+    return [(sign.name, False), *((line, line == EXERCISE) for line in sign.lines)]
 
 
 def short(sign: Sign) -> list[tuple[str, bool]]:

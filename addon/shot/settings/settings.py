@@ -352,8 +352,8 @@ class StationSettings:
     signs: bool = key(True, "a sign at each station, which faces the camera")
     show: tuple[str, ...] = key(
         ("kind", "resources", "minutes"),
-        "lines below the name",
-        choices=("kind", "resources", "minutes"),
+        "lines below the name (fire: when it comes)",
+        choices=("kind", "resources", "minutes", "fire"),
     )
     size: float = key(0.03, "letter height", unit="heights of the picture", at_least=0.001, at_most=0.5)
     detail: float = key(
