@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from datetime import UTC, datetime
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -12,18 +11,20 @@ from typing import Any
 from firetwin_core.run import Run
 
 from ..errors import UsageError
+from ..places import store
+from ..places.records import Resource, Station
+from ..places.store import Places
 from ..run import areas, content, info, labels, observations, readers, score, times, zone
 from ..run.labels import Label
 from ..run.observations import Perimeter
 from ..shot.settings.settings import Settings
 from ..shot.source import ShotSource
 from ..shot.terrain.elevation import Elevation
-from . import film, fronts, layers, places, reached
+from . import film, fronts, layers, reached
 from .arguments import LIMIT
 from .film import Film
 from .fronts import Front
 from .layers import Layer
-from .places import Places, Station
 from .reached import Reached
 
 
@@ -117,19 +118,13 @@ class Briefing:
         """Local times of the fronts."""
         return [times.text(front.utc, self.zone) for front in self.fronts]
 
-    @staticmethod
-    def moment(text: str) -> datetime | None:
-        """Time of a text in ISO 8601, of UTC if it names no zone; None for any other text."""
-        try:
-            when = datetime.fromisoformat(text)
-        except ValueError:
-            return None
-        return when if when.tzinfo else when.replace(tzinfo=UTC)
+    def resources(self, station: Station) -> list[Resource]:
+        """Resources of a station."""
+        return self.places.resources_of[station.id] if self.places else []
 
-    def local(self, text: str) -> str:
-        """Local time of a text in ISO 8601; any other text as it is."""
-        when = self.moment(text)
-        return text if when is None else times.text(when, self.zone)
+    def origins(self, station: Station) -> set[str]:
+        """Origins of a station and of its resources."""
+        return {station.origin, *(each.origin for each in self.resources(station))}
 
 
 def gather(request: Request) -> Briefing:
@@ -141,7 +136,7 @@ def gather(request: Request) -> Briefing:
         A file cannot be used; the error names it and what to do.
     """
     run, settings, elevation = _open(request.scene)
-    stations = places.read(request.places) if request.places else None
+    stations = store.read(request.places) if request.places else None
     shown = film.read(request.film, _hashes(run), request.limit // 2) if request.film else None
     clock = settings.time.zone if settings else zone.time_zone(run)
     named = request.against or observations.beside(Path(run.path))
@@ -178,12 +173,14 @@ def _points(run: Run, settings: Settings | None, stations: Places | None) -> lis
     """Stations, then named places within the run's grid, and how the fire reaches each."""
     file = settings.labels.file if settings else None
     towns = labels.read(file) if file else labels.known(run)
-    spots: list[Station | Label] = [*(stations.stations if stations else ()), *towns]
+    by_name = sorted(stations.stations, key=lambda each: (each.title, each.id)) if stations else ()
+    spots: list[Station | Label] = [*by_name, *towns]
     found = reached.find(run, [s.latitude for s in spots], [s.longitude for s in spots])
     middle = 0.5 * float(run.longitude[0] + run.longitude[-1])
     return [
         Point(
-            f"p{k}", spot.name, spot.latitude, float(areas.turned(spot.longitude, middle)), how,
+            f"p{k}", spot.title if isinstance(spot, Station) else spot.name,
+            spot.latitude, float(areas.turned(spot.longitude, middle)), how,
             spot if isinstance(spot, Station) else None,
         )
         for k, (spot, how) in enumerate(zip(spots, found, strict=True))

@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 
+from ..places.records import EXERCISE, Resource, Station
+from ..places.store import Places
 from ..run import times
+from . import facts
 from .briefing import Briefing, Point
-from .places import EXERCISE, Resource, Station, is_exercise
 from .reached import Reached
 from .text import quote
 
@@ -30,7 +32,7 @@ def section(briefing: Briefing) -> str:
         (
             f'<section aria-labelledby="places-title"><h2 id="places-title">{title}</h2>',
             *_warning(briefing),
-            _filters([point.station for point in stations if point.station]),
+            _filters(briefing, [point.station for point in stations if point.station]),
             '<div class="list" tabindex="0" role="region" aria-label="Places">',
             *([_stations(briefing, stations)] if stations else []),
             *([_towns(briefing, towns)] if towns else []),
@@ -42,14 +44,15 @@ def section(briefing: Briefing) -> str:
 def reach_text(briefing: Briefing, reached: Reached) -> tuple[str, str]:
     """When the fire reaches a place, and a note on it: UTC, or how near it came."""
     run, zone = briefing.run, briefing.zone
-    if reached.time is not None:
-        moment = times.utc(run, reached.time)
-        return times.text(moment, zone), f"{moment:%d %b %H:%M} UTC"
+    if reached.span is not None:
+        moment, earliest, latest = (times.utc(run, time) for time in reached.span)
+        between = f"between {earliest:%d %b %H:%M} and {latest:%d %b %H:%M}"
+        return times.text(moment, zone), f"{moment:%d %b %H:%M} UTC, {between}"
     if reached.state == "before":
         return "before the run began", f"by {briefing.moments[0]}"
     if reached.state == "outside":
         return "not known", "outside of the run's grid"
-    near = "" if reached.distance is None else f"; front then {distance(reached.distance)} away"
+    near = "" if reached.distance is None else f"; fire then {distance(reached.distance)} away"
     return "never", f"until {briefing.moments[-1]}{near}"
 
 
@@ -61,17 +64,17 @@ def distance(metres: float) -> str:
 
 
 def _warning(briefing: Briefing) -> Iterator[str]:
-    if briefing.places is not None and is_exercise(briefing.places):
+    if briefing.places is not None and briefing.places.exercise:
         yield (
             f'<p class="warn"><b>{EXERCISE}.</b> Rows marked "exercise" are made up: which engine stands '
             "where, its crew, its times and its costs.</p>"
         )
 
 
-def _filters(stations: Sequence[Station]) -> str:
+def _filters(briefing: Briefing, stations: Sequence[Station]) -> str:
     kinds = sorted({station.kind for station in stations if station.kind})
-    types = sorted({each.type for station in stations for each in station.resources if each.type})
-    origins = sorted({origin for station in stations for origin in _origins(station)})
+    types = sorted({each.type for station in stations for each in briefing.resources(station)})
+    origins = sorted({origin for station in stations for origin in briefing.origins(station)})
     selects = [
         *([_select("kind", "kind", [("", "all"), *_same([*kinds, "named place"])])] if stations else []),
         *([_select("types", "resource", [("", "all"), *_same(types)])] if types else []),
@@ -94,10 +97,6 @@ def _select(name: str, label: str, options: Iterable[tuple[str, str]]) -> str:
     return f'<label>{label} <select name="{name}">{inside}</select></label>'
 
 
-def _origins(station: Station) -> set[str]:
-    return {station.origin, *(resource.origin for resource in station.resources)}
-
-
 def _stations(briefing: Briefing, points: Sequence[Point]) -> str:
     head = ("Station, resource", "What", "Fire arrives", "Origin and source", "Position")
     inside = "\n".join(_station(briefing, point) for point in points)
@@ -110,46 +109,33 @@ def _table(caption: str, head: Iterable[str], inside: str, kind: str = "") -> st
 
 
 def _station(briefing: Briefing, point: Point) -> str:
-    station = point.station
-    assert station is not None
+    station, places = point.station, briefing.places
+    assert station is not None and places is not None  # noqa: PT018
+    resources, source = briefing.resources(station), places.source_of[station.source].name
     words = ", ".join(filter(None, (station.kind, station.agency)))
-    types = "|".join(dict.fromkeys(resource.type for resource in station.resources))
+    types = "|".join(dict.fromkeys(resource.type for resource in resources))
     address = f"<small>{quote(station.address)}</small>" if station.address else ""
     rows = [
         f"<tr><td>{_button(point)}</td><td>{quote(words)}{address}</td><td>{_when(briefing, point)}</td>"
-        f"<td>{_origin(station.origin, station.source)}</td><td>{_web_map(point)}</td></tr>",
-        *(_resource(briefing, station, resource) for resource in station.resources),
+        f"<td>{_origin(station.origin, source)}</td><td>{_web_map(point)}</td></tr>",
+        *(_resource(briefing, places, station, resource) for resource in resources),
     ]
-    data = _data(point, station.kind, "|".join(sorted(_origins(station))), types)
+    data = _data(point, station.kind, "|".join(sorted(briefing.origins(station))), types)
     return f"<tbody {data}>{''.join(rows)}</tbody>"
 
 
-def _resource(briefing: Briefing, station: Station, resource: Resource) -> str:
+def _resource(briefing: Briefing, places: Places, station: Station, resource: Resource) -> str:
     number = f"{resource.count:,} × " if resource.count > 1 else ""
-    facts = ", ".join(f"{label} {value}" for label, value in resource.facts)
-    lines = [resource.note, *_availability(briefing, resource)]
+    span = briefing.fronts[0].utc, briefing.fronts[-1].utc
+    lines = [resource.note, *facts.availability(places, resource, briefing.zone, span)]
     small = "".join(f"<small>{quote(line)}</small>" for line in lines if line)
     name = f"{number}{resource.type}" + (f", {resource.name}" if resource.name else "")
-    source = resource.source if resource.source != station.source else ""
+    source = places.source_of[resource.source].name if resource.source != station.source else ""
     return (
-        f'<tr class="resource"><td>{quote(name)}</td><td colspan="2">{quote(facts)}{small}</td>'
+        f'<tr class="resource"><td>{quote(name)}</td>'
+        f'<td colspan="2">{quote(facts.facts(places, resource))}{small}</td>'
         f"<td>{_origin(resource.origin, source)}</td><td></td></tr>"
     )
-
-
-def _availability(briefing: Briefing, resource: Resource) -> Iterator[str]:
-    """Periods that overlap the run's time, in local time; how many do not."""
-    first, last = briefing.fronts[0].utc, briefing.fronts[-1].utc
-    left = 0
-    for begins, ends, status, area in resource.availability:
-        start, end = (briefing.moment(text) for text in (begins, ends))
-        if (start and start > last) or (end and end <= first):
-            left += 1
-            continue
-        span = " to ".join(filter(None, (briefing.local(begins), briefing.local(ends))))
-        yield ": ".join(filter(None, (span, ", ".join(filter(None, (status, area))))))
-    if left:
-        yield f"{left} more periods before or after the run"
 
 
 def _towns(briefing: Briefing, points: Sequence[Point]) -> str:
@@ -197,6 +183,8 @@ def _web_map(point: Point) -> str:
 
 
 _METHOD = (
-    '<p class="soft">A place burns when the fuel cell that holds it does. A place without fuel never burns, '
-    "even with fire around it: mind the distance. The run's fire does not feel what crews do.</p>"
+    '<p class="soft">A place burns when the front passes it, which moves at constant speed between the '
+    "middles of fuel cells; the times between which it comes are those of the four cells around. A place "
+    "without fuel never burns, even with fire around it: mind the distance. The run's fire does not feel "
+    "what crews do.</p>"
 )

@@ -14,11 +14,11 @@ import firetwin_core
 import numpy as np
 
 from ..errors import UsageError
+from ..places.records import EXERCISE
 from ..run import times
 from . import curve, fronts, lists, map_panel, sections
 from .briefing import Briefing, Point
 from .mercator import Box
-from .places import EXERCISE, is_exercise
 from .text import quote, script_json, size
 
 POLICY = (
@@ -76,7 +76,7 @@ def html(briefing: Briefing, limit: int) -> str:
 def notes(briefing: Briefing) -> list[str]:
     """What whoever makes the page should know: what is made up, left out or not computed."""
     made_up = ["this run is synthetic, and the page says so"] if briefing.run.synthetic else []
-    if briefing.places is not None and is_exercise(briefing.places):
+    if briefing.places is not None and briefing.places.exercise:
         made_up.append(f'the page says "{EXERCISE}": rows of its stations are made up')
     left_out = [f"left out: {text}" for text in briefing.film.left_out] if briefing.film else []
     unscored = [f"no scores: {briefing.no_scores}"] if briefing.no_scores else []
@@ -146,8 +146,6 @@ def _times(briefing: Briefing) -> list[dict[str, Any]]:
 
 def _point(briefing: Briefing, point: Point) -> dict[str, Any]:
     reached = point.reached
-    station = point.station
-    origins = [station.origin, *(each.origin for each in station.resources)] if station else []
     return {
         "id": point.id,
         "name": point.name,
@@ -157,5 +155,5 @@ def _point(briefing: Briefing, point: Point) -> dict[str, Any]:
         "state": reached.state,
         "time": None if reached.time is None else times.iso(times.utc(briefing.run, reached.time)),
         "text": ", ".join(lists.reach_text(briefing, reached)),
-        "exercise": "exercise" in origins,
+        "exercise": point.station is not None and "exercise" in briefing.origins(point.station),
     }

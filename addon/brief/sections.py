@@ -10,12 +10,12 @@ from typing import Any
 import firetwin_core
 
 from ..data.history import SQUARE_METRES_PER_ACRE
+from ..places.records import EXERCISE, Source
 from ..run import times
 from ..run.score import report, used
 from . import curve
 from .briefing import Briefing
 from .film import CLIP, WIDTH, Film, Shown
-from .places import EXERCISE, Source, is_exercise
 from .text import quote, size
 
 _LEAFLET = Path(__file__).parent / "leaflet"
@@ -42,7 +42,7 @@ def _head(briefing: Briefing) -> Iterator[str]:
             "<b>This run is synthetic:</b> made up, not the output of a fire model. "
             "It says nothing of where a fire went or will go."
         )
-    if briefing.places is not None and is_exercise(briefing.places):
+    if briefing.places is not None and briefing.places.exercise:
         warnings.append(f"<b>{EXERCISE}.</b>")
     if warnings:
         yield f'<p class="warn">{"<br>".join(warnings)}</p>'

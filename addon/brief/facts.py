@@ -1,0 +1,71 @@
+"""What the page says of a resource: its facts with units, and its availability in the run's time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from datetime import datetime
+
+from ..places.records import Availability, Resource, Type
+from ..places.store import Places
+from ..run import times
+
+_OF_TYPE = {
+    "tank_l": ("tank", "l"),
+    "payload_kg": ("payload", "kg"),
+    "pump_l_min": ("pump", "l/min"),
+    "people": ("people", ""),
+}
+"""Label and unit of numbers of a type, which are minima."""
+_OWN = {
+    "load_kg": ("load", "kg"),
+    "line_m_h": ("line", "m/h"),
+    "speed_km_h": ("speed", "km/h"),
+    "mobilise_min": ("mobilises in", "min"),
+    "radius_km": ("radius", "km"),
+}
+"""Label and unit of a resource's own numbers."""
+_COSTS = {"cost_mobilise": "to mobilise", "cost_hour": "per hour", "cost_day": "per day"}
+
+
+def facts(places: Places, resource: Resource) -> str:
+    """What is known of one unit: ``tank at least 1,893 l, speed 60 km/h, cost 110 USD per hour, ...``."""
+    type_ = places.type_of[resource.type]
+    return ", ".join((*_numbers(type_, _OF_TYPE, " at least"), *_numbers(resource, _OWN), *_words(resource)))
+
+
+def _numbers(of: Type | Resource, known: dict[str, tuple[str, str]], more: str = "") -> Iterator[str]:
+    for key, (label, unit) in known.items():
+        value = getattr(of, key)
+        if value is not None:
+            yield f"{label}{more} {_number(value)} {unit}".strip()
+
+
+def _words(resource: Resource) -> Iterator[str]:
+    for key, what in _COSTS.items():
+        if value := getattr(resource, key):
+            yield " ".join(filter(None, ("cost", f"{value:,.0f}", resource.currency, what)))
+    yield f"mode {resource.mode}"
+    if resource.staffing:
+        yield f"staffing {resource.staffing}"
+    yield "works at night" if resource.night else "does not work at night"
+
+
+def _number(value: float) -> str:
+    return f"{value:,.0f}" if abs(value) >= 100.0 else f"{value:.3g}"
+
+
+def availability(
+    places: Places, resource: Resource, zone: str, span: tuple[datetime, datetime]
+) -> Iterator[str]:
+    """Windows that overlap a span of time (UTC), in local time; how many do not."""
+    first, last = span
+    windows = places.windows_of[resource.id]
+    shown = [each for each in windows if each.begins <= last and each.ends > first]
+    yield from (_window(each, zone) for each in shown)
+    if left := len(windows) - len(shown):
+        yield f"{left} more periods before or after the run"
+
+
+def _window(window: Availability, zone: str) -> str:
+    begins, ends = (times.text(when, zone) for when in (window.begins, window.ends))
+    return f"{begins} to {ends}: {', '.join(filter(None, (window.status, window.area)))}"
