@@ -21,7 +21,7 @@ from ..places.allocation.divisions import HOUR
 from ..places.allocation.model import USUAL, Options
 from ..places.allocation.nearest import Nearest
 from ..places.allocation.problem import Problem, Request, state
-from ..places.allocation.resources import Resource, usable
+from ..places.allocation.resources import Unit, usable
 from ..progress import MessageCallback, Progress, no_message, silent
 from ..run import times
 from . import worker
@@ -31,7 +31,7 @@ HOURS = 12
 
 
 def suggest(
-    resources: Iterable[Resource],
+    resources: Iterable[Unit],
     run: Run,
     request: Request,
     start: datetime | None = None,

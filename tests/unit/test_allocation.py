@@ -4,19 +4,19 @@ import argparse
 import itertools
 import json
 import re
-import sqlite3
 import sys
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 
 import numpy as np
 import pytest
+import stations
 from fires import LATITUDE, LONGITUDE, axes, round_fire
 from firetwin import cli
 from firetwin.errors import Error, InputError, UsageError
 from firetwin.jobs import allocate
+from firetwin.places import measures, store
 from firetwin.places.allocation import (
-    LABEL,
     LIMITS,
     arguments,
     containment,
@@ -31,6 +31,7 @@ from firetwin.places.allocation import (
 from firetwin.places.allocation.model import Options
 from firetwin.places.allocation.problem import Problem, Request
 from firetwin.places.allocation.resources import Unit
+from firetwin.places.records import EXERCISE, Availability, Station
 from firetwin.run import areas, readers
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -270,7 +271,7 @@ UNITS = [
 
 def test_a_suggestion_says_what_it_is(round_run):
     found = allocate.suggest(UNITS, readers.open(round_run), Request(), hours=1)
-    assert found["label"] == LABEL
+    assert found["label"] == EXERCISE
     assert found["status"] == "suggested"
     assert json.loads(json.dumps(found)) == found
     for part in found["divisions"]:
@@ -280,8 +281,8 @@ def test_a_suggestion_says_what_it_is(round_run):
     assert len(sent) == len(set(sent))
     assert found["sums"]["cost"] == 100.0 * len(sent)
     text = page.page(found)
-    assert text.startswith(f"*** {LABEL} ***")
-    assert text.endswith(f"*** {LABEL} ***")
+    assert text.startswith(f"*** {EXERCISE} ***")
+    assert text.endswith(f"*** {EXERCISE} ***")
     assert all(f"- {limit}" in text for limit in LIMITS)
     assert found == allocate.suggest(UNITS[::-1], readers.open(round_run), Request(), hours=1)
 
@@ -322,28 +323,18 @@ def test_what_lacks_a_number_is_left_out_and_told():
     assert left == ["2 (engine/3) has no speed_km_h", "3 (engine/3) has no cost_hour"]
 
 
-TABLES = """
-CREATE TABLE station(fid INTEGER PRIMARY KEY, name TEXT, lat REAL, lon REAL);
-CREATE TABLE resource(id INTEGER PRIMARY KEY, station INTEGER, type TEXT, name TEXT, count INTEGER,
-  speed_km_h REAL, mobilise_min REAL, line_m_h REAL, cost_hour REAL, currency TEXT, origin TEXT NOT NULL);
-CREATE TABLE availability(resource INTEGER, begins TEXT, ends TEXT, status TEXT, area TEXT);
-INSERT INTO station VALUES (1, 'North', 38.95, -120.6), (2, 'West', 38.9, -120.7);
-"""
-ROW = "INSERT INTO resource VALUES (?, ?, ?, ?, ?, 60, 10, 8000, 100, ?, 'exercise')"
-
-
 @pytest.fixture
 def places(tmp_path):
     """A file of places: seven engines, and a dozer that is committed until five."""
-    path = tmp_path / "places.gpkg"
-    with sqlite3.connect(path) as base:
-        base.executescript(TABLES)
-        base.execute(ROW, (7, 1, "engine/3", None, 7, "USD"))
-        base.execute(ROW, (9, 2, "dozer/2", "Dozer", 1, "USD"))
-        base.execute("INSERT INTO availability VALUES (9, NULL, '2014-09-17T05:00:00Z', 'Committed', NULL)")
-        base.execute("INSERT INTO availability VALUES (9, '2014-09-17T05:00:00Z', NULL, 'Available', NULL)")
-    base.close()
-    return path
+    bases = [Station(1, "North", 38.95, -120.6, "exercise", 1), Station(2, "", 38.9, -120.7, "exercise", 1)]
+    known = {"line_m_h": 8000.0, "cost_hour": 100.0, "currency": "USD"}
+    sent = [
+        stations.resource(7, 1, "engine/3", 7, 60.0, 10.0, **known),
+        stations.resource(9, 2, "dozer/2", 1, 60.0, 10.0, name="Dozer", **known),
+    ]
+    day, five = timedelta(days=1), datetime(2014, 9, 17, 5, tzinfo=UTC)
+    windows = [Availability(9, five - day, five, "committed"), Availability(9, five, five + day)]
+    return stations.put(tmp_path / "places.gpkg", bases, sent, windows)
 
 
 def test_resources_are_read_as_they_are_at_the_time(places):
@@ -352,24 +343,42 @@ def test_resources_are_read_as_they_are_at_the_time(places):
     assert (units[0].name, units[0].lat, units[0].currency) == ("North", 38.95, "USD")
     assert left == ["9 (dozer/2) is committed"]
     assert [unit.id for unit in read.read(places, START + timedelta(minutes=15))[0]][-1] == "9"
+    assert read.read(places, START + timedelta(days=2))[1] == ["9 (dozer/2) is of unknown status then"]
 
 
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        ("UPDATE resource SET line_m_h = 'fast' WHERE id = 9", "resource 9 has line_m_h = 'fast', no number"),
-        ("UPDATE resource SET currency = 'EUR' WHERE id = 9", "has costs in EUR and USD"),
-        ("UPDATE resource SET count = -1", "resource 7 has a count of -1"),
-        ("UPDATE availability SET begins = 'noon'", 'availability has "noon", no time'),
-        ("DROP TABLE station", "has no resources and stations to allocate"),
-    ],
-)
-def test_what_is_wrong_in_a_file_of_places_is_told(places, change, words):
-    with sqlite3.connect(places) as base:
-        base.execute(change)
-    base.close()
-    with pytest.raises(InputError, match=words):
-        read.read(places, START + timedelta(hours=1))
+def test_costs_in_two_currencies_are_told(places):
+    found = store.read(places)
+    changed = [replace(found.resources[0], currency="EUR"), replace(found.resources[1], currency="USD")]
+    stations.put(places, found.stations, changed)
+    with pytest.raises(InputError, match="has costs in EUR and USD"):
+        read.read(places, START)
+    stations.put(places, found.stations, [replace(changed[0], count=10_001)])
+    with pytest.raises(InputError, match="resource 7 has a count of 10,001, above 10,000"):
+        read.read(places, START)
+
+
+def test_a_unit_costs_what_a_search_says(places):
+    found = store.read(places)
+    rates = [{"cost_mobilise": 40.0}, {"cost_hour": None, "cost_day": 900.0}]
+    rows = [replace(each, count=1, **more) for each, more in zip(found.resources, rates, strict=True)]
+    stations.put(places, found.stations, rows)
+    units, _ = read.read(places, START)
+    assert resources.usable(units) == (units, [])
+    assert resources.costs(units, 30.0).tolist() == [40.0 + 3000.0, 1800.0]
+    assert measures.cost_of(store.read(places), 30.0).tolist() == [40.0 + 3000.0, 1800.0]
+
+
+def test_an_exercise_of_the_program_can_be_allocated(round_run, tmp_path, capsys):
+    towns, out = tmp_path / "towns.csv", tmp_path / "exercise.gpkg"
+    towns.write_text("name,latitude,longitude\nAlpha,38.95,-120.6\nBravo,38.9,-120.7\n")
+    made = ["places", "exercise", str(round_run), "--towns", str(towns), "--out", str(out)]
+    assert cli.main(made) == 0
+    capsys.readouterr()
+    code = cli.main(["allocate", str(out), str(round_run), "--hours", "2", "--escape-loss", "10", "--json"])
+    found = json.loads(capsys.readouterr().out)
+    assert (code, found["status"]) == (0, "suggested")
+    assert found["nearest"]
+    assert found["units"]["cost"] == "USD"
 
 
 def test_the_command_prints_a_suggestion_or_why_there_is_none(round_run, places, capsys):

@@ -11,7 +11,6 @@ does not feel the suppression.
 
 from __future__ import annotations
 
-LABEL = "Exercise: not operational advice"
 LIMITS = (
     "the run's fire does not feel suppression: its front grows as if nobody fought it",
     "line holds once it is built, on any ground and by day and night; nobody tires, rests or is relieved",

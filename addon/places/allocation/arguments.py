@@ -8,10 +8,11 @@ from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
 
-from . import LABEL, LIMITS
+from ..records import EXERCISE
+from . import LIMITS
 
 DETAIL = f"""\
-{LABEL}. Suggests which resources of a file of places to send to which division of a run's front,
+{EXERCISE}. Suggests which resources of a file of places to send to which division of a run's front,
 so that the line that they build is as long as the front at the hour of containment, at the least cost and
 loss (after Donovan and Rideout 2003). Divisions are sectors about the centre of what has burned, A clockwise
 from north.

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .divisions import Divisions
-from .resources import Resource, is_of, minutes
+from .resources import Unit, costs, is_of, minutes
 
 SMALLEST = 0.01  # of the currency: costs and losses count in whole multiples of it
 
@@ -108,24 +108,23 @@ class Problem:
 _ARRAYS = ("minutes", "rate", "cost", "hours", "perimeter", "loss")
 
 
-def state(resources: Sequence[Resource], divisions: Divisions, request: Request) -> tuple[Problem, list[int]]:
+def state(resources: Sequence[Unit], divisions: Divisions, request: Request) -> tuple[Problem, list[int]]:
     """Problem of resources in the order of their ids, and which divisions are in it: those that burn.
 
-    A resource is paid from the order to the end of the period. Before the first hour with a front a division
-    cannot be contained: the fire would come to it later.
+    A resource is paid for mobilising, and from the order to the end of the period. Before the first hour with
+    a front a division cannot be contained: the fire would come to it later.
     """
     burning = [k for k in range(len(divisions.perimeter)) if divisions.perimeter[k].any()]
     perimeter = divisions.perimeter[burning]
     come = np.maximum.accumulate(perimeter > 0.0, axis=1)
     loss = np.round(request.loss * divisions.burned[burning] / 1e4 / SMALLEST) * SMALLEST
     period = float(divisions.hours[-1])
-    hourly = np.array([each.cost_hour for each in resources], np.float64)
     problem = Problem(
-        tuple(str(each.id) for each in resources),
+        tuple(each.id for each in resources),
         tuple(each.type for each in resources),
         minutes(resources, divisions.place[burning]),
         np.array([each.line_m_h or 0.0 for each in resources], np.float64),
-        np.round(hourly * period / SMALLEST) * SMALLEST,
+        np.round(costs(resources, period) / SMALLEST) * SMALLEST,
         divisions.hours,
         np.where(come, perimeter, np.nan),
         np.where(come, loss, np.nan),

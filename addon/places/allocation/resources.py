@@ -1,23 +1,23 @@
-"""Resources as an allocation reads them, and how long each takes to a place."""
+"""Resources as an allocation takes them, and how long each takes to a place."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-AIR = ("airtanker", "helicopter", "aircraft")
-"""Kinds that fly straight; others follow roads."""
-DETOUR = 1.4
-"""Length of a way on roads by the straight distance; an assumption."""
-_EARTH = 6_371_008.8  # m, mean radius
+from ..distance import distance_km
+from ..measures import travel_minutes, unit_cost
+from ..records import AIR
+
+Array = NDArray[np.float64]
 
 
-class Resource(Protocol):
-    """One resource that can be sent: an engine, a crew, a dozer, an aircraft.
+class Unit(NamedTuple):
+    """One resource that can be sent: an engine, a crew, a dozer, an aircraft. None is not known.
 
     Attributes
     ----------
@@ -29,51 +29,34 @@ class Resource(Protocol):
         Line that it builds, m/h.
     mobilise_min, speed_km_h
         Time from the order to its departure, and its speed.
-    cost_hour
-        Cost of an hour, in the list's currency.
+    cost_hour, cost_mobilise, cost_day
+        Cost of an hour, of mobilising and of a day, in `currency`.
     lat, lon
         Where it stands, degrees.
     """
 
-    @property
-    def id(self) -> str: ...
-    @property
-    def type(self) -> str: ...
-    @property
-    def line_m_h(self) -> float | None: ...
-    @property
-    def mobilise_min(self) -> float | None: ...
-    @property
-    def speed_km_h(self) -> float | None: ...
-    @property
-    def cost_hour(self) -> float | None: ...
-    @property
-    def lat(self) -> float: ...
-    @property
-    def lon(self) -> float: ...
-
-
-class Unit(NamedTuple):
-    """A resource of known numbers."""
-
     id: str
     type: str
-    line_m_h: float
-    mobilise_min: float
-    speed_km_h: float
-    cost_hour: float
+    line_m_h: float | None
+    mobilise_min: float | None
+    speed_km_h: float | None
+    cost_hour: float | None
     lat: float
     lon: float
     name: str = ""
     origin: str = "exercise"
     currency: str = ""
+    cost_mobilise: float | None = None
+    cost_day: float | None = None
 
 
-def usable(resources: Iterable[Resource]) -> tuple[list[Resource], list[str]]:
-    """Resources in the order of their ids, and why others are left out; no line rate counts as 0."""
+def usable(units: Iterable[Unit]) -> tuple[list[Unit], list[str]]:
+    """Units in the order of their ids, and why others are left out; no line rate counts as 0."""
     kept, left = [], []
-    for each in sorted(resources, key=lambda one: natural(str(one.id))):
-        missing = [name for name in ("mobilise_min", "speed_km_h", "cost_hour") if not _known(each, name)]
+    for each in sorted(units, key=lambda one: natural(one.id)):
+        missing = [name for name in ("mobilise_min", "speed_km_h") if not _known(each, name)]
+        if not (_known(each, "cost_hour") or _known(each, "cost_day")):
+            missing.append("cost_hour")
         if missing:
             left.append(f"{each.id} ({each.type}) has no {' and no '.join(missing)}")
         else:
@@ -81,8 +64,8 @@ def usable(resources: Iterable[Resource]) -> tuple[list[Resource], list[str]]:
     return kept, left
 
 
-def _known(resource: Resource, name: str) -> bool:
-    value = getattr(resource, name)
+def _known(unit: Unit, name: str) -> bool:
+    value = getattr(unit, name)
     least = 0.0 if name != "speed_km_h" else np.nextafter(0.0, 1.0)
     return value is not None and bool(np.isfinite(value)) and value >= least
 
@@ -97,17 +80,25 @@ def is_of(kind: str, wanted: str) -> bool:
     return kind == wanted or kind.partition("/")[0] == wanted
 
 
-def minutes(resources: Sequence[Resource], place: ArrayLike) -> NDArray[np.float64]:
-    """Minutes (n, k) from the order to the arrival at places (k, 2), degrees.
+def values(units: Sequence[Unit], name: str) -> Array:
+    """Numbers (n,) of units; NaN where one is not known."""
+    found = (getattr(each, name) for each in units)
+    return np.array([np.nan if each is None else each for each in found], np.float64)
 
-    Great-circle distance, `DETOUR` times as long on the ground.
-    """
-    here = np.radians([[each.lat, each.lon] for each in resources]).reshape(-1, 1, 2)
-    there = np.radians(np.asarray(place, np.float64))[None]
-    half = np.sin(0.5 * (there - here)) ** 2
-    chord = half[..., 0] + np.cos(here[..., 0]) * np.cos(there[..., 0]) * half[..., 1]
-    distance = 2.0 * _EARTH * np.arcsin(np.sqrt(np.minimum(chord, 1.0)))
-    way = np.array([1.0 if each.type.partition("/")[0] in AIR else DETOUR for each in resources])
-    speed = np.array([each.speed_km_h for each in resources], np.float64) / 0.06  # m/min
-    first = np.array([each.mobilise_min for each in resources], np.float64)
-    return first[:, None] + distance * (way / speed)[:, None]
+
+def costs(units: Sequence[Unit], hours: float) -> Array:
+    """Cost (n,) of mobilising and of hours of work, as searches have it."""
+    mobilise, hour, day = (values(units, f"cost_{name}") for name in ("mobilise", "hour", "day"))
+    return unit_cost(mobilise, hour, day, hours)
+
+
+def minutes(units: Sequence[Unit], place: ArrayLike) -> Array:
+    """Minutes (n, k) from the order to the arrival at places (k, 2), degrees, as searches have them."""
+    at, spots = (values(units, "lat"), values(units, "lon")), np.asarray(place, np.float64).reshape(-1, 2)
+    air = np.array([each.type.partition("/")[0] in AIR for each in units], bool)
+    speed, first = values(units, "speed_km_h"), values(units, "mobilise_min")
+    found = np.empty((len(units), len(spots)))
+    for k, (latitude, longitude) in enumerate(spots.tolist()):
+        far = distance_km(*at, (latitude, longitude))
+        found[:, k] = travel_minutes(far, air, speed, first)
+    return found

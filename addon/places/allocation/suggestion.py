@@ -8,12 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from . import LABEL, LIMITS, containment
+from ..records import AIR, DETOUR, EXERCISE
+from . import LIMITS, containment
 from .containment import Answer
 from .divisions import Divisions
 from .nearest import Nearest
 from .problem import Problem
-from .resources import AIR, DETOUR, Resource
+from .resources import Unit
 
 UNITS = {"perimeter": "m", "line": "m", "arrival": "min", "hour": "h", "position": "degrees"}
 
@@ -22,7 +23,7 @@ UNITS = {"perimeter": "m", "line": "m", "arrival": "min", "hour": "h", "position
 class Asked:
     """Resources (n), divisions and which of them burn (k), and the problem that they make."""
 
-    resources: Sequence[Resource]
+    resources: Sequence[Unit]
     left_out: list[str]
     divisions: Divisions
     burning: list[int]
@@ -38,7 +39,7 @@ def describe(asked: Asked, answer: Answer | None, pairs: list[Nearest], reasons:
     """The suggestion; without an answer, the reasons why there is none."""
     request, divisions = asked.problem.request, asked.divisions
     return {
-        "label": LABEL,
+        "label": EXERCISE,
         "status": "suggested" if answer is not None else "infeasible",
         "reasons": reasons,
         "centre": {"latitude": divisions.centre[0], "longitude": divisions.centre[1]},
@@ -79,8 +80,8 @@ def _division(asked: Asked, answer: Answer | None, which: int) -> dict[str, Any]
         {
             "id": problem.ids[i],
             "type": problem.types[i],
-            "name": getattr(asked.resources[i], "name", ""),
-            "origin": getattr(asked.resources[i], "origin", "exercise"),
+            "name": asked.resources[i].name,
+            "origin": asked.resources[i].origin,
             "arrival": round(float(problem.minutes[i, k]), 1),
             "line": round(float(problem.line[i, k, hour]), 1),
             "cost": round(float(problem.cost[i]), 2),
@@ -110,7 +111,7 @@ def _pair(asked: Asked, each: Nearest) -> dict[str, Any]:
 
 
 def _currency(asked: Asked) -> str:
-    return next((name for each in asked.resources if (name := getattr(each, "currency", ""))), "")
+    return next((each.currency for each in asked.resources if each.currency), "")
 
 
 def _assumptions(asked: Asked) -> list[str]:
@@ -122,7 +123,7 @@ def _assumptions(asked: Asked) -> list[str]:
         f"divisions are sectors about the centre of what has burned by the order; each {escape}",
         "a division is contained at the hour at which its line is as long as the run's front there, measured "
         "on the map without slopes",
-        f"a resource that is sent works in one division and is paid for the whole {period:g} h",
+        f"a resource that is sent works in one division and is paid for mobilising and all {period:g} h",
         f"on roads a way is {DETOUR:g} times the straight distance, and {', '.join(AIR)} fly straight, "
         "to the middle of the division's first front",
         f"burned ground is a loss of {request.loss:,.2f} per hectare",
