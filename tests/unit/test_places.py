@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import stations
+from firetwin.errors import InputError
 from firetwin.places import ahead, measures, store
 from firetwin.places.records import EXERCISE, Station
 from firetwin.run import times
