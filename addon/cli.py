@@ -252,7 +252,7 @@ def _parser() -> argparse.ArgumentParser:
 
     farm.add(command("farm", "plan a film for a render farm", farm.DETAIL), _path, _count)
 
-    tiles.add(command("tiles", "read 3D tilesets", tiles.DETAIL), _count)
+    tiles.add(command("tiles", "read and make 3D tilesets", tiles.DETAIL), _path, _count)
     allocation.add(
         command("allocate", "suggest an allocation of resources (exercise)", allocation.DETAIL),
         _path,

@@ -233,10 +233,26 @@ def resources(arguments: argparse.Namespace) -> int:
 
 
 def tiles(arguments: argparse.Namespace) -> None:
-    """Read a tileset."""
+    """Read a tileset, or make one."""
+    if arguments.verb == "make":
+        _make_tiles(arguments)
+        return
     from .tiles import command
 
     command.run(arguments)
+
+
+def _make_tiles(arguments: argparse.Namespace) -> None:
+    from .jobs import make_tiles
+
+    request = make_tiles.TilesRequest(
+        arguments.out, arguments.levels, arguments.buildings, arguments.geoid, arguments.credit
+    )
+    made = make_tiles.run(_choice(arguments).shot(), request, Reporter("tiles"), say)
+    errors = ", ".join(f"{error:.3g}" for error in made.errors)
+    buildings = f" with {count(made.buildings, 'building')}" if made.buildings else ""
+    say(f"{count(made.tiles, 'tile')}{buildings}, {size(made.bytes)}; errors of the levels: {errors} m")
+    result(arguments.out / "tileset.json")
 
 
 def allocate(arguments: argparse.Namespace) -> None:

@@ -4,21 +4,23 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
+from pathlib import Path
 
 DETAIL = """\
-  firetwin tiles info SOURCE   levels, contents, errors, extent and credits of a tileset
+  firetwin tiles info SOURCE             levels, contents, errors, extent and credits of a tileset
+  firetwin tiles make SCENE --out DIR    3D Tiles 1.1 of a scene's ground and of buildings
 
 SOURCE is a tileset.json, its folder, a .3tz archive, a URL, or an asset of Cesium ion such as ion:96188. Keys
 of services are read from the environment: GOOGLE_MAPS_API_KEY, CESIUM_ION_TOKEN."""
 
 
-def add(parser: argparse.ArgumentParser, count: Callable[[str], int]) -> None:
+def add(parser: argparse.ArgumentParser, path: Callable[[str], Path], count: Callable[[str], int]) -> None:
     """Define the verbs.
 
     Parameters
     ----------
-    count
-        Type of arguments.
+    path, count
+        Types of arguments.
     """
     verbs = parser.add_subparsers(dest="verb", metavar="VERB", required=True)
     summary = "list the content of a tileset"
@@ -37,3 +39,20 @@ def add(parser: argparse.ArgumentParser, count: Callable[[str], int]) -> None:
         "--host", metavar="HOST", action="append", default=[], help="further host that files may lie on"
     )
     info.add_argument("--private", action="store_true", help="allow addresses of private networks")
+    summary = "make a tileset of a scene's ground and of buildings"
+    make = verbs.add_parser("make", help=summary, description=f"{summary[0].upper()}{summary[1:]}.")
+    make.add_argument("--debug", action="store_true", help="show a traceback when something fails")
+    make.add_argument("scene", metavar="SCENE|RUN", type=path, help="scene file, or run folder")
+    make.add_argument("--out", metavar="DIR", type=path, required=True, help="folder of the tileset")
+    make.add_argument("--levels", metavar="N", type=count, help="depth of the quadtree (as the heights need)")
+    make.add_argument(
+        "--buildings", metavar="FILE", type=path, help="footprints: GeoJSON, GeoPackage or shapefile"
+    )
+    make.add_argument(
+        "--geoid",
+        metavar="M",
+        type=float,
+        default=0.0,
+        help="height of the geoid above the WGS84 ellipsoid, m (0); about -26 at the King Fire",
+    )
+    make.add_argument("--credit", metavar="TEXT", default="", help="who is named for the data (the run)")

@@ -71,7 +71,7 @@ def check(settings: Settings, run: Run) -> None:
     if path.exists() and not path.is_file():  # opening a pipe would block
         reason = f"terrain.photo: {path} is no file; name a GeoTIFF, PNG or JPEG"
         raise scene_file.error_at(settings.path, ("terrain", "photo"), reason)
-    source = _source(settings)
+    source = source_of(settings)
     if not overlap(source.bounds, run.latitude, run.longitude):
         raise source.error(
             f"covers {said(source.bounds)}, outside of the run, which covers {said(extent(run))}"
@@ -92,7 +92,7 @@ def pictures(shot: ShotView) -> list[OrthophotoImage]:
     """The whole photo as one picture, and a finer one near the cameras if the photo has the resolution."""
     if shot.settings.terrain.photo is None:
         return []
-    source, ground = _source(shot.settings), shot.ground
+    source, ground = source_of(shot.settings), shot.ground
     rows, columns = (
         np.array([axis[0], axis[-1]]) for axis in (ground.fields.latitude, ground.fields.longitude)
     )
@@ -121,7 +121,7 @@ def _pixel(shot: ShotView) -> float:
     return 0.5 * min(sizes, default=1.0)
 
 
-def _picture(shot: ShotView, source: _Source, low: Array, high: Array, step: float) -> OrthophotoImage:
+def _picture(shot: ShotView, source: PhotoSource, low: Array, high: Array, step: float) -> OrthophotoImage:
     """Resample an area in strips, at `step` (m) or the coarser step that `_LARGEST` allows."""
     size = np.clip(np.ceil((high - low) / step), 2, _LARGEST).astype(int)
     pixels = np.zeros((size[1], size[0], 4), np.uint8)
@@ -156,7 +156,7 @@ class _Places:
         return [bilinear(field, row[:, None], column) for field in self.fields]
 
 
-class _Source:
+class PhotoSource:
     """An orthophoto file: `bounds` (west, south, east, north), degrees, and `resolution`, m."""
 
     bounds: tuple[float, float, float, float]
@@ -171,7 +171,7 @@ class _Source:
         raise NotImplementedError
 
 
-def _source(settings: Settings) -> _Source:
+def source_of(settings: Settings) -> PhotoSource:
     path = settings.terrain.photo
     assert path is not None
     try:
@@ -183,7 +183,7 @@ def _source(settings: Settings) -> _Source:
     return _Tiff(settings) if start.startswith(_TIFF) else _Plain(settings, path)
 
 
-class _Tiff(_Source):
+class _Tiff(PhotoSource):
     def __init__(self, settings: Settings) -> None:
         self.raster = GeoTiff(settings, "photo")
         self.bounds, self.resolution = self.raster.bounds, self.raster.resolution
@@ -207,7 +207,7 @@ class _Tiff(_Source):
         return _rgba(_colours(np.moveaxis(pixels, 0, -1), row, column))
 
 
-class _Plain(_Source):
+class _Plain(PhotoSource):
     def __init__(self, settings: Settings, path: Path) -> None:
         self.path = path
         try:

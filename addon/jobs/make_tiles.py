@@ -1,0 +1,143 @@
+"""Makes 3-D Tiles of a scene's ground: elevation, orthophoto or fuel colours, and buildings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from firetwin_core.terrain import bilinear
+from numpy.typing import NDArray
+
+from ..progress import MessageCallback, Progress, count, no_message, silent
+from ..run import areas
+from ..shot.shot import Shot
+from ..shot.terrain import orthophoto
+from ..tiles import buildings
+from ..tiles.make.lattice import Lattice, Surface
+from ..tiles.make.tileset import Maker, Summary
+
+Array = NDArray[np.float64]
+_FINEST = 4097  # points along an axis of an elevation model
+_BARE, _GREEN = (150.0, 132.0, 104.0), (58.0, 76.0, 44.0)
+"""sRGB of ground without fuel, and with the run's largest load: made up, for ground without a photo."""
+
+
+@dataclass(frozen=True)
+class TilesRequest:
+    """What is asked for.
+
+    Attributes
+    ----------
+    out
+        Folder of the tileset.
+    levels
+        Depth of the quadtree; None: as the heights' own spacing needs.
+    footprints
+        File of buildings' footprints.
+    geoid
+        Height of the geoid above the WGS84 ellipsoid, m. It is added to orthometric heights.
+    credit
+        Who is named for the data.
+    """
+
+    out: Path
+    levels: int | None = None
+    footprints: Path | None = None
+    geoid: float = 0.0
+    credit: str = ""
+
+
+def run(
+    shot: Shot,
+    request: TilesRequest,
+    progress: Progress = silent,
+    tell: MessageCallback = no_message,
+) -> Summary:
+    """Write a tileset.
+
+    Raises
+    ------
+    InputError
+        The folder holds something else, or the footprints cannot be read.
+    """
+    surface = surface_of(shot, request.geoid)
+    built = []
+    if request.footprints:
+        found = buildings.read(request.footprints)
+        tell(
+            f"{count(len(found.outlines), 'footprint')}; {found.assumed} without a height are "
+            f"{buildings.ASSUMED:g} m high; {found.mended} crossed themselves and were split"
+        )
+        built = buildings.stand(found.outlines, lambda lat, lon: _heights(surface, lat, lon))
+    lattice = Lattice(surface, request.levels)
+    credit = request.credit or (f"{shot.run.name}, synthetic" if shot.run.synthetic else shot.run.name)
+    colours = _Photo(shot) if shot.settings.terrain.photo else _FuelColours(shot)
+    return Maker(lattice, colours, built, request.out, credit).run(progress)
+
+
+def surface_of(shot: Shot, geoid: float) -> Surface:
+    """Heights of a shot's ground above the ellipsoid, where the run is; finer where a model is finer.
+
+    Parameters
+    ----------
+    geoid
+        m; added where the run's heights are orthometric.
+    """
+    fields, relief = shot.ground.fields, shot.relief
+    inside = slice(fields.margin, -fields.margin or None)
+    latitude, longitude = fields.latitude[inside], fields.longitude[inside]
+    height = fields.elevation[inside, inside]
+    if relief.model:
+        step = float(np.min(np.diff(latitude))) * areas.metres_per_degree(float(latitude.mean()))[0]
+        times = max(int(np.ceil(step / relief.model.resolution)), 1)
+        rows, columns = (np.linspace(0, n - 1, min(times * (n - 1) + 1, _FINEST)) for n in height.shape)
+        coarse = bilinear(height, rows[:, None], columns)
+        latitude = np.interp(rows, np.arange(len(latitude)), latitude)
+        longitude = np.interp(columns, np.arange(len(longitude)), longitude)
+        height = relief.mixed(latitude, longitude, coarse)[0]
+    above = geoid if shot.run.vertical == "orthometric" else 0.0
+    return Surface(latitude, longitude, (height + above).astype(np.float32))
+
+
+def _heights(surface: Surface, latitude: Array, longitude: Array) -> Array:
+    rows = np.interp(latitude, surface.latitude, np.arange(len(surface.latitude), dtype=float))
+    columns = np.interp(longitude, surface.longitude, np.arange(len(surface.longitude), dtype=float))
+    return bilinear(surface.height, rows, columns).astype(np.float64)
+
+
+class _FuelColours:
+    """Ground coloured by its fuel: greener is denser."""
+
+    def __init__(self, shot: Shot) -> None:
+        fields = shot.ground.fields
+        self.axes = fields.latitude, fields.longitude
+        load = fields.canopy_fuel + fields.surface_fuel
+        self._load = load / max(float(load.max()), 1.0e-9)
+        self.resolution = float(min(shot.ground.cell))
+
+    def __call__(self, latitude: Array, longitude: Array) -> NDArray[np.uint8]:
+        rows, columns = (
+            np.interp(at, axis, np.arange(len(axis), dtype=float))
+            for at, axis in zip((latitude, longitude), self.axes, strict=True)
+        )
+        load = bilinear(self._load, rows[:, None], columns)[..., None]
+        return np.rint(np.asarray(_BARE) * (1.0 - load) + np.asarray(_GREEN) * load).astype(np.uint8)
+
+
+class _Photo:
+    """A scene's orthophoto; ground that it does not cover is coloured by its fuel."""
+
+    def __init__(self, shot: Shot) -> None:
+        self._photo, self._fuel = orthophoto.source_of(shot.settings), _FuelColours(shot)
+        self.resolution = self._photo.resolution
+
+    def __call__(self, latitude: Array, longitude: Array) -> NDArray[np.uint8]:
+        rows, columns = np.meshgrid(latitude, longitude, indexing="ij")
+        step = (
+            abs(latitude[-1] - latitude[0]) / len(latitude) * areas.metres_per_degree(float(latitude[0]))[0]
+        )
+        photo = np.nan_to_num(self._photo.colours(rows, columns, float(step)))
+        alpha = photo[..., 3:]
+        colours = self._fuel(latitude, longitude) * (1.0 - alpha) + 255.0 * photo[..., :3] * alpha
+        return np.rint(np.clip(colours, 0.0, 255.0)).astype(np.uint8)

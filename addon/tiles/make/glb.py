@@ -1,0 +1,138 @@
+"""Writes binary glTF 2.0 of one mesh with one material (Khronos glTF 2.0 specification, section 4.4)."""
+
+from __future__ import annotations
+
+import json
+import struct
+from dataclasses import dataclass
+from typing import Any
+
+import firetwin_core
+import numpy as np
+from numpy.typing import NDArray
+
+_FLOAT, _SHORT, _INT = 5126, 5123, 5125  # component types; integers are unsigned
+_TYPES = {_FLOAT: "<f4", _SHORT: "<u2", _INT: "<u4"}
+_VERTICES, _INDICES = 34962, 34963
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Triangles with a picture or a colour.
+
+    Attributes
+    ----------
+    origin
+        (3,) Earth-centred metres about which the positions are kept.
+    position, normal
+        (n, 3) Earth-centred axes; m about the origin, and unit vectors.
+    uv
+        (n, 2) of the picture, from its upper left corner; None without.
+    triangles
+        (t, 3) vertex numbers, counter-clockwise from outside.
+    picture
+        JPEG; empty: none.
+    colour
+        Linear base colour factor, red to alpha.
+    """
+
+    origin: NDArray[np.float64]
+    position: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    triangles: NDArray[np.int64]
+    uv: NDArray[np.float64] | None = None
+    picture: bytes = b""
+    colour: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
+
+
+def encode(mesh: Mesh, credit: str) -> bytes:
+    """The mesh as a .glb; its y axis is up, as glTF wants it.
+
+    Parameters
+    ----------
+    credit
+        asset.copyright; empty: none.
+    """
+    buffer = _Buffer()
+    attributes = {
+        "POSITION": buffer.accessor(_y_up(mesh.position), _FLOAT, "VEC3", _VERTICES, bounds=True),
+        "NORMAL": buffer.accessor(_y_up(mesh.normal), _FLOAT, "VEC3", _VERTICES),
+    }
+    if mesh.uv is not None:
+        attributes["TEXCOORD_0"] = buffer.accessor(mesh.uv, _FLOAT, "VEC2", _VERTICES)
+    kind = _SHORT if len(mesh.position) < 65536 else _INT
+    indices = buffer.accessor(mesh.triangles.reshape(-1, 1), kind, "SCALAR", _INDICES)
+    surface: dict[str, Any] = {
+        "baseColorFactor": mesh.colour,
+        "metallicFactor": 0.0,
+        "roughnessFactor": 1.0,
+    }
+    about: dict[str, Any] = {
+        "asset": {"version": "2.0", "generator": f"Firetwin {firetwin_core.__version__}"}
+        | ({"copyright": credit} if credit else {}),
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, "translation": _y_up(mesh.origin[None])[0].tolist()}],
+        "meshes": [{"primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}],
+        "materials": [{"pbrMetallicRoughness": surface}],
+    }
+    if mesh.picture:
+        surface["baseColorTexture"] = {"index": 0}
+        about["images"] = [{"bufferView": buffer.view(mesh.picture), "mimeType": "image/jpeg"}]
+        about["samplers"] = [{"magFilter": 9729, "minFilter": 9987, "wrapS": 33071, "wrapT": 33071}]
+        about["textures"] = [{"source": 0, "sampler": 0}]
+    return _container(about | buffer.about(), bytes(buffer.data))
+
+
+def _y_up(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Vectors (n, 3) with z up as glTF has them: tiles turn (x, y, z) to (x, -z, y)."""
+    return vectors[:, [0, 2, 1]] * (1.0, 1.0, -1.0)
+
+
+class _Buffer:
+    """Bytes of a .glb with the views and accessors that say what they are."""
+
+    def __init__(self) -> None:
+        self.data = bytearray()
+        self._views: list[dict[str, Any]] = []
+        self._accessors: list[dict[str, Any]] = []
+
+    def view(self, data: bytes, target: int = 0) -> int:
+        """Number of a view of these bytes."""
+        self.data += b"\0" * (-len(self.data) % 4)
+        found = {"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data)}
+        self._views.append(found | ({"target": target} if target else {}))
+        self.data += data
+        return len(self._views) - 1
+
+    def accessor(self, values: NDArray, kind: int, shape: str, target: int, bounds: bool = False) -> int:
+        """Number of an accessor of these values (n, k)."""
+        stored = values.astype(_TYPES[kind])
+        found = {
+            "bufferView": self.view(stored.tobytes(), target),
+            "componentType": kind,
+            "count": len(stored),
+            "type": shape,
+        }
+        if bounds:
+            found |= {"min": stored.min(axis=0).tolist(), "max": stored.max(axis=0).tolist()}
+        self._accessors.append(found)
+        return len(self._accessors) - 1
+
+    def about(self) -> dict[str, Any]:
+        """The JSON that describes it."""
+        return {
+            "buffers": [{"byteLength": len(self.data)}],
+            "bufferViews": self._views,
+            "accessors": self._accessors,
+        }
+
+
+def _container(about: dict[str, Any], data: bytes) -> bytes:
+    text = json.dumps(about, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    data += b"\0" * (-len(data) % 4)
+    head = struct.pack("<4sII", b"glTF", 2, 12 + 8 + len(text) + 8 + len(data))
+    return b"".join(
+        [head, struct.pack("<I4s", len(text), b"JSON"), text, struct.pack("<I4s", len(data), b"BIN\0"), data]
+    )

@@ -1,0 +1,43 @@
+"""Pictures of the ground for tiles."""
+
+from __future__ import annotations
+
+import io
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+Array = NDArray[np.float64]
+_QUALITY = 90
+
+
+class Colours(Protocol):
+    """Ground colours at places."""
+
+    resolution: float
+    """Size of their own pixels, m."""
+
+    def __call__(self, latitude: Array, longitude: Array) -> NDArray[np.uint8]:
+        """Colours (h, w, 3), sRGB, on axes (h,) and (w,) in degrees, both ascending."""
+        ...
+
+
+def draw(colours: Colours, latitude: Array, longitude: Array, pixels: int) -> bytes:
+    """A JPEG of `pixels` x `pixels` between the ends of two axes, north up."""
+    rows, columns = (_centres(axis[0], axis[-1], pixels) for axis in (latitude, longitude))
+    picture = Image.fromarray(np.ascontiguousarray(colours(rows, columns)[::-1]))
+    stream = io.BytesIO()
+    picture.save(stream, "JPEG", quality=_QUALITY)
+    return stream.getvalue()
+
+
+def side(metres: float, resolution: float, least: int = 64, most: int = 512) -> int:
+    """Pixels along a tile of so many metres: a power of two, no finer than twice the colours' own pixels."""
+    wanted = int(2 ** np.ceil(np.log2(max(metres / resolution, 1.0))))
+    return min(max(wanted, least), most)
+
+
+def _centres(first: float, last: float, count: int) -> Array:
+    return first + (last - first) * (np.arange(count) + 0.5) / count
