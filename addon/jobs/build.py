@@ -11,7 +11,7 @@ from ..errors import disk_is_full, full_disk_error, input_error, no_room
 from ..progress import READING, MessageCallback, Progress, no_message, notify_if_slow, silent
 from ..shot import camera_warnings
 from ..shot.source import ShotSource
-from . import worker
+from . import tiles, worker
 
 
 def run(
@@ -32,6 +32,7 @@ def run(
     _writable(out)
     with notify_if_slow(READING):
         choice.shot()
+    tiles.prepare(choice, (), progress, tell, stop)
     worker.run(
         f"{__name__}:in_blender", {"choice": choice.plain(), "out": str(out)}, progress, stop=stop, tell=tell
     )

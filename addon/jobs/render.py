@@ -15,7 +15,7 @@ from ..progress import READING, MessageCallback, Progress, count, no_message, no
 from ..shot.comparison import for_view
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
-from . import solve, worker
+from . import solve, tiles, worker
 
 Selection = tuple[str | None, str | tuple[str, ...] | None, str | None]
 """Frames, camera and passes, as `render.plan.pictures` takes them."""
@@ -104,6 +104,7 @@ def run(
     if undone:
         cameras = " and ".join(dict.fromkeys(picture.camera for picture in undone))
         tell(f"rendering {count(len(undone), 'picture')} of {cameras}")
+        tiles.prepare(choice, list(dict.fromkeys(picture.camera for picture in undone)), progress, tell, stop)
     task = {
         "choice": choice.plain(),
         "filmed": [list(pair) for pair in made_with],

@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ..blender import owned
+from ..shot import tile_cut
 from ..shot.light import exposure
 from ..shot.shot import Shot
 from . import clock, infrared, temperature
@@ -21,6 +22,7 @@ from .light import build as light
 from .places import build as stations
 from .smoke import build as smoke
 from .terrain import build as ground
+from .tiles import build as tiles
 
 PARTS = {
     "terrain": "building the ground",
@@ -94,7 +96,7 @@ def steps(
             tell(sentence)
 
     builders: dict[str, Callable[[], object]] = {
-        "terrain": lambda: ground.build(shot, stage(), grown, shape),
+        "terrain": lambda: _terrain(shot, stage(), grown, shape),
         "forest": lambda: forest.build(shot, stage(), grown),
         "fire": lambda: fire.build(shot, stage(), grown),
         "smoke": lambda: smoke.build(shot.full, stage()),
@@ -107,6 +109,12 @@ def steps(
         if part in parts:
             yield text
             builders[part]()
+
+
+def _terrain(shot: Shot, stage: owned.Stage, grown: stand.Stand | None, shape: ground.Shape | None) -> None:
+    ground.build(shot, stage, grown, shape)
+    if cut := tile_cut.of_shot(shot):
+        tiles.build(shot, stage, cut, grown)
 
 
 def _grown_and_shaped(shot: Shot) -> tuple[stand.Stand, ground.Shape]:

@@ -68,13 +68,18 @@ class Shot:
         self.relief: Elevation = elevation.resolve(settings, run)
 
     def input_hashes(self, leave_out: Collection[str] = (), progress: Progress = silent) -> dict[str, str]:
-        """SHA-256 of each input: the run's fields except `leave_out`, and the elevation model."""
+        """SHA-256 of each input: the run's fields except `leave_out`, elevation model, tilesets of files."""
         settings = self.settings
         hashes = content.inputs(self.run, settings.cache, leave_out, progress)
         model = settings.terrain.elevation
-        return hashes | (
-            {"elevation model": content.of_file(model, settings.cache, progress)} if model else {}
-        )
+        if model:
+            hashes["elevation model"] = content.of_file(model, settings.cache, progress)
+        for place in settings.tiles.sources:
+            path = settings.path.parent / place
+            path = path / "tileset.json" if path.is_dir() else path
+            if path.is_file():
+                hashes[f"tiles {place}"] = content.of_file(path, settings.cache, progress)
+        return hashes
 
     @cached_property
     def arrival(self) -> NDArray[np.float64]:

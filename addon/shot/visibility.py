@@ -101,6 +101,21 @@ class Visibility:
         back = [path.rotation[frame - 1, :, 2] for path in paths if not path.perspective]
         return np.reshape(places, (-1, 3)), np.reshape(back, (-1, 3))
 
+    def all_views(self) -> tuple[lod.ViewSet, NDArray, NDArray, NDArray]:
+        """Views of all cameras in all frames that they film.
+
+        Returns
+        -------
+        The view set of m views; (m,) heights of their pictures, pixels; (m,) half heights, as tangents or m;
+        and (k, 3) eyes of perspective cameras, m.
+        """
+        paths = self.shot.paths
+        looks = [(path, half) for path in paths for _, half in _frusta(path, self.shot.filmed(path))]
+        heights = [np.full(len(half), float(self.shot.resolution(path.camera)[1])) for path, half in looks]
+        eyes = [path.position[self.shot.filmed(path)] for path in paths if path.perspective]
+        halves = _joined([half[:, 1] for _, half in looks], ())
+        return self._views_of(tuple(range(len(paths)))), _joined(heights, ()), halves, _joined(eyes, (3,))
+
     def _filming(self, frame: int) -> list[Path]:
         return [path for path in self.shot.paths if frame - 1 in self.shot.filmed(path)]
 

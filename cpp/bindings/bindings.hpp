@@ -27,6 +27,7 @@ void init_sensor(Module module);
 void init_flow(Module module);
 void init_flow_detail(Module module);
 void init_tiles(Module module);
+void init_tiles_heights(Module module);
 void init_tiles_select(Module module);
 
 } // namespace firetwin::bindings

@@ -64,5 +64,6 @@ PYBIND11_MODULE(firetwin_core, whole) {
   bindings::init_flow_detail(flow);
   auto tiles = module.def_submodule("tiles");
   bindings::init_tiles(tiles);
+  bindings::init_tiles_heights(tiles);
   bindings::init_tiles_select(tiles);
 }

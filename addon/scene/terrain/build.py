@@ -9,10 +9,13 @@ from numpy.typing import NDArray
 
 from ...blender import owned
 from ...blender.owned import Stage
+from ...shot import tile_cut
 from ...shot.shot import Shot
-from ...shot.terrain import mesh_tolerance
+from ...shot.terrain import mesh_tolerance, tile_heights
 from ..forest.stand import Stand
 from . import buildings, fields, material, solid_view
+
+_SEAM = 2.0  # points of the tiles' heights, width of ground that is left under their border
 
 Shape = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]]
 
@@ -24,7 +27,7 @@ def build(shot: Shot, stage: Stage, grown: Stand | None, shaped: Shape | None = 
     terrain's fields (see `fields`); and `solid_view`, its colours in Blender's solid view.
     """
     collection, ground = stage.part("Terrain"), shot.ground
-    row, column, triangles = shaped or shape(shot)
+    row, column, triangles = without_tiles(shot, *(shaped or shape(shot)))
     latitude, longitude = ground.places(row, column)
     coarse = ground.frame.forward(latitude, longitude, ground.height(row, column))
     height = ground.height(row, column, ground.detail(*coarse.T))
@@ -53,6 +56,26 @@ def shape(shot: Shot) -> Shape:
         ground.near_radius,
         ground.fields.margin,
     )
+
+
+def without_tiles(
+    shot: Shot, row: NDArray[np.float64], column: NDArray[np.float64], triangles: NDArray[np.int32]
+) -> Shape:
+    """A shape without the triangles that lie under 3-D Tiles, but for a seam along their border."""
+    cut = tile_cut.of_shot(shot)
+    if cut is None or not cut.tiles:
+        return row, column, triangles
+    tiles = tile_heights.read(tile_cut.location(shot).with_suffix(tile_cut.HEIGHTS), shot.run)
+    place = shot.ground.frame.forward(*shot.ground.places(row, column), shot.ground.height(row, column))[
+        :, :2
+    ]
+    seam = _SEAM * tiles.resolution
+    around = [np.array(way) * seam for way in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1))]
+    covered = np.logical_and.reduce([np.isfinite(tiles.up(*(place + way).T)) for way in around])
+    inside = covered[triangles].all(axis=1)
+    inside &= np.isfinite(tiles.up(*place[triangles].mean(axis=1).T))
+    left, kept = np.unique(triangles[~inside], return_inverse=True)
+    return row[left], column[left], kept.reshape(-1, 3).astype(np.int32)
 
 
 def _fill(data: bpy.types.Mesh, positions: NDArray[np.float64], triangles: NDArray[np.int32]) -> None:

@@ -24,6 +24,8 @@ from .shading_inputs import Place
 _FAR, _ON_ROCK = 1.5, 2.0  # pixels, the least wavelength of noise where trees are part of the ground
 
 _WAVES = (500.0, 4000.0)  # m from the camera between which waves fall below the pixel size (by eye)
+TILE_COLOUR = "Tile Colour"
+
 _BLUR = 0.12  # roughness that stands for unresolved waves (by eye)
 
 
@@ -33,17 +35,19 @@ def build(
     images: dict[str, bpy.types.Image],
     photos: Sequence[tuple[orthophoto.OrthophotoImage, bpy.types.Image]] = (),
     maps: Mapping[str, Sequence[tuple[orthophoto.OrthophotoImage, bpy.types.Image]]] | None = None,
+    skin: str = "",
 ) -> bpy.types.Material:
     """Build "Firetwin Ground" from the images of fields, coloured by these orthophotos.
 
-    `maps` are the user's land use by `shot.terrain.land_use.LAYERS`.
+    `maps` are the user's land use by `shot.terrain.land_use.LAYERS`. With a `skin`, its name, it is the
+    material of 3-D tiles: the same ground in the colour of its input `TILE_COLOUR`, where nothing burned.
     """
-    material, tree = nodes.material("Firetwin Ground", (0.30, 0.26, 0.17))
+    material, tree = nodes.material(skin or "Firetwin Ground", (0.30, 0.26, 0.17))
     biome = biomes.choose(shot)
     with tree.frame("Fields"):
         known = fields.Fields(tree, images)
         lake = known["water"] > 0.5
-    visible = _visible(tree, shot, stage, known, lake, photos, biome, maps or {})
+    visible = _visible(tree, shot, stage, known, lake, photos, biome, maps or {}, skin)
     warmth, kind = _data(tree, shot, stage, known, lake)
     tree.surface(nodes.mask_switch(tree, nodes.thermal_switch(tree, visible, warmth), kind))
     material.cycles.emission_sampling = "NONE"  # sampled as a lamp, its small emitters would be noise
@@ -59,6 +63,7 @@ def _visible(
     photos: Sequence[tuple[orthophoto.OrthophotoImage, bpy.types.Image]],
     biome: Here,
     maps: Mapping[str, Sequence[tuple[orthophoto.OrthophotoImage, bpy.types.Image]]],
+    skin: str,
 ) -> nodes.Value:
     """Visible shader. Shaders are mixed, not colours: Cycles does not evaluate a shader of weight 0."""
     outcrops = biome.biome.outcrops
@@ -78,6 +83,10 @@ def _visible(
                 ground = _mapped(tree, here, layer, picture, image, ground)
     with tree.frame("Water"):
         ground = tree.mix_shader(lake, ground, _water(tree, here))
+    if skin:
+        with tree.frame("Tiles"):
+            colour = tree.input(TILE_COLOUR, (1.0, 1.0, 1.0), "Colour of the tile", "Tiles")
+            ground = tree.mix_shader(1.0 - here.burned, ground, _matt(tree, colour, None))
     with tree.frame("Flames and embers"):
         ground = tree.add_shader(ground, burn_scar.light(tree, shot, here, here.burned * (1.0 - bare)))
     with tree.frame("Air"):

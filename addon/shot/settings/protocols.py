@@ -93,6 +93,10 @@ class ShotView(Protocol):
         """All cameras of the scene file."""
 
     @property
+    def full(self) -> Any:
+        """The full shot of which this is a subset; else itself."""
+
+    @property
     def paths(self) -> list[Any]:
         """Path (`cameras.path.Path`) of each filmed camera."""
 

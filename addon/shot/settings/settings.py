@@ -122,12 +122,63 @@ class TerrainSettings:
         "fields, tracks, roads, water and buildings: polygons and lines, .geojson or .gpkg",
         affects=(),
     )
+    stand: str = key(
+        "elevation",
+        "heights that trees, flames and cameras stand on",
+        choices={"elevation": "run or model", "tiles": "3-D Tiles"},
+        affects=(),
+    )
     apron: float = key(
         110_000.0,
         "half-width of the terrain drawn around the run; a small one shows its edge",
         unit="m",
         at_least=0,
         at_most=1_000_000,
+    )
+
+
+@dataclass(frozen=True)
+class TileSettings:
+    """3-D Tiles as ground: photogrammetry, terrain and buildings, chosen once for the whole shot."""
+
+    sources: tuple[str, ...] = key(
+        (),
+        "tilesets: folders, tileset.json, .3tz archives or URLs; paths start at the scene file's folder",
+        affects=("terrain",),
+    )
+    error: float = key(
+        2.0,
+        "largest screen-space error of a tile; 16 is usual on screens",
+        unit="pixels",
+        at_least=0.1,
+        at_most=10_000,
+        affects=("terrain",),
+    )
+    max_tiles: int = key(
+        2000,
+        "limit on tiles; beyond a limit the error grows evenly until all fits, and this is reported",
+        at_least=1,
+        at_most=1_000_000,
+        affects=("terrain",),
+    )
+    max_size: int = key(
+        2000,
+        "limit on what is fetched for a shot",
+        unit="MB",
+        at_least=1,
+        at_most=1_000_000,
+        affects=("terrain",),
+    )
+    max_triangles: int = key(
+        30_000_000, "limit on triangles", at_least=1, at_most=1_000_000_000, affects=("terrain",)
+    )
+    geoid: float = key(
+        0.0,
+        "height of the geoid above the WGS84 ellipsoid; tiles have heights above the ellipsoid",
+        unit="m",
+        at_least=-200,
+        at_most=200,
+        affects=("terrain",),
     )
 
 
@@ -556,6 +607,7 @@ class Settings:
         default_factory=TerrainSettings,
         help="the run's grid, relief near the cameras and an apron to the horizon",
     )
+    tiles: TileSettings = key(default_factory=TileSettings, help="3-D Tiles as ground")
     forest: Forest = key(default_factory=Forest, help="trees and grass")
     fire: FireSettings = key(default_factory=FireSettings, help="flames, firebrands and glowing ash")
     smoke: SmokeSettings = key(default_factory=SmokeSettings, help="the smoke volume")

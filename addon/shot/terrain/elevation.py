@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 
 from ...run import areas
 from ..settings.settings import Settings
+from . import tile_heights
 from .raster import Array, GeoTiff, extent, said
+from .tile_heights import TileHeights
 
 _BLEND = 600.0  # m
 _UNITS = {
@@ -39,7 +41,7 @@ class Elevation:
         The elevation model; None: the run's heights alone.
     """
 
-    def __init__(self, run: Run, model: GeoTiff | None = None) -> None:
+    def __init__(self, run: Run, model: GeoTiff | _Stacked | None = None) -> None:
         self.run, self.model = run, model
 
     @property
@@ -117,7 +119,34 @@ def resolve(settings: Settings, run: Run) -> Elevation:
     InputError
         The elevation model cannot be used.
     """
-    return Elevation(run, GeoTiff(settings, "elevation") if settings.terrain.elevation else None)
+    model = GeoTiff(settings, "elevation") if settings.terrain.elevation else None
+    if settings.terrain.stand == "tiles":
+        path = tile_heights.location(settings, run)
+        if path.is_file():  # else the tiles are still to be chosen
+            return Elevation(run, _Stacked(tile_heights.read(path, run), model))
+    return Elevation(run, model)
+
+
+class _Stacked:
+    """Heights of tiles, and of an elevation model where there are none."""
+
+    unit = "m"
+
+    def __init__(self, tiles: TileHeights, model: GeoTiff | None) -> None:
+        self.tiles, self.model, self.resolution = tiles, model, tiles.resolution
+
+    def overlaps(self, latitude: Array, longitude: Array) -> bool:
+        """Whether one of them has heights there."""
+        return self.tiles.overlaps(latitude, longitude) or (
+            self.model is not None and self.model.overlaps(latitude, longitude)
+        )
+
+    def on_grid(self, latitude: Array, longitude: Array) -> NDArray[np.float32]:
+        """Heights (1, ny, nx), m."""
+        found = self.tiles.on_grid(latitude, longitude)
+        if self.model is None or not self.model.overlaps(latitude, longitude):
+            return found
+        return np.where(np.isfinite(found), found, self.model.on_grid(latitude, longitude) * unit(self.model))
 
 
 def check(settings: Settings, run: Run) -> None:
@@ -128,9 +157,9 @@ def check(settings: Settings, run: Run) -> None:
     InputError
         Names the file and what to do.
     """
-    model = resolve(settings, run).model
-    if model is None:
+    if not settings.terrain.elevation:
         return
+    model = GeoTiff(settings, "elevation")
     if model.unit not in _UNITS:
         raise model.error(f'has heights in "{model.unit}"; convert them to metres or feet with gdal_calc.py')
     if not model.overlaps(run.latitude, run.longitude):
@@ -171,7 +200,7 @@ def _compare(model: GeoTiff, height: Array, own: Array) -> None:
         )
 
 
-def unit(model: GeoTiff) -> float:
+def unit(model: GeoTiff | _Stacked) -> float:
     """Metres in a unit of the model's heights."""
     return _UNITS[model.unit]
 

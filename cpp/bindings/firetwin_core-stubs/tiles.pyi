@@ -295,3 +295,28 @@ def content_kind(content: bytes, name: str) -> str:
     InputError
         It is none of these.
     """
+
+class HeightMap:
+    """Heights of the highest surface of triangles above points of an even grid."""
+
+    def __init__(self, low: tuple[float, float], step: float, rows: int, columns: int) -> None:
+        """Points at low + (column, row) * step, m.
+
+        Raises
+        ------
+        ValueError
+            The step is not above 0.
+        """
+    def add(self, position: ArrayLike, origin: tuple[float, float, float], triangle: ArrayLike) -> None:
+        """Raise the heights to triangles (t, 3) of positions (n, 3), m about an origin.
+
+        Upright triangles count for nothing.
+
+        Raises
+        ------
+        IndexError
+            A vertex does not exist.
+        """
+    @property
+    def height(self) -> NDArray[np.float32]:
+        """(rows, columns) m; NaN where there is no triangle."""

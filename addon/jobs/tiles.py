@@ -1,0 +1,229 @@
+"""Prepares a shot's 3-D Tiles: chooses them, fetches what is new, and decodes it to files of the cache.
+
+Fetching happens in a process without Blender, decoding in processes of their own (`decode_tiles`). Blender
+reads arrays that were checked.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import shutil
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import files
+from ..errors import input_error
+from ..progress import MessageCallback, Progress, no_message, share, silent
+from ..shot import tile_cut
+from ..shot.comparison import for_view
+from ..shot.shot import Shot
+from ..shot.source import ShotSource
+from ..shot.terrain import tile_heights
+from ..shot.tile_cut import TileCut
+from ..tiles import decoded
+from . import decode_tiles, worker
+from .decode_tiles import Content
+
+if TYPE_CHECKING:
+    from ..tiles.cut import Choice
+    from ..tiles.loader import Loader
+
+_TRIES = 8  # choices at most; each leaves out what could not be decoded, or knows more triangles
+
+
+def prepare(
+    choice: ShotSource,
+    views: Sequence[str] = (),
+    progress: Progress = silent,
+    tell: MessageCallback = no_message,
+    stop: worker.Stop | None = None,
+) -> None:
+    """Prepare the tiles of a scene; without sources there is nothing to do.
+
+    Parameters
+    ----------
+    views
+        Views that are built each by itself; empty: all cameras are built together.
+
+    Raises
+    ------
+    InputError
+        A tileset is wrong, or refused.
+    """
+    if choice.settings().tiles.sources:
+        about = {"choice": choice.plain(), "views": list(views)}
+        worker.run(f"{__name__}:in_process", about, progress, tell=tell, blender=False, stop=stop)
+
+
+def in_process(choice: dict[str, str], views: list[str], progress: Progress, tell: MessageCallback) -> None:
+    """Prepare; worker side."""
+    source = ShotSource(**choice)
+    shot = source.shot()
+    if shot.settings.terrain.stand == "tiles":
+        terrain = replace(shot.settings.terrain, stand="elevation")
+        first = Shot(replace(shot.settings, terrain=terrain), shot.run)
+        make(first, progress)
+        heights = tile_cut.location(first).with_suffix(tile_cut.HEIGHTS)
+        shutil.copyfile(heights, tile_heights.location(shot.settings, shot.run))
+        shot = source.shot()
+    for built in [for_view(shot, view) for view in views] or [shot]:
+        for sentence in make(built, progress):
+            tell(sentence)
+
+
+def make(shot: Shot, progress: Progress = silent) -> list[str]:
+    """Write the cut of a shot.
+
+    Returns
+    -------
+    What the user should know.
+    """
+    settings, path = shot.settings.tiles, tile_cut.location(shot)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    prepared = [
+        _Source(shot, place, path.parent).prepared(share(progress, number, len(settings.sources), "tiles"))
+        for number, place in enumerate(settings.sources)
+    ]
+    credits = Counter(part for each in prepared for part in each.credits)
+    cut = TileCut(
+        path.parent,
+        path.stem,
+        tuple(name for each in prepared for name in each.names),
+        tuple(credit for credit, _ in credits.most_common()),
+        tuple(sorted(reason for each in prepared for reason in each.choice.missing.values())),
+        max(each.choice.error for each in prepared),
+    )
+    if cut.tiles:
+        surface = tile_heights.rasterise(decoded.read(cut.folder / name) for name in cut.tiles)
+        tile_heights.write(path.with_suffix(tile_cut.HEIGHTS), *surface)
+    tile_cut.write(cut, path)
+    told = [f"credits of tiles, to be named beside the pictures: {'; '.join(cut.credits)}"] if credits else []
+    return [*told, *(sentence for each in prepared if (sentence := each.choice.sentence()))]
+
+
+class _Prepared:
+    """A source's share of a cut: its choice, names of decoded tiles, and a credit for each tile."""
+
+    def __init__(self, choice: Choice, names: list[str], credits: list[str]) -> None:
+        self.choice, self.names, self.credits = choice, names, credits
+
+
+class _Source:
+    """Tiles of one source."""
+
+    def __init__(self, shot: Shot, place: str, folder: Path) -> None:
+        from ..tiles.cut import Budget, Views, pixels
+        from ..tiles.loader import Loader
+        from ..tiles.place import ecef_to_frame
+        from ..tiles.policies import OPEN
+        from ..tiles.sources import open_source
+
+        self.settings, self.folder = shot.settings.tiles, folder
+        near = shot.settings.path.parent / place
+        source = open_source(str(near) if near.exists() else place)
+        if source.policy is not OPEN:
+            reason = f"{source.policy.name} wants credits in each picture, which are not drawn yet"
+            raise input_error(shot.settings.path, 0, 0, f"tiles.sources: {place}: {reason}")
+        self.loader: Loader = Loader(source)
+        undulation = self.settings.geoid if shot.run.vertical == "orthometric" else 0.0
+        self.matrix = ecef_to_frame(shot.ground.frame, undulation)
+        view_set, heights, halves, eyes = shot.visibility.all_views()
+        self.views = Views(view_set, pixels(heights, halves), eyes)
+        megabytes = self.settings.max_size * 1_000_000
+        self.budget = Budget(self.settings.max_tiles, megabytes, self.settings.max_triangles)
+        self.files: dict[int, str] = {}
+
+    def prepared(self, progress: Progress) -> _Prepared:
+        """Choose, fetch and decode until everything that is chosen can be shown."""
+        from ..tiles.cut import choose
+
+        triangles: dict[int, int] = {}
+        for _ in range(_TRIES):
+            choice = choose(
+                self.loader,
+                self.views,
+                self.matrix,
+                self.settings.error,
+                self.budget,
+                shadows=True,
+                put=self._put,
+                triangles=triangles,
+            )
+            wanted = [self._content(number) for number in choice.contents.tolist()]
+            bad = decode_tiles.run(wanted, progress)
+            for number, each in zip(choice.contents.tolist(), wanted, strict=True):
+                if each.name in bad:
+                    self.loader.tree.broken[int(self.loader.tree.content[number, 0])] = bad[each.name]
+            shown = {n: _count(each) for n, each in zip(choice.contents.tolist(), wanted, strict=True)}
+            new = {number: count for number, count in shown.items() if number not in triangles}
+            triangles |= new
+            if not bad and sum(shown.values()) <= self.settings.max_triangles:
+                break
+        names = [Path(each.out).name for each in wanted if Path(each.out).exists()]
+        return _Prepared(choice, names, list(self._credits(wanted)))
+
+    def _put(self, content: int, data: bytes) -> None:
+        """Keep a content under a name that follows it."""
+        self.files[content] = self._stored(data)
+
+    def _stored(self, data: bytes) -> str:
+        path = self.folder / "content" / hashlib.sha256(data).hexdigest()
+        if not path.exists():
+            path.parent.mkdir(exist_ok=True)
+            files.write(path, lambda part: part.write_bytes(data))
+        return str(path)
+
+    def _content(self, content: int) -> Content:
+        """What is to be decoded of a content."""
+        tree = self.loader.tree
+        tile, document = int(tree.content[content, 0]), tree.documents[int(tree.content[content, 1])]
+        earth = tree.matrix_of(tile)
+        matrix, path = self.matrix @ earth, self.files[content]
+        key = hashlib.sha256(Path(path).name.encode() + _plain(matrix) + document.up_axis.encode())
+        uri = self.loader.content_uri(content)
+        return Content(
+            file=path,
+            name=self.loader.source.name(uri),
+            matrix=matrix.tolist(),
+            earth_matrix=earth.tolist(),
+            out=str(self.folder / f"{key.hexdigest()[:32]}.npz"),
+            up_axis=document.up_axis,
+            beside=self._beside(uri, path),
+        )
+
+    def _beside(self, uri: str, path: str) -> dict[str, str]:
+        """Files beside a content that it needs, by their uri."""
+        from firetwin_core import tiles
+
+        source, name = self.loader.source, self.loader.source.name(uri)
+        data, found = Path(path).read_bytes(), dict[str, bytes]()
+        while wanted := [each for each in tiles.resources_needed(data, name, found) if each not in found]:
+            found |= {each: source.read(source.resolve(uri, each)) for each in wanted}
+        return {each: self._stored(content) for each, content in found.items()}
+
+    def _credits(self, contents: Sequence[Content]) -> Any:
+        """A notice for each tile that has one, its document's own after it."""
+        for each in contents:
+            if Path(each.out).exists():
+                yield from filter(None, map(str.strip, decoded.read(Path(each.out)).credit.split(";")))
+        for document in self.loader.tree.documents:
+            yield from filter(None, map(str.strip, document.copyright.split(";")))
+        if self.loader.source.policy.logo:
+            yield self.loader.source.policy.logo
+
+
+def _plain(matrix: NDArray[np.float64]) -> bytes:
+    """A matrix to a tenth of a millimetre at 60 km, so that rounding does not make another tile of it."""
+    return np.round(matrix, 9).tobytes()
+
+
+def _count(content: Content) -> int:
+    """Triangles of a decoded content; 0 where it could not be decoded."""
+    path = Path(content.out)
+    return len(decoded.read(path).triangle) if path.exists() else 0

@@ -1,0 +1,103 @@
+"""3-D Tiles in the scene: made of the run's own ground, chosen, decoded, and built in its place."""
+
+from dataclasses import asdict, replace
+
+import bpy
+import numpy as np
+import pytest
+from firetwin.blender import nodes
+from firetwin.errors import InputError
+from firetwin.jobs import decode_tiles, make_tiles, tiles
+from firetwin.scene.terrain import build as ground_build
+from firetwin.scene.terrain import material
+from firetwin.scene.tiles import build as tiles_build
+from firetwin.scene.tiles import pictures
+from firetwin.shot import tile_cut
+
+
+@pytest.fixture(autouse=True)
+def plain_tiles(monkeypatch):
+    """Tiles get a material of one colour: the ground's own is slow to make."""
+
+    def build(shot, stage, images, photos=(), maps=None, skin=""):
+        made, tree = nodes.material(skin or "Firetwin Ground")
+        colour = tree.input(material.TILE_COLOUR, (1.0, 1.0, 1.0), "Colour")
+        tree.surface(tree.output("ShaderNodeBsdfDiffuse", {"Color": colour}))
+        return made
+
+    monkeypatch.setattr(material, "build", build)
+
+
+@pytest.fixture
+def tiled(shot, tmp_path, monkeypatch):
+    """A shot on tiles of its own ground, prepared within this process."""
+
+    def decode(contents, progress):
+        return decode_tiles.in_process([asdict(each) for each in contents], progress, print)
+
+    monkeypatch.setattr(decode_tiles, "_limit", lambda: None)
+    monkeypatch.setattr(decode_tiles, "run", decode)
+    make_tiles.run(shot, make_tiles.TilesRequest(tmp_path / "set", credit="Somebody"))
+    known = replace(shot.settings.tiles, sources=(str(tmp_path / "set"),), error=2.0)
+    found = shot._with_settings(replace(shot.settings, tiles=known, cache=tmp_path / "cache"))
+    told = tiles.make(found)
+    assert told[0] == "credits of tiles, to be named beside the pictures: Somebody"
+    return found
+
+
+def test_tiles_stand_in_place_of_the_ground(tiled, stage, shot):
+    whole = ground_build.build(shot, stage, None).data
+    before = len(whole.polygons)
+    left = ground_build.build(tiled, stage, None).data
+    cut = tile_cut.of_shot(tiled)
+    tiles_build.build(tiled, stage, cut, None)
+    built = stage.objects_of("Tiles")
+    assert len(built) == len(cut.tiles) > 0
+    assert len(left.polygons) < before
+    data = built[0].data
+    assert {"elevation", "grid", tiles_build.COLOUR, tiles_build.UV} <= set(data.attributes.keys())
+    names = [each.name for each in data.materials]
+    assert names == ["Firetwin Tiles", "Firetwin Tiles 1"]
+    found = data.materials[1].node_tree.nodes
+    assert [node.image.source for node in found if node.type == "TEX_IMAGE"] == ["TILED"]
+    groups = [
+        next(node.node_tree for node in each.node_tree.nodes if node.type == "GROUP")
+        for each in data.materials
+    ]
+    assert groups[0] == groups[1]
+    assert all(
+        next(node for node in each.node_tree.nodes if node.type == "GROUP").inputs[0].is_linked
+        for each in data.materials
+    )
+    height = np.empty(len(data.vertices), np.float32)
+    data.attributes["elevation"].data.foreach_get("value", height)
+    place = np.empty(3 * len(data.vertices), np.float32)
+    data.vertices.foreach_get("co", place)
+    place = place.reshape(-1, 3) + np.array(built[0].location)
+    _, _, expected = tiled.ground.frame.reverse(place.astype(float))
+    assert np.abs(height - expected).max() < 0.01
+
+
+def test_building_twice_makes_no_second_set(tiled, stage):
+    cut = tile_cut.of_shot(tiled)
+    counts = []
+    for _ in range(2):
+        tiles_build.build(tiled, stage, cut, None)
+        counts.append((len(stage.objects_of("Tiles")), len(bpy.data.meshes), len(bpy.data.images)))
+    assert counts[0] == counts[1]
+
+
+def test_tiles_that_were_not_prepared_are_an_error(tiled):
+    moved = replace(tiled.settings.tiles, error=3.0)
+    with pytest.raises(InputError, match="were not prepared"):
+        tile_cut.of_shot(tiled._with_settings(replace(tiled.settings, tiles=moved)))
+
+
+def test_pictures_have_parts_of_their_own():
+    names = [f"{k}.jpg" for k in range(1001)] + ["a.png", "0.jpg"]
+    slots = pictures.arrange(names)
+    assert len(set(slots.values())) == len(slots) == 1002
+    assert {slots["0.jpg"].image, slots["1000.jpg"].image, slots["a.png"].image} == {0, 1, 2}
+    uv = slots["13.jpg"].moved(np.array([[-0.2, 0.5], [1.0, 1.0]], np.float32))
+    assert np.allclose(uv, [[3.0, 1.5], [4.0, 2.0]], atol=1e-4)
+    assert (np.floor(uv) == [3.0, 1.0]).all()

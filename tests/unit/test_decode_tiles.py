@@ -1,0 +1,75 @@
+"""Decoding in processes of their own: arrays as files, and what cannot be decoded is named."""
+
+import json
+import os
+
+import numpy as np
+import pytest
+import tile_files as made
+from firetwin.errors import InputError
+from firetwin.jobs import decode_tiles
+from firetwin.jobs.decode_tiles import Content
+from firetwin.shot import tile_cut
+from firetwin.tiles import decoded
+
+ONE = np.eye(4).tolist()
+
+
+def content(folder, name, data):
+    (folder / name).write_bytes(data)
+    return Content(str(folder / name), name, ONE, ONE, str(folder / f"{name}.npz"))
+
+
+def test_a_tile_comes_back_as_it_was_decoded(tmp_path):
+    good = content(tmp_path, "good.glb", made.square().glb())
+    assert decode_tiles.run([good]) == {}
+    tile = decoded.read(tmp_path / "good.glb.npz")
+    assert tile.position.shape == (4, 3)
+    assert tile.triangle.shape == (2, 3)
+    assert tile.material.tolist() == [0, 0]
+    before = os.stat(good.out).st_mtime_ns
+    assert decode_tiles.run([good]) == {}
+    assert os.stat(good.out).st_mtime_ns == before  # what is there is not decoded again
+
+
+def test_a_wrong_tile_is_named_and_the_others_go_on(tmp_path):
+    contents = [
+        content(tmp_path, "first.glb", made.square().glb()),
+        content(tmp_path, "bad.glb", made.square().glb()[:60]),
+        content(tmp_path, "last.glb", made.square().glb()),
+    ]
+    bad = decode_tiles.run(contents)
+    assert list(bad) == ["bad.glb"]
+    assert (tmp_path / "last.glb.npz").exists()
+
+
+def test_a_process_that_dies_loses_its_tile_alone(tmp_path, monkeypatch):
+    contents = [content(tmp_path, f"{k}.glb", made.square().glb()) for k in range(3)]
+    (tmp_path / "1.glb").unlink()
+    os.mkfifo(tmp_path / "1.glb")  # reading it blocks for ever
+    monkeypatch.setattr(decode_tiles, "_SECONDS", 3.0)
+    bad = decode_tiles.run(contents)
+    assert list(bad) == ["1.glb"]
+    assert "no progress" in bad["1.glb"]
+    assert (tmp_path / "0.glb.npz").exists()
+    assert (tmp_path / "2.glb.npz").exists()
+
+
+def test_a_decoded_tile_whose_numbers_do_not_fit_is_refused(tmp_path):
+    good = content(tmp_path, "good.glb", made.square().glb())
+    decode_tiles.run([good])
+    with np.load(good.out) as stored:
+        arrays = dict(stored)
+    arrays["triangle"] = arrays["triangle"] + 9
+    np.savez(tmp_path / "wrong.npz", **arrays)
+    with pytest.raises(InputError, match="do not fit together"):
+        decoded.read(tmp_path / "wrong.npz")
+
+
+def test_a_cut_is_read_as_it_was_written(tmp_path):
+    cut = tile_cut.TileCut(tmp_path, "cut", ("a.npz",), ("Somebody",), ("b: not there",), 2.5)
+    tile_cut.write(cut, tmp_path / "cut.json")
+    assert tile_cut.read(tmp_path / "cut.json") == cut
+    (tmp_path / "cut.json").write_text(json.dumps({"tiles": []}))
+    with pytest.raises(InputError, match="chosen tiles"):
+        tile_cut.read(tmp_path / "cut.json")
