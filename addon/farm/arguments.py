@@ -64,7 +64,7 @@ def add(parser: argparse.ArgumentParser, path: Callable[[str], Path], count: Cal
         "--chunk",
         metavar="N",
         type=count,
-        help="frames per task at most (24)",
+        help="frames per task at most (30)",
     )
     plan.add_argument("--submit", action="store_true", help="submit the job")
     for name, summary in (

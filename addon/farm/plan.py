@@ -23,7 +23,7 @@ from ..smoke import sources
 from . import assets
 
 FOLDER, FILE, CACHE = "farm", "job.json", "cache"
-CHUNK = 24
+CHUNK = 30
 """Frames per task at most; `docs/pipelines.md` has what tasks cost beside their frames."""
 _FORMAT = 1
 

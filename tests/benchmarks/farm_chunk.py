@@ -45,7 +45,7 @@ LONG = {
 }
 PARTS = {f"{chunk} frames built": {**LONG, "chunk": str(chunk)} for chunk in (24, 480)}
 MOST = 0.1  # overhead that is allowed, of a task's seconds
-SIZES = (1, 2, 3, 6, 12, 24, 48, 96, 192)
+SIZES = (1, 2, 4, 8, 15, 30, 60, 120, 240)
 PHASES = ("start", "resolve", "build", "frame", "overhead")
 
 
