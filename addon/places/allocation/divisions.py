@@ -81,8 +81,11 @@ def divide(run: Run, start: float, hours: int, count: int) -> Divisions:
 
 def ignition(run: Run) -> float:
     """Model time (s) at which the run's fire begins; infinite without fire."""
-    arrival = ScoreGrid.of(run).arrival
-    return float(np.min(arrival, initial=np.inf, where=np.isfinite(arrival)))
+    return _first(ScoreGrid.of(run))
+
+
+def _first(grid: ScoreGrid) -> float:
+    return float(np.min(grid.arrival, initial=np.inf, where=np.isfinite(grid.arrival)))
 
 
 def sector(east: ArrayLike, north: ArrayLike, count: int) -> NDArray[np.int64]:
@@ -134,8 +137,7 @@ def _metres(latitude: ArrayLike, longitude: ArrayLike, centre: tuple[float, floa
 
 def _centre(grid: ScoreGrid, start: float) -> tuple[float, float]:
     """Centre of the ground that has burned by the order; else of what burns first."""
-    first = float(np.min(grid.arrival, initial=np.inf, where=np.isfinite(grid.arrival)))
-    weight = np.where(grid.arrival <= max(start, first), grid.areas, 0.0)
+    weight = np.where(grid.arrival <= max(start, _first(grid)), grid.areas, 0.0)
     if weight.sum() == 0.0:
         return 0.5 * float(grid.latitude[0] + grid.latitude[-1]), grid.middle
     weight = weight / weight.sum()

@@ -16,7 +16,7 @@ from ..labels import facing, lettering
 from ..labels.material import FADE
 from . import material
 
-_STEP = 30.0  # m between two points of a line
+_STEP = 30.0  # m between two points of a line at most
 _OVER = 2.0  # m over the ground, and half-widths of the line
 _SIDE = "side"  # attribute: from the middle of the line to a corner of its section, in half-widths
 
@@ -56,7 +56,7 @@ def draped(shot: Shot, line: Array) -> Array:
     longitude = areas.turned(line[:, 0], float(np.mean(fields.longitude)))
     corners = shot.ground.point(line[:, 1], longitude)[:, :2]
     length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(corners, axis=0), axis=1))])
-    along = np.linspace(0.0, length[-1], max(int(length[-1] / _STEP) + 1, 2))
+    along = np.linspace(0.0, length[-1], max(int(np.ceil(length[-1] / _STEP)) + 1, 2))
     north, east = (np.interp(along, length, each) for each in (line[:, 1], longitude))
     inside = (north >= fields.latitude.min()) & (north <= fields.latitude.max())
     inside &= (east >= fields.longitude.min()) & (east <= fields.longitude.max())
