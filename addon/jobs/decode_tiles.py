@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import sys
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
@@ -131,10 +130,8 @@ def in_process(contents: list[dict[str, Any]], progress: Progress, tell: Message
 
 
 def _limit() -> None:
-    """Limit this process's memory, where the system can."""
-    if sys.platform == "win32":
-        return
-    import resource
+    """Limit this process's memory, where the system can: Windows has no such module."""
+    with contextlib.suppress(ImportError, ValueError, OSError):
+        import resource
 
-    with contextlib.suppress(ValueError, OSError):
         resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))

@@ -17,6 +17,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ... import files
 from ...blender import owned
 
 PARTS = 1000
@@ -78,11 +79,14 @@ def _load(number: int, parts: dict[int, str], folder: Path, name: str) -> bpy.ty
 
 def _link(source: Path, path: Path) -> None:
     """Have the same file under another name: a link where the disk allows it, else a copy."""
-    part = path.with_name(f".{path.name}.{os.getpid()}")
-    with contextlib.suppress(FileNotFoundError):
-        part.unlink()
-    try:
-        os.link(source, part)
-    except OSError:
+    if path.exists() and path.samefile(source):
+        return
+
+    def put(part: Path) -> None:
+        part.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            os.link(source, part)
+            return
         shutil.copyfile(source, part)
-    part.replace(path)
+
+    files.write(path, put)
