@@ -57,7 +57,7 @@ if [[ $built == false ]]; then
     summary+=("left out: tests/system/extension.sh needs the wheels")
   fi
 fi
-slow 10 "${pytest[@]}" tests/system/farm
+slow 20 "${pytest[@]}" tests/system/farm
 slow 16 tests/system/window.sh
 slow 20 tests/system/sanitize.sh
 printf '%s\n' "== what tests/run.sh leaves out" "${summary[@]}"
