@@ -10,6 +10,7 @@ def _names():
     return {kind: sorted(block.name for block in getattr(bpy.data, kind)) for kind in KINDS}
 
 
+@pytest.mark.slow  # two whole builds
 def test_building_twice_makes_the_same_scene_once(near_shot, stage, scene):
     build.build(near_shot, scene)
     first = _names()
