@@ -1,4 +1,5 @@
 import bpy
+import pytest
 from firetwin.scene import build
 from firetwin.scene.light import build as light
 
