@@ -421,24 +421,10 @@ def _open(folder: Path) -> Run:
 def _fire(path: Path) -> Fire:
     """Run of a folder, or the first one of a scene file, with the head of its fire."""
     from .places.command import Fire
-    from .run import times
-    from .shot.cameras import targets
-    from .shot.settings.settings import Settings
-    from .shot.terrain.terrain import Terrain
+    from .shot.run_head import Head
 
     run = next(iter(_runs(path).values())) if path.suffix == ".toml" and path.is_file() else _open(path)
-
-    def head(at: datetime) -> tuple[float, float] | None:
-        import numpy as np
-
-        arrival, time = run.fuel_arrival_time(), times.seconds(run, at)
-        if not (arrival <= time).any():
-            return None
-        ground = Terrain(Settings(run=Path(run.path)), run, arrival)
-        latitude, longitude = ground.geodetic(*targets.head(ground, np.array([time])))
-        return float(latitude[0]), float(longitude[0])
-
-    return Fire(run, head)
+    return Fire(run, Head(run))
 
 
 def _choice(arguments: argparse.Namespace) -> ShotSource:

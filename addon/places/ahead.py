@@ -14,7 +14,7 @@ from firetwin_core.run import Run
 from firetwin_core.terrain import bilinear
 from numpy.typing import ArrayLike, NDArray
 
-from ..run import front, times
+from ..run import front, times, zone
 from ..run.front import Reach
 from ..run.score.grid import ScoreGrid
 from ..run.score.shapes import mirrored
@@ -103,6 +103,20 @@ def sample(run: Run, latitude: ArrayLike, longitude: ArrayLike, until: float | N
         np.where(burned, 0.0, near),
         np.where(burned, time, near_time),
     )
+
+
+def text(run: Run, arrivals: Arrivals, index: int) -> str:
+    """When the fire reaches a place, and between which times that is, for people."""
+    found = arrivals.text(run, index, zone.time_zone(run))
+    if arrivals.state[index] != REACHED:
+        return found
+    bounds = (clock(run, float(each[index])) for each in (arrivals.earliest, arrivals.latest))
+    return f"{found} ({' to '.join(bounds)})"
+
+
+def clock(run: Run, seconds: float) -> str:
+    """A model time, s, in the run's time zone."""
+    return times.text(times.utc(run, seconds), zone.time_zone(run))
 
 
 def first_burned(run: Run) -> tuple[float, float] | None:

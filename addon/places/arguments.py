@@ -94,7 +94,7 @@ def add_resources(
     )
     parser.add_argument("--kind", metavar="LIST", type=_words, default=(), help="kinds, such as engine,dozer")
     parser.add_argument(
-        "--type", metavar="LIST", type=_types, default=(), help="types, such as 3, 1-3 or VLAT"
+        "--type", metavar="LIST", type=parse_types, default=(), help="types, such as 3, 1-3 or VLAT"
     )
     parser.add_argument("--mode", metavar="LIST", type=_among(MODES), default=(), help="operational modes")
     parser.add_argument("--staffing", metavar="LIST", type=_among(STAFFING), default=(), help="employment")
@@ -177,8 +177,14 @@ def _words(text: str) -> tuple[str, ...]:
     return found
 
 
-def _types(text: str) -> tuple[str, ...]:
-    """Types of a list such as ``1-3,VLAT``."""
+def parse_types(text: str) -> tuple[str, ...]:
+    """Types of a list such as ``1-3,VLAT``.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        It is empty, or a range goes backwards.
+    """
     found: list[str] = []
     for part in _words(text):
         match = re.fullmatch(r"(\d)-(\d)", part, re.ASCII)

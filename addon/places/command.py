@@ -15,7 +15,7 @@ from ..data import history
 from ..errors import UsageError, input_error
 from ..progress import count, result, say
 from ..run import labels, times, zone
-from . import ahead, exercise, importers, merging, page, search, stations, store, writing
+from . import exercise, ignition, importers, merging, page, search, stations, store, writing
 from .records import EXERCISE
 
 
@@ -145,14 +145,10 @@ def _near(arguments: argparse.Namespace, fire: Fire | None) -> tuple[float, floa
     """Coordinates of the place that resources go to; a word for one is said with its source."""
     if fire is None or not isinstance(arguments.near, str):
         return arguments.near
-    run = fire.run
     if arguments.near == "head":
         found, source = fire.head(arguments.available_at), "the run's front"
-    elif run.event in history.events():
-        point = history.load(run.event).ignitions[0]
-        found, source = (point.latitude, point.longitude), point.source
     else:
-        found, source = ahead.first_burned(run), "the run's first cells"
+        found, source = ignition.find(fire.run) or (None, "")
     if found is None:
         raise input_error(arguments.run, 0, 0, f"has no fire, so no {arguments.near}; give LAT,LON")
     say(f"{arguments.near}: {found[0]:.4f}, {found[1]:.4f} ({source})")

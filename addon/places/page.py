@@ -14,7 +14,7 @@ from firetwin_core.run import Run
 
 from ..escaped import escaped
 from ..progress import count
-from ..run import times, zone
+from ..run import times
 from . import ahead, search, stations
 from .records import EXERCISE, Source
 from .store import Places
@@ -182,15 +182,11 @@ class Answer:
     def _fire_text(self, index: int) -> str:
         arrivals, run = self.arrivals, self.run
         assert arrivals is not None and run is not None  # noqa: PT018
-        text = arrivals.text(run, index, zone.time_zone(run))
-        if arrivals.state[index] != ahead.REACHED:
-            return text
-        bounds = (self._text(float(each[index])) for each in (arrivals.earliest, arrivals.latest))
-        return f"{text} ({' to '.join(bounds)})"
+        return ahead.text(run, arrivals, index)
 
     def _text(self, seconds: float) -> str:
         assert self.run is not None
-        return times.text(times.utc(self.run, seconds), zone.time_zone(self.run))
+        return ahead.clock(self.run, seconds)
 
 
 def facts(places: Places) -> dict[str, Any]:

@@ -52,6 +52,8 @@ class Sign:
         "fact", "exercise" or "user"; "exercise" where anything of it is.
     footprint
         Outline of its building (n, 2), degrees east and north; None: not known.
+    id
+        Its number in the file.
     """
 
     name: str
@@ -61,6 +63,7 @@ class Sign:
     lines: tuple[str, ...]
     origin: str
     footprint: Array | None = None
+    id: int = 0
 
     @property
     def exercise(self) -> bool:
@@ -226,8 +229,8 @@ def _sign(
     if origin == INVENTED:
         lines.append(EXERCISE)
     outline = _outline(outlines, station.latitude, station.longitude)
-    name = " ".join(station.title.split())[:_LONGEST]
-    return Sign(name, kind, station.latitude, station.longitude, tuple(lines), origin, outline)
+    name, where = " ".join(station.title.split())[:_LONGEST], (station.latitude, station.longitude)
+    return Sign(name, kind, *where, tuple(lines), origin, outline, station.id)
 
 
 def _outlines(settings: Settings) -> list[Array]:

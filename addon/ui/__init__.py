@@ -28,6 +28,7 @@ from . import (
     rows,
     run,
     section_panels,
+    stations_panel,
     time,
     vr,
     working,
@@ -55,6 +56,7 @@ classes = (
     *background.classes,
     *farm.classes,
     *section_panels.classes,
+    *stations_panel.classes,
     *report.classes,
     *assets.classes,
 )
@@ -68,6 +70,7 @@ def register() -> None:
     command.register()
     open.register()
     former_names.register()
+    stations_panel.register()
 
 
 def unregister() -> None:
@@ -76,6 +79,7 @@ def unregister() -> None:
     queue.clear()
     farm_watch.forget()
     maps.forget()
+    stations_panel.unregister()
     former_names.unregister()
     open.unregister()
     command.unregister()

@@ -6,9 +6,23 @@ import bpy
 
 from ..farm import plan
 from ..shot.settings.settings import Settings
-from . import camera_list, farm, keys, other_runs, render, run, scene_file, sections, time
+from . import (
+    camera_list,
+    farm,
+    keys,
+    other_runs,
+    render,
+    run,
+    scene_file,
+    sections,
+    station_filter,
+    station_map,
+    station_selection,
+    time,
+)
 
 _BLEND_RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"}
+_NOT_COPIED = ("runs", "cameras", "model_time", "station_index", "station_filter")
 _SETTINGS = sections.properties(sections.single() + sections.sections(), Settings)
 
 
@@ -89,6 +103,17 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings):
     go_smoothly: bpy.props.BoolProperty(
         name="Smooth", description="Go to a place smoothly; off: cut to it", default=True
     )
+    station: bpy.props.StringProperty(options={"HIDDEN"})
+    station_index: bpy.props.IntProperty(
+        name="Station",
+        description="Selected station of the list",
+        get=station_selection.position,
+        set=station_selection.choose,
+    )
+    station_filter: bpy.props.PointerProperty(type=station_filter.FIRETWIN_PG_stationfilter)
+    station_map: bpy.props.BoolProperty(
+        name="Map", description="Show a map of the listed stations here", update=station_map.changed
+    )
     camera: bpy.props.EnumProperty(name="Camera", description="Cameras to render", items=render.camera_items)
     which: bpy.props.EnumProperty(
         name="Frames",
@@ -132,11 +157,15 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings):
 def copy(source: bpy.types.Scene, target: bpy.types.Scene) -> None:
     """Copy settings, choices and facts to another scene's panel, during a running task."""
     scene_file.fill(target, scene_file.settings(source))
-    own = (
-        name for name in FIRETWIN_PG_scene.__annotations__ if name not in ("runs", "cameras", "model_time")
-    )
-    for name in own:
+    station_filter.copy(source.firetwin.station_filter, target.firetwin.station_filter)
+    for name in FIRETWIN_PG_scene.__annotations__.keys() - set(_NOT_COPIED):
         setattr(target.firetwin, name, getattr(source.firetwin, name))
 
 
-classes = (*sections.groups(), *other_runs.classes, *camera_list.classes, FIRETWIN_PG_scene)
+classes = (
+    *sections.groups(),
+    *other_runs.classes,
+    *camera_list.classes,
+    *station_filter.classes,
+    FIRETWIN_PG_scene,
+)

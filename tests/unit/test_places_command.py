@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from firetwin import cli, commands
 from firetwin.places import ahead, page, reading, search, stations, store, writing
-from firetwin.places.arguments import _length, _types
+from firetwin.places.arguments import _length, parse_types
 from firetwin.places.records import EXERCISE
 from firetwin.places.search import Query
 from firetwin.run import times
@@ -253,4 +253,4 @@ def test_words_of_options():
     assert _length("60km") == 60.0
     assert _length("40 mi") == pytest.approx(64.37, abs=0.01)
     assert _length("500m") == 0.5
-    assert _types("1-3,VLAT") == ("1", "2", "3", "vlat")
+    assert parse_types("1-3,VLAT") == ("1", "2", "3", "vlat")

@@ -5,11 +5,11 @@ from __future__ import annotations
 from ...blender.owned import Stage
 from ...shot import places
 from ...shot.shot import Shot
-from . import buildings, routes, signs
+from . import buildings, handles, routes, signs
 
 
 def build(shot: Shot, stage: Stage) -> None:
-    """Build signs, buildings and routes; nothing where stations are off."""
+    """Build signs, buildings, handles and routes; nothing where stations are off."""
     settings = shot.settings.stations
     written, walls = stage.part("Stations"), stage.part("Buildings")
     shown = places.signs(shot)
@@ -17,4 +17,5 @@ def build(shot: Shot, stage: Stage) -> None:
         signs.build(shot, written, shown)
     if shown and settings.buildings:
         buildings.build(shot, stage, walls, shown)
+    handles.build(shot, written, shown)
     routes.build(shot, written, places.routes(shot, shown))

@@ -1,0 +1,132 @@
+"""Stations for a list: those whose resources answer a query, each once, and what is known of one."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+from . import search, stations
+from .records import EXERCISE, Resource, Station
+from .search import Query
+from .store import Places
+
+_TYPES = 6  # types of resources that are named of one station
+
+
+@dataclass(frozen=True)
+class Row:
+    """A station of a list; None is not known.
+
+    Attributes
+    ----------
+    distance_km
+        Straight distance to the query's place, km.
+    minutes
+        Least minutes from the order to the arrival of what answers the query.
+    exercise
+        Whether the station or any of its resources was invented for an exercise.
+    """
+
+    station: Station
+    distance_km: float | None
+    minutes: float | None
+    exercise: bool
+
+
+@dataclass(frozen=True)
+class Listing:
+    """Rows by minutes, or else by distance; and how many each reason left out."""
+
+    rows: list[Row]
+    left_out: dict[str, int] = field(default_factory=dict)
+
+
+def key(station: Station) -> str:
+    """What names a station for good: its number in the file, and its name."""
+    return f"{station.id} {station.name}"
+
+
+def find(listed: Sequence[Station], wanted: str) -> Station | None:
+    """The station of a key; where no number and name are these, the only one of the name."""
+    same = [each for each in listed if key(each) == wanted]
+    same = same or [each for each in listed if each.name == wanted.partition(" ")[2]]
+    return same[0] if len(same) == 1 else None
+
+
+def survey(places: Places, query: Query) -> Listing:
+    """Stations whose resources answer a query; of one without conditions on resources all stations."""
+    own = _own(places)
+    if not _asks(query) or not places.resources:
+        least = _least(search.find(places, query)) if places.resources else {}
+        found = stations.survey(places, query)
+        rows = [
+            Row(each.station, each.distance_km, least.get(each.station.id), _exercise(each.station, own))
+            for each in found.matches
+        ]
+        return Listing(rows, found.left_out)
+    answer = search.survey(places, query)
+    least = _least(answer.matches)
+    first = {each.station.id: each for each in reversed(answer.matches)}
+    order = {each.station.id: None for each in answer.matches}
+    rows = [
+        Row(first[n].station, first[n].distance_km, least.get(n), _exercise(first[n].station, own))
+        for n in order
+    ]
+    return Listing(rows, answer.left_out)
+
+
+def facts(places: Places, station: Station) -> list[tuple[str, str]]:
+    """Label and text of what is known of a station: resources, source, origin and the mark of an exercise."""
+    own = [each for each in places.resources if each.station == station.id]
+    source = places.source_of.get(station.source)
+    lines = [
+        ("Kind", station.kind),
+        ("Agency", station.agency),
+        ("Address", station.address),
+        ("Resources", counted(own) or "none known"),
+        ("Source", "" if source is None else f"{source.name}, {source.licence}, {source.retrieved}"),
+        ("Origin", station.origin),
+    ]
+    if exercise(station, own):
+        lines.append(("", EXERCISE))
+    return [(label, text) for label, text in lines if text]
+
+
+def exercise(station: Station, own: Sequence[Resource]) -> bool:
+    """Whether a station or any of its own resources was invented."""
+    return station.origin == "exercise" or any(each.origin == "exercise" for each in own)
+
+
+def counted(resources: Sequence[Resource]) -> str:
+    """``2 x engine/3, 1 x dozer/2``; empty without any."""
+    numbers: Counter[str] = Counter()
+    for each in resources:
+        numbers[each.type] += each.count
+    words = [f"{number} x {code}" for code, number in numbers.most_common(_TYPES)]
+    more = len(numbers) - _TYPES
+    return ", ".join(words) + (f" and {more} more type{'s' * (more > 1)}" if more > 0 else "")
+
+
+def _asks(query: Query) -> bool:
+    """Whether a query has a condition on resources."""
+    return replace(query, near=None, within_km=None) != Query()
+
+
+def _least(matches: Sequence[search.Match]) -> dict[int, float]:
+    """Least minutes of each station, by its number."""
+    least: dict[int, float] = {}
+    for each in matches:
+        if each.minutes is not None:
+            number = each.station.id
+            least[number] = min(each.minutes, least.get(number, each.minutes))
+    return least
+
+
+def _own(places: Places) -> set[int]:
+    """Numbers of stations that have a resource of an exercise."""
+    return {each.station for each in places.resources if each.origin == "exercise"}
+
+
+def _exercise(station: Station, own: set[int]) -> bool:
+    return station.origin == "exercise" or station.id in own

@@ -1,0 +1,134 @@
+"""What lists and maps of stations are made of: the file of places and the run, read in a thread and kept."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+import bpy
+from firetwin_core.run import Run
+
+from ..errors import Error
+from ..places import ahead, ignition, picture, store
+from ..places.store import Places
+from ..run import readers
+from ..shot.run_head import Head
+from ..shot.terrain.elevation import Elevation
+from . import job
+
+
+class Key(NamedTuple):
+    """File of places and run folder, with the times when they last changed, ns."""
+
+    file: Path
+    file_changed: int
+    run: Path | None
+    run_changed: int
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """Places, and the run around them where there is one.
+
+    Attributes
+    ----------
+    arrivals
+        When the fire reaches each station.
+    ignition
+        Where the fire began, degrees; None where it is not known.
+    plan
+        Ground of the map; None without a station and a run.
+    problem
+        Why the run cannot be read; empty where it can.
+    """
+
+    places: Places
+    run: Run | None = None
+    arrivals: ahead.Arrivals | None = None
+    ignition: tuple[float, float] | None = None
+    head: Head | None = None
+    plan: picture.Map | None = None
+    problem: str = ""
+
+
+_known: dict[Key, Loaded | str] = {}
+_reading: threading.Thread | None = None
+
+
+def key(panel: bpy.types.PropertyGroup) -> Key | None:
+    """What the panel asks for; None without a file, or where it is not there."""
+    if not panel.stations.file:
+        return None
+    file, run = Path(bpy.path.abspath(panel.stations.file)), None
+    if panel.run and (folder := Path(bpy.path.abspath(panel.run))).joinpath("run.toml").is_file():
+        run = folder
+    try:
+        changed = file.stat().st_mtime_ns
+        return Key(file, changed, run, run.joinpath("run.toml").stat().st_mtime_ns if run else 0)
+    except OSError:
+        return None
+
+
+def get(wanted: Key) -> Loaded | str | None:
+    """What was read, or what is wrong with it; None while a thread reads it.
+
+    Without a window it is read at once.
+    """
+    global _reading
+    if wanted in _known:
+        return _known[wanted]
+    if bpy.app.background:
+        _read(wanted)
+        return _known[wanted]
+    if _reading is None or not _reading.is_alive():
+        _reading = threading.Thread(target=_read, args=(wanted,), name="Firetwin stations", daemon=True)
+        _reading.start()
+    return None
+
+
+def kinds() -> list[str]:
+    """Kinds of resources of what was read last."""
+    return sorted(
+        {each.kind for found in _known.values() if isinstance(found, Loaded) for each in found.places.types}
+    )
+
+
+def forget() -> None:
+    """Free everything."""
+    _known.clear()
+
+
+def _read(wanted: Key) -> None:
+    try:
+        found: Loaded | str = load(wanted.file, wanted.run)
+    except Exception as error:
+        found = job.describe_error(error)
+    _known.clear()
+    _known[wanted] = found
+
+
+def load(file: Path, folder: Path | None) -> Loaded:
+    """Read a file of places, and a run if there is one; what is wrong with the run alone is told.
+
+    Raises
+    ------
+    InputError
+        The file of places cannot be read.
+    """
+    places = store.read(file)
+    if folder is None:
+        return Loaded(places, plan=picture.prepare(None, *places.positions))
+    try:
+        run = readers.open(folder)
+        ground = picture.Field(
+            run.fuel_latitude, run.fuel_longitude, Elevation(run).fuel, run.fuel_arrival_time()
+        )
+        arrivals = ahead.sample(run, *places.positions)
+        began = ignition.find(run)
+    except (Error, OSError, ValueError, RuntimeError) as error:
+        plan = picture.prepare(None, *places.positions)
+        return Loaded(places, plan=plan, problem=job.describe_error(error))
+    plan = picture.prepare(ground, *places.positions)
+    return Loaded(places, run, arrivals, began and began[0], Head(run), plan)

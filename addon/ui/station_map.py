@@ -1,0 +1,219 @@
+"""Map of the listed stations: an image, and the same picture in the sidebar; drawn by a timer while shown."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import bpy
+import bpy.utils.previews
+import numpy as np
+
+from ..blender import owned
+from ..places import listing, picture
+from ..run import times
+from . import station_filter, station_list, station_selection, station_sync, working
+
+IMAGE = "Firetwin Stations Map"
+NO_MAP = "No file of stations is read"
+
+_drawn: tuple[object, ...] | None = None
+_kept: list[bpy.utils.previews.ImagePreviewCollection] = []
+
+
+def changed(panel: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    """Update callback: the map is shown in the sidebar, or no more."""
+    station_sync.wake()
+
+
+def icon() -> int:
+    """Icon number of the picture in the sidebar; 0: none is drawn."""
+    return _kept[0]["map"].icon_id if _kept else 0
+
+
+def image() -> bpy.types.Image | None:
+    """The map's image, if it was shown."""
+    found = bpy.data.images.get(IMAGE)
+    return found if found is not None and owned.ours(found) else None
+
+
+def editors() -> Iterator[bpy.types.Area]:
+    """Image editors that show the map."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "IMAGE_EDITOR" and _shows(area.spaces.active):
+                yield area
+
+
+def update(scene: bpy.types.Scene, always: bool = False) -> None:
+    """Draw the map again, where it is shown and something of it changed."""
+    global _drawn
+    panel, now = scene.firetwin, station_list.shown()
+    seen = (panel.station_map, next(editors(), None) is not None)
+    if not (always or any(seen)) or now.loaded is None or now.loaded.plan is None:
+        return
+    time = model_time(panel, now.loaded)
+    state = (now.stamp, panel.station, time, seen, None if (held := image()) is None else held.session_uid)
+    if state == _drawn and not always:
+        return
+    _drawn = state
+    stations = [each.station for each in now.rows]
+    place = station_list.place(panel)
+    pixels = picture.draw(
+        now.loaded.plan,
+        time,
+        [each.latitude for each in stations],
+        [each.longitude for each in stations],
+        ["exercise" if each.exercise else each.station.origin for each in now.rows],
+        place if place >= 0 else None,
+    )
+    if held is not None:
+        held.pixels.foreach_set(pixels.ravel())
+        held.update()
+    if panel.station_map:
+        _preview(pixels)
+
+
+def model_time(panel: bpy.types.PropertyGroup, loaded: station_list.Loaded) -> float:
+    """Model time of the current frame, s; before a build that of the run's end."""
+    if loaded.run is None:
+        return 0.0
+    shown = station_filter.shown_time(panel)
+    return float(loaded.run.times[-1]) if shown is None else times.seconds(loaded.run, shown)
+
+
+def station_at(up: float, along: float) -> str | None:
+    """Key of the listed station nearest to a point of the map, from 0 to 1; None without any."""
+    now = station_list.shown()
+    if now.loaded is None or now.loaded.plan is None:
+        return None
+    stations = [each.station for each in now.rows]
+    row = now.loaded.plan.nearest(
+        [each.latitude for each in stations], [each.longitude for each in stations], (up, along)
+    )
+    return None if row is None else listing.key(stations[row])
+
+
+def forget() -> None:
+    """Free the picture in the sidebar."""
+    global _drawn
+    _drawn = None
+    while _kept:
+        bpy.utils.previews.remove(_kept.pop())
+
+
+def _shows(space: bpy.types.Space) -> bool:
+    return space.image is not None and space.image.name == IMAGE and owned.ours(space.image)
+
+
+def _preview(pixels: np.ndarray) -> None:
+    """Put the picture into the sidebar's icon."""
+    if not _kept:
+        _kept.append(bpy.utils.previews.new())
+        _kept[0].new("map")
+    held = _kept[0]["map"]
+    held.image_size = held.icon_size = pixels.shape[1::-1]
+    held.image_pixels_float.foreach_set(pixels.ravel())
+    held.icon_pixels_float.foreach_set(pixels.ravel())
+
+
+def _can_show(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+    loaded = station_list.shown().loaded
+    if loaded is None or loaded.plan is None:
+        cls.poll_message_set(NO_MAP)
+        return False
+    return working.editable(cls, context)
+
+
+class FIRETWIN_OT_station_map(bpy.types.Operator):
+    """Show the map of stations in an image editor: one that is open, or else a new window"""
+
+    bl_idname = "firetwin.station_map"
+    bl_label = "Show map"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return _can_show(cls, context)
+
+    @working.reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        if (held := image()) is None:
+            held = owned.mark(bpy.data.images.new(IMAGE, picture.SIDE, picture.SIDE, alpha=True))
+            held.name = IMAGE
+        if not bpy.app.background and context.window is not None:
+            self._show(context, held)
+        update(context.scene, always=True)
+        return {"FINISHED"}
+
+    def _show(self, context: bpy.types.Context, held: bpy.types.Image) -> None:
+        """Put the image into an editor."""
+        areas = [area for area in context.screen.areas if area.type == "IMAGE_EDITOR"]
+        if not areas:
+            bpy.ops.wm.window_new()
+            area = context.window_manager.windows[-1].screen.areas[0]
+            area.type = "IMAGE_EDITOR"
+            areas = [area]
+        areas[0].spaces.active.image = held
+
+
+class FIRETWIN_OT_station_pick(bpy.types.Operator):
+    """Select the station that is clicked on the map; Esc ends it"""
+
+    bl_idname = "firetwin.station_pick"
+    bl_label = "Pick on map"
+    bl_options = {"UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not _can_show(cls, context):
+            return False
+        if context.screen is None or not any(area in list(editors()) for area in context.screen.areas):
+            cls.poll_message_set("Show the map in an image editor of this window first")
+            return False
+        return True
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        context.window_manager.modal_handler_add(self)
+        context.window.cursor_modal_set("CROSSHAIR")
+        context.workspace.status_text_set("Click a station on the map    Esc ends it")
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if event.type in ("ESC", "RIGHTMOUSE"):
+            self._end(context)
+            return {"CANCELLED"}
+        if event.type != "LEFTMOUSE" or event.value != "PRESS":
+            return {"PASS_THROUGH"}
+        point = _under(context.screen, event.mouse_x, event.mouse_y)
+        key = None if point is None else station_at(*point)
+        if key is None:
+            return {"PASS_THROUGH"}
+        self._end(context)
+        station_selection.select(context.scene, key)
+        working.redraw()
+        return {"FINISHED"}
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Another file is opened, or Blender ends."""
+        self._end(context)
+
+    def _end(self, context: bpy.types.Context) -> None:
+        context.window.cursor_modal_restore()
+        context.workspace.status_text_set(None)
+
+
+def _under(screen: bpy.types.Screen, x: int, y: int) -> tuple[float, float] | None:
+    """Point of the map (up, along) from 0 to 1 under the pointer; None beside it."""
+    for area in screen.areas:
+        if area.type != "IMAGE_EDITOR" or not _shows(area.spaces.active):
+            continue
+        for region in area.regions:
+            inside = 0 <= x - region.x < region.width and 0 <= y - region.y < region.height
+            if region.type == "WINDOW" and inside:
+                along, up = region.view2d.region_to_view(x - region.x, y - region.y)
+                if 0.0 <= along <= 1.0 and 0.0 <= up <= 1.0:
+                    return up, along
+    return None
+
+
+classes = (FIRETWIN_OT_station_map, FIRETWIN_OT_station_pick)

@@ -1,0 +1,86 @@
+"""One selected station for the list, the map and the 3D view.
+
+Handles in the 3D view bear number and name of their station, so the selection survives undo, saving and
+another version of Blender. A selected active handle says which station is selected; undo, which brings back
+the selection of objects, so brings back the station.
+"""
+
+from __future__ import annotations
+
+import bpy
+
+from ..blender import owned
+from ..scene.places.handles import STATION
+from . import station_list, station_sync, working
+
+
+def position(panel: bpy.types.PropertyGroup) -> int:
+    """Row of the selected station (getter of a property)."""
+    return station_list.place(panel)
+
+
+def choose(panel: bpy.types.PropertyGroup, index: int) -> None:
+    """Select the station of a row (setter of a property)."""
+    for key, row in station_list.shown().place.items():
+        if row == index:
+            select(panel.id_data, key)
+
+
+def select(scene: bpy.types.Scene, key: str) -> None:
+    """Select a station, and its handle in the 3D view where it has one."""
+    scene.firetwin.station = key
+    _select_handle(scene, key)
+    station_list.describe(scene.firetwin)
+    station_sync.wake()
+
+
+def handles(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+    """Handles of stations that were built."""
+    if not owned.built(scene):
+        return []
+    return [obj for obj in owned.stage(scene).objects_of("Stations") if STATION in obj]
+
+
+def _select_handle(scene: bpy.types.Scene, key: str) -> None:
+    """Select the handle alone; of a station without one no handle."""
+    context = bpy.context
+    layer = context.view_layer if context.scene == scene else scene.view_layers[0]
+    active, built = layer.objects.active, handles(scene)
+    if active is not None and active.mode != "OBJECT":
+        return
+    match = next((obj for obj in built if obj[STATION] == key and obj.name in layer.objects), None)
+    for obj in [*layer.objects.selected] if match is not None else built:
+        if obj.name in layer.objects:
+            obj.select_set(False, view_layer=layer)
+    if match is not None:
+        match.select_set(True, view_layer=layer)
+        layer.objects.active = match
+    elif active in built:
+        layer.objects.active = None
+
+
+@bpy.app.handlers.persistent
+def follow(scene: bpy.types.Scene, graph: bpy.types.Depsgraph | None = None) -> None:
+    """After a change in the 3D view: the station of the selected active handle is the selected one."""
+    if graph is None or graph.mode != "VIEWPORT" or not hasattr(scene, "firetwin"):
+        return
+    layer, panel = graph.view_layer, scene.firetwin
+    obj = layer.objects.active
+    key = None if obj is None else obj.get(STATION)
+    if not isinstance(key, str) or key == panel.station or not obj.select_get(view_layer=layer):
+        return
+    panel.station = key
+    station_list.describe(panel)
+    station_sync.wake()
+    working.redraw()
+
+
+def register() -> None:
+    """Follow the 3D view, in every file."""
+    bpy.app.handlers.depsgraph_update_post.append(follow)
+
+
+def unregister() -> None:
+    """Follow it no more."""
+    if follow in bpy.app.handlers.depsgraph_update_post:
+        bpy.app.handlers.depsgraph_update_post.remove(follow)

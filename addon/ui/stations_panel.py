@@ -1,0 +1,165 @@
+"""Panels of stations: the list with its filters, the selected station, and the map."""
+
+from __future__ import annotations
+
+import bpy
+
+from ..places.records import EXERCISE
+from . import (
+    go_to,
+    job,
+    station_data,
+    station_filter,
+    station_list,
+    station_map,
+    station_selection,
+    station_sync,
+    working,
+)
+from .text import labelled, paragraph
+
+_MAP = "https://www.openstreetmap.org/?mlat={0:.5f}&mlon={1:.5f}#map=14/{0:.5f}/{1:.5f}"
+
+
+def address(latitude: float, longitude: float) -> str:
+    """Address of a place, degrees, on OpenStreetMap's page; the user's browser opens it."""
+    return _MAP.format(latitude, longitude)
+
+
+class FIRETWIN_UL_stations(bpy.types.UIList):
+    """Stations: name, kind, minutes, and whether they are an exercise's"""
+
+    bl_idname = "FIRETWIN_UL_stations"
+
+    def draw_item(
+        self,
+        context: bpy.types.Context,
+        layout: bpy.types.UILayout,
+        data: bpy.types.PropertyGroup,
+        item: bpy.types.PropertyGroup,
+        icon: int,
+        active_data: bpy.types.PropertyGroup,
+        active_property: str,
+    ) -> None:
+        line = layout.split(factor=0.5)
+        line.label(text=item.name, icon="EXPERIMENTAL" if item.exercise else "HOME")
+        line = line.split(factor=0.6)
+        line.label(text="Exercise" if item.exercise else item.kind)
+        line.label(text=item.minutes)
+
+
+class FIRETWIN_PT_stations(bpy.types.Panel):
+    """Stations of the file, with the filters of a search"""
+
+    bl_idname = "FIRETWIN_PT_stations"
+    bl_label = "List"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Firetwin"
+    bl_parent_id = "FIRETWIN_PT_section_stations"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, panel = self.layout, context.scene.firetwin
+        station_sync.wake()
+        now, held = station_list.shown(), context.window_manager.firetwin_stations
+        _draw_filters(layout.column(), panel)
+        paragraph(context, layout.column(align=True), now.told, "NONE" if now.rows else "INFO")
+        if any(row.exercise for row in now.rows):
+            layout.label(text=EXERCISE, icon="EXPERIMENTAL")
+        if now.loaded is None:
+            return
+        layout.template_list(FIRETWIN_UL_stations.bl_idname, "", held, "rows", panel, "station_index", rows=6)
+        if (found := station_list.detail(panel)) is not None:
+            _draw_selected(context, layout.box(), found)
+
+
+class FIRETWIN_PT_station_map(bpy.types.Panel):
+    """Map of the listed stations and of what has burned at the time that is shown"""
+
+    bl_idname = "FIRETWIN_PT_station_map"
+    bl_label = "Map"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Firetwin"
+    bl_parent_id = "FIRETWIN_PT_stations"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_header(self, context: bpy.types.Context) -> None:
+        self.layout.prop(context.scene.firetwin, "station_map", text="")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, panel = self.layout, context.scene.firetwin
+        if panel.station_map and station_map.icon():
+            layout.template_icon(icon_value=station_map.icon(), scale=12.0)
+        row = layout.row(align=True)
+        row.operator(station_map.FIRETWIN_OT_station_map.bl_idname, icon="IMAGE_DATA")
+        row.operator(station_map.FIRETWIN_OT_station_pick.bl_idname, icon="EYEDROPPER")
+
+
+def _draw_filters(column: bpy.types.UILayout, panel: bpy.types.PropertyGroup) -> None:
+    chosen = panel.station_filter
+    column.enabled = job.Job.current is None
+    for name in ("kind", "types", "mode", "near"):
+        labelled(column, chosen.bl_rna.properties[name].name).prop(chosen, name, text="")
+    row = column.row(align=True)
+    row.active = chosen.near != station_filter.NOWHERE
+    row.prop(chosen, "within")
+    row.prop(chosen, "minutes")
+    column.prop(chosen, "available")
+
+
+def _draw_selected(context: bpy.types.Context, box: bpy.types.UILayout, found: station_list.Detail) -> None:
+    """The selected station: what is known, and where to see it."""
+    box.label(text=found.station.name)
+    for label, text in found.lines:
+        if label:
+            line = box.column(align=True).split(factor=0.3)
+            line.label(text=label)
+            paragraph(context, line.column(align=True), text)
+        else:
+            box.label(text=text, icon="EXPERIMENTAL")
+    row, at = box.row(align=True), (found.station.latitude, found.station.longitude)
+    go = row.operator(go_to.FIRETWIN_OT_go.bl_idname, icon="VIEWZOOM")
+    go.text, go.smooth = f"{at[0]:.6f} {at[1]:.6f}", context.scene.firetwin.go_smoothly
+    row.operator("wm.url_open", text="Open in web map", icon="URL").url = address(*at)
+
+
+def sync() -> bool:
+    """Bring list and map up to date; returns whether something is still being read."""
+    window = bpy.context.window or next(iter(bpy.context.window_manager.windows), None)
+    scene = bpy.context.scene if window is None else window.scene
+    before = station_list.shown().stamp
+    reading = station_list.refresh(scene.firetwin)
+    station_map.update(scene)
+    if station_list.shown().stamp != before:
+        working.redraw()
+    return reading
+
+
+def register() -> None:
+    """Keep the rows with the window, and follow time, undo and the 3D view."""
+    bpy.types.WindowManager.firetwin_stations = bpy.props.PointerProperty(
+        type=station_list.FIRETWIN_PG_stations, options={"SKIP_SAVE"}
+    )
+    station_selection.register()
+    station_sync.start(sync)
+
+
+def unregister() -> None:
+    """Undo `register`."""
+    station_sync.stop()
+    station_selection.unregister()
+    station_map.forget()
+    station_list.forget()
+    station_data.forget()
+    del bpy.types.WindowManager.firetwin_stations
+
+
+classes = (
+    *station_list.classes,
+    *station_map.classes,
+    FIRETWIN_UL_stations,
+    FIRETWIN_PT_stations,
+    FIRETWIN_PT_station_map,
+)
