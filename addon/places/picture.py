@@ -40,8 +40,8 @@ class Field:
 
     latitude: Array
     longitude: Array
-    elevation: Array
-    arrival: Array
+    elevation: NDArray[np.floating]
+    arrival: NDArray[np.floating]
 
 
 @dataclass(frozen=True)

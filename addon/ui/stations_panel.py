@@ -62,7 +62,7 @@ class FIRETWIN_PT_stations(bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         layout, panel = self.layout, context.scene.firetwin
         station_sync.wake()
-        now, held = station_list.shown(), context.window_manager.firetwin_stations
+        now, held = station_list.shown(), bpy.context.window_manager.firetwin_stations
         _draw_filters(layout.column(), panel)
         paragraph(context, layout.column(align=True), now.told, "NONE" if now.rows else "INFO")
         if any(row.exercise for row in now.rows):

@@ -3,6 +3,7 @@
 import shutil
 
 import bpy
+import exercise_places
 import firetwin
 import panel_scene
 import pytest
@@ -10,7 +11,7 @@ from bl_operators.presets import AddPresetBase
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 from firetwin.farm import submission
 from firetwin.jobs import assets, convert, render, render_blend, sample
-from firetwin.ui import navigation, queue, working
+from firetwin.ui import navigation, queue, stations_panel, working
 from mathutils import Euler, Matrix
 from panel_scene import state
 
@@ -104,6 +105,7 @@ CHANGES = {
     "run_add": {},
     "run_remove": {},
     "vr_landmarks": {},
+    "station_map": {},
 }
 KEEPS = {
     "copy": {"message": "this"},
@@ -122,7 +124,7 @@ KEEPS = {
     "farm_resume": {},
     "farm_cancel": {},
 }
-LISTENS = {"queue_esc", "stop"}  # for Esc, and while something goes on
+LISTENS = {"queue_esc", "station_pick", "stop"}  # for Esc or a click, and while something goes on
 
 
 def call(name, options, folder):
@@ -153,6 +155,9 @@ def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path
             bpy.context.scene.firetwin.runs.add().name = "other"
         if name == "solve":
             bpy.context.scene.firetwin.smoke.method = "puffs"
+        if name == "station_map":
+            bpy.context.scene.firetwin.stations.file = str(exercise_places.write(tmp_path / "places.gpkg"))
+            stations_panel.sync()
         bpy.ops.ed.undo_push(message=f"before {name}")
         before = state()
         assert call(name, options, blend.parent) == {"FINISHED"}, name
@@ -164,6 +169,7 @@ def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path
         assert state() == after, name
         bpy.ops.ed.undo()
     bpy.context.scene.firetwin.runs.clear()
+    bpy.context.scene.firetwin.stations.file = ""
     bpy.ops.ed.undo_push(message="the rest")
     before = state()
     for name, options in KEEPS.items():
