@@ -184,8 +184,9 @@ def test_layers_leave_out_what_their_sensor_does_not_see(plain):
         return {part.name for part in parts if part.exclude}
 
     assert left_out("rgb") == set()
-    assert left_out("thermal") == {"Firetwin Labels"}
-    assert left_out("depth") == {"Firetwin Smoke", "Firetwin Fire", "Firetwin Labels"}
+    assert left_out("thermal") == {"Firetwin Labels", "Firetwin Stations"}
+    written = {"Firetwin Labels", "Firetwin Stations"}
+    assert left_out("depth") == {"Firetwin Smoke", "Firetwin Fire", *written}
 
 
 def test_depth_is_drawn_without_materials_unless_one_is_an_artists(plain):
