@@ -214,8 +214,8 @@ def pixels():
 def test_the_map_follows_time_and_selection(panel):
     scene = bpy.context.scene
     scene.frame_set(1)
-    bpy.ops.firetwin.station_map()
     panel.station_map = True
+    bpy.ops.firetwin.station_map()
     first = pixels()
     scene.frame_set(3)
     stations_panel.sync()
@@ -305,8 +305,8 @@ def test_changes_wake_the_list_in_a_window_alone(monkeypatch):
         assert not bpy.app.timers.is_registered(station_sync._tick)  # no window
         assert station_sync._tick() == station_sync._SOON  # still reading
         assert station_sync._tick() is None
-        for handlers in station_sync._watched():
-            assert station_sync.wake in handlers
+        for name in ("frame_change_post", "undo_post", "redo_post", "load_post"):
+            assert station_sync.wake in getattr(bpy.app.handlers, name)
     finally:
         station_sync.stop()
     assert not any(station_sync.wake in handlers for handlers in station_sync._watched())
