@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 
+from ..places.describe import degrees, web_map_address
 from ..places.records import EXERCISE, Resource, Station
 from ..places.store import Places
 from ..run import times
@@ -173,8 +174,7 @@ def _origin(origin: str, source: str) -> str:
 
 def _web_map(point: Point) -> str:
     """Ordinary link, which loads nothing until a reader follows it."""
-    at = f"{point.latitude:.5f}", f"{(point.longitude + 180.0) % 360.0 - 180.0:.5f}"
-    address = f"https://www.openstreetmap.org/?mlat={at[0]}&mlon={at[1]}#map=14/{at[0]}/{at[1]}"
+    at, address = degrees(point.latitude, point.longitude), web_map_address(point.latitude, point.longitude)
     label = quote(f"Open {point.name} in web map")
     return (
         f'<a href="{quote(address)}" target="_blank" rel="noopener noreferrer" aria-label="{label}">'

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from . import search, stations
+from .describe import count_types
 from .records import EXERCISE, Resource, Station
 from .search import Query
 from .store import Places
@@ -84,7 +84,7 @@ def facts(places: Places, station: Station) -> list[tuple[str, str]]:
         ("Kind", station.kind),
         ("Agency", station.agency),
         ("Address", station.address),
-        ("Resources", counted(own) or "none known"),
+        ("Resources", count_types(own, _TYPES) or "none known"),
         ("Source", "" if source is None else f"{source.name}, {source.licence}, {source.retrieved}"),
         ("Origin", station.origin),
     ]
@@ -96,16 +96,6 @@ def facts(places: Places, station: Station) -> list[tuple[str, str]]:
 def exercise(station: Station, own: Sequence[Resource]) -> bool:
     """Whether a station or any of its own resources was invented."""
     return station.origin == "exercise" or any(each.origin == "exercise" for each in own)
-
-
-def counted(resources: Sequence[Resource]) -> str:
-    """``2 x engine/3, 1 x dozer/2``; empty without any."""
-    numbers: Counter[str] = Counter()
-    for each in resources:
-        numbers[each.type] += each.count
-    words = [f"{number} x {code}" for code, number in numbers.most_common(_TYPES)]
-    more = len(numbers) - _TYPES
-    return ", ".join(words) + (f" and {more} more type{'s' * (more > 1)}" if more > 0 else "")
 
 
 def _asks(query: Query) -> bool:

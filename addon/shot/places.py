@@ -5,7 +5,6 @@ Everything of an exercise says so: a sign whose station or resources are an exer
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +16,7 @@ from numpy.typing import NDArray
 from ..ellipsoid import metres_per_degree
 from ..errors import input_error
 from ..places import ahead, measures, store
+from ..places.describe import count_types
 from ..places.records import EXERCISE, ORIGINS, Resource, Station
 from ..places.store import Places
 from ..run import areas
@@ -178,16 +178,6 @@ def check(settings: Settings) -> None:
             _features(path)
 
 
-def summary(resources: Iterable[Resource]) -> str:
-    """``2 x engine/3, 1 x dozer/2 and 2 more types``; empty without any."""
-    counted: Counter[str] = Counter()
-    for each in resources:
-        counted[each.type] += each.count
-    words = [f"{number} x {type_}" for type_, number in counted.most_common(_TYPES)]
-    more = len(counted) - _TYPES
-    return ", ".join(words) + (f" and {more} more type{'s' * (more > 1)}" if more > 0 else "")
-
-
 def _minutes(shot: Shot, known: Places, here: Sequence[Station]) -> list[str]:
     """Least minutes from the order to the arrival at the ignition; empty where not known or not shown."""
     began = ignition(shot)
@@ -216,7 +206,7 @@ def _sign(
     kind = " ".join(station.kind.split())[:_LONGEST]
     lines = [kind] if "kind" in show and kind else []
     told = False  # whether something of the resources is shown
-    if "resources" in show and (text := summary(resources)):
+    if "resources" in show and (text := count_types(resources, _TYPES)):
         lines.append(text)
         told = True
     if minutes:

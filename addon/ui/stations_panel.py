@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import bpy
 
+from ..places.describe import web_map_address
 from ..places.records import EXERCISE
 from . import (
     go_to,
@@ -17,13 +18,6 @@ from . import (
     working,
 )
 from .text import labelled, paragraph
-
-_MAP = "https://www.openstreetmap.org/?mlat={0:.5f}&mlon={1:.5f}#map=14/{0:.5f}/{1:.5f}"
-
-
-def address(latitude: float, longitude: float) -> str:
-    """Address of a place, degrees, on OpenStreetMap's page; the user's browser opens it."""
-    return _MAP.format(latitude, longitude)
 
 
 class FIRETWIN_UL_stations(bpy.types.UIList):
@@ -122,7 +116,7 @@ def _draw_selected(context: bpy.types.Context, box: bpy.types.UILayout, found: s
     row, at = box.row(align=True), (found.station.latitude, found.station.longitude)
     go = row.operator(go_to.FIRETWIN_OT_go.bl_idname, icon="VIEWZOOM")
     go.text, go.smooth = f"{at[0]:.6f} {at[1]:.6f}", context.scene.firetwin.go_smoothly
-    row.operator("wm.url_open", text="Open in web map", icon="URL").url = address(*at)
+    row.operator("wm.url_open", text="Open in web map", icon="URL").url = web_map_address(*at)
 
 
 def sync() -> bool:

@@ -7,7 +7,7 @@ import numpy as np
 import panel_scene
 import pytest
 from exercise_places import BASE, BEYOND, NEAR
-from firetwin.places import search
+from firetwin.places import describe, search
 from firetwin.places.search import Query
 from firetwin.scene.places.handles import STATION
 from firetwin.ui import (
@@ -241,7 +241,7 @@ def test_a_click_on_the_map_is_at_the_nearest_station(panel):
 
 def test_the_web_map_is_an_address_alone():
     assert (
-        stations_panel.address(38.84, -120.555)
+        describe.web_map_address(38.84, -120.555)
         == "https://www.openstreetmap.org/?mlat=38.84000&mlon=-120.55500#map=14/38.84000/-120.55500"
     )
 
@@ -273,7 +273,7 @@ def test_panels_draw_what_is_known_and_read_nothing(panel, monkeypatch):
         cls.draw(type("Self", (), {"layout": Layout(drawn)})(), bpy.context)
         if cls is stations_panel.FIRETWIN_PT_stations:
             assert ("template_list", "FIRETWIN_UL_stations") in [(n, a[0]) for n, a, _ in drawn if a]
-            assert ("url", (stations_panel.address(38.872, -120.515),), {}) in drawn
+            assert ("url", (describe.web_map_address(38.872, -120.515),), {}) in drawn
             assert ("text", ("38.872000 -120.515000",), {}) in drawn  # of Go to
             assert any(m.get("text") == "Exercise: not operational advice" for _, _, m in drawn)
 

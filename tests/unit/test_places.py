@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import stations
 from firetwin.errors import InputError
-from firetwin.places import ahead, measures, store
+from firetwin.places import ahead, describe, measures, store
 from firetwin.places.records import EXERCISE, Station
 from firetwin.run import times
 from firetwin.shot import places
@@ -87,7 +87,7 @@ def test_air_goes_straight_and_the_ground_by_roads(tmp_path):
 
 def test_a_sign_sums_up_resources_and_has_a_short_name(shot_of):
     many = [stations.resource(k, 1, f"engine/{k}", k) for k in range(1, 6)]
-    assert places.summary(many) == "5 x engine/5, 4 x engine/4, 3 x engine/3 and 2 more types"
+    assert describe.count_types(many, 3) == "5 x engine/5, 4 x engine/4, 3 x engine/3 and 2 more types"
     shot = shot_of()
     at = shot.settings.stations.file
     names = ["A " * 99, " \n"]
