@@ -111,16 +111,13 @@ class _FuelColours:
 
     def __init__(self, shot: Shot) -> None:
         fields = shot.ground.fields
-        self.axes = fields.latitude, fields.longitude
+        self._ground = shot.ground
         load = fields.canopy_fuel + fields.surface_fuel
         self._load = load / max(float(load.max()), 1.0e-9)
         self.resolution = float(min(shot.ground.cell))
 
     def __call__(self, latitude: Array, longitude: Array) -> NDArray[np.uint8]:
-        rows, columns = (
-            np.interp(at, axis, np.arange(len(axis), dtype=float))
-            for at, axis in zip((latitude, longitude), self.axes, strict=True)
-        )
+        rows, columns = self._ground.indices(latitude, longitude)
         load = bilinear(self._load, rows[:, None], columns)[..., None]
         return np.rint(np.asarray(_BARE) * (1.0 - load) + np.asarray(_GREEN) * load).astype(np.uint8)
 

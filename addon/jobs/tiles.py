@@ -138,6 +138,7 @@ class _Source:
         megabytes = self.settings.max_size * 1_000_000
         self.budget = Budget(self.settings.max_tiles, megabytes, self.settings.max_triangles)
         self.files: dict[int, str] = {}
+        self._decoded: dict[str, tuple[int, str]] = {}
 
     def prepared(self, progress: Progress) -> _Prepared:
         """Choose, fetch and decode until everything that is chosen can be shown."""
@@ -160,11 +161,11 @@ class _Source:
             for number, each in zip(choice.contents.tolist(), wanted, strict=True):
                 if each.name in bad:
                     self.loader.tree.broken[int(self.loader.tree.content[number, 0])] = bad[each.name]
-            shown = {n: _count(each) for n, each in zip(choice.contents.tolist(), wanted, strict=True)}
-            new = {number: count for number, count in shown.items() if number not in triangles}
-            triangles |= new
-            if not bad and sum(shown.values()) <= self.settings.max_triangles:
+            counts = [self._triangles_and_credit(each)[0] for each in wanted]
+            triangles |= dict(zip(choice.contents.tolist(), counts, strict=True))
+            if not bad and sum(counts) <= self.settings.max_triangles:
                 break
+        self.loader.source.close()
         names = [Path(each.out).name for each in wanted if Path(each.out).exists()]
         return _Prepared(choice, names, list(self._credits(wanted)))
 
@@ -207,13 +208,22 @@ class _Source:
             found |= {each: source.read(source.resolve(uri, each)) for each in wanted}
         return {each: self._stored(content) for each, content in found.items()}
 
+    def _triangles_and_credit(self, content: Content) -> tuple[int, str]:
+        """Triangles and notice of a decoded content, read once; 0 where it could not be decoded."""
+        if content.out not in self._decoded:
+            path = Path(content.out)
+            if not path.exists():
+                return 0, ""
+            tile = decoded.read(path)
+            self._decoded[content.out] = len(tile.triangle), tile.credit
+        return self._decoded[content.out]
+
     def _credits(self, contents: Sequence[Content]) -> Any:
         """A notice for each tile that has one, its document's own after it."""
-        for each in contents:
-            if Path(each.out).exists():
-                yield from filter(None, map(str.strip, decoded.read(Path(each.out)).credit.split(";")))
-        for document in self.loader.tree.documents:
-            yield from filter(None, map(str.strip, document.copyright.split(";")))
+        notices = [self._triangles_and_credit(each)[1] for each in contents]
+        notices += [document.copyright for document in self.loader.tree.documents]
+        for notice in notices:
+            yield from filter(None, map(str.strip, notice.split(";")))
         if self.loader.source.policy.logo:
             yield self.loader.source.policy.logo
 
@@ -221,9 +231,3 @@ class _Source:
 def _plain(matrix: NDArray[np.float64]) -> bytes:
     """A matrix to a tenth of a millimetre at 60 km, so that rounding does not make another tile of it."""
     return np.round(matrix, 9).tobytes()
-
-
-def _count(content: Content) -> int:
-    """Triangles of a decoded content; 0 where it could not be decoded."""
-    path = Path(content.out)
-    return len(decoded.read(path).triangle) if path.exists() else 0

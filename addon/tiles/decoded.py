@@ -18,12 +18,12 @@ from ..errors import input_error
 if TYPE_CHECKING:
     from firetwin_core import tiles
 
-_ARRAYS = ("origin", "position", "normal", "uv", "colour", "triangle", "material")
+_ARRAYS = ("origin", "position", "normal", "uv", "colour", "triangle", "material_index")
 _ENDS = {"jpeg": ".jpg", "png": ".png", "webp": ".webp"}
 
 
 @dataclass(frozen=True)
-class Look:
+class Material:
     """Material of a range of triangles.
 
     Attributes
@@ -60,8 +60,8 @@ class Decoded:
         (n, 4) float32, linear; (0, 4) without.
     triangle
         (m, 3) vertex numbers.
-    material
-        (m,) numbers in `looks`.
+    material_index
+        (m,) numbers in `materials`.
     credit
         Copyright notices, with semicolons between them.
     """
@@ -72,8 +72,8 @@ class Decoded:
     uv: NDArray[np.float32]
     colour: NDArray[np.float32]
     triangle: NDArray[np.int32]
-    material: NDArray[np.int32]
-    looks: tuple[Look, ...]
+    material_index: NDArray[np.int32]
+    materials: tuple[Material, ...]
     credit: str
 
 
@@ -86,7 +86,7 @@ def write(tile: tiles.Tile, path: Path, resources: dict[str, bytes]) -> None:
         Files beside the content by uri, for pictures that lie there.
     """
     pictures = [_store(each, path.parent, resources) for each in tile.images]
-    looks = [
+    materials = [
         {
             "colour": list(each.colour),
             "picture": pictures[each.image] if each.image >= 0 else "",
@@ -95,13 +95,13 @@ def write(tile: tiles.Tile, path: Path, resources: dict[str, bytes]) -> None:
         }
         for each in tile.materials
     ]
-    material = np.zeros(len(tile.triangle), np.int32)
+    index = np.zeros(len(tile.triangle), np.int32)
     for part in tile.ranges:
         last = part.first_triangle + part.triangles
-        material[part.first_triangle : last] = part.material if part.material >= 0 else len(looks)
-    if not len(looks) or material.max(initial=0) == len(looks):
-        looks.append({})
-    about = np.frombuffer(json.dumps({"looks": looks, "credit": tile.copyright}).encode(), np.uint8)
+        index[part.first_triangle : last] = part.material if part.material >= 0 else len(materials)
+    if not len(materials) or index.max(initial=0) == len(materials):
+        materials.append({})
+    about = np.frombuffer(json.dumps({"materials": materials, "credit": tile.copyright}).encode(), np.uint8)
     arrays: dict[str, NDArray] = {
         "about": about,
         "origin": tile.origin,
@@ -110,7 +110,7 @@ def write(tile: tiles.Tile, path: Path, resources: dict[str, bytes]) -> None:
         "uv": tile.uv,
         "colour": tile.colour,
         "triangle": tile.triangle.astype(np.int32),
-        "material": material,
+        "material_index": index,
     }
 
     def put(part: Path) -> None:
@@ -132,10 +132,11 @@ def read(path: Path) -> Decoded:
         with np.load(path, allow_pickle=False) as stored:
             about: dict[str, Any] = json.loads(stored["about"].tobytes())
             arrays = {name: stored[name] for name in _ARRAYS}
-        looks = tuple(
-            Look(**each | {"colour": tuple(each["colour"])} if each else {}) for each in about["looks"]
+        materials = tuple(
+            Material(**each | {"colour": tuple(each["colour"])} if each else {})
+            for each in about["materials"]
         )
-        found = Decoded(**arrays, looks=looks, credit=about["credit"])
+        found = Decoded(**arrays, materials=materials, credit=about["credit"])
     except (OSError, ValueError, LookupError, TypeError, zipfile.BadZipFile) as error:
         raise input_error(path, 0, 0, f"is no decoded tile ({error}); delete it") from None
     if not _is_consistent(found):
@@ -147,13 +148,15 @@ def _is_consistent(tile: Decoded) -> bool:
     """Whether every triangle names vertices and a material that exist."""
     count = len(tile.position)
     shapes = tile.position.shape == tile.normal.shape == (count, 3) and tile.uv.shape == (count, 2)
-    inside = tile.triangle.shape[1:] == (3,) and tile.material.shape == (len(tile.triangle),)
+    inside = tile.triangle.shape[1:] == (3,) and tile.material_index.shape == (len(tile.triangle),)
     if not (shapes and inside and tile.colour.shape in ((0, 4), (count, 4)) and tile.origin.shape == (3,)):
         return False
     if not len(tile.triangle):
         return True
     numbers = tile.triangle.min() >= 0 and tile.triangle.max() < count
-    return bool(numbers and tile.material.min() >= 0 and tile.material.max() < len(tile.looks))
+    return bool(
+        numbers and tile.material_index.min() >= 0 and tile.material_index.max() < len(tile.materials)
+    )
 
 
 def _store(image: tiles.Image, folder: Path, resources: dict[str, bytes]) -> str:

@@ -26,7 +26,7 @@ def test_a_tile_comes_back_as_it_was_decoded(tmp_path):
     tile = decoded.read(tmp_path / "good.glb.npz")
     assert tile.position.shape == (4, 3)
     assert tile.triangle.shape == (2, 3)
-    assert tile.material.tolist() == [0, 0]
+    assert tile.material_index.tolist() == [0, 0]
     before = os.stat(good.out).st_mtime_ns
     assert decode_tiles.run([good]) == {}
     assert os.stat(good.out).st_mtime_ns == before  # what is there is not decoded again

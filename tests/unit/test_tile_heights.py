@@ -22,8 +22,8 @@ def tile(position, triangle, origin=(0.0, 0.0, 0.0)):
         uv=np.zeros((count, 2), np.float32),
         colour=np.zeros((0, 4), np.float32),
         triangle=np.asarray(triangle, np.int32),
-        material=np.zeros(len(triangle), np.int32),
-        looks=(),
+        material_index=np.zeros(len(triangle), np.int32),
+        materials=(),
         credit="",
     )
 

@@ -25,7 +25,9 @@ UV = "tile_uv"
 def build(shot: Shot, stage: Stage, cut: TileCut, grown: Stand | None) -> None:
     """Build an object for each tile of the cut."""
     tiles = {name: decoded.read(cut.folder / name) for name in cut.tiles}
-    slots = pictures.arrange([look.picture for tile in tiles.values() for look in tile.looks if look.picture])
+    slots = pictures.arrange(
+        [each.picture for tile in tiles.values() for each in tile.materials if each.picture]
+    )
     collection = stage.part("Tiles")
     materials = _materials(shot, stage, pictures.load(slots, cut.folder, cut.name), grown)
     for name, tile in tiles.items():
@@ -72,20 +74,20 @@ def fill(data: bpy.types.Mesh, shot: Shot, tile: Decoded, slots: dict[str, Slot]
         data, fields.GRID, "FLOAT_VECTOR", fields.place(ground.shape, row, column, ground.fields.margin)
     )
     corners = tile.triangle.ravel()
-    look = np.repeat(tile.material, 3)
+    index = np.repeat(tile.material_index, 3)
     uv, colour = tile.uv[corners], np.ones((len(corners), 4), np.float32)
     if len(tile.colour):
         colour = tile.colour[corners].copy()
-    image = np.full(len(tile.looks), -1)
-    for number, each in enumerate(tile.looks):
-        mine = look == number
+    image = np.full(len(tile.materials), -1)
+    for number, each in enumerate(tile.materials):
+        mine = index == number
         colour[mine] *= np.asarray(each.colour, np.float32)
         if slot := slots.get(each.picture):
             uv[mine], image[number] = slot.moved(uv[mine]), slot.image
     layer = data.uv_layers.new(name=UV)
     layer.data.foreach_set("uv", np.ascontiguousarray(uv).ravel())
     data.attributes.new(COLOUR, "FLOAT_COLOR", "CORNER").data.foreach_set("color", colour.ravel())
-    data.polygons.foreach_set("material_index", (image[tile.material] + 1).astype(np.int32))
+    data.polygons.foreach_set("material_index", (image[tile.material_index] + 1).astype(np.int32))
 
 
 def _shape(data: bpy.types.Mesh, tile: Decoded) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..buildings import Building, triangles
-from . import earth
+from ..volumes import ecef
 from .glb import Mesh
 
 Array = NDArray[np.float64]
@@ -19,7 +19,8 @@ _COLOUR = (0.48, 0.44, 0.40, 1.0)
 def mesh(buildings: Sequence[Building]) -> Mesh:
     """One mesh of several buildings; every face has vertices of its own."""
     corners = np.vstack([part for each in buildings for part in (*_walls(each), _roof(each))])
-    position = earth.centred(corners[:, 1], corners[:, 0], corners[:, 2])
+    longitude, latitude = np.radians(corners[:, :2]).T
+    position = ecef(latitude, longitude, corners[:, 2])
     sides = position.reshape(-1, 3, 3)
     normal = np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0])
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)

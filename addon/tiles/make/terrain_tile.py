@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ... import ellipsoid
-from . import earth
+from ..volumes import ecef, enu_axes
 from .glb import Mesh
 from .lattice import Lattice
 
@@ -26,8 +26,8 @@ def mesh(lattice: Lattice, level: int, row: int, column: int, picture: bytes) ->
     lat, lon = (axis.ravel() for axis in np.meshgrid(latitude, longitude, indexing="ij"))
     border = _border(lattice.cells)
     skirt = lattice.edge_gap(level, row, column) + _MARGIN
-    below = earth.centred(lat[border], lon[border], height.ravel()[border] - skirt)
-    position = np.vstack([earth.centred(lat, lon, height.ravel()), below])
+    below = ecef(np.radians(lat[border]), np.radians(lon[border]), height.ravel()[border] - skirt)
+    position = np.vstack([ecef(np.radians(lat), np.radians(lon), height.ravel()), below])
     origin = np.round(position.mean(axis=0))
     uv = np.column_stack([_share(lon), 1.0 - _share(lat)])
     return Mesh(
@@ -68,7 +68,8 @@ def _normals(
             other = np.arange(rows.start, rows.stop, stride)
             rise = lattice.height[np.ix_(other, after)] - lattice.height[np.ix_(other, before)]
             slopes.append(rise / run[None, :])
-    east, north, up = earth.axes(latitude[:, None], longitude[None, :])
+    axes = enu_axes(*np.broadcast_arrays(np.radians(latitude)[:, None], np.radians(longitude)))
+    east, north, up = np.moveaxis(axes, -2, 0)
     normal = up - slopes[1][..., None] * east - slopes[0][..., None] * north
     return normal / np.linalg.norm(normal, axis=-1, keepdims=True)
 
