@@ -41,6 +41,7 @@ slow 2 "${pytest[@]}" tests/render
 slow 3 tests/system/fuzz/run.sh --runs 20000
 slow 3 .venv/bin/python tests/system/fuzz/scenes.py --builds 20 --seconds 150
 slow 3 .venv/bin/python tests/system/fuzz/convert.py --each 200
+slow 2 .venv/bin/python tests/system/fuzz/tilesets.py --runs 10000
 slow 3 "${pytest[@]}" tests/system --ignore tests/system/farm
 built=false
 if [[ -d $FIRETWIN_PORTABLE/wheels ]]; then

@@ -112,7 +112,7 @@ def _damaged(whole, count, rng, cuts):
             yield odd(whole, rng)
         else:
             way = WAYS[number // 2 % len(WAYS) if odd else number % len(WAYS)]
-            yield way, _DAMAGE[way](bytearray(whole), rng)
+            yield way, damaged(whole, way, rng)
 
 
 def _flip(data, rng, most=100, within=None):
@@ -167,6 +167,11 @@ _DAMAGE = {
 
 
 WAYS = tuple(_DAMAGE)
+
+
+def damaged(data, way, rng):
+    """Bytes damaged in one of the ways."""
+    return _DAMAGE[way](bytearray(data), rng)
 
 
 def _convert(paths, options, folder):

@@ -170,3 +170,16 @@ def test_gzip_within_limits():
         file.write(b"0" * 20_000_000)
     with pytest.raises(InputError, match="grows to more than"):
         gunzip(bomb.getvalue(), 1 << 28, "x")
+
+
+def test_damaged_names_in_an_archive(tmp_path):
+    data = zipped(tmp_path / "x.3tz", {"!": b"1"}, zipfile.ZIP_STORED).read_bytes()
+    (tmp_path / "x.3tz").write_bytes(data.replace(b"!", b"\0"))  # zipfile cuts names there
+    with pytest.raises(InputError, match="leaves the archive"):
+        archive.Archive(tmp_path / "x.3tz")
+    data = zipped(tmp_path / "y.3tz", {"tileset.json": b"{}"}, zipfile.ZIP_STORED).read_bytes()
+    data = bytearray(data.replace(b"tileset.json", b"\xff" * 12, 1))  # the name before the content
+    data[7] |= 0x08  # which is UTF-8
+    (tmp_path / "y.3tz").write_bytes(data)
+    with pytest.raises(MissingError, match="is damaged"):
+        archive.Archive(tmp_path / "y.3tz").read("tileset.json")

@@ -64,7 +64,7 @@ class Archive(Source):
         try:
             with self._lock, self._zip.open(member) as file:
                 data = file.read(member.file_size + 1)
-        except (OSError, EOFError, zipfile.BadZipFile, zlib.error, NotImplementedError) as error:
+        except (OSError, EOFError, ValueError, zipfile.BadZipFile, zlib.error, NotImplementedError) as error:
             raise missing(name, f"is damaged: {error}") from error
         if len(data) != member.file_size:
             raise missing(name, f"has {len(data):,} bytes, not {member.file_size:,} as the archive says")
@@ -90,10 +90,13 @@ class Archive(Source):
         found: dict[str, zipfile.ZipInfo] = {}
         for member in members:
             name = member.filename
-            if member.is_dir():
+            if name and member.is_dir():
                 continue
             plain = (
-                not name.startswith("/") and posixpath.normpath(name) == name and not name.startswith("..")
+                name
+                and not name.startswith("/")
+                and posixpath.normpath(name) == name
+                and not name.startswith("..")
             )
             # orig_filename: zipfile itself cuts names at a NUL and turns the system's separators.
             if not plain or any(c in member.orig_filename for c in "\\:\0"):
