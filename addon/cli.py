@@ -225,6 +225,7 @@ def _parser() -> argparse.ArgumentParser:
     build.add_argument(
         "--run", metavar="NAME", type=_name, help="name of the run of [[runs]] (the first run)"
     )
+    tiles.add_access(build)
 
     bake = command("bake", "write the smoke volumes that the scene needs", BAKE)
     _scene(bake)
@@ -249,6 +250,7 @@ def _parser() -> argparse.ArgumentParser:
         help="keep finished pictures whose settings and inputs have not changed",
     )
     render.add_argument("--json", action="store_true", help="write JSON: files and memory")
+    tiles.add_access(render)
 
     farm.add(command("farm", "plan a film for a render farm", farm.DETAIL), _path, _count)
 
@@ -265,11 +267,11 @@ def _parser() -> argparse.ArgumentParser:
     track.add_argument("--camera", metavar="NAME", type=_name, help="name of the camera (the first)")
     track.add_argument("--out", metavar="FILE.gpx", type=_path, required=True, help="file to write")
 
-    cache = command("cache", "list cached smoke volumes, or remove the least recently used", CACHE)
+    cache = command("cache", "list cached smoke volumes and tiles, or remove the least recently used", CACHE)
     cache.add_argument(
         "places", metavar="SCENE|DIR", nargs="*", type=_path, help="scene files or cache folders (./cache)"
     )
-    cache.add_argument("--prune", action="store_true", help="remove the least recently used volumes")
+    cache.add_argument("--prune", action="store_true", help="remove the least recently used")
     cache.add_argument(
         "--limit",
         metavar="SIZE",

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from .jobs.cache import CachedVolumes
     from .jobs.render import RenderResult
+    from .jobs.tile_access import TileAccess
     from .places.command import Fire
     from .shot.source import ShotSource
 
@@ -182,7 +183,7 @@ def build(arguments: argparse.Namespace) -> None:
 
     if arguments.out.suffix != ".blend":
         raise UsageError(f"-o: {arguments.out} does not end in .blend; name a .blend file")
-    build.run(_choice(arguments), arguments.out, Reporter(), say)
+    build.run(_choice(arguments), arguments.out, Reporter(), say, access=_access(arguments))
     result(arguments.out)
 
 
@@ -202,7 +203,12 @@ def render(arguments: argparse.Namespace) -> None:
     from .jobs import render
 
     asked = render.RenderRequest(
-        arguments.out, arguments.frames, arguments.camera, arguments.passes, arguments.resume
+        arguments.out,
+        arguments.frames,
+        arguments.camera,
+        arguments.passes,
+        arguments.resume,
+        access=_access(arguments),
     )
     made = render.run(_choice(arguments), asked, Reporter(), say)
     if arguments.json:
@@ -237,9 +243,22 @@ def tiles(arguments: argparse.Namespace) -> None:
     if arguments.verb == "make":
         _make_tiles(arguments)
         return
+    from .jobs.tile_access import permitted
     from .tiles import command
 
-    command.run(arguments)
+    command.run(arguments, permitted(_access(arguments)).network())
+
+
+def _access(arguments: argparse.Namespace) -> TileAccess:
+    """How tiles may be had."""
+    from .jobs.tile_access import TileAccess
+
+    return TileAccess(
+        strict=arguments.strict,
+        online=not arguments.offline,
+        hosts=tuple(arguments.host),
+        private=arguments.private,
+    )
 
 
 def _make_tiles(arguments: argparse.Namespace) -> None:

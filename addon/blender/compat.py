@@ -348,8 +348,14 @@ def typeface() -> bpy.types.VectorFont | None:
 
     The built-in one is the same, but 5.2 loses it when it opens a second file without a window.
     """
+    path = typeface_path()
+    return bpy.data.fonts.load(path, check_existing=True) if path else None
+
+
+def typeface_path() -> str:
+    """File of Blender's typeface; empty where it is not installed."""
     path = os.path.join(bpy.utils.system_resource("DATAFILES", path="fonts"), "Inter.woff2")
-    return bpy.data.fonts.load(path, check_existing=True) if os.path.isfile(path) else None
+    return path if os.path.isfile(path) else ""
 
 
 def film_settings(render: bpy.types.RenderSettings) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 
 from ..jobs import render
 from ..progress import MessageCallback, Progress, no_message, silent
-from ..render import dataset, fingerprint
+from ..render import dataset, fingerprint, manifest
 from ..render.fingerprint import Fingerprints
 from ..render.picture import Picture
 from ..render.store import Store
@@ -88,7 +88,8 @@ def enter(store: Store, whole: Iterable[list[Entry]], made_with: Fingerprints) -
     new: dict[tuple[str, str], dict[str, dict[str, Any]]] = defaultdict(dict)
     for made in whole:
         if not store.intact(made[0].fingerprint, [each.path for each in made]):
-            new[made[0].camera, made[0].name] |= {each.path: each.plain() for each in made}
+            pair = made[0].camera, made[0].name
+            new[pair] |= {each.path: each.plain() | manifest.credited(made_with[pair]) for each in made}
     for pair, found in new.items():
         store.add(made_with[pair], found)
 

@@ -15,7 +15,7 @@ from ..render import fingerprint
 from ..render import plan as pictures
 from ..render.picture import Picture
 from ..run.content import sha256
-from ..shot import comparison, frames, scene_runs
+from ..shot import comparison, frames, scene_runs, tile_terms
 from ..shot.settings import frame_list
 from ..shot.settings.settings import Settings
 from ..shot.shot import Shot
@@ -123,12 +123,13 @@ def make(shot: Shot, scene: Path, size: int = CHUNK) -> Job:
     UsageError
         There is nothing to render.
     InputError
-        An asset is missing.
+        An asset is missing, or a policy of tiles does not allow a copy for other machines.
     """
     settings = shot.settings
     filmed, passes, linked = {}, {}, []
     if not settings.cameras:
         raise UsageError(f"{settings.path} has no [[cameras]], so there is nothing to render")
+    tile_terms.check(settings, [("pack", "the farm, whose machines share one copy")])
     for camera in settings.cameras:
         first = frame_list.write(shot.frames_of(camera)[:1])
         found = pictures.pictures(shot, first, camera.name)

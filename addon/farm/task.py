@@ -130,7 +130,9 @@ def _bake(job: Job, choice: ShotSource, task: Task, progress: Progress) -> None:
 def _render(job: Job, choice: ShotSource, out: Path, number: int, log: Log, progress: Progress) -> None:
     """Render what of a task's pictures is not whole, into a folder of its own."""
     task, shot = job.task(number), choice.shot()
-    made_with = fingerprint.of_pictures(shot, list(job.pictures(task)))
+    pictures = list(job.pictures(task))
+    render.prepare_tiles(choice, pictures, render.RenderRequest(out, resume=True), tell=say)
+    made_with = fingerprint.of_pictures(shot, pictures)
     known = [entry for each in entries.attempts(out, number) for entry in each.entries]
     with tempfile.TemporaryDirectory(prefix="firetwin-farm-", ignore_cleanup_errors=True) as place:
         private = PrivateFolder(Path(place), out, log)

@@ -33,19 +33,26 @@ _DEPTHS = matplotlib.colormaps["viridis_r"]
 
 
 class Sheet:
-    """Sheet of `width` by `height` pixels; panels 0 and 1 are above, 2 and 3 below."""
+    """Sheet of `width` by `height` pixels; panels 0 and 1 are above, 2 and 3 below.
 
-    def __init__(self, width: int, height: int) -> None:
+    Parameters
+    ----------
+    foot
+        Rows along its bottom that stay empty.
+    """
+
+    def __init__(self, width: int, height: int, foot: int = 0) -> None:
         self.width, self.height = width, height
         self.unit = min(width / 178.0, height / 100.0)
         self.shadow: list[AbstractPathEffect] = [
             withStroke(linewidth=0.5 * self.points(1.0), foreground="#000000b0")
         ]
         across = (width / self.unit - _SIDE - 3.0 * _GAP) / 2.0
-        up = (height / self.unit - 8.0 - 3.0 * _GAP) / 2.0
+        tall = (height - foot) / self.unit
+        up = (tall - 8.0 - 3.0 * _GAP) / 2.0
         self.wide = min(across, up * width / height)
         self.high = self.wide * height / width
-        self.top = height / self.unit - 2.0 * (self.high + _GAP)
+        self.top = tall - 2.0 * (self.high + _GAP)
         self.figure = Figure(figsize=(width / _DPI, height / _DPI), dpi=_DPI, facecolor=PAPER)
         self.canvas = FigureCanvasAgg(self.figure)
 

@@ -16,11 +16,14 @@ Key = tuple[str, str]
 """Legend entry: a colour and its meaning."""
 
 
-def sheet(pictures: list[NDArray], keys: list[list[Key]], foot: list[str]) -> NDArray[np.float32]:
+def sheet(
+    pictures: list[NDArray], keys: list[list[Key]], foot: list[str], below: int = 0
+) -> NDArray[np.float32]:
     """Compose one to four `pictures` (h, w, 3) into one picture of the same size.
 
     Two are halves with the central half of their picture. Three or four are quarters with the whole picture
-    at half size. `keys` are drawn in their upper left corners, the lines of `foot` in the lower left corner.
+    at half size. `keys` are drawn in their upper left corners, the lines of `foot` in the lower left corner,
+    `below` rows from the bottom.
     """
     height, width = pictures[0].shape[:2]
     sheet, corners = _arranged([np.clip(picture[..., :3], 0.0, 1.0) for picture in pictures])
@@ -38,7 +41,7 @@ def sheet(pictures: list[NDArray], keys: list[list[Key]], foot: list[str]) -> ND
             figure.add_artist(shape)
             _text(figure, left + 2.0 * unit + 4.4 * large, at + 1.5 * large, text, 3.4 * large)
     for number, line in enumerate(reversed(foot)):
-        _text(figure, 2.0 * unit, height - (3.2 + 4.6 * number) * unit, line, 3.0 * unit)
+        _text(figure, 2.0 * unit, height - below - (3.2 + 4.6 * number) * unit, line, 3.0 * unit)
     canvas.draw()
     return np.asarray(canvas.buffer_rgba())[..., :3].astype(np.float32) / 255.0
 

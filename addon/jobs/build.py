@@ -12,6 +12,7 @@ from ..progress import READING, MessageCallback, Progress, no_message, notify_if
 from ..shot import camera_warnings
 from ..shot.source import ShotSource
 from . import tiles, worker
+from .tile_access import TileAccess
 
 
 def run(
@@ -20,8 +21,14 @@ def run(
     progress: Progress = silent,
     tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
+    access: TileAccess | None = None,
 ) -> None:
     """Build the scene and save it as `out`, a .blend file.
+
+    Parameters
+    ----------
+    access
+        How tiles may be had.
 
     Raises
     ------
@@ -32,7 +39,8 @@ def run(
     _writable(out)
     with notify_if_slow(READING):
         choice.shot()
-    tiles.prepare(choice, (), progress, tell, stop)
+    pack = ("pack", "the .blend file (render makes pictures without one)")
+    tiles.prepare(choice, (), progress, tell, stop, access, [pack])
     worker.run(
         f"{__name__}:in_blender", {"choice": choice.plain(), "out": str(out)}, progress, stop=stop, tell=tell
     )

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..progress import MessageCallback, Progress, count, no_message, silent
 from ..run import areas
+from ..shot import tile_terms
 from ..shot.shot import Shot
 from ..shot.terrain import orthophoto
 from ..tiles import buildings
@@ -59,8 +60,11 @@ def run(
     Raises
     ------
     InputError
-        The folder holds something else, or the footprints cannot be read.
+        The folder holds something else, the footprints cannot be read, or the heights are those of tiles
+        that must not be written to other formats.
     """
+    if shot.settings.terrain.stand == "tiles":
+        tile_terms.check(shot.settings, [("export", "`firetwin tiles make`")])
     surface = surface_of(shot, request.geoid)
     built = []
     if request.footprints:

@@ -12,10 +12,12 @@ from typing import Any
 from .. import memory
 from ..errors import Error
 from ..progress import READING, MessageCallback, Progress, count, no_message, notify_if_slow, share, silent
+from ..shot import tile_terms
 from ..shot.comparison import for_view
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
 from . import solve, tiles, worker
+from .tile_access import TileAccess
 
 Selection = tuple[str | None, str | tuple[str, ...] | None, str | None]
 """Frames, camera and passes, as `render.plan.pictures` takes them."""
@@ -33,6 +35,8 @@ class RenderRequest:
         Keep finished pictures of equal settings.
     films
         Make films of the pictures.
+    access
+        How tiles may be had.
     """
 
     out: Path
@@ -41,6 +45,7 @@ class RenderRequest:
     passes: str | None = None
     resume: bool = False
     films: bool = True
+    access: TileAccess | None = None
 
     def selection(self) -> Selection:
         """What is asked for of the scene file's pictures."""
@@ -87,6 +92,7 @@ def run(
     with notify_if_slow(READING):
         shot = shot or choice.shot()
         wanted = plan.pictures(shot, *asked.selection())
+    prepare_tiles(choice, wanted, asked, progress, tell, stop)  # fingerprints have what is chosen
     made_with = fingerprint.of_pictures(shot, wanted, progress)
     with Store(out) as store:
         undone = plan.missing(store, wanted, made_with)
@@ -104,7 +110,6 @@ def run(
     if undone:
         cameras = " and ".join(dict.fromkeys(picture.camera for picture in undone))
         tell(f"rendering {count(len(undone), 'picture')} of {cameras}")
-        tiles.prepare(choice, list(dict.fromkeys(picture.camera for picture in undone)), progress, tell, stop)
     task = {
         "choice": choice.plain(),
         "filmed": [list(pair) for pair in made_with],
@@ -120,6 +125,23 @@ def run(
     if others := len(undone) - result.pictures:
         tell(f"another render made {others} of these {count(len(undone), 'picture')}")
     return result
+
+
+def prepare_tiles(
+    choice: ShotSource,
+    wanted: list[Any],
+    asked: RenderRequest,
+    progress: Progress = silent,
+    tell: MessageCallback = no_message,
+    stop: worker.Stop | None = None,
+) -> None:
+    """Prepare the tiles of these pictures' views, once their policies allow the pictures' passes.
+
+    A render that is resumed keeps the tiles that it began with.
+    """
+    views = list(dict.fromkeys(picture.camera for picture in wanted))
+    uses = tile_terms.of_passes(picture.name for picture in wanted)
+    tiles.prepare(choice, views, progress, tell, stop, asked.access, uses, keep=asked.resume)
 
 
 def make(

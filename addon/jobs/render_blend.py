@@ -10,6 +10,7 @@ from typing import Any
 
 from ..errors import Error
 from ..progress import MessageCallback, Progress, count, no_message, share, silent
+from ..shot import tile_terms
 from ..shot.comparison import for_view
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
@@ -48,6 +49,7 @@ def run(
     wanted = [
         picture for picture in planned if "@" not in picture.camera and not passes.compares(picture.name)
     ]
+    tile_terms.check(shot.settings, tile_terms.of_passes(picture.name for picture in wanted))
     with blend.open("rb") as file:
         digest = hashlib.file_digest(file, "sha256").hexdigest()
     made_with = _made_with(digest, wanted)

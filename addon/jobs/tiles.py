@@ -9,8 +9,8 @@ from __future__ import annotations
 import hashlib
 import shutil
 from collections import Counter
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,23 +18,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import files
-from ..errors import input_error
-from ..progress import MessageCallback, Progress, no_message, share, silent
-from ..shot import tile_cut
+from ..errors import Error, input_error
+from ..imaging import credits
+from ..progress import MessageCallback, Progress, count, no_message, share, silent
+from ..shot import tile_cut, tile_terms
 from ..shot.comparison import for_view
+from ..shot.settings.settings import TileSettings
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
 from ..shot.terrain import tile_heights
 from ..shot.tile_cut import TileCut
-from ..tiles import decoded
+from ..shot.tile_terms import Use
+from ..tiles import decoded, policies
+from ..tiles.policies import Policy
 from . import decode_tiles, worker
 from .decode_tiles import Content
+from .tile_access import TileAccess, from_plain, permitted
 
 if TYPE_CHECKING:
     from ..tiles.cut import Choice
     from ..tiles.loader import Loader
 
 _TRIES = 8  # choices at most; each leaves out what could not be decoded, or knows more triangles
+_NAMED = 6  # missing tiles that are named in messages; the manifest has all
 
 
 def prepare(
@@ -43,6 +49,9 @@ def prepare(
     progress: Progress = silent,
     tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
+    access: TileAccess | None = None,
+    uses: Sequence[Use] = (),
+    keep: bool = False,
 ) -> None:
     """Prepare the tiles of a scene; without sources there is nothing to do.
 
@@ -50,86 +59,187 @@ def prepare(
     ----------
     views
         Views that are built each by itself; empty: all cameras are built together.
+    access
+        How tiles may be had.
+    uses
+        What is to be made of them, besides what the scene's own settings say.
+    keep
+        Choices of servers' tiles stay as they are where they are whole, so that a film is continued with the
+        tiles that it has, also without the server.
 
     Raises
     ------
     InputError
-        A tileset is wrong, or refused.
+        A tileset is wrong, or refused, or its policy does not allow what is to be made of it.
+    Error
+        A tile is missing, and `access` is strict.
     """
-    if choice.settings().tiles.sources:
-        about = {"choice": choice.plain(), "views": list(views)}
-        worker.run(f"{__name__}:in_process", about, progress, tell=tell, blender=False, stop=stop)
+    settings, access = choice.settings(), access or TileAccess()
+    if not settings.tiles.sources:
+        return
+    every = [*tile_terms.of_scene(settings), *uses]
+    offline = [] if access.online else [("work_offline", "--offline")]
+    tile_terms.check(settings, [*every, *offline])
+    about = {
+        "choice": choice.plain(),
+        "views": list(views),
+        "access": permitted(access).plain(),
+        "uses": [list(use) for use in every],
+        "keep": keep,
+    }
+    worker.run(f"{__name__}:in_process", about, progress, tell=tell, blender=False, stop=stop)
 
 
-def in_process(choice: dict[str, str], views: list[str], progress: Progress, tell: MessageCallback) -> None:
+def in_process(
+    choice: dict[str, str],
+    views: list[str],
+    access: dict[str, Any],
+    uses: list[list[str]],
+    keep: bool,
+    progress: Progress,
+    tell: MessageCallback,
+) -> None:
     """Prepare; worker side."""
-    source = ShotSource(**choice)
+    source, how = ShotSource(**choice), from_plain(access)
+    wanted = [(use, what) for use, what in uses]
     shot = source.shot()
     if shot.settings.terrain.stand == "tiles":
         terrain = replace(shot.settings.terrain, stand="elevation")
         first = Shot(replace(shot.settings, terrain=terrain), shot.run)
-        make(first, progress)
-        heights = tile_cut.location(first).with_suffix(tile_cut.HEIGHTS)
-        shutil.copyfile(heights, tile_heights.location(shot.settings, shot.run))
+        heights = tile_heights.location(shot.settings, shot.run)
+        if not (_kept(first, keep) and heights.exists()):
+            make(first, progress, how, wanted)
+            shutil.copyfile(tile_cut.location(first).with_suffix(tile_cut.HEIGHTS), heights)
         shot = source.shot()
     for built in [for_view(shot, view) for view in views] or [shot]:
-        for sentence in make(built, progress):
-            tell(sentence)
+        if not _kept(built, keep):
+            for sentence in make(built, progress, how, wanted):
+                tell(sentence)
 
 
-def make(shot: Shot, progress: Progress = silent) -> list[str]:
+def _kept(shot: Shot, keep: bool) -> bool:
+    """Whether a shot's choice stays as it is; files of this machine may have changed, and are read again."""
+    cut = tile_cut.prepared(shot) if keep else None
+    places = shot.settings.tiles.sources
+    remote = all("://" in place and policies.of_place(place).may_work_offline for place in places)
+    return remote and cut is not None and cut.is_whole()
+
+
+def make(
+    shot: Shot, progress: Progress = silent, access: TileAccess | None = None, uses: Sequence[Use] = ()
+) -> list[str]:
     """Write the cut of a shot.
 
     Returns
     -------
     What the user should know.
+
+    Raises
+    ------
+    Error
+        A tile is missing, and `access` is strict.
+    InputError
+        A policy forbids the uses, or pictures are too small for the credits.
     """
-    settings, path = shot.settings.tiles, tile_cut.location(shot)
+    settings, path, access = shot.settings.tiles, tile_cut.location(shot), access or TileAccess()
     path.parent.mkdir(parents=True, exist_ok=True)
     prepared = [
-        _Source(shot, place, path.parent).prepared(share(progress, number, len(settings.sources), "tiles"))
-        for number, place in enumerate(settings.sources)
+        _Source(shot, number, path.parent, access, uses).prepared(
+            share(progress, number, len(settings.sources), "tiles")
+        )
+        for number in range(len(settings.sources))
     ]
-    credits = Counter(part for each in prepared for part in each.credits)
+    notices = Counter(part for each in prepared for part in each.credits)
     cut = TileCut(
         path.parent,
         path.stem,
         tuple(name for each in prepared for name in each.names),
-        tuple(credit for credit, _ in credits.most_common()),
+        tuple(notice for notice, _ in notices.most_common()),
         tuple(sorted(reason for each in prepared for reason in each.choice.missing.values())),
         max(each.choice.error for each in prepared),
+        tuple(dict.fromkeys(each.policy.logo for each in prepared if each.policy.logo)),
+        sum(each.empty for each in prepared),
     )
+    _check_room(shot, cut)
+    if access.strict and cut.missing:
+        raise Error(f"--strict: {count(len(cut.missing), 'tile')} missing: {'; '.join(cut.missing)}")
     if cut.tiles:
         surface = tile_heights.rasterise(decoded.read(cut.folder / name) for name in cut.tiles)
         tile_heights.write(path.with_suffix(tile_cut.HEIGHTS), *surface)
     tile_cut.write(cut, path)
-    told = [f"credits of tiles, to be named beside the pictures: {'; '.join(cut.credits)}"] if credits else []
-    return [*told, *(sentence for each in prepared if (sentence := each.choice.sentence()))]
+    return list(_told(cut, prepared))
 
 
+def _check_room(shot: Shot, cut: TileCut) -> None:
+    """Check that each camera's pictures have room for the credits."""
+    for camera in shot.settings.cameras:
+        try:
+            credits.blocks(cut.words, *shot.resolution(camera), camera.rig.around)
+        except ValueError as error:
+            raise input_error(shot.settings.path, 0, 0, f'camera "{camera.name}": {error}') from None
+
+
+def _told(cut: TileCut, prepared: Sequence[_Prepared]) -> Iterator[str]:
+    """What the user should know of a cut."""
+    if cut.words:
+        yield f"credits of tiles, which pictures show: {cut.words.text()}"
+    for each in prepared:
+        if each.advised:
+            yield (
+                f"{each.policy.name} recommends tiles to {each.choice.asked:g} pixels; "
+                "tiles.error sets another value"
+            )
+        if sentence := each.choice.sentence():
+            yield sentence
+    if more := cut.missing[1:_NAMED]:
+        yield f"also missing: {'; '.join(more)}" + (" ..." if len(cut.missing) > _NAMED else "")
+    if cut.empty:
+        yield f"empty, without triangles between finite vertices: {count(cut.empty, 'tile')}"
+
+
+@dataclass(frozen=True)
 class _Prepared:
-    """A source's share of a cut: its choice, names of decoded tiles, and a credit for each tile."""
+    """A source's share of a cut.
 
-    def __init__(self, choice: Choice, names: list[str], credits: list[str]) -> None:
-        self.choice, self.names, self.credits = choice, names, credits
+    Attributes
+    ----------
+    names
+        Of decoded tiles.
+    credits
+        A credit for each tile.
+    empty
+        Tiles without triangles.
+    advised
+        The error is the policy's.
+    """
+
+    choice: Choice
+    names: list[str]
+    credits: list[str]
+    empty: int
+    policy: Policy
+    advised: bool
 
 
 class _Source:
     """Tiles of one source."""
 
-    def __init__(self, shot: Shot, place: str, folder: Path) -> None:
+    def __init__(
+        self, shot: Shot, number: int, folder: Path, access: TileAccess, uses: Sequence[Use]
+    ) -> None:
         from ..tiles.cut import Budget, Views, pixels
         from ..tiles.loader import Loader
         from ..tiles.place import ecef_to_frame
-        from ..tiles.policies import OPEN
         from ..tiles.sources import open_source
 
         self.settings, self.folder = shot.settings.tiles, folder
+        place = self.settings.sources[number]
         near = shot.settings.path.parent / place
-        source = open_source(str(near) if near.exists() else place)
-        if source.policy is not OPEN:
-            reason = f"{source.policy.name} wants credits in each picture, which are not drawn yet"
-            raise input_error(shot.settings.path, 0, 0, f"tiles.sources: {place}: {reason}")
+        source = open_source(str(near) if near.exists() else place, access.network())
+        self.policy = source.policy
+        tile_terms.check_source(shot.settings, number, self.policy, uses)
+        self.advised = self.policy.pixel_error > 0.0 and self.settings.error == TileSettings().error
+        self.error = self.policy.pixel_error if self.advised else self.settings.error
         self.loader: Loader = Loader(source)
         undulation = self.settings.geoid if shot.run.vertical == "orthometric" else 0.0
         self.matrix = ecef_to_frame(shot.ground.frame, undulation)
@@ -150,7 +260,7 @@ class _Source:
                 self.loader,
                 self.views,
                 self.matrix,
-                self.settings.error,
+                self.error,
                 self.budget,
                 shadows=True,
                 put=self._put,
@@ -166,8 +276,10 @@ class _Source:
             if not bad and sum(counts) <= self.settings.max_triangles:
                 break
         self.loader.source.close()
-        names = [Path(each.out).name for each in wanted if Path(each.out).exists()]
-        return _Prepared(choice, names, list(self._credits(wanted)))
+        there = [each for each in wanted if Path(each.out).exists()]
+        empty = sum(not self._triangles_and_credit(each)[0] for each in there)
+        names = [Path(each.out).name for each in there]
+        return _Prepared(choice, names, list(self._credits(wanted)), empty, self.policy, self.advised)
 
     def _put(self, content: int, data: bytes) -> None:
         """Keep a content under a name that follows it."""
@@ -224,8 +336,6 @@ class _Source:
         notices += [document.copyright for document in self.loader.tree.documents]
         for notice in notices:
             yield from filter(None, map(str.strip, notice.split(";")))
-        if self.loader.source.policy.logo:
-            yield self.loader.source.policy.logo
 
 
 def _plain(matrix: NDArray[np.float64]) -> bytes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..blender import devices, owned
 from ..blender.owned import Stage
 from ..progress import MessageCallback, Progress
-from ..render import engine, layers
+from ..render import credits, engine, layers
 from ..scene import build
 from ..shot.shot import Shot
 
@@ -32,6 +32,7 @@ def build_scene(shot: Shot, progress: Progress, tell: MessageCallback) -> Stage:
     layers.build(shot.settings, stage)
     engine.apply(shot.settings, stage.scene)
     engine.label(shot.run, stage.scene)
+    credits.stamp(stage)
     devices.follow(shot.settings.render.device, stage.scene)
     progress(total, total, "building the scene")
     return stage

@@ -10,6 +10,7 @@ from ..progress import MessageCallback, Progress
 from ..shot import passes
 from ..shot.comparison import for_view
 from ..shot.shot import Shot
+from . import credits, manifest
 from .picture import Picture
 from .pictures import publish
 from .sharing import RenderSession
@@ -48,6 +49,8 @@ def _finish(shot: Shot, session: RenderSession, part: Path, picture: Picture) ->
     mine = {Path(name).suffix[1:]: part / Path(name).name for name in picture.files()}
     with writing(mine[comparing.files[0]]):
         comparing.finish(mine, needed, shot, picture.camera, picture.frame)
+    words = manifest.credits_of(session.made_with[picture.camera, picture.name])
+    credits.burn(mine["png"], words, f"Firetwin: {shot.run.name}")
 
 
 def _files(picture: Picture, view: str, name: str, out: Path) -> dict[str, Path]:

@@ -2,7 +2,8 @@
 
 It lists the frames whose visible picture and sidecar (see `shot.passes.pose`) are finished, with intrinsics
 and `transform_matrix`. `passes` lists every finished file of the frame. Cameras without a perspective
-projection have no index. The file is replaced atomically when a render ends.
+projection have no index. `credits` of a frame are those of its tiles. The file is replaced atomically when a
+render ends.
 """
 
 from __future__ import annotations
@@ -50,7 +51,8 @@ def _frame(folder: Path, shown: str, passes: dict[str, list[str]]) -> dict[str, 
         sidecar = json.loads((folder / passes["pose"][0]).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
-    lens = sidecar["intrinsics"]
+    lens, tiles = sidecar["intrinsics"], sidecar.get("tiles", {})
+    words = [*tiles.get("services", []), *tiles.get("credits", [])]
     if lens["projection"] != "perspective":
         return None
     bent = {name: lens["distortion"][name] for name in ("k1", "k2", "p1", "p2")}
@@ -61,4 +63,5 @@ def _frame(folder: Path, shown: str, passes: dict[str, list[str]]) -> dict[str, 
         **bent,
         "time_utc": sidecar["time_utc"],
         "passes": passes,
+        **({"credits": words} if words else {}),
     }

@@ -15,7 +15,7 @@ import firetwin_core
 from ..progress import Progress, silent
 from ..run import content
 from ..run.content import fingerprint
-from ..shot import code_fingerprint, comparison, frames, labels, passes, places
+from ..shot import code_fingerprint, comparison, frames, labels, passes, places, tile_cut
 from ..shot.cameras import mount
 from ..shot.fire import observed
 from ..shot.settings import schema
@@ -29,6 +29,8 @@ Fingerprints = dict[tuple[str, str], dict[str, Any]]
 """Inputs of the pictures, by camera and pass."""
 
 _RENDERING = (
+    "imaging/credits.py",
+    "render/credits.py",
     "render/engine.py",
     "render/layers.py",
     "render/pictures.py",
@@ -126,12 +128,27 @@ def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silen
         label: comparison.for_run(shot, label) for label in {view.partition("@")[2] for view, _ in pairs}
     }
     runs = {label: own.input_hashes(progress=progress) | more for label, own in shots.items()}
-    made_with = {}
+    made_with, find = {}, tile_cut.finder(shot)
     for view, name in sorted(pairs):
         label = view.partition("@")[2]
         made_with[view, name] = of_picture(shots[label].settings, runs[label], view, name)
-        made_with[view, name] |= _other_runs(shots[label], name, progress)
+        made_with[view, name] |= _other_runs(shots[label], name, progress) | _tiles(shot, view, name, find)
     return made_with
+
+
+def _tiles(shot: Shot, view: str, name: str, find: tile_cut.Finder) -> dict[str, Any]:
+    """Tiles that a pass shows, and their credits; without those that were not prepared yet."""
+    if "terrain" not in passes.known()[name].all_aspects:
+        return {}
+    cuts = tile_cut.of_pass(shot, view, name, find)
+    words = tile_cut.credits_of(cuts)
+    found = {
+        "chosen": fingerprint({"tiles": [cut.tiles for cut in cuts]}),
+        "credits": list(words.data),
+        "logo": list(words.logo),
+        "missing": sorted({reason.partition(": ")[0] for cut in cuts for reason in cut.missing}),
+    }
+    return {"tiles": found} if cuts else {}
 
 
 def _other_runs(shot: Shot, name: str, progress: Progress) -> dict[str, Any]:

@@ -13,6 +13,7 @@ from typing import Any
 from .. import files
 from ..database import BROKEN
 from ..errors import input_error
+from ..imaging.credits import Credits
 
 NAME = "manifest.json"
 _FORMAT = 1
@@ -43,3 +44,23 @@ def write(out: Path, settings: dict[str, Any], entries: dict[str, Any]) -> None:
     """Write the manifest atomically: a reader gets the new one or the previous one."""
     text = json.dumps({"format": _FORMAT, "settings": settings, "files": entries}, indent=1) + "\n"
     files.write_text(out / NAME, text)
+
+
+def credits_of(made_with: dict[str, Any]) -> Credits:
+    """Credits of a picture's tiles by the inputs of its fingerprint."""
+    found = made_with.get("tiles", {})
+    return Credits(tuple(found.get("credits", ())), tuple(found.get("logo", ())))
+
+
+def credited(made_with: dict[str, Any], words: Credits | None = None) -> dict[str, list[str]]:
+    """What an entry says of a picture's tiles: who is to be named, and which of them are missing.
+
+    Parameters
+    ----------
+    words
+        Credits besides those of the inputs.
+    """
+    named = credits_of(made_with).joined(words or Credits())
+    missing = made_with.get("tiles", {}).get("missing", [])
+    found = {"credits": list(named.data), "services": list(named.logo), "missing_tiles": missing}
+    return {name: values for name, values in found.items() if values}

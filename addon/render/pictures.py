@@ -12,13 +12,14 @@ import numpy as np
 from .. import files, memory
 from ..blender.owned import Stage
 from ..errors import writing
+from ..imaging.credits import Credits
 from ..progress import MessageCallback, Progress, no_message, silent
 from ..shot import passes
 from ..shot.cameras import mount, pixel_rays
 from ..shot.cameras.path import compass
 from ..shot.shot import Shot
 from ..smoke.prefetch import Smoke
-from . import engine, integrated, layers, plan, png, spherical, verify
+from . import credits, engine, integrated, layers, manifest, plan, png, spherical, verify
 from .picture import Picture
 from .sharing import FrameQueue, RenderSession
 from .store import describe
@@ -93,7 +94,7 @@ def _frame(
         return []  # the temporary files go with it
     if not queue.held():
         return []
-    publish(shot, session, part, finished)
+    publish(shot, session, part, finished, frame.words)
     return finished
 
 
@@ -121,6 +122,7 @@ class _Frame:
         self.pictures = {name: Picture(camera, frame, name) for name in passes.known()}
         self.scene.camera = stage.camera(camera)
         self.scene.frame_set(frame)
+        self.words = credits.of_scene(stage)
 
     def render(self, names: list[str]) -> list[Picture]:
         """Write the files of these passes, and of the passes that they need, into the temporary folder."""
@@ -150,7 +152,16 @@ class _Frame:
                 mine = self.files(self.pictures[drawn_pass.name], made)
                 with writing(mine[drawn_pass.files[0]]):
                     drawn_pass.finish(mine, there, self.shot, self.camera, self.frame)
+            self._credit(drawn_pass)
         return [self.pictures[name] for name in names]
+
+    def _credit(self, drawn: passes.Pass) -> None:
+        """Draw the credits of tiles into a pass's picture."""
+        if drawn.film:
+            own = manifest.credits_of(self.session.made_with.get((self.camera, drawn.name), {}))
+            path = self.part / Path(self.pictures[drawn.name].file("png")).name
+            around = self.shot.camera(self.camera).rig.around
+            credits.burn(path, own.joined(self.words), self.scene.render.stamp_note_text, around)
 
     def draw_layers(self, pictures: list[Picture]) -> None:
         """Render the view layers of these passes, with smoke."""
@@ -176,8 +187,15 @@ class _Frame:
         return {path.suffix[1:]: self.part / path.name if picture in made else out / path for path in paths}
 
 
-def publish(shot: Shot, session: RenderSession, part: Path, pictures: list[Picture]) -> None:
+def publish(
+    shot: Shot, session: RenderSession, part: Path, pictures: list[Picture], words: Credits | None = None
+) -> None:
     """Verify the files of a complete frame, rename them into place and enter them in the store.
+
+    Parameters
+    ----------
+    words
+        Credits of tiles in the scene, besides those of the fingerprint.
 
     Raises
     ------
@@ -196,12 +214,14 @@ def publish(shot: Shot, session: RenderSession, part: Path, pictures: list[Pictu
         verify.picture(path, size)
     for picture in pictures:
         entries = {}
+        about = manifest.credited(session.made_with[picture.camera, picture.name], words)
         for name in picture.files():
             entries[name] = describe(made[name]) | {
                 "camera": picture.camera,
                 "pass": picture.name,
                 "frame": picture.frame,
                 "time": shot.utc(picture.frame).isoformat(timespec="seconds"),
+                **about,
             }
             files.publish(made[name], session.store.out / name)
         session.enter(picture, entries)

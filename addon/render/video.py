@@ -10,11 +10,13 @@ import bpy
 from .. import files
 from ..blender import compat
 from ..errors import writing
+from ..imaging import credits
+from ..imaging.credits import Credits
 from ..progress import Progress, silent
 from ..run import times
 from ..shot import passes, scene_runs
 from ..shot.shot import Shot
-from . import engine, films, picture, spherical, verify
+from . import engine, films, manifest, picture, spherical, verify
 from .picture import Picture
 from .sharing import RenderSession
 from .store import describe
@@ -47,13 +49,14 @@ def _film(shot: Shot, session: RenderSession, camera: str, name: str, made_from:
             size = passes.known()[name].size(shot.resolution(shot.camera(camera)))
             _settings(shot, size, scene, made, len(frames))
             engine.label(scene_runs.of_view(shot, camera), scene)
-            _strips(shot, scene, out, camera, name, frames)
+            mine = session.made_with[camera, name]
+            _strips(shot, scene, out, camera, name, frames, manifest.credits_of(mine))
             with writing(path):
                 bpy.ops.render.render(animation=True, scene=scene.name)
             if shot.camera(camera).rig.around:
                 spherical.film(made)
             verify.film(made)
-            entry = describe(made) | {"camera": camera, "pass": name}
+            entry = describe(made) | {"camera": camera, "pass": name} | manifest.credited(mine)
             files.publish(made, path)
             session.store.add(made_from, {picture.film(camera, name): entry})
     finally:
@@ -83,12 +86,22 @@ def _settings(shot: Shot, size: tuple[int, int], scene: bpy.types.Scene, path: P
 
 
 def _strips(
-    shot: Shot, scene: bpy.types.Scene, out: Path, camera: str, name: str, numbers: list[int]
+    shot: Shot,
+    scene: bpy.types.Scene,
+    out: Path,
+    camera: str,
+    name: str,
+    numbers: list[int],
+    words: Credits,
 ) -> None:
-    """Add a strip for each picture, and its model time as a caption; stereo films have one for each eye."""
+    """Add a strip for each picture, and its model time as a caption; stereo films have one for each eye.
+
+    Captions stand above the credits that the pictures have.
+    """
     editor = scene.sequence_editor_create()
-    height, around = shot.resolution(shot.camera(camera))[1], shot.camera(camera).rig.around
-    size, low = (height / 60, (0.17, 0.67)) if around else (height / 20, (0.035,))
+    (width, height), around = shot.resolution(shot.camera(camera)), shot.camera(camera).rig.around
+    above = 0.035 + (0.0 if around else credits.foot(words, width, height) / height)
+    size, low = (height / 60, (0.17, 0.67)) if around else (height / 20, (above,))
     left, right = (0.44, 0.56) if around else (0.025, 0.975)
     for position, number in enumerate(numbers, start=1):
         shown = str((out / Picture(camera, number, name).file("png")).resolve())

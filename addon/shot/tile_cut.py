@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import json
+from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,11 +14,17 @@ import numpy as np
 
 from .. import files
 from ..errors import input_error
+from ..imaging import credits
+from ..imaging.credits import Credits
+from . import comparison, passes
+from .cameras import mount
 
 if TYPE_CHECKING:
     from .settings.protocols import ShotView
+    from .shot import Shot
 
 
+Finder = Callable[[str], "TileCut | None"]
 HEIGHTS = ".npz"
 """End of the file of a cut's heights (see `terrain.tile_heights`), which else has the cut's name."""
 
@@ -37,6 +45,10 @@ class TileCut:
         What could not be had, and is shown by its ancestor.
     error
         Largest screen-space error that was allowed, pixels, after budgets.
+    logo
+        Names of services, which stand apart from the credits.
+    empty
+        How many of the tiles have no triangles.
     """
 
     folder: Path
@@ -45,6 +57,19 @@ class TileCut:
     credits: tuple[str, ...]
     missing: tuple[str, ...]
     error: float
+    logo: tuple[str, ...] = ()
+    empty: int = 0
+
+    @property
+    def words(self) -> Credits:
+        """Who must be named in pictures."""
+        return Credits(self.credits, self.logo)
+
+    def is_whole(self) -> bool:
+        """Whether all files that it names are there, and nothing was missing when it was chosen."""
+        heights = self.folder / f"{self.name}{HEIGHTS}"
+        there = all((self.folder / name).is_file() for name in self.tiles)
+        return there and not self.missing and (heights.is_file() or not self.tiles)
 
 
 def write(cut: TileCut, path: Path) -> None:
@@ -63,8 +88,10 @@ def read(path: Path) -> TileCut:
     """
     try:
         about: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-        lists = {name: tuple(map(str, about[name])) for name in ("tiles", "credits", "missing")}
-        return TileCut(path.parent, path.stem, error=float(about["error"]), **lists)
+        lists = {name: tuple(map(str, about[name])) for name in ("tiles", "credits", "missing", "logo")}
+        return TileCut(
+            path.parent, path.stem, error=float(about["error"]), empty=int(about["empty"]), **lists
+        )
     except (OSError, ValueError, LookupError, TypeError) as error:
         raise input_error(path, 0, 0, f"is no list of chosen tiles ({error}); delete it") from None
 
@@ -73,12 +100,20 @@ def location(shot: ShotView) -> Path:
     """File of a shot's cut; it follows all that the choice depends on, except the tilesets themselves."""
     shot = shot.full
     settings = shot.settings.tiles
-    digest = hashlib.sha256(repr(settings).encode() + repr(shot.ground.frame.latitude).encode())
+    digest = hashlib.sha256(b"2" + repr(settings).encode() + repr(shot.ground.frame.latitude).encode())
     for path in shot.paths:
         for array in (path.position, path.rotation, path.halves, np.asarray([path.width, path.meet])):
             digest.update(np.ascontiguousarray(array, np.float64).tobytes())
         digest.update(np.ascontiguousarray(shot.filmed(path), np.int64).tobytes())
     return shot.settings.cache / "tiles" / f"{digest.hexdigest()[:16]}.json"
+
+
+def prepared(shot: ShotView) -> TileCut | None:
+    """The cut of a shot; None where it has no tiles, or they were not prepared yet."""
+    if not shot.settings.tiles.sources:
+        return None
+    path = location(shot)
+    return read(path) if path.is_file() else None
 
 
 def of_shot(shot: ShotView) -> TileCut | None:
@@ -89,9 +124,41 @@ def of_shot(shot: ShotView) -> TileCut | None:
     InputError
         It was not prepared.
     """
+    found = prepared(shot)
+    if found is None and shot.settings.tiles.sources:
+        raise input_error(location(shot), 0, 0, "the tiles of this shot were not prepared; build it again")
+    return found
+
+
+def finder(shot: Shot) -> Finder:
+    """Finds the cut of a view of a shot with all its cameras, or None; each view is looked up once."""
+    return functools.cache(lambda view: prepared(comparison.for_view(shot, view)))
+
+
+def of_pass(shot: Shot, view: str, name: str, find: Finder) -> list[TileCut]:
+    """Cuts that a view's pictures in a pass show; those that were not prepared yet are left out.
+
+    They are the view's own, those of cameras on its mount, and for a comparison those of all runs.
+    """
     if not shot.settings.tiles.sources:
-        return None
-    path = location(shot)
-    if not path.is_file():
-        raise input_error(path, 0, 0, "the tiles of this shot were not prepared; build it again")
-    return read(path)
+        return []
+    camera, _, label = view.partition("@")
+    taken = mount.taken(shot.settings, shot.cameras, camera, passes.known()[name]).values()
+    cameras = dict.fromkeys((camera, *(other for other, _ in taken)))
+    labels = ("", *shot.others) if passes.compares(name) else (label,)
+    views = [passes.view_of(each, run) if run else each for each in cameras for run in labels]
+    return [cut for each in views if (cut := find(each)) is not None]
+
+
+def credits_of(cuts: Iterable[TileCut]) -> Credits:
+    """Who must be named in a picture of these cuts."""
+    return functools.reduce(Credits.joined, (cut.words for cut in cuts), Credits())
+
+
+def foot(shot: Shot, width: int, height: int) -> int:
+    """Rows along the bottom of a one-camera shot's picture that credits take (see `imaging.credits`)."""
+    if not shot.settings.tiles.sources:
+        return 0
+    shots = [shot, *(comparison.for_run(shot, label) for label in shot.others)]
+    cuts = [cut for each in shots if (cut := prepared(each)) is not None]
+    return credits.foot(credits_of(cuts), width, height)

@@ -34,11 +34,7 @@ def add(parser: argparse.ArgumentParser, path: Callable[[str], Path], count: Cal
         type=count,
         help="most JSON files and subtrees to read (all; 50 of a server, 1 where it forbids more)",
     )
-    info.add_argument("--offline", action="store_true", help="use what is in the cache alone")
-    info.add_argument(
-        "--host", metavar="HOST", action="append", default=[], help="further host that files may lie on"
-    )
-    info.add_argument("--private", action="store_true", help="allow addresses of private networks")
+    add_access(info)
     summary = "make a tileset of a scene's ground and of buildings"
     make = verbs.add_parser("make", help=summary, description=f"{summary[0].upper()}{summary[1:]}.")
     make.add_argument("--debug", action="store_true", help="show a traceback when something fails")
@@ -56,3 +52,21 @@ def add(parser: argparse.ArgumentParser, path: Callable[[str], Path], count: Cal
         help="height of the geoid above the WGS84 ellipsoid, m (0); about -26 at the King Fire",
     )
     make.add_argument("--credit", metavar="TEXT", default="", help="who is named for the data (the run)")
+
+
+def add_access(parser: argparse.ArgumentParser) -> None:
+    """Define how tiles may be had, for every command that reads them."""
+    parser.add_argument("--strict", action="store_true", help="fail where a tile is missing")
+    parser.add_argument(
+        "--offline", action="store_true", help="use tiles of the cache and of this machine alone"
+    )
+    parser.add_argument(
+        "--host",
+        metavar="HOST",
+        action="append",
+        default=[],
+        help="further host that files of a tileset may lie on",
+    )
+    parser.add_argument(
+        "--private", action="store_true", help="allow tilesets at addresses of private networks"
+    )

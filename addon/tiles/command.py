@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 import json
 
-from ..progress import notify_if_slow, result
+from ..errors import Error
+from ..progress import count, notify_if_slow, result
 from . import info
 from .loader import Loader
 from .sources import Network, Source, open_source
@@ -13,9 +14,14 @@ from .sources import Network, Source, open_source
 _FILES = 50  # of a server
 
 
-def run(arguments: argparse.Namespace) -> None:
-    """List the content of a tileset."""
-    network = Network(online=not arguments.offline, hosts=tuple(arguments.host), private=arguments.private)
+def run(arguments: argparse.Namespace, network: Network) -> None:
+    """List the content of a tileset.
+
+    Raises
+    ------
+    Error
+        A file is missing, and it is to be strict.
+    """
     source = open_source(arguments.source, network)
     try:
         with notify_if_slow(f"reading {source.name(source.root)}"):
@@ -23,6 +29,10 @@ def run(arguments: argparse.Namespace) -> None:
     finally:
         source.close()
     result(json.dumps(facts, indent=1) if arguments.json else info.page(facts))
+    if arguments.strict and facts["missing"]:
+        raise Error(
+            f"--strict: {count(len(facts['missing']), 'file')} missing: {'; '.join(facts['missing'])}"
+        )
 
 
 def _most(source: Source) -> int | None:

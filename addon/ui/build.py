@@ -147,13 +147,14 @@ def _read(chosen: ShotSource, whole: bool) -> tuple[Shot, Moving | None]:
 def _finish(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], new: bool) -> None:
     """Set engine and layers of our own scene, the panel's state, and the clipping of the 3D views."""
     from ..blender import devices
-    from ..render import engine, layers
+    from ..render import credits, engine, layers
 
     here = owned.stage(scene)
     if here.own and (new or len(parts) == len(PARTS)):
         layers.build(shot.settings, here)
         engine.apply(shot.settings, scene)
         engine.label(shot.run, scene)
+        credits.stamp(here)
         devices.follow(shot.settings.render.device, scene)
     else:
         layers.complete(shot.settings, here, parts)

@@ -1,5 +1,6 @@
 """3-D Tiles in the scene: made of the run's own ground, chosen, decoded, and built in its place."""
 
+import json
 from dataclasses import asdict, replace
 
 import bpy
@@ -7,12 +8,14 @@ import numpy as np
 import pytest
 from firetwin.blender import nodes
 from firetwin.errors import InputError
+from firetwin.imaging.credits import Credits
 from firetwin.jobs import decode_tiles, make_tiles, tiles
+from firetwin.render import credits, fingerprint
 from firetwin.scene.terrain import build as ground_build
 from firetwin.scene.terrain import material
 from firetwin.scene.tiles import build as tiles_build
 from firetwin.scene.tiles import pictures
-from firetwin.shot import tile_cut
+from firetwin.shot import passes, tile_cut
 
 
 @pytest.fixture(autouse=True)
@@ -41,7 +44,7 @@ def tiled(shot, tmp_path, monkeypatch):
     known = replace(shot.settings.tiles, sources=(str(tmp_path / "set"),), error=2.0)
     found = shot._with_settings(replace(shot.settings, tiles=known, cache=tmp_path / "cache"))
     told = tiles.make(found)
-    assert told[0] == "credits of tiles, to be named beside the pictures: Somebody"
+    assert told[0] == "credits of tiles, which pictures show: Somebody"
     return found
 
 
@@ -76,6 +79,43 @@ def test_tiles_stand_in_place_of_the_ground(tiled, stage, shot):
     place = place.reshape(-1, 3) + np.array(built[0].location)
     _, _, expected = tiled.ground.frame.reverse(place.astype(float))
     assert np.abs(height - expected).max() < 0.01
+
+
+def test_a_scene_names_whom_its_tiles_are_of(tiled, stage):
+    tiles_build.build(tiled, stage, tile_cut.of_shot(tiled), None)
+    assert credits.of_scene(stage) == Credits(("Somebody",))
+
+
+def test_inputs_of_pictures_follow_tiles_and_credits(tiled):
+    """A picture that was made with other tiles, or other credits, is not the same."""
+    (camera,) = [each.name for each in tiled.cameras]
+    pairs = {(camera, "rgb"), (camera, "masks")}
+    before = fingerprint.of_pairs(tiled, pairs)
+    cut = tile_cut.of_shot(tiled.for_camera(camera))
+    assert before[camera, "rgb"]["tiles"]["credits"] == ["Somebody"]
+    for change in ({"credits": ("Another",)}, {"logo": ("A Service",)}, {"tiles": cut.tiles[1:]}):
+        tile_cut.write(replace(cut, **change), tile_cut.location(tiled.for_camera(camera)))
+        after = fingerprint.of_pairs(tiled, pairs)
+        assert all(after[pair] != before[pair] for pair in pairs)
+    (cut.folder / f"{cut.name}.json").unlink()
+    assert "tiles" not in fingerprint.of_pairs(tiled, pairs)[camera, "rgb"]
+
+
+def test_sidecars_name_credits_and_missing_tiles(tiled, tmp_path):
+    (camera,) = [each.name for each in tiled.cameras]
+    shot = tiled.for_camera(camera)
+    cut = replace(tile_cut.of_shot(shot), missing=("x.glb: gone",))
+    tile_cut.write(cut, tile_cut.location(shot))
+    passes.known()["pose"].finish({"json": tmp_path / "p.json"}, {}, shot, camera, 1)
+    said = json.loads((tmp_path / "p.json").read_text())["tiles"]
+    expected = {"credits": ["Somebody"], "services": [], "missing": ["x.glb: gone"], "error": cut.error}
+    assert said == expected
+
+
+def test_pictures_that_are_too_small_for_credits_are_refused(tiled):
+    small = replace(tiled.settings, render=replace(tiled.settings.render, resolution=(16, 16)))
+    with pytest.raises(InputError, match="do not fit into a picture of 16 x 16"):
+        tiles.make(tiled._with_settings(small))
 
 
 def test_building_twice_makes_no_second_set(tiled, stage):

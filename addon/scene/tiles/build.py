@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import bpy
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +22,8 @@ from .pictures import Slot
 COLOUR = "tile_colour"
 """Point attribute: linear colour, multiplied with the picture."""
 UV = "tile_uv"
+CREDITS = "firetwin_tile_credits"
+"""Property of the collection of tiles: credits and services' names as JSON, so that files keep them."""
 
 
 def build(shot: Shot, stage: Stage, cut: TileCut, grown: Stand | None) -> None:
@@ -29,6 +33,7 @@ def build(shot: Shot, stage: Stage, cut: TileCut, grown: Stand | None) -> None:
         [each.picture for tile in tiles.values() for each in tile.materials if each.picture]
     )
     collection = stage.part("Tiles")
+    collection[CREDITS] = json.dumps([cut.credits, cut.logo])
     materials = _materials(shot, stage, pictures.load(slots, cut.folder, cut.name), grown)
     for name, tile in tiles.items():
         data = bpy.data.meshes.new(f"Firetwin Tile {name}")

@@ -30,7 +30,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     from firetwin_core import sensor
 
     from ...errors import Error
-    from .. import comparison
+    from .. import comparison, tile_cut
     from ..cameras import pixel_rays
     from ..fire import fronts
 
@@ -47,7 +47,9 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
         shades = [BOTH, colours[shot.label], colours[label]]
         pictures.append(tinted(rgb, kinds, shades))
         keys.append(list(zip(shades, ("burned in both", f"only {names[0]}", f"only {label}"), strict=True)))
-    sensor.write_image(files["png"], split_screen.sheet(pictures, keys, comparison.caption(shot, frame)))
+    said = comparison.caption(shot, frame)
+    below = tile_cut.foot(shot, *pictures[0].shape[1::-1])
+    sensor.write_image(files["png"], split_screen.sheet(pictures, keys, said, below))
 
 
 def classes(shot: Shot, points: NDArray[np.float64], frame: int) -> list[NDArray[np.uint8]]:

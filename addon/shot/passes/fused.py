@@ -36,13 +36,15 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
         from . import _map
     except ModuleNotFoundError as error:
         raise Error(f"the fused pass needs {error.name}, which is not in Blender: pip install it") from None
+    from .. import tile_cut
     from ..cameras import mount, pixel_rays
     from . import thermal
 
     view = pixel_rays.path_of(shot, camera)
     taken = mount.taken(shot.settings, shot.cameras, camera, PASS)
     low, high = thermal.scale(shot, frame)
-    sheet = _sheet.Sheet(*PASS.size(shot.resolution(view.camera)))
+    size = PASS.size(shot.resolution(view.camera))
+    sheet = _sheet.Sheet(*size, tile_cut.foot(shot, *size))
     sheet.head(_title(shot, camera), facts(shot, camera, frame))
     rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]
     kelvin = sensor.read_image(needed["thermal"]["exr"])[..., 0]

@@ -6,6 +6,7 @@ import importlib
 import pkgutil
 from collections.abc import Iterator
 from dataclasses import dataclass
+from urllib.parse import urlsplit
 
 
 @dataclass(frozen=True)
@@ -18,6 +19,8 @@ class Policy:
         For messages.
     hosts
         Hosts it holds for, with those below them.
+    assets
+        Numbers of Cesium ion's assets that lead to this service.
     key_variable
         Environment variable that holds the user's key; empty: it needs none.
     key_parameter
@@ -48,6 +51,7 @@ class Policy:
 
     name: str = ""
     hosts: tuple[str, ...] = ()
+    assets: tuple[int, ...] = ()
     key_variable: str = ""
     key_parameter: str = ""
     session_parameter: str = ""
@@ -78,3 +82,18 @@ def of_host(host: str) -> Policy:
         if any(host == each or host.endswith(f".{each}") for each in policy.hosts):
             return policy
     return OPEN
+
+
+def of_place(place: str) -> Policy:
+    """Policy of a source as a user names it, without asking anybody.
+
+    An asset of ion may lead to a service that only its answer names: the opened source has its own policy.
+    """
+    kind, _, number = place.partition(":")
+    if kind == "ion":
+        own = (each for each in known() if number.isdecimal() and int(number) in each.assets)
+        return next(own, importlib.import_module(".ion", __name__).POLICY)
+    try:
+        return of_host(urlsplit(place).hostname or "") if "://" in place else OPEN
+    except ValueError:  # no URL, as reading it says
+        return OPEN

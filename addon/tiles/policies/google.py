@@ -5,6 +5,7 @@ from . import Policy
 POLICY = Policy(
     name="Google Photorealistic 3D Tiles",
     hosts=("tile.googleapis.com",),
+    assets=(2275207,),
     key_variable="GOOGLE_MAPS_API_KEY",
     key_parameter="key",
     session_parameter="session",

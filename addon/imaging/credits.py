@@ -1,0 +1,176 @@
+"""Credits in a picture: which words stand where, and how large.
+
+A flat picture has a dark strip along its bottom, with the services' names at the left and the credits of the
+data at the right. A panorama has a block below the horizon in each eye's picture, a quarter of it wide: along
+its lower edge, which is the point straight below, nobody could read them. No credit is ever left out: long
+ones have more lines, at smaller size.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+_ROWS, _SHARE, _EYE_SHARE = 3, 54, 60  # lines that large text may have; rows of a picture per row of text
+_LEAST, _SMALLEST = 11, 8  # pixels, of text; where it would have more lines it shrinks down to the second
+_LINE, _BETWEEN = 1.35, 1.0  # height of a line, and least gap between left and right, in sizes
+_LEFT_MOST = 0.4  # share of the width that services' names may take
+_MOST = 0.5  # share of the height that the strip may take
+_WIDE, _UNDER = 0.25, 0.26  # panoramas: width of a block, and its top above the eye's lower edge
+
+
+@dataclass(frozen=True)
+class Credits:
+    """Who must be named in a picture.
+
+    Attributes
+    ----------
+    data
+        Notices of the data.
+    logo
+        Names of services, which stand apart.
+    """
+
+    data: tuple[str, ...] = ()
+    logo: tuple[str, ...] = ()
+
+    def __bool__(self) -> bool:
+        return bool(self.data or self.logo)
+
+    def text(self) -> str:
+        """All of them in one line."""
+        return "; ".join((*self.logo, *self.data))
+
+    def joined(self, other: Credits) -> Credits:
+        """Both, each once."""
+        pairs = ((self.data, other.data), (self.logo, other.logo))
+        return Credits(*(tuple(dict.fromkeys((*mine, *more))) for mine, more in pairs))
+
+
+@dataclass(frozen=True)
+class Block:
+    """A dark rectangle with lines of text.
+
+    Attributes
+    ----------
+    left, top, width, height
+        Pixels from the picture's upper left corner.
+    size
+        Of the text, pixels.
+    at_left, at_right
+        Lines from top to bottom; the last ones stand on the same line.
+    """
+
+    left: int
+    top: int
+    width: int
+    height: int
+    size: int
+    at_left: tuple[str, ...]
+    at_right: tuple[str, ...]
+
+
+def blocks(credits: Credits, width: int, height: int, around: bool = False) -> list[Block]:
+    """Blocks of the credits in a picture.
+
+    Parameters
+    ----------
+    around
+        The picture is a panorama of two eyes, one above the other.
+
+    Raises
+    ------
+    ValueError
+        They do not fit into the picture.
+    """
+    if not credits:
+        return []
+    if not around:
+        found = _fitted(credits, width, height, _SHARE, _MOST * height)
+        return [_block(found, 0, height - _tall(found), width)]
+    eye, across = height // 2, round(_WIDE * width)
+    found = _fitted(credits, across, eye, _EYE_SHARE, _UNDER * eye)
+    top = round((1.0 - _UNDER) * eye)
+    return [_block(found, (width - across) // 2, top + below, across) for below in (0, eye)]
+
+
+def foot(credits: Credits, width: int, height: int) -> int:
+    """Rows along the bottom of a flat picture that credits take."""
+    return sum(block.height for block in blocks(credits, width, height))
+
+
+_Fitted = tuple[int, tuple[str, ...], tuple[str, ...]]
+
+
+def _fitted(credits: Credits, width: int, height: int, share: int, most: float) -> _Fitted:
+    """Size of the text and its lines at the left and at the right."""
+    large = max(round(height / share), _LEAST)
+    for size in range(large, _SMALLEST - 1, -1):
+        found = (size, *_lines(credits, width, size))
+        if max(len(found[1]), len(found[2])) <= _ROWS and _tall(found) <= most:
+            break
+    if _tall(found) > most:
+        raise ValueError(
+            f"the credits of the tiles do not fit into a picture of {width} x {height} pixels; "
+            f"choose a larger resolution: {credits.text()}"
+        )
+    return found
+
+
+def _tall(found: _Fitted) -> int:
+    size, at_left, at_right = found
+    return round(_LINE * size * max(len(at_left), len(at_right)) + 0.5 * size)
+
+
+def _block(found: _Fitted, left: int, top: int, width: int) -> Block:
+    return Block(left, top, width, _tall(found), *found)
+
+
+def _lines(credits: Credits, width: int, size: int) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    room = width - size  # half a size at each side
+    services = "  ·  ".join(credits.logo)
+    at_left = tuple(_wrapped(services, _LEFT_MOST * room if credits.data else room, size))
+    taken = max((length(line, size) for line in at_left), default=-_BETWEEN * size)
+    return at_left, tuple(_wrapped("; ".join(credits.data), room - taken - _BETWEEN * size, size))
+
+
+def _wrapped(text: str, room: float, size: int) -> Iterator[str]:
+    """Lines of a text; a word that is longer than a line is split."""
+    line = ""
+    for word in _words(text, room, size):
+        longer = f"{line} {word}" if line else word
+        if line and length(longer, size) > room:
+            yield line
+            longer = word
+        line = longer
+    if line:
+        yield line
+
+
+def _words(text: str, room: float, size: int) -> Iterator[str]:
+    for word in text.split():
+        part = ""
+        for sign in word:
+            if part and length(part + sign, size) > room:
+                yield part
+                part = ""
+            part += sign
+        yield part
+
+
+def length(text: str, size: float) -> float:
+    """Width of a text, pixels, by kinds of letters: that of Blender's typeface, or up to a fifth more."""
+    return size * sum(_advances(text))
+
+
+def _advances(text: str) -> Iterator[float]:
+    """Advance of each letter, in sizes; measured, and rounded up."""
+    for sign in text:
+        if ord(sign) >= 0x2E80:  # from here on signs as wide as they are high
+            yield 1.05
+        elif sign in " ijl.,;:'|!()[]/ft·":
+            yield 0.36
+        elif sign in "mwMW@%©®":
+            yield 0.92
+        else:
+            yield 0.72 if sign.isupper() else 0.66 if sign.isdigit() else 0.62

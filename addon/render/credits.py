@@ -1,0 +1,108 @@
+"""Draws the credits of tiles into pictures; what people look at shows them, whatever the settings say.
+
+Pictures of passes that make films have them in their pixels. Depth, masks, normals, temperatures (EXR) and
+the linear picture (EXR) keep their values: the manifest and the sidecars of `shot.passes.pose` name the same
+credits for them.
+"""
+
+from __future__ import annotations
+
+import functools
+import json
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from firetwin_core import sensor
+from numpy.typing import NDArray
+
+from ..blender import compat, owned
+from ..imaging import credits
+from ..imaging.credits import Block, Credits
+from ..scene.tiles import build as tiles
+
+_STRIP = 0.05  # grey level behind the text
+
+
+def of_scene(stage: owned.Stage) -> Credits:
+    """Credits of the tiles in a scene, also of one that was opened from a file."""
+    found = Credits()
+    for part in stage.root.children:
+        if tiles.CREDITS in part and part.all_objects:
+            data, logo = json.loads(part[tiles.CREDITS])
+            found = found.joined(Credits(tuple(data), tuple(logo)))
+    return found
+
+
+def burn(path: Path, words: Credits, note: str, around: bool = False) -> None:
+    """Draw credits into a PNG file.
+
+    Parameters
+    ----------
+    note
+        Of the file: what it shows.
+    around
+        It is a panorama of two eyes.
+
+    Raises
+    ------
+    ValueError
+        They do not fit into it.
+    """
+    if not words:
+        return
+    picture = sensor.read_image(path)[..., :3].copy()
+    height, width = picture.shape[:2]
+    for block in credits.blocks(words, width, height, around):
+        rows = slice(block.top, block.top + block.height)
+        columns = slice(block.left, block.left + block.width)
+        picture[rows, columns] = _STRIP + (1.0 - _STRIP) * _drawn(block)[..., None]
+    sensor.write_image(path, picture, {"Note": note})
+
+
+def stamp(stage: owned.Stage) -> None:
+    """Let Blender's own renders of a scene have its credits too."""
+    if words := of_scene(stage):
+        render = stage.scene.render
+        render.use_stamp = render.use_stamp_note = True
+        render.stamp_note_text = f"{render.stamp_note_text}\n{words.text()}"
+        render.stamp_font_size = max(round(render.resolution_y / 54), 11)
+        render.stamp_foreground, render.stamp_background = (1.0, 1.0, 1.0, 1.0), (0.0, 0.0, 0.0, 0.8)
+
+
+@functools.lru_cache(maxsize=8)
+def _drawn(block: Block) -> NDArray[np.float32]:
+    """Opacity (h, w), 0..1, of a block's text, by Blender's typeface, which has most scripts."""
+    import blf
+    import imbuf
+
+    face, image = _face(), imbuf.new((block.width, block.height))
+    rows = max(len(block.at_left), len(block.at_right))
+    edge, line = 0.5 * block.size, (block.height - 0.5 * block.size) / rows
+    blf.color(face, 1.0, 1.0, 1.0, 1.0)
+    with blf.bind_imbuf(face, image):
+        for lines, right in ((block.at_left, False), (block.at_right, True)):
+            for number, text in enumerate(reversed(lines)):
+                blf.size(face, block.size)
+                wide = blf.dimensions(face, text)[0]
+                if wide > block.width - 2.0 * edge:  # a script that is wider than was reckoned with
+                    blf.size(face, block.size * (block.width - 2.0 * edge) / wide)
+                    wide = blf.dimensions(face, text)[0]
+                at = block.width - edge - wide if right else edge
+                blf.position(face, at, edge + number * line, 0.0)
+                blf.draw_buffer(face, text)
+    with tempfile.TemporaryDirectory(prefix="firetwin-") as folder:
+        path = Path(folder, "credits.png")
+        imbuf.write(image, filepath=str(path))
+        pixels = sensor.read_image(path)
+    return pixels[..., -1]
+
+
+@functools.cache
+def _face() -> int:
+    """Number of Blender's typeface; its fallbacks come along."""
+    import blf
+
+    path = compat.typeface_path()
+    found = blf.load(path) if path else 0
+    return max(int(found), 0)

@@ -1,0 +1,98 @@
+"""What the services of a shot's tiles allow: asked before anything is fetched or rendered."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from ..errors import InputError, input_error
+from ..tiles import policies
+from ..tiles.policies import Policy
+from . import passes
+from .settings import scene_file
+
+if TYPE_CHECKING:
+    from .settings.settings import Settings
+
+Use = tuple[str, str]
+"""One of `_REFUSED`, and what needs it, such as a setting and its value."""
+
+_REFUSED = {
+    "analyse": "does not allow that tiles are analysed",
+    "export": "does not allow that tiles are written to other formats",
+    "flatten": "does not allow that the surface of tiles is changed",
+    "pack": "does not allow that tiles are packed into files",
+    "work_offline": "does not allow that tiles are used without its server",
+    "other_geocoder": "does not allow that places are searched with other gazetteers than its own",
+}
+"""Uses, each an attribute of `Policy` (with "may_" but for the last), and how they are refused."""
+
+_ANALYSES = frozenset(("depth", "masks", "normal", "pose"))
+"""Passes whose values are taken from the surface of tiles; so are passes that are made from them."""
+
+
+def allows(policy: Policy, use: str) -> bool:
+    """Whether a policy allows a use."""
+    return bool(getattr(policy, use if use == "other_geocoder" else f"may_{use}"))
+
+
+def check(settings: Settings, uses: Iterable[Use]) -> None:
+    """Check that every source of a scene's tiles allows these uses; nobody is asked, and nothing is read.
+
+    Raises
+    ------
+    InputError
+        One does not. It names the source, its policy and what needs the use.
+    """
+    wanted = list(uses)
+    for number, place in enumerate(settings.tiles.sources):
+        check_source(settings, number, policies.of_place(place), wanted)
+
+
+def check_source(settings: Settings, number: int, policy: Policy, uses: Iterable[Use]) -> None:
+    """Check the source of this number by the policy that it turned out to have.
+
+    Raises
+    ------
+    InputError
+        It does not allow a use.
+    """
+    for use, wanted in uses:
+        if not allows(policy, use):
+            reason = f"{policy.name} {_REFUSED[use]}; leave out {wanted}, or this source"
+            raise _error(settings, number, f"{settings.tiles.sources[number]}: {reason}")
+
+
+def of_passes(names: Iterable[str]) -> list[Use]:
+    """Uses by passes that take values from the surface of tiles."""
+    found: list[Use] = []
+    for name in dict.fromkeys(names):
+        if sources := _sources_of(name) & _ANALYSES:
+            made = "" if name in sources else f", which is made from {' and '.join(sorted(sources))}"
+            found.append(("analyse", f'the pass "{name}"{made}'))
+    return found
+
+
+def of_scene(settings: Settings) -> list[Use]:
+    """Uses by a scene's own settings."""
+    found: list[Use] = []
+    if settings.terrain.stand == "tiles":
+        found.append(("analyse", 'terrain.stand = "tiles"'))
+    if settings.labels.enabled:
+        found.append(("other_geocoder", "labels.enabled = true"))
+    return found
+
+
+def _error(settings: Settings, number: int, reason: str) -> InputError:
+    """InputError at a source in the scene file, or at the file where its text has none."""
+    if settings.path.is_file():
+        with contextlib.suppress(InputError):  # it has changed since
+            return scene_file.error_at(settings.path, ("tiles", "sources", number), reason)
+    return input_error(settings.path, 0, 0, f"tiles.sources: {reason}")
+
+
+def _sources_of(name: str) -> set[str]:
+    """A pass and all passes that it is made from."""
+    made = passes.known()[name].made_from
+    return {name}.union(*(_sources_of(need) for need in made))
