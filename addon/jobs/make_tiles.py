@@ -9,12 +9,13 @@ import numpy as np
 from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
+from ..errors import UsageError
 from ..progress import MessageCallback, Progress, count, no_message, silent
 from ..run import areas
 from ..shot import tile_terms
 from ..shot.shot import Shot
 from ..shot.terrain import orthophoto
-from ..tiles import buildings
+from ..tiles import buildings, geoid
 from ..tiles.make.lattice import Lattice, Surface
 from ..tiles.make.tileset import Maker, Summary
 
@@ -37,7 +38,8 @@ class TilesRequest:
     footprints
         File of buildings' footprints.
     geoid
-        Height of the geoid above the WGS84 ellipsoid, m. It is added to orthometric heights.
+        Height of the geoid above the WGS84 ellipsoid, m; None: that of EGM96. It is added to orthometric
+        heights.
     credit
         Who is named for the data.
     """
@@ -45,7 +47,7 @@ class TilesRequest:
     out: Path
     levels: int | None = None
     footprints: Path | None = None
-    geoid: float = 0.0
+    geoid: float | None = None
     credit: str = ""
 
 
@@ -80,13 +82,18 @@ def run(
     return Maker(lattice, colours, built, request.out, credit).run(progress)
 
 
-def surface_of(shot: Shot, geoid: float) -> Surface:
+def surface_of(shot: Shot, undulation: float | None) -> Surface:
     """Heights of a shot's ground above the ellipsoid, where the run is; finer where a model is finer.
 
     Parameters
     ----------
-    geoid
-        m; added where the run's heights are orthometric.
+    undulation
+        Height of the geoid, m; None: that of EGM96. It is added where the run's heights are orthometric.
+
+    Raises
+    ------
+    UsageError
+        This machine has no grid of EGM96.
     """
     fields, relief = shot.ground.fields, shot.relief
     inside = slice(fields.margin, -fields.margin or None)
@@ -100,8 +107,17 @@ def surface_of(shot: Shot, geoid: float) -> Surface:
         latitude = np.interp(rows, np.arange(len(latitude)), latitude)
         longitude = np.interp(columns, np.arange(len(longitude)), longitude)
         height = relief.mixed(latitude, longitude, coarse)[0]
-    above = geoid if shot.run.vertical == "orthometric" else 0.0
-    return Surface(latitude, longitude, (height + above).astype(np.float32))
+    if shot.run.vertical == "orthometric":
+        height = height + (_egm96(latitude, longitude) if undulation is None else undulation)
+    return Surface(latitude, longitude, height.astype(np.float32))
+
+
+def _egm96(latitude: Array, longitude: Array) -> Array:
+    """Heights (ny, nx) of the geoid on axes in degrees, m."""
+    found = geoid.find()
+    if found is None:
+        raise UsageError(f"--geoid: {geoid.REMEDY}")
+    return found.height(latitude[:, None], longitude)
 
 
 def _heights(surface: Surface, latitude: Array, longitude: Array) -> Array:

@@ -26,7 +26,8 @@ from ..shot.comparison import for_view
 from ..shot.settings.settings import TileSettings
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
-from ..shot.terrain import tile_heights
+from ..shot.terrain import tile_difference, tile_heights
+from ..shot.terrain.tile_heights import TileHeights
 from ..shot.tile_cut import TileCut
 from ..shot.tile_terms import Use
 from ..tiles import decoded, policies
@@ -143,31 +144,67 @@ def make(
     """
     settings, path, access = shot.settings.tiles, tile_cut.location(shot), access or TileAccess()
     path.parent.mkdir(parents=True, exist_ok=True)
+    undulation, matrix = _to_scene(shot)
     prepared = [
-        _Source(shot, number, path.parent, access, uses).prepared(
+        _Source(shot, number, path.parent, matrix, access, uses).prepared(
             share(progress, number, len(settings.sources), "tiles")
         )
         for number in range(len(settings.sources))
     ]
+    names = tuple(name for each in prepared for name in each.names)
+    heights = _heights(shot, path, names)
     notices = Counter(part for each in prepared for part in each.credits)
     cut = TileCut(
         path.parent,
         path.stem,
-        tuple(name for each in prepared for name in each.names),
+        names,
         tuple(notice for notice, _ in notices.most_common()),
         tuple(sorted(reason for each in prepared for reason in each.choice.missing.values())),
         max(each.choice.error for each in prepared),
         tuple(dict.fromkeys(each.policy.logo for each in prepared if each.policy.logo)),
         sum(each.empty for each in prepared),
+        heights and tile_difference.measure(heights, shot.settings, shot.run),
     )
     _check_room(shot, cut)
     if access.strict and cut.missing:
         raise Error(f"--strict: {count(len(cut.missing), 'tile')} missing: {'; '.join(cut.missing)}")
-    if cut.tiles:
-        surface = tile_heights.rasterise(decoded.read(cut.folder / name) for name in cut.tiles)
-        tile_heights.write(path.with_suffix(tile_cut.HEIGHTS), *surface)
     tile_cut.write(cut, path)
-    return list(_told(cut, prepared))
+    told = [tile_difference.sentence(cut.difference, undulation)] if heights else []
+    return [*_told(cut, prepared), *told]
+
+
+def _to_scene(shot: Shot) -> tuple[float | None, NDArray[np.float64]]:
+    """The geoid's height at a scene, m, and the matrix (4, 4) from Earth-centred metres.
+
+    The height is None for a run of heights above the ellipsoid, which needs none.
+
+    Raises
+    ------
+    InputError
+        It is not known.
+    """
+    from ..tiles import geoid
+    from ..tiles.place import ecef_to_frame
+
+    settings, frame = shot.settings, shot.ground.frame
+    if shot.run.vertical != "orthometric":
+        return None, ecef_to_frame(frame)
+    if settings.tiles.geoid is not None:
+        return settings.tiles.geoid, ecef_to_frame(frame, settings.tiles.geoid)
+    found = geoid.find()
+    if found is None:
+        raise input_error(settings.path, 0, 0, f"tiles.geoid is left out, and {geoid.REMEDY}")
+    height, *slope = found.plane(frame)
+    return height, ecef_to_frame(frame, height, (slope[0], slope[1]))
+
+
+def _heights(shot: Shot, path: Path, names: Sequence[str]) -> TileHeights | None:
+    """Write heights of a cut's tiles beside it; None without tiles."""
+    if not names:
+        return None
+    surface = tile_heights.rasterise(decoded.read(path.parent / name) for name in names)
+    tile_heights.write(path.with_suffix(tile_cut.HEIGHTS), *surface)
+    return TileHeights(shot.ground.frame, *surface)
 
 
 def _check_room(shot: Shot, cut: TileCut) -> None:
@@ -225,11 +262,16 @@ class _Source:
     """Tiles of one source."""
 
     def __init__(
-        self, shot: Shot, number: int, folder: Path, access: TileAccess, uses: Sequence[Use]
+        self,
+        shot: Shot,
+        number: int,
+        folder: Path,
+        matrix: NDArray[np.float64],
+        access: TileAccess,
+        uses: Sequence[Use],
     ) -> None:
         from ..tiles.cut import Budget, Views, pixels
         from ..tiles.loader import Loader
-        from ..tiles.place import ecef_to_frame
         from ..tiles.sources import open_source
 
         self.settings, self.folder = shot.settings.tiles, folder
@@ -241,8 +283,7 @@ class _Source:
         self.advised = self.policy.pixel_error > 0.0 and self.settings.error == TileSettings().error
         self.error = self.policy.pixel_error if self.advised else self.settings.error
         self.loader: Loader = Loader(source)
-        undulation = self.settings.geoid if shot.run.vertical == "orthometric" else 0.0
-        self.matrix = ecef_to_frame(shot.ground.frame, undulation)
+        self.matrix = matrix
         view_set, heights, halves, eyes = shot.visibility.all_views()
         self.views = Views(view_set, pixels(heights, halves), eyes)
         megabytes = self.settings.max_size * 1_000_000

@@ -49,6 +49,8 @@ class TileCut:
         Names of services, which stand apart from the credits.
     empty
         How many of the tiles have no triangles.
+    difference
+        5th, 50th and 95th percentile of the tiles' ground above the scene's own, m; None if they never meet.
     """
 
     folder: Path
@@ -59,6 +61,7 @@ class TileCut:
     error: float
     logo: tuple[str, ...] = ()
     empty: int = 0
+    difference: tuple[float, float, float] | None = None
 
     @property
     def words(self) -> Credits:
@@ -89,9 +92,10 @@ def read(path: Path) -> TileCut:
     try:
         about: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
         lists = {name: tuple(map(str, about[name])) for name in ("tiles", "credits", "missing", "logo")}
-        return TileCut(
-            path.parent, path.stem, error=float(about["error"]), empty=int(about["empty"]), **lists
-        )
+        low, median, high = map(float, about["difference"] or [np.nan] * 3)
+        difference = (low, median, high) if about["difference"] else None
+        numbers = {"error": float(about["error"]), "empty": int(about["empty"])}
+        return TileCut(path.parent, path.stem, difference=difference, **numbers, **lists)
     except (OSError, ValueError, LookupError, TypeError) as error:
         raise input_error(path, 0, 0, f"is no list of chosen tiles ({error}); delete it") from None
 

@@ -48,8 +48,7 @@ def add(parser: argparse.ArgumentParser, path: Callable[[str], Path], count: Cal
         "--geoid",
         metavar="M",
         type=float,
-        default=0.0,
-        help="height of the geoid above the WGS84 ellipsoid, m (0); about -26 at the King Fire",
+        help="height of the geoid above the WGS84 ellipsoid, m (that of EGM96 by a grid of this machine)",
     )
     make.add_argument("--credit", metavar="TEXT", default="", help="who is named for the data (the run)")
 

@@ -9,7 +9,9 @@ from numpy.typing import NDArray
 from .volumes import ecef, enu_axes
 
 
-def ecef_to_frame(frame: geo.LocalFrame, undulation: float = 0.0) -> NDArray[np.float64]:
+def ecef_to_frame(
+    frame: geo.LocalFrame, undulation: float = 0.0, slope: tuple[float, float] = (0.0, 0.0)
+) -> NDArray[np.float64]:
     """Matrix (4, 4) from Earth-centred (WGS84, EPSG:4978) to local east-north-up metres.
 
     It is to be multiplied with the tiles' own matrices in double precision: in the sum of both nothing
@@ -20,11 +22,14 @@ def ecef_to_frame(frame: geo.LocalFrame, undulation: float = 0.0) -> NDArray[np.
     undulation
         Height of the geoid above the ellipsoid at the scene, m. A scene of orthometric heights shows
         what is h above the ellipsoid at h - undulation.
+    slope
+        Rise of the geoid per metre to the east and north.
     """
     latitude, longitude = np.radians(frame.latitude), np.radians(frame.longitude)
     matrix = np.eye(4)
     matrix[:3, :3] = enu_axes(latitude, longitude)
     origin = ecef(np.array(latitude), np.array(longitude), np.array(frame.height))
     matrix[:3, 3] = -matrix[:3, :3] @ origin
+    matrix[2] -= slope[0] * matrix[0] + slope[1] * matrix[1]
     matrix[2, 3] -= undulation
     return matrix

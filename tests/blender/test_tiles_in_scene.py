@@ -1,13 +1,14 @@
 """3-D Tiles in the scene: made of the run's own ground, chosen, decoded, and built in its place."""
 
 import json
+import re
 from dataclasses import asdict, replace
 
 import bpy
 import numpy as np
 import pytest
 from firetwin.blender import nodes
-from firetwin.errors import InputError
+from firetwin.errors import InputError, UsageError
 from firetwin.imaging.credits import Credits
 from firetwin.jobs import decode_tiles, make_tiles, tiles
 from firetwin.render import credits, fingerprint
@@ -16,6 +17,8 @@ from firetwin.scene.terrain import material
 from firetwin.scene.tiles import build as tiles_build
 from firetwin.scene.tiles import pictures
 from firetwin.shot import passes, tile_cut
+from firetwin.tiles import geoid
+from firetwin.tiles.volumes import ecef
 
 
 @pytest.fixture(autouse=True)
@@ -40,11 +43,12 @@ def tiled(shot, tmp_path, monkeypatch):
 
     monkeypatch.setattr(decode_tiles, "_limit", lambda: None)
     monkeypatch.setattr(decode_tiles, "run", decode)
-    make_tiles.run(shot, make_tiles.TilesRequest(tmp_path / "set", credit="Somebody"))
-    known = replace(shot.settings.tiles, sources=(str(tmp_path / "set"),), error=2.0)
+    make_tiles.run(shot, make_tiles.TilesRequest(tmp_path / "set", credit="Somebody", geoid=-24.9))
+    known = replace(shot.settings.tiles, sources=(str(tmp_path / "set"),), error=2.0, geoid=-24.9)
     found = shot._with_settings(replace(shot.settings, tiles=known, cache=tmp_path / "cache"))
     told = tiles.make(found)
     assert told[0] == "credits of tiles, which pictures show: Somebody"
+    assert re.fullmatch(r"the tiles' ground is 0\.0 m above .* 90 % of places\)", told[1])
     return found
 
 
@@ -131,6 +135,38 @@ def test_tiles_that_were_not_prepared_are_an_error(tiled):
     moved = replace(tiled.settings.tiles, error=3.0)
     with pytest.raises(InputError, match="were not prepared"):
         tile_cut.of_shot(tiled._with_settings(replace(tiled.settings, tiles=moved)))
+
+
+def test_a_wrong_geoid_is_told_with_the_right_one(tiled):
+    wrong = replace(tiled.settings.tiles, geoid=-20.0)
+    told = tiles.make(moved := tiled._with_settings(replace(tiled.settings, tiles=wrong)))
+    assert "is 4.9 m below the scene's own" in told[1]
+    assert told[1].endswith("write tiles.geoid = -24.9")
+    low, median, high = tile_cut.of_shot(moved).difference
+    assert low <= median <= high
+    assert median == pytest.approx(-4.9, abs=0.05)
+
+
+def test_a_geoid_that_is_left_out_is_found_or_an_error(tiled, monkeypatch):
+    left_out = tiled._with_settings(replace(tiled.settings, tiles=replace(tiled.settings.tiles, geoid=None)))
+    frame = tiled.ground.frame
+
+    class Egm96:
+        plane = staticmethod(lambda frame: (-24.9, 1e-5, -2e-5))
+
+    monkeypatch.setattr(geoid, "find", lambda: Egm96)
+    height, matrix = tiles._to_scene(left_out)
+    here = np.array([[9000.0, -7000.0, 50.0]])
+    place = ecef(*np.radians(np.array(frame.reverse(here))[:2, 0]), np.float64(frame.reverse(here)[2][0]))
+    assert height == -24.9
+    np.testing.assert_allclose(
+        (matrix @ [*place, 1.0])[:3], [9000, -7000, 50 + 24.9 - 0.09 - 0.14], atol=1e-6
+    )
+    monkeypatch.setattr(geoid, "find", lambda: None)
+    with pytest.raises(InputError, match=r"tiles\.geoid is left out.*as a number"):
+        tiles.make(left_out)
+    with pytest.raises(UsageError, match=r"--geoid: .*as a number"):
+        make_tiles.run(tiled, make_tiles.TilesRequest(tiled.settings.cache / "x"))
 
 
 def test_pictures_have_parts_of_their_own():

@@ -67,7 +67,9 @@ def test_a_decoded_tile_whose_numbers_do_not_fit_is_refused(tmp_path):
 
 
 def test_a_cut_is_read_as_it_was_written(tmp_path):
-    cut = tile_cut.TileCut(tmp_path, "cut", ("a.npz",), ("Somebody",), ("b: not there",), 2.5)
+    cut = tile_cut.TileCut(
+        tmp_path, "cut", ("a.npz",), ("Somebody",), ("b: not there",), 2.5, (-1.0, 0.5, 2.0)
+    )
     tile_cut.write(cut, tmp_path / "cut.json")
     assert tile_cut.read(tmp_path / "cut.json") == cut
     (tmp_path / "cut.json").write_text(json.dumps({"tiles": []}))

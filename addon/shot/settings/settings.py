@@ -172,9 +172,9 @@ class TileSettings:
     max_triangles: int = key(
         30_000_000, "limit on triangles", at_least=1, at_most=1_000_000_000, affects=("terrain",)
     )
-    geoid: float = key(
-        0.0,
-        "height of the geoid above the WGS84 ellipsoid; tiles have heights above the ellipsoid",
+    geoid: float | None = key(
+        None,
+        "height of the geoid above the WGS84 ellipsoid; if left out, that of EGM96 by a grid of this machine",
         unit="m",
         at_least=-200,
         at_most=200,

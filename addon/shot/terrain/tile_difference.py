@@ -1,0 +1,59 @@
+"""How far the ground of 3-D Tiles lies from a scene's own: a wrong geoid shows there."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from firetwin_core.run import Run
+
+from . import elevation
+from .tile_heights import TileHeights
+
+if TYPE_CHECKING:
+    from ..settings.settings import Settings
+
+MOST = 3.0
+"""m, median beyond which the user is warned."""
+_PARTS = (5.0, 50.0, 95.0)
+
+Difference = tuple[float, float, float]
+
+
+def measure(tiles: TileHeights, settings: Settings, run: Run) -> Difference | None:
+    """5th, 50th and 95th percentile of the tiles' ground above the scene's own, m; None if they never meet.
+
+    The scene's own ground is that of the run, or of the elevation model, at the points of the fuel grid.
+    """
+    own = elevation.resolve(replace(settings, terrain=replace(settings.terrain, stand="elevation")), run)
+    off = tiles.on_grid(run.fuel_latitude, run.fuel_longitude)[0] - own.fuel
+    off = off[np.isfinite(off)]
+    if not len(off):
+        return None
+    low, median, high = np.percentile(off, _PARTS).tolist()
+    return low, median, high
+
+
+def sentence(found: Difference | None, undulation: float | None) -> str:
+    """What the user should know of a difference.
+
+    Parameters
+    ----------
+    undulation
+        Height of the geoid that was applied, m; None for a run of heights above the ellipsoid.
+    """
+    if found is None:
+        return "tiles and the run have no place in common, so that their heights could not be compared"
+    low, median, high = (round(each, 1) + 0.0 for each in found)
+    said = (
+        f"the tiles' ground is {abs(median):.1f} m {'below' if median < 0.0 else 'above'} the scene's own "
+        f"(median; {low:.1f} to {high:.1f} m in 90 % of places)"
+    )
+    if abs(found[1]) <= MOST:
+        return said
+    if undulation is None:
+        return (
+            f"{said}: check `vertical` in run.toml, which says that the run's heights are above the ellipsoid"
+        )
+    return f"{said}: if the geoid's height is wrong, write tiles.geoid = {undulation + found[1]:.1f}"
