@@ -262,12 +262,14 @@ def _access(arguments: argparse.Namespace) -> TileAccess:
 
 
 def _make_tiles(arguments: argparse.Namespace) -> None:
-    from .jobs import make_tiles
+    from .jobs import drape, make_tiles
 
     request = make_tiles.TilesRequest(
         arguments.out, arguments.levels, arguments.buildings, arguments.geoid, arguments.credit
     )
-    made = make_tiles.run(_choice(arguments).shot(), request, Reporter("tiles"), say)
+    choice, reporter = _choice(arguments), Reporter("tiles")
+    drape.prepare(choice, (), reporter, say)
+    made = make_tiles.run(choice.shot(), request, reporter, say)
     errors = ", ".join(f"{error:.3g}" for error in made.errors)
     buildings = f" with {count(made.buildings, 'building')}" if made.buildings else ""
     say(f"{count(made.tiles, 'tile')}{buildings}, {size(made.bytes)}; errors of the levels: {errors} m")

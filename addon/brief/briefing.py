@@ -227,4 +227,7 @@ def _inputs(settings: Settings | None) -> list[tuple[str, str]]:
         ("Land use of the film", settings.terrain.land_use),
         ("Named places", settings.labels.file),
     )
-    return [(what, path.name) for what, path in named if path]
+    found = [(what, path.name) for what, path in named if path]
+    if settings.terrain.photo_url:
+        found.append(("Orthophoto of the film", settings.terrain.photo_credit))
+    return found

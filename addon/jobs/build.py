@@ -11,7 +11,7 @@ from ..errors import disk_is_full, full_disk_error, input_error, no_room
 from ..progress import READING, MessageCallback, Progress, no_message, notify_if_slow, silent
 from ..shot import camera_warnings
 from ..shot.source import ShotSource
-from . import tiles, worker
+from . import drape, tiles, worker
 from .tile_access import TileAccess
 
 
@@ -41,6 +41,7 @@ def run(
         choice.shot()
     pack = ("pack", "the .blend file (render makes pictures without one)")
     tiles.prepare(choice, (), progress, tell, stop, access, [pack])
+    drape.prepare(choice, (), progress, tell, stop)
     worker.run(
         f"{__name__}:in_blender", {"choice": choice.plain(), "out": str(out)}, progress, stop=stop, tell=tell
     )

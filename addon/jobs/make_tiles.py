@@ -78,7 +78,7 @@ def run(
         built = buildings.stand(found.outlines, lambda lat, lon: _heights(surface, lat, lon))
     lattice = Lattice(surface, request.levels)
     credit = request.credit or (f"{shot.run.name}, synthetic" if shot.run.synthetic else shot.run.name)
-    colours = _Photo(shot) if shot.settings.terrain.photo else _FuelColours(shot)
+    colours = _Photo(shot) if orthophoto.photographed(shot.settings) else _FuelColours(shot)
     return Maker(lattice, colours, built, request.out, credit).run(progress)
 
 
@@ -146,7 +146,7 @@ class _Photo:
     """A scene's orthophoto; ground that it does not cover is coloured by its fuel."""
 
     def __init__(self, shot: Shot) -> None:
-        self._photo, self._fuel = orthophoto.source_of(shot.settings), _FuelColours(shot)
+        self._photo, self._fuel = orthophoto.source_of(shot), _FuelColours(shot)
         self.resolution = self._photo.resolution
 
     def __call__(self, latitude: Array, longitude: Array) -> NDArray[np.uint8]:

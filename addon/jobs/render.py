@@ -16,7 +16,7 @@ from ..shot import tile_terms
 from ..shot.comparison import for_view
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
-from . import solve, tiles, worker
+from . import drape, solve, tiles, worker
 from .tile_access import TileAccess
 
 Selection = tuple[str | None, str | tuple[str, ...] | None, str | None]
@@ -142,6 +142,7 @@ def prepare_tiles(
     views = list(dict.fromkeys(picture.camera for picture in wanted))
     uses = tile_terms.of_passes(picture.name for picture in wanted)
     tiles.prepare(choice, views, progress, tell, stop, asked.access, uses, keep=asked.resume)
+    drape.prepare(choice, views, progress, tell, stop)
 
 
 def make(

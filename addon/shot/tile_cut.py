@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import functools
-import hashlib
 import json
 from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-
-import numpy as np
 
 from .. import files
 from ..errors import input_error
@@ -18,6 +15,7 @@ from ..imaging import credits
 from ..imaging.credits import Credits
 from . import comparison, passes
 from .cameras import mount
+from .view_digest import of_views
 
 if TYPE_CHECKING:
     from .settings.protocols import ShotView
@@ -102,14 +100,8 @@ def read(path: Path) -> TileCut:
 
 def location(shot: ShotView) -> Path:
     """File of a shot's cut; it follows all that the choice depends on, except the tilesets themselves."""
-    shot = shot.full
-    settings = shot.settings.tiles
-    digest = hashlib.sha256(b"2" + repr(settings).encode() + repr(shot.ground.frame.latitude).encode())
-    for path in shot.paths:
-        for array in (path.position, path.rotation, path.halves, np.asarray([path.width, path.meet])):
-            digest.update(np.ascontiguousarray(array, np.float64).tobytes())
-        digest.update(np.ascontiguousarray(shot.filmed(path), np.int64).tobytes())
-    return shot.settings.cache / "tiles" / f"{digest.hexdigest()[:16]}.json"
+    settings = shot.full.settings
+    return settings.cache / "tiles" / f"{of_views(shot, '2', repr(settings.tiles))}.json"
 
 
 def prepared(shot: ShotView) -> TileCut | None:

@@ -105,7 +105,7 @@ class FIRETWIN_OT_solve(Working, bpy.types.Operator):
 
 def steps(context: bpy.types.Context, part: str) -> Steps:
     """Build a part of the scene, or all of it."""
-    from ..jobs import bake
+    from ..jobs import bake, drape
     from ..scene import build
 
     uid, settings = context.scene.session_uid, context.scene.firetwin
@@ -119,6 +119,10 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     shot, moving = yield InThread("reading the run", lambda **_: _read(chosen, part == ALL))
     if smoke and shot.settings.smoke.enabled:
         yield InThread("smoke", functools.partial(bake.run, chosen, together=True))
+    if shot.settings.terrain.photo_url and "terrain" in parts:
+        if not bpy.app.online_access:
+            raise Error("allow online access (Preferences > System > Network), or leave the photo's URL out")
+        yield InThread("orthophoto", functools.partial(drape.prepare, chosen, ()))
     yield "removing the previous build"
     if bpy.context.mode != "OBJECT":
         raise Error("leave the edit mode, then build again")

@@ -42,7 +42,13 @@ LEVELS = {name: dict(zip(_MOVED, values, strict=True)) for name, (_, values) in 
 
 _ITEMS = [(name, keys.label(name), words) for name, (words, _) in _STEPS.items()]
 
-_NOT_SAVED = {"time": ("start", "end"), "terrain": ("elevation", "photo", "photo_extent", "land_use")}
+_NOT_SAVED = {
+    "time": ("start", "end"),
+    "terrain": (
+        *("elevation", "photo", "photo_extent", "land_use"),
+        *("photo_url", "photo_layer", "photo_level", "photo_credit"),
+    ),
+}
 """Settings of a run, which presets leave out."""
 
 

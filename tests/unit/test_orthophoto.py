@@ -89,9 +89,8 @@ def test_each_place_has_the_colour_that_the_photo_has_there(make, tmp_path, way)
     assert size[1] == pytest.approx(0.007 * 111_000.0, rel=0.06)
 
 
-def test_what_is_near_cameras_is_shown_more_finely(make, tmp_path, monkeypatch):
-    monkeypatch.setattr(orthophoto, "_LARGEST", 64)
-    shot = make(place(tmp_path, "extent"), near=150.0).shot()
+def test_what_is_near_cameras_is_shown_more_finely(make, tmp_path):
+    shot = make(place(tmp_path, "extent") + "\nphoto_size = 64", near=150.0).shot()
     whole, near = orthophoto.pictures(shot)
     assert max(whole.pixels.shape) == 64
     assert np.all(near.low >= whole.low - 1e-6)

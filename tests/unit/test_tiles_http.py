@@ -13,7 +13,7 @@ import pytest
 from firetwin.errors import InputError
 from firetwin.tiles import cut, policies
 from firetwin.tiles.loader import Loader
-from firetwin.tiles.policies import Policy, google
+from firetwin.tiles.policies import Policy, google, openstreetmap
 from firetwin.tiles.policies import ion as ion_policy
 from firetwin.tiles.sources import MissingError, address, connection, ion, open_source, secret, waiting
 from firetwin.tiles.sources.http import Http
@@ -515,7 +515,11 @@ def test_redaction():
 
 
 def test_policies_are_data_without_keys(monkeypatch):
-    assert {each.name for each in policies.known()} == {google.POLICY.name, ion_policy.POLICY.name}
+    assert {each.name for each in policies.known()} == {
+        google.POLICY.name,
+        ion_policy.POLICY.name,
+        openstreetmap.POLICY.name,
+    }
     assert policies.of_host("tile.googleapis.com") is google.POLICY
     assert policies.of_host("assets.ion.cesium.com") is ion_policy.POLICY
     assert policies.of_host("nottile.googleapis.com.example") is policies.OPEN

@@ -117,6 +117,23 @@ class TerrainSettings:
         check=_box,
         affects=(),
     )
+    photo_url: str = key(
+        "",
+        "orthophoto of a server: URL of tiles with {z}, {x} and {y} (or {-y}), or of WMTS capabilities",
+        affects=(),
+    )
+    photo_layer: str = key("", "layer of the WMTS capabilities, if there are several")
+    photo_level: int = key(
+        19, "finest level of tiles that the server of photo_url has", at_least=0, at_most=30
+    )
+    photo_credit: str = key("", "who is to be named for the orthophoto; needed with photo_url")
+    photo_size: int = key(
+        3072,
+        "longest side of a picture of the orthophoto in the scene",
+        unit="pixels",
+        at_least=64,
+        at_most=6144,
+    )
     land_use: Path | None = key(
         None,
         "fields, tracks, roads, water and buildings: polygons and lines, .geojson or .gpkg",
@@ -135,6 +152,19 @@ class TerrainSettings:
         at_least=0,
         at_most=1_000_000,
     )
+
+    def validate(self) -> tuple[Where, str] | None:
+        """Check that there is one orthophoto, and a credit for that of a server."""
+        if self.photo_url and self.photo:
+            return ("photo_url",), "terrain.photo_url and terrain.photo are both there; leave one out"
+        if self.photo_url and not self.photo_credit.strip():
+            return (
+                ("photo_url",),
+                "terrain.photo_url needs terrain.photo_credit: the line that the server's terms ask for",
+            )
+        if self.photo_layer and not self.photo_url:
+            return ("photo_layer",), "terrain.photo_layer needs a terrain.photo_url"
+        return None
 
 
 @dataclass(frozen=True)

@@ -1,11 +1,12 @@
 """Orthophoto: a user's georeferenced image as ground colours, reprojected to scene coordinates.
 
 A GeoTIFF holds its own georeference. A PNG or JPEG has a world file (.pgw, .jgw or .wld) or
-`terrain.photo_extent`, both in degrees.
+`terrain.photo_extent`, both in degrees. That of a server was fetched before (see `drape`).
 """
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -22,19 +23,20 @@ from ...progress import Progress, silent
 from ...run import areas, content
 from ..settings import scene_file
 from ..settings.settings import Settings
+from . import drape
+from .drape_photo import DrapePhoto
 from .elevation import ramp
+from .photo_areas import areas_of, size_of
+from .photo_source import PhotoSource, Pixels, between_pixels, rgba, thinned
 from .raster import Array, GeoTiff, extent, overlap, said
 
 if TYPE_CHECKING:
     from ..settings.protocols import ShotView
 
-_LARGEST = 3072  # pixels, largest side of a picture
 _STRIP = 256  # rows that are resampled at once
 _LATTICE = 128.0  # m between reprojected points; bilinear between, within 0.2 m in the sample run
 _FADE = 6  # pixels at the border over which it fades into the synthetic ground
 _TIFF = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
-
-Pixels = NDArray[np.uint8]
 
 
 @dataclass(frozen=True)
@@ -62,16 +64,20 @@ def check(settings: Settings, run: Run) -> None:
     InputError
         Names the file and what to do.
     """
+    drape.check(settings, run)
     if settings.terrain.photo is None:
         if settings.terrain.photo_extent:
             where = "terrain", "photo_extent"
             raise scene_file.error_at(settings.path, where, "terrain.photo_extent needs a terrain.photo")
         return
     path = settings.terrain.photo
+    if re.search("https?:/", path.as_posix()):
+        reason = "terrain.photo is a file; a server's tiles are named by terrain.photo_url"
+        raise scene_file.error_at(settings.path, ("terrain", "photo"), reason)
     if path.exists() and not path.is_file():  # opening a pipe would block
         reason = f"terrain.photo: {path} is no file; name a GeoTIFF, PNG or JPEG"
         raise scene_file.error_at(settings.path, ("terrain", "photo"), reason)
-    source = source_of(settings)
+    source = _file(settings)
     if not overlap(source.bounds, run.latitude, run.longitude):
         raise source.error(
             f"covers {said(source.bounds)}, outside of the run, which covers {said(extent(run))}"
@@ -79,10 +85,10 @@ def check(settings: Settings, run: Run) -> None:
 
 
 def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
-    """SHA-256 of the photo and of its world file, and the extent."""
+    """SHA-256 of the photo and of its world file, and the extent; or the address of a server's."""
     path = settings.terrain.photo
     if path is None:
-        return {}
+        return drape.inputs(settings)
     parts = [path, *([world] if (world := world_file(path)) else [])]
     hashes = {f"photo {part.suffix}": content.of_file(part, settings.cache, progress) for part in parts}
     return hashes | {"photo extent": str(settings.terrain.photo_extent)}
@@ -90,29 +96,21 @@ def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
 
 def pictures(shot: ShotView) -> list[OrthophotoImage]:
     """The whole photo as one picture, and a finer one near the cameras if the photo has the resolution."""
-    if shot.settings.terrain.photo is None:
+    if not photographed(shot.settings):
         return []
-    source, ground = source_of(shot.settings), shot.ground
-    rows, columns = (
-        np.array([axis[0], axis[-1]]) for axis in (ground.fields.latitude, ground.fields.longitude)
-    )
-    west, south, east, north = source.bounds
-    rows, columns = (
-        np.clip([south, north], *rows),
-        np.clip(areas.turned([west, east], columns.mean()), *columns),
-    )
-    corners = ground.point(*(v.ravel() for v in np.meshgrid(rows, columns)))[:, :2]
-    low, high = corners.min(axis=0), corners.max(axis=0)
+    source = source_of(shot)
+    if isinstance(source, DrapePhoto):
+        return [
+            _picture(shot, source, np.array(area.low), np.array(area.high), area.step)
+            for area in source.drape.areas
+        ]
     step = max(source.resolution, _pixel(shot))
-    made = [_picture(shot, source, low, high, step)]
-    radius = ground.near_radius
-    if len(ground.eyes) and radius > 0.0:
-        near = (f(ground.eyes[:, :2], axis=0) for f in (np.min, np.max))
-        low, high = np.clip(next(near) - radius, low, high), np.clip(next(near) + radius, low, high)
-        coarse = float(np.max((made[0].high - made[0].low) / made[0].pixels.shape[1::-1]))
-        if np.all(high - low > step) and max(step, np.max(high - low) / _LARGEST) < 0.7 * coarse:
-            made.append(_picture(shot, source, low, high, step))
-    return made
+    return [_picture(shot, source, *area, step) for area in areas_of(shot, source.bounds, step)]
+
+
+def photographed(settings: Settings) -> bool:
+    """Whether a scene has an orthophoto."""
+    return bool(settings.terrain.photo or settings.terrain.photo_url)
 
 
 def _pixel(shot: ShotView) -> float:
@@ -122,8 +120,8 @@ def _pixel(shot: ShotView) -> float:
 
 
 def _picture(shot: ShotView, source: PhotoSource, low: Array, high: Array, step: float) -> OrthophotoImage:
-    """Resample an area in strips, at `step` (m) or the coarser step that `_LARGEST` allows."""
-    size = np.clip(np.ceil((high - low) / step), 2, _LARGEST).astype(int)
+    """Resample an area in strips, at `step` (m) or the coarser step that `photo_size` allows."""
+    size = size_of(low, high, step, shot.settings.terrain.photo_size)
     pixels = np.zeros((size[1], size[0], 4), np.uint8)
     east, north = (low[k] + (np.arange(size[k]) + 0.5) / size[k] * (high[k] - low[k]) for k in (0, 1))
     place = _Places(shot, low, high)
@@ -156,22 +154,12 @@ class _Places:
         return [bilinear(field, row[:, None], column) for field in self.fields]
 
 
-class PhotoSource:
-    """An orthophoto file: `bounds` (west, south, east, north), degrees, and `resolution`, m."""
-
-    bounds: tuple[float, float, float, float]
-    resolution: float
-
-    def error(self, reason: str) -> InputError:
-        """Error about the file."""
-        raise NotImplementedError
-
-    def colours(self, latitude: Array, longitude: Array, step: float) -> NDArray[np.float32]:
-        """Colours 0..1 and coverage (h, w, 4) at points (h, w) about `step` metres apart."""
-        raise NotImplementedError
+def source_of(shot: ShotView) -> PhotoSource:
+    """The orthophoto of a shot that has one."""
+    return DrapePhoto(drape.of_shot(shot)) if shot.settings.terrain.photo_url else _file(shot.settings)
 
 
-def source_of(settings: Settings) -> PhotoSource:
+def _file(settings: Settings) -> PhotoSource:
     path = settings.terrain.photo
     assert path is not None
     try:
@@ -204,7 +192,7 @@ class _Tiff(PhotoSource):
         row, column = (
             (v - axis[0]) / (axis[1] - axis[0]) for v, axis in zip((latitude, longitude), axes, strict=True)
         )
-        return _rgba(_colours(np.moveaxis(pixels, 0, -1), row, column))
+        return rgba(between_pixels(np.moveaxis(pixels, 0, -1), row, column))
 
 
 class _Plain(PhotoSource):
@@ -263,47 +251,23 @@ class _Plain(PhotoSource):
         north = latitude - self.affine[1, 2]
         column, row = (inverse[k, 0] * east + inverse[k, 1] * north for k in (0, 1))
         size = max(int(step / self.resolution), 1)
-        return _rgba(_colours(self._thinned(size), (row + 0.5) / size - 0.5, (column + 0.5) / size - 0.5))
+        return rgba(
+            between_pixels(self._thinned(size), (row + 0.5) / size - 0.5, (column + 0.5) / size - 0.5)
+        )
 
     def _thinned(self, size: int) -> NDArray[np.float32]:
         """Average blocks of size x size pixels."""
-        return self._means.setdefault(size, _means(self.pixels, size))
+        return self._means.setdefault(size, thinned(self.pixels, size))
 
     @cached_property
     def _means(self) -> dict[int, NDArray[np.float32]]:
         return {}
 
 
-def _means(pixels: Pixels, size: int) -> NDArray[np.float32]:
-    height, width, bands = pixels.shape
-    pixels = np.pad(pixels, [(0, -height % size), (0, -width % size), (0, 0)], "edge")
-    shape = pixels.shape[0] // size, size, pixels.shape[1] // size, size, bands
-    return pixels.reshape(shape).mean(axis=(1, 3), dtype=np.float32) / np.float32(255.0)
-
-
 def _axis(values: Array, step: float) -> Array:
     """Even axis that covers these values with a margin."""
     low, high = values.min() - 2.0 * step, values.max() + 2.0 * step
     return np.linspace(low, high, max(int(np.ceil((high - low) / step)), 1) + 1)
-
-
-def _colours(field: NDArray[np.float32], row: Array, column: Array) -> NDArray[np.float32]:
-    """Bilinear values (h, w, bands) between pixels; NaN beyond the edges of the outermost pixels."""
-    height, width, _ = field.shape
-    outside = (row < -0.5) | (row > height - 0.5) | (column < -0.5) | (column > width - 0.5)
-    found = bilinear(field, np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)).astype(np.float32)
-    found[outside] = np.nan
-    return found
-
-
-def _rgba(pixels: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Convert grey, grey-alpha, RGB or RGBA (h, w, bands), NaN for no data, to RGBA (h, w, 4)."""
-    bands = pixels.shape[-1]
-    grey = bands < 3
-    alpha = pixels[..., -1] if bands in (2, 4) else np.ones(pixels.shape[:2], np.float32)
-    colour = np.repeat(pixels[..., :1], 3, axis=-1) if grey else pixels[..., :3]
-    alpha = np.where(np.isfinite(pixels).all(axis=-1), alpha, 0.0)
-    return np.concatenate([colour, alpha[..., None]], axis=-1).astype(np.float32)
 
 
 def world_file(path: Path) -> Path | None:

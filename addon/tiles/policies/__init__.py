@@ -47,6 +47,8 @@ class Policy:
         Screen-space error that the source recommends, pixels; 0: none.
     logo
         Words that must stand in each picture besides the tiles' credits.
+    no_drape
+        Why its pictures may not be laid on the ground; empty: they may.
     """
 
     name: str = ""
@@ -65,6 +67,7 @@ class Policy:
     other_geocoder: bool = True
     pixel_error: float = 0.0
     logo: str = ""
+    no_drape: str = ""
 
 
 OPEN = Policy("a server that you name")

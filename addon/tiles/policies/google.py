@@ -19,4 +19,5 @@ POLICY = Policy(
     other_geocoder=False,
     pixel_error=20.0,
     logo="Google Maps",
+    no_drape="its terms forbid to keep its pictures",
 )

@@ -10,4 +10,5 @@ POLICY = Policy(
     may_pack=False,
     may_export=False,
     logo="Cesium ion",
+    no_drape="its assets are tilesets; name them in tiles.sources",
 )

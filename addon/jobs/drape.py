@@ -1,0 +1,195 @@
+"""Fetches the orthophoto of a server before a shot is built: tiles, put together to pictures of the cache.
+
+Fetching happens in a process without Blender, with the cache, pauses and checks of 3-D tiles' servers.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from firetwin_core import sensor
+from numpy.typing import NDArray
+
+from ..errors import InputError
+from ..progress import MessageCallback, Progress, count, no_message, share, silent
+from ..shot.comparison import for_view
+from ..shot.shot import Shot
+from ..shot.source import ShotSource
+from ..shot.terrain import drape, drape_plan
+from ..shot.terrain.drape import Drape, DrapeArea
+from ..shot.terrain.drape_plan import PlannedArea
+from ..shot.terrain.raster import extent, overlap, said
+from ..tiles.drape import address, wmts
+from ..tiles.drape.address import TileAddress
+from ..tiles.drape.mosaic import Patch, TileServer
+from ..tiles.sources.address import origin
+from ..tiles.sources.http import Http
+from ..tiles.sources.network import Network
+from ..tiles.sources.waiting import Clock
+from . import worker
+
+_NAMED = 3  # missing tiles that are named; all are in the drape's file
+
+
+def prepare(
+    choice: ShotSource,
+    views: Sequence[str] = (),
+    progress: Progress = silent,
+    tell: MessageCallback = no_message,
+    stop: worker.Stop | None = None,
+) -> None:
+    """Fetch the orthophoto of a scene; without `terrain.photo_url` there is nothing to do.
+
+    Parameters
+    ----------
+    views
+        Views that are built each by itself; empty: all cameras are built together.
+
+    Raises
+    ------
+    InputError
+        The address is wrong or refused, or the server does not go on.
+    """
+    if choice.settings().terrain.photo_url:
+        about = {"choice": choice.plain(), "views": list(views)}
+        worker.run(f"{__name__}:in_process", about, progress, tell=tell, blender=False, stop=stop)
+
+
+def in_process(choice: dict[str, str], views: list[str], progress: Progress, tell: MessageCallback) -> None:
+    """Fetch; worker side."""
+    shot = ShotSource(**choice).shot()
+    made = set()
+    for built in [for_view(shot, view) for view in views] or [shot]:
+        if (path := drape.location(built)) not in made:
+            made.add(path)
+            for sentence in make(built, progress):
+                tell(sentence)
+
+
+def make(
+    shot: Shot, progress: Progress = silent, network: Network | None = None, clock: Clock | None = None
+) -> list[str]:
+    """Write the drape of a shot.
+
+    Returns
+    -------
+    What the user should know.
+    """
+    terrain, path = shot.settings.terrain, drape.location(shot)
+    try:
+        source = Http(address.with_variables(terrain.photo_url), network, clock)
+    except InputError as error:
+        raise drape.key_error(shot.settings, f"{error.path} {error.reason}") from None
+    try:
+        tiles = _address(source, shot)
+        server = TileServer(source, tiles)
+        told, planned = _planned(shot, server)
+        made = [
+            _written(server, area, path.parent, share(progress, number, len(planned), "orthophoto"))
+            for number, area in enumerate(planned)
+        ]
+    finally:
+        source.close()
+    used = max(area.level for area in made)
+    missing = tuple(
+        f"{name}: {reason}" for key, (name, reason) in sorted(server.missing.items()) if key[0] <= used
+    )
+    result = Drape(path.parent, tuple(made), drape.split_credit(terrain.photo_credit), missing)
+    drape.write(result, path)
+    credit = f"credit of the orthophoto, to be named beside the pictures: {'; '.join(result.credits)}"
+    return [credit, *told, *_said_missing(missing)]
+
+
+def _address(source: Http, shot: Shot) -> TileAddress:
+    """Address of the tiles, from the settings or the server's capabilities."""
+    terrain, url = shot.settings.terrain, address.with_variables(shot.settings.terrain.photo_url)
+    if address.is_template(url):
+        return TileAddress(url, highest=terrain.photo_level)
+    name = source.name(source.root)
+    found = wmts.address_of(source.read(source.root, wmts.MOST_BYTES), name, url, terrain.photo_layer)
+    there = origin(found.url(found.lowest, 0, 0), name)
+    if there != source.home:
+        reason = f"has its tiles at {there}, another host; name them as terrain.photo_url: {found.template}"
+        raise drape.key_error(shot.settings, source.redactor.text(f"{name} {reason}"))
+    if not overlap(found.bounds, shot.run.latitude, shot.run.longitude):
+        reason = f"covers {said(found.bounds)}, outside of the run, which covers {said(extent(shot.run))}"
+        raise drape.key_error(shot.settings, f"{name} {reason}")
+    return found
+
+
+def _planned(shot: Shot, server: TileServer) -> tuple[list[str], list[PlannedArea]]:
+    """Plan the areas: with the side of the server's tiles, and no level that it has nowhere here."""
+    tiles, side = server.address, 256
+    lowest, highest = tiles.lowest, min(tiles.highest, max(shot.settings.terrain.photo_level, tiles.lowest))
+    told: list[str] = []
+    while True:
+        planned = drape_plan.plan(shot, tiles.bounds, (lowest, highest), side)
+        found = _probed(server, planned[-1].patch)
+        if server.side and server.side != side:
+            side = server.side
+            continue
+        top = planned[-1].patch.level
+        if found < top and found >= lowest and server.side:
+            told.append(f"the orthophoto's server has no tiles of level {top} here; level {found} is used")
+            highest = found
+            continue
+        return told + [_said_level(area, highest, side) for area in planned], planned
+
+
+def _probed(server: TileServer, patch: Patch) -> int:
+    """Finest level of which one of five places of a patch has a tile, at most the patch's."""
+    for up in range(patch.level - server.address.lowest + 1):
+        for across, down in ((2, 2), (1, 1), (3, 1), (1, 3), (3, 3)):
+            x, y = (
+                ends[0] + (ends[1] - ends[0]) * part // 4
+                for ends, part in ((patch.columns, across), (patch.rows, down))
+            )
+            if server.tile(patch.level - up, x >> up, y >> up) is not None:
+                return patch.level - up
+    return patch.level
+
+
+def _written(server: TileServer, area: PlannedArea, folder: Path, progress: Progress) -> DrapeArea:
+    pixels = server.stitched(area.patch, progress)
+    name = f"{hashlib.sha256(pixels.tobytes()).hexdigest()[:24]}.png"
+    if not (folder / name).exists():
+        folder.mkdir(parents=True, exist_ok=True)
+        sensor.write_image(folder / name, pixels / np.float32(255.0))
+    return DrapeArea(
+        low=_pair(area.low),
+        high=_pair(area.high),
+        step=area.step,
+        level=area.patch.level,
+        column=area.patch.columns[0],
+        row=area.patch.rows[0],
+        side=server.side,
+        file=name,
+    )
+
+
+def _pair(place: NDArray[np.float64]) -> tuple[float, float]:
+    return float(place[0]), float(place[1])
+
+
+def _said_level(area: PlannedArea, highest: int, side: int) -> str:
+    """Level of an area in words, and what kept it from being finer."""
+    width, height = (tiles * side for tiles in area.patch.size)
+    text = f"orthophoto: level {area.patch.level} of {highest}, {area.step:.3g} m a texel, {width} x {height}"
+    if not area.limited:
+        return text
+    why = {
+        "level": "the server has no finer level (terrain.photo_level)",
+        "size": "terrain.photo_size allows no finer level",
+    }
+    return f"{text}; a pixel of the nearest view is {area.wanted:.3g} m large, but {why[area.limited]}"
+
+
+def _said_missing(missing: Sequence[str]) -> list[str]:
+    if not missing:
+        return []
+    more = f"; and {len(missing) - _NAMED} more" if len(missing) > _NAMED else ""
+    named = "; ".join(missing[:_NAMED])
+    return [f"{count(len(missing), 'tile')} of the orthophoto missing, coarser ones stand in: {named}{more}"]

@@ -1,0 +1,174 @@
+"""The orthophoto of a server (`terrain.photo_url`): pictures of its tiles, fetched before a shot is built.
+
+`jobs.drape` fetches them; here is what it writes, and who is to be named for them.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from firetwin_core.run import Run
+
+from ... import files
+from ...errors import InputError, input_error
+from ...tiles.drape import address
+from ...tiles.drape.mercator import NORTHMOST
+from ...tiles.sources import secret
+from ..settings import scene_file
+from ..settings.settings import Settings
+from ..view_digest import of_views
+
+if TYPE_CHECKING:
+    from ..settings.protocols import ShotView
+
+
+@dataclass(frozen=True)
+class DrapeArea:
+    """An area of the ground, and the picture of tiles that covers it.
+
+    Attributes
+    ----------
+    low, high
+        East and north of its corners in the scene, m.
+    step
+        Size of a texel on the ground, m.
+    level, column, row, side
+        Level of its tiles, column and row of the north-western one, and pixels along a tile.
+    file
+        Name of the picture, in Web Mercator, north up.
+    """
+
+    low: tuple[float, float]
+    high: tuple[float, float]
+    step: float
+    level: int
+    column: int
+    row: int
+    side: int
+    file: str
+
+
+@dataclass(frozen=True)
+class Drape:
+    """Pictures of a server's tiles for a shot: the whole first, finer ones after it.
+
+    Attributes
+    ----------
+    folder
+        Of the pictures.
+    credits
+        Who is to be named.
+    missing
+        Tiles that could not be had, with reasons; coarser ones stand in for them.
+    """
+
+    folder: Path
+    areas: tuple[DrapeArea, ...]
+    credits: tuple[str, ...]
+    missing: tuple[str, ...]
+
+
+def check(settings: Settings, run: Run) -> None:
+    """Check the address of an orthophoto without asking its server.
+
+    Raises
+    ------
+    InputError
+        Names the line of the scene file and what to do.
+    """
+    url = settings.terrain.photo_url
+    if not url:
+        return
+    try:
+        address.check(url)
+    except InputError as error:
+        raise key_error(settings, f"{error.path} {error.reason}") from None
+    if min(abs(run.latitude.min()), abs(run.latitude.max())) > NORTHMOST:
+        raise key_error(settings, f"tiles end at {NORTHMOST:.2f} degrees; name a GeoTIFF as terrain.photo")
+
+
+def key_error(settings: Settings, reason: str) -> InputError:
+    """Error of the key `terrain.photo_url`."""
+    return scene_file.error_at(settings.path, ("terrain", "photo_url"), f"terrain.photo_url: {reason}")
+
+
+def inputs(settings: Settings) -> dict[str, str]:
+    """The address without secrets, on which colours depend."""
+    url = settings.terrain.photo_url
+    return {"photo url": secret.split(url)[0]} if url else {}
+
+
+def location(shot: ShotView) -> Path:
+    """File of a shot's drape; it follows all that the drape depends on, except the server's pictures."""
+    terrain, run = shot.settings.terrain, shot.run
+    words = (
+        secret.split(terrain.photo_url)[0],
+        *map(repr, (terrain.photo_layer, terrain.photo_level, terrain.photo_size, terrain.photo_credit)),
+        *map(repr, (terrain.near_radius, terrain.elevation, terrain.apron)),
+        *(repr((float(axis[0]), float(axis[-1]))) for axis in (run.latitude, run.longitude)),
+    )
+    return shot.settings.cache / "drapes" / f"{of_views(shot, *words)}.json"
+
+
+def write(drape: Drape, path: Path) -> None:
+    """Write a drape beside its pictures."""
+    about = {name: value for name, value in asdict(drape).items() if name != "folder"}
+    files.write_text(path, json.dumps(about) + "\n")
+
+
+def read(path: Path) -> Drape:
+    """Read a drape.
+
+    Raises
+    ------
+    InputError
+        The file is damaged.
+    """
+    try:
+        about: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        areas = [_area(**each) for each in about["areas"]]
+        lists = {name: tuple(map(str, about[name])) for name in ("credits", "missing")}
+        return Drape(path.parent, tuple(areas), **lists)
+    except (OSError, ValueError, LookupError, TypeError) as error:
+        raise input_error(
+            path, 0, 0, f"is no list of an orthophoto's pictures ({error}); delete it"
+        ) from None
+
+
+def _area(low: list[float], high: list[float], **others: Any) -> DrapeArea:
+    (west, south), (east, north) = low, high
+    return DrapeArea((float(west), float(south)), (float(east), float(north)), **others)
+
+
+def of_shot(shot: ShotView) -> Drape:
+    """The drape of a shot with `terrain.photo_url`.
+
+    Raises
+    ------
+    InputError
+        It was not prepared.
+    """
+    path = location(shot)
+    if not path.is_file():
+        raise input_error(path, 0, 0, "the orthophoto of this shot was not fetched; build it again")
+    return read(path)
+
+
+def credits(shot: ShotView) -> tuple[str, ...]:
+    """Who is to be named for the orthophoto of a prepared shot, of a server or a file; empty: nobody.
+
+    Raises
+    ------
+    InputError
+        The orthophoto of a server was not prepared.
+    """
+    terrain = shot.settings.terrain
+    return of_shot(shot).credits if terrain.photo_url else split_credit(terrain.photo_credit)
+
+
+def split_credit(text: str) -> tuple[str, ...]:
+    """Notices of a credit line, which semicolons separate, each once."""
+    return tuple(dict.fromkeys(filter(None, map(str.strip, text.split(";")))))

@@ -1,0 +1,59 @@
+"""Areas of the ground that an orthophoto is shown in: all of it, and finer near the cameras."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...run import areas
+from .raster import Array
+
+if TYPE_CHECKING:
+    from ..settings.protocols import ShotView
+
+
+def areas_of(
+    shot: ShotView, bounds: tuple[float, float, float, float], step: float
+) -> list[tuple[Array, Array]]:
+    """Corners (2,), (2,) of the pictures to make, m: all of the ground within `bounds`, and near cameras.
+
+    Parameters
+    ----------
+    bounds
+        West, south, east and north, degrees.
+    step
+        Size of the finest pixels that make sense, m.
+    """
+    ground, largest = shot.ground, shot.settings.terrain.photo_size
+    low, high = _whole(shot, bounds)
+    found = [(low, high)]
+    radius = ground.near_radius
+    if len(ground.eyes) and radius > 0.0:
+        near = (f(ground.eyes[:, :2], axis=0) for f in (np.min, np.max))
+        near_low, near_high = np.clip(next(near) - radius, low, high), np.clip(next(near) + radius, low, high)
+        coarse = float(np.max((high - low) / size_of(low, high, step, largest)))
+        if np.all(near_high - near_low > step) and (
+            max(step, np.max(near_high - near_low) / largest) < 0.7 * coarse
+        ):
+            found.append((near_low, near_high))
+    return found
+
+
+def _whole(shot: ShotView, bounds: tuple[float, float, float, float]) -> tuple[Array, Array]:
+    """Corners (2,) of the ground within bounds, m."""
+    fields = shot.ground.fields
+    rows, columns = (np.array([axis[0], axis[-1]]) for axis in (fields.latitude, fields.longitude))
+    west, south, east, north = bounds
+    rows = np.clip([south, north], *rows)
+    turned = areas.turned([west, east], columns.mean())
+    if east - west < 360.0 and turned[0] < turned[1]:  # else it is all around the Earth
+        columns = np.clip(turned, *columns)
+    corners = shot.ground.point(*(v.ravel() for v in np.meshgrid(rows, columns)))[:, :2]
+    return corners.min(axis=0), corners.max(axis=0)
+
+
+def size_of(low: Array, high: Array, step: float, largest: int) -> NDArray[np.int64]:
+    """Columns and rows of a picture with pixels of `step` (m), or as large as it may be."""
+    return np.clip(np.ceil((high - low) / step), 2, largest).astype(int)

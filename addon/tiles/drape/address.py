@@ -1,0 +1,115 @@
+"""Addresses of tiles: ``https://.../{z}/{x}/{y}.png``, or ``{-y}`` for rows from the south (TMS)."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from urllib.parse import urlsplit
+
+from ...errors import InputError, input_error
+from .. import policies
+from ..sources import secret
+from ..sources.address import origin
+from .mercator import DEEPEST, NORTHMOST
+
+_PLACES = re.compile(r"\{([^{}]*)\}")
+_KNOWN = {"z", "x", "y", "-y"}
+_VARIABLE = re.compile(r"\$\{([A-Za-z_][A-Za-z0-9_]*)\}")
+WORLD = (-180.0, -NORTHMOST, 180.0, NORTHMOST)
+"""West, south, east and north, degrees."""
+
+
+@dataclass(frozen=True)
+class TileAddress:
+    """Where a server has its tiles, in the matrix set WebMercatorQuad.
+
+    Attributes
+    ----------
+    template
+        URL with {z}, {x} and {y} or {-y}.
+    lowest, highest
+        Levels that there are.
+    names
+        Names of levels, where they are not their numbers.
+    bounds
+        West, south, east and north of what there is, degrees.
+    """
+
+    template: str
+    lowest: int = 0
+    highest: int = DEEPEST
+    names: Mapping[int, str] = field(default_factory=dict)
+    bounds: tuple[float, float, float, float] = WORLD
+
+    def url(self, level: int, column: int, row: int) -> str:
+        """URL of a tile; columns beyond the date line are those of the other side."""
+        count = 1 << level
+        values = {
+            "z": self.names.get(level, str(level)),
+            "x": str(column % count),
+            "y": str(row),
+            "-y": str(count - 1 - row),
+        }
+        return _PLACES.sub(lambda found: values[found[1]], self.template)
+
+
+def is_template(url: str) -> bool:
+    """Whether a URL is one of tiles, and not of WMTS capabilities."""
+    return bool(_PLACES.search(_VARIABLE.sub("", url)))
+
+
+def check(url: str) -> None:
+    """Check the address of a drape without asking anybody.
+
+    Raises
+    ------
+    InputError
+        It is no such address, or its service does not allow it.
+    """
+    name = secret.Redactor().text(secret.split(url)[0])
+    host = origin(url, name).host
+    policy = policies.of_host(host)
+    if policy.no_drape:
+        raise input_error(name, 0, 0, f"{policy.name} may not be draped: {policy.no_drape}")
+    if not is_template(url):
+        return
+    if "{" in (urlsplit(url).netloc):
+        raise input_error(name, 0, 0, "has a place to fill in its host; name one host")
+    found = [each[1] for each in _PLACES.finditer(_VARIABLE.sub("", url))]
+    if unknown := sorted(set(found) - _KNOWN):
+        raise input_error(name, 0, 0, f"has {{{unknown[0]}}}; known are {{z}}, {{x}}, {{y}} and {{-y}}")
+    rows = [each for each in found if each in ("y", "-y")]
+    if sorted(each for each in found if each not in rows) != ["x", "z"] or len(rows) != 1:
+        raise input_error(name, 0, 0, "must have {z}, {x} and one of {y} and {-y}, each once")
+
+
+def with_variables(url: str) -> str:
+    """The URL with ``${NAME}`` replaced by environment variables.
+
+    Raises
+    ------
+    InputError
+        A variable is not set, or stands where its value would not be kept secret.
+    """
+    name = secret.split(url)[0]
+    values = []
+
+    def value(found: re.Match[str]) -> str:
+        if not (text := os.environ.get(found[1], "")):
+            raise input_error(name, 0, 0, f"needs the environment variable {found[1]}")
+        values.append(text)
+        return text
+
+    whole = _VARIABLE.sub(value, url)
+    hidden = secret.split(whole)[1].values()
+    if any(each not in hidden for each in values):
+        raise misplaced(name)
+    return whole
+
+
+def misplaced(name: str) -> InputError:
+    """Error of a variable that is no parameter of its own."""
+    known = "key, api_key, access_token or token"
+    return input_error(name, 0, 0, f"has a variable that is not the whole of a parameter such as {known}")

@@ -1,0 +1,179 @@
+"""Fetches tiles of an area and puts them together; where one is missing, a coarser one stands in."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from firetwin_core import sensor
+from numpy.typing import NDArray
+
+from ...errors import InputError, input_error
+from ...progress import Progress, silent
+from ..sources import MissingError
+from ..sources._source import missing
+from ..sources.http import Http
+from .address import TileAddress
+
+Pixels = NDArray[np.uint8]
+_MOST_BYTES = 16 << 20  # of a tile
+_SIDES = (128, 256, 512, 1024)
+_KINDS = (b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff")
+_PATIENCE = 16  # tiles in a row of which nothing was there
+
+
+@dataclass(frozen=True)
+class Patch:
+    """Tiles of one level, columns and rows from first to last + 1; columns may pass the date line."""
+
+    level: int
+    columns: tuple[int, int]
+    rows: tuple[int, int]
+
+    def tiles(self) -> Iterator[tuple[int, int]]:
+        """Column and row of each tile."""
+        return ((x, y) for y in range(*self.rows) for x in range(*self.columns))
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Tiles across and down."""
+        return self.columns[1] - self.columns[0], self.rows[1] - self.rows[0]
+
+
+class TileServer:
+    """Tiles of a server as pixels; each is asked for once.
+
+    Attributes
+    ----------
+    side
+        Pixels along a tile; those of the first that was read.
+    missing
+        Name and reason of what could not be had, by level, column and row.
+    """
+
+    def __init__(self, source: Http, address: TileAddress) -> None:
+        self.source, self.address = source, address
+        self.side = 0
+        self.missing: dict[tuple[int, int, int], tuple[str, str]] = {}
+        self._known: dict[tuple[int, int, int], Pixels | None] = {}
+        self._in_vain = 0
+
+    def stitched(self, patch: Patch, progress: Progress = silent) -> Pixels:
+        """A patch as one picture (h, w, 4), north up; transparent where nothing is.
+
+        Raises
+        ------
+        InputError
+            The server does not go on, or has nothing at all.
+        """
+        self.fetch_ahead(patch, progress)
+        found = {tile: self.best(patch.level, *tile) for tile in patch.tiles()}
+        if not self.side:
+            raise self._nothing()
+        height, width = (count * self.side for count in patch.size[::-1])
+        whole = np.zeros((height, width, 4), np.uint8)
+        for (x, y), pixels in found.items():
+            left, top = (x - patch.columns[0]) * self.side, (y - patch.rows[0]) * self.side
+            if pixels is not None:
+                whole[top : top + self.side, left : left + self.side] = pixels
+        return whole
+
+    def fetch_ahead(self, patch: Patch, progress: Progress = silent) -> None:
+        """Ask for a patch's tiles, several at once."""
+        every = [tile for tile in patch.tiles() if self._key(patch.level, *tile) not in self._known]
+        with ThreadPoolExecutor(self.source.parallel) as pool:
+            for first in range(0, len(every), self.source.parallel):
+                part = every[first : first + self.source.parallel]
+                bodies = pool.map(lambda tile: self._body(patch.level, *tile), part)
+                for (x, y), body in zip(part, bodies, strict=True):
+                    self._keep(self._key(patch.level, x, y), body)
+                progress(first + len(part), len(every), "tiles of the orthophoto")
+
+    def best(self, level: int, column: int, row: int) -> Pixels | None:
+        """A tile, else the part of the next coarser one that is there, enlarged; None without any."""
+        found = self.tile(level, column, row)
+        for up in range(1, level - self.address.lowest + 1):
+            if found is not None:
+                break
+            coarse = self.tile(level - up, column >> up, row >> up)
+            found = None if coarse is None else _part(coarse, up, column, row)
+        self._in_vain = 0 if found is not None else self._in_vain + 1
+        if self._in_vain == _PATIENCE and not self.side:
+            raise self._nothing()
+        return found
+
+    def tile(self, level: int, column: int, row: int) -> Pixels | None:
+        """Pixels of a tile (side, side, 4); None where it is missing."""
+        key = self._key(level, column, row)
+        if key not in self._known:
+            self._keep(key, self._body(*key))
+        return self._known[key]
+
+    def _nothing(self) -> InputError:
+        """Error of a server without any tile of the scene."""
+        name, reason = next(iter(self.missing.values()), ("the orthophoto", "has no tiles"))
+        return input_error(name, 0, 0, f"{reason}; the server has no tile of the scene")
+
+    def _key(self, level: int, column: int, row: int) -> tuple[int, int, int]:
+        return level, column % (1 << level), row
+
+    def _body(self, level: int, column: int, row: int) -> bytes | MissingError:
+        if not 0 <= row < 1 << level:
+            return missing(f"row {row} of level {level}", "lies outside of the Web Mercator map")
+        source = self.source
+        try:
+            return source.read(source.resolve(source.root, self.address.url(level, column, row)), _MOST_BYTES)
+        except MissingError as error:
+            return error
+
+    def _keep(self, key: tuple[int, int, int], body: bytes | MissingError) -> None:
+        name = self.source.name(self.source.resolve(self.source.root, self.address.url(*key)))
+        try:
+            if isinstance(body, MissingError):
+                raise body
+            pixels = decoded(body, name)
+            if self.side not in (0, len(pixels)):
+                raise missing(name, f"is {len(pixels)} pixels large, others {self.side}")
+        except MissingError as error:
+            self.missing[key], self._known[key] = (name, error.reason), None
+        else:
+            self.side, self._known[key] = len(pixels), pixels
+
+
+def decoded(body: bytes, name: str) -> Pixels:
+    """Pixels (side, side, 4) of a PNG or JPEG.
+
+    Raises
+    ------
+    MissingError
+        It is none, is damaged, or has another shape than tiles have.
+    """
+    if not body.startswith(_KINDS):
+        raise missing(name, "is no PNG or JPEG")
+    with tempfile.TemporaryDirectory(prefix="firetwin-") as folder:
+        path = Path(folder) / "tile"
+        path.write_bytes(body)
+        try:
+            read = sensor.read_image(path)
+        except InputError as error:
+            raise missing(name, error.reason) from None
+    height, width, bands = read.shape
+    if height != width or height not in _SIDES:
+        raise missing(name, f"is a picture of {width} x {height} pixels, and no tile")
+    colour = read[..., :3] if bands > 2 else np.repeat(read[..., :1], 3, axis=-1)
+    alpha = read[..., -1:] if bands in (2, 4) else np.ones((height, width, 1), np.float32)
+    return np.rint(255.0 * np.clip(np.concatenate([colour, alpha], axis=-1), 0.0, 1.0)).astype(np.uint8)
+
+
+def _part(coarse: Pixels, up: int, column: int, row: int) -> Pixels | None:
+    """Part of a tile `up` levels coarser that belongs to a finer one, each texel repeated."""
+    side, count = len(coarse), 1 << up
+    at = (np.arange(side) + 0.5) / side
+    rows, columns = (
+        np.minimum(((place % count + at) / count * side).astype(int), side - 1) for place in (row, column)
+    )
+    return coarse[np.ix_(rows, columns)]
