@@ -90,8 +90,7 @@ def read(path: Path) -> TileCut:
     try:
         about: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
         lists = {name: tuple(map(str, about[name])) for name in ("tiles", "credits", "missing", "logo")}
-        low, median, high = map(float, about["difference"] or [np.nan] * 3)
-        difference = (low, median, high) if about["difference"] else None
+        difference = about["difference"] and tuple(map(float, about["difference"]))
         numbers = {"error": float(about["error"]), "empty": int(about["empty"])}
         return TileCut(path.parent, path.stem, difference=difference, **numbers, **lists)
     except (OSError, ValueError, LookupError, TypeError) as error:
