@@ -280,6 +280,13 @@ def _parser() -> argparse.ArgumentParser:
         help="size of the cache after --prune, such as 500MB (20GB)",
     )
     cache.add_argument(
+        "--answers",
+        metavar="SIZE",
+        type=_size,
+        default=_size("4GB"),
+        help="size of what is kept of tile servers' answers after --prune (4GB)",
+    )
+    cache.add_argument(
         "--dry-run", action="store_true", help="list what --prune would remove; remove nothing"
     )
 
@@ -468,8 +475,9 @@ One point per frame: WGS84 degrees, metres above sea level (the datum of the run
 time in UTC. A drone with track = "FILE.gpx" follows the track. Flight planners and maps read it too."""
 
 CACHE = """\
-Lists each shot's volumes with size and last use, most recent first. --prune removes the least recently
-used volumes until the rest fits into --limit. Volumes leased by a bake or a render are kept."""
+Lists each shot's volumes and tiles with size and last use, most recent first, and then the user's answers of
+tile servers. --prune removes the least recently used until the rest fits into --limit, and answers into
+--answers. What a bake or a render uses is kept."""
 
 SCHEMA = """\
 Save it and name it in the first line of a scene file (`#:schema firetwin.json`). TOML editors then

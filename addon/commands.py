@@ -16,7 +16,7 @@ from .progress import Reporter, count, duration, result, say, size
 if TYPE_CHECKING:
     from firetwin_core.run import Run
 
-    from .jobs.cache import CachedVolumes
+    from .jobs.cache import Cached
     from .jobs.render import RenderResult
     from .jobs.tile_access import TileAccess
     from .places.command import Fire
@@ -323,26 +323,42 @@ def track(arguments: argparse.Namespace) -> None:
 
 
 def cache(arguments: argparse.Namespace) -> None:
-    """List cached smoke volumes, or remove the least recently used."""
+    """List cached smoke volumes and tiles, or remove the least recently used."""
     from .jobs import cache
 
     folders = cache.folders(arguments.places or [Path("cache")])
-    volumes = cache.by_last_use(folders)
+    kept = cache.by_last_use(folders)
     where = " and ".join(map(str, folders))
+    place, number, whole, used = cache.answers()
     if not arguments.prune:
-        _volumes(volumes)
-        say(f"{size(sum(each.bytes for each in volumes))} of smoke volumes in {where}")
+        _cached(kept)
+        if number:
+            result(
+                f"{place}  {size(whole)}  {count(number, 'answer')}, used {duration(time.time() - used)} ago"
+            )
+        say(f"{size(sum(each.bytes for each in kept))} of {_kinds(kept)} in {where}")
         return
-    gone = cache.prune(volumes, arguments.limit, arguments.dry_run)
-    _volumes(gone)
+    gone = cache.prune(kept, arguments.limit, arguments.dry_run)
+    _cached(gone)
     freed = sum(each.bytes for each in gone)
-    left = sum(volume.bytes for volume in volumes) - freed
+    left = sum(each.bytes for each in kept) - freed
     word = "would free" if arguments.dry_run else "freed"
-    say(f"{word} {size(freed)}; {size(left)} of smoke volumes stay in {where}")
+    say(f"{word} {size(freed)}; {size(left)} of {_kinds(kept)} stay in {where}")
+    if number:
+        stay = cache.prune_answers(arguments.answers, arguments.dry_run)
+        say(f"{word} {size(whole - stay)}; {size(stay)} of answers of tile servers stay in {place}")
 
 
-def _volumes(volumes: Iterable[CachedVolumes]) -> None:
-    for each in volumes:
+def _kinds(kept: Iterable[Cached]) -> str:
+    """What is in a cache."""
+    from .jobs.tile_cache import CachedTiles
+
+    some = any(isinstance(each, CachedTiles) for each in kept)
+    return "smoke volumes and tiles" if some else "smoke volumes"
+
+
+def _cached(kept: Iterable[Cached]) -> None:
+    for each in kept:
         ago = "in use" if each.in_use else f"used {duration(time.time() - each.used)} ago"
         result(f"{each.folder}  {size(each.bytes)}  {ago}")
 

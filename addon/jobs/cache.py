@@ -1,4 +1,4 @@
-"""Smoke cache job: lists cached smoke volumes and prunes them; needs no worker process."""
+"""Cache job: lists cached smoke volumes and tiles and prunes them; needs no worker process."""
 
 from __future__ import annotations
 
@@ -9,6 +9,12 @@ from ..errors import UsageError, writing
 from ..shot.settings import scene_file
 from ..smoke import cache
 from ..smoke.cache import CachedVolumes
+from ..tiles.sources import http_cache
+from ..tiles.sources.http_cache import HttpCache
+from . import tile_cache
+from .tile_cache import CachedTiles
+
+Cached = CachedVolumes | CachedTiles
 
 
 def folders(places: Iterable[Path]) -> list[Path]:
@@ -26,24 +32,46 @@ def folders(places: Iterable[Path]) -> list[Path]:
     return list(dict.fromkeys(place.absolute() for place in caches))
 
 
-def by_last_use(places: Iterable[Path]) -> list[CachedVolumes]:
-    """Volumes in these folders, most recently used first."""
-    return sorted(
-        (volume for place in places for volume in cache.list_volumes(place)), key=lambda volume: -volume.used
-    )
+def by_last_use(places: Iterable[Path]) -> list[Cached]:
+    """Smoke volumes and decoded tiles in these folders, most recently used first."""
+    found: list[Cached] = []
+    for place in places:
+        found += [*cache.list_volumes(place), *tile_cache.list_tiles(place)]
+    return sorted(found, key=lambda each: -each.used)
 
 
-def prune(volumes: list[CachedVolumes], limit: int, dry_run: bool = False) -> list[CachedVolumes]:
-    """Remove the least recently used volumes until at most `limit` bytes remain; returns those removed.
+def prune(kept: list[Cached], limit: int, dry_run: bool = False) -> list[Cached]:
+    """Remove the least recently used until at most `limit` bytes remain; returns what was removed.
 
-    Volumes in use are never removed. With `dry_run` nothing is removed; the result is the same.
+    What is in use is never removed. With `dry_run` nothing is removed; the result is the same.
     """
-    going = cache.beyond(volumes, limit)
+    going = cache.beyond(kept, limit)
     if dry_run:
         return going
     gone = []
     for each in going:
         with writing(each.folder):
-            if cache.remove(each):
+            if tile_cache.remove(each) if isinstance(each, CachedTiles) else cache.remove(each):
                 gone.append(each)
     return gone
+
+
+def answers() -> tuple[Path, int, int, float]:
+    """Folder of the user's answers of tile servers, their number and bytes, and when one was used last."""
+    kept = HttpCache(http_cache.folder())
+    try:
+        return (kept.place, *kept.content())
+    finally:
+        kept.close()
+
+
+def prune_answers(limit: int, dry_run: bool = False) -> int:
+    """Remove the least recently used answers of tile servers beyond `limit` bytes; returns the bytes left."""
+    place, _, total, _ = answers()
+    if dry_run or total <= limit:
+        return min(total, limit)
+    kept = HttpCache(place)
+    try:
+        return kept.prune(limit)
+    finally:
+        kept.close()

@@ -303,14 +303,17 @@ def _camera(
     from ..blender import devices
     from ..render import memory_estimate as expected
     from ..render import pictures, plan
-    from ..smoke import prefetch
+    from ..shot import tile_cut
+    from ..smoke import cache, prefetch
     from . import worker_scene
 
     for text in shot.warnings():
         tell(text)
     frames, done, most = frames_of(wanted), 0, 0
     drawn, hazy = plan.rendered(shot, wanted), smoky(shot, wanted)
+    tiled = [tile_cut.location(shot)] if shot.settings.tiles.sources else []
     with (
+        cache.in_use(*tiled),
         _solving(choice, shot, hazy, progress) as elsewhere,
         prefetch.smoke(shot, hazy, progress, tell, elsewhere) as ready,
     ):

@@ -7,6 +7,7 @@ reads arrays that were checked.
 from __future__ import annotations
 
 import hashlib
+import os
 import shutil
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -123,7 +124,10 @@ def _kept(shot: Shot, keep: bool) -> bool:
     cut = tile_cut.prepared(shot) if keep else None
     places = shot.settings.tiles.sources
     remote = all("://" in place and policies.of_place(place).may_work_offline for place in places)
-    return remote and cut is not None and cut.is_whole()
+    if not remote or cut is None or not cut.is_whole():
+        return False
+    os.utime(tile_cut.location(shot))  # when it was used last
+    return True
 
 
 def make(

@@ -9,6 +9,7 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Protocol, TypeVar
 
 from .. import files, leases
 from ..errors import Error, input_error, writing
@@ -17,6 +18,25 @@ IN_USE = 600.0  # s since the last heartbeat; also the age at which an unfinishe
 _HEARTBEAT = 60.0  # s between heartbeats
 _MAGIC = b" BDV\0\0\0\0"
 _OURS = re.compile(r"\.?((smoke|far|moment)_\d{6,}|state)(\.[0-9a-f]{12}\.part)?\.(vdb|npz)|state\.lock")
+
+
+class Cached(Protocol):
+    """What is kept together in a cache."""
+
+    @property
+    def bytes(self) -> int:
+        """Its size."""
+
+    @property
+    def used(self) -> float:
+        """Time of last use, s since 1970."""
+
+    @property
+    def in_use(self) -> bool:
+        """Whether it must stay."""
+
+
+_T = TypeVar("_T", bound=Cached)
 
 
 @dataclass(frozen=True)
@@ -43,7 +63,7 @@ def list_volumes(cache: Path) -> list[CachedVolumes]:
     return sorted(volumes, key=lambda volume: -volume.used)
 
 
-def beyond(volumes: list[CachedVolumes], limit: int) -> list[CachedVolumes]:
+def beyond(volumes: list[_T], limit: int) -> list[_T]:
     """Least recently used volumes to evict so that the rest takes at most `limit` bytes; never any in use."""
     left, going = limit - sum(volume.bytes for volume in volumes if volume.in_use), []
     for each in sorted((volume for volume in volumes if not volume.in_use), key=lambda each: -each.used):

@@ -144,6 +144,16 @@ def read(path: Path) -> Decoded:
     return found
 
 
+def pictures(path: Path) -> set[str]:
+    """Names of the pictures that a decoded tile's file names; none where it cannot be read."""
+    try:
+        with np.load(path, allow_pickle=False) as stored:
+            about: dict[str, Any] = json.loads(stored["about"].tobytes())
+        return {each["picture"] for each in about["materials"] if each.get("picture")}
+    except (OSError, ValueError, LookupError, TypeError, AttributeError, zipfile.BadZipFile):
+        return set()
+
+
 def _is_consistent(tile: Decoded) -> bool:
     """Whether every triangle names vertices and a material that exist."""
     count = len(tile.position)

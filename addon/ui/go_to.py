@@ -100,7 +100,9 @@ class FIRETWIN_OT_go(bpy.types.Operator):
             self.report({"INFO"}, f"Frame {scene.frame_current}, the nearest to {when:%d %b %Y %H:%M} UTC")
             return {"FINISHED"}
         if where is None:
-            self.report({"WARNING"}, f'"{escaped(text)}" is no known name and no place on the terrain')
+            why = place_names.refusal(scene.firetwin)
+            unknown = f'"{escaped(text)}" is no known name and no place on the terrain'
+            self.report({"WARNING"}, f"{unknown}. {why}" if why else unknown)
             return {"CANCELLED"}
         shown = space(context)
         if shown is not None:

@@ -11,11 +11,29 @@ from ..errors import Error
 from ..places import store
 from ..places.records import Station
 from ..run import labels
-from . import run
+from ..shot.settings.schema import fields
+from ..shot.settings.settings import TileSettings
+from ..tiles import policies
+from . import run, sections
+
+
+def refusal(panel: bpy.types.PropertyGroup) -> str:
+    """Why place names must not be searched beside the panel's tiles; empty: they may."""
+    parts = tuple(part for part in fields(TileSettings) if part.name == "sources")
+    for place in sections.take(panel.tiles, parts, TileSettings()).sources:
+        policy = policies.of_place(place)
+        if not policy.other_geocoder:
+            return f"{policy.name} allows no other gazetteer than its own; coordinates work"
+    return ""
 
 
 def known(panel: bpy.types.PropertyGroup) -> tuple[labels.Label, ...]:
-    """All place names; empty if the user's list cannot be read, which building the labels reports."""
+    """All place names; empty if the user's list cannot be read, which building the labels reports.
+
+    Also empty where a policy of tiles forbids the search (see `refusal`).
+    """
+    if refusal(panel):
+        return ()
     if not panel.labels.file:
         places = run.read(panel.facts).get("places", ()) if panel.facts else ()
         return tuple(labels.Label(*each) for each in places)

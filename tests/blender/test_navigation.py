@@ -13,7 +13,9 @@ from firetwin.shot import places
 from firetwin.shot.cameras import rigs, targets
 from firetwin.shot.cameras.lenses import LENSES
 from firetwin.shot.cameras.rigs.poses import Poses
-from firetwin.ui import camera_list, camera_targets, choice, go_to, landmarks, navigation
+from firetwin.shot.settings import schema
+from firetwin.shot.settings.settings import TileSettings
+from firetwin.ui import camera_list, camera_targets, choice, go_to, keys, landmarks, navigation, place_names
 from mathutils import Euler, Matrix, Vector
 
 EYE = Matrix.Translation((-500.0, -2500.0, 2400.0)) @ Euler((1.2, 0.0, -0.2)).to_matrix().to_4x4()
@@ -182,6 +184,22 @@ def test_one_goes_to_places_names_and_moments(panel):
     assert bpy.ops.firetwin.go(text="run begins") == {"FINISHED"}  # a dated moment of the run
     assert scene.frame_current == 1
     assert bpy.ops.firetwin.go(text="nowhere at all") == {"CANCELLED"}
+
+
+def test_terms_of_tiles_may_forbid_other_gazetteers(panel, tmp_path):
+    """Coordinates and what the run itself names are no search of a gazetteer."""
+    (tmp_path / "places.csv").write_text("name,latitude,longitude\nStation 61,38.84,-120.55\n")
+    panel.labels.file = str(tmp_path / "places.csv")
+    scene = bpy.context.scene
+    assert go_to.place(scene, "station 61") is not None
+    (part,) = (each for each in schema.fields(TileSettings) if each.name == "sources")
+    keys.put(panel.tiles, part, ("https://tile.googleapis.com/v1/3dtiles/root.json",))
+    assert place_names.known(panel) == ()
+    assert go_to.place(scene, "station 61") is None
+    assert go_to.place(scene, "38.84 -120.55") is not None
+    assert "Google Photorealistic 3D Tiles allows no other gazetteer" in place_names.refusal(panel)
+    keys.put(panel.tiles, part, ("https://tiles.example/tileset.json",))
+    assert place_names.refusal(panel) == ""
 
 
 def test_head_ignition_and_stations_are_gone_to(panel, tmp_path):

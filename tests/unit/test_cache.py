@@ -6,8 +6,15 @@ import time
 import pytest
 from firetwin import cli
 from firetwin.smoke import cache
+from firetwin.tiles.sources import http_cache
 
 HOUR = 3600.0
+
+
+@pytest.fixture(autouse=True)
+def no_answers(tmp_path, monkeypatch):
+    """The user's own answers of tile servers are left alone."""
+    monkeypatch.setattr(http_cache, "folder", lambda: tmp_path / "user")
 
 
 @pytest.fixture

@@ -134,6 +134,14 @@ class HttpCache:
         most = self.limit if limit is None else limit
         return self._try(lambda data: self._prune(data, most), 0)
 
+    def content(self) -> tuple[int, int, float]:
+        """Number of answers, their bytes, and when one was used last (s since 1970)."""
+        query = "SELECT COUNT(*), COALESCE(SUM(length), 0), COALESCE(MAX(used), 0) FROM answer"
+        if not (self.place / "answers.db").exists():
+            return 0, 0, 0.0
+        number, total, used = self._try(lambda data: data.one(query), None) or (0, 0, 0.0)
+        return int(number), int(total), float(used)
+
     def close(self) -> None:
         """Let go of this thread's database."""
         data = getattr(self._own, "data", None)

@@ -1,0 +1,73 @@
+"""Blender's permission to use the network: asked before anything else, and named where it is missing."""
+
+import tomllib
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+from firetwin import cli
+from firetwin.errors import InputError
+from firetwin.jobs import tile_access
+from firetwin.jobs.tile_access import TileAccess
+from firetwin.tiles.sources import open_source
+from lying_server import serving
+
+MANIFEST = Path(tile_access.__file__).parents[1] / "blender_manifest.toml"
+
+
+@pytest.fixture
+def blender(monkeypatch):
+    """Let this process be Blender with its window, online or not."""
+
+    def make(online):
+        app = SimpleNamespace(module=False, online_access=online)
+        monkeypatch.setitem(tile_access.sys.modules, "bpy", SimpleNamespace(app=app))
+
+    return make
+
+
+def test_access_goes_to_another_process_and_back():
+    access = TileAccess(strict=True, online=False, hosts=("a.example", "b.example"), private=True)
+    assert tile_access.from_plain(access.plain()) == access
+    network = access.network()
+    assert (network.online, network.hosts, network.private) == (False, ("a.example", "b.example"), True)
+
+
+def test_blender_is_asked_and_the_preference_is_named(blender, capsys):
+    blender(True)
+    assert tile_access.permitted(TileAccess()) == TileAccess()
+    blender(False)
+    access = tile_access.permitted(TileAccess(strict=True))
+    assert (access.strict, access.online, access.setting) == (True, False, tile_access.PREFERENCE)
+    with serving() as server:
+        source = open_source(f"{server.url}/tileset.json", access.network())
+        with pytest.raises(InputError, match="System > Network > Allow Online Access"):
+            source.read(source.root)
+        source.close()
+        assert cli.main(["tiles", "info", f"{server.url}/tileset.json"]) == 1
+        assert server.asked == []
+    assert "Allow Online Access" in capsys.readouterr().err
+
+
+def test_files_of_this_machine_need_no_permission(blender, tmp_path, capsys):
+    blender(False)
+    (tmp_path / "tileset.json").write_text(
+        '{"asset": {"version": "1.1"}, "geometricError": 1, "root": {"geometricError": 0, "refine": "ADD", '
+        '"boundingVolume": {"sphere": [0, 0, 0, 1]}}}'
+    )
+    assert cli.main(["tiles", "info", str(tmp_path)]) == 0
+
+
+def test_python_without_blenders_window_has_no_such_preference(monkeypatch):
+    monkeypatch.delitem(tile_access.sys.modules, "bpy", raising=False)
+    assert tile_access.is_online()
+    app = SimpleNamespace(module=True, online_access=False)
+    monkeypatch.setitem(tile_access.sys.modules, "bpy", SimpleNamespace(app=app))
+    assert tile_access.is_online()
+
+
+def test_the_extension_says_what_it_uses_the_network_for():
+    """Blender shows it: a short reason, without a full stop."""
+    said = tomllib.loads(MANIFEST.read_text(encoding="utf-8"))["permissions"]
+    assert set(said) == {"files", "network"}
+    assert all(len(text) <= 64 and text[-1] != "." for text in said.values())
