@@ -1,9 +1,10 @@
-"""Lengths on the WGS84 ellipsoid."""
+"""Lengths on the WGS84 ellipsoid, and places and directions in Earth-centred axes."""
 
 from __future__ import annotations
 
 import numpy as np
 from firetwin_core import constants
+from numpy.typing import NDArray
 
 A, E2 = constants.SEMI_MAJOR_AXIS, constants.ECCENTRICITY_SQUARED
 
@@ -14,3 +15,24 @@ def metres_per_degree(latitude: float) -> tuple[float, float]:
     w = np.sqrt(1.0 - E2 * sine * sine)
     degree = np.pi / 180.0
     return A * (1.0 - E2) / w**3 * degree, A / w * np.cos(np.radians(latitude)) * degree
+
+
+def enu_axes(latitude: NDArray[np.float64], longitude: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n, 3, 3) directions of east, north and up as rows, at places in radians."""
+    sp, cp, sl, cl = np.sin(latitude), np.cos(latitude), np.sin(longitude), np.cos(longitude)
+    zero = np.zeros_like(sp)
+    rows = [[-sl, cl, zero], [-sp * cl, -sp * sl, cp], [cp * cl, cp * sl, sp]]
+    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+
+
+def ecef(
+    latitude: NDArray[np.float64], longitude: NDArray[np.float64], height: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Earth-centred places (n, 3), m, of latitudes and longitudes in radians and heights above WGS84, m."""
+    sine, cosine = np.sin(latitude), np.cos(latitude)
+    normal = A / np.sqrt(1.0 - E2 * sine * sine)
+    across = (normal + height) * cosine
+    return np.stack(
+        [across * np.cos(longitude), across * np.sin(longitude), (normal * (1.0 - E2) + height) * sine],
+        axis=-1,
+    )

@@ -224,8 +224,13 @@ class Shot:
     def ground(self) -> Terrain:
         """Terrain with added detail near the cameras' paths."""
         rough = self._paths(self.bare_ground) if self.full is self else self.paths
-        near = [view.position[self.filmed(view)] for view in rough if view.perspective]
-        return self.bare_ground.seen_from(path.eyes(near, self.settings.terrain.near_radius))
+        radius = self.settings.terrain.near_radius
+        near = [
+            path.near_terrain(view, view.position[self.filmed(view)], self.bare_ground, radius)
+            for view in rough
+            if view.perspective
+        ]
+        return self.bare_ground.seen_from(path.eyes(near, radius))
 
     @cached_property
     def paths(self) -> list[Path]:
@@ -251,6 +256,11 @@ class Shot:
     def perspective_paths(self) -> list[Path]:
         """Paths of the perspective cameras, the only ones that objects can be close to."""
         return [view for view in self.paths if view.perspective]
+
+    @property
+    def beyond(self) -> bool:
+        """Whether a camera sees the Earth beyond the terrain."""
+        return any(view.beyond for view in self.paths)
 
     @cached_property
     def visibility(self) -> Visibility:

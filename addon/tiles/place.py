@@ -6,7 +6,7 @@ import numpy as np
 from firetwin_core import geo
 from numpy.typing import NDArray
 
-from .volumes import ecef, enu_axes
+from ..ellipsoid import ecef, enu_axes
 
 
 def ecef_to_frame(

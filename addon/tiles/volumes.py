@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..ellipsoid import E2, A
+from ..ellipsoid import ecef, enu_axes
 from .json_text import Node
 
 _SQUARE = 1e-14  # cosine of the angle between edges at right angles
@@ -149,27 +149,6 @@ def of_regions(numbers: NDArray[np.float64]) -> Volumes:
     least[wide, 2] = -most[wide, 2]  # up, of the frame on the equator: also behind the Earth
     centre = np.einsum("nki,nk->ni", axis, 0.5 * (least + most))
     return Volumes(centre, axis, 0.5 * (most - least), np.zeros(len(numbers)))
-
-
-def enu_axes(latitude: NDArray[np.float64], longitude: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n, 3, 3) directions of east, north and up as rows, at places in radians."""
-    sp, cp, sl, cl = np.sin(latitude), np.cos(latitude), np.sin(longitude), np.cos(longitude)
-    zero = np.zeros_like(sp)
-    rows = [[-sl, cl, zero], [-sp * cl, -sp * sl, cp], [cp * cl, cp * sl, sp]]
-    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
-
-
-def ecef(
-    latitude: NDArray[np.float64], longitude: NDArray[np.float64], height: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Earth-centred places (n, 3), m, of latitudes and longitudes in radians and heights above WGS84, m."""
-    sine, cosine = np.sin(latitude), np.cos(latitude)
-    normal = A / np.sqrt(1.0 - E2 * sine * sine)
-    across = (normal + height) * cosine
-    return np.stack(
-        [across * np.cos(longitude), across * np.sin(longitude), (normal * (1.0 - E2) + height) * sine],
-        axis=-1,
-    )
 
 
 KINDS = {"box": 12, "sphere": 4, "region": 6}

@@ -7,10 +7,10 @@ import struct
 import numpy as np
 import pyproj
 import pytest
+from firetwin.ellipsoid import ecef, enu_axes
 from firetwin.errors import InputError
 from firetwin.tiles import buildings
 from firetwin.tiles.make import building_mesh, glb, lattice, terrain_tile, tileset
-from firetwin.tiles.volumes import ecef, enu_axes
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from firetwin import ellipsoid
 from firetwin.tiles import place, volumes
 from firetwin_core import geo
 from pyproj import Transformer
@@ -40,8 +41,8 @@ def test_boxes_of_tiles_with_transforms_keep_4_mm():
     frame = geo.LocalFrame(*ORIGIN)
     for lat, lon, height in corners()[::29]:
         there = np.eye(4)
-        there[:3, :3] = volumes.enu_axes(np.radians(lat), np.radians(lon)).T
-        there[:3, 3] = volumes.ecef(*np.radians([lat, lon]), np.float64(height))
+        there[:3, :3] = ellipsoid.enu_axes(np.radians(lat), np.radians(lon)).T
+        there[:3, 3] = ellipsoid.ecef(*np.radians([lat, lon]), np.float64(height))
         product = place.ecef_to_frame(frame) @ there
         local = np.array([[50.0, -50.0, 20.0]])
         made = volumes.of_boxes(np.array([[0, 0, 0, 50, 0, 0, 0, 50, 0, 0, 0, 20.0]]))
@@ -56,7 +57,7 @@ def test_boxes_of_tiles_with_transforms_keep_4_mm():
 def test_ecef_is_geographiclibs():
     frame = geo.LocalFrame(0.0, 0.0, 0.0)  # up is x, east y, north z
     lat, lon, height = corners().T
-    x, y, z = volumes.ecef(np.radians(lat), np.radians(lon), height).T
+    x, y, z = ellipsoid.ecef(np.radians(lat), np.radians(lon), height).T
     expected = frame.forward(lat, lon, height)
     np.testing.assert_allclose(np.column_stack([y, z, x - 6378137.0]), expected, atol=1e-7)
 
@@ -65,5 +66,5 @@ def test_ecef_is_geographiclibs():
 def test_a_scene_of_orthometric_heights_shows_tiles_below_the_geoids_height(undulation):
     frame = geo.LocalFrame(*ORIGIN)
     matrix = place.ecef_to_frame(frame, undulation)
-    there = volumes.ecef(np.radians(ORIGIN[0]), np.radians(ORIGIN[1]), np.float64(100.0))
+    there = ellipsoid.ecef(np.radians(ORIGIN[0]), np.radians(ORIGIN[1]), np.float64(100.0))
     np.testing.assert_allclose((matrix @ [*there, 1.0])[:3], [0, 0, 100.0 - undulation], atol=1e-8)

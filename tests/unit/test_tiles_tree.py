@@ -6,6 +6,7 @@ import time
 
 import numpy as np
 import pytest
+from firetwin import ellipsoid
 from firetwin.errors import InputError
 from firetwin.tiles import explicit, json_text, metadata, tree, volumes
 from firetwin.tiles.loader import Loader
@@ -286,7 +287,7 @@ def test_a_box_holds_its_region_and_is_hardly_larger(region):
     width = (east - west) % (2 * math.pi) or (2 * math.pi if east > west else 0.0)
     grid = np.meshgrid(np.linspace(0, width, 41), np.linspace(south, north, 41), [low, high])
     lon, lat, height = (each.ravel() for each in grid)
-    places = volumes.ecef(lat, west + lon, height)
+    places = ellipsoid.ecef(lat, west + lon, height)
     assert inside(made, places) < 1e-6
     along = (places - made.centre[0]) @ made.axis[0].T
     if width <= math.pi:

@@ -20,6 +20,7 @@ from . import edit_detection, read_edits
 # Tolerance of the fit between keyframes, in pixels: of rotation, zoom, and parallax of the nearest ground.
 _PIXELS = 0.05
 _LEAST = 0.005  # m, tolerance of a camera's position in any case
+_CLIPS, _CLIPPED = ("clip_start", "clip_end"), 0.01  # properties, and tolerance as a part of the least value
 
 
 def build(shot: Shot, stage: Stage) -> list[bpy.types.Object]:
@@ -55,11 +56,21 @@ def _camera(
     data = bpy.data.cameras.new(f"{owned.ROOT} {name}") if obj is None else obj.data
     if obj is None:
         obj = owned.add(collection, name, data, what=f"camera {view.camera.name}")
-    data.clip_start, data.clip_end = clip(view, shot.ground)
+    _clip(data, view, shot)
     if not read_edits.rigged(obj):
         _set(view, shot, obj)
     edit_detection.remember(obj)
     return obj
+
+
+def _clip(data: bpy.types.Camera, view: Path, shot: Shot) -> None:
+    """Set the clip planes, and animate those that change."""
+    compat.remove_fcurves(data, _CLIPS)
+    if view.clips is None:
+        data.clip_start, data.clip_end = clip(view, shot.ground)
+        return
+    for what, values in zip(_CLIPS, view.clips.T, strict=True):
+        _animate(data, what, values[:, None], _CLIPPED * float(values.min()))
 
 
 def _see_around(data: bpy.types.Camera, apart: float) -> None:

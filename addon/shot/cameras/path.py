@@ -56,6 +56,10 @@ class Path:
         Whether it is a panorama of all directions. `half` is then half of its angles, radians.
     apart
         Eye separation, m. The eyes are right and left of `position` in each direction of view.
+    clips
+        (frames, 2) near and far clip planes, m; None: those of `clip` in all frames.
+    beyond
+        Whether it sees the Earth beyond the terrain, which is built then.
     width
         Picture width (of one eye), pixels; the shot fills it in.
     """
@@ -72,6 +76,8 @@ class Path:
     meet: float = 0.0
     around: bool = False
     apart: float = 0.0
+    clips: Array | None = None
+    beyond: bool = False
     width: int = 0
 
     @property
@@ -105,6 +111,14 @@ def eyes(ways: list[Array], radius: float) -> Array:
                 samples.append(place)
                 last = place
     return np.array(samples).reshape(-1, 3)
+
+
+def near_terrain(view: Path, position: Array, ground: Terrain, radius: float) -> Array:
+    """Places (n, 3) of a camera that may be within `radius` (m) of terrain; all of a camera on Earth."""
+    if not view.beyond:
+        return position
+    most = float(ground.fields.elevation.max()) + radius
+    return position[ground.frame.reverse(position)[2] < most]
 
 
 def smooth(at: Array, values: Array, moments: Array) -> Array:

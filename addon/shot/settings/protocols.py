@@ -105,6 +105,10 @@ class ShotView(Protocol):
         """Paths of the perspective cameras."""
 
     @property
+    def beyond(self) -> bool:
+        """Whether a camera sees the Earth beyond the terrain."""
+
+    @property
     def pixel(self) -> tuple[float, float]:
         """Smallest pixel size: m per m of distance in perspective, and m in orthographic views."""
 

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ...ellipsoid import ecef
 from ..buildings import Building, triangles
-from ..volumes import ecef
 from .glb import Mesh
 
 Array = NDArray[np.float64]

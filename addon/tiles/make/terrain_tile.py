@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ... import ellipsoid
-from ..volumes import ecef, enu_axes
+from ...ellipsoid import ecef, enu_axes
 from .glb import Mesh
 from .lattice import Lattice
 
