@@ -194,9 +194,9 @@ Times of stays and flights are shares of the whole film. It comes from the side 
 still, and flies on with an eased start and end, above the terrain.
 
 A `globe` flies from space to a place: along the geodesic, with equal speed on the screen from 2,000 km down
-(van Wijk and Nuij 2003). It begins straight down and ends as a `tour` stands at its stop, with a level horizon
-all the way. Places are computed in double precision in the scene's axes, so the Earth's curvature is in them.
-Clip planes follow the height, frame by frame.
+(van Wijk and Nuij 2003). It starts with a view straight down and ends as a `tour` stands at its stop, with a
+level horizon all the way. Places are computed in double precision in the scene's axes, so the Earth's
+curvature is in them. Clip planes follow the height, frame by frame.
 
 `vr` needs Cycles. The left eye's equirectangular picture lies above the right one's. Stills say so in XMP
 (GPano), films in `st3d` and `sv3d`. A `satellite` looks straight down and to scale from above all smoke, or
