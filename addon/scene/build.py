@@ -115,6 +115,8 @@ def _terrain(shot: Shot, stage: owned.Stage, grown: stand.Stand | None, shape: g
     ground.build(shot, stage, grown, shape)
     if cut := tile_cut.of_shot(shot):
         tiles.build(shot, stage, cut, grown)
+    else:
+        tiles.remove(stage)
 
 
 def _grown_and_shaped(shot: Shot) -> tuple[stand.Stand, ground.Shape]:

@@ -76,6 +76,11 @@ class Decoded:
     materials: tuple[Material, ...]
     credit: str
 
+    @property
+    def pictures(self) -> list[str]:
+        """Files of its pictures, each once."""
+        return list(dict.fromkeys(each.picture for each in self.materials if each.picture))
+
 
 def write(tile: tiles.Tile, path: Path, resources: dict[str, bytes]) -> None:
     """Write a decoded tile to `path`, and its pictures beside it.

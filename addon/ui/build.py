@@ -105,7 +105,7 @@ class FIRETWIN_OT_solve(Working, bpy.types.Operator):
 
 def steps(context: bpy.types.Context, part: str) -> Steps:
     """Build a part of the scene, or all of it."""
-    from ..jobs import bake, drape
+    from ..jobs import bake, drape, tiles
     from ..scene import build
 
     uid, settings = context.scene.session_uid, context.scene.firetwin
@@ -116,6 +116,7 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     settings = owned.scene(uid).firetwin
     then = changed_settings.digests(settings)
     chosen, smoke = choice.from_panel(settings), settings.bake_smoke and "smoke" in parts
+    yield InThread("tiles", functools.partial(tiles.prepare, chosen))
     shot, moving = yield InThread("reading the run", lambda **_: _read(chosen, part == ALL))
     if smoke and shot.settings.smoke.enabled:
         yield InThread("smoke", functools.partial(bake.run, chosen, together=True))

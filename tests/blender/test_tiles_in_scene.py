@@ -1,55 +1,23 @@
 """3-D Tiles in the scene: made of the run's own ground, chosen, decoded, and built in its place."""
 
 import json
-import re
-from dataclasses import asdict, replace
+from dataclasses import replace
 
-import bpy
 import numpy as np
 import pytest
-from firetwin.blender import nodes
 from firetwin.errors import InputError, UsageError
 from firetwin.imaging.credits import Credits
-from firetwin.jobs import decode_tiles, make_tiles, tiles
+from firetwin.jobs import make_tiles, tiles
 from firetwin.render import credits, fingerprint
 from firetwin.scene.terrain import build as ground_build
-from firetwin.scene.terrain import material
 from firetwin.scene.tiles import build as tiles_build
-from firetwin.scene.tiles import pictures
+from firetwin.scene.tiles import mesh
 from firetwin.shot import passes, tile_cut
 from firetwin.tiles import geoid
 from firetwin.tiles.volumes import ecef
+from tiles_scene import *  # noqa: F403
 
-
-@pytest.fixture(autouse=True)
-def plain_tiles(monkeypatch):
-    """Tiles get a material of one colour: the ground's own is slow to make."""
-
-    def build(shot, stage, images, photos=(), maps=None, skin=""):
-        made, tree = nodes.material(skin or "Firetwin Ground")
-        colour = tree.input(material.TILE_COLOUR, (1.0, 1.0, 1.0), "Colour")
-        tree.surface(tree.output("ShaderNodeBsdfDiffuse", {"Color": colour}))
-        return made
-
-    monkeypatch.setattr(material, "build", build)
-
-
-@pytest.fixture
-def tiled(shot, tmp_path, monkeypatch):
-    """A shot on tiles of its own ground, prepared within this process."""
-
-    def decode(contents, progress):
-        return decode_tiles.in_process([asdict(each) for each in contents], progress, print)
-
-    monkeypatch.setattr(decode_tiles, "_limit", lambda: None)
-    monkeypatch.setattr(decode_tiles, "run", decode)
-    make_tiles.run(shot, make_tiles.TilesRequest(tmp_path / "set", credit="Somebody", geoid=-24.9))
-    known = replace(shot.settings.tiles, sources=(str(tmp_path / "set"),), error=2.0, geoid=-24.9)
-    found = shot._with_settings(replace(shot.settings, tiles=known, cache=tmp_path / "cache"))
-    told = tiles.make(found)
-    assert told[0] == "credits of tiles, which pictures show: Somebody"
-    assert re.fullmatch(r"the tiles' ground is 0\.0 m above .* 90 % of places\)", told[1])
-    return found
+pytestmark = pytest.mark.usefixtures("plain_tiles")
 
 
 def test_tiles_stand_in_place_of_the_ground(tiled, stage, shot):
@@ -62,7 +30,7 @@ def test_tiles_stand_in_place_of_the_ground(tiled, stage, shot):
     assert len(built) == len(cut.tiles) > 0
     assert len(left.polygons) < before
     data = built[0].data
-    assert {"elevation", "grid", tiles_build.COLOUR, tiles_build.UV} <= set(data.attributes.keys())
+    assert {"elevation", "grid", mesh.COLOUR, mesh.UV} <= set(data.attributes.keys())
     names = [each.name for each in data.materials]
     assert names == ["Firetwin Tiles", "Firetwin Tiles 1"]
     found = data.materials[1].node_tree.nodes
@@ -122,15 +90,6 @@ def test_pictures_that_are_too_small_for_credits_are_refused(tiled):
         tiles.make(tiled._with_settings(small))
 
 
-def test_building_twice_makes_no_second_set(tiled, stage):
-    cut = tile_cut.of_shot(tiled)
-    counts = []
-    for _ in range(2):
-        tiles_build.build(tiled, stage, cut, None)
-        counts.append((len(stage.objects_of("Tiles")), len(bpy.data.meshes), len(bpy.data.images)))
-    assert counts[0] == counts[1]
-
-
 def test_tiles_that_were_not_prepared_are_an_error(tiled):
     moved = replace(tiled.settings.tiles, error=3.0)
     with pytest.raises(InputError, match="were not prepared"):
@@ -167,13 +126,3 @@ def test_a_geoid_that_is_left_out_is_found_or_an_error(tiled, monkeypatch):
         tiles.make(left_out)
     with pytest.raises(UsageError, match=r"--geoid: .*as a number"):
         make_tiles.run(tiled, make_tiles.TilesRequest(tiled.settings.cache / "x"))
-
-
-def test_pictures_have_parts_of_their_own():
-    names = [f"{k}.jpg" for k in range(1001)] + ["a.png", "0.jpg"]
-    slots = pictures.arrange(names)
-    assert len(set(slots.values())) == len(slots) == 1002
-    assert {slots["0.jpg"].image, slots["1000.jpg"].image, slots["a.png"].image} == {0, 1, 2}
-    uv = slots["13.jpg"].moved(np.array([[-0.2, 0.5], [1.0, 1.0]], np.float32))
-    assert np.allclose(uv, [[3.0, 1.5], [4.0, 2.0]], atol=1e-4)
-    assert (np.floor(uv) == [3.0, 1.0]).all()

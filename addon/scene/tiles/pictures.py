@@ -1,80 +1,74 @@
-"""Pictures of tiles as tiled images (UDIM), so that one material shows hundreds of files.
-
-Blender numbers the parts of a tiled image 1001 + u + 10 v, up to 2000, and asks for files of one name. A
-picture fills a part, and the tile's texture coordinates are moved there.
-"""
+"""Pictures of tiles as tiled images (UDIM): links of one name to files of the cache."""
 
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import os
 import shutil
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import bpy
-import numpy as np
-from numpy.typing import NDArray
 
 from ... import files
 from ...blender import owned
+from .reuse import MADE_OF, STATE
+from .slot import Slot
 
-PARTS = 1000
-"""Pictures in one image at most."""
 _FIRST = 1001
-_ROW = 10
-_INSET = 1.0e-5  # of a part; keeps coordinates at the edge of a picture inside of it
 
 
-@dataclass(frozen=True)
-class Slot:
-    """Where a picture is: the number of its image, and its part."""
+def load(
+    slots: Mapping[str, Slot], folder: Path, known: Sequence[bpy.types.Image] = ()
+) -> list[bpy.types.Image]:
+    """The images of all slots.
 
-    image: int
-    part: int
+    Their files are links, in a folder named by what is in them, to the pictures in `folder`.
 
-    def moved(self, uv: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Texture coordinates (n, 2) of the picture, clamped to it, as coordinates of the image."""
-        inside = np.clip(uv, _INSET, 1.0 - _INSET)
-        return (inside + np.array([self.part % _ROW, self.part // _ROW])).astype(np.float32)
-
-
-def arrange(pictures: Sequence[str]) -> dict[str, Slot]:
-    """Slots of pictures' files: one image holds files of one kind, `PARTS` at most."""
-    slots: dict[str, Slot] = {}
-    open_images: dict[str, tuple[int, int]] = {}
-    images = 0
-    for name in dict.fromkeys(pictures):
-        end = Path(name).suffix
-        image, part = open_images.get(end, (-1, PARTS))
-        if part == PARTS:
-            image, part, images = images, 0, images + 1
-        slots[name] = Slot(image, part)
-        open_images[end] = image, part + 1
-    return slots
-
-
-def load(slots: dict[str, Slot], folder: Path, name: str) -> list[bpy.types.Image]:
-    """The images of all slots; their files are links, in the folder `name`, to the pictures in `folder`."""
+    Parameters
+    ----------
+    known
+        Images of the last build, which are kept if they are the same.
+    """
     members: dict[int, dict[int, str]] = {}
     for picture, slot in slots.items():
         members.setdefault(slot.image, {})[slot.part] = picture
-    return [_load(number, members[number], folder, name) for number in sorted(members)]
+    return [_load(number, members[number], folder, known) for number in sorted(members)]
 
 
-def _load(number: int, parts: dict[int, str], folder: Path, name: str) -> bpy.types.Image:
+def _load(
+    number: int, parts: dict[int, str], folder: Path, known: Sequence[bpy.types.Image]
+) -> bpy.types.Image:
     end = Path(parts[0]).suffix
-    place = folder / name
-    place.mkdir(exist_ok=True)
+    made_of = hashlib.sha256(repr(sorted(parts.items())).encode()).hexdigest()[:32]
+    place = folder / "pictures" / made_of
+    place.mkdir(parents=True, exist_ok=True)
     for part, picture in parts.items():
-        _link(folder / picture, place / f"{number}.{_FIRST + part}{end}")
+        _link(folder / picture, place / f"{_FIRST + part}{end}")
+    path, numbers = str(place / f"<UDIM>{end}"), sorted(_FIRST + part for part in parts)
+    for image in known:
+        if image.get(MADE_OF) == made_of and image[STATE] == _state(image) and _at(image) == path:
+            return image
     image = bpy.data.images.new(f"Firetwin Tiles {number + 1}", 8, 8, tiled=True)
-    image.filepath = str(place / f"{number}.<UDIM>{end}")
+    image.filepath = path
     image.source = "TILED"
-    for part in range(1, len(parts)):
-        image.tiles.new(_FIRST + part)
+    for part in numbers[1:]:
+        image.tiles.new(part)
+    image[MADE_OF], image[STATE] = made_of, _state(image)
     return owned.mark(image)
+
+
+def _at(image: bpy.types.Image) -> str:
+    return bpy.path.abspath(image.filepath)
+
+
+def _state(image: bpy.types.Image) -> str:
+    """What an artist may change of an image, as text."""
+    numbers = sorted(part.number for part in image.tiles)
+    packed = bool(image.packed_files) or image.is_dirty
+    space = image.colorspace_settings.name, image.alpha_mode
+    return hashlib.sha256(repr((numbers, image.source, packed, space)).encode()).hexdigest()[:32]
 
 
 def _link(source: Path, path: Path) -> None:

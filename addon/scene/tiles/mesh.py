@@ -1,0 +1,64 @@
+"""Meshes of tiles: triangles with texture coordinates and colours, and the attributes of the ground."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...shot.shot import Shot
+from ...tiles.decoded import Decoded
+from ..terrain import fields
+from .slot import Slot
+
+COLOUR = "tile_colour"
+"""Linear colour of corners, multiplied with the picture."""
+UV = "tile_uv"
+
+
+def fill(data: bpy.types.Mesh, shot: Shot, tile: Decoded, slots: dict[str, Slot]) -> None:
+    """Write a tile into an empty mesh, with the attributes of the ground: `elevation` and `grid`."""
+    _shape(data, tile)
+    add_ground(data, shot, tile)
+    corners = tile.triangle.ravel()
+    index = np.repeat(tile.material_index, 3)
+    uv, colour = tile.uv[corners], np.ones((len(corners), 4), np.float32)
+    if len(tile.colour):
+        colour = tile.colour[corners].copy()
+    image = np.full(len(tile.materials), -1)
+    for number, each in enumerate(tile.materials):
+        mine = index == number
+        colour[mine] *= np.asarray(each.colour, np.float32)
+        if slot := slots.get(each.picture):
+            uv[mine], image[number] = slot.moved(uv[mine]), slot.image
+    layer = data.uv_layers.new(name=UV)
+    layer.data.foreach_set("uv", np.ascontiguousarray(uv).ravel())
+    data.attributes.new(COLOUR, "FLOAT_COLOR", "CORNER").data.foreach_set("color", colour.ravel())
+    data.polygons.foreach_set("material_index", (image[tile.material_index] + 1).astype(np.int32))
+
+
+def add_ground(data: bpy.types.Mesh, shot: Shot, tile: Decoded) -> None:
+    """Write what the ground's material reads at each vertex: `elevation` and `grid`."""
+    ground = shot.ground
+    latitude, longitude, height = ground.frame.reverse(tile.position.astype(np.float64) + tile.origin)
+    row, column = ground.indices(latitude, longitude)
+    add(data, "elevation", "FLOAT", height)
+    add(data, fields.GRID, "FLOAT_VECTOR", fields.place(ground.shape, row, column, ground.fields.margin))
+
+
+def add(data: bpy.types.Mesh, name: str, kind: str, values: NDArray) -> None:
+    """Write an attribute of the vertices."""
+    key = {"FLOAT": "value", "FLOAT_VECTOR": "vector", "FLOAT_COLOR": "color"}[kind]
+    data.attributes.new(name, kind, "POINT").data.foreach_set(key, np.asarray(values, np.float32).ravel())
+
+
+def _shape(data: bpy.types.Mesh, tile: Decoded) -> None:
+    """Vertices, triangles and normals; arrays only, so that a tile costs the same in any scene."""
+    data.vertices.add(len(tile.position))
+    data.attributes["position"].data.foreach_set("vector", np.ascontiguousarray(tile.position).ravel())
+    data.loops.add(tile.triangle.size)
+    data.attributes[".corner_vert"].data.foreach_set("value", tile.triangle.ravel())
+    data.polygons.add(len(tile.triangle))
+    data.polygons.foreach_set("loop_start", np.arange(0, tile.triangle.size, 3, dtype=np.int32))
+    data.update(calc_edges=True)
+    data.normals_split_custom_set_from_vertices(tile.normal)

@@ -1,0 +1,108 @@
+"""What a rebuild keeps: data-blocks of the last build whose inputs are the same, and which nobody edited."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+import bpy
+import numpy as np
+
+from ...blender import owned, state
+from ...blender.owned import Stage
+from ...shot.shot import Shot
+from ...tiles.decoded import Decoded
+from .slot import Slot
+
+MADE_OF, STATE = "firetwin_made_of", "firetwin_state"
+"""Properties of a data-block: digests of its inputs, and of what was built of them."""
+TILE, SLOTS, ORIGIN = "firetwin_tile", "firetwin_slots", "firetwin_origin"
+"""Properties of a mesh: name of its decoded tile, slots of its pictures (JSON), place in the scene (m)."""
+
+
+@dataclass
+class Kept:
+    """Data-blocks of the last build that are still what they were.
+
+    Attributes
+    ----------
+    meshes
+        By the name of the decoded tile.
+    materials, images
+        In their order.
+    """
+
+    meshes: dict[str, bpy.types.Mesh] = field(default_factory=dict)
+    materials: list[bpy.types.Material] = field(default_factory=list)
+    images: list[bpy.types.Image] = field(default_factory=list)
+
+
+def find(stage: Stage, part: str, wanted: Sequence[str], made_of: str) -> Kept:
+    """What the last build of a part left.
+
+    Parameters
+    ----------
+    wanted
+        Names of decoded tiles.
+    made_of
+        Digest of what their meshes depend on besides (see `place_digest`).
+    """
+    kept, some = Kept(), set(wanted)
+    for obj in stage.objects_of(part):
+        data = obj.data
+        if not isinstance(data, bpy.types.Mesh) or not owned.ours(data) or TILE not in data:
+            continue
+        if not kept.materials and all(each is not None and MADE_OF in each for each in data.materials):
+            kept.materials = list(data.materials)
+        name = data[TILE]
+        same = name in some and name not in kept.meshes and data.get(MADE_OF) == made_of
+        if same and data.get(STATE) == state.of_mesh(data):
+            kept.meshes[name] = data
+    kept.images = [image for each in kept.materials for image in images(each)]
+    return kept
+
+
+def note(data: bpy.types.Mesh, name: str, made_of: str, tile: Decoded, slots: Mapping[str, Slot]) -> None:
+    """Write on a mesh what it was made of."""
+    mine = {picture: (slots[picture].image, slots[picture].part) for picture in tile.pictures}
+    data[TILE], data[MADE_OF], data[SLOTS] = name, made_of, json.dumps(mine)
+    data[ORIGIN] = tile.origin.tolist()
+    data[STATE] = state.of_mesh(data)
+
+
+def slots(data: bpy.types.Mesh) -> dict[str, Slot]:
+    """Slots of the pictures of a mesh."""
+    return {picture: Slot(*at) for picture, at in json.loads(data[SLOTS]).items()}
+
+
+def place_digest(shot: Shot) -> str:
+    """Digest of what `elevation` and `grid` of a place depend on: the scene's frame, and the run's grid."""
+    ground = shot.ground
+    frame, fields = ground.frame, ground.fields
+    digest = hashlib.sha256(repr((frame.latitude, frame.longitude, frame.height, fields.margin)).encode())
+    for axis in (fields.latitude, fields.longitude):
+        digest.update(np.ascontiguousarray(axis))
+    return digest.hexdigest()[:32]
+
+
+@contextmanager
+def held(kept: Kept) -> Iterator[None]:
+    """Context: these data-blocks outlive that their objects are removed."""
+    blocks = [*kept.meshes.values(), *kept.materials, *kept.images]
+    mine = [block for block in dict.fromkeys(blocks) if not block.use_fake_user]
+    for block in mine:
+        block.use_fake_user = True
+    try:
+        yield
+    finally:
+        for block in mine:
+            block.use_fake_user = False
+
+
+def images(material: bpy.types.Material) -> list[bpy.types.Image]:
+    """Images in the tree of a material of tiles."""
+    nodes = material.node_tree.nodes
+    return [node.image for node in nodes if node.type == "TEX_IMAGE" and node.image is not None]

@@ -1,0 +1,76 @@
+"""Places of tiles' pictures in tiled images (UDIM), so that one material shows hundreds of files.
+
+Blender numbers the parts of a tiled image 1001 + u + 10 v, up to 2000. A picture fills a part, and the tile's
+texture coordinates are moved there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+PARTS = 1000
+"""Pictures in one image at most."""
+_ROW = 10
+_INSET = 1.0e-5  # of a part; keeps coordinates at the edge of a picture inside of it
+
+
+@dataclass(frozen=True)
+class Slot:
+    """Where a picture is: the number of its image, and its part."""
+
+    image: int
+    part: int
+
+    def moved(self, uv: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Texture coordinates (n, 2) of the picture, clamped to it, as coordinates of the image."""
+        inside = np.clip(uv, _INSET, 1.0 - _INSET)
+        return (inside + np.array([self.part % _ROW, self.part // _ROW])).astype(np.float32)
+
+
+def arrange(pictures: Sequence[str], known: Mapping[str, Slot] | None = None) -> dict[str, Slot]:
+    """Slots of pictures' files: one image holds files of one kind, `PARTS` at most.
+
+    Parameters
+    ----------
+    known
+        Slots of the last build. What is in one stays there, so that its tile need not be built again; new
+        pictures fill the gaps. An image whose first part would be empty has its pictures arranged anew.
+    """
+    wanted = dict.fromkeys(pictures)
+    slots = {name: slot for name, slot in (known or {}).items() if name in wanted}
+    ends: dict[int, str] = {}
+    taken = set(slots.values())
+    for name, slot in slots.items():
+        fits = ends.setdefault(slot.image, Path(name).suffix) == Path(name).suffix
+        if not fits or len(taken) < len(slots):
+            return arrange(pictures)
+    free = {end: _gaps(taken, [image for image in ends if ends[image] == end]) for end in ends.values()}
+    images = max(ends, default=-1) + 1
+    for name in wanted:
+        if name in slots:
+            continue
+        end = Path(name).suffix
+        slot = next(free.get(end, iter(())), None)
+        if slot is None:
+            free[end] = _gaps(taken, [images])
+            slot, images = next(free[end]), images + 1
+        slots[name] = slot
+    return slots if _is_whole(slots.values()) else arrange(pictures)
+
+
+def _gaps(taken: set[Slot], images: list[int]) -> Iterator[Slot]:
+    """Free slots of some images."""
+    every = (Slot(image, part) for image in images for part in range(PARTS))
+    return (slot for slot in every if slot not in taken)
+
+
+def _is_whole(slots: Iterable[Slot]) -> bool:
+    """Whether images are numbered without gaps, and each has its first part."""
+    given = set(slots)
+    images = {slot.image for slot in given}
+    return images == set(range(len(images))) and all(Slot(image, 0) in given for image in images)

@@ -1,0 +1,111 @@
+"""A set of 3D tiles into the scene: seconds of choosing, fetching, decoding and building, and a second time.
+
+    python tests/benchmarks/tile_scene.py [--tiles 300] [--side 40] [--runs 3]
+
+The set has TILES tiles of 2 x SIDE x SIDE triangles with a JPEG picture of 256 pixels each, in a folder.
+Seconds are medians with their range, by the clock and of the processor, with all processes that were started.
+`tenth` and `last` are the filling of the tenth and of the last mesh: means over ten tiles there, in ms.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import resource
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
+
+import tile_grid
+from firetwin.blender import owned
+from firetwin.data import sample
+from firetwin.jobs import tiles
+from firetwin.run import readers
+from firetwin.scene.tiles import build, mesh
+from firetwin.shot import auto_framing, tile_cut
+from firetwin.shot.shot import Shot
+
+
+def shot_of(folder: Path, count: int, side: int) -> Shot:
+    """A shot of the sample run that shows every tile of a set in `folder`."""
+    sample.write(folder / "run", 3, "npy", lambda *_: None)
+    shown = auto_framing.fit_folder(folder / "run", Path("run"), Path("cache")).settings
+    shot = Shot(replace(shown, path=folder / "scene.toml", run=folder / "run"), readers.open(folder / "run"))
+    tile_grid.write(folder / "set", shot.ground.frame, count, side)
+    known = replace(shot.settings.tiles, sources=(str(folder / "set"),), error=0.1)
+    return Shot(replace(shot.settings, tiles=known, cache=folder / "cache"), shot.run)
+
+
+def seconds(function: Callable[[], Any]) -> tuple[float, float]:
+    """Seconds by the clock, and of the processor with ended children."""
+    began, before = time.perf_counter(), _processor()
+    function()
+    return time.perf_counter() - began, _processor() - before
+
+
+def _processor() -> float:
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(each.ru_utime + each.ru_stime for each in used)
+
+
+def measured(folder: Path, count: int, side: int) -> dict[str, Any]:
+    """Seconds of one preparation and building, and of a second time."""
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    shot, filled = shot_of(folder, count, side), []
+    _ = shot.visibility, shot.front
+    fill = mesh.fill
+
+    def timed(*given: Any) -> None:
+        began = time.process_time()
+        fill(*given)
+        filled.append(1e3 * (time.process_time() - began))
+
+    mesh.fill = timed
+    stage = owned.adopt(bpy.context.scene)
+    found: dict[str, Any] = {}
+    for turn in ("first", "second"):
+        found[f"{turn} prepare"] = seconds(lambda: tiles.make(shot))
+        cut = tile_cut.of_shot(shot)
+        assert cut is not None
+        found[f"{turn} build"] = seconds(lambda cut=cut: build.build(shot, stage, cut, None))
+    mesh.fill = fill
+    found["tiles"] = len(cut.tiles)
+    found["tenth"], found["last"] = float(np.mean(filled[5:15])), float(np.mean(filled[-10:]))
+    return found
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--tiles", type=int, default=300)
+    parser.add_argument("--side", type=int, default=40, help="squares of a side (40: 3,200 triangles)")
+    parser.add_argument("--runs", type=int, default=3)
+    given = parser.parse_args()
+    runs = []
+    for _ in range(given.runs):
+        with tempfile.TemporaryDirectory() as folder:
+            runs.append(measured(Path(folder), given.tiles, given.side))
+    result: dict[str, Any] = {"tiles": runs[0]["tiles"]}
+    for name in ("first prepare", "first build", "second prepare", "second build"):
+        for what, index in (("clock", 0), ("processor", 1)):
+            result[f"{name}, {what} s"] = _spread([run[name][index] for run in runs])
+    for name in ("tenth", "last"):
+        result[f"{name} mesh, ms"] = _spread([run[name] for run in runs])
+    print(json.dumps(result, indent=1))
+
+
+def _spread(values: list[float]) -> str:
+    return f"{np.median(values):.3f} ({min(values):.3f} to {max(values):.3f})"
+
+
+if __name__ == "__main__":
+    main()

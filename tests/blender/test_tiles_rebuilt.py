@@ -1,0 +1,214 @@
+"""A rebuild keeps the tiles that are the same, and makes the others anew."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import bpy
+import pytest
+from firetwin.blender import owned, state
+from firetwin.jobs import tiles
+from firetwin.scene import build as scene_build
+from firetwin.scene.tiles import build as tiles_build
+from firetwin.scene.tiles import reuse
+from firetwin.shot import tile_cut
+from firetwin.shot.shot import Shot
+from tiles_scene import *  # noqa: F403
+
+pytestmark = pytest.mark.usefixtures("plain_tiles")
+KINDS = ("meshes", "materials", "images", "node_groups")
+
+
+def build(shot, stage):
+    tiles_build.build(shot, stage, tile_cut.of_shot(shot), None)
+    return blocks()
+
+
+def blocks():
+    """Names by session uid, of each kind of data-block."""
+    return {kind: {each.session_uid: each.name for each in getattr(bpy.data, kind)} for kind in KINDS}
+
+
+def built_tiles():
+    return {obj.data[reuse.TILE]: obj.data for obj in owned.stage(bpy.context.scene).objects_of("Tiles")}
+
+
+def new(before, after, kind):
+    return after[kind].keys() - before[kind].keys()
+
+
+def test_the_same_cut_makes_nothing_new(tiled, stage):
+    before = build(tiled, stage)
+    assert len(stage.objects_of("Tiles")) > 1
+    assert before["images"]
+    assert build(tiled, stage) == before
+    assert not any(block.use_fake_user for block in (*bpy.data.meshes, *bpy.data.materials))
+
+
+def test_nothing_is_fetched_or_decoded_again(tiled, monkeypatch):
+    from firetwin.jobs import decode_tiles
+
+    def decode(contents, progress):
+        assert all(Path(each.out).exists() for each in contents)
+        return {}
+
+    monkeypatch.setattr(decode_tiles, "run", decode)
+    before = tile_cut.of_shot(tiled)
+    tiles.make(tiled)
+    assert tile_cut.of_shot(tiled) == before
+
+
+def test_one_changed_tile_is_one_new_mesh(tiled, stage):
+    before = build(tiled, stage)
+    cut = tile_cut.of_shot(tiled)
+    other = cut.folder / f"{'0' * 32}.npz"
+    other.write_bytes((cut.folder / cut.tiles[1]).read_bytes())
+    changed = replace(cut, tiles=(cut.tiles[0], other.name, *cut.tiles[2:]))
+    tiles_build.build(tiled, stage, changed, None)
+    after = blocks()
+    assert len(new(before, after, "meshes")) == len(new(after, before, "meshes")) == 1
+    assert after["materials"] == before["materials"]
+    assert after["images"] == before["images"]
+
+
+def test_what_left_the_cut_is_removed(tiled, stage):
+    before = build(tiled, stage)
+    cut = tile_cut.of_shot(tiled)
+    tiles_build.build(tiled, stage, replace(cut, tiles=cut.tiles[:-1]), None)
+    after = blocks()
+    assert not new(before, after, "meshes")
+    assert len(after["meshes"]) == len(before["meshes"]) - 1
+    assert len(stage.objects_of("Tiles")) == len(cut.tiles) - 1
+
+
+def test_without_sources_all_tiles_are_removed(tiled, shot, stage):
+    build(tiled, stage)
+    scene_build.build(shot, stage.scene, ("terrain",))
+    assert not stage.objects_of("Tiles")
+    assert not [each for each in bpy.data.meshes if reuse.TILE in each]
+
+
+def edited(name, value):
+    def edit(data):
+        data.attributes[name].data[0].value = value
+
+    return edit
+
+
+def moved(data):
+    data.vertices[0].co.z += 1.0
+
+
+def coloured(data):
+    data.attributes["tile_colour"].data[0].color = (1.0, 0.0, 0.0, 1.0)
+
+
+def keyed(data):
+    obj = next(obj for obj in bpy.data.objects if obj.data == data)
+    obj.shape_key_add(name="Basis")
+
+
+def flipped(data):
+    data.flip_normals()
+
+
+@pytest.mark.parametrize("edit", [moved, coloured, keyed, flipped, edited("elevation", 0.0)])
+def test_a_tile_that_was_edited_is_made_again(tiled, stage, edit):
+    before = build(tiled, stage)
+    name, data = next(iter(built_tiles().items()))
+    arrays = state.of_mesh(data)
+    uid = data.session_uid
+    edit(data)
+    after = build(tiled, stage)
+    assert len(new(before, after, "meshes")) == 1
+    assert uid not in after["meshes"]
+    assert state.of_mesh(built_tiles()[name]) == arrays
+
+
+def test_an_object_that_was_moved_goes_back(tiled, stage):
+    before = build(tiled, stage)
+    obj = stage.objects_of("Tiles")[0]
+    place = tuple(obj.location)
+    obj.location.x += 100.0
+    obj.data.materials[0] = bpy.data.materials.new("Mine")
+    after = build(tiled, stage)
+    assert not new(before, after, "meshes")
+    again = next(each for each in stage.objects_of("Tiles") if each.data[reuse.ORIGIN][0] == place[0])
+    assert tuple(again.location) == place
+    assert [each.name for each in again.data.materials] == ["Firetwin Tiles", "Firetwin Tiles 1"]
+
+
+def test_an_artists_copy_keeps_its_mesh(tiled, stage):
+    build(tiled, stage)
+    obj = stage.objects_of("Tiles")[0]
+    mine = obj.copy()
+    mine.name = "Mine"
+    stage.scene.collection.objects.link(mine)
+    uid = mine.data.session_uid
+    mine.data.vertices[0].co.z += 1.0
+    build(tiled, stage)
+    assert bpy.data.objects["Mine"].data.session_uid == uid
+    assert uid not in [data.session_uid for data in built_tiles().values()]
+
+
+def test_a_material_that_was_edited_is_made_again(tiled, stage):
+    before = build(tiled, stage)
+    group = next(
+        node for node in bpy.data.materials["Firetwin Tiles"].node_tree.nodes if node.type == "GROUP"
+    )
+    diffuse = next(node for node in group.node_tree.nodes if node.type == "BSDF_DIFFUSE")
+    diffuse.inputs["Roughness"].default_value = 0.25
+    after = build(tiled, stage)
+    assert len(new(before, after, "materials")) == 2
+    assert after["meshes"] == before["meshes"]
+    assert after["images"] == before["images"]
+
+
+def test_another_image_setting_makes_the_image_again(tiled, stage):
+    before = build(tiled, stage)
+    (image,) = bpy.data.images
+    image.colorspace_settings.name = "Non-Color"
+    after = build(tiled, stage)
+    assert len(new(before, after, "images")) == 1
+    assert after["meshes"] == before["meshes"]
+
+
+def test_other_settings_make_materials_again_but_no_mesh(tiled, stage):
+    before = build(tiled, stage)
+    other = tiled._with_settings(replace(tiled.settings, light=replace(tiled.settings.light, haze=0.5)))
+    after = build(other, stage)
+    assert new(before, after, "materials")
+    assert after["meshes"] == before["meshes"]
+
+
+def test_another_grid_makes_all_meshes_again(tiled, stage):
+    before = build(tiled, stage)
+    terrain = replace(tiled.settings.terrain, apron=30_000.0)
+    wider = Shot(replace(tiled.settings, terrain=terrain), tiled.run)
+    tiles_build.build(wider, stage, tile_cut.of_shot(tiled), None)
+    assert not before["meshes"].keys() & blocks()["meshes"].keys()
+
+
+def test_a_file_that_was_saved_keeps_its_tiles(tiled, stage, tmp_path):
+    build(tiled, stage)
+    names = sorted(each.name for each in built_tiles().values())
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"), relative_remap=True)
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "scene.blend"))
+    before = blocks()
+    after = build(tiled, owned.stage(bpy.context.scene))
+    assert after == before
+    assert sorted(each.name for each in built_tiles().values()) == names
+
+
+def test_undo_brings_back_what_can_be_kept(tiled, stage):
+    bpy.context.preferences.edit.use_global_undo = True
+    build(tiled, stage)
+    count = len(built_tiles())
+    bpy.ops.ed.undo_push(message="built")
+    for obj in stage.objects_of("Tiles"):
+        bpy.data.objects.remove(obj)
+    owned.purge()
+    bpy.ops.ed.undo_push(message="removed")
+    bpy.ops.ed.undo()
+    before = blocks()
+    assert len(built_tiles()) == count
+    assert build(tiled, owned.stage(bpy.context.scene)) == before
