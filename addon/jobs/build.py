@@ -41,7 +41,7 @@ def run(
         choice.shot()
     pack = ("pack", "the .blend file (render makes pictures without one)")
     tiles.prepare(choice, (), progress, tell, stop, access, [pack])
-    drape.prepare(choice, (), progress, tell, stop)
+    drape.prepare(choice, (), progress, tell, stop, access)
     worker.run(
         f"{__name__}:in_blender", {"choice": choice.plain(), "out": str(out)}, progress, stop=stop, tell=tell
     )

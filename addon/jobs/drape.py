@@ -8,6 +8,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from firetwin_core import sensor
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..progress import MessageCallback, Progress, count, no_message, share, silent
+from ..shot import picture_credits
 from ..shot.comparison import for_view
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
@@ -30,6 +32,7 @@ from ..tiles.sources.http import Http
 from ..tiles.sources.network import Network
 from ..tiles.sources.waiting import Clock
 from . import worker
+from .tile_access import TileAccess, from_plain, permitted
 
 _NAMED = 3  # missing tiles that are named; all are in the drape's file
 
@@ -40,6 +43,7 @@ def prepare(
     progress: Progress = silent,
     tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
+    access: TileAccess | None = None,
 ) -> None:
     """Fetch the orthophoto of a scene; without `terrain.photo_url` there is nothing to do.
 
@@ -54,18 +58,25 @@ def prepare(
         The address is wrong or refused, or the server does not go on.
     """
     if choice.settings().terrain.photo_url:
-        about = {"choice": choice.plain(), "views": list(views)}
+        allowed = permitted(access or TileAccess())
+        about = {"choice": choice.plain(), "views": list(views), "access": allowed.plain()}
         worker.run(f"{__name__}:in_process", about, progress, tell=tell, blender=False, stop=stop)
 
 
-def in_process(choice: dict[str, str], views: list[str], progress: Progress, tell: MessageCallback) -> None:
+def in_process(
+    choice: dict[str, str],
+    views: list[str],
+    access: dict[str, Any],
+    progress: Progress,
+    tell: MessageCallback,
+) -> None:
     """Fetch; worker side."""
-    shot = ShotSource(**choice).shot()
+    shot, network = ShotSource(**choice).shot(), from_plain(access).network()
     made = set()
     for built in [for_view(shot, view) for view in views] or [shot]:
         if (path := drape.location(built)) not in made:
             made.add(path)
-            for sentence in make(built, progress):
+            for sentence in make(built, progress, network):
                 tell(sentence)
 
 
@@ -79,6 +90,7 @@ def make(
     What the user should know.
     """
     terrain, path = shot.settings.terrain, drape.location(shot)
+    picture_credits.check_room(shot, picture_credits.of_settings(shot.settings))
     try:
         source = Http(address.with_variables(terrain.photo_url), network, clock)
     except InputError as error:
@@ -99,7 +111,7 @@ def make(
     )
     result = Drape(path.parent, tuple(made), drape.split_credit(terrain.photo_credit), missing)
     drape.write(result, path)
-    credit = f"credit of the orthophoto, to be named beside the pictures: {'; '.join(result.credits)}"
+    credit = f"credit of the orthophoto, which pictures show: {'; '.join(result.credits)}"
     return [credit, *told, *_said_missing(missing)]
 
 

@@ -142,7 +142,7 @@ def prepare_tiles(
     views = list(dict.fromkeys(picture.camera for picture in wanted))
     uses = tile_terms.of_passes(picture.name for picture in wanted)
     tiles.prepare(choice, views, progress, tell, stop, asked.access, uses, keep=asked.resume)
-    drape.prepare(choice, views, progress, tell, stop)
+    drape.prepare(choice, views, progress, tell, stop, asked.access)
 
 
 def make(

@@ -20,9 +20,8 @@ from numpy.typing import NDArray
 
 from .. import files
 from ..errors import Error, input_error
-from ..imaging import credits
 from ..progress import MessageCallback, Progress, count, no_message, share, silent
-from ..shot import tile_cut, tile_terms
+from ..shot import picture_credits, tile_cut, tile_terms
 from ..shot.comparison import for_view
 from ..shot.settings.settings import TileSettings
 from ..shot.shot import Shot
@@ -169,7 +168,7 @@ def make(
         sum(each.empty for each in prepared),
         heights and tile_difference.measure(heights, shot.settings, shot.run),
     )
-    _check_room(shot, cut)
+    picture_credits.check_room(shot, picture_credits.of_cuts(shot.settings, [cut]))
     if access.strict and cut.missing:
         raise Error(f"--strict: {count(len(cut.missing), 'tile')} missing: {'; '.join(cut.missing)}")
     tile_cut.write(cut, path)
@@ -209,15 +208,6 @@ def _heights(shot: Shot, path: Path, names: Sequence[str]) -> TileHeights | None
     surface = tile_heights.rasterise(decoded.read(path.parent / name) for name in names)
     tile_heights.write(path.with_suffix(tile_cut.HEIGHTS), *surface)
     return TileHeights(shot.ground.frame, *surface)
-
-
-def _check_room(shot: Shot, cut: TileCut) -> None:
-    """Check that each camera's pictures have room for the credits."""
-    for camera in shot.settings.cameras:
-        try:
-            credits.blocks(cut.words, *shot.resolution(camera), camera.rig.around)
-        except ValueError as error:
-            raise input_error(shot.settings.path, 0, 0, f'camera "{camera.name}": {error}') from None
 
 
 def _told(cut: TileCut, prepared: Sequence[_Prepared]) -> Iterator[str]:

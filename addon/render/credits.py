@@ -1,4 +1,4 @@
-"""Draws the credits of tiles into pictures; what people look at shows them, whatever the settings say.
+"""Draws credits of tiles and photos into pictures; what people look at shows them, whatever the settings say.
 
 Pictures of passes that make films have them in their pixels. Depth, masks, normals, temperatures (EXR) and
 the linear picture (EXR) keep their values: the manifest and the sidecars of `shot.passes.pose` name the same
@@ -8,7 +8,6 @@ credits for them.
 from __future__ import annotations
 
 import functools
-import json
 import tempfile
 from pathlib import Path
 
@@ -19,19 +18,9 @@ from numpy.typing import NDArray
 from ..blender import compat, owned
 from ..imaging import credits
 from ..imaging.credits import Block, Credits
-from ..scene.tiles import build as tiles
+from ..scene.credits import of_scene
 
 _STRIP = 0.05  # grey level behind the text
-
-
-def of_scene(stage: owned.Stage) -> Credits:
-    """Credits of the tiles in a scene, also of one that was opened from a file."""
-    found = Credits()
-    for part in stage.root.children:
-        if tiles.CREDITS in part and part.all_objects:
-            data, logo = json.loads(part[tiles.CREDITS])
-            found = found.joined(Credits(tuple(data), tuple(logo)))
-    return found
 
 
 def burn(path: Path, words: Credits, note: str, around: bool = False) -> None:

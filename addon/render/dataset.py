@@ -51,8 +51,7 @@ def _frame(folder: Path, shown: str, passes: dict[str, list[str]]) -> dict[str, 
         sidecar = json.loads((folder / passes["pose"][0]).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
-    lens, tiles = sidecar["intrinsics"], sidecar.get("tiles", {})
-    words = [*tiles.get("services", []), *tiles.get("credits", [])]
+    lens, words = sidecar["intrinsics"], [*sidecar.get("services", []), *sidecar.get("credits", [])]
     if lens["projection"] != "perspective":
         return None
     bent = {name: lens["distortion"][name] for name in ("k1", "k2", "p1", "p2")}

@@ -15,7 +15,7 @@ import firetwin_core
 from ..progress import Progress, silent
 from ..run import content
 from ..run.content import fingerprint
-from ..shot import code_fingerprint, comparison, frames, labels, passes, places, tile_cut
+from ..shot import code_fingerprint, comparison, frames, labels, passes, picture_credits, places, tile_cut
 from ..shot.cameras import mount
 from ..shot.fire import observed
 from ..shot.settings import schema
@@ -137,18 +137,20 @@ def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silen
 
 
 def _tiles(shot: Shot, view: str, name: str, find: tile_cut.Finder) -> dict[str, Any]:
-    """Tiles that a pass shows, and their credits; without those that were not prepared yet."""
+    """Tiles that a pass shows, and credits; without tiles that were not prepared yet."""
     if "terrain" not in passes.known()[name].all_aspects:
         return {}
     cuts = tile_cut.of_pass(shot, view, name, find)
-    words = tile_cut.credits_of(cuts)
-    found = {
-        "chosen": fingerprint({"tiles": [cut.tiles for cut in cuts]}),
-        "credits": list(words.data),
-        "logo": list(words.logo),
-        "missing": sorted({reason.partition(": ")[0] for cut in cuts for reason in cut.missing}),
-    }
-    return {"tiles": found} if cuts else {}
+    words = picture_credits.of_cuts(shot.settings, cuts)
+    found: dict[str, Any] = {}
+    if words:
+        found["credits"] = {"data": list(words.data), "logo": list(words.logo)}
+    if cuts:
+        found["tiles"] = {
+            "chosen": fingerprint({"tiles": [cut.tiles for cut in cuts]}),
+            "missing": sorted({reason.partition(": ")[0] for cut in cuts for reason in cut.missing}),
+        }
+    return found
 
 
 def _other_runs(shot: Shot, name: str, progress: Progress) -> dict[str, Any]:

@@ -47,13 +47,13 @@ def write(out: Path, settings: dict[str, Any], entries: dict[str, Any]) -> None:
 
 
 def credits_of(made_with: dict[str, Any]) -> Credits:
-    """Credits of a picture's tiles by the inputs of its fingerprint."""
-    found = made_with.get("tiles", {})
-    return Credits(tuple(found.get("credits", ())), tuple(found.get("logo", ())))
+    """Credits of a picture by the inputs of its fingerprint."""
+    found = made_with.get("credits", {})
+    return Credits(tuple(found.get("data", ())), tuple(found.get("logo", ())))
 
 
 def credited(made_with: dict[str, Any], words: Credits | None = None) -> dict[str, list[str]]:
-    """What an entry says of a picture's tiles: who is to be named, and which of them are missing.
+    """What an entry says of a picture: who is to be named, and which tiles are missing.
 
     Parameters
     ----------

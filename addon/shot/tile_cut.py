@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import functools
 import json
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import files
 from ..errors import input_error
-from ..imaging import credits
 from ..imaging.credits import Credits
 from . import comparison, passes
 from .cameras import mount
@@ -143,17 +142,3 @@ def of_pass(shot: Shot, view: str, name: str, find: Finder) -> list[TileCut]:
     labels = ("", *shot.others) if passes.compares(name) else (label,)
     views = [passes.view_of(each, run) if run else each for each in cameras for run in labels]
     return [cut for each in views if (cut := find(each)) is not None]
-
-
-def credits_of(cuts: Iterable[TileCut]) -> Credits:
-    """Who must be named in a picture of these cuts."""
-    return functools.reduce(Credits.joined, (cut.words for cut in cuts), Credits())
-
-
-def foot(shot: Shot, width: int, height: int) -> int:
-    """Rows along the bottom of a one-camera shot's picture that credits take (see `imaging.credits`)."""
-    if not shot.settings.tiles.sources:
-        return 0
-    shots = [shot, *(comparison.for_run(shot, label) for label in shot.others)]
-    cuts = [cut for each in shots if (cut := prepared(each)) is not None]
-    return credits.foot(credits_of(cuts), width, height)

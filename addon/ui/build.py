@@ -121,8 +121,6 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     if smoke and shot.settings.smoke.enabled:
         yield InThread("smoke", functools.partial(bake.run, chosen, together=True))
     if shot.settings.terrain.photo_url and "terrain" in parts:
-        if not bpy.app.online_access:
-            raise Error("allow online access (Preferences > System > Network), or leave the photo's URL out")
         yield InThread("orthophoto", functools.partial(drape.prepare, chosen, ()))
     yield "removing the previous build"
     if bpy.context.mode != "OBJECT":

@@ -1,13 +1,11 @@
 """Credits of tiles drawn into pictures by Blender's typeface, and kept with a scene."""
 
-import json
-
 import numpy as np
 import pytest
 from firetwin.imaging import credits as layout
 from firetwin.imaging.credits import Credits
 from firetwin.render import credits, engine
-from firetwin.scene.tiles import build as tiles
+from firetwin.scene import credits as scene_credits
 from firetwin_core import sensor
 from PIL import Image
 
@@ -82,7 +80,7 @@ def test_every_letter_is_at_most_as_wide_as_is_reckoned_with():
 
 def test_a_scene_keeps_its_credits_and_blenders_own_renders_show_them(stage, run):
     part = stage.part("Tiles")
-    part[tiles.CREDITS] = json.dumps([WORDS.data, WORDS.logo])
+    scene_credits.note(part, WORDS)
     assert not credits.of_scene(stage)  # no tile is there
     import bpy
 

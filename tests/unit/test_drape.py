@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 from colour_tiles import FRESH, Tiles, colour, png
 from firetwin.errors import InputError
+from firetwin.imaging.credits import Credits
 from firetwin.jobs import drape as job
 from firetwin.jobs import make_tiles
+from firetwin.shot import picture_credits
 from firetwin.shot.source import ShotSource
 from firetwin.shot.terrain import drape, drape_plan, orthophoto
 from firetwin.tiles.drape import mercator
@@ -152,13 +154,22 @@ def test_the_size_of_the_tiles_decides_the_level(make, tmp_path, server):
 def test_credits_come_from_the_settings_of_a_url_and_of_a_file(make, tmp_path):
     choice = make()
     with pytest.raises(InputError, match="was not fetched; build it again"):
-        drape.credits(choice.shot())
+        drape.of_shot(choice.shot())
     shot, told = fetched(choice, tmp_path)
-    assert drape.credits(shot) == ("Somebody", "Somebody else")
-    assert told[0].endswith("named beside the pictures: Somebody; Somebody else")
+    assert picture_credits.of_shot(shot) == Credits(("Somebody", "Somebody else"))
+    assert told[0].endswith("which pictures show: Somebody; Somebody else")
     file = make().settings().path
+    file.write_text(GROUND_ALONE.format(key=f'photo = "a.tif"\n{CREDIT}', near=0.0, apron=3000.0))
+    assert picture_credits.of_settings(ShotSource(scene=str(file)).settings()) == Credits(
+        ("Somebody", "Somebody else")
+    )
     file.write_text(GROUND_ALONE.format(key=CREDIT, near=0.0, apron=3000.0))
-    assert drape.credits(ShotSource(scene=str(file)).shot()) == ("Somebody", "Somebody else")
+    assert not picture_credits.of_settings(ShotSource(scene=str(file)).settings())  # no photo
+
+
+def test_pictures_too_small_for_the_credit_are_refused(make, tmp_path):
+    with pytest.raises(InputError, match="do not fit into a picture of"):
+        picture_credits.check_room(make().shot(), Credits(("A long name " * 2000,)))
 
 
 @pytest.mark.parametrize(
@@ -244,7 +255,7 @@ def test_the_job_fetches_in_a_process_of_its_own(make, tmp_path, monkeypatch):
     monkeypatch.setenv("LOCALAPPDATA", str(tmp_path / "home"))
     choice, told = make("photo_size = 300"), []
     job.prepare(choice, tell=told.append)
-    assert drape.credits(choice.shot()) == ("Somebody", "Somebody else")
+    assert drape.of_shot(choice.shot()).credits == ("Somebody", "Somebody else")
     assert told[0].startswith("credit of the orthophoto")
     assert (tmp_path / "home").exists()
 

@@ -81,7 +81,10 @@ def test_a_picture_that_is_too_small_is_refused():
 
 
 def test_an_entry_of_the_manifest_names_credits_and_what_is_missing():
-    made_with = {"tiles": {"chosen": "1", "credits": ["A"], "logo": ["B"], "missing": ["c.glb"]}}
+    made_with = {
+        "tiles": {"chosen": "1", "missing": ["c.glb"]},
+        "credits": {"data": ["A"], "logo": ["B"]},
+    }
     assert manifest.credits_of(made_with) == Credits(("A",), ("B",))
     assert manifest.credited(made_with, Credits(("A", "D"))) == {
         "credits": ["A", "D"],

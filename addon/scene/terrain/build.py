@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 
 from ...blender import owned
 from ...blender.owned import Stage
-from ...shot import tile_cut
+from ...shot import picture_credits, tile_cut
 from ...shot.shot import Shot
 from ...shot.terrain import mesh_tolerance, tile_heights
+from .. import credits
 from ..forest.stand import Stand
 from . import buildings, fields, material, solid_view
 
@@ -27,6 +28,7 @@ def build(shot: Shot, stage: Stage, grown: Stand | None, shaped: Shape | None = 
     terrain's fields (see `fields`); and `solid_view`, its colours in Blender's solid view.
     """
     collection, ground = stage.part("Terrain"), shot.ground
+    credits.note(collection, picture_credits.of_settings(shot.settings))
     row, column, triangles = without_tiles(shot, *(shaped or shape(shot)))
     latitude, longitude = ground.places(row, column)
     coarse = ground.frame.forward(latitude, longitude, ground.height(row, column))

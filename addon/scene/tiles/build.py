@@ -6,8 +6,6 @@ made again.
 
 from __future__ import annotations
 
-import json
-
 import bpy
 
 from ...blender import owned
@@ -16,13 +14,12 @@ from ...shot.shot import Shot
 from ...shot.tile_cut import TileCut
 from ...tiles import decoded
 from ...tiles.decoded import Decoded
+from .. import credits
 from ..forest.stand import Stand
 from . import material, mesh, pictures, reuse, slot
 from .reuse import Kept
 from .slot import Slot
 
-CREDITS = "firetwin_tile_credits"
-"""Property of the collection of tiles: credits and services' names as JSON, so that files keep them."""
 PART = "Tiles"
 
 
@@ -33,7 +30,7 @@ def build(shot: Shot, stage: Stage, cut: TileCut, grown: Stand | None) -> None:
     slots, new = _arranged(cut, kept)
     with reuse.held(kept):
         collection = stage.part(PART)
-        collection[CREDITS] = json.dumps([cut.credits, cut.logo])
+        credits.note(collection, cut.words)
         images = pictures.load(slots, cut.folder, kept.images)
         materials = material.build(shot, stage, images, grown, kept.materials)
         for name in cut.tiles:

@@ -30,7 +30,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     from firetwin_core import sensor
 
     from ...errors import Error
-    from .. import comparison, tile_cut
+    from .. import comparison, picture_credits
     from ..cameras import pixel_rays
     from ..fire import fronts
 
@@ -48,7 +48,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
         pictures.append(tinted(rgb, kinds, shades))
         keys.append(list(zip(shades, ("burned in both", f"only {names[0]}", f"only {label}"), strict=True)))
     said = comparison.caption(shot, frame)
-    below = tile_cut.foot(shot, *pictures[0].shape[1::-1])
+    below = picture_credits.foot(shot, *pictures[0].shape[1::-1])
     sensor.write_image(files["png"], split_screen.sheet(pictures, keys, said, below))
 
 

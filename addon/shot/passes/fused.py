@@ -36,7 +36,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
         from . import _map
     except ModuleNotFoundError as error:
         raise Error(f"the fused pass needs {error.name}, which is not in Blender: pip install it") from None
-    from .. import tile_cut
+    from .. import picture_credits
     from ..cameras import mount, pixel_rays
     from . import thermal
 
@@ -44,7 +44,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     taken = mount.taken(shot.settings, shot.cameras, camera, PASS)
     low, high = thermal.scale(shot, frame)
     size = PASS.size(shot.resolution(view.camera))
-    sheet = _sheet.Sheet(*size, tile_cut.foot(shot, *size))
+    sheet = _sheet.Sheet(*size, picture_credits.foot(shot, *size))
     sheet.head(_title(shot, camera), facts(shot, camera, frame))
     rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]
     kelvin = sensor.read_image(needed["thermal"]["exr"])[..., 0]

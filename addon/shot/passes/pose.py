@@ -69,25 +69,26 @@ def described(shot: Shot, view: Path, frame: int) -> dict[str, Any]:
             for recorded in of_camera(shot.settings, camera)
             if recorded is not PASS
         },
+        **_credits(shot),
         **_tiles(shot),
     }
 
 
+def _credits(shot: Shot) -> dict[str, Any]:
+    """Who is to be named for what the frame shows, and names of services."""
+    from .. import picture_credits
+
+    words = picture_credits.of_shot(shot)
+    found = {"credits": list(words.data), "services": list(words.logo)}
+    return {name: values for name, values in found.items() if values}
+
+
 def _tiles(shot: Shot) -> dict[str, Any]:
-    """Credits of the tiles that the frame shows, names of their services, and what is missing of them."""
+    """What is missing of the tiles that the frame shows, and their screen-space error, pixels."""
     from .. import tile_cut
 
     cut = tile_cut.prepared(shot)
-    if cut is None:
-        return {}
-    return {
-        "tiles": {
-            "credits": list(cut.credits),
-            "services": list(cut.logo),
-            "missing": list(cut.missing),
-            "error": cut.error,
-        }
-    }
+    return {"tiles": {"missing": list(cut.missing), "error": cut.error}} if cut else {}
 
 
 def pose(shot: Shot, view: Path, frame: int) -> dict[str, Any]:

@@ -22,7 +22,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
 
     from ...errors import Error
     from ...run import info, times
-    from .. import comparison, tile_cut
+    from .. import comparison, picture_credits
     from ..fire import fronts
 
     try:
@@ -38,7 +38,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
         others = [(colours[other], f"front of {other}") for other in colours if other != label]
         keys.append([(colours[label], f"{label}  {acres:,.0f} acres"), *(others if drawn else ())])
     said = comparison.caption(shot, frame)
-    below = tile_cut.foot(shot, *pictures[0].shape[1::-1])
+    below = picture_credits.foot(shot, *pictures[0].shape[1::-1])
     sensor.write_image(files["png"], split_screen.sheet(pictures, keys, said, below))
 
 

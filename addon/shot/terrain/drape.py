@@ -157,18 +157,6 @@ def of_shot(shot: ShotView) -> Drape:
     return read(path)
 
 
-def credits(shot: ShotView) -> tuple[str, ...]:
-    """Who is to be named for the orthophoto of a prepared shot, of a server or a file; empty: nobody.
-
-    Raises
-    ------
-    InputError
-        The orthophoto of a server was not prepared.
-    """
-    terrain = shot.settings.terrain
-    return of_shot(shot).credits if terrain.photo_url else split_credit(terrain.photo_credit)
-
-
 def split_credit(text: str) -> tuple[str, ...]:
     """Notices of a credit line, which semicolons separate, each once."""
     return tuple(dict.fromkeys(filter(None, map(str.strip, text.split(";")))))

@@ -1,0 +1,58 @@
+"""Who must be named in a shot's pictures: the owners of its tiles and of its orthophoto."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from ..errors import input_error
+from ..imaging import credits
+from ..imaging.credits import Credits
+from . import comparison, tile_cut
+from .terrain import drape, orthophoto
+
+if TYPE_CHECKING:
+    from .settings.protocols import ShotView
+    from .settings.settings import Settings
+    from .shot import Shot
+    from .tile_cut import TileCut
+
+
+def of_settings(settings: Settings) -> Credits:
+    """Those that the settings name: of the orthophoto."""
+    shown = orthophoto.photographed(settings)
+    return Credits(drape.split_credit(settings.terrain.photo_credit) if shown else ())
+
+
+def of_cuts(settings: Settings, cuts: Iterable[TileCut]) -> Credits:
+    """Those of the settings, and of these cuts."""
+    return functools.reduce(Credits.joined, (cut.words for cut in cuts), of_settings(settings))
+
+
+def of_shot(shot: ShotView) -> Credits:
+    """Those of a shot; of its tiles where they were prepared."""
+    cut = tile_cut.prepared(shot)
+    return of_cuts(shot.settings, [cut] if cut else [])
+
+
+def foot(shot: Shot, width: int, height: int) -> int:
+    """Rows along the bottom of a one-camera shot's picture that credits take (see `imaging.credits`)."""
+    shots = [shot, *(comparison.for_run(shot, label) for label in shot.others)]
+    words = functools.reduce(Credits.joined, map(of_shot, shots))
+    return credits.foot(words, width, height)
+
+
+def check_room(shot: Shot, words: Credits) -> None:
+    """Check that each camera's pictures have room for the credits.
+
+    Raises
+    ------
+    InputError
+        A camera's have not.
+    """
+    for camera in shot.settings.cameras:
+        try:
+            credits.blocks(words, *shot.resolution(camera), camera.rig.around)
+        except ValueError as error:
+            raise input_error(shot.settings.path, 0, 0, f'camera "{camera.name}": {error}') from None
