@@ -26,7 +26,7 @@ from ..shot.comparison import for_view
 from ..shot.settings.settings import TileSettings
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
-from ..shot.terrain import tile_difference, tile_heights
+from ..shot.terrain import land_use, tile_difference, tile_heights
 from ..shot.terrain.tile_heights import TileHeights
 from ..shot.tile_cut import TileCut
 from ..shot.tile_terms import Use
@@ -205,9 +205,10 @@ def _heights(shot: Shot, path: Path, names: Sequence[str]) -> TileHeights | None
     """Write heights of a cut's tiles beside it; None without tiles."""
     if not names:
         return None
-    surface = tile_heights.rasterise(decoded.read(path.parent / name) for name in names)
-    tile_heights.write(path.with_suffix(tile_cut.HEIGHTS), *surface)
-    return TileHeights(shot.ground.frame, *surface)
+    found = (decoded.read(path.parent / name) for name in names)
+    surface = tile_heights.rasterise(found, shot.bare_ground.up, land_use.buildings(shot))
+    tile_heights.write(path.with_suffix(tile_cut.HEIGHTS), surface)
+    return TileHeights(shot.ground.frame, surface)
 
 
 def _told(cut: TileCut, prepared: Sequence[_Prepared]) -> Iterator[str]:

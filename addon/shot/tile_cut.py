@@ -8,12 +8,15 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
 
 from .. import files
 from ..errors import input_error
 from ..imaging.credits import Credits
 from . import comparison, passes
 from .cameras import mount
+from .terrain import tile_heights
+from .terrain.tile_heights import TileHeights
 from .view_digest import of_views
 
 if TYPE_CHECKING:
@@ -24,6 +27,7 @@ if TYPE_CHECKING:
 Finder = Callable[[str], "TileCut | None"]
 HEIGHTS = ".npz"
 """End of the file of a cut's heights (see `terrain.tile_heights`), which else has the cut's name."""
+_HEIGHTS: WeakKeyDictionary[ShotView, TileHeights] = WeakKeyDictionary()
 
 
 @dataclass(frozen=True)
@@ -142,3 +146,13 @@ def of_pass(shot: Shot, view: str, name: str, find: Finder) -> list[TileCut]:
     labels = ("", *shot.others) if passes.compares(name) else (label,)
     views = [passes.view_of(each, run) if run else each for each in cameras for run in labels]
     return [cut for each in views if (cut := find(each)) is not None]
+
+
+def heights(shot: ShotView) -> TileHeights | None:
+    """Heights of a shot's tiles; None where it has none, or they were not prepared."""
+    if shot not in _HEIGHTS and shot.settings.tiles.sources:
+        path = location(shot).with_suffix(HEIGHTS)
+        if not path.is_file():
+            return None
+        _HEIGHTS[shot] = tile_heights.read(path, shot.run)
+    return _HEIGHTS.get(shot)

@@ -79,6 +79,8 @@ def of_scene(settings: Settings) -> list[Use]:
     found: list[Use] = []
     if settings.terrain.stand == "tiles":
         found.append(("analyse", 'terrain.stand = "tiles"'))
+    if settings.tiles.trees != "theirs":
+        found.append(("flatten", f'tiles.trees = "{settings.tiles.trees}" (write "theirs")'))
     if settings.labels.enabled:
         found.append(("other_geocoder", "labels.enabled = true"))
     return found

@@ -1,5 +1,6 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "tiles/ground.hpp"
 #include "tiles/height_map.hpp"
 
 #include <algorithm>
@@ -26,6 +27,27 @@ Array<float> height(const HeightMap& map) {
   return result;
 }
 
+/// Heights of the ground, and what each point shows.
+py::tuple find_ground(const py::object& surface, double step, double widest) {
+  const auto array = to_array<float>(surface, "height", {-1, -1});
+  const auto rows = static_cast<std::size_t>(array.shape(0)),
+             columns = static_cast<std::size_t>(array.shape(1));
+  tiles::GroundOptions options;
+  options.step = step;
+  options.widest = widest;
+  tiles::Ground found;
+  {
+    const py::gil_scoped_release release;
+    found = tiles::find_ground(view(array), rows, columns, options);
+  }
+  auto ground = new_array<float>({array.shape(0), array.shape(1)});
+  auto shown = new_array<std::uint8_t>({array.shape(0), array.shape(1)});
+  std::ranges::copy(found.height, writable(ground).begin());
+  std::ranges::transform(found.shown, writable(shown).begin(),
+                         [](tiles::Shown each) { return static_cast<std::uint8_t>(each); });
+  return py::make_tuple(ground, shown);
+}
+
 } // namespace
 
 void init_tiles_heights(Module module) {
@@ -34,6 +56,11 @@ void init_tiles_heights(Module module) {
            py::arg("step"), py::arg("rows"), py::arg("columns"))
       .def("add", &add, py::arg("position"), py::arg("origin"), py::arg("triangle"))
       .def_property_readonly("height", &height);
+  module.def("find_ground", &find_ground, py::arg("height"), py::arg("step"),
+             py::arg("widest") = tiles::GroundOptions().widest);
+  module.attr("GROUND") = static_cast<int>(tiles::Shown::ground);
+  module.attr("GROWTH") = static_cast<int>(tiles::Shown::growth);
+  module.attr("BUILDING") = static_cast<int>(tiles::Shown::building);
 }
 
 } // namespace firetwin::bindings

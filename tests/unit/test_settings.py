@@ -104,7 +104,7 @@ def test_what_a_product_depends_on_is_chosen_by_aspect():
     assert set(found) == {"biome", "greenness", "shrub_cover", "tree_cover"}
     for aspect in ("terrain", "forest", "fire", "smoke"):
         found = schema.select(SETTINGS, {aspect})
-        more = {"forest", "tiles"} if aspect == "terrain" else set()
+        more = {"terrain": {"forest", "tiles"}, "forest": {"tiles"}}.get(aspect, set())
         assert set(found) == {"seed", aspect, "render"} | more
         assert found["render"] == {"cull": True} | ({} if aspect == "smoke" else {"chunk": 480})
     assert set(schema.select(SETTINGS, {"light"})) == {"light"}

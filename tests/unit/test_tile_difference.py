@@ -7,12 +7,14 @@ import pytest
 from firetwin.run.frame import local_frame
 from firetwin.shot.settings.settings import Settings
 from firetwin.shot.terrain import tile_difference
-from firetwin.shot.terrain.tile_heights import TileHeights
+from firetwin.shot.terrain.tile_heights import Surface, TileHeights
 from firetwin_core.run import open as open_run
 
 
 def tiles_at(run, low, height):
-    return TileHeights(local_frame(run), np.asarray(low, float), 20.0, height.astype(np.float32))
+    height = height.astype(np.float32)
+    surface = Surface(np.asarray(low, float), 20.0, height, height, np.zeros(height.shape, np.uint8))
+    return TileHeights(local_frame(run), surface)
 
 
 def test_percentiles_are_those_of_the_fuel_grid(make_run):

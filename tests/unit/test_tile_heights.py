@@ -72,8 +72,7 @@ def test_a_level_surface_has_its_height_at_60_km():
     )
     triangles = np.vstack([np.column_stack([low, right, up]), np.column_stack([right, far, up])])
     origin = np.round(place.mean(axis=0))
-    first, step, height = tile_heights.rasterise([tile(place - origin, triangles, origin)])
-    model = tile_heights.TileHeights(FRAME, first, step, height)
+    model = tile_heights.TileHeights(FRAME, tile_heights.rasterise([tile(place - origin, triangles, origin)]))
     west, south, east_, north_ = model.bounds
     middle = 0.5 * (south + north_), 0.5 * (west + east_)
     found = model.on_grid(np.array([middle[0] - 1e-3, middle[0]]), np.array([middle[1], middle[1] + 1e-3]))

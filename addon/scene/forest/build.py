@@ -19,7 +19,7 @@ from ...blender.owned import Stage
 from ...shot.cameras.rigs.satellite import HEIGHT
 from ...shot.passes import masks
 from ...shot.shot import Shot
-from ...shot.terrain import noise
+from ...shot.terrain import noise, tile_trees
 from ...shot.terrain.terrain import NEVER
 from .. import clock
 from . import fire_effects, models, preview, stand_structure, understorey, visibility, visible_cells
@@ -69,7 +69,8 @@ def algorithm2(shot: Shot) -> dict[str, NDArray]:
         mask=visible_cells.visible_cells(shot, _TALLEST, reach, *axes, shot.relief.fuel),
     )
     position = visibility.settled(shot.ground, trees.position)
-    kept = np.flatnonzero(visibility.visible(shot, position, trees.scale, reach))
+    there = visibility.visible(shot, position, trees.scale, reach)
+    kept = np.flatnonzero(there & tile_trees.may_stand(shot, position))
     cell = trees.cell[kept]
     first = np.array([models.FIRST_MODEL[k] for k in (0, 1, 2)])[trees.size_class[kept]]
     model = first + trees.model[kept]
@@ -108,7 +109,8 @@ def _grass(shot: Shot) -> dict[str, NDArray]:
     position = visibility.settled(ground, clumps.position)
     moved = np.abs(position[:, 2] - clumps.position[:, 2]) > 0.0
     position[moved, 2] -= 0.7
-    kept = np.flatnonzero(visibility.visible(shot, position, _GRASS, GRASS_DISTANCE))
+    there = visibility.visible(shot, position, _GRASS, GRASS_DISTANCE)
+    kept = np.flatnonzero(there & tile_trees.may_stand(shot, position))
     cell, position = clumps.cell[kept], position[kept]
     model = (noise.uniform(cell, 7, seed) < 0.5).astype(np.int64)
     scale, width = clumps.scale[kept], np.ones(len(cell))

@@ -12,7 +12,7 @@ from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...shot.shot import Shot
-from ...shot.terrain import land_use, noise
+from ...shot.terrain import land_use, noise, tile_trees
 from ...shot.terrain.terrain import box, widened
 from . import biomes, cover, field_lines
 
@@ -71,7 +71,7 @@ def retained(shot: Shot, position: Array) -> Array:
     if shot.settings.terrain.land_use is not None:
         wet = np.where(land_use.keeps_out(shot, position), 1.0, wet)
     part: Array = np.maximum(stand, lone)
-    return part * (wet < 0.3)
+    return part * (wet < 0.3) * tile_trees.may_stand(shot, position)
 
 
 def _scattered(shot: Shot, part: float, position: Array) -> Array:

@@ -14,7 +14,7 @@ from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...shot.shot import Shot
-from ...shot.terrain import land_use, noise
+from ...shot.terrain import land_use, noise, tile_trees
 from . import biomes, cover, field_lines, models
 
 _PIXELS = 2.0  # least height in pixels of what is drawn; at this height a half of it is
@@ -252,6 +252,7 @@ def _scattered(shot: Shot, kind: PlantKind, number: int, pixel: float, budget: i
         density = density * kind.also(place)
     if shot.settings.terrain.land_use is not None:
         density = density * ~land_use.keeps_out(shot, place)
+    density = density * tile_trees.may_stand(shot, place)
     stands = np.flatnonzero(lot(2, cells) < density * width**2)
     cells, place, height, tall = cells[stands], place[stands], height[stands], tall[stands]
     position = np.column_stack([place, shot.ground.up(*place.T)]) if len(place) else np.empty((0, 3))

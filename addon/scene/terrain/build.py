@@ -11,12 +11,13 @@ from ...blender import owned
 from ...blender.owned import Stage
 from ...shot import picture_credits, tile_cut
 from ...shot.shot import Shot
-from ...shot.terrain import mesh_tolerance, tile_heights
+from ...shot.terrain import mesh_tolerance
 from .. import credits
 from ..forest.stand import Stand
 from . import buildings, fields, material, solid_view
 
 _SEAM = 2.0  # points of the tiles' heights, width of ground that is left under their border
+_UNDER = 0.5  # m that this ground lies lower, so that it does not show through
 
 Shape = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]]
 
@@ -33,6 +34,8 @@ def build(shot: Shot, stage: Stage, grown: Stand | None, shaped: Shape | None = 
     latitude, longitude = ground.places(row, column)
     coarse = ground.frame.forward(latitude, longitude, ground.height(row, column))
     height = ground.height(row, column, ground.detail(*coarse.T))
+    if (tiles := tile_cut.heights(shot)) is not None:
+        height = height - _UNDER * np.isfinite(tiles.up(*coarse[:, :2].T))
     data = bpy.data.meshes.new("Firetwin Ground")
     _fill(data, ground.frame.forward(latitude, longitude, height), triangles)
     data.attributes.new("elevation", "FLOAT", "POINT").data.foreach_set("value", height.astype(np.float32))
@@ -64,10 +67,9 @@ def without_tiles(
     shot: Shot, row: NDArray[np.float64], column: NDArray[np.float64], triangles: NDArray[np.int32]
 ) -> Shape:
     """A shape without the triangles that lie under 3-D Tiles, but for a seam along their border."""
-    cut = tile_cut.of_shot(shot)
-    if cut is None or not cut.tiles:
+    cut, tiles = tile_cut.of_shot(shot), tile_cut.heights(shot)
+    if cut is None or tiles is None:
         return row, column, triangles
-    tiles = tile_heights.read(tile_cut.location(shot).with_suffix(tile_cut.HEIGHTS), shot.run)
     place = shot.ground.frame.forward(*shot.ground.places(row, column), shot.ground.height(row, column))[
         :, :2
     ]

@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 from ...shot.shot import Shot
 from ...tiles.decoded import Decoded
 from ..terrain import fields
+from .flatten import flatten
+from .skirt import add_skirt
 from .slot import Slot
 
 COLOUR = "tile_colour"
@@ -17,7 +19,11 @@ UV = "tile_uv"
 
 
 def fill(data: bpy.types.Mesh, shot: Shot, tile: Decoded, slots: dict[str, Slot]) -> None:
-    """Write a tile into an empty mesh, with the attributes of the ground: `elevation` and `grid`."""
+    """Write a tile into an empty mesh, with the attributes of the ground: `elevation` and `grid`.
+
+    Growth that it shows is flattened where the scene plants its own (`tiles.trees`).
+    """
+    tile = add_skirt(shot, flatten(shot, tile))
     _shape(data, tile)
     add_ground(data, shot, tile)
     corners = tile.triangle.ravel()

@@ -61,9 +61,9 @@ class Waypoints:
 def short(ground: Terrain, position: Array, clearance: Array) -> Array:
     """Height deficit (frames,), m: how much cameras must rise to keep their terrain clearance.
 
-    The clearance holds between frames too: the path is straight there. A frame takes the largest deficit
-    along its two adjacent legs. Between terrain samples the ground is assumed to rise by 1.5 times its
-    difference from sample to sample.
+    Over 3-D Tiles the clearance is above roofs and crowns. It holds between frames too: the path is straight
+    there. A frame takes the largest deficit along its two adjacent legs. Between samples the terrain is
+    assumed to rise by 1.5 times its difference from sample to sample.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def short(ground: Terrain, position: Array, clearance: Array) -> Array:
         (frames,) required height above ground, m.
     """
     if len(position) == 1:
-        return np.maximum(ground.up(*position.T[:2]) + clearance - position[:, 2], 0.0)
+        return np.maximum(ground.top(*position.T[:2]) + clearance - position[:, 2], 0.0)
     length = np.linalg.norm(np.diff(position, axis=0), axis=1)
     apart = max(_SAMPLE_SPACING, float(length.sum()) / _MAX_SAMPLES)
     count = np.maximum(np.ceil(length / apart).astype(np.int64), 1) + 1  # with both ends of every leg
@@ -81,7 +81,7 @@ def short(ground: Terrain, position: Array, clearance: Array) -> Array:
     part = (np.arange(count.sum()) - first[leg]) / (count[leg] - 1.0)
     place = position[leg] + part[:, None] * (position[leg + 1] - position[leg])
     wanted = clearance[leg] + part * (clearance[leg + 1] - clearance[leg])
-    up = ground.up(place[:, 0], place[:, 1])
+    up = ground.top(place[:, 0], place[:, 1])
     rise = 0.5 * np.abs(np.diff(up)) * (leg[1:] == leg[:-1])
     up = up + np.maximum(np.append(rise, 0.0), np.append(0.0, rise))
     needed = np.maximum(np.maximum.reduceat(up + wanted - place[:, 2], first), 0.0)

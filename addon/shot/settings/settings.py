@@ -210,6 +210,12 @@ class TileSettings:
         at_most=200,
         affects=("terrain",),
     )
+    trees: str = key(
+        "ours",
+        "trees on tiles",
+        choices={"ours": "the tiles' growth is flattened", "theirs": "", "ours where it burns": ""},
+        affects=("terrain", "forest"),
+    )
 
 
 @dataclass(frozen=True)

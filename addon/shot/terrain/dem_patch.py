@@ -8,6 +8,7 @@ import numpy as np
 from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
+from . import rim
 from .apron import TerrainFields
 from .elevation import Elevation, ramp
 
@@ -72,6 +73,8 @@ def patch(
     row, column = (np.arange(len(axis)) / parts for axis in axes)
     index = row[:, None], column
     offset = relief.read(*axes) - bilinear(fields.elevation[place], *index).astype(np.float32)
+    if relief.tiles is not None:
+        offset = rim.continued(offset, _FADE)  # so that it is whole up to the tiles' border
     known = np.isfinite(offset)
     counts = ramp(known, _FADE) * bilinear(share[place], *index).astype(np.float32)
     return Patch(place[0].start, place[1].start, parts, np.where(known, offset, np.float32(0.0)), counts)

@@ -1,7 +1,7 @@
 """Terrain elevation of a shot: the run's heights, or a user's elevation model (DEM) where it has data.
 
 All objects on the ground take their heights from here. Where the model ends or has no data, it blends into
-the run's heights over `_BLEND` metres.
+the run's heights over `_BLEND` metres. Beside 3-D Tiles the ground blends into the tiles, outside of them.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ...run import areas
 from ..settings.settings import Settings
-from . import tile_heights
+from . import rim, tile_heights
 from .raster import Array, GeoTiff, extent, said
 from .tile_heights import TileHeights
 
@@ -43,6 +43,11 @@ class Elevation:
 
     def __init__(self, run: Run, model: GeoTiff | _Stacked | None = None) -> None:
         self.run, self.model = run, model
+
+    @property
+    def tiles(self) -> TileHeights | None:
+        """The 3-D Tiles that it is of; None without."""
+        return self.model.tiles if isinstance(self.model, _Stacked) else None
 
     @property
     def fuel(self) -> NDArray[np.float32]:
@@ -88,13 +93,24 @@ class Elevation:
         """
         if self.model is None or not self.model.overlaps(latitude, longitude):
             return own, np.zeros(own.shape, np.float32)
+        if isinstance(self.model, _Stacked):
+            return self._on_tiles(self.model, latitude, longitude, own)
         heights = self.read(latitude, longitude)
         known = np.isfinite(heights)
         share = np.where(known, 1.0, 0.0).astype(np.float32)
         between = np.isfinite(own)
-        share[between] = ramp(known, max(round(_BLEND / _spacing(latitude, longitude)), 1))[between]
+        share[between] = ramp(known, _width(latitude, longitude))[between]
         own_there, heights = np.where(between, own, heights), np.where(known, heights, own)
         return (own_there + share * (heights - own_there)).astype(own.dtype), share
+
+    def _on_tiles(
+        self, stacked: _Stacked, latitude: Array, longitude: Array, own: NDArray
+    ) -> tuple[NDArray, NDArray[np.float32]]:
+        """As `mixed`: tiles in full up to their border, where the ground beside them meets them."""
+        beside, share = Elevation(self.run, stacked.model).mixed(latitude, longitude, own)
+        tiles = Elevation(self.run, stacked.alone).read(latitude, longitude)
+        heights = rim.meet(tiles, beside, _width(latitude, longitude))
+        return heights.astype(own.dtype), np.where(heights == beside, share, np.float32(1.0))
 
     def read(self, latitude: Array, longitude: Array) -> NDArray[np.float32]:
         """Model heights (ny, nx), m, NaN without data; axes may be uneven or descending."""
@@ -134,6 +150,11 @@ class _Stacked:
 
     def __init__(self, tiles: TileHeights, model: GeoTiff | None) -> None:
         self.tiles, self.model, self.resolution = tiles, model, tiles.resolution
+
+    @property
+    def alone(self) -> _Stacked:
+        """The tiles without the model."""
+        return _Stacked(self.tiles, None)
 
     def overlaps(self, latitude: Array, longitude: Array) -> bool:
         """Whether one of them has heights there."""
@@ -226,6 +247,11 @@ def _eroded(known: NDArray[np.bool_]) -> NDArray[np.bool_]:
         parts = (padded.take(range(k, k + known.shape[axis]), axis) for k in range(3))
         known = np.logical_and.reduce(list(parts))
     return known
+
+
+def _width(latitude: Array, longitude: Array) -> int:
+    """Points along `_BLEND` metres."""
+    return max(round(_BLEND / _spacing(latitude, longitude)), 1)
 
 
 def _spacing(latitude: Array, longitude: Array) -> float:

@@ -237,6 +237,16 @@ def keeps_out(shot: ShotView, place: Array) -> NDArray[np.bool_]:
     return out
 
 
+def buildings(shot: ShotView) -> list[Rings]:
+    """Outlines of the map's buildings, each as rings (n, 2) in scene metres."""
+    known = read_map(shot)
+    return (
+        [part for each in known.features if each.kind == "building" for part in each.polygons]
+        if known
+        else []
+    )
+
+
 def _read(settings: Settings) -> list[tuple[str, Feature]]:
     """Read the features of known kinds.
 

@@ -288,6 +288,12 @@ class Terrain:
         """Scene z (n,) of the ground at scene coordinates (m)."""
         return self.point(*self.geodetic(east, north))[:, 2]
 
+    def top(self, east: ArrayLike, north: ArrayLike) -> Array:
+        """Scene z (n,) of the ground, or of roofs and crowns where it is that of 3-D Tiles."""
+        east, north = (np.atleast_1d(np.asarray(v, np.float64)) for v in np.broadcast_arrays(east, north))
+        up, tiles = self.up(east, north), self._relief.tiles
+        return up if tiles is None else np.fmax(up, tiles.top(east, north))
+
     def sample(self, field: Array, east: ArrayLike, north: ArrayLike) -> Array:
         """Interpolate a field of the grid (apron included) at scene coordinates (m), bilinear."""
         return bilinear(field, *self.indices(*self.geodetic(east, north)))

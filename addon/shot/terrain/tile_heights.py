@@ -1,10 +1,12 @@
-"""Heights of 3-D Tiles as an elevation model, so that everything on the ground stands on the tiles."""
+"""Heights of 3-D Tiles: their ground, as an elevation model for all that stands on it, and their roofs."""
 
 from __future__ import annotations
 
 import hashlib
 import zipfile
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import asdict, dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,28 +19,51 @@ from numpy.typing import NDArray
 from ... import files
 from ...errors import input_error
 from ...run.frame import local_frame
+from .. import rasterize
 
 if TYPE_CHECKING:
     from ...tiles.decoded import Decoded
     from ..settings.settings import Settings
 
 Array = NDArray[np.float64]
+Known = Callable[[Array, Array], Array]
 _MOST = 3000  # points along a side
 _FINEST = 2.0  # m between points
+_RIM = 2  # points
+_THINNED = 8  # points from sample to sample of what is known of the ground
 _TURNS = 3  # a place's vertical leans away from the scene's by at most 0.5 degrees; 3 leave no 0.1 mm
 
 
-class TileHeights:
-    """Heights of tiles at any place, in the form of `raster.GeoTiff`.
+def _level(east: Array, north: Array) -> Array:
+    """Ground of which nothing is known."""
+    return np.zeros(east.shape)
 
-    Parameters
+
+@dataclass(frozen=True)
+class Surface:
+    """What tiles show from above, on an even grid.
+
+    Attributes
     ----------
     low
         (2,) east and north of the first point, scene metres.
     step
         m between points.
-    height
-        (ny, nx) scene z of the highest surface, m; NaN without tiles.
+    height, ground
+        (ny, nx) scene z of the highest surface, and of the ground below roofs and crowns, m; NaN without.
+    shown
+        (ny, nx) `tiles.GROUND`, `GROWTH` or `BUILDING`: what the highest surface is.
+    """
+
+    low: Array
+    step: float
+    height: NDArray[np.float32]
+    ground: NDArray[np.float32]
+    shown: NDArray[np.uint8]
+
+
+class TileHeights:
+    """Heights of tiles at any place; those of the ground in the form of `raster.GeoTiff`.
 
     Attributes
     ----------
@@ -50,11 +75,13 @@ class TileHeights:
 
     unit = "m"
 
-    def __init__(self, frame: geo.LocalFrame, low: Array, step: float, height: NDArray[np.float32]) -> None:
-        self.frame, self.low, self.resolution, self.height = frame, low, step, height
-        row, column = (np.flatnonzero(np.isfinite(height).any(axis=axis)) for axis in (1, 0))
-        ends = [(np.array([at[0], at[-1]]) if len(at) else np.zeros(2)) * step for at in (column, row)]
-        east, north = (v.ravel() + side for v, side in zip(np.meshgrid(*ends), low, strict=True))
+    def __init__(self, frame: geo.LocalFrame, surface: Surface) -> None:
+        self.frame, self.surface, self.resolution = frame, surface, surface.step
+        row, column = (np.flatnonzero(np.isfinite(surface.height).any(axis=axis)) for axis in (1, 0))
+        ends = [
+            (np.array([at[0], at[-1]]) if len(at) else np.zeros(2)) * surface.step for at in (column, row)
+        ]
+        east, north = (v.ravel() + side for v, side in zip(np.meshgrid(*ends), surface.low, strict=True))
         latitude, longitude, _ = frame.reverse(np.column_stack([east, north, np.zeros(4)]))
         self.bounds = longitude.min(), latitude.min(), longitude.max(), latitude.max()
 
@@ -77,16 +104,66 @@ class TileHeights:
         return height.astype(np.float32)[None]
 
     def up(self, east: Array, north: Array) -> Array:
-        """Scene z at scene coordinates, m; NaN without tiles."""
-        column, row = ((at - low) / self.resolution for at, low in zip((east, north), self.low, strict=True))
-        rows, columns = self.height.shape
+        """Scene z of the tiles' ground at scene coordinates, m; NaN without tiles."""
+        return self._between(self.surface.ground, east, north)
+
+    def top(self, east: Array, north: Array) -> Array:
+        """Scene z of the highest surface at scene coordinates, m; NaN without tiles."""
+        return self._between(self.surface.height, east, north)
+
+    def growth(self, east: Array, north: Array) -> NDArray[np.bool_]:
+        """Whether growth is shown at scene coordinates, or a point beside, and no building."""
+        return self._at(self._growth, east, north)
+
+    def building(self, east: Array, north: Array) -> NDArray[np.bool_]:
+        """Whether a building is shown at scene coordinates."""
+        return self._at(self.surface.shown == tiles.BUILDING, east, north)
+
+    def rim(self, east: Array, north: Array) -> NDArray[np.bool_]:
+        """Whether places at scene coordinates lie within `_RIM` points of the tiles' border, or outside."""
+        row, column, outside = self._place(east, north)
+        return outside | self._rim[np.round(row).astype(int), np.round(column).astype(int)]
+
+    @cached_property
+    def _growth(self) -> NDArray[np.bool_]:
+        shown = self.surface.shown
+        return _widened(shown == tiles.GROWTH, 1, False) & (shown != tiles.BUILDING)
+
+    @cached_property
+    def _rim(self) -> NDArray[np.bool_]:
+        return _widened(np.isnan(self.surface.height), _RIM, True)
+
+    def _place(self, east: Array, north: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
+        """Fractional row and column within the grid, and whether the place is outside of it."""
+        column, row = (
+            (at - low) / self.resolution for at, low in zip((east, north), self.surface.low, strict=True)
+        )
+        rows, columns = self.surface.height.shape
         outside = (row < 0) | (column < 0) | (row > rows - 1) | (column > columns - 1)
-        found = bilinear(self.height, np.clip(row, 0, rows - 1), np.clip(column, 0, columns - 1))
-        return np.where(outside, np.nan, found)
+        return np.clip(row, 0, rows - 1), np.clip(column, 0, columns - 1), outside
+
+    def _between(self, values: NDArray, east: Array, north: Array) -> Array:
+        row, column, outside = self._place(east, north)
+        return np.where(outside, np.nan, bilinear(values, row, column))
+
+    def _at(self, mask: NDArray[np.bool_], east: Array, north: Array) -> NDArray[np.bool_]:
+        row, column, outside = self._place(east, north)
+        return ~outside & mask[np.round(row).astype(int), np.round(column).astype(int)]
 
 
-def rasterise(decoded: Iterable[Decoded]) -> tuple[Array, float, NDArray[np.float32]]:
-    """First point (2,), step, and heights (ny, nx) of tiles' highest surface, as `TileHeights` takes them."""
+def rasterise(
+    decoded: Iterable[Decoded], known: Known = _level, buildings: Iterable[Sequence[Array]] = ()
+) -> Surface:
+    """The surface of tiles.
+
+    Parameters
+    ----------
+    known
+        Scene z of what is known of the ground, m, at scene coordinates. The nearer it is, the better the
+        ground is told from what stands on it.
+    buildings
+        Outlines of buildings, each as rings (n, 2) in scene metres.
+    """
     found = list(decoded)
     corners = [tile.position[:, :2] + tile.origin[:2] for tile in found if len(tile.position)]
     low = np.min([each.min(axis=0) for each in corners], axis=0)
@@ -96,29 +173,56 @@ def rasterise(decoded: Iterable[Decoded]) -> tuple[Array, float, NDArray[np.floa
     surface = tiles.HeightMap(low.tolist(), step, rows, columns)
     for tile in found:
         surface.add(tile.position, tile.origin.tolist(), tile.triangle)
-    return low, step, surface.height
+    height = surface.height
+    below = _sampled(known, low, step, (rows, columns))
+    ground, shown = tiles.find_ground(height - below, step)
+    for rings in buildings:
+        if covered := rasterize.filled([(ring - low) / step + 0.5 for ring in rings], shown.shape):
+            part = shown[covered[0]]
+            part[(covered[1] > 0.5) & (part == tiles.GROWTH)] = tiles.BUILDING
+    return Surface(low, step, height, np.where(shown == tiles.GROUND, height, ground + below), shown)
+
+
+def _widened(mask: NDArray[np.bool_], by: int, beyond: bool) -> NDArray[np.bool_]:
+    """A mask (ny, nx) widened by a number of points; `beyond` is what is outside of it."""
+    rows, columns = mask.shape
+    for _ in range(by):
+        wide = np.pad(mask, 1, constant_values=beyond)
+        parts = (wide[i : i + rows, j : j + columns] for i in range(3) for j in range(3))
+        mask = np.logical_or.reduce(list(parts))
+    return mask
+
+
+def _sampled(known: Known, low: Array, step: float, shape: tuple[int, int]) -> NDArray[np.float32]:
+    """Heights (ny, nx) of a function, evaluated at every `_THINNED`th point."""
+    coarse = [np.arange(0, count + _THINNED, _THINNED) * step for count in shape]
+    east, north = np.meshgrid(low[0] + coarse[1], low[1] + coarse[0])
+    sampled = known(east.ravel(), north.ravel()).reshape(east.shape)
+    row, column = (np.arange(count) / _THINNED for count in shape)
+    return bilinear(sampled, row[:, None], column).astype(np.float32)
 
 
 def location(settings: Settings, run: Run) -> Path:
     """File of the heights of a scene's tiles, which follows what they were chosen by."""
     frame = local_frame(run)
-    parts = settings.tiles, settings.cameras, settings.time, settings.render.resolution
+    mapped = str(settings.terrain.land_use)
+    parts = settings.tiles, settings.cameras, settings.time, settings.render.resolution, mapped
     digest = hashlib.sha256(repr((*parts, frame.latitude, frame.longitude)).encode())
     return settings.cache / "tiles" / f"heights-{digest.hexdigest()[:16]}.npz"
 
 
-def write(path: Path, low: Array, step: float, height: NDArray[np.float32]) -> None:
-    """Write heights (ny, nx)."""
+def write(path: Path, surface: Surface) -> None:
+    """Write a surface."""
 
     def put(part: Path) -> None:
         with part.open("wb") as stream:
-            np.savez_compressed(stream, low=low, step=step, height=height)
+            np.savez_compressed(stream, allow_pickle=False, **asdict(surface))
 
     files.write(path, put)
 
 
 def read(path: Path, run: Run) -> TileHeights:
-    """Read heights.
+    """Read a surface.
 
     Raises
     ------
@@ -127,9 +231,11 @@ def read(path: Path, run: Run) -> TileHeights:
     """
     try:
         with np.load(path, allow_pickle=False) as stored:
-            low, step, height = stored["low"], float(stored["step"]), stored["height"]
-        if low.shape != (2,) or height.ndim != 2 or not step > 0.0:
+            low, step = stored["low"], float(stored["step"])
+            height, ground, shown = (stored[name] for name in ("height", "ground", "shown"))
+        even = height.ndim == 2 and height.shape == ground.shape == shown.shape
+        if low.shape != (2,) or not even or not step > 0.0:
             raise ValueError("other shapes")
     except (OSError, ValueError, LookupError, zipfile.BadZipFile) as error:
         raise input_error(path, 0, 0, f"has no heights of tiles ({error}); delete it") from None
-    return TileHeights(local_frame(run), low, step, height)
+    return TileHeights(local_frame(run), Surface(low, step, height, ground, shown))

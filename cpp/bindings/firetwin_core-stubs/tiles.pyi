@@ -12,6 +12,9 @@ PENDING: int
 BROKEN: int
 SHUT: int
 PASSES: int
+GROUND: int
+GROWTH: int
+BUILDING: int
 
 def screen_error(
     centre: ArrayLike,
@@ -320,3 +323,31 @@ class HeightMap:
     @property
     def height(self) -> NDArray[np.float32]:
         """(rows, columns) m; NaN where there is no triangle."""
+
+def find_ground(
+    height: ArrayLike, step: float, widest: float = 60.0
+) -> tuple[NDArray[np.float32], NDArray[np.uint8]]:
+    """Heights of the ground (ny, nx), m, below roofs and crowns, and what each point shows.
+
+    A progressive morphological filter (Zhang et al. 2003, IEEE Transactions on Geoscience and Remote Sensing
+    41(4)): openings by windows that grow to `widest`. What one lowers by more than a threshold is an object, if
+    its sides are steep. Below objects heights are linear between the ground on their sides.
+
+    Parameters
+    ----------
+    height
+        (ny, nx) highest surface, m, best as its height above what is known of the ground; NaN without.
+    step
+        m between points.
+    widest
+        m, width of the widest object.
+
+    Returns
+    -------
+    Heights, and GROUND, GROWTH or BUILDING for each point. Buildings have an even surface of 4 points or more.
+
+    Raises
+    ------
+    ValueError
+        A number is not above 0.
+    """

@@ -1,0 +1,54 @@
+"""Skirts: walls below the border of all tiles, down into the ground beside them, so that no gap shows."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...shot import tile_cut
+from ...shot.shot import Shot
+from ...tiles.decoded import Decoded
+
+_BELOW = 2.0  # m that a skirt reaches below the ground beside it
+
+
+def add_skirt(shot: Shot, tile: Decoded) -> Decoded:
+    """A tile with walls below its open edges at the border of all tiles."""
+    heights = tile_cut.heights(shot)
+    if heights is None or not len(tile.triangle):
+        return tile
+    place = tile.position.astype(np.float64) + tile.origin
+    edge, owner = open_edges(tile.triangle)
+    used = np.unique(edge)
+    outer = np.zeros(len(place), bool)
+    outer[used] = heights.rim(place[used, 0], place[used, 1])
+    chosen = outer[edge].all(axis=1)
+    if not chosen.any():
+        return tile
+    edge, owner = edge[chosen], owner[chosen]
+    top, number = np.unique(edge, return_inverse=True)
+    foot = tile.position[top].copy()
+    ground = shot.ground.up(place[top, 0], place[top, 1])
+    foot[:, 2] = np.minimum(place[top, 2], ground) - _BELOW - tile.origin[2]
+    low = (len(place) + number.reshape(-1, 2)).astype(np.int32)
+    a, b = edge.T
+    walls = np.vstack([np.column_stack([b, a, low[:, 0]]), np.column_stack([b, low[:, 0], low[:, 1]])])
+    return replace(
+        tile,
+        position=np.vstack([tile.position, foot]),
+        normal=np.vstack([tile.normal, tile.normal[top]]),
+        uv=np.vstack([tile.uv, tile.uv[top]]),
+        colour=np.vstack([tile.colour, tile.colour[top]]) if len(tile.colour) else tile.colour,
+        triangle=np.vstack([tile.triangle, walls]).astype(np.int32),
+        material_index=np.concatenate([tile.material_index, *2 * [tile.material_index[owner]]]),
+    )
+
+
+def open_edges(triangle: NDArray[np.int32]) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
+    """Edges (e, 2) that one triangle alone has, in its own direction, and the number of this triangle."""
+    edge = triangle[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    _, first, count = np.unique(np.sort(edge, axis=1), axis=0, return_index=True, return_counts=True)
+    alone = first[count == 1]
+    return edge[alone], alone // 3

@@ -1,0 +1,52 @@
+"""Ground beside 3-D Tiles: raised or lowered to meet their border, so that there is no step."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def meet(tiles: NDArray, ground: NDArray, width: int) -> NDArray[np.float32]:
+    """Heights (ny, nx) of tiles, and beyond them of the ground, which meets them within `width` points.
+
+    Beside the border the ground is moved by as much as the tiles are off there. This fades to 0.
+
+    Parameters
+    ----------
+    tiles
+        (ny, nx) m; NaN without tiles.
+    ground
+        (ny, nx) m; NaN where it is not known.
+    """
+    known = np.isfinite(tiles)
+    off, ring = _continued(np.where(known, tiles - ground, np.nan), width)
+    part = 1.0 - ring / np.float32(width + 1)
+    beside = ground + np.nan_to_num(off) * part * part * (3.0 - 2.0 * part)
+    return np.where(known, tiles, beside).astype(np.float32)
+
+
+def continued(values: NDArray, width: int) -> NDArray[np.float32]:
+    """Values (ny, nx) continued for `width` points beyond where they are known; NaN farther away."""
+    return _continued(values, width)[0]
+
+
+def _continued(values: NDArray, width: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Continued values, and how many points each is beyond; each is the mean of its known neighbours."""
+    known = np.isfinite(values)
+    values, ring = np.where(known, values, 0.0).astype(np.float32), np.zeros(values.shape, np.float32)
+    for number in range(1, width + 1):
+        count = _neighbours(known.astype(np.float32))
+        new = ~known & (count > 0.0)
+        if not new.any():
+            break
+        values[new] = _neighbours(values)[new] / count[new]
+        ring[new] = number
+        known |= new
+    return np.where(known, values, np.float32(np.nan)), ring
+
+
+def _neighbours(field: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Sum over the eight neighbours."""
+    padded = np.pad(field, 1)
+    three = padded[:-2] + padded[1:-1] + padded[2:]
+    return three[:, :-2] + three[:, 1:-1] + three[:, 2:] - field

@@ -1,0 +1,171 @@
+#include "tiles/ground.hpp"
+
+#include "tiles/opening.hpp"
+#include "tiles/patches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace firetwin::tiles {
+namespace {
+
+using Mask = std::vector<std::uint8_t>;
+
+constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+constexpr std::size_t edge_width = 2; // points
+constexpr std::size_t least_roof = 4; // points of an even surface that make a roof
+
+/// Mask of what openings lower by more than their threshold; `surface` is opened by all of them.
+Mask find_objects(std::vector<float>& surface, std::size_t rows, std::size_t columns,
+                  const GroundOptions& options) {
+  Mask found(surface.size(), 0);
+  for (std::size_t radius = 1, before = 0;; before = radius, radius *= 2) {
+    const double wider = 2.0 * static_cast<double>(radius - before) * options.step;
+    const auto threshold = static_cast<float>(std::min(
+        options.least + options.slope * wider, std::max(options.most, options.slope * wider)));
+    const auto lower = open(surface, rows, columns, radius);
+    for (std::size_t k = 0; k < surface.size(); ++k) {
+      if (surface[k] - lower[k] > threshold) { // NaN is not
+        found[k] = 1;
+      }
+    }
+    surface = lower;
+    if (static_cast<double>(2 * radius + 1) * options.step >= options.widest) {
+      return found;
+    }
+  }
+}
+
+/// Adds points beside objects that stand above the opened surface: thin edges of crowns.
+void add_edges(Mask& found, std::span<const float> height, std::span<const float> opened,
+               std::size_t rows, std::size_t columns, double least) {
+  const auto near = widen(found, rows, columns, edge_width);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (near[k] && height[k] - opened[k] > static_cast<float>(least)) {
+      found[k] = 1;
+    }
+  }
+}
+
+/// Leaves out patches whose sides are not steep on average.
+void keep_steep(Mask& found, std::span<const float> height, const Patches& patches,
+                const GroundOptions& options) {
+  std::vector<double> rise(patches.count, 0.0);
+  std::vector<std::size_t> sides(patches.count, 0);
+  for_each_pair(patches.rows, patches.columns, [&](std::size_t a, std::size_t b) {
+    if (found[a] != found[b] && !std::isnan(height[a]) && !std::isnan(height[b])) {
+      const auto patch = static_cast<std::size_t>(patches.number[found[a] ? a : b]);
+      rise[patch] += static_cast<double>(found[a] ? height[a] - height[b] : height[b] - height[a]);
+      ++sides[patch];
+    }
+  });
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (found[k]) {
+      const auto patch = static_cast<std::size_t>(patches.number[k]);
+      found[k] = rise[patch] >= options.wall * options.step * static_cast<double>(sides[patch]);
+    }
+  }
+}
+
+/// Heights below objects: the mean of lines along rows and columns from ground to ground, weighted
+/// by the inverse square of their lengths.
+class Filling {
+public:
+  explicit Filling(std::size_t count) : sum_(count, 0.0F), weight_(count, 0.0F) {}
+
+  void draw(const Mask& object, std::span<const float> height, std::size_t first, std::size_t count,
+            std::size_t between) {
+    const auto at = [&](std::size_t k) { return first + k * between; };
+    for (std::size_t k = 0; k < count;) {
+      if (!object[at(k)]) {
+        ++k;
+        continue;
+      }
+      std::size_t end = k;
+      while (end < count && object[at(end)]) {
+        ++end;
+      }
+      const float from = k > 0 ? height[at(k - 1)] : unknown;
+      const float to = end < count ? height[at(end)] : unknown;
+      const auto gap = static_cast<float>(end - k + 1);
+      for (std::size_t m = k; m < end; ++m) {
+        add(at(m), from, to, static_cast<float>(m - k + 1) / gap, gap);
+      }
+      k = end;
+    }
+  }
+
+  float height(std::size_t k, float otherwise) const {
+    return weight_[k] > 0.0F ? sum_[k] / weight_[k] : otherwise;
+  }
+
+private:
+  void add(std::size_t k, float from, float to, float part, float gap) {
+    const bool both = !std::isnan(from) && !std::isnan(to);
+    if (!both && std::isnan(from) && std::isnan(to)) {
+      return;
+    }
+    const float value = both ? from + part * (to - from) : std::isnan(from) ? to : from;
+    const float weight = (both ? 1.0F : 0.01F) / (gap * gap); // one side alone knows no slope
+    sum_[k] += weight * value;
+    weight_[k] += weight;
+  }
+
+  std::vector<float> sum_, weight_;
+};
+
+/// Points within objects whose surroundings bend by less than a roof does, in patches large enough.
+Mask find_roofs(const Mask& object, std::span<const float> height, std::size_t rows,
+                std::size_t columns, const GroundOptions& options) {
+  Mask even(object.size(), 0);
+  const auto most = static_cast<float>(options.roof * options.step);
+  for (std::size_t y = 1; y + 1 < rows; ++y) {
+    for (std::size_t x = 1; x + 1 < columns; ++x) {
+      const std::size_t k = y * columns + x;
+      bool flat = object[k] != 0;
+      for (const std::size_t away : {std::size_t{1}, columns}) {
+        flat = flat && object[k - away] && object[k + away] &&
+               std::abs(height[k - away] - 2.0F * height[k] + height[k + away]) <= most;
+      }
+      even[k] = flat;
+    }
+  }
+  const auto patches = find_patches(even, rows, columns);
+  for (std::size_t k = 0; k < even.size(); ++k) {
+    even[k] = even[k] && patches.size[static_cast<std::size_t>(patches.number[k])] >= least_roof;
+  }
+  return even;
+}
+
+} // namespace
+
+Ground find_ground(std::span<const float> height, std::size_t rows, std::size_t columns,
+                   const GroundOptions& options) {
+  if (!(options.step > 0.0) || !(options.widest > 0.0) || height.size() != rows * columns) {
+    throw std::invalid_argument("step and widest must be above 0, and heights be rows x columns");
+  }
+  std::vector<float> opened(height.begin(), height.end());
+  Mask object = find_objects(opened, rows, columns, options);
+  add_edges(object, height, opened, rows, columns, options.least);
+  keep_steep(object, height, find_patches(object, rows, columns), options);
+  Filling filling(height.size());
+  for (std::size_t row = 0; row < rows; ++row) {
+    filling.draw(object, height, row * columns, columns, 1);
+  }
+  for (std::size_t column = 0; column < columns; ++column) {
+    filling.draw(object, height, column, rows, columns);
+  }
+  const Mask roof = widen(find_roofs(object, height, rows, columns, options), rows, columns, 2);
+  Ground ground{{height.begin(), height.end()}, std::vector<Shown>(height.size(), Shown::ground)};
+  for (std::size_t k = 0; k < height.size(); ++k) {
+    if (object[k]) {
+      ground.height[k] = std::min(filling.height(k, opened[k]), height[k]);
+      ground.shown[k] = roof[k] ? Shown::building : Shown::growth;
+    }
+  }
+  return ground;
+}
+
+} // namespace firetwin::tiles

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace firetwin::tiles {
+
+/// What counts as an object on the ground (chosen by the errors of a made scene).
+struct GroundOptions {
+  double step = 1.0;    ///< m between points
+  double widest = 60.0; ///< m, width of the widest object
+  double least = 1.0;   ///< m, height of the lowest object
+  double most = 4.0;    ///< m, height from which a wide object is no hill
+  double slope = 0.15;  ///< slope of the ground beside what is known of it
+  double wall = 0.7;    ///< slope of an object's sides, on average; gentler ones are natural
+  double roof = 0.25;   ///< bend of a roof per point, in steps; crowns are rougher
+};
+
+/// What a point shows.
+enum class Shown : std::uint8_t { ground, growth, building };
+
+/// Ground below what stands on it.
+struct Ground {
+  std::vector<float> height; ///< rows x columns, m; NaN where the highest surface is
+  std::vector<Shown> shown;  ///< of each point
+};
+
+/// Ground of a highest surface (rows x columns, m; NaN without), by a progressive morphological
+/// filter: openings by growing windows, and what one lowers by more than a threshold is an object
+/// (Zhang et al. 2003, IEEE Transactions on Geoscience and Remote Sensing 41(4), equations 4 to 7).
+/// Three things are added: what stands low beside an object belongs to it; an object has steep
+/// sides, so that sharp ridges stay; and heights below objects are linear between the ground on
+/// their sides. Buildings are objects with an even surface. @throws std::invalid_argument
+Ground find_ground(std::span<const float> height, std::size_t rows, std::size_t columns,
+                   const GroundOptions& options);
+
+} // namespace firetwin::tiles

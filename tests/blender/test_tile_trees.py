@@ -1,0 +1,181 @@
+"""Trees and roofs of photogrammetry: the ground below them, flattening, planting, and the border of tiles."""
+
+from dataclasses import asdict, replace
+
+import numpy as np
+import photogrammetry
+import pytest
+from firetwin.errors import InputError
+from firetwin.jobs import decode_tiles, tiles
+from firetwin.scene.tiles import flatten, skirt
+from firetwin.shot import tile_cut
+from firetwin.shot.cameras import flight
+from firetwin.shot.shot import Shot
+from firetwin.shot.terrain import tile_heights, tile_trees
+from firetwin.tiles import decoded
+from firetwin.tiles.policies import Policy
+from firetwin.tiles.sources._source import Source
+
+HALF, OFF = 120.0, 1.5  # m
+
+
+@pytest.fixture
+def seen(shot, tmp_path, monkeypatch):
+    """Makes shots on photogrammetry between the camera and its target; and that scene."""
+
+    def decode(contents, progress):
+        return decode_tiles.in_process([asdict(each) for each in contents], progress, print)
+
+    monkeypatch.setattr(decode_tiles, "_limit", lambda: None)
+    monkeypatch.setattr(decode_tiles, "run", decode)
+    middle = shot.bare_ground.point(38.838, -120.553)[0, :2]
+    made = photogrammetry.scene(shot.bare_ground.up, middle, HALF, OFF)
+    folder = photogrammetry.write(tmp_path / "set", shot.ground.frame, made)
+
+    def make(trees="ours", stand="elevation"):
+        known = replace(shot.settings.tiles, sources=(str(folder),), geoid=0.0, trees=trees)
+        terrain = replace(shot.settings.terrain, stand="elevation")
+        settings = replace(shot.settings, tiles=known, cache=tmp_path / "cache", terrain=terrain)
+        first = Shot(settings, shot.run)
+        tiles.make(first)
+        if stand == "elevation":
+            return first
+        settings = replace(settings, terrain=replace(terrain, stand=stand))
+        heights = tile_cut.location(first).with_suffix(tile_cut.HEIGHTS)
+        tile_heights.location(settings, shot.run).write_bytes(heights.read_bytes())
+        second = Shot(settings, shot.run)
+        tiles.make(second)
+        return second
+
+    return make, made
+
+
+def the_tile(shot):
+    cut = tile_cut.of_shot(shot)
+    (name,) = cut.tiles
+    return decoded.read(cut.folder / name)
+
+
+def vertices_of(made, tile):
+    """Numbers (ny, nx) of a tile's vertices, by their places."""
+    place = tile.position + tile.origin
+    order = np.lexsort([np.round(place[:, 0], 1), np.round(place[:, 1], 1)])
+    return order.reshape(made.east.shape)
+
+
+def test_ground_below_the_wood_and_the_houses(seen):
+    make, made = seen
+    heights = tile_cut.heights(make())
+    inside = (made.growth > 2.0) | made.roof
+    east, north = made.east[inside], made.north[inside]
+    off = heights.up(east, north) - made.ground[inside]
+    assert np.abs(off).max() < 1.0
+    assert np.percentile(np.abs(off), 95) < 0.5
+    assert (heights.top(east, north) - made.ground[inside]).min() > 1.0
+    assert heights.building(made.east[made.roof], made.north[made.roof]).mean() > 0.9
+    assert not heights.building(made.east[made.growth > 2.0], made.north[made.growth > 2.0]).any()
+
+
+def test_growth_is_pushed_down_and_houses_stay(seen):
+    make, made = seen
+    shot = make("ours")
+    tile = the_tile(shot)
+    flat = flatten.flatten(shot, tile)
+    number = vertices_of(made, tile)
+    above = (flat.position[:, 2] + flat.origin[2])[number] - made.ground
+    assert above[made.growth > 0.0].max() < flatten.LEAST + 0.5
+    assert (flat.position[number[made.roof]] == tile.position[number[made.roof]]).all()
+    bare = ~made.roof & (made.growth == 0.0)
+    assert (flat.position[number[bare]] == tile.position[number[bare]]).all()
+    np.testing.assert_allclose(np.linalg.norm(flat.normal, axis=1), 1.0, atol=1e-5)
+    wood = number[made.growth > 3.0]
+    slope = np.gradient(made.ground, photogrammetry.STEP)
+    steepest = np.hypot(*slope).max()
+    assert flat.normal[wood, 2].min() > 0.8 / np.hypot(1.0, steepest)
+    assert flatten.flatten(make("theirs"), tile) is tile
+
+
+def test_where_it_burns_is_the_burned_area_and_around(seen):
+    make, made = seen
+    shot = make("ours where it burns")
+    east, north = made.east.ravel(), made.north.ravel()
+    place = np.column_stack([east, north])
+    ours = tile_trees.are_ours(shot, place)
+    row, column = shot.ground.indices(*shot.ground.geodetic(east, north))
+    burned = shot.ground.burned[np.round(row).astype(int), np.round(column).astype(int)] > 0
+    assert ours[burned].all()
+    everywhere = np.argwhere(shot.ground.burned > 0.0)
+    away = np.hypot(
+        *(
+            (row[:, None] - everywhere[:, 0]) * shot.ground.cell[0],
+            (column[:, None] - everywhere[:, 1]) * shot.ground.cell[1],
+        )
+    ).min(axis=1)
+    assert not ours[away > tile_trees.AROUND + 2.5 * max(shot.ground.cell)].any()
+
+
+def test_no_tree_stands_in_a_house_or_in_the_tiles_wood(seen):
+    make, made = seen
+    place = np.column_stack([made.east.ravel(), made.north.ravel(), made.ground.ravel()])
+    roof = made.roof.ravel()
+    ours, theirs = (tile_trees.may_stand(make(trees), place) for trees in ("ours", "theirs"))
+    assert ours[~roof].mean() > 0.9
+    assert ours[roof].mean() < 0.1
+    edge = np.zeros(made.east.shape, bool)
+    edge[[0, 1, -2, -1]] = edge[:, [0, 1, -2, -1]] = True
+    assert not theirs[~edge.ravel()].any()
+    beyond = place + np.array([4.0 * HALF, 0.0, 0.0])
+    assert tile_trees.may_stand(make("theirs"), beyond).all()
+
+
+def test_things_stand_on_the_ground_and_cameras_clear_the_crowns(seen):
+    make, made = seen
+    shot = make("theirs", stand="tiles")
+    inner = (
+        np.maximum(np.abs(made.east - made.east.mean()), np.abs(made.north - made.north.mean())) < 0.7 * HALF
+    )
+    tall = inner & (made.growth > 5.0)
+    top = shot.ground.top(made.east[tall], made.north[tall])
+    assert np.abs(top - made.height[tall]).max() < 3.0  # between points of the wood's rough surface
+    place = np.column_stack([made.east[tall], made.north[tall], made.height[tall] - 1.0])[:1]
+    assert flight.short(shot.ground, place, np.array([10.0]))[0] > 7.0
+
+
+def test_the_border_has_no_step(seen):
+    make, made = seen
+    edge = np.zeros(made.east.shape, bool)
+    edge[[0, -1]] = edge[:, [0, -1]] = True
+    edge &= (made.growth == 0.0) & ~made.roof
+    steps = [
+        np.abs(make("ours", stand).ground.up(made.east[edge], made.north[edge]) - made.ground[edge]).max()
+        for stand in ("elevation", "tiles")
+    ]
+    assert steps[0] > 1.4  # OFF
+    assert steps[1] < 0.3
+
+
+def test_skirts_are_at_the_border_alone(seen):
+    make, made = seen
+    shot = make()
+    tile = the_tile(shot)
+    made_tile = skirt.add_skirt(shot, tile)
+    rows, columns = made.east.shape
+    assert len(made_tile.triangle) - len(tile.triangle) == 2 * 2 * (rows - 1 + columns - 1)
+    foot = made_tile.position[len(tile.position) :] + made_tile.origin
+    ground = shot.ground.up(foot[:, 0], foot[:, 1])
+    assert (foot[:, 2] < ground - 1.9).all()
+    corners = made_tile.position[made_tile.triangle[len(tile.triangle) :]].astype(float)
+    outward = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    away = corners.mean(axis=1) - tile.position.mean(axis=0)
+    assert (np.einsum("ij,ij->i", outward[:, :2], away[:, :2]) > 0.0).all()
+
+
+def test_what_may_not_be_changed_is_refused(seen, monkeypatch):
+    make, _ = seen
+    monkeypatch.setattr(
+        "firetwin.tiles.policies.OPEN", policy := Policy("Somebody's tiles", may_flatten=False)
+    )
+    monkeypatch.setattr(Source, "policy", policy)
+    make("theirs")
+    with pytest.raises(InputError, match=r"tiles\.trees: Somebody's tiles may not be changed"):
+        make("ours")
