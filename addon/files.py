@@ -11,8 +11,14 @@ from pathlib import Path
 from .errors import writing
 
 
-def publish(part: Path, path: Path) -> None:
+def publish(part: Path, path: Path, durable: bool = True) -> None:
     """Rename a finished temporary file into place, after its content has reached the disk (fsync).
+
+    Parameters
+    ----------
+    durable
+        Wait for the disk. Without, a file of a cache may be empty or cut off after a power cut, so that its
+        length is to be checked.
 
     Raises
     ------
@@ -21,6 +27,9 @@ def publish(part: Path, path: Path) -> None:
     """
     with writing(path):
         path.parent.mkdir(parents=True, exist_ok=True)
+        if not durable:
+            part.replace(path)
+            return
         with part.open("r+b") as file:  # Windows flushes no file through a read-only handle
             os.fsync(file.fileno())
         part.replace(path)
@@ -32,8 +41,8 @@ def part_of(path: Path) -> Path:
     return path.with_name(f".{path.stem}.{uuid.uuid4().hex[:12]}.part{path.suffix}")
 
 
-def write(path: Path, put: Callable[[Path], object]) -> None:
-    """Write a file atomically: ``put(part)`` writes a temporary file, which is then renamed.
+def write(path: Path, put: Callable[[Path], object], durable: bool = True) -> None:
+    """Write a file atomically: ``put(part)`` writes a temporary file, which is then renamed (see `publish`).
 
     Raises
     ------
@@ -45,10 +54,18 @@ def write(path: Path, put: Callable[[Path], object]) -> None:
         with writing(path):
             path.parent.mkdir(parents=True, exist_ok=True)
             put(part)
-        publish(part, path)
+        publish(part, path, durable)
     finally:
         with contextlib.suppress(OSError):
             part.unlink(missing_ok=True)
+
+
+def keep(path: Path, data: bytes) -> None:
+    """Write a file of a cache that is named by its content, unless it is there."""
+    with contextlib.suppress(OSError):
+        if path.stat().st_size == len(data):
+            return
+    write(path, lambda part: part.write_bytes(data), durable=False)
 
 
 def write_text(path: Path, text: str, newline: str | None = None) -> None:

@@ -27,7 +27,8 @@ _VALUES: dict[str, tuple[str, int, type]] = {
     "QUATERNION": ("value", 4, np.float32),
 }
 """Name, width and kind of an attribute's values by its data type."""
-_SELECTION = (".select", ".vs.", ".es.", ".pn.")  # attributes of the editor
+_LEFT_OUT = (".select", ".vs.", ".es.", ".pn.", ".edge_verts", ".corner_edge")
+"""Beginnings of attributes of the editor, and of those that follow from the others."""
 _UNSEEN = (
     "location",
     "width",
@@ -53,7 +54,7 @@ def of_mesh(data: bpy.types.Mesh) -> str:
     data.polygons.foreach_get("loop_start", starts)
     digest.update(starts)
     for attribute in sorted(data.attributes, key=lambda each: each.name):
-        if attribute.name.startswith(_SELECTION):
+        if attribute.name.startswith(_LEFT_OUT):
             continue
         if attribute.data_type not in _VALUES:
             return ""

@@ -18,6 +18,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..progress import MessageCallback, Progress, silent
+from ..tiles import decoded
 from . import worker
 
 _MEMORY = 3 << 30
@@ -54,13 +55,13 @@ class Content:
 
 
 def run(contents: Sequence[Content], progress: Progress = silent) -> dict[str, str]:
-    """Decode contents whose `out` does not exist yet.
+    """Decode contents whose `out` is not there, or not whole.
 
     Returns
     -------
     Reasons by name, of those that could not be decoded.
     """
-    left = [each for each in contents if not Path(each.out).exists()]
+    left = [each for each in contents if decoded.summary(Path(each.out)) is None]
     ways = min(max(os.cpu_count() or 1, 1), max(len(left) // 8, 1))
     done, bad = [0] * ways, dict[str, str]()
 
@@ -104,8 +105,6 @@ def _decode(contents: list[Content], follow: Any) -> dict[str, str]:
 def in_process(contents: list[dict[str, Any]], progress: Progress, tell: MessageCallback) -> dict[str, str]:
     """Decode; worker side. Reasons by name, of those that are refused."""
     from firetwin_core import tiles
-
-    from ..tiles import decoded
 
     _limit()
     bad = {}

@@ -323,9 +323,7 @@ class _Source:
 
     def _stored(self, data: bytes) -> str:
         path = self.folder / "content" / hashlib.sha256(data).hexdigest()
-        if not path.exists():
-            path.parent.mkdir(exist_ok=True)
-            files.write(path, lambda part: part.write_bytes(data))
+        files.keep(path, data)
         return str(path)
 
     def _content(self, content: int) -> Content:
@@ -341,7 +339,7 @@ class _Source:
             name=self.loader.source.name(uri),
             matrix=matrix.tolist(),
             earth_matrix=earth.tolist(),
-            out=str(self.folder / f"{key.hexdigest()[:32]}.npz"),
+            out=str(self.folder / f"{key.hexdigest()[:32]}{decoded.END}"),
             up_axis=document.up_axis,
             beside=self._beside(uri, path),
         )
@@ -357,13 +355,12 @@ class _Source:
         return {each: self._stored(content) for each, content in found.items()}
 
     def _triangles_and_credit(self, content: Content) -> tuple[int, str]:
-        """Triangles and notice of a decoded content, read once; 0 where it could not be decoded."""
+        """Triangles and notice of a decoded content; 0 where it could not be decoded."""
         if content.out not in self._decoded:
-            path = Path(content.out)
-            if not path.exists():
+            about = decoded.summary(Path(content.out))
+            if about is None:
                 return 0, ""
-            tile = decoded.read(path)
-            self._decoded[content.out] = len(tile.triangle), tile.credit
+            self._decoded[content.out] = about.triangles, about.credit
         return self._decoded[content.out]
 
     def _credits(self, contents: Sequence[Content]) -> Any:

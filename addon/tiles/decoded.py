@@ -1,11 +1,15 @@
-"""Decoded tiles as files: flat arrays in one .npz, and pictures as they came, named by their content."""
+"""Decoded tiles as files: flat arrays, and pictures as they came, named by their content.
+
+A file is a line of text, the length of a JSON header, the header, and the arrays one after the other, each in
+the order and type of `_ARRAYS`. It is read at once, without copies.
+"""
 
 from __future__ import annotations
 
 import hashlib
 import json
-import zipfile
-from dataclasses import dataclass
+import struct
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,11 +18,24 @@ from numpy.typing import NDArray
 
 from .. import files
 from ..errors import input_error
+from . import point_spacing
 
 if TYPE_CHECKING:
     from firetwin_core import tiles
 
-_ARRAYS = ("origin", "position", "normal", "uv", "colour", "triangle", "material_index")
+END = ".tile"
+"""End of the files' names."""
+_FIRST = b"Firetwin tile 1\n"
+_ARRAYS = {
+    "origin": ("<f8", "one", 3),
+    "position": ("<f4", "vertices", 3),
+    "normal": ("<f4", "vertices", 3),
+    "uv": ("<f4", "vertices", 2),
+    "colour": ("<f4", "colours", 4),
+    "triangle": ("<i4", "triangles", 3),
+    "material_index": ("<i4", "triangles", 1),
+}
+"""Type of each array, the number in the header that is its length, and its width."""
 _ENDS = {"jpeg": ".jpg", "png": ".png", "webp": ".webp"}
 
 
@@ -45,8 +62,29 @@ class Material:
 
 
 @dataclass(frozen=True)
+class Summary:
+    """Numbers of a decoded tile.
+
+    Attributes
+    ----------
+    points
+        Vertices at the end that are points of a cloud; no triangle has them.
+    spacing
+        m between neighbouring points; 0 without.
+    credit
+        Copyright notices, with semicolons between them.
+    """
+
+    vertices: int
+    triangles: int
+    points: int
+    spacing: float
+    credit: str
+
+
+@dataclass(frozen=True)
 class Decoded:
-    """A tile's triangles in the scene.
+    """A tile's triangles and points in the scene.
 
     Attributes
     ----------
@@ -62,8 +100,6 @@ class Decoded:
         (m, 3) vertex numbers.
     material_index
         (m,) numbers in `materials`.
-    credit
-        Copyright notices, with semicolons between them.
     """
 
     origin: NDArray[np.float64]
@@ -74,12 +110,24 @@ class Decoded:
     triangle: NDArray[np.int32]
     material_index: NDArray[np.int32]
     materials: tuple[Material, ...]
-    credit: str
+    about: Summary
 
     @property
     def pictures(self) -> list[str]:
         """Files of its pictures, each once."""
         return list(dict.fromkeys(each.picture for each in self.materials if each.picture))
+
+    def without_points(self) -> Decoded:
+        """Its triangles alone."""
+        left = len(self.position) - self.about.points
+        return replace(
+            self,
+            position=self.position[:left],
+            normal=self.normal[:left],
+            uv=self.uv[:left],
+            colour=self.colour[:left],
+            about=replace(self.about, vertices=left, points=0),
+        )
 
 
 def write(tile: tiles.Tile, path: Path, resources: dict[str, bytes]) -> None:
@@ -91,7 +139,7 @@ def write(tile: tiles.Tile, path: Path, resources: dict[str, bytes]) -> None:
         Files beside the content by uri, for pictures that lie there.
     """
     pictures = [_store(each, path.parent, resources) for each in tile.images]
-    materials = [
+    materials: list[dict[str, Any]] = [
         {
             "colour": list(each.colour),
             "picture": pictures[each.image] if each.image >= 0 else "",
@@ -106,23 +154,56 @@ def write(tile: tiles.Tile, path: Path, resources: dict[str, bytes]) -> None:
         index[part.first_triangle : last] = part.material if part.material >= 0 else len(materials)
     if not len(materials) or index.max(initial=0) == len(materials):
         materials.append({})
-    about = np.frombuffer(json.dumps({"materials": materials, "credit": tile.copyright}).encode(), np.uint8)
-    arrays: dict[str, NDArray] = {
-        "about": about,
-        "origin": tile.origin,
-        "position": tile.position,
-        "normal": tile.normal,
-        "uv": tile.uv,
-        "colour": tile.colour,
-        "triangle": tile.triangle.astype(np.int32),
-        "material_index": index,
+    points = sum(part.vertices for part in tile.ranges if part.points)
+    about = {
+        "one": 1,
+        "vertices": len(tile.position),
+        "colours": len(_tinted(tile)),
+        "triangles": len(tile.triangle),
+        "points": points,
+        "spacing": point_spacing.of(tile.position[len(tile.position) - points :]),
+        "materials": materials,
+        "credit": tile.copyright,
     }
+    arrays = {name: getattr(tile, name) for name in _ARRAYS if name != "material_index"}
+    arrays |= {"material_index": index, "colour": _tinted(tile)}
+    header = json.dumps(about).encode()
+    header += b" " * (-(len(_FIRST) + 4 + len(header)) % 8)
 
     def put(part: Path) -> None:
         with part.open("wb") as stream:
-            np.savez(stream, allow_pickle=False, **arrays)
+            stream.write(_FIRST + struct.pack("<I", len(header)) + header)
+            for name, (kind, _, _) in _ARRAYS.items():
+                stream.write(np.ascontiguousarray(arrays[name], kind))
 
-    files.write(path, put)
+    files.write(path, put, durable=False)
+
+
+def _tinted(tile: tiles.Tile) -> NDArray[np.float32]:
+    """Colours of the vertices, those of points multiplied with their material's."""
+    tints = [
+        (part, np.asarray(tile.materials[part.material].colour, np.float32))
+        for part in tile.ranges
+        if part.points and part.material >= 0
+    ]
+    if not tints:
+        return tile.colour
+    colour = tile.colour.copy() if len(tile.colour) else np.ones((len(tile.position), 4), np.float32)
+    for part, tint in tints:
+        colour[part.first_vertex : part.first_vertex + part.vertices] *= tint
+    return colour
+
+
+def summary(path: Path) -> Summary | None:
+    """Numbers of a decoded tile; None where the file is not there or not whole."""
+    try:
+        with path.open("rb") as stream:
+            about, start = _header(stream.read(len(_FIRST) + 4), stream.read)
+            if start + _bytes(about) != path.stat().st_size:
+                return None
+            return _summary(about)
+    except (OSError, ValueError, LookupError, TypeError, struct.error):
+        return None
 
 
 def read(path: Path) -> Decoded:
@@ -134,37 +215,60 @@ def read(path: Path) -> Decoded:
         The file is damaged.
     """
     try:
-        with np.load(path, allow_pickle=False) as stored:
-            about: dict[str, Any] = json.loads(stored["about"].tobytes())
-            arrays = {name: stored[name] for name in _ARRAYS}
+        data = path.read_bytes()
+        at = len(_FIRST) + 4
+        about, start = _header(data[:at], lambda count: data[at : at + count])
+        if start + _bytes(about) != len(data):
+            raise ValueError("its length is another")
+        arrays = {}
+        for name, (kind, length, width) in _ARRAYS.items():
+            array = np.frombuffer(data, kind, about[length] * width, start)
+            start += array.nbytes
+            arrays[name] = array.reshape(-1, width) if width > 1 and length != "one" else array
         materials = tuple(
             Material(**each | {"colour": tuple(each["colour"])} if each else {})
             for each in about["materials"]
         )
-        found = Decoded(**arrays, materials=materials, credit=about["credit"])
-    except (OSError, ValueError, LookupError, TypeError, zipfile.BadZipFile) as error:
+        found = Decoded(**arrays, materials=materials, about=_summary(about))
+    except (OSError, ValueError, LookupError, TypeError, struct.error) as error:
         raise input_error(path, 0, 0, f"is no decoded tile ({error}); delete it") from None
     if not _is_consistent(found):
         raise input_error(path, 0, 0, "is no decoded tile: its numbers do not fit together; delete it")
     return found
 
 
+def _header(first: bytes, read: Any) -> tuple[dict[str, Any], int]:
+    """Header, and where the arrays begin."""
+    if not first.startswith(_FIRST):
+        raise ValueError("it begins otherwise")
+    (length,) = struct.unpack("<I", first[len(_FIRST) :])
+    return json.loads(read(length)), len(first) + length
+
+
+def _bytes(about: dict[str, Any]) -> int:
+    """Bytes of all arrays."""
+    return sum(about[length] * width * np.dtype(kind).itemsize for kind, length, width in _ARRAYS.values())
+
+
+def _summary(about: dict[str, Any]) -> Summary:
+    names = ("vertices", "triangles", "points", "spacing", "credit")
+    return Summary(*(about[name] for name in names))
+
+
 def pictures(path: Path) -> set[str]:
     """Names of the pictures that a decoded tile's file names; none where it cannot be read."""
     try:
-        with np.load(path, allow_pickle=False) as stored:
-            about: dict[str, Any] = json.loads(stored["about"].tobytes())
+        with path.open("rb") as stream:
+            about, _ = _header(stream.read(len(_FIRST) + 4), stream.read)
         return {each["picture"] for each in about["materials"] if each.get("picture")}
-    except (OSError, ValueError, LookupError, TypeError, AttributeError, zipfile.BadZipFile):
+    except (OSError, ValueError, LookupError, TypeError, AttributeError, struct.error):
         return set()
 
 
 def _is_consistent(tile: Decoded) -> bool:
     """Whether every triangle names vertices and a material that exist."""
     count = len(tile.position)
-    shapes = tile.position.shape == tile.normal.shape == (count, 3) and tile.uv.shape == (count, 2)
-    inside = tile.triangle.shape[1:] == (3,) and tile.material_index.shape == (len(tile.triangle),)
-    if not (shapes and inside and tile.colour.shape in ((0, 4), (count, 4)) and tile.origin.shape == (3,)):
+    if len(tile.colour) not in (0, count) or not 0 <= tile.about.points <= count:
         return False
     if not len(tile.triangle):
         return True
@@ -180,6 +284,5 @@ def _store(image: tiles.Image, folder: Path, resources: dict[str, bytes]) -> str
     if not data or image.kind not in _ENDS:
         return ""
     path = folder / f"{hashlib.sha256(data).hexdigest()[:32]}{_ENDS[image.kind]}"
-    if not path.exists():
-        files.write(path, lambda part: part.write_bytes(data))
+    files.keep(path, data)
     return path.name

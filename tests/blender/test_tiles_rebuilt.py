@@ -60,7 +60,7 @@ def test_nothing_is_fetched_or_decoded_again(tiled, monkeypatch):
 def test_one_changed_tile_is_one_new_mesh(tiled, stage):
     before = build(tiled, stage)
     cut = tile_cut.of_shot(tiled)
-    other = cut.folder / f"{'0' * 32}.npz"
+    other = cut.folder / f"{'0' * 32}.tile"
     other.write_bytes((cut.folder / cut.tiles[1]).read_bytes())
     changed = replace(cut, tiles=(cut.tiles[0], other.name, *cut.tiles[2:]))
     tiles_build.build(tiled, stage, changed, None)

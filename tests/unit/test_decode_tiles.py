@@ -2,6 +2,7 @@
 
 import json
 import os
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,13 +18,13 @@ ONE = np.eye(4).tolist()
 
 def content(folder, name, data):
     (folder / name).write_bytes(data)
-    return Content(str(folder / name), name, ONE, ONE, str(folder / f"{name}.npz"))
+    return Content(str(folder / name), name, ONE, ONE, str(folder / f"{name}.tile"))
 
 
 def test_a_tile_comes_back_as_it_was_decoded(tmp_path):
     good = content(tmp_path, "good.glb", made.square().glb())
     assert decode_tiles.run([good]) == {}
-    tile = decoded.read(tmp_path / "good.glb.npz")
+    tile = decoded.read(tmp_path / "good.glb.tile")
     assert tile.position.shape == (4, 3)
     assert tile.triangle.shape == (2, 3)
     assert tile.material_index.tolist() == [0, 0]
@@ -40,7 +41,7 @@ def test_a_wrong_tile_is_named_and_the_others_go_on(tmp_path):
     ]
     bad = decode_tiles.run(contents)
     assert list(bad) == ["bad.glb"]
-    assert (tmp_path / "last.glb.npz").exists()
+    assert (tmp_path / "last.glb.tile").exists()
 
 
 def test_a_process_that_dies_loses_its_tile_alone(tmp_path, monkeypatch):
@@ -51,19 +52,34 @@ def test_a_process_that_dies_loses_its_tile_alone(tmp_path, monkeypatch):
     bad = decode_tiles.run(contents)
     assert list(bad) == ["1.glb"]
     assert "no progress" in bad["1.glb"]
-    assert (tmp_path / "0.glb.npz").exists()
-    assert (tmp_path / "2.glb.npz").exists()
+    assert (tmp_path / "0.glb.tile").exists()
+    assert (tmp_path / "2.glb.tile").exists()
 
 
 def test_a_decoded_tile_whose_numbers_do_not_fit_is_refused(tmp_path):
     good = content(tmp_path, "good.glb", made.square().glb())
     decode_tiles.run([good])
-    with np.load(good.out) as stored:
-        arrays = dict(stored)
-    arrays["triangle"] = arrays["triangle"] + 9
-    np.savez(tmp_path / "wrong.npz", **arrays)
+    data = Path(good.out).read_bytes()
+    tile = decoded.read(Path(good.out))
+    wrong = data.replace(tile.triangle.tobytes(), (tile.triangle + 9).tobytes())
+    assert wrong != data
+    (tmp_path / "wrong.tile").write_bytes(wrong)
     with pytest.raises(InputError, match="do not fit together"):
-        decoded.read(tmp_path / "wrong.npz")
+        decoded.read(tmp_path / "wrong.tile")
+
+
+def test_a_decoded_tile_that_is_cut_off_is_decoded_again(tmp_path):
+    good = content(tmp_path, "good.glb", made.square().glb())
+    decode_tiles.run([good])
+    whole = Path(good.out).read_bytes()
+    for length in (0, 10, 30, len(whole) - 1):
+        Path(good.out).write_bytes(whole[:length])
+        assert decoded.summary(Path(good.out)) is None
+        with pytest.raises(InputError, match="no decoded tile"):
+            decoded.read(Path(good.out))
+    decode_tiles.run([good])
+    assert Path(good.out).read_bytes() == whole
+    assert decoded.summary(Path(good.out)).triangles == 2
 
 
 def test_a_cut_is_read_as_it_was_written(tmp_path):

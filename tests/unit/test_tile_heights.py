@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from firetwin.errors import InputError
 from firetwin.shot.terrain import tile_heights
-from firetwin.tiles.decoded import Decoded
+from firetwin.tiles.decoded import Decoded, Summary
 from firetwin_core import geo, tiles
 from hypothesis import given
 from hypothesis import strategies as st
@@ -24,7 +24,7 @@ def tile(position, triangle, origin=(0.0, 0.0, 0.0)):
         triangle=np.asarray(triangle, np.int32),
         material_index=np.zeros(len(triangle), np.int32),
         materials=(),
-        credit="",
+        about=Summary(count, len(triangle), 0, 0.0, ""),
     )
 
 

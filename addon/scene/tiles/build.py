@@ -6,42 +6,86 @@ made again.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import bpy
 
 from ...blender import owned
 from ...blender.owned import Stage
+from ...shot import tile_cut
 from ...shot.shot import Shot
 from ...shot.tile_cut import TileCut
 from ...tiles import decoded
 from ...tiles.decoded import Decoded
 from .. import credits
 from ..forest.stand import Stand
-from . import material, mesh, pictures, reuse, slot
+from . import material, mesh, pictures, points, reuse, slot
 from .reuse import Kept
 from .slot import Slot
 
 PART = "Tiles"
+_POINTS = " points"  # end of the names of point clouds
 
 
 def build(shot: Shot, stage: Stage, cut: TileCut, grown: Stand | None) -> None:
-    """Build an object for each tile of the cut."""
-    made_of = reuse.place_digest(shot)
-    kept = reuse.find(stage, PART, cut.tiles, made_of)
-    slots, new = _arranged(cut, kept)
+    """Build an object for the triangles of each tile of the cut, and one for its points."""
+    wanted = _pieces(cut)
+    made_of = _made_of(shot, cut, wanted)
+    kept = reuse.find(stage, PART, wanted, made_of)
+    slots, new = _arranged(cut, wanted, kept)
     with reuse.held(kept):
         collection = stage.part(PART)
         credits.note(collection, cut.words)
         images = pictures.load(slots, cut.folder, kept.images)
         materials = material.build(shot, stage, images, grown, kept.materials)
-        for name in cut.tiles:
+        for name in wanted:
             data = kept.meshes.get(name)
             if data is None:
-                data = bpy.data.meshes.new(f"Firetwin Tile {name}")
-                mesh.fill(data, shot, new[name], slots)
-                reuse.note(data, name, made_of, new[name], slots)
+                data = _mesh(shot, name, new[_file(name)], slots)
+                reuse.note(data, name, made_of[name], new[_file(name)], slots)
             _assign(data, materials)
-            owned.add(collection, f"Tile {name}", data).location = data[reuse.ORIGIN]
+            obj = owned.add(collection, f"Tile {name}", data)
+            obj.location = data[reuse.ORIGIN]
+            if name.endswith(_POINTS):
+                points.show(obj, stage, materials[0])
     owned.purge()
+
+
+def _pieces(cut: TileCut) -> list[str]:
+    """Names of what is to be built of a cut's tiles: triangles and points."""
+    found = []
+    for name in cut.tiles:
+        about = decoded.summary(cut.folder / name)
+        if about is None or about.triangles or not about.points:
+            found.append(name)
+        if about is not None and about.points:
+            found.append(name + _POINTS)
+    return found
+
+
+def _made_of(shot: Shot, cut: TileCut, wanted: Sequence[str]) -> dict[str, str]:
+    """Digest of what each piece depends on besides its decoded tile: its place, and the heights of all tiles."""
+    place, shaped = reuse.place_digest(shot), tile_cut.heights(shot) is not None
+    return {
+        name: place + mesh.shape_digest(shot, decoded.read(cut.folder / name))
+        if shaped and not name.endswith(_POINTS)
+        else place
+        for name in wanted
+    }
+
+
+def _file(piece: str) -> str:
+    """Name of the decoded tile of a piece."""
+    return piece.removesuffix(_POINTS)
+
+
+def _mesh(shot: Shot, name: str, tile: Decoded, slots: dict[str, Slot]) -> bpy.types.Mesh:
+    data = bpy.data.meshes.new(f"Firetwin Tile {name}")
+    if name.endswith(_POINTS):
+        points.fill(data, shot, tile)
+    else:
+        mesh.fill(data, shot, tile, slots)
+    return data
 
 
 def remove(stage: Stage) -> None:
@@ -50,16 +94,17 @@ def remove(stage: Stage) -> None:
         stage.part(PART)
 
 
-def _arranged(cut: TileCut, kept: Kept) -> tuple[dict[str, Slot], dict[str, Decoded]]:
+def _arranged(cut: TileCut, wanted: list[str], kept: Kept) -> tuple[dict[str, Slot], dict[str, Decoded]]:
     """Slots of all pictures, and the tiles to be built; what must move in its image is no longer kept."""
-    new = {name: decoded.read(cut.folder / name) for name in cut.tiles if name not in kept.meshes}
+    lacking = dict.fromkeys(_file(name) for name in wanted if name not in kept.meshes)
+    new = {name: decoded.read(cut.folder / name) for name in lacking}
     before = {name: reuse.slots(data) for name, data in kept.meshes.items()}
     known = {picture: at for each in before.values() for picture, at in each.items()}
     slots = slot.arrange([*known, *(each for tile in new.values() for each in tile.pictures)], known)
     for name, mine in before.items():
         if any(slots[picture] != at for picture, at in mine.items()):
             del kept.meshes[name]
-            new[name] = decoded.read(cut.folder / name)
+            new[_file(name)] = decoded.read(cut.folder / _file(name))
     return slots, new
 
 

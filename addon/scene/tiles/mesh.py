@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+
 import bpy
 import numpy as np
 from numpy.typing import NDArray
@@ -19,13 +21,14 @@ UV = "tile_uv"
 
 
 def fill(data: bpy.types.Mesh, shot: Shot, tile: Decoded, slots: dict[str, Slot]) -> None:
-    """Write a tile into an empty mesh, with the attributes of the ground: `elevation` and `grid`.
+    """Write the triangles of a tile into an empty mesh, with the attributes of the ground.
 
     Growth that it shows is flattened where the scene plants its own (`tiles.trees`).
     """
-    tile = add_skirt(shot, flatten(shot, tile))
-    _shape(data, tile)
-    add_ground(data, shot, tile)
+    tile = shaped(shot, tile)
+    position = np.ascontiguousarray(tile.position)
+    _shape(data, tile, position)
+    add_ground(data, shot, position, tile.origin)
     corners = tile.triangle.ravel()
     index = np.repeat(tile.material_index, 3)
     uv, colour = tile.uv[corners], np.ones((len(corners), 4), np.float32)
@@ -43,10 +46,29 @@ def fill(data: bpy.types.Mesh, shot: Shot, tile: Decoded, slots: dict[str, Slot]
     data.polygons.foreach_set("material_index", (image[tile.material_index] + 1).astype(np.int32))
 
 
-def add_ground(data: bpy.types.Mesh, shot: Shot, tile: Decoded) -> None:
+def shaped(shot: Shot, tile: Decoded) -> Decoded:
+    """The triangles of a tile as the scene shows them: growth flattened, and a skirt at the tiles' border."""
+    return add_skirt(shot, flatten(shot, tile.without_points()))
+
+
+def shape_digest(shot: Shot, tile: Decoded) -> str:
+    """Digest of what flattening and skirt make of a tile; empty where they change nothing."""
+    plain = tile.without_points()
+    found = add_skirt(shot, flatten(shot, plain))
+    if found is plain:
+        return ""
+    digest = hashlib.sha256()
+    for array in (found.position, found.normal, found.triangle):
+        digest.update(np.ascontiguousarray(array).data)
+    return digest.hexdigest()[:32]
+
+
+def add_ground(
+    data: bpy.types.Mesh, shot: Shot, position: NDArray[np.float32], origin: NDArray[np.float64]
+) -> None:
     """Write what the ground's material reads at each vertex: `elevation` and `grid`."""
     ground = shot.ground
-    latitude, longitude, height = ground.frame.reverse(tile.position.astype(np.float64) + tile.origin)
+    latitude, longitude, height = ground.frame.reverse(position.astype(np.float64) + origin)
     row, column = ground.indices(latitude, longitude)
     add(data, "elevation", "FLOAT", height)
     add(data, fields.GRID, "FLOAT_VECTOR", fields.place(ground.shape, row, column, ground.fields.margin))
@@ -58,13 +80,13 @@ def add(data: bpy.types.Mesh, name: str, kind: str, values: NDArray) -> None:
     data.attributes.new(name, kind, "POINT").data.foreach_set(key, np.asarray(values, np.float32).ravel())
 
 
-def _shape(data: bpy.types.Mesh, tile: Decoded) -> None:
+def _shape(data: bpy.types.Mesh, tile: Decoded, position: NDArray[np.float32]) -> None:
     """Vertices, triangles and normals; arrays only, so that a tile costs the same in any scene."""
-    data.vertices.add(len(tile.position))
-    data.attributes["position"].data.foreach_set("vector", np.ascontiguousarray(tile.position).ravel())
+    data.vertices.add(len(position))
+    data.attributes["position"].data.foreach_set("vector", position.ravel())
     data.loops.add(tile.triangle.size)
     data.attributes[".corner_vert"].data.foreach_set("value", tile.triangle.ravel())
     data.polygons.add(len(tile.triangle))
     data.polygons.foreach_set("loop_start", np.arange(0, tile.triangle.size, 3, dtype=np.int32))
     data.update(calc_edges=True)
-    data.normals_split_custom_set_from_vertices(tile.normal)
+    add(data, "custom_normal", "FLOAT_VECTOR", tile.normal)

@@ -83,4 +83,4 @@ def _link(source: Path, path: Path) -> None:
             return
         shutil.copyfile(source, part)
 
-    files.write(path, put)
+    files.write(path, put, durable=False)

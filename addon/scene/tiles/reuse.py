@@ -40,7 +40,7 @@ class Kept:
     images: list[bpy.types.Image] = field(default_factory=list)
 
 
-def find(stage: Stage, part: str, wanted: Sequence[str], made_of: str) -> Kept:
+def find(stage: Stage, part: str, wanted: Sequence[str], made_of: Mapping[str, str]) -> Kept:
     """What the last build of a part left.
 
     Parameters
@@ -48,7 +48,7 @@ def find(stage: Stage, part: str, wanted: Sequence[str], made_of: str) -> Kept:
     wanted
         Names of decoded tiles.
     made_of
-        Digest of what their meshes depend on besides (see `place_digest`).
+        Digests of what their meshes depend on besides.
     """
     kept, some = Kept(), set(wanted)
     for obj in stage.objects_of(part):
@@ -58,7 +58,7 @@ def find(stage: Stage, part: str, wanted: Sequence[str], made_of: str) -> Kept:
         if not kept.materials and all(each is not None and MADE_OF in each for each in data.materials):
             kept.materials = list(data.materials)
         name = data[TILE]
-        same = name in some and name not in kept.meshes and data.get(MADE_OF) == made_of
+        same = name in some and name not in kept.meshes and data.get(MADE_OF) == made_of.get(name)
         if same and data.get(STATE) == state.of_mesh(data):
             kept.meshes[name] = data
     kept.images = [image for each in kept.materials for image in images(each)]

@@ -1,0 +1,52 @@
+"""Point clouds of tiles: vertices that geometry nodes show as spheres, in the ground's material."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ...blender import nodes, owned
+from ...blender.owned import Stage
+from ...shot.shot import Shot
+from ...tiles.decoded import Decoded
+from . import mesh
+
+RADIUS = "radius"
+"""Radius of points, m."""
+COVERING = 0.75
+"""Radius of a point as a part of the spacing: points of a square grid cover their surface from 0.71 on."""
+_GROUP = "tile_points"
+
+
+def fill(data: bpy.types.Mesh, shot: Shot, tile: Decoded) -> None:
+    """Write a tile's points into an empty mesh, with the attributes of the ground, colour and radius."""
+    first = len(tile.position) - tile.about.points
+    position = np.ascontiguousarray(tile.position[first:])
+    data.vertices.add(len(position))
+    data.attributes["position"].data.foreach_set("vector", position.ravel())
+    mesh.add_ground(data, shot, position, tile.origin)
+    colour = tile.colour[first:] if len(tile.colour) else np.ones((len(position), 4), np.float32)
+    mesh.add(data, mesh.COLOUR, "FLOAT_COLOR", colour)
+    mesh.add(data, RADIUS, "FLOAT", np.full(len(position), COVERING * tile.about.spacing))
+    data.update()
+
+
+def show(obj: bpy.types.Object, stage: Stage, material: bpy.types.Material) -> None:
+    """Show the vertices of an object as points."""
+    modifier = obj.modifiers.new("Firetwin Tile Points", "NODES")
+    modifier.node_group = _group(stage, material)
+
+
+def _group(stage: Stage, material: bpy.types.Material) -> bpy.types.NodeTree:
+    """Geometry nodes, once per scene: vertices to points of this material."""
+    group = stage.root.get(_GROUP)
+    if group is None:
+        tree, entry = nodes.geometry("Firetwin Tile Points")
+        radius = tree.output("GeometryNodeInputNamedAttribute", {"Name": RADIUS}, data_type="FLOAT")
+        shown = tree.output("GeometryNodeMeshToPoints", {"Mesh": entry, "Radius": radius})
+        tree.geometry(tree.output("GeometryNodeSetMaterial", {"Geometry": shown, "Material": material}))
+        group = stage.root[_GROUP] = owned.mark(tree.node_tree)
+    setter = next(node for node in group.nodes if node.bl_idname == "GeometryNodeSetMaterial")
+    if setter.inputs["Material"].default_value != material:
+        setter.inputs["Material"].default_value = material
+    return group
