@@ -64,7 +64,7 @@ def _pieces(cut: TileCut) -> list[str]:
 
 
 def _made_of(shot: Shot, cut: TileCut, wanted: Sequence[str]) -> dict[str, str]:
-    """Digest of what each piece depends on besides its decoded tile: its place, and the heights of all tiles."""
+    """Digest of what each piece depends on besides its own tile: its place, and heights of all tiles."""
     place, shaped = reuse.place_digest(shot), tile_cut.heights(shot) is not None
     return {
         name: place + mesh.shape_digest(shot, decoded.read(cut.folder / name))
