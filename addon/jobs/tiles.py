@@ -166,7 +166,7 @@ def make(
         max(each.choice.error for each in prepared),
         tuple(dict.fromkeys(each.policy.logo for each in prepared if each.policy.logo)),
         sum(each.empty for each in prepared),
-        heights and tile_difference.measure(heights, shot.settings, shot.run),
+        tile_difference.measure(heights, shot.settings, shot.run) if heights else None,
     )
     picture_credits.check_room(shot, picture_credits.of_cuts(shot.settings, [cut]))
     if access.strict and cut.missing:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from . import rim
 from .apron import TerrainFields
 from .elevation import Elevation, ramp
+from .raster import Array
 
 _FINEST = 2.0  # m, smallest point spacing
 _MOST = 6_000_000  # points at most
@@ -74,10 +75,24 @@ def patch(
     index = row[:, None], column
     offset = relief.read(*axes) - bilinear(fields.elevation[place], *index).astype(np.float32)
     if relief.tiles is not None:
-        offset = rim.continued(offset, _FADE)  # so that it is whole up to the tiles' border
+        offset = _beside_tiles(relief, offset, axes, [fields.latitude[place[0]], fields.longitude[place[1]]])
     known = np.isfinite(offset)
     counts = ramp(known, _FADE) * bilinear(share[place], *index).astype(np.float32)
     return Patch(place[0].start, place[1].start, parts, np.where(known, offset, np.float32(0.0)), counts)
+
+
+def _beside_tiles(relief: Elevation, offset: NDArray, axes: list[Array], grid: list[Array]) -> NDArray:
+    """Offsets that are whole up to the border of tiles, and beside it those of the elevation model's detail.
+
+    The grid's own heights meet the tiles there. The model's would not.
+    """
+    tiles, beside = relief.parts
+    on = np.isfinite(tiles.read(*axes))
+    if beside.model is not None:
+        row, column = (np.interp(at, line, np.arange(len(line))) for at, line in zip(axes, grid, strict=True))
+        offset = np.where(on, offset, beside.read(*axes) - bilinear(beside.read(*grid), row[:, None], column))
+        return offset.astype(np.float32)
+    return rim.continued(np.where(on, offset, np.float32(np.nan)), _FADE)
 
 
 def _inner(part: slice, side: int, margin: int) -> slice:

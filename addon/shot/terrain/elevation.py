@@ -50,6 +50,12 @@ class Elevation:
         return self.model.tiles if isinstance(self.model, _Stacked) else None
 
     @property
+    def parts(self) -> tuple[Elevation, Elevation]:
+        """Elevation of the 3-D Tiles alone, and of what is beside them; only where it is of tiles."""
+        assert isinstance(self.model, _Stacked)
+        return Elevation(self.run, _Stacked(self.model.tiles, None)), Elevation(self.run, self.model.model)
+
+    @property
     def fuel(self) -> NDArray[np.float32]:
         """Elevation (fy, fx) of the fuel grid, m."""
         return self._fuel[0]
@@ -94,7 +100,7 @@ class Elevation:
         if self.model is None or not self.model.overlaps(latitude, longitude):
             return own, np.zeros(own.shape, np.float32)
         if isinstance(self.model, _Stacked):
-            return self._on_tiles(self.model, latitude, longitude, own)
+            return self._on_tiles(latitude, longitude, own)
         heights = self.read(latitude, longitude)
         known = np.isfinite(heights)
         share = np.where(known, 1.0, 0.0).astype(np.float32)
@@ -104,12 +110,12 @@ class Elevation:
         return (own_there + share * (heights - own_there)).astype(own.dtype), share
 
     def _on_tiles(
-        self, stacked: _Stacked, latitude: Array, longitude: Array, own: NDArray
+        self, latitude: Array, longitude: Array, own: NDArray
     ) -> tuple[NDArray, NDArray[np.float32]]:
         """As `mixed`: tiles in full up to their border, where the ground beside them meets them."""
-        beside, share = Elevation(self.run, stacked.model).mixed(latitude, longitude, own)
-        tiles = Elevation(self.run, stacked.alone).read(latitude, longitude)
-        heights = rim.meet(tiles, beside, _width(latitude, longitude))
+        tiles, others = self.parts
+        beside, share = others.mixed(latitude, longitude, own)
+        heights = rim.meet(tiles.read(latitude, longitude), beside, _width(latitude, longitude))
         return heights.astype(own.dtype), np.where(heights == beside, share, np.float32(1.0))
 
     def read(self, latitude: Array, longitude: Array) -> NDArray[np.float32]:
@@ -150,11 +156,6 @@ class _Stacked:
 
     def __init__(self, tiles: TileHeights, model: GeoTiff | None) -> None:
         self.tiles, self.model, self.resolution = tiles, model, tiles.resolution
-
-    @property
-    def alone(self) -> _Stacked:
-        """The tiles without the model."""
-        return _Stacked(self.tiles, None)
 
     def overlaps(self, latitude: Array, longitude: Array) -> bool:
         """Whether one of them has heights there."""

@@ -177,7 +177,7 @@ def rasterise(
     below = _sampled(known, low, step, (rows, columns))
     ground, shown = tiles.find_ground(height - below, step)
     for rings in buildings:
-        if covered := rasterize.filled([(ring - low) / step + 0.5 for ring in rings], shown.shape):
+        if covered := rasterize.filled([(ring - low) / step + 0.5 for ring in rings], (rows, columns)):
             part = shown[covered[0]]
             part[(covered[1] > 0.5) & (part == tiles.GROWTH)] = tiles.BUILDING
     return Surface(low, step, height, np.where(shown == tiles.GROUND, height, ground + below), shown)
