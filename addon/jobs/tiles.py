@@ -110,7 +110,9 @@ def in_process(
         heights = tile_heights.location(shot.settings, shot.run)
         if not (_kept(first, keep) and heights.exists()):
             make(first, progress, how, wanted)
-            shutil.copyfile(tile_cut.location(first).with_suffix(tile_cut.HEIGHTS), heights)
+            found = tile_cut.location(first).with_suffix(tile_cut.HEIGHTS)
+            if found.is_file():
+                shutil.copyfile(found, heights)
         shot = source.shot()
     for built in [for_view(shot, view) for view in views] or [shot]:
         if not _kept(built, keep):
@@ -204,6 +206,7 @@ def _to_scene(shot: Shot) -> tuple[float | None, NDArray[np.float64]]:
 def _heights(shot: Shot, path: Path, names: Sequence[str]) -> TileHeights | None:
     """Write heights of a cut's tiles beside it; None without tiles."""
     if not names:
+        path.with_suffix(tile_cut.HEIGHTS).unlink(missing_ok=True)
         return None
     found = (decoded.read(path.parent / name) for name in names)
     surface = tile_heights.rasterise(found, shot.bare_ground.up, land_use.buildings(shot))

@@ -15,7 +15,7 @@ using Mask = std::vector<std::uint8_t>;
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t edge_width = 2; // points
-constexpr std::size_t least_roof = 4; // points of an even surface that make a roof
+constexpr std::size_t least_roof = 2; // points of an even surface that make a roof
 
 /// Mask of what openings lower by more than their threshold; `surface` is opened by all of them.
 Mask find_objects(std::vector<float>& surface, std::size_t rows, std::size_t columns,
@@ -121,20 +121,32 @@ Mask find_roofs(const Mask& object, std::span<const float> height, std::size_t r
                 std::size_t columns, const GroundOptions& options) {
   Mask even(object.size(), 0);
   const auto most = static_cast<float>(options.roof * options.step);
+  const auto steepest = static_cast<float>(2.0 * options.pitch * options.step);
   for (std::size_t y = 1; y + 1 < rows; ++y) {
     for (std::size_t x = 1; x + 1 < columns; ++x) {
       const std::size_t k = y * columns + x;
       bool flat = object[k] != 0;
       for (const std::size_t away : {std::size_t{1}, columns}) {
         flat = flat && object[k - away] && object[k + away] &&
-               std::abs(height[k - away] - 2.0F * height[k] + height[k + away]) <= most;
+               std::abs(height[k - away] - 2.0F * height[k] + height[k + away]) <= most &&
+               std::abs(height[k + away] - height[k - away]) <= steepest;
       }
       even[k] = flat;
     }
   }
-  const auto patches = find_patches(even, rows, columns);
+  Mask joined = widen(even, rows, columns, 1); // over the ridges of roofs
   for (std::size_t k = 0; k < even.size(); ++k) {
-    even[k] = even[k] && patches.size[static_cast<std::size_t>(patches.number[k])] >= least_roof;
+    joined[k] = joined[k] && object[k];
+  }
+  const auto patches = find_patches(joined, rows, columns);
+  std::vector<std::size_t> count(patches.count, 0);
+  for (std::size_t k = 0; k < even.size(); ++k) {
+    if (even[k]) {
+      ++count[static_cast<std::size_t>(patches.number[k])];
+    }
+  }
+  for (std::size_t k = 0; k < even.size(); ++k) {
+    even[k] = even[k] && count[static_cast<std::size_t>(patches.number[k])] >= least_roof;
   }
   return even;
 }

@@ -16,6 +16,7 @@ struct GroundOptions {
   double slope = 0.15;  ///< slope of the ground beside what is known of it
   double wall = 0.7;    ///< slope of an object's sides, on average; gentler ones are natural
   double roof = 0.25;   ///< bend of a roof per point, in steps; crowns are rougher
+  double pitch = 1.0;   ///< slope of a roof; crowns are steeper
 };
 
 /// What a point shows.

@@ -3,7 +3,7 @@
 namespace firetwin::tiles {
 
 Patches find_patches(std::span<const std::uint8_t> mask, std::size_t rows, std::size_t columns) {
-  Patches found{rows, columns, 0, std::vector<std::int32_t>(mask.size(), -1), {}};
+  Patches found{rows, columns, 0, std::vector<std::int32_t>(mask.size(), -1)};
   std::vector<std::size_t> open;
   const auto visit = [&](std::size_t k) {
     if (mask[k] && found.number[k] < 0) {
@@ -16,11 +16,9 @@ Patches find_patches(std::span<const std::uint8_t> mask, std::size_t rows, std::
     if (open.empty()) {
       continue;
     }
-    std::size_t size = 0;
     while (!open.empty()) {
       const std::size_t k = open.back(), x = k % columns;
       open.pop_back();
-      ++size;
       if (x > 0) {
         visit(k - 1);
       }
@@ -34,7 +32,6 @@ Patches find_patches(std::span<const std::uint8_t> mask, std::size_t rows, std::
         visit(k + columns);
       }
     }
-    found.size.push_back(size);
     ++found.count;
   }
   return found;

@@ -11,7 +11,6 @@ namespace firetwin::tiles {
 struct Patches {
   std::size_t rows, columns, count;
   std::vector<std::int32_t> number; ///< of each point; -1 outside of the mask
-  std::vector<std::size_t> size;    ///< points of each patch
 };
 
 Patches find_patches(std::span<const std::uint8_t> mask, std::size_t rows, std::size_t columns);

@@ -56,6 +56,28 @@ def test_the_ground_below_boxes_and_crowns():
     assert raised[roof].min() > 4.0  # what would stand on roofs without
 
 
+def test_small_houses_are_told_from_crowns():
+    """Houses of 8 m by 6 m with gables of 40 degrees, and conifers and broad crowns, as rough as they are."""
+    rng = np.random.default_rng(8)
+    house, crown, height = np.zeros(X.shape, bool), np.zeros(X.shape, bool), np.zeros(X.shape)
+    for x in range(20, 300, 28):
+        for y in range(20, 300, 28):
+            across, along = np.abs(X - x), np.abs(Y - y)
+            if (x + y) // 28 % 2:
+                inside = (across <= 4) & (along <= 3)
+                house |= inside
+                height[inside] = (3.0 + 0.84 * (4 - across))[inside]
+            else:
+                radius, power = rng.uniform(2.5, 7), rng.choice([0.5, 1.0])
+                part = np.clip(1.0 - np.hypot(across, along) / radius, 0, None) ** power
+                crown |= part > 0
+                height += rng.uniform(6, 20) * part * rng.uniform(0.8, 1.2, X.shape)
+    surface = HILLS + height + rng.normal(0, 0.05, X.shape)
+    _, shown = tiles.find_ground(surface - KNOWN, STEP)
+    assert np.mean(shown[house] == tiles.BUILDING) > 0.95
+    assert np.mean(shown[crown] == tiles.BUILDING) < 0.05
+
+
 def test_bare_ground_stays_as_it_is():
     ground, shown = tiles.find_ground(HILLS, STEP)
     assert (ground == HILLS.astype(np.float32)).all()

@@ -344,7 +344,7 @@ def find_ground(
 
     Returns
     -------
-    Heights, and GROUND, GROWTH or BUILDING for each point. Buildings have an even surface of 4 points or more.
+    Heights, and GROUND, GROWTH or BUILDING for each point. Buildings have 2 points or more of an even surface.
 
     Raises
     ------
