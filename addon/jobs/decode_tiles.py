@@ -92,9 +92,8 @@ def _decode(contents: list[Content], follow: Any) -> dict[str, str]:
 
         tasks = [asdict(each) for each in contents[first:]]
         try:
-            bad |= worker.run(
-                f"{__name__}:in_process", {"contents": tasks}, count, blender=False, patience=_SECONDS
-            )
+            about = {"contents": tasks, "memory": _MEMORY}
+            bad |= worker.run(f"{__name__}:in_process", about, count, blender=False, patience=_SECONDS)
             return bad
         except worker.EndedError as error:
             bad[contents[first + reached].name] = f"decoding {error}"
@@ -102,11 +101,13 @@ def _decode(contents: list[Content], follow: Any) -> dict[str, str]:
     return bad
 
 
-def in_process(contents: list[dict[str, Any]], progress: Progress, tell: MessageCallback) -> dict[str, str]:
-    """Decode; worker side. Reasons by name, of those that are refused."""
+def in_process(
+    contents: list[dict[str, Any]], progress: Progress, tell: MessageCallback, memory: int = _MEMORY
+) -> dict[str, str]:
+    """Decode within `memory` bytes; worker side. Reasons by name, of those that are refused."""
     from firetwin_core import tiles
 
-    _limit()
+    _limit(memory)
     bad = {}
     for number, about in enumerate(contents):
         progress(number, len(contents))
@@ -128,9 +129,9 @@ def in_process(contents: list[dict[str, Any]], progress: Progress, tell: Message
     return bad
 
 
-def _limit() -> None:
+def _limit(memory: int) -> None:
     """Limit this process's memory, where the system can: Windows has no such module."""
     with contextlib.suppress(ImportError, ValueError, OSError):
         import resource
 
-        resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
+        resource.setrlimit(resource.RLIMIT_AS, (memory, memory))

@@ -10,7 +10,7 @@ import hashlib
 import os
 import shutil
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import files
-from ..errors import Error, input_error
+from ..errors import Error, InputError, input_error
 from ..progress import MessageCallback, Progress, count, no_message, share, silent
 from ..shot import picture_credits, tile_cut, tile_terms
 from ..shot.comparison import for_view
@@ -31,7 +31,9 @@ from ..shot.terrain.tile_heights import TileHeights
 from ..shot.tile_cut import TileCut
 from ..shot.tile_terms import Use
 from ..tiles import decoded, policies
+from ..tiles.decoded import Summary
 from ..tiles.policies import Policy
+from ..tiles.sources import MissingError
 from . import decode_tiles, worker
 from .decode_tiles import Content
 from .tile_access import TileAccess, from_plain, permitted
@@ -122,7 +124,10 @@ def in_process(
 
 def _kept(shot: Shot, keep: bool) -> bool:
     """Whether a shot's choice stays as it is; files of this machine may have changed, and are read again."""
-    cut = tile_cut.prepared(shot) if keep else None
+    try:
+        cut = tile_cut.prepared(shot) if keep else None
+    except InputError:  # damaged: it is made again
+        return False
     places = shot.settings.tiles.sources
     remote = all("://" in place and policies.of_place(place).may_work_offline for place in places)
     if not remote or cut is None or not cut.is_whole():
@@ -164,7 +169,7 @@ def make(
         path.stem,
         names,
         tuple(notice for notice, _ in notices.most_common()),
-        tuple(sorted(reason for each in prepared for reason in each.choice.missing.values())),
+        tuple(sorted(reason for each in prepared for reason in each.missing)),
         max(each.choice.error for each in prepared),
         tuple(dict.fromkeys(each.policy.logo for each in prepared if each.policy.logo)),
         sum(each.empty for each in prepared),
@@ -242,6 +247,8 @@ class _Prepared:
         Of decoded tiles.
     credits
         A credit for each tile.
+    missing
+        What cannot be had, and why.
     empty
         Tiles without triangles.
     advised
@@ -251,6 +258,7 @@ class _Prepared:
     choice: Choice
     names: list[str]
     credits: list[str]
+    missing: list[str]
     empty: int
     policy: Policy
     advised: bool
@@ -287,7 +295,7 @@ class _Source:
         megabytes = self.settings.max_size * 1_000_000
         self.budget = Budget(self.settings.max_tiles, megabytes, self.settings.max_triangles)
         self.files: dict[int, str] = {}
-        self._decoded: dict[str, tuple[int, str]] = {}
+        self._decoded: dict[str, Summary | None] = {}
 
     def prepared(self, progress: Progress) -> _Prepared:
         """Choose, fetch and decode until everything that is chosen can be shown."""
@@ -305,20 +313,41 @@ class _Source:
                 put=self._put,
                 triangles=triangles,
             )
-            wanted = [self._content(number) for number in choice.contents.tolist()]
-            bad = decode_tiles.run(wanted, progress)
-            for number, each in zip(choice.contents.tolist(), wanted, strict=True):
-                if each.name in bad:
-                    self.loader.tree.broken[int(self.loader.tree.content[number, 0])] = bad[each.name]
-            counts = [self._triangles_and_credit(each)[0] for each in wanted]
-            triangles |= dict(zip(choice.contents.tolist(), counts, strict=True))
-            if not bad and sum(counts) <= self.settings.max_triangles:
+            wanted, bad = self._contents(choice.contents.tolist())
+            failed = decode_tiles.run(list(wanted.values()), progress)
+            bad |= {number: failed[each.name] for number, each in wanted.items() if each.name in failed}
+            for number, reason in bad.items():
+                name = self.loader.source.name(self.loader.content_uri(number))
+                named = reason if reason.startswith(name) else f"{name}: {reason}"
+                self.loader.tree.broken[int(self.loader.tree.content[number, 0])] = named
+            counts = {
+                number: about.triangles if (about := self._summary(each)) else 0
+                for number, each in wanted.items()
+            }
+            triangles |= counts
+            if not bad and sum(counts.values()) <= self.settings.max_triangles:
                 break
         self.loader.source.close()
-        there = [each for each in wanted if Path(each.out).exists()]
-        empty = sum(not self._triangles_and_credit(each)[0] for each in there)
-        names = [Path(each.out).name for each in there]
-        return _Prepared(choice, names, list(self._credits(wanted)), empty, self.policy, self.advised)
+        there = {each.out: about for each in wanted.values() if (about := self._summary(each))}
+        return _Prepared(
+            choice,
+            [Path(out).name for out in there],
+            list(self._credits(there.values())),
+            sorted(self.loader.tree.broken.values()),
+            sum(not (about.triangles or about.points) for about in there.values()),
+            self.policy,
+            self.advised,
+        )
+
+    def _contents(self, numbers: list[int]) -> tuple[dict[int, Content], dict[int, str]]:
+        """What is to be decoded, and why the rest cannot be: files beside it are missing, or it is wrong."""
+        wanted, bad = dict[int, Content](), dict[int, str]()
+        for number in numbers:
+            try:
+                wanted[number] = self._content(number)
+            except (MissingError, _WrongError) as error:
+                bad[number] = str(error)
+        return wanted, bad
 
     def _put(self, content: int, data: bytes) -> None:
         """Keep a content under a name that follows it."""
@@ -349,29 +378,44 @@ class _Source:
 
     def _beside(self, uri: str, path: str) -> dict[str, str]:
         """Files beside a content that it needs, by their uri."""
-        from firetwin_core import tiles
-
         source, name = self.loader.source, self.loader.source.name(uri)
         data, found = Path(path).read_bytes(), dict[str, bytes]()
-        while wanted := [each for each in tiles.resources_needed(data, name, found) if each not in found]:
+        while wanted := [each for each in _needed(data, name, found) if each not in found]:
             found |= {each: source.read(source.resolve(uri, each)) for each in wanted}
         return {each: self._stored(content) for each, content in found.items()}
 
-    def _triangles_and_credit(self, content: Content) -> tuple[int, str]:
-        """Triangles and notice of a decoded content; 0 where it could not be decoded."""
-        if content.out not in self._decoded:
-            about = decoded.summary(Path(content.out))
-            if about is None:
-                return 0, ""
-            self._decoded[content.out] = about.triangles, about.credit
+    def _summary(self, content: Content) -> Summary | None:
+        """Numbers of a decoded content, read once; None where it could not be decoded, or is damaged."""
+        if self._decoded.get(content.out) is None:
+            self._decoded[content.out] = decoded.summary(Path(content.out))
         return self._decoded[content.out]
 
-    def _credits(self, contents: Sequence[Content]) -> Any:
+    def _credits(self, shown: Iterable[Summary]) -> Iterator[str]:
         """A notice for each tile that has one, its document's own after it."""
-        notices = [self._triangles_and_credit(each)[1] for each in contents]
+        notices = [about.credit for about in shown]
         notices += [document.copyright for document in self.loader.tree.documents]
         for notice in notices:
             yield from filter(None, map(str.strip, notice.split(";")))
+
+
+class _WrongError(Exception):
+    """A content that cannot be read, and is named as a tile that is missing."""
+
+
+def _needed(data: bytes, name: str, found: dict[str, bytes]) -> list[str]:
+    """Files beside a content that it names.
+
+    Raises
+    ------
+    _WrongError
+        It cannot be read.
+    """
+    from firetwin_core import tiles
+
+    try:
+        return tiles.resources_needed(data, name, found)
+    except (InputError, ValueError) as error:
+        raise _WrongError(str(error)) from None
 
 
 def _plain(matrix: NDArray[np.float64]) -> bytes:

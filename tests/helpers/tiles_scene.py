@@ -31,7 +31,7 @@ def decoded_here(monkeypatch):
     def decode(contents, progress):
         return decode_tiles.in_process([asdict(each) for each in contents], progress, print)
 
-    monkeypatch.setattr(decode_tiles, "_limit", lambda: None)
+    monkeypatch.setattr(decode_tiles, "_limit", lambda memory: None)
     monkeypatch.setattr(decode_tiles, "run", decode)
 
 

@@ -130,7 +130,7 @@ def test_answers_of_servers_are_listed_and_pruned(kept, capsys):
             f"https://x.example/{number}",
             bytes(1000),
             {"Cache-Control": "max-age=60"},
-            time.time() - 7300 + number,
+            time.time() - 7230 + number,
         )
     cache.close()
     assert cli.main(["cache", str(kept.parent)]) == 0

@@ -1,0 +1,506 @@
+"""What may go wrong with tiles, line by line, from a server to the cut that is shown: fetch, decode, choose.
+
+The lines are those of the table in docs/tiles.md. In each case the job goes on with what there is, says what
+is missing, and fails where it is to be strict; or it stops with the service's own words.
+"""
+
+import errno
+import gzip
+import json
+import os
+import signal
+import threading
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import geodesy
+import numpy as np
+import pytest
+import tile_files as made
+from firetwin import files
+from firetwin.data import sample
+from firetwin.errors import Error, InputError
+from firetwin.jobs import decode_tiles, make_tiles, tile_access, tiles, worker
+from firetwin.jobs.tile_access import PREFERENCE, TileAccess
+from firetwin.shot import tile_cut
+from firetwin.shot.source import ShotSource
+from firetwin.tiles import decoded, policies
+from firetwin.tiles.policies import Policy
+from firetwin.tiles.sources import connection, http, http_cache, waiting
+from firetwin.tiles.sources.network import Network
+from lying_server import Reply, serving
+
+SECRET = "k3y-of-somebody"
+FRESH = {"Cache-Control": "private, max-age=3600", "ETag": '"1"'}
+SCENE = """run = "run"
+time = { frames = 1 }
+render = { resolution = [320, 180] }
+[[cameras]]
+name = "drone"
+[[cameras.keys]]
+latitude = 38.98
+longitude = -120.56
+height = 600.0
+target = "head"
+"""
+
+
+class Clock(waiting.Clock):
+    """A clock that does not wait."""
+
+    def __init__(self):
+        self.time, self.slept = time.time(), []
+        super().__init__(now=lambda: self.time, sleep=self._sleep, chance=lambda: 1.0)
+
+    def _sleep(self, seconds):
+        self.slept.append(seconds)
+        self.time += seconds
+
+
+@pytest.fixture(scope="module")
+def ground(tmp_path_factory):
+    """A shot of a small run, and a tileset of its ground: files by their paths. A tile is a square."""
+    folder = tmp_path_factory.mktemp("ground")
+    sample.write(folder / "run", 2)
+    (folder / "scene.toml").write_text(SCENE)
+    shot = ShotSource(scene=str(folder / "scene.toml")).shot()
+    make_tiles.run(shot, make_tiles.TilesRequest(folder / "set", levels=2, credit="Somebody"))
+    text = (folder / "set" / "tileset.json").read_bytes()
+    return shot, {"/t/tileset.json": text} | dict(squares(json.loads(text)["root"]))
+
+
+def squares(tile):
+    """A content for each tile, in the middle of its region."""
+    west, south, east, north, low, high = tile["boundingVolume"]["region"]
+    centre = geodesy.geocentric(*np.mean([[south, west, low], [north, east, high]], axis=0))
+    content = made.square(
+        asset={"version": "2.0", "copyright": "Somebody"},
+        extensions={"CESIUM_RTC": {"center": list(centre)}},
+        extensionsUsed=["CESIUM_RTC"],
+    )
+    content.json["nodes"][0]["scale"] = [2000.0] * 3
+    yield f"/t/{tile['content']['uri']}", content.glb()
+    for child in tile.get("children", []):
+        yield from squares(child)
+
+
+@pytest.fixture
+def server():
+    with serving() as each:
+        yield each
+
+
+class Chain:
+    """From a server's tileset to a cut."""
+
+    def __init__(self, ground, server, folder):
+        self.shot, self.files = ground
+        self.server, self.folder = server, folder
+        self.query = ""
+        server.answers |= {path: Reply(200, data, FRESH) for path, data in self.files.items()}
+
+    def shot_of(self):
+        known = replace(
+            self.shot.settings.tiles,
+            sources=(f"{self.server.url}/t/tileset.json{self.query}",),
+            error=1.0,
+        )
+        return self.shot._with_settings(replace(self.shot.settings, tiles=known, cache=self.folder / "cache"))
+
+    def make(self, **access):
+        """The cut, and what is said of it."""
+        shot = self.shot_of()
+        told = tiles.make(shot, access=TileAccess(**access))
+        return tile_cut.of_shot(shot), "\n".join(told)
+
+    def leaf(self):
+        """Path of one of the finest tiles that the shot shows, and the whole cut."""
+        cut, _ = self.make()
+        assert not cut.missing
+        assert len(cut.tiles) > 4
+        paths = [each for each in self.server.asked if each.endswith(".glb")]
+        leaf = max(paths)
+        self.server.asked.clear()
+        self.forget()
+        return leaf, cut
+
+    def forget(self):
+        """Empty all caches."""
+        for place in (self.folder / "user", self.folder / "cache"):
+            for path in sorted(place.rglob("*"), reverse=True):
+                path.rmdir() if path.is_dir() else path.unlink()
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    clock = Clock()
+    monkeypatch.setattr(http, "Clock", lambda: clock)
+    return clock
+
+
+@pytest.fixture
+def chain(ground, server, tmp_path, monkeypatch, clock):
+    def network(access):
+        hosts = access.hosts, access.private
+        return Network(access.online, access.setting, *hosts, cache=tmp_path / "user")
+
+    monkeypatch.setattr(tile_access.TileAccess, "network", network)
+    return Chain(ground, server, tmp_path)
+
+
+def missing(chain, leaf, why, whole):
+    """An ancestor stands in for a leaf and its neighbours; it is said, and fails where it is to be strict."""
+    cut, told = chain.make()
+    (reason,) = cut.missing
+    assert reason.startswith(f"{chain.server.url}{leaf}: ")
+    assert why in reason
+    assert reason in told
+    assert len(cut.tiles) == len(whole.tiles) - 3  # one parent for four children
+    assert cut.credits == ("Somebody",)
+    path = tile_cut.location(chain.shot_of())
+    path.unlink()
+    with pytest.raises(Error, match="--strict: 1 tile missing: ") as caught:
+        chain.make(strict=True)
+    assert f"{chain.server.url}{leaf}" in str(caught.value)
+    assert not path.exists()
+    return cut
+
+
+@pytest.mark.parametrize("status", [404, 410])
+def test_a_file_that_is_not_there(chain, status):
+    leaf, whole = chain.leaf()
+    chain.server.answers[leaf] = Reply(status, b"gone")
+    missing(chain, leaf, f"is not there (status {status})", whole)
+
+
+def test_a_file_beside_a_tile_that_is_not_there(chain):
+    """A glTF names a buffer of its own."""
+    leaf, whole = chain.leaf()
+    content = {"asset": {"version": "2.0"}, "buffers": [{"uri": "gone.bin", "byteLength": 12}]}
+    chain.server.answers[leaf] = Reply(200, json.dumps(content).encode(), FRESH)
+    cut = missing(chain, leaf, "gone.bin: is not there (status 404)", whole)
+    assert len(cut.tiles) > 0
+
+
+def test_a_status_403_of_an_open_server(chain):
+    leaf, whole = chain.leaf()
+    chain.server.answers[leaf] = Reply(403, b"not for you")
+    missing(chain, leaf, "is refused (status 403: not for you)", whole)
+
+
+def with_sessions(chain, alive, monkeypatch):
+    """Tiles want the key and a session that is alive; each answer of the root hands out another one."""
+    known = Policy("an imitation", key_parameter="key", session_parameter="session")
+    monkeypatch.setattr(policies, "of_host", lambda host: known)
+    root = json.loads(chain.files["/t/tileset.json"])
+    sessions = iter(range(1, 9))
+
+    def named(tile, session):
+        tile = dict(tile)
+        if "content" in tile:
+            tile["content"] = {"uri": f"{tile['content']['uri']}?session=s3ssion-{session}"}
+        tile["children"] = [named(each, session) for each in tile.get("children", [])]
+        return tile
+
+    def give_root(query, _):
+        if query.get("key") != SECRET:
+            return Reply(403, b"no key")
+        return Reply(200, json.dumps(root | {"root": named(root["root"], next(sessions))}).encode(), FRESH)
+
+    def give(path):
+        def content(query, _):
+            if query.get("key") != SECRET or query.get("session") not in alive:
+                return Reply(403, f"key {query.get('key')}: session is over".encode())
+            return Reply(200, chain.files[path], FRESH)
+
+        return content
+
+    chain.server.answers |= {path: give(path) for path in chain.files if path.endswith(".glb")}
+    chain.server.answers["/t/tileset.json"] = give_root
+    chain.query = f"?key={SECRET}"
+
+
+def test_a_session_that_has_ended_is_renewed_once(chain, monkeypatch):
+    _, whole = chain.leaf()
+    with_sessions(chain, ["s3ssion-2"], monkeypatch)
+    cut, told = chain.make()
+    assert not cut.missing
+    assert len(cut.tiles) == len(whole.tiles)
+    assert SECRET not in told
+    assert sum(each.startswith("/t/tileset.json") for each in chain.server.asked) == 2
+
+
+def test_the_second_time_the_services_own_words_end_it(chain, monkeypatch):
+    with_sessions(chain, [], monkeypatch)
+    with pytest.raises(InputError, match=r"is refused .*session is over.*check the key") as caught:
+        chain.make()
+    assert SECRET not in str(caught.value)
+
+
+def test_status_429_pauses_as_long_as_the_server_asks(chain, clock):
+    leaf, whole = chain.leaf()
+    chain.server.answers[leaf] = [Reply(429, b"", {"Retry-After": "37"}), chain.server.answers[leaf]]
+    cut, _ = chain.make()
+    assert cut == replace(whole, folder=cut.folder)
+    assert max(clock.slept) == pytest.approx(37.0, abs=1.0)
+
+
+@pytest.mark.parametrize("status", [500, 503])
+def test_a_server_in_trouble_is_asked_again_five_times(chain, clock, status):
+    leaf, whole = chain.leaf()
+    chain.server.answers[leaf] = [*[Reply(status)] * 5, chain.server.answers[leaf]]
+    cut, _ = chain.make()
+    assert cut.tiles == whole.tiles
+    assert max(clock.slept) == pytest.approx(8.0, abs=0.1)
+    chain.forget()
+    chain.server.answers[leaf] = Reply(status)
+    missing(chain, leaf, "cannot be had after 6 attempts", whole)
+
+
+def test_three_files_in_a_row_that_cannot_be_had_end_it(chain, clock):
+    for path in chain.files:
+        if path.endswith(".glb"):
+            chain.server.answers[path] = Reply(503, b"out of order")
+    with pytest.raises(InputError, match=r"does not answer .*out of order.*; try again later"):
+        chain.make()
+
+
+def test_no_answer_in_time(chain, monkeypatch):
+    leaf, whole = chain.leaf()
+    monkeypatch.setattr(connection, "TIMEOUT", 1.0)
+    answer, held = chain.server.answers[leaf], []
+
+    def late(*_):
+        if not held:
+            held.append(True)
+            time.sleep(1.5)
+        return answer
+
+    chain.server.answers[leaf] = late
+    cut, _ = chain.make()
+    assert cut.tiles == whole.tiles
+    assert chain.server.asked.count(leaf) == 2
+
+
+@pytest.mark.parametrize("fault", ["announced", "own length", "checksum"])
+def test_what_ends_early_is_asked_for_once_more(chain, fault):
+    leaf, whole = chain.leaf()
+    data, good = chain.files[leaf], chain.server.answers[leaf]
+    packed = gzip.compress(data)
+    bad = {
+        "announced": Reply(200, data[:-9], FRESH, length=len(data)),
+        "own length": Reply(200, data[:-8], FRESH),
+        "checksum": Reply(200, packed[:-8] + bytes(8), {**FRESH, "Content-Encoding": "gzip"}),
+    }[fault]
+    chain.server.answers[leaf] = [bad, good]
+    cut, _ = chain.make()
+    assert cut.tiles == whole.tiles
+    assert chain.server.asked.count(leaf) == 2
+    chain.forget()
+    chain.server.answers[leaf] = bad
+    missing(chain, leaf, "ends early", whole)
+    asked = chain.server.asked.count(leaf)
+    chain.make()
+    assert chain.server.asked.count(leaf) == asked + 2  # nothing of it was kept
+
+
+def swapped(monkeypatch, leaf, file):
+    """Let the decoder read another file in place of a tile's."""
+    before = tiles._Source._content
+
+    def content(source, number):
+        found = before(source, number)
+        return replace(found, file=str(file)) if found.name.endswith(leaf) else found
+
+    monkeypatch.setattr(tiles._Source, "_content", content)
+
+
+@pytest.fixture
+def pipe(tmp_path):
+    """A file that nobody writes: reading it takes for ever."""
+    os.mkfifo(tmp_path / "pipe")
+    return tmp_path / "pipe"
+
+
+def test_a_decoder_that_takes_too_long_loses_its_tile_alone(chain, monkeypatch, pipe):
+    leaf, whole = chain.leaf()
+    monkeypatch.setattr(decode_tiles, "_SECONDS", 2.5)
+    swapped(monkeypatch, leaf, pipe)
+    cut, told = chain.make()
+    (reason,) = cut.missing
+    assert reason.startswith(f"{chain.server.url}{leaf}: decoding made no progress")
+    assert reason in told
+    assert len(cut.tiles) == len(whole.tiles) - 3
+
+
+def test_a_decoder_that_dies_loses_its_tile_alone(chain, monkeypatch, pipe):
+    leaf, whole = chain.leaf()
+    started, start = [], worker.subprocess.Popen
+
+    def popen(*arguments, **options):
+        started.append(start(*arguments, **options))
+        return started[-1]
+
+    def kill():
+        """End the decoder with a fault once it reads the tile: a pipe is written only while it is read."""
+        while True:
+            try:
+                writing = os.open(pipe, os.O_WRONLY | os.O_NONBLOCK)
+            except OSError:
+                time.sleep(0.02)
+                continue
+            started[-1].send_signal(signal.SIGSEGV)
+            started[-1].wait()
+            os.close(writing)
+            return
+
+    monkeypatch.setattr(decode_tiles.os, "cpu_count", lambda: 1)
+    monkeypatch.setattr(worker.subprocess, "Popen", popen)
+    threading.Thread(target=kill, daemon=True).start()
+    swapped(monkeypatch, leaf, pipe)
+    cut, _ = chain.make()
+    (reason,) = cut.missing
+    assert reason.startswith(f"{chain.server.url}{leaf}: decoding stopped on signal")
+    assert len(cut.tiles) == len(whole.tiles) - 3
+
+
+def test_a_decoder_over_its_memory_loses_its_tile_alone(chain, monkeypatch):
+    leaf, whole = chain.leaf()
+    monkeypatch.setattr(decode_tiles, "_MEMORY", 1_500_000_000)
+    swapped(monkeypatch, leaf, "/dev/zero")
+    cut, _ = chain.make()
+    (reason,) = cut.missing
+    assert reason == f"{chain.server.url}{leaf}: memory ran out"
+    assert len(cut.tiles) == len(whole.tiles) - 3
+
+
+def not_finite():
+    content = made.square()
+    view = content.accessor(np.full((4, 3), np.nan, np.float32))
+    content.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = view
+    return content.scene().glb()
+
+
+@pytest.mark.parametrize("content", [made.Gltf().glb(), not_finite()], ids=["no vertices", "not finite"])
+def test_a_tile_without_anything_is_empty_and_counted(chain, content):
+    leaf, whole = chain.leaf()
+    chain.server.answers[leaf] = Reply(200, content, FRESH)
+    cut, told = chain.make(strict=True)
+    assert (cut.missing, cut.empty, len(cut.tiles)) == ((), 1, len(whole.tiles))
+    assert "empty, without triangles between finite vertices: 1 tile" in told
+    tile = [decoded.read(cut.folder / name) for name in cut.tiles if name not in whole.tiles]
+    assert [len(each.triangle) for each in tile] == [0]
+
+
+def test_a_box_without_extent_is_taken_as_it_is(chain):
+    leaf, whole = chain.leaf()
+    root = json.loads(chain.files["/t/tileset.json"])
+
+    def flatten(tile):
+        if leaf.endswith(tile.get("content", {}).get("uri", "?")):
+            west, south, _, _, low, _ = tile["boundingVolume"]["region"]
+            tile["boundingVolume"]["region"] = [west, south, west, south, low, low]
+        for each in tile.get("children", []):
+            flatten(each)
+
+    flatten(root["root"])
+    chain.server.answers["/t/tileset.json"] = Reply(200, json.dumps(root).encode(), FRESH)
+    cut, _ = chain.make(strict=True)
+    assert len(cut.tiles) == len(whole.tiles)
+
+
+def test_no_tile_at_all_is_said(chain):
+    for path in chain.files:
+        if path.endswith(".glb"):
+            chain.server.answers[path] = Reply(404)
+    cut, told = chain.make()
+    assert cut.tiles == ()
+    assert f"{len(cut.missing)} tiles are missing" in told
+
+
+def test_a_full_disk_keeps_no_answers_and_goes_on(chain, monkeypatch):
+    _, whole = chain.leaf()
+    publish = files.publish
+
+    def full(part, path):
+        if (chain.folder / "user") in Path(path).parents:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        publish(part, path)
+
+    monkeypatch.setattr(files, "publish", full)
+    cut, _ = chain.make(strict=True)
+    assert cut.tiles == whole.tiles
+
+
+@pytest.mark.parametrize("place", ["answers", "database", "decoded", "content", "choice"])
+def test_a_damaged_cache_is_as_none(chain, place):
+    whole, _ = chain.make()
+    user, own = chain.folder / "user", chain.folder / "cache" / "tiles"
+    harmed = {
+        "answers": [path for path in user.rglob("*") if path.is_file() and "answers" not in path.name],
+        "database": list(user.glob("answers.db*")),
+        "decoded": [own / name for name in whole.tiles],
+        "content": list((own / "content").iterdir()),
+        "choice": [tile_cut.location(chain.shot_of())],
+    }[place]
+    assert harmed
+    for path in harmed:
+        path.write_bytes(b"damaged" * 9)
+    if place == "content":  # what was decoded of it is gone too
+        for name in whole.tiles:
+            (own / name).unlink()
+    cut, _ = chain.make(strict=True)
+    assert cut.tiles == whole.tiles
+    assert cut.is_whole()
+    assert sum(len(decoded.read(cut.folder / name).triangle) for name in cut.tiles) > 0
+
+
+def test_without_permission_the_cache_is_used_and_the_setting_is_named(chain):
+    """What is fresh in the cache needs no server; what is not there is missing."""
+    offline = {"online": False, "setting": PREFERENCE}
+    with pytest.raises(InputError, match="System > Network > Allow Online Access"):
+        chain.make(**offline)
+    leaf, whole = chain.leaf()
+    chain.make()
+    chain.server.asked.clear()
+    cut, _ = chain.make(strict=True, **offline)
+    assert cut.tiles == whole.tiles
+    cache = http_cache.HttpCache(chain.folder / "user")
+    cache.put(f"{chain.server.url}{leaf}", b"", {"Cache-Control": "no-store"}, time.time())
+    cache.close()
+    cut, told = chain.make(**offline)
+    assert leaf in "".join(cut.missing)  # and its ancestors, which were never asked for
+    assert "is not in the cache, and the network may not be used: allow it by Edit > Preferences" in told
+    assert chain.server.asked == []
+
+
+def test_a_film_is_continued_with_its_tiles_while_the_server_has_others(chain):
+    """Only a choice that is whole stays; what was missing is asked for again."""
+    leaf, whole = chain.leaf()
+    shot = chain.shot_of()
+    chain.make()
+    assert tiles._kept(shot, keep=True)
+    assert not tiles._kept(shot, keep=False)
+    (whole.folder / whole.tiles[0]).unlink()
+    assert not tiles._kept(shot, keep=True)
+    chain.forget()
+    chain.server.answers[leaf] = Reply(404)
+    chain.make()
+    assert not tiles._kept(shot, keep=True)
+
+
+def test_a_policys_error_is_taken_where_the_scene_has_none_of_its_own(chain, monkeypatch):
+    known = Policy("an imitation", pixel_error=20.0, logo="Imitation Maps")
+    monkeypatch.setattr(policies, "of_host", lambda host: known)
+    first, told = chain.make()  # the scene says 1 pixel
+    assert first.error == 1.0
+    assert first.logo == ("Imitation Maps",)
+    assert "recommends" not in told
+    shot = chain.shot_of()
+    default = replace(shot.settings.tiles, error=2.0)
+    shot = shot._with_settings(replace(shot.settings, tiles=default))
+    told = "\n".join(tiles.make(shot))
+    assert "an imitation recommends tiles to 20 pixels" in told
+    assert "credits of tiles, which pictures show: Imitation Maps; Somebody" in told
+    assert tile_cut.of_shot(shot).error >= 20.0
