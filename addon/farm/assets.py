@@ -32,6 +32,7 @@ def needed(shot: Shot) -> list[Path]:
     found += [path for path in optional if path is not None]
     found += [part for path in observed.files(settings) for part in _with_parts(path)]
     found += [path for camera in settings.cameras for path in camera.rig.input_files()]
+    found += [path for place in settings.tiles.sources for path in _tileset(settings.path.parent / place)]
     every = sorted({path.absolute() for path in found})
     for path in every:
         if not path.is_file():
@@ -43,6 +44,14 @@ def _with_parts(path: Path) -> list[Path]:
     """A file with those that belong to it: a shapefile has several."""
     beside = path.parent.glob(f"{glob.escape(path.stem)}.*") if path.suffix.lower() == ".shp" else ()
     return [path, *beside]
+
+
+def _tileset(path: Path) -> list[Path]:
+    """Files of a tileset of this machine: an archive, or all of a folder; none of a server's."""
+    folder = path.parent if path.suffix.lower() == ".json" else path
+    if folder.is_dir():
+        return [each for each in folder.rglob("*") if each.is_file()]
+    return [path] if path.is_file() else []
 
 
 def elsewhere(paths: list[Path], folder: Path) -> list[Path]:

@@ -166,6 +166,17 @@ def test_what_is_needed_is_listed_and_must_be_there(make_shot, tmp_path):
     assert assets.elsewhere(parts, tmp_path / "run") == parts
 
 
+def test_tilesets_of_this_machine_are_needed_too(make_shot, tmp_path):
+    for name in ("set/tileset.json", "set/1/a.glb", "other/tileset.json", "other/b.glb", "city.3tz"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).touch()
+    places = ["set", "other/tileset.json", "city.3tz", "https://tiles.example/tileset.json"]
+    shot = make_shot(more=f"\n[tiles]\nsources = {places}\n")
+    names = {path.relative_to(tmp_path).as_posix() for path in assets.needed(shot)}
+    assert {"set/tileset.json", "set/1/a.glb", "other/tileset.json", "other/b.glb", "city.3tz"} < names
+    assert not any("example" in name for name in names)
+
+
 def test_files_of_stations_are_needed_where_stations_are_on(make_shot, tmp_path):
     names = 'file = "a.gpkg"\nfootprints = "b.geojson"\nroutes_file = "c.geojson"\n'
     wanted = {tmp_path / name for name in ("a.gpkg", "b.geojson", "c.geojson")}
