@@ -11,7 +11,7 @@ import os
 import signal
 import threading
 import time
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import geodesy
@@ -25,6 +25,7 @@ from firetwin.jobs import decode_tiles, make_tiles, tile_access, tiles, worker
 from firetwin.jobs.tile_access import PREFERENCE, TileAccess
 from firetwin.shot import tile_cut
 from firetwin.shot.source import ShotSource
+from firetwin.shot.terrain import tile_heights
 from firetwin.tiles import decoded, policies
 from firetwin.tiles.policies import Policy
 from firetwin.tiles.sources import connection, http, http_cache, waiting
@@ -139,8 +140,21 @@ def clock(monkeypatch):
     return clock
 
 
+IN_PROCESSES = decode_tiles.run
+
+
+def here(contents, progress):
+    """Decode in this process, which takes a tenth of the time; tests of decoders start some."""
+    left = [asdict(each) for each in contents if not Path(each.out).exists()]
+    return decode_tiles.in_process(left, progress, print)
+
+
 @pytest.fixture
 def chain(ground, server, tmp_path, monkeypatch, clock):
+    monkeypatch.setattr(tile_heights.np, "savez_compressed", np.savez)  # compressing takes most of the time
+    monkeypatch.setattr(decode_tiles, "_limit", lambda memory: None)
+    monkeypatch.setattr(decode_tiles, "run", here)
+
     def network(access):
         hosts = access.hosts, access.private
         return Network(access.online, access.setting, *hosts, cache=tmp_path / "user")
@@ -306,7 +320,8 @@ def test_what_ends_early_is_asked_for_once_more(chain, fault):
 
 
 def swapped(monkeypatch, leaf, file):
-    """Let the decoder read another file in place of a tile's."""
+    """Let decoders, in processes of their own, read another file in place of a tile's."""
+    monkeypatch.setattr(decode_tiles, "run", IN_PROCESSES)
     before = tiles._Source._content
 
     def content(source, number):
