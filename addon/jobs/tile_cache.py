@@ -22,7 +22,7 @@ from ..tiles import decoded
 FOLDER = "tiles"
 _CUT = re.compile(r"[0-9a-f]{16}")
 _OURS = re.compile(
-    r"[0-9a-f]{32}\.(npz|jpg|png|webp)|content/[0-9a-f]{64}|heights-[0-9a-f]{16}\.npz|[0-9a-f]{16}\.(npz|json)"
+    r"[0-9a-f]{32}\.(tile|jpg|png|webp)|content/[0-9a-f]{64}|heights-[0-9a-f]{16}\.npz|[0-9a-f]{16}\.(npz|json)"
     r"|[0-9a-f]{16}/\d+\.\d{4}\.(jpg|png|webp)"
 )
 

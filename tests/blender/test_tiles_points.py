@@ -47,7 +47,7 @@ def cloud(shot, tmp_path):
 def test_points_and_triangles_of_a_tile_are_objects(cloud, stage):
     tiles_build.build(cloud, stage, tile_cut.of_shot(cloud), None)
     shown, cloudy = sorted(stage.objects_of("Tiles"), key=lambda obj: obj.name)
-    assert (len(shown.data.vertices), len(shown.data.polygons)) == (4, 2)
+    assert (len(shown.data.vertices), len(shown.data.polygons)) == (4 + 4, 2 + 8)  # with a skirt
     assert (len(cloudy.data.vertices), len(cloudy.data.polygons)) == (SIDE**2, 0)
     geometry = cloudy.evaluated_get(bpy.context.evaluated_depsgraph_get()).evaluated_geometry()
     found = geometry.pointcloud

@@ -84,7 +84,7 @@ def test_a_decoded_tile_that_is_cut_off_is_decoded_again(tmp_path):
 
 def test_a_cut_is_read_as_it_was_written(tmp_path):
     cut = tile_cut.TileCut(
-        tmp_path, "cut", ("a.npz",), ("Somebody",), ("b: not there",), 2.5, (-1.0, 0.5, 2.0)
+        tmp_path, "cut", ("a.tile",), ("Somebody",), ("b: not there",), 2.5, difference=(-1.0, 0.5, 2.0)
     )
     tile_cut.write(cut, tmp_path / "cut.json")
     assert tile_cut.read(tmp_path / "cut.json") == cut

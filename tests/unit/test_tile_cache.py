@@ -2,14 +2,15 @@
 
 import json
 import os
+import struct
 import time
 
-import numpy as np
 import pytest
 from firetwin import cli
 from firetwin.jobs import tile_cache
 from firetwin.shot import tile_cut
 from firetwin.shot.tile_cut import TileCut
+from firetwin.tiles import decoded
 from firetwin.tiles.sources import http_cache
 from firetwin.tiles.sources.http_cache import HttpCache
 
@@ -21,9 +22,8 @@ def _used(path, ago):
 
 
 def _tile(place, name, picture=""):
-    about = json.dumps({"materials": [{"picture": picture}, {}], "credit": ""})
-    with (place / name).open("wb") as file:
-        np.savez(file, about=np.frombuffer(about.encode(), np.uint8), more=np.zeros(1000, np.uint8))
+    text = json.dumps({"materials": [{"picture": picture}, {}]}).encode()
+    (place / name).write_bytes(decoded._FIRST + struct.pack("<I", len(text)) + text + bytes(1000))
     return name
 
 
@@ -35,9 +35,9 @@ def kept(tmp_path, monkeypatch):
     (place / "content").mkdir(parents=True)
     picture = f"{9:032x}.jpg"
     (place / picture).write_bytes(bytes(5000))
-    shared = _tile(place, f"{1:032x}.npz", picture)
+    shared = _tile(place, f"{1:032x}.tile", picture)
     for number, name in enumerate(("a", "b"), start=1):
-        own = _tile(place, f"{number + 1:032x}.npz")
+        own = _tile(place, f"{number + 1:032x}.tile")
         cut = TileCut(place, name * 16, (shared, own), ("Somebody",), (), 2.0)
         path = place / f"{cut.name}.json"
         tile_cut.write(cut, path)
@@ -93,7 +93,7 @@ def test_the_least_recently_used_goes_and_leaves_what_another_needs(kept, capsys
         f"{'b' * 16}.json",
         f"{'b' * 16}.npz",
         f"{'b' * 16}/0.1001.jpg",
-        f"{3:032x}.npz",
+        f"{3:032x}.tile",
     }
     cut = tile_cut.read(kept / f"{'a' * 16}.json")
     assert cut.is_whole()
@@ -120,7 +120,7 @@ def test_a_damaged_choice_names_its_own_files_alone(kept):
     _used(kept / f"{'a' * 16}.json", HOUR)
     first, second, _ = tile_cache.list_tiles(kept.parent)
     assert first.names == {f"{'a' * 16}.json", f"{'a' * 16}.npz", f"{'a' * 16}/0.1001.jpg"}
-    assert f"{1:032x}.npz" in second.names
+    assert f"{1:032x}.tile" in second.names
 
 
 def test_answers_of_servers_are_listed_and_pruned(kept, capsys):

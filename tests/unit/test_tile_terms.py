@@ -14,7 +14,7 @@ from firetwin.tiles.policies import Policy, google, ion
 
 GOOGLE = "https://tile.googleapis.com/v1/3dtiles/root.json"
 TEXT = """run = "sample"
-tiles = {{ sources = ["set", "{place}"] }}
+tiles = {{ sources = ["set", "{place}"], trees = "theirs" }}
 {more}
 [[cameras]]
 name = "drone"
