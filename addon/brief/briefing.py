@@ -225,6 +225,7 @@ def _inputs(settings: Settings | None) -> list[tuple[str, str]]:
         ("Elevation model", settings.terrain.elevation),
         ("Orthophoto of the film", settings.terrain.photo),
         ("Land use of the film", settings.terrain.land_use),
+        ("Buildings of the film", settings.terrain.buildings),
         ("Named places", settings.labels.file),
     )
     found = [(what, path.name) for what, path in named if path]

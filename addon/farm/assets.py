@@ -26,7 +26,13 @@ def needed(shot: Shot) -> list[Path]:
         found += [Path(run.path) / name for name in content.stamps(run)]
     terrain, labels, stations = settings.terrain, settings.labels, settings.stations
     photo = [terrain.photo, orthophoto.world_file(terrain.photo)] if terrain.photo else []
-    optional = [terrain.elevation, *photo, terrain.land_use, labels.file if labels.enabled else None]
+    optional = [
+        terrain.elevation,
+        *photo,
+        terrain.land_use,
+        terrain.buildings,
+        labels.file if labels.enabled else None,
+    ]
     if stations.enabled:
         optional += [stations.file, stations.footprints, stations.routes_file]
     found += [path for path in optional if path is not None]

@@ -10,12 +10,12 @@ from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ..errors import UsageError
-from ..progress import MessageCallback, Progress, count, no_message, silent
-from ..run import areas
+from ..progress import MessageCallback, Progress, no_message, silent
+from ..run import areas, buildings
 from ..shot import tile_terms
 from ..shot.shot import Shot
 from ..shot.terrain import orthophoto
-from ..tiles import buildings, geoid
+from ..tiles import geoid
 from ..tiles.make.lattice import Lattice, Surface
 from ..tiles.make.tileset import Maker, Summary
 
@@ -36,7 +36,7 @@ class TilesRequest:
     levels
         Depth of the quadtree; None: as the heights' own spacing needs.
     footprints
-        File of buildings' footprints.
+        File of buildings' footprints; None: the scene's, if it has one.
     geoid
         Height of the geoid above the WGS84 ellipsoid, m; None: that of EGM96. It is added to orthometric
         heights.
@@ -69,13 +69,13 @@ def run(
         tile_terms.check(shot.settings, [("export", "`firetwin tiles make`")])
     surface = surface_of(shot, request.geoid)
     built = []
-    if request.footprints:
-        found = buildings.read(request.footprints)
-        tell(
-            f"{count(len(found.outlines), 'footprint')}; {found.assumed} without a height are "
-            f"{buildings.ASSUMED:g} m high; {found.mended} crossed themselves and were split"
+    if path := request.footprints or shot.settings.terrain.buildings:
+        found = buildings.read(path)
+        tell(found.said())
+        north, east = areas.metres_per_degree(float(surface.latitude.mean()))
+        built = buildings.stand(
+            found.outlines, lambda at: _heights(surface, at[:, 1], at[:, 0]), (east, north)
         )
-        built = buildings.stand(found.outlines, lambda lat, lon: _heights(surface, lat, lon))
     lattice = Lattice(surface, request.levels)
     credit = request.credit or (f"{shot.run.name}, synthetic" if shot.run.synthetic else shot.run.name)
     colours = _Photo(shot) if orthophoto.photographed(shot.settings) else _FuelColours(shot)

@@ -9,9 +9,11 @@ import bpy
 import numpy as np
 
 from ..blender import owned
+from ..progress import MessageCallback
 from ..shot import tile_cut
 from ..shot.light import exposure
 from ..shot.shot import Shot
+from ..shot.terrain import footprints
 from . import clock, infrared, temperature
 from .camera import build as camera
 from .fire import build as fire
@@ -96,7 +98,7 @@ def steps(
             tell(sentence)
 
     builders: dict[str, Callable[[], object]] = {
-        "terrain": lambda: _terrain(shot, stage(), grown, shape),
+        "terrain": lambda: _terrain(shot, stage(), grown, shape, tell),
         "forest": lambda: forest.build(shot, stage(), grown),
         "fire": lambda: fire.build(shot, stage(), grown),
         "smoke": lambda: smoke.build(shot.full, stage()),
@@ -111,8 +113,16 @@ def steps(
             builders[part]()
 
 
-def _terrain(shot: Shot, stage: owned.Stage, grown: stand.Stand | None, shape: ground.Shape | None) -> None:
+def _terrain(
+    shot: Shot,
+    stage: owned.Stage,
+    grown: stand.Stand | None,
+    shape: ground.Shape | None,
+    tell: MessageCallback,
+) -> None:
     ground.build(shot, stage, grown, shape)
+    if sentence := footprints.said(shot):
+        tell(sentence)
     if cut := tile_cut.of_shot(shot):
         tiles.build(shot, stage, cut, grown)
     else:

@@ -45,7 +45,7 @@ _ITEMS = [(name, keys.label(name), words) for name, (words, _) in _STEPS.items()
 _NOT_SAVED = {
     "time": ("start", "end"),
     "terrain": (
-        *("elevation", "photo", "photo_extent", "land_use"),
+        *("elevation", "photo", "photo_extent", "land_use", "buildings"),
         *("photo_url", "photo_layer", "photo_level", "photo_credit"),
     ),
 }

@@ -80,7 +80,7 @@ def test_a_station_without_an_outline_is_a_hall_of_true_size(stationed, run, sce
     one = replace(stationed, stations=replace(stationed.stations, signs=False))
     build.build(Shot(one, run), scene, ("stations",))
     data = bpy.data.objects["Firetwin Halls"].data
-    points = np.array([v.co[:] for v in data.vertices])[:8]
+    points = np.array([v.co[:] for v in data.vertices])[:24]  # the corners of the walls' triangles
     east, north = np.ptp(points[:, 0]), np.ptp(points[:, 1])
     assert (east, north) == pytest.approx((buildings._LONG, buildings._WIDE), abs=0.01)
     assert "Firetwin Signs" not in bpy.data.objects
@@ -101,11 +101,14 @@ def test_an_outline_gives_a_building_its_shape(stationed, run, scene, tmp_path):
     build.build(shot, scene, ("stations",))
     data = bpy.data.objects["Firetwin Halls"].data
     ring = shot.ground.point([b for _, b in square], [a for a, _ in square])
-    assert np.array([v.co[:2] for v in data.vertices[:3]]) == pytest.approx(ring[::-1, :2], abs=0.01)
-    ground = shot.ground.up(*ring[:, :2].T)
-    assert data.vertices[3].co.z == pytest.approx(ground.mean() + buildings._HIGH, abs=0.01)
-    walls = [p for p in data.polygons if abs(p.normal.z) < 0.5][:3]
-    middle = ring[:, :2].mean(axis=0)
+    corners = np.array([v.co[:] for v in data.vertices])
+    starts = corners[:18:6, :2]  # six corners a wall
+    assert starts == pytest.approx(ring[::-1, :2], abs=0.01)
+    ground, middle = shot.ground.up(*ring[:, :2].T), ring[:, :2].mean(axis=0)
+    above = shot.ground.up(*middle)[0] + buildings._HIGH
+    assert corners[:, 2].max() == pytest.approx(max(above, ground.max() + 1.0), abs=0.05)
+    assert corners[:, 2].min() < ground.min() - 1.9
+    walls = [p for p in data.polygons if abs(p.normal.z) < 0.5][:6]
     assert all(np.dot(np.array(p.center[:2]) - middle, p.normal[:2]) > 0.0 for p in walls)  # outwards
 
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from firetwin.ellipsoid import ecef
 from firetwin.errors import InputError, UsageError
 from firetwin.imaging.credits import Credits
 from firetwin.jobs import make_tiles, tiles
@@ -14,7 +15,6 @@ from firetwin.scene.tiles import build as tiles_build
 from firetwin.scene.tiles import mesh
 from firetwin.shot import passes, tile_cut
 from firetwin.tiles import geoid
-from firetwin.tiles.volumes import ecef
 from tiles_scene import *  # noqa: F403
 
 pytestmark = pytest.mark.usefixtures("plain_tiles")

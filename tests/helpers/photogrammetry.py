@@ -4,8 +4,8 @@ import json
 from dataclasses import dataclass
 
 import numpy as np
+from firetwin.ellipsoid import ecef
 from firetwin.tiles.make import glb
-from firetwin.tiles.volumes import ecef
 from numpy.typing import NDArray
 from PIL import Image
 

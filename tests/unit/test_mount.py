@@ -134,7 +134,7 @@ def test_numbers_of_trees_are_theirs_and_whole_in_32_bits():
 
 def test_masks_are_written_by_name_and_in_one_colour_each(tmp_path):
     files = {end: tmp_path / f"masks.{end}" for end in ("exr", "png")}
-    kinds = np.arange(6)[None].repeat(2, 0)
+    kinds = np.arange(len(masks.NAMES))[None].repeat(2, 0)
     pixels = np.stack([np.full(kinds.shape, 7.0), np.ones(kinds.shape), kinds], axis=-1)
     sensor.write_image(files["exr"], pixels)
     masks.finish(files, {}, None, "drone", 1)

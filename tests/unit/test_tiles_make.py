@@ -7,9 +7,11 @@ import struct
 import numpy as np
 import pyproj
 import pytest
+from firetwin import ellipsoid
 from firetwin.ellipsoid import ecef, enu_axes
 from firetwin.errors import InputError
-from firetwin.tiles import buildings
+from firetwin.run import buildings
+from firetwin.run.buildings import placement
 from firetwin.tiles.make import building_mesh, glb, lattice, terrain_tile, tileset
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -169,10 +171,14 @@ def test_a_tileset_names_errors_that_grow_upwards_and_boxes_that_hold_their_chil
     assert summary.errors[-1] == 0.0
 
 
+def stand(outlines, ground):
+    """Buildings of outlines in degrees."""
+    north, east = ellipsoid.metres_per_degree(38.9)
+    return buildings.stand(outlines, ground, (east, north))
+
+
 def test_buildings_are_added_by_the_leaf_that_holds_them(tmp_path):
-    found = buildings.stand(
-        [buildings.Footprint(SQUARE, (), 7.0)], lambda lat, _: 1000.0 + 2e4 * (lat - 38.9)
-    )
+    found = stand([buildings.Footprint(SQUARE, (), 7.0)], lambda at: 1000.0 + 2e4 * (at[:, 1] - 38.9))
     summary = tileset.Maker(lattice.Lattice(surface(), 2), None, found, tmp_path / "out").run()
     assert summary.buildings == 1
     text = (tmp_path / "out" / "tileset.json").read_text()
@@ -180,19 +186,19 @@ def test_buildings_are_added_by_the_leaf_that_holds_them(tmp_path):
     (path,) = (tmp_path / "out" / "buildings").iterdir()
     assert f"buildings/{path.name}" in text
     height = TO_EARTH.transform(*positions(path.read_bytes()).T, direction="INVERSE")[2]
-    assert height.min() == pytest.approx(1000.0 - 0.5, abs=0.01)
+    assert height.min() == pytest.approx(1000.0 - placement.SKIRT, abs=0.01)
     assert height.max() == pytest.approx(1004.0 + 7.0, abs=1.0)
 
 
 def test_a_building_is_neither_buried_nor_floating_on_a_slope():
-    steep = buildings.stand([buildings.Footprint(SQUARE, (), 3.0)], lambda lat, _: 1e6 * (lat - 38.9))[0]
+    steep = stand([buildings.Footprint(SQUARE, (), 3.0)], lambda at: 1e6 * (at[:, 1] - 38.9))[0]
     assert steep.base < 0.0  # below the lowest corner
     assert steep.roof > 400.0  # above the highest
 
 
 def test_a_building_is_a_closed_block_with_its_hole():
     hole = SQUARE[::-1] * 0.5 + SQUARE.mean(axis=0) * 0.5
-    (block,) = buildings.stand([buildings.Footprint(SQUARE, (hole,), 6.0)], lambda lat, _: np.zeros(len(lat)))
+    (block,) = stand([buildings.Footprint(SQUARE, (hole,), 6.0)], lambda at: np.zeros(len(at)))
     mesh = building_mesh.mesh([block])
     corners = mesh.position[mesh.triangles]
     edges = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]).round(3)
@@ -202,24 +208,6 @@ def test_a_building_is_a_closed_block_with_its_hole():
     normal = mesh.normal[mesh.triangles[-1, 0]]
     up = enu_axes(np.radians(38.9), np.radians(-120.5))[2]
     assert normal @ up > 0.999
-
-
-def test_footprints_say_what_was_assumed(tmp_path):
-    rings = {"h": {"height": "9 m"}, "s": {"building:levels": 2}, "n": {}}
-    crossed = [[0, 0], [0.002, 0.002], [0.002, 0], [0, 0.002], [0, 0]]
-    features = [
-        {
-            "type": "Feature",
-            "properties": each,
-            "geometry": {"type": "Polygon", "coordinates": [SQUARE.tolist()]},
-        }
-        for each in rings.values()
-    ] + [{"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [crossed]}}]
-    path = tmp_path / "x.geojson"
-    path.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
-    found = buildings.read(path)
-    assert [each.height for each in found.outlines] == pytest.approx([9.0, 6.4, 5.0, 5.0, 5.0])
-    assert (found.assumed, found.mended) == (2, 1)
 
 
 def test_a_folder_with_something_else_is_refused(tmp_path):

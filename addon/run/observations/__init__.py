@@ -197,7 +197,7 @@ def _reader(path: Path) -> ModuleType:
     name = _READERS.get(path.suffix.lower())
     if name is None:
         known = ", ".join(sorted(_READERS))
-        raise input_error(path, 0, 0, f"no observations: their names end in {known}")
+        raise input_error(path, 0, 0, f"cannot be read; files of observations and outlines end in {known}")
     return importlib.import_module(f".{name}", __name__)
 
 

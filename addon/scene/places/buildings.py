@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 from ...blender import owned
 from ...blender.owned import Stage
 from ...run import areas
+from ...run.buildings import Footprint, stand
 from ...shot.places import Sign
 from ...shot.shot import Shot
 from ..terrain import buildings
-from ..terrain.buildings import Buildings
+from ..terrain.buildings import Blocks
 
 _LONG, _WIDE, _HIGH = 24.0, 15.0, 6.0  # m, a plain hall for three engines (assumed); height of all walls
 _GATE, _GATE_HIGH, _OUT = 4.3, 4.3, 0.06  # m, width and height of a gate, and how far it stands out
@@ -27,16 +28,16 @@ def build(
     shot: Shot, stage: Stage, collection: bpy.types.Collection, shown: Sequence[Sign]
 ) -> bpy.types.Object | None:
     """Build "Firetwin Halls" at the stations; None without any."""
-    made = Buildings()
-    for sign in shown:
-        outline = sign.footprint
-        ring = hall(shot, sign) if outline is None else _metres(shot, outline)
-        roof = made.add(shot, ring, _HIGH, _ROOF, _WALL)
-        if outline is None:
-            _gates(made, ring, roof - _HIGH)
-    if not made.points:
+    rings = [hall(shot, each) if each.footprint is None else _metres(shot, each.footprint) for each in shown]
+    outlines = [Footprint(ring, (), _HIGH) for ring in rings]
+    made = Blocks()
+    for sign, block in zip(shown, stand(outlines, lambda place: shot.ground.up(*place.T)), strict=True):
+        made.add(block, _ROOF, _WALL)
+        if sign.footprint is None:
+            _gates(made, block.footprint.outer, block.roof - _HIGH)
+    if not made.corners:
         return None
-    data = made.mesh("Firetwin Halls", buildings.material(shot, stage, "Firetwin Halls"))
+    data = made.mesh("Firetwin Halls", shot, buildings.material(shot, stage, "Firetwin Halls"))
     return owned.add(collection, "Halls", data)
 
 
@@ -56,12 +57,13 @@ def _metres(shot: Shot, outline: Array) -> Array:
     return ring[::-1] if clockwise else ring
 
 
-def _gates(made: Buildings, ring: Array, floor: float) -> None:
+def _gates(made: Blocks, ring: Array, floor: float) -> None:
     """Append three gates on the south wall."""
     (left, south), right = ring[0], ring[1][0]
     for k in range(3):
         middle = left + (right - left) * (k + 0.5) / 3.0
-        first = len(made.points)
-        for x, z in ((-0.5, 0.0), (0.5, 0.0), (0.5, 1.0), (-0.5, 1.0)):
-            made.points.append(np.array([middle + x * _GATE, south - _OUT, floor + z * _GATE_HIGH]))
-        made.face((first, first + 1, first + 2, first + 3), _DOOR)
+        corners = [
+            (middle + x * _GATE, south - _OUT, floor + z * _GATE_HIGH)
+            for x, z in ((-0.5, 0.0), (0.5, 0.0), (0.5, 1.0), (-0.5, 1.0))
+        ]
+        made.face(np.array(corners), _DOOR)

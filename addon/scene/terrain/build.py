@@ -42,10 +42,9 @@ def build(shot: Shot, stage: Stage, grown: Stand | None, shaped: Shape | None = 
     place = fields.place(ground.shape, row, column, ground.fields.margin)
     data.attributes.new(fields.GRID, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", place.ravel())
     solid_view.paint(shot, data, row, column)
-    data.materials.append(
-        material.build(shot, stage, fields.images(shot, grown), fields.photos(shot), fields.maps(shot))
-    )
-    buildings.build(shot, stage)
+    images = fields.images(shot, grown)
+    data.materials.append(material.build(shot, stage, images, fields.photos(shot), fields.maps(shot)))
+    buildings.build(shot, stage, images)
     return owned.add(collection, "Ground", data)
 
 

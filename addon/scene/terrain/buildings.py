@@ -1,7 +1,8 @@
-"""Buildings of the user's land use map: walls and flat roofs extruded from footprints, one mesh for all."""
+"""Buildings of the user's footprints: walls and flat roofs, one mesh for all, charred where it burned."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import bpy
@@ -12,84 +13,117 @@ from numpy.typing import NDArray
 
 from ...blender import nodes, owned
 from ...blender.owned import Stage
+from ...run.buildings import Building, blocks, rings
+from ...run.buildings.rings import Rings
 from ...shot.passes import masks
 from ...shot.shot import Shot
-from ...shot.terrain import land_use, noise
+from ...shot.terrain import footprints, noise
 from .. import haze, infrared, temperature
+from . import burn_scar, fields, shading_inputs
 
 WALL = (0.24, 0.22, 0.19)  # linear reflectances; by eye
 _ROOFS = ((0.125, 0.048, 0.030), (0.150, 0.068, 0.043), (0.075, 0.072, 0.070), (0.110, 0.100, 0.088))
-_DEEP = 4.0  # m of the walls below the terrain at the centre, so that no wall ends above a slope
+_CHARRED = 0.8  # of the surface where the fire has passed (assumed)
 
 Array = NDArray[np.float64]
 Colour = tuple[float, float, float]
 
 
 @dataclass
-class Buildings:
-    """Walls and roofs of several buildings: points, faces, and a colour for each face."""
+class Blocks:
+    """Walls and roofs of several buildings: triangles (t, 3, 3) with a colour and a number for each.
 
-    points: list[Array] = field(default_factory=list)
-    faces: list[tuple[int, ...]] = field(default_factory=list)
-    colours: list[Colour] = field(default_factory=list)
+    Numbers are those of the masks' instances, from 1; 0 is none.
+    """
 
-    def add(self, shot: Shot, ring: Array, height: float, roof: Colour, wall: Colour = WALL) -> float:
-        """Append the walls and the flat roof over a footprint (n, 2), m; z of the roof."""
-        ground = shot.ground.up(*ring.T)
-        first, count = len(self.points), len(ring)
-        low, high = float(ground.min()) - _DEEP, float(ground.mean()) + height
-        self.points += [np.array([x, y, z]) for z in (low, high) for x, y in ring]
-        for k in range(count):
-            after = (k + 1) % count
-            self.face((first + k, first + after, first + count + after, first + count + k), wall)
-        for triangle in tessellate_polygon([[Vector((x, y, 0.0)) for x, y in ring]]):
-            self.face(tuple(first + count + k for k in triangle), roof)
-        return high
+    corners: list[Array] = field(default_factory=list)
+    colours: list[Array] = field(default_factory=list)
+    numbers: list[NDArray[np.int64]] = field(default_factory=list)
 
-    def face(self, corners: tuple[int, ...], colour: Colour) -> None:
-        """Append a face of points that are there."""
-        self.faces.append(corners)
-        self.colours.append(colour)
+    def add(self, building: Building, roof: Colour, wall: Colour = WALL, number: int = 0) -> None:
+        """Append a building whose outline is in the scene, m."""
+        corners, is_roof = blocks.block(building, triangles)
+        self.corners.append(corners)
+        self.colours.append(np.where(is_roof[:, None], roof, wall))
+        self.numbers.append(np.full(len(corners), number))
 
-    def mesh(self, name: str, look: bpy.types.Material) -> bpy.types.Mesh:
-        """All of them as one mesh, with their colours as attribute `shade`."""
+    def face(self, corners: Array, colour: Colour, number: int = 0) -> None:
+        """Append a face (4, 3), seen from outside anticlockwise."""
+        self.corners.append(corners[[[0, 1, 2], [0, 2, 3]]])
+        self.colours.append(np.tile(colour, (2, 1)))
+        self.numbers.append(np.full(2, number))
+
+    def mesh(self, name: str, shot: Shot, look: bpy.types.Material) -> bpy.types.Mesh:
+        """All of them as one mesh.
+
+        Its attributes: `shade`, the colours, and `number`, of faces; `elevation` and `grid` of points, as the
+        ground has them.
+        """
+        corners = np.concatenate(self.corners).reshape(-1, 3)
         data = bpy.data.meshes.new(name)
-        data.from_pydata([tuple(p) for p in self.points], [], self.faces)
-        shade = data.attributes.new("shade", "FLOAT_COLOR", "FACE")
-        shade.data.foreach_set("color", np.pad(np.array(self.colours, np.float32), [(0, 0), (0, 1)]).ravel())
+        data.from_pydata(corners, [], np.arange(len(corners)).reshape(-1, 3))
+        shade = np.pad(np.concatenate(self.colours), [(0, 0), (0, 1)], constant_values=1.0)
+        _attribute(data, "shade", "FLOAT_COLOR", "FACE", shade)
+        _attribute(data, "number", "FLOAT", "FACE", np.concatenate(self.numbers))
+        latitude, longitude, height = shot.ground.frame.reverse(corners)
+        row, column = shot.ground.indices(latitude, longitude)
+        _attribute(data, "elevation", "FLOAT", "POINT", height)
+        place = fields.place(shot.ground.shape, row, column, shot.ground.fields.margin)
+        _attribute(data, fields.GRID, "FLOAT_VECTOR", "POINT", place)
         data.materials.append(look)
         data.update()
         return data
 
 
-def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
-    """Build "Firetwin Roofs"; None where the map has no buildings."""
-    known = land_use.read_map(shot)
-    houses = [feature for feature in known.features if feature.kind == "building"] if known else []
-    made = Buildings()
-    for house in houses:
-        for number, polygon in enumerate(house.polygons):
-            lot = float(noise.uniform([house.number], 20 + number, shot.settings.seed)[0])
-            made.add(shot, polygon[0], house.height, _ROOFS[int(lot * len(_ROOFS))])
-    if not made.points:
+def _attribute(data: bpy.types.Mesh, name: str, kind: str, domain: str, values: NDArray) -> None:
+    key = {"FLOAT": "value", "FLOAT_COLOR": "color", "FLOAT_VECTOR": "vector"}[kind]
+    data.attributes.new(name, kind, domain).data.foreach_set(key, np.asarray(values, np.float32).ravel())
+
+
+def triangles(outline: Rings) -> Array:
+    """Triangles (t, 3, 2) of a polygon with holes, anticlockwise, by Blender."""
+    points = np.concatenate(outline)
+    found = tessellate_polygon([[Vector((x, y, 0.0)) for x, y in ring] for ring in outline])
+    return rings.anticlockwise(points[np.array(found, np.int64).reshape(-1, 3)])
+
+
+def build(shot: Shot, stage: Stage, images: Mapping[str, bpy.types.Image]) -> bpy.types.Object | None:
+    """Build "Firetwin Roofs" from the images of the ground's fields; None without footprints."""
+    made = Blocks()
+    for building in footprints.standing(shot):
+        number = building.footprint.number
+        lot = float(noise.uniform([number], 20, shot.settings.seed)[0])
+        made.add(building, _ROOFS[int(lot * len(_ROOFS))], number=number + 1)
+    if not made.corners:
         return None
-    data = made.mesh("Firetwin Roofs", material(shot, stage, "Firetwin Roofs"))
+    data = made.mesh("Firetwin Roofs", shot, material(shot, stage, "Firetwin Roofs", images))
     return owned.add(stage.part("Terrain"), "Roofs", data)
 
 
-def material(shot: Shot, stage: Stage, name: str) -> bpy.types.Material:
-    """Material of buildings: the colour of each face with a grain, as warm as stone in air and sun."""
+def material(
+    shot: Shot, stage: Stage, name: str, images: Mapping[str, bpy.types.Image] | None = None
+) -> bpy.types.Material:
+    """Material of buildings: the colour of each face with a grain, as warm as stone in air and sun.
+
+    With the `images` of the ground's fields it is charred where the fire has passed, and cools as the ground.
+    """
     look, tree = nodes.material(name, (0.3, 0.25, 0.22))
     colour = tree.attribute("shade", output="Color")
     geometry = tree.node("ShaderNodeNewGeometry")
     grain = tree.noise(tree.pick(geometry, "Position"), 1.3, 3.0).ramp(0.3, 0.7, 0.8, 1.2)
     colour = tree.mix_colour(1.0, colour, tree.combine(grain, grain, grain), "MULTIPLY")
-    matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
     _, _, up = tree.separate(tree.pick(geometry, "Position"))
-    ambient = temperature.ambient(tree, shot, stage, up, tree.pick(geometry, "Normal"), 1.0)
-    warmth = infrared.through_air(
-        tree, shot, stage, infrared.emitted(tree, shot, stage, ambient, infrared.STONE)
-    )
+    kelvin = temperature.ambient(tree, shot, stage, up, tree.pick(geometry, "Normal"), 1.0)
+    emissivity = infrared.STONE
+    if images:
+        with tree.frame("Fire"):
+            here = shading_inputs.gather(tree, fields.Fields(tree, dict(images)), shot, whole=False)
+            charred = here.burned * _CHARRED
+            colour = tree.mix_colour(charred, colour, burn_scar.charred(tree, here))
+            kelvin = temperature.cooled(tree, kelvin, here.age, charred, here.residence)
+    matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
+    warmth = infrared.through_air(tree, shot, stage, infrared.emitted(tree, shot, stage, kelvin, emissivity))
     shader = nodes.thermal_switch(tree, haze.apply(tree, matt, stage), warmth)
-    tree.surface(nodes.mask_switch(tree, shader, float(masks.GROUND)))
+    number = tree.attribute("number")
+    tree.surface(nodes.mask_switch(tree, shader, float(masks.BUILDING), number))
     return look

@@ -1,18 +1,20 @@
-"""Mask pass: semantic class and tree instance of each pixel, as ground truth for machine learning.
+"""Mask pass: semantic class and instance of each pixel, as ground truth for machine learning.
 
-====== ===== ==================================================================================
-class  value what counts
-====== ===== ==================================================================================
-sky    0     where no ray ends
-ground 1     what has not burned, with brush, grass, rocks, water, and forest too far for single trees
-burned 2     ground and brush that the fire has passed
-tree   3     living or burned
-smoke  4     hides more than half of what is behind it, in green light
-fire   5     flames in the air, on the ground and in crowns, and firebrands
-====== ===== ==================================================================================
+======== ===== ================================================================================
+class    value what counts
+======== ===== ================================================================================
+sky      0     where no ray ends
+ground   1     what has not burned, with brush, grass, rocks, water, and forest too far for single trees
+burned   2     ground and brush that the fire has passed
+tree     3     living or burned
+smoke    4     hides more than half of what is behind it, in green light
+fire     5     flames in the air, on the ground and in crowns, and firebrands
+building 6     blocks of footprints and of stations, burned or not; those of 3-D Tiles are ground
+======== ===== ================================================================================
 
-The EXR holds `class`; `clear`, the transmittance 0..1 of smoke; and `instance`, the number of the tree (0:
-none). A tree has one number in every frame, camera and film of a run with one `seed`: it comes from the
+The EXR holds `class`; `clear`, the transmittance 0..1 of smoke; and `instance`, the number of the tree or
+building (0: none). A building's is its place among the footprints, from 1. A tree has one number in every
+frame, camera and film of a run with one `seed`: it comes from the
 tree's own identity (see `numbers`), not from its index among built trees. Of n visible trees about n^2 / 2^25
 pairs share a number. The PNG shows each class in one colour. One ray goes through each pixel's centre without
 filtering, so numbers stay integers. Behind opaque smoke the instance is unknown: 0. EEVEE's pixels hold 11
@@ -32,9 +34,17 @@ if TYPE_CHECKING:
 
     from ..shot import Shot
 
-SKY, GROUND, BURNED, TREE, SMOKE, FIRE = range(6)
-NAMES = ("sky", "ground", "burned", "tree", "smoke", "fire")
-COLOURS = ((110, 170, 230), (196, 178, 128), (64, 56, 52), (38, 112, 52), (176, 176, 184), (255, 96, 16))
+SKY, GROUND, BURNED, TREE, SMOKE, FIRE, BUILDING = range(7)
+NAMES = ("sky", "ground", "burned", "tree", "smoke", "fire", "building")
+COLOURS = (
+    (110, 170, 230),
+    (196, 178, 128),
+    (64, 56, 52),
+    (38, 112, 52),
+    (176, 176, 184),
+    (255, 96, 16),
+    (206, 72, 168),
+)
 ALIGHT = 0.3  # fraction of full flame of ground and crowns from which a pixel counts as fire
 HIDES = 0.5  # opacity from which a pixel counts as smoke
 _LEAST = 1.0e-4  # transmittance of smoke below which numbers are not exact
@@ -80,7 +90,7 @@ def finish(files: Files, _needed: Mapping[str, Files], _shot: Shot, _camera: str
 PASS = RenderedPass(
     name="masks",
     order=27,
-    help="Class masks (fire, smoke, tree, burned, ground, sky) and tree instance numbers, EXR and PNG; "
+    help="Class masks (fire, smoke, tree, building, burned, ground, sky) and instance numbers, EXR and PNG; "
     "a tree has the same number in all frames, cameras and films",
     files=("exr", "png"),
     excludes=("lamps",),

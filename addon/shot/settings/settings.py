@@ -139,6 +139,11 @@ class TerrainSettings:
         "fields, tracks, roads, water and buildings: polygons and lines, .geojson or .gpkg",
         affects=(),
     )
+    buildings: Path | None = key(
+        None,
+        "footprints of buildings, every polygon one: .geojson, .gpkg, .kml or .shp",
+        affects=(),
+    )
     stand: str = key(
         "elevation",
         "heights that trees, flames and cameras stand on",

@@ -2,6 +2,7 @@
 
 The file is a GeoJSON or GeoPackage with polygons and lines in degrees. A feature's kind comes from its
 OpenStreetMap tags (`building`, `highway`, `waterway`, `natural`, `landuse`) or from one of our own in `kind`.
+A second file has footprints alone: each of its polygons is a building.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from numpy.typing import NDArray
 from ...errors import input_error
 from ...progress import Progress, silent
 from ...run import content
+from ...run.buildings import height_of, polygons
 from ...run.observations import Feature, feature, features
 from .. import rasterize
 from ..settings import scene_file
@@ -34,7 +36,6 @@ LAYERS = ("soft", "hard", "water")
 
 _LARGEST = 3072  # pixels, largest side of a picture
 _FINEST = 0.5  # m, smallest pixel
-_STOREY, _ROOF = 3.0, 4.0  # m, height of a storey, and of a building without height or levels (assumed)
 _SOLID = 0.8  # colour strength from which no plant grows there
 _BEYOND = 50.0  # m around the map that count as mapped
 
@@ -125,7 +126,7 @@ class MappedFeature:
     width
         Line width, m.
     height
-        Building height, m.
+        Height that a building has by its properties, m; None where they give none.
     number
         Index in the file.
     """
@@ -134,17 +135,28 @@ class MappedFeature:
     polygons: tuple[Rings, ...]
     lines: Rings
     width: float
-    height: float
+    height: float | None
     number: int
 
 
 @dataclass(frozen=True)
 class Map:
-    """Land use map in scene coordinates: features, and the corners (2,) of its extent, m."""
+    """Land use map in scene coordinates.
+
+    Attributes
+    ----------
+    features
+        Of both files.
+    low, high
+        Corners (2,) of the extent of all, m.
+    known
+        Corners (2,) of the extent of the land use, m, where nothing is invented; None without that file.
+    """
 
     features: tuple[MappedFeature, ...]
     low: Array
     high: Array
+    known: tuple[Array, Array] | None
 
 
 _MAPS: WeakKeyDictionary[ShotView, Map | None] = WeakKeyDictionary()
@@ -174,29 +186,31 @@ def check(settings: Settings, run: Run) -> None:
     InputError
         Names the file and what to do.
     """
-    if settings.terrain.land_use is None:
-        return
-    mapped_features = _read(settings)
-    corners = np.concatenate([ring for item in mapped_features for ring in _rings(item)])
-    (west, south), (east, north) = corners.min(axis=0), corners.max(axis=0)
-    bounds = (float(west), float(south), float(east), float(north))
-    if not overlap(bounds, run.latitude, run.longitude):
-        reason = f"covers {said(bounds)}, outside of the run, which covers {said(extent(run))}"
-        raise input_error(settings.terrain.land_use, 0, 0, reason)
+    terrain = settings.terrain
+    for path, found in ((terrain.land_use, _read(settings)), (terrain.buildings, _footprints(settings))):
+        if path is None:
+            continue
+        corners = np.concatenate([ring for item in found for ring in _rings(item)])
+        (west, south), (east, north) = corners.min(axis=0), corners.max(axis=0)
+        bounds = (float(west), float(south), float(east), float(north))
+        if not overlap(bounds, run.latitude, run.longitude):
+            reason = f"covers {said(bounds)}, outside of the run, which covers {said(extent(run))}"
+            raise input_error(path, 0, 0, reason)
 
 
 def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
-    """SHA-256 of the map file, on which colours and roofs depend."""
-    path = settings.terrain.land_use
-    return {"land use": content.of_file(path, settings.cache, progress)} if path else {}
+    """SHA-256 of the map and of the footprints, on which colours and roofs depend."""
+    named = {"land use": settings.terrain.land_use, "buildings": settings.terrain.buildings}
+    return {name: content.of_file(path, settings.cache, progress) for name, path in named.items() if path}
 
 
 def read_map(shot: ShotView) -> Map | None:
-    """Land use map of a shot; None if there is none."""
-    if shot.settings.terrain.land_use is None:
+    """Land use and footprints of a shot; None if there are none."""
+    settings = shot.settings
+    if settings.terrain.land_use is None and settings.terrain.buildings is None:
         return None
     if shot not in _MAPS:
-        _MAPS[shot] = _placed(shot, _read(shot.settings))
+        _MAPS[shot] = _placed(shot, _read(settings), _footprints(settings))
     return _MAPS[shot]
 
 
@@ -217,11 +231,12 @@ def pictures(shot: ShotView) -> dict[str, list[OrthophotoImage]]:
 
 
 def mapped(shot: ShotView, place: Array) -> NDArray[np.bool_]:
-    """Whether points (n, 2) in the scene, m, lie within the map's extent; nothing is invented there."""
+    """Whether points (n, 2) in the scene, m, lie within the land use's extent; nothing is invented there."""
     known = read_map(shot)
-    if known is None:
+    if known is None or known.known is None:
         return np.zeros(len(place), bool)
-    return np.all((place[:, :2] > known.low - _BEYOND) & (place[:, :2] < known.high + _BEYOND), axis=1)
+    low, high = known.known
+    return np.all((place[:, :2] > low - _BEYOND) & (place[:, :2] < high + _BEYOND), axis=1)
 
 
 def keeps_out(shot: ShotView, place: Array) -> NDArray[np.bool_]:
@@ -248,14 +263,15 @@ def buildings(shot: ShotView) -> list[Rings]:
 
 
 def _read(settings: Settings) -> list[tuple[str, Feature]]:
-    """Read the features of known kinds.
+    """Read the features of known kinds; none without a file.
 
     Raises
     ------
     InputError
     """
     path = settings.terrain.land_use
-    assert path is not None
+    if path is None:
+        return []
     where = "terrain", "land_use"
     if path.suffix.lower() not in (".geojson", ".json", ".gpkg"):
         raise scene_file.error_at(settings.path, where, f"terrain.land_use: {path} is no .geojson or .gpkg")
@@ -270,38 +286,58 @@ def _read(settings: Settings) -> list[tuple[str, Feature]]:
     return known
 
 
+def _footprints(settings: Settings) -> list[tuple[str, Feature]]:
+    """Read the footprints, every polygon of which is a building; none without a file.
+
+    Raises
+    ------
+    InputError
+    """
+    path = settings.terrain.buildings
+    if path is None:
+        return []
+    if not path.is_file():
+        where = "terrain", "buildings"
+        raise scene_file.error_at(settings.path, where, f"terrain.buildings: there is no file {path}")
+    return [("building", each) for each in polygons(path)]
+
+
 def _rings(feature_of_kind: tuple[str, Feature]) -> list[feature.Ring]:
     _, item = feature_of_kind
     return [*(polygon[0] for polygon in item.polygons), *item.lines]
 
 
-def _placed(shot: ShotView, known: list[tuple[str, Feature]]) -> Map:
+def _placed(shot: ShotView, mapped: list[tuple[str, Feature]], footprints: list[tuple[str, Feature]]) -> Map:
     def scene(ring: Array) -> Array:
         return shot.bare_ground.point(ring[:, 1], ring[:, 0])[:, :2]
 
     features = []
-    for number, (kind, each) in enumerate(known):
+    for number, (kind, each) in enumerate([*mapped, *footprints]):
         words = {key.lower(): str(value).lower() for key, value in each.properties.items()}
         width = feature.finite(words.get("width", "").removesuffix("m"))
         usual = _WIDTHS.get(words.get("highway", words.get("waterway", "")), KINDS[kind].width)
-        levels = feature.finite(words.get("building:levels"))
-        height = feature.finite(words.get("height", "").removesuffix("m"))
         features.append(
             MappedFeature(
                 kind,
                 tuple(tuple(map(scene, polygon)) for polygon in each.polygons),
                 tuple(map(scene, each.lines)),
                 min(width or usual, 200.0),
-                min(height or (levels or 0.0) * _STOREY or _ROOF, 400.0),
+                height_of(each.properties),
                 number,
             )
         )
     order = list(KINDS)
     features.sort(key=lambda item: order.index(item.kind))
-    every = np.concatenate(
-        [ring for item in features for ring in (*(p[0] for p in item.polygons), *item.lines)]
-    )
-    return Map(tuple(features), every.min(axis=0), every.max(axis=0))
+    low, high = _extent(features)
+    own = [item for item in features if item.number < len(mapped)]
+    return Map(tuple(features), low, high, _extent(own) if own else None)
+
+
+def _extent(features: list[MappedFeature]) -> tuple[Array, Array]:
+    """Corners (2,) of the bounding box of features, m."""
+    rings = [ring for item in features for ring in (*(p[0] for p in item.polygons), *item.lines)]
+    every = np.concatenate(rings)
+    return every.min(axis=0), every.max(axis=0)
 
 
 def _frames(shot: ShotView, known: Map) -> list[tuple[Array, Array]]:

@@ -13,7 +13,7 @@ import numpy as np
 from ... import ellipsoid, files
 from ...errors import input_error
 from ...progress import Progress, silent
-from ..buildings import Building
+from ...run.buildings import Building
 from . import building_mesh, glb, pictures, terrain_tile
 from .lattice import Lattice
 from .pictures import Colours
@@ -104,7 +104,7 @@ class Maker:
         ]
         error = self.lattice.error(level, row, column) if children else 0.0
         if here := self._buildings.get((row, column)) if not children else None:
-            children, error = [self._built(here, row, column)], max(each.height for each in here)
+            children, error = [self._built(here, row, column)], max(each.footprint.height for each in here)
         error = max([error, *(child["geometricError"] for child in children)])
         self.summary.errors[level] = max(self.summary.errors[level], error)
         low, high = terrain_tile.heights(self.lattice, level, row, column)
@@ -144,7 +144,7 @@ class Maker:
     def _built(self, buildings: list[Building], row: int, column: int) -> dict[str, Any]:
         """The tile of a leaf's buildings."""
         west, south, east, north = self._sides(self.lattice.levels, row, column)
-        sides = [np.radians(each.outer).T for each in buildings]
+        sides = [np.radians(each.footprint.outer).T for each in buildings]
         low, high = min(each.base for each in buildings), max(each.roof for each in buildings)
         region = [
             min(west, *(lon.min() for lon, _ in sides)),

@@ -1,0 +1,75 @@
+"""Where buildings stand: walls from below the lowest ground under the footprint up to a level roof."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import rings
+from .footprints import Footprint
+from .rings import Array
+
+SKIRT = 2.0
+"""m that walls reach into the ground, so that a coarse mesh of the ground leaves no gap."""
+_LEAST = 1.0  # m that a roof stands above the highest ground beneath it
+_SAMPLE = 3.0  # m between samples of the ground
+
+
+@dataclass(frozen=True)
+class Building:
+    """A footprint that stands on the ground.
+
+    Attributes
+    ----------
+    footprint
+        Its outline.
+    base, roof
+        Of the walls' lower edge and of the roof, m, above whatever the ground's heights are above.
+    middle
+        (2,) east and north of a point inside, as the outline's.
+    """
+
+    footprint: Footprint
+    base: float
+    roof: float
+    middle: tuple[float, float]
+
+
+def stand(
+    outlines: Sequence[Footprint],
+    ground: Callable[[Array], Array],
+    metres: tuple[float, float] = (1.0, 1.0),
+) -> list[Building]:
+    """Put buildings on the ground.
+
+    Walls begin below the lowest ground under the whole footprint. The roof is level: as high as the building
+    above the ground at its middle, and above all ground beneath it.
+
+    Parameters
+    ----------
+    ground
+        Heights (n,), m, at places (n, 2), east and north as the outlines'.
+    metres
+        Metres of a unit east and north.
+    """
+    if not outlines:
+        return []
+    steps = [_SAMPLE / each for each in metres]
+    places, middles = [], []
+    for each in outlines:
+        within = rings.spread(each.rings, steps)
+        middles.append(rings.middle(each.rings, within))
+        places.append(np.vstack([middles[-1], *each.rings, within]))
+    ends = np.cumsum([len(each) for each in places])
+    heights = np.split(np.asarray(ground(np.concatenate(places)), np.float64), ends[:-1])
+    return [
+        Building(
+            each,
+            float(here.min()) - SKIRT,
+            max(float(here[0]) + each.height, float(here.max()) + _LEAST),
+            (float(middle[0]), float(middle[1])),
+        )
+        for each, here, middle in zip(outlines, heights, middles, strict=True)
+    ]

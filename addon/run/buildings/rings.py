@@ -1,0 +1,131 @@
+"""Rings of a footprint: their direction, what lies inside, whether they cross, and triangles between them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import Error
+
+Array = NDArray[np.float64]
+Rings = tuple[Array, ...]
+"""Rings (n, 2), not closed: the outer one, then holes."""
+_AT_ONCE = 1 << 22  # pairs that are looked at in one array
+
+
+def area(ring: Array) -> float:
+    """Area, positive of an anticlockwise ring (the shoelace formula)."""
+    x, y = (ring - ring[0]).T
+    return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
+
+
+def directed(rings: Rings) -> Rings:
+    """The outer ring anticlockwise, holes clockwise."""
+    return tuple(ring if (area(ring) > 0.0) == (k == 0) else ring[::-1] for k, ring in enumerate(rings))
+
+
+def inside(rings: Rings, points: Array) -> NDArray[np.bool_]:
+    """Whether points (n, 2) lie within the outer ring and in no hole (even-odd rule)."""
+    first = np.concatenate(rings)
+    second = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings])
+    found = np.zeros(len(points), bool)
+    step = max(_AT_ONCE // len(first), 1)
+    for start in range(0, len(points), step):
+        x, y = points[start : start + step, None].transpose(2, 0, 1)
+        above = (first[:, 1] > y) != (second[:, 1] > y)
+        rise = np.where(first[:, 1] == second[:, 1], 1.0, second[:, 1] - first[:, 1])
+        at = first[:, 0] + (y - first[:, 1]) * (second[:, 0] - first[:, 0]) / rise
+        found[start : start + step] = np.sum(above & (x < at), axis=1) % 2 == 1
+    return found
+
+
+def cross(rings: Rings) -> bool:
+    """Whether any two sides cross; sides that only touch do not."""
+    first = np.concatenate(rings)
+    second = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings])
+    step = max(_AT_ONCE // len(first), 1)
+    for start in range(0, len(first), step):
+        here, there = first[start : start + step, None], second[start : start + step, None]
+        apart = _side(here, there, first) * _side(here, there, second) < 0.0
+        if np.any(apart & (_side(first, second, here) * _side(first, second, there) < 0.0)):
+            return True
+    return False
+
+
+def _side(start: Array, end: Array, point: Array) -> Array:
+    """On which side of a line points are: above 0 on its left."""
+    along, away = end - start, point - start
+    return np.asarray(np.sign(along[..., 0] * away[..., 1] - along[..., 1] * away[..., 0]))
+
+
+def mended(rings: Rings) -> tuple[list[Rings], bool] | None:
+    """Parts of a polygon that crosses itself, by GEOS, and True; None where shapely is not there for it.
+
+    Other polygons are given as they are, and False. A part has no area of 0.
+    """
+    try:
+        import shapely
+    except ImportError:
+        if cross(rings):
+            return None
+        return [directed(rings)] if area(rings[0]) else [], False
+    shape = shapely.Polygon(rings[0], rings[1:])
+    if shape.is_valid:
+        return [directed(rings)], False
+    whole = shapely.make_valid(shape)
+    parts = [part for part in shapely.get_parts(shapely.get_parts(whole)) if part.geom_type == "Polygon"]
+    found = [
+        directed(tuple(np.asarray(ring.coords)[:-1] for ring in (part.exterior, *part.interiors)))
+        for part in parts
+        if part.area > 0.0
+    ]
+    return found, True
+
+
+def triangles(rings: Rings) -> Array:
+    """Triangles (t, 3, 2) of a polygon, anticlockwise (constrained Delaunay, by GEOS).
+
+    Raises
+    ------
+    Error
+        shapely is not there.
+    """
+    try:
+        import shapely
+    except ImportError:
+        raise Error("tiles of buildings need the package shapely: pip install 'firetwin[score]'") from None
+    parts = shapely.constrained_delaunay_triangles(shapely.Polygon(rings[0], rings[1:])).geoms
+    return anticlockwise(np.array([np.asarray(part.exterior.coords)[:3] for part in parts]))
+
+
+def anticlockwise(corners: Array) -> Array:
+    """Triangles (t, 3, 2) with their corners anticlockwise."""
+    first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    turned = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0] < 0.0
+    return np.where(turned[:, None, None], corners[:, ::-1], corners)
+
+
+def spread(rings: Rings, steps: Sequence[float], most: int = 32) -> Array:
+    """Points (n, 2) inside, on a lattice of at most these steps along x and y, or `most` along a side."""
+    low, high = rings[0].min(axis=0), rings[0].max(axis=0)
+    axes = (
+        np.linspace(low[k], high[k], int(np.clip(np.ceil((high[k] - low[k]) / steps[k]), 1, most)) + 1)
+        for k in (0, 1)
+    )
+    points = np.stack(np.meshgrid(*axes), axis=-1).reshape(-1, 2)
+    return points[inside(rings, points)]
+
+
+def middle(rings: Rings, within: Array) -> Array:
+    """A point (2,) inside: the outer ring's centroid, else the one of the points `within` nearest to it."""
+    outer = rings[0]
+    start = outer[0]
+    x, y = (outer - start).T
+    part = x * np.roll(y, -1) - np.roll(x, -1) * y
+    centroid = start + np.array([np.sum((v + np.roll(v, -1)) * part) for v in (x, y)]) / (6.0 * area(outer))
+    if inside(rings, centroid[None])[0]:
+        return centroid
+    near = within if len(within) else outer
+    return np.asarray(near[np.argmin(np.sum((near - centroid) ** 2, axis=1))])

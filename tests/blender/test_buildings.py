@@ -1,0 +1,139 @@
+"""Blocks of footprints in the scene: on a slope, with holes, with the ground's attributes, and reported."""
+
+import json
+from dataclasses import replace
+
+import bpy
+import numpy as np
+import pytest
+from firetwin.run.buildings import ASSUMED, placement
+from firetwin.scene import build
+from firetwin.scene.terrain import buildings
+from firetwin.shot.shot import Shot
+from firetwin.shot.terrain import footprints
+
+HERE = 38.8285, -120.5583
+
+
+def ring(north, east, high, wide, way=1):
+    """A rectangle (5, 2), degrees, from metres north and east of a place."""
+    corners = np.array([(0, 0), (wide, 0), (wide, high), (0, high), (0, 0)], float)[::way]
+    corners += (east, north)
+    return (np.array(HERE[::-1]) + corners / (86_700.0, 111_000.0)).tolist()
+
+
+def write(path, *polygons):
+    found = [
+        {"type": "Feature", "properties": about, "geometry": {"type": "Polygon", "coordinates": rings}}
+        for rings, about in polygons
+    ]
+    path.write_text(json.dumps({"type": "FeatureCollection", "features": found}))
+    return path
+
+
+BOW = [[HERE[1] + a, HERE[0] + b] for a, b in ((0, 0), (1e-3, 1e-3), (1e-3, 0), (0, 1e-3), (0, 0))]
+
+
+@pytest.fixture
+def built(near_settings, run, scene, tmp_path, plain_looks):
+    """built(polygon, ...): a shot with these footprints, and their mesh."""
+
+    def make(*polygons, key="buildings"):
+        path = write(tmp_path / "footprints.geojson", *polygons)
+        terrain = replace(near_settings.terrain, **{key: path})
+        shot = Shot(replace(near_settings, terrain=terrain), run)
+        told = []
+        for _ in build.steps(shot, scene, ("terrain",), told.append):
+            pass
+        return shot, bpy.data.objects["Firetwin Roofs"].data, told
+
+    return make
+
+
+def values(data, name, width, count, key):
+    found = np.empty(width * count, np.float32)
+    data.attributes[name].data.foreach_get(key, found)
+    return found.reshape(count, width)
+
+
+def points(data):
+    found = np.empty(3 * len(data.vertices), np.float32)
+    data.vertices.foreach_get("co", found)
+    return found.reshape(-1, 3).astype(float)
+
+
+def test_walls_reach_into_the_ground_and_roofs_are_level_on_a_slope(built):
+    shot, data, _ = built(([ring(0, 0, 60, 80)], {"height": 12}), ([ring(200, 0, 30, 30)], {"levels": 2}))
+    corner, number = points(data), values(data, "number", 1, len(data.polygons), "value")[:, 0]
+    for k, (high, wide, tall) in enumerate(((60, 80, 12.0), (30, 30, 6.4)), 1):
+        mine = corner.reshape(-1, 3, 3)[number == k].reshape(-1, 3)
+        base, roof = mine[:, 2].min(), mine[:, 2].max()
+        low, span = mine[:, :2].min(axis=0), np.ptp(mine[:, :2], axis=0)
+        assert span == pytest.approx((wide, high), rel=0.01)
+        at = low + np.stack(np.meshgrid(*(np.linspace(0.01, 0.99, 40),) * 2), -1).reshape(-1, 2) * span
+        ground = shot.ground.up(*at.T)
+        assert np.ptp(ground) > 1.0  # a slope
+        assert base < ground.min()
+        assert base == pytest.approx(ground.min() - placement.SKIRT, abs=1.0)
+        middle = float(shot.ground.up(*(low + 0.5 * span))[0])
+        assert roof == pytest.approx(max(middle + tall, ground.max() + 1.0), abs=0.5)
+        assert set(np.round(mine[:, 2], 3)) == {round(base, 3), round(roof, 3)}
+
+
+def test_blocks_carry_the_attributes_of_the_ground(built):
+    shot, data, _ = built(([ring(0, 0, 60, 80)], {"height": 12}))
+    latitude, longitude, height = shot.ground.frame.reverse(points(data))
+    count = len(data.vertices)
+    assert values(data, "elevation", 1, count, "value")[:, 0] == pytest.approx(height, abs=0.01)
+    row, column = shot.ground.indices(latitude, longitude)
+    place = values(data, "grid", 3, count, "vector")
+    rows, columns = shot.ground.shape
+    assert place[:, 0] * columns - 0.5 == pytest.approx(column, abs=0.01)
+    assert place[:, 1] * rows - 0.5 == pytest.approx(row, abs=0.01)
+
+
+@pytest.mark.parametrize("way", [1, -1])
+def test_courtyards_stay_open_and_all_faces_look_outwards(built, way):
+    outline = [ring(0, 0, 60, 80, way), ring(20, 20, 20, 40, way)]
+    _, data, _ = built((outline, {"height": 12}))
+    corner = points(data).reshape(-1, 3, 3)
+    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    roof = np.abs(normal[:, 2]) > 1.0
+    assert np.all(normal[roof, 2] > 0.0)
+    area = 0.5 * normal[roof, 2].sum()
+    assert area == pytest.approx(60 * 80 - 20 * 40, rel=0.01)
+    base, top = corner[..., 2].min(), corner[..., 2].max()
+    volume = np.sum(np.einsum("ij,ij->i", corner[:, 0], normal)) / 6.0 - base * area / 3.0
+    assert volume == pytest.approx((top - base) * area, rel=1e-3)
+
+
+def test_what_is_assumed_and_mended_is_told(built):
+    pytest.importorskip("shapely", reason="needs shapely")
+    shot, data, told = built(([ring(0, 0, 60, 80)], {}), ([BOW], {"height": 4}))
+    (sentence,) = [text for text in told if "footprints" in text]
+    assert "1 without a height are 5 m high; 1 crossed themselves and were split" in sentence
+    assert sorted({each.footprint.height for each in footprints.standing(shot)}) == [4.0, ASSUMED]
+    assert set(values(data, "number", 1, len(data.polygons), "value")[:, 0]) == {1.0, 2.0}
+
+
+def test_the_land_use_map_has_buildings_by_the_same_rule(built):
+    about = {"building": "yes", "building:levels": "3"}
+    shot, data, told = built(([ring(0, 0, 60, 80)], about), key="land_use")
+    (found,) = footprints.standing(shot)
+    assert found.footprint.height == pytest.approx(9.6)
+    assert not any("footprints" in text for text in told)
+    assert len(data.polygons) == 10
+
+
+def test_the_material_is_charred_with_the_images_of_the_ground(shot, stage):
+    plain = buildings.material(shot, stage, "Firetwin Halls")
+    from firetwin.scene.terrain import fields
+
+    charred = buildings.material(shot, stage, "Firetwin Roofs", fields.images(shot, None))
+
+    def images(look):
+        trees = [look.node_tree, *(n.node_tree for n in look.node_tree.nodes if n.type == "GROUP")]
+        return {n.image.name for tree in trees for n in tree.nodes if n.type == "TEX_IMAGE" and n.image}
+
+    assert {"Firetwin Ground Fire", "Firetwin Ground Front"} <= images(charred)
+    assert "Firetwin Ground Fire" not in images(plain)
