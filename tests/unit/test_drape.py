@@ -104,9 +104,13 @@ def test_budgets_are_kept_and_told(make, tmp_path):
 
 def test_near_the_cameras_a_finer_level_is_shown(make, tmp_path):
     shot, _ = fetched(make("photo_size = 300", near=150.0), tmp_path)
-    whole, near = drape.of_shot(shot).areas
-    assert near.level > whole.level
-    _, picture = orthophoto.pictures(shot)
+    areas = drape.of_shot(shot).areas
+    levels, spans = [each.level for each in areas], [each.high[0] - each.low[0] for each in areas]
+    assert len(areas) >= 3
+    assert levels == sorted(set(levels))
+    assert spans == sorted(spans, reverse=True)
+    near, picture = areas[-1], orthophoto.pictures(shot)[-1]
+    assert spans[-1] < 2.0 * 150.0 + 1.0
     middle = 0.5 * (picture.low + picture.high)
     latitude, longitude = (float(v[0]) for v in shot.ground.geodetic(*middle[:, None]))
     x, y = (int(v) for v in mercator.tile_at(latitude, longitude, near.level))

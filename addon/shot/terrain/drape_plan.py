@@ -15,6 +15,7 @@ from .raster import Array
 if TYPE_CHECKING:
     from ..settings.protocols import ShotView
 
+_RADII = (16.0, 4.0, 1.0, 0.25)  # of areas near the cameras, in units of `terrain.near_radius`
 _LATTICE = 64  # cells along an area in which its distance from cameras is measured
 _SLOPE = 0.7  # of a camera's height above the ground: how near ground of 45 degrees may be to it
 _NEAREST = 1.0  # m
@@ -49,7 +50,7 @@ class PlannedArea:
 
 
 def plan(shot: ShotView, bounds: Bounds, levels: tuple[int, int], side: int) -> list[PlannedArea]:
-    """Areas of a shot with their tiles: the whole first, a finer one near the cameras after it.
+    """Areas of a shot with their tiles: the whole first, finer ones nearer to the cameras after it.
 
     A texel is at most one pixel of the nearest view, unless the server's finest level or `terrain.photo_size`
     end before.
@@ -66,7 +67,12 @@ def plan(shot: ShotView, bounds: Bounds, levels: tuple[int, int], side: int) -> 
     fields = shot.ground.fields
     finest = mercator.texel(float(np.abs(fields.latitude).max()), levels[1], side)
     step = max(finest, _FINEST)
-    return [_planned(shot, *area, levels, side, bounds) for area in areas_of(shot, bounds, step)]
+    planned: list[PlannedArea] = []
+    for area in areas_of(shot, bounds, step, _RADII):
+        found = _planned(shot, *area, levels, side, bounds)
+        if not planned or found.patch.level > planned[-1].patch.level:
+            planned.append(found)
+    return planned
 
 
 def pixel_at_nearest_view(shot: ShotView, low: Array, high: Array) -> float:

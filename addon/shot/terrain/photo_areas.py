@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,9 +16,14 @@ if TYPE_CHECKING:
 
 
 def areas_of(
-    shot: ShotView, bounds: tuple[float, float, float, float], step: float
+    shot: ShotView,
+    bounds: tuple[float, float, float, float],
+    step: float,
+    factors: Sequence[float] = (1.0,),
 ) -> list[tuple[Array, Array]]:
     """Corners (2,), (2,) of the pictures to make, m: all of the ground within `bounds`, and near cameras.
+
+    An area is left out where it would be hardly finer than the one before it.
 
     Parameters
     ----------
@@ -25,19 +31,21 @@ def areas_of(
         West, south, east and north, degrees.
     step
         Size of the finest pixels that make sense, m.
+    factors
+        How far areas reach from the cameras' paths, in units of `terrain.near_radius`, falling.
     """
     ground, largest = shot.ground, shot.settings.terrain.photo_size
     low, high = _whole(shot, bounds)
     found = [(low, high)]
-    radius = ground.near_radius
-    if len(ground.eyes) and radius > 0.0:
-        near = (f(ground.eyes[:, :2], axis=0) for f in (np.min, np.max))
-        near_low, near_high = np.clip(next(near) - radius, low, high), np.clip(next(near) + radius, low, high)
-        coarse = float(np.max((high - low) / size_of(low, high, step, largest)))
-        if np.all(near_high - near_low > step) and (
-            max(step, np.max(near_high - near_low) / largest) < 0.7 * coarse
-        ):
+    coarse = float(np.max((high - low) / size_of(low, high, step, largest)))
+    for radius in ground.near_radius * np.asarray(factors) if len(ground.eyes) else ():
+        eyes = ground.eyes[:, :2]
+        near_low = np.clip(eyes.min(axis=0) - radius, low, high)
+        near_high = np.clip(eyes.max(axis=0) + radius, low, high)
+        fine = max(step, float(np.max(near_high - near_low)) / largest)
+        if radius > 0.0 and np.all(near_high - near_low > step) and fine < 0.7 * coarse:
             found.append((near_low, near_high))
+            coarse = fine
     return found
 
 
