@@ -94,8 +94,10 @@ def read(path: Path) -> TileCut:
         about: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
         lists = {name: tuple(map(str, about[name])) for name in ("tiles", "credits", "missing", "logo")}
         difference = about["difference"] and tuple(map(float, about["difference"]))
-        numbers = {"error": float(about["error"]), "empty": int(about["empty"])}
-        return TileCut(path.parent, path.stem, difference=difference, **numbers, **lists)
+        empty = int(about["empty"])
+        return TileCut(
+            path.parent, path.stem, error=float(about["error"]), empty=empty, difference=difference, **lists
+        )
     except (OSError, ValueError, LookupError, TypeError) as error:
         raise input_error(path, 0, 0, f"is no list of chosen tiles ({error}); delete it") from None
 
