@@ -12,6 +12,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
 _VALUES: dict[str, tuple[str, int, type]] = {
     "FLOAT": ("value", 1, np.float32),
@@ -52,17 +53,17 @@ def of_mesh(data: bpy.types.Mesh) -> str:
     digest.update(repr((len(data.vertices), len(data.edges), len(data.polygons))).encode())
     starts = np.empty(len(data.polygons), np.int32)
     data.polygons.foreach_get("loop_start", starts)
-    digest.update(starts)
+    digest.update(starts.tobytes())
     for attribute in sorted(data.attributes, key=lambda each: each.name):
         if attribute.name.startswith(_LEFT_OUT):
             continue
         if attribute.data_type not in _VALUES:
             return ""
         name, width, kind = _VALUES[attribute.data_type]
-        values = np.empty(width * len(attribute.data), kind)
+        values: NDArray = np.empty(width * len(attribute.data), kind)
         attribute.data.foreach_get(name, values)
         digest.update(repr((attribute.name, attribute.domain, attribute.data_type)).encode())
-        digest.update(values)
+        digest.update(values.tobytes())
     return digest.hexdigest()
 
 
@@ -95,7 +96,8 @@ def _tree(tree: bpy.types.NodeTree) -> list[Any]:
 def _plain(thing: bpy.types.bpy_struct) -> list[Any]:
     """Its properties that a picture may depend on: numbers, texts, ramps, and names of data-blocks."""
     found: list[Any] = []
-    for name in _names(type(thing)):
+    kind: Any = type(thing)
+    for name in _names(kind):
         value = getattr(thing, name)
         if isinstance(value, bpy.types.ID):
             found.append(value.name)
@@ -111,7 +113,7 @@ def _plain(thing: bpy.types.bpy_struct) -> list[Any]:
 
 
 @functools.cache
-def _names(kind: type) -> tuple[str, ...]:
+def _names(kind: Any) -> tuple[str, ...]:
     """Names of the properties of a kind of thing that are compared."""
     common = set(bpy.types.ID.bl_rna.properties.keys()) if issubclass(kind, bpy.types.ID) else set()
     return tuple(

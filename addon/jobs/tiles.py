@@ -41,7 +41,10 @@ from .tile_access import TileAccess, from_plain, permitted
 if TYPE_CHECKING:
     from ..tiles.cut import Choice
     from ..tiles.loader import Loader
+    from ..tiles.sources import Source
 
+PREVIEW_ERROR, PREVIEW_SIZE = 64.0, 200
+"""Pixels and MB of a coarse choice."""
 _TRIES = 8  # choices at most; each leaves out what could not be decoded, or knows more triangles
 _NAMED = 6  # missing tiles that are named in messages; the manifest has all
 
@@ -55,6 +58,7 @@ def prepare(
     access: TileAccess | None = None,
     uses: Sequence[Use] = (),
     keep: bool = False,
+    preview: bool = False,
 ) -> None:
     """Prepare the tiles of a scene; without sources there is nothing to do.
 
@@ -69,6 +73,8 @@ def prepare(
     keep
         Choices of servers' tiles stay as they are where they are whole, so that a film is continued with the
         tiles that it has, also without the server.
+    preview
+        A coarse choice (see `coarse`).
 
     Raises
     ------
@@ -89,8 +95,21 @@ def prepare(
         "access": permitted(access).plain(),
         "uses": [list(use) for use in every],
         "keep": keep,
+        "preview": preview,
     }
     worker.run(f"{__name__}:in_process", about, progress, tell=tell, blender=False, stop=stop)
+
+
+def coarse(shot: Shot) -> Shot:
+    """The same shot with a coarse choice of tiles, for the window: soon there, and small."""
+    tiles, terrain = shot.settings.tiles, shot.settings.terrain
+    least, most = max(tiles.error, PREVIEW_ERROR), min(tiles.max_size, PREVIEW_SIZE)
+    settings = replace(
+        shot.settings,
+        tiles=replace(tiles, error=least, max_size=most),
+        terrain=replace(terrain, stand="elevation"),
+    )
+    return Shot(settings, shot.run)
 
 
 def in_process(
@@ -101,11 +120,15 @@ def in_process(
     keep: bool,
     progress: Progress,
     tell: MessageCallback,
+    preview: bool = False,
 ) -> None:
     """Prepare; worker side."""
     source, how = ShotSource(**choice), from_plain(access)
     wanted = [(use, what) for use, what in uses]
     shot = source.shot()
+    if preview:
+        make(coarse(shot), progress, how, wanted)
+        return
     if shot.settings.terrain.stand == "tiles":
         terrain = replace(shot.settings.terrain, stand="elevation")
         first = Shot(replace(shot.settings, terrain=terrain), shot.run)
@@ -154,7 +177,7 @@ def make(
     """
     settings, path, access = shot.settings.tiles, tile_cut.location(shot), access or TileAccess()
     path.parent.mkdir(parents=True, exist_ok=True)
-    undulation, matrix = _to_scene(shot)
+    undulation, matrix = to_scene(shot)
     prepared = [
         _Source(shot, number, path.parent, matrix, access, uses).prepared(
             share(progress, number, len(settings.sources), "tiles")
@@ -174,6 +197,8 @@ def make(
         tuple(dict.fromkeys(each.policy.logo for each in prepared if each.policy.logo)),
         sum(each.empty for each in prepared),
         tile_difference.measure(heights, shot.settings, shot.run) if heights else None,
+        sum(each.choice.bytes for each in prepared),
+        sum(each.triangles for each in prepared),
     )
     picture_credits.check_room(shot, picture_credits.of_cuts(shot.settings, [cut]))
     if access.strict and cut.missing:
@@ -183,7 +208,22 @@ def make(
     return [*_told(cut, prepared), *told]
 
 
-def _to_scene(shot: Shot) -> tuple[float | None, NDArray[np.float64]]:
+def open_place(shot: Shot, number: int, access: TileAccess) -> Source:
+    """Open a source of a scene.
+
+    Raises
+    ------
+    InputError
+        It is not there, or not allowed.
+    """
+    from ..tiles.sources import open_source
+
+    place = shot.settings.tiles.sources[number]
+    near = shot.settings.path.parent / place
+    return open_source(str(near) if near.exists() else place, access.network())
+
+
+def to_scene(shot: Shot) -> tuple[float | None, NDArray[np.float64]]:
     """The geoid's height at a scene, m, and the matrix (4, 4) from Earth-centred metres.
 
     The height is None for a run of heights above the ellipsoid, which needs none.
@@ -196,7 +236,7 @@ def _to_scene(shot: Shot) -> tuple[float | None, NDArray[np.float64]]:
     from ..tiles import geoid
     from ..tiles.place import ecef_to_frame
 
-    settings, frame = shot.settings, shot.ground.frame
+    settings, frame = shot.settings, shot.local_frame
     if shot.run.vertical != "orthometric":
         return None, ecef_to_frame(frame)
     if settings.tiles.geoid is not None:
@@ -251,6 +291,8 @@ class _Prepared:
         What cannot be had, and why.
     empty
         Tiles without triangles.
+    triangles
+        Of all of them.
     advised
         The error is the policy's.
     """
@@ -260,6 +302,7 @@ class _Prepared:
     credits: list[str]
     missing: list[str]
     empty: int
+    triangles: int
     policy: Policy
     advised: bool
 
@@ -278,12 +321,9 @@ class _Source:
     ) -> None:
         from ..tiles.cut import Budget, Views, pixels
         from ..tiles.loader import Loader
-        from ..tiles.sources import open_source
 
         self.settings, self.folder = shot.settings.tiles, folder
-        place = self.settings.sources[number]
-        near = shot.settings.path.parent / place
-        source = open_source(str(near) if near.exists() else place, access.network())
+        source = open_place(shot, number, access)
         self.policy = source.policy
         tile_terms.check_source(shot.settings, number, self.policy, uses)
         self.advised = self.policy.pixel_error > 0.0 and self.settings.error == TileSettings().error
@@ -335,6 +375,7 @@ class _Source:
             list(self._credits(there.values())),
             sorted(self.loader.tree.broken.values()),
             sum(not (about.triangles or about.points) for about in there.values()),
+            sum(about.triangles for about in there.values()),
             self.policy,
             self.advised,
         )

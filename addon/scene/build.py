@@ -25,6 +25,7 @@ from .places import build as stations
 from .smoke import build as smoke
 from .terrain import build as ground
 from .tiles import build as tiles
+from .tiles import preview
 
 PARTS = {
     "terrain": "building the ground",
@@ -120,6 +121,7 @@ def _terrain(
     shape: ground.Shape | None,
     tell: MessageCallback,
 ) -> None:
+    preview.remove(stage)
     ground.build(shot, stage, grown, shape)
     if sentence := footprints.said(shot):
         tell(sentence)

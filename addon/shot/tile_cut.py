@@ -52,6 +52,8 @@ class TileCut:
         How many of the tiles have no triangles.
     difference
         5th, 50th and 95th percentile of the tiles' ground above the scene's own, m; None if they never meet.
+    bytes, triangles
+        Of all tiles, as they were fetched and as they are shown.
     """
 
     folder: Path
@@ -63,6 +65,8 @@ class TileCut:
     logo: tuple[str, ...] = ()
     empty: int = 0
     difference: tuple[float, float, float] | None = None
+    bytes: int = 0
+    triangles: int = 0
 
     @property
     def words(self) -> Credits:
@@ -94,9 +98,9 @@ def read(path: Path) -> TileCut:
         about: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
         lists = {name: tuple(map(str, about[name])) for name in ("tiles", "credits", "missing", "logo")}
         difference = about["difference"] and tuple(map(float, about["difference"]))
-        empty = int(about["empty"])
+        counts = {name: int(about[name]) for name in ("empty", "bytes", "triangles")}
         return TileCut(
-            path.parent, path.stem, error=float(about["error"]), empty=empty, difference=difference, **lists
+            path.parent, path.stem, error=float(about["error"]), difference=difference, **counts, **lists
         )
     except (OSError, ValueError, LookupError, TypeError) as error:
         raise input_error(path, 0, 0, f"is no list of chosen tiles ({error}); delete it") from None

@@ -174,7 +174,7 @@ def write(tile: tiles.Tile, path: Path, resources: dict[str, bytes]) -> None:
         with part.open("wb") as stream:
             stream.write(_FIRST + struct.pack("<I", len(header)) + header)
             for name, (kind, _, _) in _ARRAYS.items():
-                stream.write(np.ascontiguousarray(arrays[name], kind))
+                stream.write(np.asarray(arrays[name], kind).tobytes())
 
     files.write(path, put, durable=False)
 

@@ -29,6 +29,8 @@ from . import (
     run,
     section_panels,
     stations_panel,
+    tile_credits,
+    tiles_panel,
     time,
     vr,
     working,
@@ -57,6 +59,7 @@ classes = (
     *farm.classes,
     *section_panels.classes,
     *stations_panel.classes,
+    *tiles_panel.classes,
     *report.classes,
     *assets.classes,
 )
@@ -71,6 +74,7 @@ def register() -> None:
     open.register()
     former_names.register()
     stations_panel.register()
+    tile_credits.register()
 
 
 def unregister() -> None:
@@ -79,6 +83,7 @@ def unregister() -> None:
     queue.clear()
     farm_watch.forget()
     maps.forget()
+    tile_credits.unregister()
     stations_panel.unregister()
     former_names.unregister()
     open.unregister()

@@ -26,6 +26,7 @@ from . import (
     run,
     solve,
     target_scene,
+    tile_facts,
     time,
     view,
     working,
@@ -162,6 +163,8 @@ def _finish(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], new: boo
     else:
         layers.complete(shot.settings, here, parts)
     time.remember(scene.firetwin, shot)
+    if "terrain" in parts:
+        tile_facts.remember(scene.firetwin, shot)
     view.remember(scene.firetwin, shot.run)
     if new:
         view.look(scene)
@@ -203,6 +206,7 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
         view.narrow(scene)
         time.forget(scene.firetwin)
         landmarks.forget(scene.firetwin)
+        tile_facts.forget(scene.firetwin)
         changed_settings.forget(scene.firetwin)
         target_scene.remove(scene)
         self.report({"INFO"}, "Removed what Firetwin built")

@@ -71,6 +71,8 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings):
     landmarks: bpy.props.StringProperty(options={"HIDDEN"})
     changed: bpy.props.StringProperty(options={"HIDDEN"})
     problem: bpy.props.StringProperty(options={"HIDDEN"})
+    tile_facts: bpy.props.StringProperty(options={"HIDDEN"})
+    tile_credits: bpy.props.StringProperty(options={"HIDDEN"})
     bake_smoke: bpy.props.BoolProperty(
         name="Smoke of every frame",
         description="Bake the smoke of all frames during the build, which can take minutes. "

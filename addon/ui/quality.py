@@ -14,6 +14,7 @@ from . import job, keys, sections, working
 _MOVED = (
     ("terrain", "near_radius"),
     ("terrain", "error"),
+    ("tiles", "error"),
     ("forest", "budget"),
     ("forest", "understorey"),
     ("forest", "draw_distance"),
@@ -26,15 +27,15 @@ _MOVED = (
 _STEPS: dict[str, tuple[str, tuple[Any, ...]]] = {
     "preview": (
         "Preview in a minute: coarse terrain, fewer trees, smoke as puffs, small pictures",
-        (1500.0, 1.5, 40_000, 5000, 6000.0, 500, "puffs", 12, (480, 270), 2),
+        (1500.0, 1.5, 64.0, 40_000, 5000, 6000.0, 500, "puffs", 12, (480, 270), 2),
     ),
     "film": (
         "Films and daily work: solved smoke, pictures of 1280 x 720",
-        (4000.0, 0.05, 200_000, 40_000, 12_000.0, 3000, "flow", 48, (1280, 720), 6),
+        (4000.0, 0.05, 2.0, 200_000, 40_000, 12_000.0, 3000, "flow", 48, (1280, 720), 6),
     ),
     "final": (
         "Final quality: more trees and shrubs, pictures of 1920 x 1080, little noise. A film takes hours",
-        (6000.0, 0.05, 400_000, 80_000, 16_000.0, 6000, "flow", 96, (1920, 1080), 24),
+        (6000.0, 0.05, 1.0, 400_000, 80_000, 16_000.0, 6000, "flow", 96, (1920, 1080), 24),
     ),
 }
 LEVELS = {name: dict(zip(_MOVED, values, strict=True)) for name, (_, values) in _STEPS.items()}

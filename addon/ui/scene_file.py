@@ -7,6 +7,7 @@ its path.
 from __future__ import annotations
 
 import hashlib
+from dataclasses import replace
 from pathlib import Path
 
 import bpy
@@ -33,6 +34,8 @@ def settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Setting
     cameras, runs = camera_list.cameras(panel), other_runs.runs(panel)
     whole = Settings(path=path, run=run, cache=cache, cameras=cameras, runs=runs)
     whole = sections.take(panel, sections.single() + sections.sections(), whole)
+    places = tuple(bpy.path.abspath(each) if each.startswith("//") else each for each in whole.tiles.sources)
+    whole = replace(whole, tiles=replace(whole.tiles, sources=places))
     if mistake := validate(whole):
         raise Error(keys.sentence(mistake[1]))
     return whole
@@ -41,11 +44,19 @@ def settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Setting
 def fill(scene: bpy.types.Scene, whole: Settings) -> None:
     """Set the panel of a scene to these settings, and inspect the run."""
     panel = scene.firetwin
+    near = tuple(_beside(whole.path, place) for place in whole.tiles.sources)
+    whole = replace(whole, tiles=replace(whole.tiles, sources=near))
     sections.put(panel, sections.single() + sections.sections(), whole)
     camera_list.fill(panel, whole.cameras)
     other_runs.fill(panel, whole.runs)
     panel.cache = str(whole.cache.absolute())
     panel.run = str(whole.run.absolute())
+
+
+def _beside(path: Path, place: str) -> str:
+    """A tileset's place; what lies beside the scene file gets its whole path."""
+    near = path.absolute().parent / place
+    return str(near) if near.exists() else place
 
 
 def output(panel: bpy.types.PropertyGroup, *inside: str) -> str:

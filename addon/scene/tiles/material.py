@@ -73,6 +73,6 @@ def _inputs(shot: Shot, images: list[bpy.types.Image]) -> str:
     read = {name: digest for name, digest in read.items() if not name.startswith("tiles ")}
     code = code_fingerprint.hashes({"terrain", "forest"}, shot.settings.cameras)
     digest = hashlib.sha256(repr((settings, read, code, [each[MADE_OF] for each in images])).encode())
-    digest.update(np.ascontiguousarray(shot.ground.fields.elevation))
-    digest.update(shot.built_frames)
+    digest.update(np.asarray(shot.ground.fields.elevation).tobytes())
+    digest.update(shot.built_frames.tobytes())
     return digest.hexdigest()[:32]

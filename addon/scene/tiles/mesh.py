@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Mapping
 
 import bpy
 import numpy as np
@@ -20,15 +21,20 @@ COLOUR = "tile_colour"
 UV = "tile_uv"
 
 
-def fill(data: bpy.types.Mesh, shot: Shot, tile: Decoded, slots: dict[str, Slot]) -> None:
+def fill(data: bpy.types.Mesh, shot: Shot, tile: Decoded, slots: Mapping[str, Slot]) -> None:
     """Write the triangles of a tile into an empty mesh, with the attributes of the ground.
 
     Growth that it shows is flattened where the scene plants its own (`tiles.trees`).
     """
     tile = shaped(shot, tile)
-    position = np.ascontiguousarray(tile.position)
-    _shape(data, tile, position)
-    add_ground(data, shot, position, tile.origin)
+    shape(data, tile, slots)
+    add_ground(data, shot, tile.position, tile.origin)
+
+
+def shape(data: bpy.types.Mesh, tile: Decoded, slots: Mapping[str, Slot]) -> None:
+    """Write a tile's triangles, colours and texture coordinates into an empty mesh."""
+    tile = tile.without_points()
+    _triangles(data, tile, np.ascontiguousarray(tile.position))
     corners = tile.triangle.ravel()
     index = np.repeat(tile.material_index, 3)
     uv, colour = tile.uv[corners], np.ones((len(corners), 4), np.float32)
@@ -80,7 +86,7 @@ def add(data: bpy.types.Mesh, name: str, kind: str, values: NDArray) -> None:
     data.attributes.new(name, kind, "POINT").data.foreach_set(key, np.asarray(values, np.float32).ravel())
 
 
-def _shape(data: bpy.types.Mesh, tile: Decoded, position: NDArray[np.float32]) -> None:
+def _triangles(data: bpy.types.Mesh, tile: Decoded, position: NDArray[np.float32]) -> None:
     """Vertices, triangles and normals; arrays only, so that a tile costs the same in any scene."""
     data.vertices.add(len(position))
     data.attributes["position"].data.foreach_set("vector", position.ravel())

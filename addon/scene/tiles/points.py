@@ -13,8 +13,9 @@ from . import mesh
 
 RADIUS = "radius"
 """Radius of points, m."""
-COVERING = 0.75
-"""Radius of a point as a part of the spacing: points of a square grid cover their surface from 0.71 on."""
+COVERING = 1.0
+"""Radius of a point as a part of the spacing. Points of a square grid cover their surface from 0.71 on; of
+random points, which these leave 4 % open."""
 _GROUP = "tile_points"
 
 

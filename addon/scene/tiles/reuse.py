@@ -84,7 +84,7 @@ def place_digest(shot: Shot) -> str:
     frame, fields = ground.frame, ground.fields
     digest = hashlib.sha256(repr((frame.latitude, frame.longitude, frame.height, fields.margin)).encode())
     for axis in (fields.latitude, fields.longitude):
-        digest.update(np.ascontiguousarray(axis))
+        digest.update(np.asarray(axis).tobytes())
     return digest.hexdigest()[:32]
 
 

@@ -55,11 +55,11 @@ def arrange(pictures: Sequence[str], known: Mapping[str, Slot] | None = None) ->
         if name in slots:
             continue
         end = Path(name).suffix
-        slot = next(free.get(end, iter(())), None)
-        if slot is None:
+        found = next(free.get(end, iter(())), None)
+        if found is None:
             free[end] = _gaps(taken, [images])
-            slot, images = next(free[end]), images + 1
-        slots[name] = slot
+            found, images = next(free[end]), images + 1
+        slots[name] = found
     return slots if _is_whole(slots.values()) else arrange(pictures)
 
 

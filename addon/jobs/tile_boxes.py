@@ -1,0 +1,69 @@
+"""Bounding boxes of a shot's tilesets, and what is known of each before any tile is fetched."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..progress import MessageCallback, Progress, no_message, silent
+from ..shot.source import ShotSource
+from . import worker
+from .tile_access import TileAccess, from_plain, permitted
+
+MOST = 2000
+"""Boxes of a source at most, those of the coarsest tiles."""
+
+
+def run(
+    choice: ShotSource,
+    progress: Progress = silent,
+    tell: MessageCallback = no_message,
+    stop: worker.Stop | None = None,
+) -> list[dict[str, Any]]:
+    """Read the root documents of a scene's tilesets: no further file, and no tile.
+
+    Returns
+    -------
+    For each source `name`, number of `tiles` that its root document lists, `credits`, and `corners`: of each
+    box eight, with x, y, z one after the other, m in the scene.
+
+    Raises
+    ------
+    InputError
+        A tileset is wrong, or refused.
+    """
+    about = {"choice": choice.plain(), "access": permitted(TileAccess()).plain()}
+    return worker.run(f"{__name__}:in_process", about, progress, tell=tell, blender=False, stop=stop)
+
+
+def in_process(
+    choice: dict[str, str], access: dict[str, Any], progress: Progress, tell: MessageCallback
+) -> list[dict[str, Any]]:
+    """Read; worker side."""
+    from ..tiles.loader import Loader
+    from . import tiles
+
+    shot = ShotSource(**choice).shot()
+    found = []
+    for number in range(len(shot.settings.tiles.sources)):
+        progress(number, len(shot.settings.tiles.sources), "reading the tilesets")
+        source = tiles.open_place(shot, number, from_plain(access))
+        try:
+            tree = Loader(source).tree
+        finally:
+            source.close()
+        some = np.argsort(tree.level, kind="stable")[:MOST]
+        _, matrix = tiles.to_scene(shot)
+        placed = tree.volumes.taken(some).moved(matrix[None], np.zeros(len(some), np.int64))
+        wide = placed.half + placed.round[:, None]
+        corners = type(placed)(placed.centre, placed.axis, wide, placed.round).corners()
+        found.append(
+            {
+                "name": source.name(source.root),
+                "tiles": tree.size,
+                "credits": [each.copyright for each in tree.documents if each.copyright],
+                "corners": np.round(corners, 2).ravel().tolist(),
+            }
+        )
+    return found

@@ -1,0 +1,163 @@
+"""Panel of tiles: what the sources hold, a preview in the 3D view, numbers and credits."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any
+
+import bpy
+
+from ..blender import owned
+from ..jobs.worker import Stop
+from ..progress import MessageCallback, Progress
+from ..shot.source import ShotSource
+from ..shot.tile_cut import TileCut
+from . import choice, job, run, target_scene, tile_facts, working
+from .job import InThread, Steps
+from .text import labelled, paragraph
+from .working import Working
+
+_NO_SOURCE = "Name a tileset in Sources: a folder, a .3tz archive or a URL"
+
+
+def _ready(operator: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+    """Whether there are a run and a source; else the tooltip says what is missing."""
+    if not context.scene.firetwin.tiles.sources:
+        operator.poll_message_set(_NO_SOURCE)
+        return False
+    if context.mode != "OBJECT":
+        operator.poll_message_set("Leave the edit mode first")
+        return False
+    return run.ready(operator, context)
+
+
+class FIRETWIN_OT_tiles_preview(Working, bpy.types.Operator):
+    """Show the bounding boxes of the tiles at once, then coarse tiles (64 pixels, at most 200 MB).
+
+    The tiles of the film are fetched meanwhile; Build scene shows them
+    """
+
+    bl_idname = "firetwin.tiles_preview"
+    bl_label = "Preview tiles"
+    bl_options = {"REGISTER", "UNDO"}
+
+    boxes: bpy.props.BoolProperty(
+        name="Only boxes",
+        description="Show only the bounding boxes: no tile is fetched",
+        options={"SKIP_SAVE"},
+    )
+
+    @classmethod
+    def description(cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """The tooltip."""
+        if properties.boxes:
+            return "Show the bounding boxes of the tiles. No tile is fetched"
+        return (
+            "Show the bounding boxes of the tiles at once, then coarse tiles (64 pixels, at most 200 MB). "
+            "The tiles of the film are fetched meanwhile; Build scene shows them"
+        )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return _ready(cls, context)
+
+    def steps(self, context: bpy.types.Context) -> Steps:
+        """Read and fetch in processes of their own; show in this one."""
+        return (yield from steps(context, self.boxes))
+
+
+def steps(context: bpy.types.Context, only_boxes: bool) -> Steps:
+    """Show boxes and coarse tiles, and fetch the tiles of the film."""
+    from ..jobs import tile_boxes
+    from ..scene.tiles import preview
+
+    uid, chosen = context.scene.session_uid, choice.from_panel(context.scene.firetwin)
+    found = yield InThread("reading the tilesets", functools.partial(tile_boxes.run, chosen))
+    yield "drawing the boxes"
+    uid, _ = target_scene.prepare(owned.scene(uid), part=True)
+    scene = owned.scene(uid)
+    preview.show_boxes(owned.stage(scene), preview.join([each["corners"] for each in found]))
+    tile_facts.remember_boxes(scene.firetwin, found)
+    count = sum(each["tiles"] for each in found)
+    if only_boxes:
+        return f"{count:,} tiles in the root documents of {len(found)} tilesets"
+    cut = yield InThread("fetching coarse tiles", functools.partial(_cut, chosen, coarse=True))
+    yield "showing coarse tiles"
+    scene = owned.scene(uid)
+    preview.show_tiles(owned.stage(scene), cut)
+    tile_facts.remember_cut(scene.firetwin, cut, "Preview")
+    cut = yield InThread("fetching the tiles of the film", functools.partial(_cut, chosen, coarse=False))
+    tile_facts.remember_cut(owned.scene(uid).firetwin, cut, "Film")
+    return f"{len(cut.tiles):,} tiles are ready: Build scene shows them"
+
+
+def _cut(
+    chosen: ShotSource, progress: Progress, tell: MessageCallback, stop: Stop, coarse: bool
+) -> TileCut | None:
+    """Prepare a choice of tiles in a process, and read it."""
+    from ..jobs import tiles
+    from ..shot import tile_cut
+
+    tiles.prepare(chosen, (), progress, tell, stop, preview=coarse)
+    shot = chosen.shot()
+    return tile_cut.of_shot(tiles.coarse(shot) if coarse else shot)
+
+
+class FIRETWIN_OT_tiles_clear(bpy.types.Operator):
+    """Remove the preview of tiles; tiles that were built stay"""
+
+    bl_idname = "firetwin.tiles_clear"
+    bl_label = "Remove preview"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return working.editable(cls, context)
+
+    @working.reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        from ..scene.tiles import build, preview
+
+        if not owned.built(context.scene):
+            return {"CANCELLED"}
+        stage = owned.stage(context.scene)
+        preview.remove(stage)
+        if not stage.objects_of(build.PART):
+            tile_facts.forget(context.scene.firetwin)
+        return {"FINISHED"}
+
+
+class FIRETWIN_PT_tiles(bpy.types.Panel):
+    """Sources of tiles, their preview, numbers and credits"""
+
+    bl_idname = "FIRETWIN_PT_tiles"
+    bl_label = "Preview"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Firetwin"
+    bl_parent_id = "FIRETWIN_PT_section_tiles"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, panel = self.layout, context.scene.firetwin
+        row = layout.row(align=True)
+        working.button(row, FIRETWIN_OT_tiles_preview, "MESH_GRID")
+        if job.Job.current is None:
+            row.operator(FIRETWIN_OT_tiles_preview.bl_idname, text="", icon="CUBE").boxes = True
+            row.operator(FIRETWIN_OT_tiles_clear.bl_idname, text="", icon="TRASH")
+        if panel.tile_facts:
+            _draw_facts(context, layout.column(align=True), tile_facts.read(panel.tile_facts))
+        working.messages(context, layout, FIRETWIN_OT_tiles_preview)
+
+
+def _draw_facts(context: bpy.types.Context, column: bpy.types.UILayout, facts: dict[str, Any]) -> None:
+    for source in facts["sources"]:
+        paragraph(context, column, source, "FILE_3D")
+    for label, text in facts["lines"]:
+        labelled(column, label).label(text=text)
+    for text in facts["missing"]:
+        paragraph(context, column, text, "ERROR")
+    if facts["credits"]:
+        paragraph(context, column, f"Credits: {'; '.join(facts['credits'])}")
+
+
+classes = (FIRETWIN_OT_tiles_preview, FIRETWIN_OT_tiles_clear, FIRETWIN_PT_tiles)
