@@ -2,8 +2,8 @@
 
 In the background, and when called by a script, the steps of a task run one after the other at once. In the
 window a modal operator runs them. Esc cancels the task only with the pointer over the sidebar: elsewhere it
-has other meanings. While a step runs in Blender only the mouse in the sidebar is handled. A task that ends
-early is undone in the window, so that a scene is complete or unchanged.
+has other meanings. After a step in Blender only the mouse in the sidebar is handled, and views can be turned.
+A task that ends early is undone in the window, so that a scene is complete or unchanged.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from .job import Job, JobResult, Message, Steps, describe_error
 
 _TICK = 0.1  # s
 _MOUSE = ("MOUSEMOVE", "INBETWEEN_MOUSEMOVE", "LEFTMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN")
+_NAVIGATION = ("MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "NDOF_MOTION")
 _ICONS = {"INFO": "INFO", "WARNING": "ERROR", "ERROR": "CANCEL"}
 
 
@@ -144,7 +145,8 @@ class Working:
             self.job.stop.now()
             return {"RUNNING_MODAL"}
         if event.type != "TIMER":
-            free = not self.job.touched or event.type == "ESC" or (here and event.type in _MOUSE)
+            look = event.type == "ESC" or event.type in _NAVIGATION
+            free = not self.job.touched or look or (here and event.type in _MOUSE)
             return {"PASS_THROUGH"} if free else {"RUNNING_MODAL"}
         return self._advance(context)
 

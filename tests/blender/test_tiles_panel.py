@@ -17,7 +17,7 @@ from firetwin.shot import tile_cut
 from firetwin.ui import job, scene_file, tile_credits, tile_facts, tiles_panel
 from tiles_scene import *  # noqa: F403
 
-pytestmark = pytest.mark.usefixtures("decoded_here", "plain_ground")
+pytestmark = pytest.mark.usefixtures("decoded_here", "plain_tiles")
 
 
 @pytest.fixture
@@ -91,13 +91,13 @@ def test_coarse_tiles_are_shown_and_those_of_the_film_are_ready(tiled_panel):
 
 def test_a_build_replaces_the_preview(tiled_panel):
     bpy.ops.firetwin.tiles_preview()
-    assert bpy.ops.firetwin.build() == {"FINISHED"}
+    assert bpy.ops.firetwin.build(part="terrain") == {"FINISHED"}
     assert not preview_objects()
     assert len(bpy.data.scenes) == 1
     assert owned.stage(bpy.context.scene).objects_of("Tiles")
     assert "Built" in dict(tile_facts.read(tiled_panel.tile_facts)["lines"])
     meshes = {each.session_uid for each in bpy.data.meshes if reuse.TILE in each}
-    assert bpy.ops.firetwin.build() == {"FINISHED"}
+    assert bpy.ops.firetwin.build(part="terrain") == {"FINISHED"}
     assert meshes == {each.session_uid for each in bpy.data.meshes if reuse.TILE in each} != set()
     bpy.ops.firetwin.remove()
     assert not tiled_panel.tile_facts

@@ -12,6 +12,7 @@ from firetwin.scene.tiles import build as tiles_build
 from firetwin.scene.tiles import reuse
 from firetwin.shot import tile_cut
 from firetwin.shot.shot import Shot
+from lying_server import Reply, serving
 from tiles_scene import *  # noqa: F403
 
 pytestmark = pytest.mark.usefixtures("plain_tiles")
@@ -55,6 +56,24 @@ def test_nothing_is_fetched_or_decoded_again(tiled, monkeypatch):
     before = tile_cut.of_shot(tiled)
     tiles.make(tiled)
     assert tile_cut.of_shot(tiled) == before
+
+
+def test_of_a_server_nothing_is_fetched_again(tiled, tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "kept"))
+    with serving() as server:
+        for path in (tmp_path / "set").rglob("*.*"):
+            name = path.relative_to(tmp_path / "set").as_posix()
+            server.answers[f"/{name}"] = Reply(200, path.read_bytes(), {"Cache-Control": "max-age=3600"})
+        sources = (f"{server.url}/tileset.json",)
+        settings = replace(tiled.settings, tiles=replace(tiled.settings.tiles, sources=sources))
+        shot = Shot(settings, tiled.run)
+        tiles.make(shot)
+        asked = len(server.asked)
+        cut = tile_cut.of_shot(shot)
+        tiles.make(shot)
+        assert len(server.asked) == asked > len(cut.tiles)
+        assert tile_cut.of_shot(shot) == cut
+    assert cut.tiles == tile_cut.of_shot(tiled).tiles  # as those of a folder: named by their content
 
 
 def test_one_changed_tile_is_one_new_mesh(tiled, stage):

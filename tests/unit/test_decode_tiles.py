@@ -48,7 +48,7 @@ def test_a_process_that_dies_loses_its_tile_alone(tmp_path, monkeypatch):
     contents = [content(tmp_path, f"{k}.glb", made.square().glb()) for k in range(3)]
     (tmp_path / "1.glb").unlink()
     os.mkfifo(tmp_path / "1.glb")  # reading it blocks for ever
-    monkeypatch.setattr(decode_tiles, "_SECONDS", 3.0)
+    monkeypatch.setattr(decode_tiles, "_SECONDS", 8.0)
     bad = decode_tiles.run(contents)
     assert list(bad) == ["1.glb"]
     assert "no progress" in bad["1.glb"]

@@ -21,6 +21,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 import inventory
 import page
 import shown
+import tile_preview
 from hands import (
     FOLDER,
     MODULE,
@@ -430,7 +431,7 @@ def session() -> Iterator[object]:
     yield from install()
     for step in (
         *(panel, quality, build, shown.sections, shown.dialogs, look, parts, scrub, render),
-        *(by_hand, undo, beside, file, shown.drop, page.page, shown.browser),
+        *(by_hand, undo, beside, file, shown.drop, tile_preview.tiles, page.page, shown.browser),
     ):
         if step.__name__ in STEPS:
             yield from step()

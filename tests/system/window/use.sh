@@ -7,7 +7,7 @@ cd "${1:?usage: tests/system/window/use.sh OUT [STEP ...]}"
 shift
 steps=("$@")
 if ((${#steps[@]} == 0)); then
-  steps=(commands panel quality build sections dialogs look parts scrub render by_hand undo beside file drop page browser)
+  steps=(commands panel quality build sections dialogs look parts scrub render by_hand undo beside file drop tiles page browser)
 fi
 here=/firetwin/tests/system/window
 export LIBGL_ALWAYS_SOFTWARE=1 BLENDER_USER_RESOURCES=$PWD/user
@@ -31,6 +31,9 @@ prepare() {
   say "Blender's command line; all it says is in commands.log"
   blender --command extension install-file --repo user_default --enable firetwin.zip >commands.log 2>&1
   firetwin 0 sample sample --frames 61
+  if [[ " ${steps[*]} " == *" tiles "* ]]; then
+    firetwin 0 tiles make scene.toml --out tileset --levels 2
+  fi
 }
 
 commands() {
