@@ -4,6 +4,7 @@
 
 The set has TILES tiles of 2 x SIDE x SIDE triangles with a JPEG picture of 256 pixels each, in a folder.
 Seconds are medians with their range, by the clock and of the processor, with all processes that were started.
+The material is the ground's, and costs the same for any number of tiles.
 `tenth` and `last` are the filling of the tenth and of the last mesh: means over ten tiles there, in ms.
 """
 
@@ -30,7 +31,7 @@ from firetwin.blender import owned
 from firetwin.data import sample
 from firetwin.jobs import tiles
 from firetwin.run import readers
-from firetwin.scene.tiles import build, mesh
+from firetwin.scene.tiles import build, material, mesh
 from firetwin.shot import auto_framing, tile_cut
 from firetwin.shot.shot import Shot
 
@@ -62,14 +63,20 @@ def measured(folder: Path, count: int, side: int) -> dict[str, Any]:
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     shot, filled = shot_of(folder, count, side), []
     _ = shot.visibility, shot.front
-    fill = mesh.fill
+    fill, look, looks = mesh.fill, material.build, []
 
     def timed(*given: Any) -> None:
         began = time.process_time()
         fill(*given)
         filled.append(1e3 * (time.process_time() - began))
 
-    mesh.fill = timed
+    def looked(*given: Any) -> Any:
+        began = time.process_time()
+        found = look(*given)
+        looks.append(time.process_time() - began)
+        return found
+
+    mesh.fill, material.build = timed, looked
     stage = owned.adopt(bpy.context.scene)
     found: dict[str, Any] = {}
     for turn in ("first", "second"):
@@ -77,7 +84,8 @@ def measured(folder: Path, count: int, side: int) -> dict[str, Any]:
         cut = tile_cut.of_shot(shot)
         assert cut is not None
         found[f"{turn} build"] = seconds(lambda cut=cut: build.build(shot, stage, cut, None))
-    mesh.fill = fill
+    mesh.fill, material.build = fill, look
+    found["material"] = looks[0]
     found["tiles"] = len(cut.tiles)
     found["tenth"], found["last"] = float(np.mean(filled[5:15])), float(np.mean(filled[-10:]))
     return found
@@ -98,6 +106,7 @@ def main() -> None:
     for name in ("first prepare", "first build", "second prepare", "second build"):
         for what, index in (("clock", 0), ("processor", 1)):
             result[f"{name}, {what} s"] = _spread([run[name][index] for run in runs])
+    result["material of the first build, processor s"] = _spread([run["material"] for run in runs])
     for name in ("tenth", "last"):
         result[f"{name} mesh, ms"] = _spread([run[name] for run in runs])
     print(json.dumps(result, indent=1))
