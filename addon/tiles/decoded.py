@@ -113,6 +113,11 @@ class Decoded:
     about: Summary
 
     @property
+    def credit(self) -> str:
+        """Copyright notices, with semicolons between them."""
+        return self.about.credit
+
+    @property
     def pictures(self) -> list[str]:
         """Files of its pictures, each once."""
         return list(dict.fromkeys(each.picture for each in self.materials if each.picture))
