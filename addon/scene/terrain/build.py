@@ -17,7 +17,7 @@ from ..forest.stand import Stand
 from . import buildings, fields, material, solid_view
 
 _SEAM = 2.0  # points of the tiles' heights, width of ground that is left under their border
-_UNDER = 0.5  # m that this ground lies lower, so that it does not show through
+_UNDER = 0.25  # m that this ground lies lower, so that it does not show through
 
 Shape = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]]
 
