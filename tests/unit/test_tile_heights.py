@@ -6,6 +6,7 @@ from firetwin.errors import InputError
 from firetwin.shot.terrain import tile_heights
 from firetwin.tiles.decoded import Decoded, Summary
 from firetwin_core import geo, tiles
+from firetwin_core.run import open as open_run
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -81,6 +82,22 @@ def test_a_level_surface_has_its_height_at_60_km():
     assert np.isnan(beyond).all()
     assert model.overlaps(np.array([south, north_]), np.array([west, east_]))
     assert not model.overlaps(np.array([south - 1.0, south - 0.5]), np.array([west, east_]))
+
+
+def test_a_surface_comes_back_as_it_was_written(tmp_path, make_run):
+    rng = np.random.default_rng(2)
+    height = rng.uniform(900, 1000, (30, 40)).astype(np.float32)
+    height[:3] = np.nan
+    shown = rng.integers(0, 3, height.shape).astype(np.uint8)
+    ground = np.where(shown > 0, height - 7.5, height)
+    surface = tile_heights.Surface(np.array([3.0, -4.0]), 2.5, height, ground, shown)
+    tile_heights.write(tmp_path / "x.npz", surface)
+    found = tile_heights.read(tmp_path / "x.npz", open_run(make_run())).surface
+    assert (found.low == surface.low).all()
+    assert found.step == 2.5
+    assert np.array_equal(found.height, height, equal_nan=True)
+    np.testing.assert_allclose(found.ground, ground, atol=1e-4)
+    assert (found.shown == shown).all()
 
 
 def test_damaged_heights_are_named(tmp_path):

@@ -212,11 +212,13 @@ def location(settings: Settings, run: Run) -> Path:
 
 
 def write(path: Path, surface: Surface) -> None:
-    """Write a surface."""
+    """Write a surface; its ground as depth below the highest surface, which is mostly 0."""
+    arrays = asdict(surface)
+    arrays["depth"] = surface.height - arrays.pop("ground")
 
     def put(part: Path) -> None:
         with part.open("wb") as stream:
-            np.savez_compressed(stream, allow_pickle=False, **asdict(surface))
+            np.savez_compressed(stream, allow_pickle=False, **arrays)
 
     files.write(path, put)
 
@@ -232,10 +234,10 @@ def read(path: Path, run: Run) -> TileHeights:
     try:
         with np.load(path, allow_pickle=False) as stored:
             low, step = stored["low"], float(stored["step"])
-            height, ground, shown = (stored[name] for name in ("height", "ground", "shown"))
-        even = height.ndim == 2 and height.shape == ground.shape == shown.shape
+            height, depth, shown = (stored[name] for name in ("height", "depth", "shown"))
+        even = height.ndim == 2 and height.shape == depth.shape == shown.shape
         if low.shape != (2,) or not even or not step > 0.0:
             raise ValueError("other shapes")
     except (OSError, ValueError, LookupError, zipfile.BadZipFile) as error:
         raise input_error(path, 0, 0, f"has no heights of tiles ({error}); delete it") from None
-    return TileHeights(local_frame(run), Surface(low, step, height, ground, shown))
+    return TileHeights(local_frame(run), Surface(low, step, height, height - depth, shown))
