@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import json
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
@@ -96,12 +96,13 @@ def read(path: Path) -> TileCut:
     """
     try:
         about: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-        lists = {name: tuple(map(str, about[name])) for name in ("tiles", "credits", "missing", "logo")}
-        difference = about["difference"] and tuple(map(float, about["difference"]))
-        counts = {name: int(about[name]) for name in ("empty", "bytes", "triangles")}
-        return TileCut(
-            path.parent, path.stem, error=float(about["error"]), difference=difference, **counts, **lists
+        tiles, credits, missing, logo = (
+            tuple(map(str, about[name])) for name in ("tiles", "credits", "missing", "logo")
         )
+        difference = about["difference"] and tuple(map(float, about["difference"]))
+        counts = (int(about[name]) for name in ("bytes", "triangles"))
+        found = TileCut(path.parent, path.stem, tiles, credits, missing, float(about["error"]), *counts)
+        return replace(found, logo=logo, empty=int(about["empty"]), difference=difference)
     except (OSError, ValueError, LookupError, TypeError) as error:
         raise input_error(path, 0, 0, f"is no list of chosen tiles ({error}); delete it") from None
 

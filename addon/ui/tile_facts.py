@@ -40,7 +40,7 @@ def remember_cut(panel: bpy.types.PropertyGroup, cut: TileCut, what: str) -> Non
     ]
     kept = read(panel.tile_facts)["sources"] if panel.tile_facts else []
     missing = [f"{len(cut.missing)} tiles are missing", *cut.missing[:_LISTED]] if cut.missing else []
-    _store(panel, {"sources": kept, "lines": lines, "missing": missing, "credits": list(cut.credits)})
+    _store(panel, {"sources": kept, "lines": lines, "missing": missing, "credits": [*cut.logo, *cut.credits]})
 
 
 def forget(panel: bpy.types.PropertyGroup) -> None:

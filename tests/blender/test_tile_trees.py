@@ -8,7 +8,7 @@ import pytest
 from firetwin.errors import InputError
 from firetwin.jobs import decode_tiles, tiles
 from firetwin.scene.tiles import flatten, skirt
-from firetwin.shot import tile_cut
+from firetwin.shot import tile_cut, tile_terms
 from firetwin.shot.cameras import flight
 from firetwin.shot.shot import Shot
 from firetwin.shot.terrain import tile_heights, tile_trees
@@ -37,7 +37,7 @@ def seen(shot, tmp_path, monkeypatch):
         terrain = replace(shot.settings.terrain, stand="elevation")
         settings = replace(shot.settings, tiles=known, cache=tmp_path / "cache", terrain=terrain)
         first = Shot(settings, shot.run)
-        tiles.make(first)
+        tiles.make(first, uses=tile_terms.of_scene(settings))
         if stand == "elevation":
             return first
         settings = replace(settings, terrain=replace(terrain, stand=stand))

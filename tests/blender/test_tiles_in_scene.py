@@ -114,7 +114,7 @@ def test_a_geoid_that_is_left_out_is_found_or_an_error(tiled, monkeypatch):
         plane = staticmethod(lambda frame: (-24.9, 1e-5, -2e-5))
 
     monkeypatch.setattr(geoid, "find", lambda: Egm96)
-    height, matrix = tiles._to_scene(left_out)
+    height, matrix = tiles.to_scene(left_out)
     here = np.array([[9000.0, -7000.0, 50.0]])
     place = ecef(*np.radians(np.array(frame.reverse(here))[:2, 0]), np.float64(frame.reverse(here)[2][0]))
     assert height == -24.9

@@ -40,10 +40,10 @@ def here(monkeypatch):
 @pytest.fixture
 def tiled_panel(panel, here, settings, shot, tmp_path):
     """The panel of a small shot with a set of its own ground beside the scene file."""
-    make_tiles.run(shot, make_tiles.TilesRequest(tmp_path / "set", credit="Somebody; Another"))
+    make_tiles.run(shot, make_tiles.TilesRequest(tmp_path / "set", credit="A; B", geoid=-24.9))
     panel.output = str(tmp_path / "out")
     bare = replace(settings.forest, trees=False)
-    named = replace(settings.tiles, sources=("set",), error=2.0)
+    named = replace(settings.tiles, sources=("set",), error=2.0, geoid=-24.9)
     scene_file.fill(panel.id_data, replace(settings, tiles=named, forest=bare))
     assert not panel.problem
     return bpy.context.scene.firetwin
@@ -62,7 +62,7 @@ def test_boxes_are_one_object_of_lines(tiled_panel):
     (obj,) = preview_objects()
     facts = tile_facts.read(tiled_panel.tile_facts)
     assert len(facts["sources"]) == 1
-    assert facts["credits"] == ["Somebody; Another"]
+    assert facts["credits"] == ["A; B"]
     assert len(obj.data.vertices) % 8 == 0 < len(obj.data.vertices)
     assert len(obj.data.edges) == 12 * len(obj.data.vertices) // 8
     assert not obj.data.polygons
@@ -107,7 +107,7 @@ def test_a_build_replaces_the_preview(tiled_panel):
 def test_credits_are_drawn_while_there_are_tiles(tiled_panel):
     assert not tile_credits.shown()
     bpy.ops.firetwin.tiles_preview(boxes=True)
-    assert tiled_panel.tile_credits == "Somebody; Another"
+    assert tiled_panel.tile_credits == "A; B"
     assert tile_credits.shown()
     bpy.ops.firetwin.tiles_clear()
     assert not tile_credits.shown()
