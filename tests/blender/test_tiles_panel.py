@@ -14,6 +14,7 @@ from firetwin.jobs import make_tiles, tile_boxes, worker
 from firetwin.jobs.worker import StoppedError
 from firetwin.scene.tiles import preview, reuse
 from firetwin.shot import tile_cut
+from firetwin.shot.terrain import tile_heights
 from firetwin.ui import job, scene_file, tile_credits, tile_facts, tiles_panel
 from tiles_scene import *  # noqa: F403
 
@@ -38,9 +39,10 @@ def here(monkeypatch):
 
 
 @pytest.fixture
-def tiled_panel(panel, here, settings, shot, tmp_path):
+def tiled_panel(panel, here, settings, shot, tmp_path, monkeypatch):
     """The panel of a small shot with a set of its own ground beside the scene file."""
     make_tiles.run(shot, make_tiles.TilesRequest(tmp_path / "set", credit="A; B", geoid=-24.9))
+    monkeypatch.setattr(tile_heights, "_MOST", 200)  # points of heights, which nothing here looks at
     panel.output = str(tmp_path / "out")
     bare = replace(settings.forest, trees=False)
     named = replace(settings.tiles, sources=("set",), error=2.0, geoid=-24.9)
@@ -89,6 +91,7 @@ def test_coarse_tiles_are_shown_and_those_of_the_film_are_ready(tiled_panel):
     assert len(bpy.data.scenes) == 1
 
 
+@pytest.mark.slow  # two builds of the terrain
 def test_a_build_replaces_the_preview(tiled_panel):
     bpy.ops.firetwin.tiles_preview()
     assert bpy.ops.firetwin.build(part="terrain") == {"FINISHED"}

@@ -38,7 +38,7 @@ def cloud(shot, tmp_path):
         as_bytes(tileset(tile(0.0, "a.cmpt", volume=ball, transform=matrix)))
     )
     (folder / "a.cmpt").write_bytes(both)
-    known = replace(shot.settings.tiles, sources=(str(folder),))
+    known = replace(shot.settings.tiles, sources=(str(folder),), geoid=0.0)
     found = shot._with_settings(replace(shot.settings, tiles=known, cache=tmp_path / "cache"))
     tiles.make(found)
     return found

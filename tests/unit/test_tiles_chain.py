@@ -66,7 +66,7 @@ def ground(tmp_path_factory):
     sample.write(folder / "run", 2)
     (folder / "scene.toml").write_text(SCENE)
     shot = ShotSource(scene=str(folder / "scene.toml")).shot()
-    make_tiles.run(shot, make_tiles.TilesRequest(folder / "set", levels=2, credit="Somebody"))
+    make_tiles.run(shot, make_tiles.TilesRequest(folder / "set", levels=2, credit="Somebody", geoid=-24.9))
     text = (folder / "set" / "tileset.json").read_bytes()
     return shot, {"/t/tileset.json": text} | dict(squares(json.loads(text)["root"]))
 
@@ -106,6 +106,7 @@ class Chain:
             self.shot.settings.tiles,
             sources=(f"{self.server.url}/t/tileset.json{self.query}",),
             error=1.0,
+            geoid=-24.9,
         )
         return self.shot._with_settings(replace(self.shot.settings, tiles=known, cache=self.folder / "cache"))
 
