@@ -4,6 +4,7 @@ import weakref
 
 import pytest
 from firetwin import memory
+from firetwin.imaging.credits import Credits
 from firetwin.render import integrated, pictures
 from firetwin.render.picture import Picture
 from firetwin.render.sharing import open_session
@@ -22,7 +23,7 @@ def film(shot, stage, tmp_path, monkeypatch):
     events, told, alive = [], [], []
 
     class Frame:
-        draw_layers = None
+        draw_layers, words = None, Credits()
 
         def __init__(self, shot, stage, session, part, camera, frame):
             self.camera, self.frame = camera, frame
