@@ -36,11 +36,23 @@ def of_shot(shot: ShotView) -> Credits:
     return of_cuts(shot.settings, [cut] if cut else [])
 
 
-def foot(shot: Shot, width: int, height: int) -> int:
-    """Rows along the bottom of a one-camera shot's picture that credits take (see `imaging.credits`)."""
-    shots = [shot, *(comparison.for_run(shot, label) for label in shot.others)]
-    words = functools.reduce(Credits.joined, map(of_shot, shots))
-    return credits.foot(words, width, height)
+def foot(shot: Shot, width: int, height: int, compares: bool = False) -> int:
+    """Rows along the bottom of a one-camera shot's picture that credits take (see `imaging.credits`).
+
+    Parameters
+    ----------
+    compares
+        The picture shows all runs.
+    """
+    return credits.foot(_of_runs(shot, compares), width, height)
+
+
+@functools.lru_cache(maxsize=1)
+def _of_runs(shot: Shot, compares: bool) -> Credits:
+    """Credits of a shot, or of all its runs; kept for the next frame."""
+    labels = shot.others if compares else ()
+    shots = [shot, *(comparison.for_run(shot, label) for label in labels)]
+    return functools.reduce(Credits.joined, map(of_shot, shots))
 
 
 def check_room(shot: Shot, words: Credits) -> None:

@@ -108,3 +108,14 @@ def test_kinds_and_lengths():
         )
     ) == ["a", "b"]
     assert list(contents.references([])) == []
+
+
+def test_strict_fails_where_a_file_is_missing(tmp_path, capsys):
+    root = tile(8.0, "r.glb", [tile(1.0, "gone.glb")], refine="ADD")
+    folder = str(write(tmp_path / "set", {"tileset.json": tileset(root), "r.glb": GLB}))
+    assert cli.main(["tiles", "info", folder]) == 0
+    assert "gone.glb: " in capsys.readouterr().out
+    assert cli.main(["tiles", "info", folder, "--strict"]) == 1
+    told = capsys.readouterr()
+    assert "--strict: 1 file missing: " in told.err
+    assert "gone.glb" in told.err

@@ -48,7 +48,8 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
         pictures.append(tinted(rgb, kinds, shades))
         keys.append(list(zip(shades, ("burned in both", f"only {names[0]}", f"only {label}"), strict=True)))
     said = comparison.caption(shot, frame)
-    below = picture_credits.foot(shot, *pictures[0].shape[1::-1])
+    height, width = pictures[0].shape[:2]
+    below = picture_credits.foot(shot, width, height, compares=True)
     sensor.write_image(files["png"], split_screen.sheet(pictures, keys, said, below))
 
 

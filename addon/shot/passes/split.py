@@ -38,7 +38,8 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
         others = [(colours[other], f"front of {other}") for other in colours if other != label]
         keys.append([(colours[label], f"{label}  {acres:,.0f} acres"), *(others if drawn else ())])
     said = comparison.caption(shot, frame)
-    below = picture_credits.foot(shot, *pictures[0].shape[1::-1])
+    height, width = pictures[0].shape[:2]
+    below = picture_credits.foot(shot, width, height, compares=True)
     sensor.write_image(files["png"], split_screen.sheet(pictures, keys, said, below))
 
 
