@@ -100,9 +100,9 @@ def read(path: Path) -> TileCut:
             tuple(map(str, about[name])) for name in ("tiles", "credits", "missing", "logo")
         )
         difference = about["difference"] and tuple(map(float, about["difference"]))
-        counts = (int(about[name]) for name in ("bytes", "triangles"))
-        found = TileCut(path.parent, path.stem, tiles, credits, missing, float(about["error"]), *counts)
-        return replace(found, logo=logo, empty=int(about["empty"]), difference=difference)
+        found = TileCut(path.parent, path.stem, tiles, credits, missing, float(about["error"]), logo)
+        empty, size, triangles = (int(about[name]) for name in ("empty", "bytes", "triangles"))
+        return replace(found, empty=empty, bytes=size, triangles=triangles, difference=difference)
     except (OSError, ValueError, LookupError, TypeError) as error:
         raise input_error(path, 0, 0, f"is no list of chosen tiles ({error}); delete it") from None
 

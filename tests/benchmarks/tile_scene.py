@@ -65,10 +65,11 @@ def measured(folder: Path, count: int, side: int) -> dict[str, Any]:
     _ = shot.visibility, shot.front
     fill, look, looks = mesh.fill, material.build, []
 
-    def timed(*given: Any) -> None:
+    def timed(*given: Any) -> str:
         began = time.process_time()
-        fill(*given)
+        shape = fill(*given)
         filled.append(1e3 * (time.process_time() - began))
+        return shape
 
     def looked(*given: Any) -> Any:
         began = time.process_time()

@@ -6,8 +6,6 @@ made again.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import bpy
 
 from ...blender import owned
@@ -30,8 +28,8 @@ _POINTS = " points"  # end of the names of point clouds
 def build(shot: Shot, stage: Stage, cut: TileCut, grown: Stand | None) -> None:
     """Build an object for the triangles of each tile of the cut, and one for its points."""
     wanted = _pieces(cut)
-    made_of = _made_of(shot, cut, wanted)
-    kept = reuse.find(stage, PART, wanted, made_of)
+    place = reuse.place_digest(shot)
+    kept = reuse.find(stage, PART, wanted, lambda name: place + _shape_digest(shot, cut, name))
     slots, new = _arranged(cut, wanted, kept)
     with reuse.held(kept):
         collection = stage.part(PART)
@@ -41,8 +39,9 @@ def build(shot: Shot, stage: Stage, cut: TileCut, grown: Stand | None) -> None:
         for name in wanted:
             data = kept.meshes.get(name)
             if data is None:
-                data = _mesh(shot, name, new[_file(name)], slots)
-                reuse.note(data, name, made_of[name], new[_file(name)], slots)
+                data, tile = bpy.data.meshes.new(f"Firetwin Tile {name}"), new[_file(name)]
+                shape = _fill(data, shot, tile, slots, name.endswith(_POINTS))
+                reuse.note(data, name, place + shape, tile, slots)
             _assign(data, materials)
             obj = owned.add(collection, f"Tile {name}", data)
             obj.location = data[reuse.ORIGIN]
@@ -63,15 +62,11 @@ def _pieces(cut: TileCut) -> list[str]:
     return found
 
 
-def _made_of(shot: Shot, cut: TileCut, wanted: Sequence[str]) -> dict[str, str]:
-    """Digest of what each piece depends on besides its own tile: its place, and heights of all tiles."""
-    place, shaped = reuse.place_digest(shot), tile_cut.heights(shot) is not None
-    return {
-        name: place + mesh.shape_digest(shot, decoded.read(cut.folder / name))
-        if shaped and not name.endswith(_POINTS)
-        else place
-        for name in wanted
-    }
+def _shape_digest(shot: Shot, cut: TileCut, name: str) -> str:
+    """Digest of what the heights of all tiles make of a piece; empty where they change nothing."""
+    if name.endswith(_POINTS) or tile_cut.heights(shot) is None:
+        return ""
+    return mesh.shape_digest(shot, decoded.read(cut.folder / name))
 
 
 def _file(piece: str) -> str:
@@ -79,13 +74,12 @@ def _file(piece: str) -> str:
     return piece.removesuffix(_POINTS)
 
 
-def _mesh(shot: Shot, name: str, tile: Decoded, slots: dict[str, Slot]) -> bpy.types.Mesh:
-    data = bpy.data.meshes.new(f"Firetwin Tile {name}")
-    if name.endswith(_POINTS):
-        points.fill(data, shot, tile)
-    else:
-        mesh.fill(data, shot, tile, slots)
-    return data
+def _fill(data: bpy.types.Mesh, shot: Shot, tile: Decoded, slots: dict[str, Slot], cloud: bool) -> str:
+    """Write a piece into an empty mesh; returns the digest of its shape."""
+    if not cloud:
+        return mesh.fill(data, shot, tile, slots)
+    points.fill(data, shot, tile)
+    return ""
 
 
 def remove(stage: Stage) -> None:

@@ -21,14 +21,21 @@ COLOUR = "tile_colour"
 UV = "tile_uv"
 
 
-def fill(data: bpy.types.Mesh, shot: Shot, tile: Decoded, slots: Mapping[str, Slot]) -> None:
+def fill(data: bpy.types.Mesh, shot: Shot, tile: Decoded, slots: Mapping[str, Slot]) -> str:
     """Write the triangles of a tile into an empty mesh, with the attributes of the ground.
 
-    Growth that it shows is flattened where the scene plants its own (`tiles.trees`).
+    Growth that it shows is flattened where the scene plants its own (`tiles.trees`). It has a skirt at the
+    tiles' border.
+
+    Returns
+    -------
+    Digest of these changes (see `shape_digest`).
     """
-    tile = shaped(shot, tile)
-    shape(data, tile, slots)
-    add_ground(data, shot, tile.position, tile.origin)
+    plain = tile.without_points()
+    found = add_skirt(shot, flatten(shot, plain))
+    shape(data, found, slots)
+    add_ground(data, shot, found.position, found.origin)
+    return _digest(plain, found)
 
 
 def shape(data: bpy.types.Mesh, tile: Decoded, slots: Mapping[str, Slot]) -> None:
@@ -52,15 +59,13 @@ def shape(data: bpy.types.Mesh, tile: Decoded, slots: Mapping[str, Slot]) -> Non
     data.polygons.foreach_set("material_index", (image[tile.material_index] + 1).astype(np.int32))
 
 
-def shaped(shot: Shot, tile: Decoded) -> Decoded:
-    """The triangles of a tile as the scene shows them: growth flattened, and a skirt at the tiles' border."""
-    return add_skirt(shot, flatten(shot, tile.without_points()))
-
-
 def shape_digest(shot: Shot, tile: Decoded) -> str:
     """Digest of what flattening and skirt make of a tile; empty where they change nothing."""
     plain = tile.without_points()
-    found = add_skirt(shot, flatten(shot, plain))
+    return _digest(plain, add_skirt(shot, flatten(shot, plain)))
+
+
+def _digest(plain: Decoded, found: Decoded) -> str:
     if found is plain:
         return ""
     digest = hashlib.sha256()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
@@ -40,7 +40,7 @@ class Kept:
     images: list[bpy.types.Image] = field(default_factory=list)
 
 
-def find(stage: Stage, part: str, wanted: Sequence[str], made_of: Mapping[str, str]) -> Kept:
+def find(stage: Stage, part: str, wanted: Sequence[str], made_of: Callable[[str], str]) -> Kept:
     """What the last build of a part left.
 
     Parameters
@@ -48,7 +48,7 @@ def find(stage: Stage, part: str, wanted: Sequence[str], made_of: Mapping[str, s
     wanted
         Names of decoded tiles.
     made_of
-        Digests of what their meshes depend on besides.
+        Gives the digest of what a tile's mesh depends on besides.
     """
     kept, some = Kept(), set(wanted)
     for obj in stage.objects_of(part):
@@ -58,8 +58,8 @@ def find(stage: Stage, part: str, wanted: Sequence[str], made_of: Mapping[str, s
         if not kept.materials and all(each is not None and MADE_OF in each for each in data.materials):
             kept.materials = list(data.materials)
         name = data[TILE]
-        same = name in some and name not in kept.meshes and data.get(MADE_OF) == made_of.get(name)
-        if same and data.get(STATE) == state.of_mesh(data):
+        same = name in some and name not in kept.meshes and data.get(STATE) == state.of_mesh(data)
+        if same and data.get(MADE_OF) == made_of(name):
             kept.meshes[name] = data
     kept.images = [image for each in kept.materials for image in images(each)]
     return kept

@@ -20,10 +20,10 @@ def add_skirt(shot: Shot, tile: Decoded) -> Decoded:
     if heights is None or not len(tile.triangle):
         return tile
     place = tile.position.astype(np.float64) + tile.origin
+    outer = heights.rim(place[:, 0], place[:, 1])
+    if not outer.any():
+        return tile
     edge, owner = open_edges(tile.triangle)
-    used = np.unique(edge)
-    outer = np.zeros(len(place), bool)
-    outer[used] = heights.rim(place[used, 0], place[used, 1])
     chosen = outer[edge].all(axis=1)
     if not chosen.any():
         return tile
@@ -49,6 +49,7 @@ def add_skirt(shot: Shot, tile: Decoded) -> Decoded:
 def open_edges(triangle: NDArray[np.int32]) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
     """Edges (e, 2) that one triangle alone has, in its own direction, and the number of this triangle."""
     edge = triangle[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    _, first, count = np.unique(np.sort(edge, axis=1), axis=0, return_index=True, return_counts=True)
+    low, high = edge.min(axis=1).astype(np.int64), edge.max(axis=1)
+    _, first, count = np.unique(low << 32 | high, return_index=True, return_counts=True)
     alone = first[count == 1]
     return edge[alone], alone // 3
