@@ -331,7 +331,8 @@ class _Source:
         self.loader: Loader = Loader(source)
         self.matrix = matrix
         view_set, heights, halves, eyes = shot.visibility.all_views()
-        self.views = Views(view_set, pixels(heights, halves), eyes)
+        earth = self.matrix if all(view.perspective for view in shot.paths) else None
+        self.views = Views(view_set, pixels(heights, halves), eyes, earth)
         megabytes = self.settings.max_size * 1_000_000
         self.budget = Budget(self.settings.max_tiles, megabytes, self.settings.max_triangles)
         self.files: dict[int, str] = {}

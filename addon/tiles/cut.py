@@ -10,6 +10,7 @@ from firetwin_core import lod, tiles
 from numpy.typing import ArrayLike, NDArray
 
 from ..progress import Progress, silent
+from . import horizon
 from .loader import Loader
 from .tree import MODEL
 from .volumes import Volumes
@@ -28,11 +29,15 @@ class Views:
         of 1 m.
     eyes
         (k, 3) places of the perspective cameras, m.
+    horizon
+        (4, 4) from Earth-centred metres to the scene: what is behind the Earth for all eyes is not seen.
+        None: it counts, as for orthographic cameras, which no eyes stand for.
     """
 
     view_set: lod.ViewSet
     pixels: NDArray[np.float64]
     eyes: NDArray[np.float64]
+    horizon: NDArray[np.float64] | None = None
 
 
 def pixels(height: ArrayLike, half_height: ArrayLike) -> NDArray[np.float64]:
@@ -137,7 +142,7 @@ class _Measured:
     def seen(self, volumes: Volumes, error: NDArray[np.float64]) -> NDArray[np.float64]:
         """Screen-space errors of volumes in the scene, pixels; -1: no view sees them."""
         scale = float(np.linalg.norm(self.matrix[:3, :3], ord=2))
-        return tiles.screen_error(
+        errors = tiles.screen_error(
             *_arrays(volumes),
             error * scale,
             self.views.view_set,
@@ -145,6 +150,14 @@ class _Measured:
             margin=self.margin,
             shadows=self.shadows,
         )
+        if self.views.horizon is not None:
+            earth = np.linalg.inv(self.views.horizon)
+            centre, eyes = (
+                each @ earth[:3, :3].T + earth[:3, 3] for each in (volumes.centre, self.views.eyes)
+            )
+            radius = np.linalg.norm(volumes.half, axis=1) + volumes.round
+            errors[horizon.hidden(centre, radius, eyes)] = -1.0
+        return errors
 
 
 def choose(

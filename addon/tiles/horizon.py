@@ -1,0 +1,51 @@
+"""Horizon culling: tiles behind the Earth, as every eye of a shot sees it.
+
+Places are scaled by the axes of the ellipsoid, which becomes the unit sphere (Cozzi and Ring, 3D Engine
+Design for Virtual Globes, 2011, 2.4 and 12.2.3). What an eye does not see then lies beyond the plane of its
+horizon and within the cone that touches the sphere. A sphere is hidden if all of it is.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..ellipsoid import E2, A
+
+LOWEST = 1000.0  # m below WGS84: no ground is lower where it could hide something (Dead Sea: 430 m)
+_AXES = np.array([A, A, A * np.sqrt(1.0 - E2)]) - LOWEST
+
+Array = NDArray[np.float64]
+
+
+def hidden(centre: Array, radius: Array, eyes: Array) -> NDArray[np.bool_]:
+    """Whether spheres (n,) are behind the Earth for all eyes; none is without an eye.
+
+    Parameters
+    ----------
+    centre, radius
+        (n, 3) and (n,) Earth-centred, m.
+    eyes
+        (k, 3) Earth-centred, m. An eye below the ground sees all.
+    """
+    result = np.full(len(centre), len(eyes) > 0)
+    place, size = centre / _AXES, radius / _AXES.min()
+    for eye in eyes / _AXES:
+        left = np.flatnonzero(result)
+        if len(left) == 0:
+            break
+        result[left] = _behind(place[left], size[left], eye)
+    return result
+
+
+def _behind(place: Array, radius: Array, eye: Array) -> NDArray[np.bool_]:
+    """Whether scaled spheres are behind the unit sphere for one scaled eye."""
+    away = float(np.linalg.norm(eye))
+    if away <= 1.0:
+        return np.zeros(len(place), bool)
+    axis = eye / away
+    along = place @ axis
+    across = np.linalg.norm(place - along[:, None] * axis, axis=1)
+    sine, cosine = 1.0 / away, np.sqrt(1.0 - 1.0 / away**2)
+    inside = (away - along) * sine - across * cosine  # distance from the cone, within it
+    return (along + radius <= sine) & (inside >= radius)
