@@ -13,11 +13,9 @@ from mathutils import Euler, Quaternion, Vector
 from ..blender import owned
 from ..escaped import escaped
 from ..scene.camera import ground_raycast, read_edits
-from . import landmarks, place_names, run, working
+from . import coordinates, events, landmarks, place_names, working
 from .navigation import can_navigate, space
 
-_NUMBER = r"\s*(-?\d+(?:\.\d*)?)\s*°?\s*"
-_PAIR = re.compile(rf"{_NUMBER}([NS]?)[\s,;]*(?<=[\sNSns,;]){_NUMBER}([EW]?)\s*", re.IGNORECASE)
 _DATE = re.compile(r"\s*(\d{4}-\d\d-\d\d)[ T](\d\d?:\d\d)\s*(Z|UTC)?\s*", re.IGNORECASE)
 _TILTS = (1.05, 0.8, 0.5, 0.2, 0.0)  # rad from straight down, of views at the end of a flight
 _CLEARANCE = 30.0  # m of the eye over the terrain
@@ -25,24 +23,13 @@ _SHOWN = 40  # names of a kind in the menu
 _SECONDS, _STEP = 1.5, 1.0 / 30.0  # s of the flight, and between its redraws
 
 
-def coordinates(text: str) -> tuple[float, float] | None:
-    """Parse latitude and longitude, degrees north and east; None if the text has none."""
-    match = _PAIR.fullmatch(text)
-    if match is None:
-        return None
-    latitude = float(match[1]) * (-1.0 if match[2].upper() == "S" else 1.0)
-    longitude = float(match[3]) * (-1.0 if match[4].upper() == "W" else 1.0)
-    return (latitude, longitude) if abs(latitude) <= 90.0 and abs(longitude) <= 360.0 else None
-
-
 def parse_time(panel: bpy.types.PropertyGroup, text: str) -> datetime | None:
     """Parse a time: date and time, or words of a reported event."""
     if match := _DATE.fullmatch(text):
         zone = UTC if match[3] else zoneinfo.ZoneInfo(panel.zone)
         return datetime.fromisoformat(f"{match[1]} {match[2]:0>5}").replace(tzinfo=zone).astimezone(UTC)
-    wanted, moments = text.strip().lower(), run.read(panel.facts)["moments"] if panel.facts else []
-    reported = (time for time, words in moments if wanted and wanted in words.lower())
-    return next(map(datetime.fromisoformat, reported), None)
+    event = events.find(panel, text)
+    return None if event is None else event.time
 
 
 def frame_of(panel: bpy.types.PropertyGroup, when: datetime) -> int:
@@ -57,7 +44,7 @@ def place(scene: bpy.types.Scene, text: str) -> Vector | None:
 
     A name is that of a place, a station or an object.
     """
-    stage, pair = owned.stage(scene), coordinates(text)
+    stage, pair = owned.stage(scene), coordinates.parse(text)
     if pair is None and (found := landmarks.find(scene.firetwin, text)):
         return found
     if pair is None and (label := place_names.find(scene.firetwin, text)):
@@ -77,7 +64,8 @@ class FIRETWIN_OT_go(bpy.types.Operator):
 
     bl_idname = "firetwin.go"
     bl_label = "Go to"
-    bl_options = {"REGISTER"}
+    bl_options = {"REGISTER", "UNDO_GROUPED"}  # views have no undo, the frame has
+    bl_undo_group = "Frame Change"
 
     text: bpy.props.StringProperty(name="Where", description="Place, date or event; empty: the text of Go to")
     smooth: bpy.props.BoolProperty(
@@ -94,20 +82,26 @@ class FIRETWIN_OT_go(bpy.types.Operator):
     @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene, text = context.scene, self.text or context.scene.firetwin.go_to
-        where = place(scene, text)
+        where, when = place(scene, text), None
         if where is None and (when := parse_time(scene.firetwin, text)) is not None:
             scene.frame_set(frame_of(scene.firetwin, when))
             self.report({"INFO"}, f"Frame {scene.frame_current}, the nearest to {when:%d %b %Y %H:%M} UTC")
-            return {"FINISHED"}
-        if where is None:
-            why = place_names.refusal(scene.firetwin)
-            unknown = f'"{escaped(text)}" is no known name and no place on the terrain'
-            self.report({"WARNING"}, f"{unknown}. {why}" if why else unknown)
+            event = events.find(scene.firetwin, text)
+            where = place(scene, event.place) if event and event.place else None
+        if where is None and when is None:
+            self.report({"WARNING"}, _unknown(scene.firetwin, text))
             return {"CANCELLED"}
         shown = space(context)
-        if shown is not None:
+        if where is not None and shown is not None:
             _fly(context, shown.region_3d, where, self.distance, self.smooth and not bpy.app.background)
         return {"FINISHED"}
+
+
+def _unknown(panel: bpy.types.PropertyGroup, text: str) -> str:
+    """Why a text leads nowhere."""
+    words = f'"{escaped(text)}" is no known name and no place on the terrain'
+    why = place_names.refusal(panel)
+    return f"{words}. {why}" if why else words
 
 
 def _fly(
@@ -178,7 +172,7 @@ class FIRETWIN_MT_go(bpy.types.Menu):
             ("FORCE_TURBULENCE", landmarks.known(panel)),
             ("HOME", [each.name for each in place_names.stations(panel)[:_SHOWN]]),
             ("BOOKMARKS", [each.name for each in place_names.known(panel)[:_SHOWN]]),
-            ("TIME", _events(panel)),
+            ("TIME", [each.words for each in events.known(panel)][:_SHOWN]),
         )
         for icon, names in groups:
             for name in names:
@@ -187,11 +181,6 @@ class FIRETWIN_MT_go(bpy.types.Menu):
             if names:
                 layout.separator()
         layout.prop(panel, "go_smoothly")
-
-
-def _events(panel: bpy.types.PropertyGroup) -> list[str]:
-    """Words of the run's dated events."""
-    return [words for _, words in run.read(panel.facts)["moments"]] if panel.facts else []
 
 
 classes = (FIRETWIN_OT_go, FIRETWIN_MT_go)

@@ -97,9 +97,9 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings):
     )
     go_to: bpy.props.StringProperty(
         name="Go to",
-        description="Latitude and longitude (38.82 -120.55), the name of a station, a place or an object, "
-        "head or ignition, a date and time (2014-09-17 15:30, in the zone of the film), or words of a "
-        "reported event",
+        description="Latitude and longitude (38.82 -120.55 or 38 49 12 N 120 33 0 W), a station, place or "
+        "object by name, head or ignition, a date and time (2014-09-17 15:30, in the zone of the film), or "
+        "words of an event",
         options={"SKIP_SAVE"},
     )
     go_smoothly: bpy.props.BoolProperty(

@@ -15,7 +15,18 @@ from firetwin.shot.cameras.lenses import LENSES
 from firetwin.shot.cameras.rigs.poses import Poses
 from firetwin.shot.settings import schema
 from firetwin.shot.settings.settings import TileSettings
-from firetwin.ui import camera_list, camera_targets, choice, go_to, keys, landmarks, navigation, place_names
+from firetwin.ui import (
+    camera_list,
+    camera_targets,
+    choice,
+    coordinates,
+    events,
+    go_to,
+    keys,
+    landmarks,
+    navigation,
+    place_names,
+)
 from mathutils import Euler, Matrix, Vector
 
 EYE = Matrix.Translation((-500.0, -2500.0, 2400.0)) @ Euler((1.2, 0.0, -0.2)).to_matrix().to_4x4()
@@ -158,13 +169,27 @@ def test_lenses_say_what_they_are_and_reach_the_table(panel):
         ("38.82 N, 120.55 W", (38.82, -120.55)),
         ("38.82° N 120.55° W", (38.82, -120.55)),
         ("33.9S;18.4E", (-33.9, 18.4)),
+        ("38°49'12\"N 120°33'00\"W", (38.82, -120.55)),
+        ("38°49\u203212.0\u2033 N, 120°33\u20320\u2033 W", (38.82, -120.55)),
+        ("38 49 12 N 120 33 0 W", (38.82, -120.55)),
+        ("38 49.2 N; 120 33 W", (38.82, -120.55)),
+        ("N 38:49:12 W 120:33", (38.82, -120.55)),
+        ("33d54m S 18d24m E", (-33.9, 18.4)),
+        ("N38.82 W120.55", (38.82, -120.55)),
+        ("38 60 N 120 33 W", None),
+        ("38 49 61 N 120 33 W", None),
+        ("38 49.5 12 N 120 33 W", None),
+        ("98 49 N 120 33 W", None),
+        ("38 49 12 120 33 0", None),
+        ("New Sweden", None),
         ("Georgetown 61", None),
         ("3882", None),
         ("98 120", None),
     ],
 )
 def test_coordinates_are_read_as_people_write_them(text, pair):
-    assert go_to.coordinates(text) == pair
+    found = coordinates.parse(text)
+    assert found == (None if pair is None else pytest.approx(pair, abs=1e-9))
 
 
 def test_one_goes_to_places_names_and_moments(panel):
@@ -218,6 +243,44 @@ def test_head_ignition_and_stations_are_gone_to(panel, tmp_path):
         assert np.array(go_to.place(scene, "Head of the fire")) == pytest.approx(wanted[frame - 1], abs=0.1)
         assert go_to.place(scene, "head") == go_to.place(scene, "Head of the fire")
     assert landmarks.known(panel) == ["Head of the fire", "Ignition"]
+
+
+def test_one_goes_to_the_moment_when_the_fire_reaches_a_station(panel, tmp_path):
+    scene = bpy.context.scene
+    path = stations.write(
+        tmp_path / "stations.gpkg",
+        [
+            (1, "Base Two", 38.84, -120.55, "exercise base", "exercise"),
+            (2, "Far Camp", 38.801, -120.599, "exercise base", "exercise"),
+        ],
+    )
+    panel.stations.file = str(path)
+    found = {event.words: event for event in events.known(panel)}
+    assert "the fire reaches Base Two" in found
+    assert "the fire reaches Far Camp" not in found, "it never comes there"
+    times = [event.time for event in events.known(panel)]
+    assert times == sorted(times)
+    event = events.find(panel, "reaches base two")
+    assert event.place == "Base Two"
+    scene.frame_set(3)
+    assert bpy.ops.firetwin.go(text="the fire reaches Base Two") == {"FINISHED"}
+    assert scene.frame_current == go_to.frame_of(panel, event.time)
+
+
+def test_names_are_off_beside_tiles_whose_terms_forbid_other_gazetteers(panel, tmp_path):
+    file = tmp_path / "places.csv"
+    file.write_text("name,latitude,longitude\nOld Mill,38.84,-120.55\n")
+    panel.labels.file = str(file)
+    scene = bpy.context.scene
+    assert [each.name for each in place_names.known(panel)] == ["Old Mill"]
+    assert go_to.place(scene, "old mill") is not None
+    panel.tiles.sources = '"terrain_tiles", "https://tile.googleapis.com/v1/3dtiles/root.json"'
+    assert place_names.known(panel) == ()
+    assert go_to.place(scene, "old mill") is None
+    assert go_to.place(scene, "38.84 -120.55") is not None
+    assert "Google" in go_to._unknown(panel, "old mill")
+    panel.tiles.sources = '"https://example.org/tileset.json", "half typed'
+    assert [each.name for each in place_names.known(panel)] == ["Old Mill"]
 
 
 def test_a_view_at_a_place_is_above_the_terrain(panel, monkeypatch):
