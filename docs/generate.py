@@ -196,7 +196,9 @@ still, and flies on with an eased start and end, above the terrain.
 A `globe` flies from space to a place: along the geodesic, with equal speed on the screen from 2,000 km down
 (van Wijk and Nuij 2003). It starts with a view straight down and ends as a `tour` stands at its stop, with a
 level horizon all the way. Places are computed in double precision in the scene's axes, so the Earth's
-curvature is in them. Clip planes follow the height, frame by frame.
+curvature is in them. Clip planes follow the height, frame by frame. With such a camera the terrain goes over
+into the WGS84 ellipsoid, in one colour, or in `terrain.globe`, a picture of yours; it needs a credit. Haze
+follows the curvature, the sky darkens with height and lies about the limb.
 
 `vr` needs Cycles. The left eye's equirectangular picture lies above the right one's. Stills say so in XMP
 (GPano), films in `st3d` and `sv3d`. A `satellite` looks straight down and to scale from above all smoke, or

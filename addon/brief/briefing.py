@@ -226,6 +226,7 @@ def _inputs(settings: Settings | None) -> list[tuple[str, str]]:
         ("Orthophoto of the film", settings.terrain.photo),
         ("Land use of the film", settings.terrain.land_use),
         ("Buildings of the film", settings.terrain.buildings),
+        ("Picture of the Earth", settings.terrain.globe),
         ("Named places", settings.labels.file),
     )
     found = [(what, path.name) for what, path in named if path]

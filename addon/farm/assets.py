@@ -31,6 +31,7 @@ def needed(shot: Shot) -> list[Path]:
         *photo,
         terrain.land_use,
         terrain.buildings,
+        terrain.globe,
         labels.file if labels.enabled else None,
     ]
     if stations.enabled:

@@ -21,7 +21,7 @@ from ..shot.fire import observed
 from ..shot.settings import schema
 from ..shot.settings.settings import Camera, Settings
 from ..shot.shot import Shot
-from ..shot.terrain import land_use, orthophoto
+from ..shot.terrain import globe_picture, land_use, orthophoto
 from ..smoke import sources
 from .picture import Picture
 
@@ -120,6 +120,7 @@ def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silen
     more = (
         orthophoto.inputs(shot.settings, progress)
         | land_use.inputs(shot.settings, progress)
+        | globe_picture.inputs(shot.settings, progress)
         | labels.inputs(shot.settings)
         | places.inputs(shot.settings)
     )

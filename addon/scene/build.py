@@ -14,7 +14,7 @@ from ..shot import tile_cut
 from ..shot.light import exposure
 from ..shot.shot import Shot
 from ..shot.terrain import footprints
-from . import clock, infrared, temperature
+from . import clock, curved_air, infrared, temperature
 from .camera import build as camera
 from .fire import build as fire
 from .forest import build as forest
@@ -82,6 +82,7 @@ def steps(
 
     yield "surveying the ground"
     _ = shot.paths
+    curved_air.switch(stage(), shot.local_frame if shot.beyond else None)
     clock.build(shot, stage())
     temperature.build(shot, stage())
     infrared.build(shot, stage())

@@ -14,6 +14,7 @@ import bpy
 from ..blender import nodes, owned
 from ..blender.owned import Stage
 from ..shot.light import sky
+from . import curved_air
 
 _GROUP = "haze"
 _WHITE = (1.0, 1.0, 1.0, 1.0)
@@ -38,15 +39,17 @@ def _group(stage: Stage) -> bpy.types.NodeTree:
     colour.name = "Colour"
     density = tree.input("Density", 1.0, "Factor on the haze of the scene; 0: none", "Haze")
     tint = tree.input("Tint", _WHITE, "Factor on the colour of the scene's haze", "Haze")
-    depth = way(tree, sky.HAZE_HEIGHT) * (extinction * density)
+    depth = way(tree, stage, sky.HAZE_HEIGHT) * (extinction * density)
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     fraction = (1.0 - (-depth).exp()) * camera
     tree.finish({"Fraction": fraction, "Colour": tree.vector("MULTIPLY", colour, tint)})
     return group
 
 
-def way(tree: nodes.Tree, height: float) -> nodes.Value:
-    """Path length (m) to the camera, weighted by exp(-z / `height`)."""
+def way(tree: nodes.Tree, stage: Stage, height: float) -> nodes.Value:
+    """Path length (m) to the camera, weighted by exp(-z / `height`); in curved air by the height itself."""
+    if (earth := curved_air.earth(stage)) is not None:
+        return curved_air.way(tree, earth, height)
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
     geometry = tree.node("ShaderNodeNewGeometry")
     low = tree.separate(tree.pick(geometry, "Position"))[2] / height
@@ -85,13 +88,18 @@ def fraction(tree: nodes.Tree, stage: Stage) -> tuple[nodes.Value, nodes.Value]:
     return tree.pick(node, "Fraction"), tree.pick(node, "Colour")
 
 
+def airlight(tree: nodes.Tree, stage: Stage) -> nodes.Value:
+    """Radiance of the airlight."""
+    return tree.pick(tree.node("ShaderNodeGroup", node_tree=_group(stage)), "Colour")
+
+
 def before_sky(tree: nodes.Tree, stage: Stage, light: nodes.Value, up: nodes.Value) -> nodes.Value:
     """The sky's radiance through haze, for rays of slope sine `up`; its texture includes a dry day's haze."""
     group = _group(stage)
     more = (group.nodes["Extinction"].outputs[0].default_value - sky.HAZE) * sky.HAZE_HEIGHT
     if more <= 1.0e-3:
         return light
-    colour = tree.pick(tree.node("ShaderNodeGroup", node_tree=group), "Colour")
+    colour = airlight(tree, stage)
     part = 1.0 - tree.math("DIVIDE", -more, tree.math("MAXIMUM", up, 0.005)).exp()
     return tree.mix_colour(part, light, colour)
 

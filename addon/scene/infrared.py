@@ -103,14 +103,14 @@ def _group(shot: Shot, stage: Stage) -> bpy.types.NodeTree:
         weight, exponent = (_value(tree, f"{name} {index}") for name in ("Weight", "Exponent"))
         own = own + weight / ((inverse * exponent).exp() - 1.0)
     radiance = tree.mix(tree.pick(entry, "Emissivity"), _value(tree, "Sky"), own)
-    tree.finish({"Radiance": radiance, "Clear": _clear(tree)})
+    tree.finish({"Radiance": radiance, "Clear": _clear(tree, stage)})
     _fill(group, shot)
     return group
 
 
-def _clear(tree: nodes.Tree) -> nodes.Value:
+def _clear(tree: nodes.Tree, stage: Stage) -> nodes.Value:
     """Transmittance of air between this point and the camera."""
-    path = haze.way(tree, _HALF) * 1.0e-3
+    path = haze.way(tree, stage, _HALF) * 1.0e-3
     return (-(path.power(_BEND) * _value(tree, "Dim"))).exp()
 
 

@@ -10,7 +10,7 @@ from . import frames, places
 from .fire import observed
 from .settings import scene_file
 from .settings.settings import Settings
-from .terrain import elevation, land_use, orthophoto
+from .terrain import elevation, globe_picture, land_use, orthophoto
 
 
 def check(settings: Settings, run: Run) -> None:
@@ -25,6 +25,7 @@ def check(settings: Settings, run: Run) -> None:
     elevation.check(settings, run)
     orthophoto.check(settings, run)
     land_use.check(settings, run)
+    globe_picture.check(settings)
     observed.check(settings)
     if settings.labels.enabled and settings.labels.file:
         labels.read(settings.labels.file)

@@ -287,7 +287,7 @@ def test_settings_come_back_from_their_text(tmp_path_factory, whole):
     path.write_text(scene_file.text(whole), encoding="utf-8")
     back = scene_file.read(path)
     terrain = dataclasses.replace(
-        back.terrain, **moved(back.terrain, folder, "elevation", "photo", "land_use", "buildings")
+        back.terrain, **moved(back.terrain, folder, "elevation", "photo", "land_use", "buildings", "globe")
     )
     labels = dataclasses.replace(back.labels, **moved(back.labels, folder, "file"))
     fire = dataclasses.replace(back.fire, **moved(back.fire, folder, "observed"))

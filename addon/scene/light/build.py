@@ -13,7 +13,7 @@ from ...shot.light import exposure
 from ...shot.light.sky import NIGHT_SKY, State, state
 from ...shot.passes import masks
 from ...shot.shot import Shot
-from .. import haze, infrared
+from .. import curved_air, haze, infrared, space_sky
 
 _KEYS = 25  # number of keyframes of the sky
 _SKY = 0.12  # strength of the sky texture; more hides the sunlit side of smoke
@@ -72,6 +72,15 @@ def _facing(direction: NDArray[np.float64]) -> tuple[float, ...]:
     return tuple(Vector((-direction).tolist()).to_track_quat("-Z", "Y"))
 
 
+def key_sun(tree: bpy.types.NodeTree, frames: NDArray[np.float64], states: list[State]) -> None:
+    """Keyframe the direction to the sun in a tree whose node `space_sky.SUN` holds it."""
+    height, bearing = np.array([each.sky for each in states]).T
+    level = np.cos(height)
+    toward = np.sin(bearing) * level, np.cos(bearing) * level, np.sin(height)
+    for axis, values in enumerate(toward):
+        key(tree, f'nodes["{space_sky.SUN}"].inputs[{axis}].default_value', frames, values)
+
+
 def _airglow(tree: nodes.Tree, up: nodes.Value) -> nodes.Value:
     """Airglow relative to the zenith, for rays of slope sine `up`: a layer 100 km high.
 
@@ -95,6 +104,9 @@ def _world(stage: Stage, frames: NDArray[np.float64], states: list[State]) -> No
     dark = tree.vector("SCALE", tuple(NIGHT_SKY), _airglow(tree, up)) if night else tuple(NIGHT_SKY)
     light = tree.vector("ADD", light, dark)
     light = haze.before_sky(tree, stage, light, up)
+    earth = curved_air.earth(stage)
+    if earth is not None:
+        light = space_sky.behind_air(tree, earth, light, haze.airlight(tree, stage))
     background = tree.output("ShaderNodeBackground", {"Color": light, "Strength": 1.0})
     cold = tree.output("ShaderNodeBackground", {"Color": (1.0, 1.0, 1.0), "Strength": 0.0})
     cold.socket.node.name = "Thermal Sky"
@@ -103,6 +115,8 @@ def _world(stage: Stage, frames: NDArray[np.float64], states: list[State]) -> No
     tree.surface(nodes.switch(tree, nodes.MASKS, shader, none))
     _fill(world, frames, states)
     compat.set_sky(sky, states[0].sky[0], states[0].sky[1], _DUST)
+    if earth is not None:
+        key_sun(world.node_tree, frames, states)
     place = f'nodes["{sky.name}"]'
     key(world.node_tree, f"{place}.sun_elevation", frames, np.array([s.sky[0] for s in states]))
     key(world.node_tree, f"{place}.sun_rotation", frames, np.unwrap([s.sky[1] for s in states]))

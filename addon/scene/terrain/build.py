@@ -14,7 +14,7 @@ from ...shot.shot import Shot
 from ...shot.terrain import mesh_tolerance
 from .. import credits
 from ..forest.stand import Stand
-from . import buildings, fields, material, solid_view
+from . import buildings, fields, globe, material, solid_view
 
 _SEAM = 2.0  # points of the tiles' heights, width of ground that is left under their border
 _UNDER = 0.25  # m that this ground lies lower, so that it does not show through
@@ -42,9 +42,17 @@ def build(shot: Shot, stage: Stage, grown: Stand | None, shaped: Shape | None = 
     place = fields.place(ground.shape, row, column, ground.fields.margin)
     data.attributes.new(fields.GRID, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", place.ravel())
     solid_view.paint(shot, data, row, column)
+    picture = globe.picture(shot) if shot.beyond else None
+    if shot.beyond:
+        attribute = data.attributes.new(material.GLOBE, "FLOAT", "POINT")
+        attribute.data.foreach_set("value", globe.share(ground, row, column))
     images = fields.images(shot, grown)
-    data.materials.append(material.build(shot, stage, images, fields.photos(shot), fields.maps(shot)))
+    data.materials.append(
+        material.build(shot, stage, images, fields.photos(shot), fields.maps(shot), globe=picture)
+    )
     buildings.build(shot, stage, images)
+    if shot.beyond:
+        globe.build(shot, stage, collection, picture)
     return owned.add(collection, "Ground", data)
 
 

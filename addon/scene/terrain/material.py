@@ -18,13 +18,24 @@ from ...shot.terrain import orthophoto
 from .. import haze
 from ..forest import biomes
 from ..forest.biomes import Here
-from . import burn_scar, fields, infrared_radiance, open_land, rock_outcrops, shading_inputs, vegetation_cover
+from . import (
+    burn_scar,
+    fields,
+    globe_material,
+    infrared_radiance,
+    open_land,
+    rock_outcrops,
+    shading_inputs,
+    vegetation_cover,
+)
 from .shading_inputs import Place
 
 _FAR, _ON_ROCK = 1.5, 2.0  # pixels, the least wavelength of noise where trees are part of the ground
 
 _WAVES = (500.0, 4000.0)  # m from the camera between which waves fall below the pixel size (by eye)
 TILE_COLOUR = "Tile Colour"
+GLOBE = "globe"
+"""Point attribute of the ground: 0 within the run, 1 at the border, where it looks like the globe."""
 
 _BLUR = 0.12  # roughness that stands for unresolved waves (by eye)
 
@@ -36,9 +47,11 @@ def build(
     photos: Sequence[tuple[orthophoto.OrthophotoImage, bpy.types.Image]] = (),
     maps: Mapping[str, Sequence[tuple[orthophoto.OrthophotoImage, bpy.types.Image]]] | None = None,
     skin: str = "",
+    globe: bpy.types.Image | None = None,
 ) -> bpy.types.Material:
     """Build "Firetwin Ground" from the images of fields, coloured by these orthophotos.
 
+    `globe` is the user's picture of the Earth, whose look the ground has at its border for cameras in space.
     `maps` are the user's land use by `shot.terrain.land_use.LAYERS`. With a `skin`, its name, it is the
     material of 3-D tiles: the same ground in the colour of its input `TILE_COLOUR`, where nothing burned.
     """
@@ -47,7 +60,7 @@ def build(
     with tree.frame("Fields"):
         known = fields.Fields(tree, images)
         lake = known["water"] > 0.5
-    visible = _visible(tree, shot, stage, known, lake, photos, biome, maps or {}, skin)
+    visible = _visible(tree, shot, stage, known, lake, photos, biome, maps or {}, skin, globe)
     warmth, kind = _data(tree, shot, stage, known, lake)
     tree.surface(nodes.mask_switch(tree, nodes.thermal_switch(tree, visible, warmth), kind))
     material.cycles.emission_sampling = "NONE"  # sampled as a lamp, its small emitters would be noise
@@ -64,6 +77,7 @@ def _visible(
     biome: Here,
     maps: Mapping[str, Sequence[tuple[orthophoto.OrthophotoImage, bpy.types.Image]]],
     skin: str,
+    globe: bpy.types.Image | None,
 ) -> nodes.Value:
     """Visible shader. Shaders are mixed, not colours: Cycles does not evaluate a shader of weight 0."""
     outcrops = biome.biome.outcrops
@@ -89,6 +103,9 @@ def _visible(
             ground = tree.mix_shader(1.0 - here.burned, ground, _matt(tree, colour, None))
     with tree.frame("Flames and embers"):
         ground = tree.add_shader(ground, burn_scar.light(tree, shot, here, here.burned * (1.0 - bare)))
+    if shot.beyond and not skin:
+        with tree.frame("Globe"):
+            ground = globe_material.blended(tree, stage, globe, GLOBE, ground)
     with tree.frame("Air"):
         ground = haze.apply(tree, ground, stage)
     with tree.frame("Light of other ground"):

@@ -14,6 +14,7 @@ from firetwin_core import constants
 from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
+from ..cameras import clipping
 from ..cameras import panorama as sphere
 from ..cameras.path import Path
 from ..fire import heat_release
@@ -25,6 +26,7 @@ _RAYS = 16, 9
 _REACH = np.geomspace(40.0, 60_000.0, 72)  # m, distances of ground samples along a ray
 _HIGHEST = 4500.0  # m above the scene's zero, upper limit of terrain
 _AIR = 50_000.0  # m above the scene's zero, above which lies a ten-thousandth of the haze
+_HIGH = 30_000.0  # m, height of eyes that see the Earth as a ball
 _GROUND = 0.06  # mean luminance reflectance of forest, brush and ash: `scene.terrain.material`
 _SHADE = 0.1  # fraction of that light under trees, from sun flecks and visible sky; by eye
 _SLOPE = 40.0  # m to each side, baseline of slopes
@@ -79,7 +81,7 @@ def clear(light: sky.State) -> Array:
 
 
 def measure(shot: Shot, view: Path, frame: int) -> tuple[Array, Array, Array]:
-    """Meter a frame.
+    """Meter a frame. From space the Earth counts as level ground by a clear sky.
 
     Returns
     -------
@@ -89,6 +91,9 @@ def measure(shot: Shot, view: Path, frame: int) -> tuple[Array, Array, Array]:
         (n,) flame light on smoke along rays, GW.
     """
     time = shot.frames.time(frame)
+    if view.beyond and clipping.heights(shot.ground.frame, view.position[frame - 1 : frame])[0] > _HIGH:
+        level = clear(sky.state(shot, time))
+        return level, level, np.zeros(len(level))
     light, smoke = sky.state(shot, time), _smoke(shot, time)
     start, along = _rays(view, frame - 1)
     ends = _ends(shot, start, along)
@@ -97,7 +102,7 @@ def measure(shot: Shot, view: Path, frame: int) -> tuple[Array, Array, Array]:
     place = start + far[:, None] * along
     sunlit = _GROUND / np.pi * light.power * _sunlit(smoke, place, light, 1.0)
     crowns = 1.0 - (1.0 - _SHADE) * _crowns(shot, view.position[frame - 1], time)
-    clear = np.exp(-shot.settings.light.haze * _haze_depth(start[:, 2], along[:, 2], far))
+    through = np.exp(-shot.settings.light.haze * _haze_depth(start[:, 2], along[:, 2], far))
     depth, met, bright = _depth(smoke, start, along, ends)
     hidden = 1.0 - np.exp(-depth)
     shade = _sunlit(smoke, start + met[:, None] * along, light, _THROUGH)
@@ -106,7 +111,7 @@ def measure(shot: Shot, view: Path, frame: int) -> tuple[Array, Array, Array]:
     def seen(facing: Array | float) -> Array:
         lit = facing * sunlit + _GROUND * light.sky_mean
         behind = crowns * np.where(ground, lit, light.sky_mean * _gradation(along[:, 2]))
-        behind = np.where(ground, behind * clear + luminance(light.haze) * (1.0 - clear), behind)
+        behind = np.where(ground, behind * through + luminance(light.haze) * (1.0 - through), behind)
         return (1.0 - hidden) * behind + before
 
     facing = np.zeros(len(place))

@@ -150,6 +150,12 @@ class TerrainSettings:
         choices={"elevation": "run or model", "tiles": "3-D Tiles"},
         affects=(),
     )
+    globe: Path | None = key(
+        None,
+        "the whole Earth for cameras in space, an equirectangular picture; if left out, one colour",
+        affects=(),
+    )
+    globe_credit: str = key("", "credit of that picture, to be named beside the film", affects=())
     apron: float = key(
         110_000.0,
         "half-width of the terrain drawn around the run; a small one shows its edge",

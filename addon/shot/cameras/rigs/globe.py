@@ -75,7 +75,7 @@ class Globe(Lens):
     travel: float = key(8.0, "time of the flight, scaled likewise", unit="s", at_least=0.01, at_most=1e6)
     stay: float = key(2.0, "time at the end, scaled likewise", unit="s", at_least=0, at_most=1e6)
     clearance: float = key(50.0, "minimum height above the terrain, also between frames", **CLEARANCE)
-    over_ridges: bool = key(True, "rise until no ridge hides the place at the end")
+    over_ridges: bool = key(True, "at the end, rise until no ridge hides the place")
     places: File | None = key(  # noqa: RUF009
         None,
         "named places: GeoJSON, or CSV with name, latitude, longitude; if left out, the fire's own",
@@ -107,11 +107,11 @@ class Globe(Lens):
 
     def coordinates(self) -> list[Place]:
         """Where it ends, unless that has a name."""
-        return [(where[2:], *place) for where, *place in self._end().coordinates()]
+        return [(where[2:], north, east) for where, north, east in self._end().coordinates()]
 
     def coordinates_in(self, run: Run) -> list[Place]:
         """Where it ends, by name."""
-        return [(where[2:], *place) for where, *place in self._end().coordinates_in(run)]
+        return [(where[2:], north, east) for where, north, east in self._end().coordinates_in(run)]
 
     def input_files(self) -> list[File]:
         """Its places."""

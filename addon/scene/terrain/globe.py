@@ -1,0 +1,149 @@
+"""The Earth beyond the terrain: the whole ellipsoid as one mesh, joined to the border of the apron.
+
+It is built only for cameras that see it. It begins at the border's own heights; these fade to sea level
+within some hundred kilometres, as nothing is known there.
+"""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from firetwin_core.terrain import bilinear
+from numpy.typing import NDArray
+
+from ...blender import owned
+from ...blender.owned import Stage
+from ...run import areas
+from ...shot.shot import Shot
+from ...shot.terrain.terrain import Terrain
+from . import globe_material
+
+_SIDE = 96  # points along a side of the border
+_FIRST, _GROWTH, _STEP = 3000.0, 1.09, 100_000.0  # m: first step between rings, its growth, largest step
+_RADIUS = 6_371_000.0  # m, which turns lengths into angles here
+_HILLS, _LAND = 8_000.0, 300_000.0  # m beyond the border in which hills and mean height fade
+_SKIRT = (
+    0.97,
+    400.0,
+)  # part of its distance, and m below it, of a skirt under the border
+
+Array = NDArray[np.float64]
+
+
+def build(
+    shot: Shot, stage: Stage, collection: bpy.types.Collection, image: bpy.types.Image | None
+) -> bpy.types.Object:
+    """Build "Firetwin Globe" in a collection of ours."""
+    position, triangles = shell(shot.ground)
+    data = bpy.data.meshes.new("Firetwin Globe")
+    data.vertices.add(len(position))
+    data.attributes["position"].data.foreach_set("vector", position.astype(np.float32).ravel())
+    data.loops.add(triangles.size)
+    data.attributes[".corner_vert"].data.foreach_set("value", triangles.ravel())
+    data.polygons.add(len(triangles))
+    data.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))
+    data.update(calc_edges=True)
+    data.materials.append(globe_material.build(shot, stage, image))
+    obj = owned.add(collection, "Globe", data)
+    for kind in ("shadow", "diffuse", "glossy", "transmission", "volume_scatter"):
+        setattr(obj, f"visible_{kind}", False)
+    return obj
+
+
+def picture(shot: Shot) -> bpy.types.Image | None:
+    """The user's picture of the whole Earth; None without one."""
+    path = shot.settings.terrain.globe
+    if path is None:
+        return None
+    image = owned.mark(bpy.data.images.load(str(path.absolute())))
+    image.name = "Firetwin Globe"
+    return image
+
+
+def share(ground: Terrain, row: Array, column: Array) -> NDArray[np.float32]:
+    """Way from the run's edge, 0, to the border, 1 (n,), at fractional rows and columns."""
+    fields = ground.fields
+    if fields.margin == 0:
+        return np.zeros(len(row), np.float32)
+    sizes = areas.metres_per_degree(ground.frame.latitude)
+    inside, reach = [], []
+    for at, axis, size in zip(
+        ground.places(row, column), (fields.latitude, fields.longitude), sizes, strict=True
+    ):
+        inside.append(np.minimum(at - axis[0], axis[-1] - at) * size)
+        reach.append((axis[fields.margin] - axis[0]) * size)
+    return np.clip(1.0 - np.minimum(*inside) / min(reach), 0.0, 1.0).astype(np.float32)
+
+
+def shell(ground: Terrain) -> tuple[Array, NDArray[np.int32]]:
+    """Vertices (n, 3), m, and triangles (m, 3): rings from the terrain's border around the Earth."""
+    latitude, longitude, height = _border(ground)
+    bearing, arc = _polar(ground, latitude, longitude)
+    mean = float(height.mean())
+    rings = [_at(ground, bearing, arc * _SKIRT[0], height - _SKIRT[1]), _at(ground, bearing, arc, height)]
+    for way in _ways(np.pi - float(arc.min())):
+        beyond = _RADIUS * way * (np.pi - float(arc.min()))
+        rise = mean + (height - mean) * np.exp(-beyond / _HILLS)
+        rings.append(_at(ground, bearing, arc + way * (np.pi - arc), rise * np.exp(-beyond / _LAND)))
+    position = np.concatenate(rings)
+    return position, _triangles(len(rings), len(latitude))
+
+
+def _border(ground: Terrain) -> tuple[Array, Array, Array]:
+    """Latitude, longitude (degrees) and height (m) of points once around the border, counter-clockwise."""
+    rows, columns = ground.shape
+    part = np.arange(_SIDE) / _SIDE
+    low, high = np.zeros(_SIDE), np.ones(_SIDE)
+    down = np.concatenate([low, part, high, 1.0 - part])
+    across = np.concatenate([part, high, 1.0 - part, low])
+    fields = ground.fields
+    latitude = fields.latitude[0] + down * (fields.latitude[-1] - fields.latitude[0])
+    longitude = fields.longitude[0] + across * (fields.longitude[-1] - fields.longitude[0])
+    row, column = ground.indices(latitude, longitude)
+    row, column = np.clip(row, 0, rows - 1), np.clip(column, 0, columns - 1)
+    return latitude, longitude, bilinear(fields.elevation, row, column)
+
+
+def _polar(ground: Terrain, latitude: Array, longitude: Array) -> tuple[Array, Array]:
+    """Bearing and arc (radians) of points (degrees) from the scene's origin, on the sphere."""
+    here, there = np.radians(ground.frame.latitude), np.radians(latitude)
+    away = np.radians(longitude - ground.frame.longitude)
+    east = np.cos(there) * np.sin(away)
+    north = np.cos(here) * np.sin(there) - np.sin(here) * np.cos(there) * np.cos(away)
+    up = np.sin(here) * np.sin(there) + np.cos(here) * np.cos(there) * np.cos(away)
+    return np.arctan2(east, north), np.arctan2(np.hypot(east, north), up)
+
+
+def _at(ground: Terrain, bearing: Array, arc: Array, height: Array) -> Array:
+    """Places (n, 3) of bearings and arcs from the scene's origin: inverse of `_polar`."""
+    here = np.radians(ground.frame.latitude)
+    sine = np.sin(here) * np.cos(arc) + np.cos(here) * np.sin(arc) * np.cos(bearing)
+    latitude = np.arcsin(np.clip(sine, -1.0, 1.0))
+    away = np.arctan2(
+        np.sin(bearing) * np.sin(arc) * np.cos(here), np.cos(arc) - np.sin(here) * np.sin(latitude)
+    )
+    longitude = ground.frame.longitude + np.degrees(away)
+    return ground.frame.forward(np.degrees(latitude), longitude, height)
+
+
+def _ways(arc: float) -> Array:
+    """Shares (n,) of an arc (radians) at which rings lie, the last at its end."""
+    steps, total, step = [0.0], 0.0, _FIRST
+    while total < arc * _RADIUS:
+        steps.append(total)
+        total, step = total + step, min(step * _GROWTH, _STEP)
+    return np.append(np.array(steps) / (arc * _RADIUS), 1.0)
+
+
+def _triangles(rings: int, around: int) -> NDArray[np.int32]:
+    """Triangles between rings of points; the first two rings are a skirt and share none with the rest."""
+    at = np.arange(around)
+    after = (at + 1) % around
+    found = []
+    for ring in (0, *range(2, rings - 1)):
+        low, high = ring * around, (ring + 1) * around
+        found += [
+            np.stack([low + at, high + at, low + after], axis=-1),
+            np.stack([low + after, high + at, high + after], axis=-1),
+        ]
+    return np.concatenate(found).astype(np.int32)

@@ -1,0 +1,49 @@
+"""Picture of the whole Earth, which a user supplies: checks, and its hash for finished pictures."""
+
+from __future__ import annotations
+
+from ...progress import Progress, silent
+from ...run import content
+from ..settings import scene_file
+from ..settings.settings import Settings
+
+_KINDS = (b"\xff\xd8\xff", b"\x89PNG\r\n\x1a\n", b"II*\0", b"MM\0*", b"v/1\x01")
+_WHERE = "terrain", "globe"
+
+
+def check(settings: Settings) -> None:
+    """Check that the picture is one, and that it has a credit.
+
+    Raises
+    ------
+    InputError
+        Names the line of the scene file.
+    """
+    path = settings.terrain.globe
+    if path is None:
+        return
+    if not path.is_file():
+        reason = f"terrain.globe: {path} is no file; name a JPEG, PNG, TIFF or EXR"
+        raise scene_file.error_at(settings.path, _WHERE, reason)
+    with path.open("rb") as file:
+        begin = file.read(8)
+    if not begin.startswith(_KINDS):
+        reason = f"terrain.globe: {path} is no JPEG, PNG, TIFF or EXR by its first bytes"
+        raise scene_file.error_at(settings.path, _WHERE, reason)
+    if not settings.terrain.globe_credit.strip():
+        reason = "terrain.globe needs terrain.globe_credit, the words that its owner asks for"
+        raise scene_file.error_at(settings.path, _WHERE, reason)
+
+
+def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
+    """SHA-256 of the picture."""
+    path = settings.terrain.globe
+    return {} if path is None else {"globe": content.of_file(path, settings.cache, progress)}
+
+
+def credit(settings: Settings) -> list[str]:
+    """What the user should name beside the pictures; nothing without a picture."""
+    words = settings.terrain.globe_credit.strip()
+    if settings.terrain.globe is None or not words:
+        return []
+    return [f"credit of the globe's picture, to be named beside the pictures: {words}"]
