@@ -8,11 +8,13 @@ import pytest
 from bpy_extras.object_utils import world_to_camera_view
 from firetwin.render import engine, layers
 from firetwin.render.picture import Picture
+from firetwin.scene import curved_air
 from firetwin.scene.camera import build as cameras
 from firetwin.scene.terrain import build as ground
 from firetwin.shot.cameras import rigs
 from firetwin.shot.cameras.rigs.chase import Chase
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
+from firetwin.shot.cameras.rigs.globe import Globe
 from firetwin.shot.cameras.rigs.lookout import Lookout, LookoutKey
 from firetwin.shot.cameras.rigs.minimap import Minimap
 from firetwin.shot.cameras.rigs.mounted import Mounted
@@ -40,6 +42,8 @@ RIGS = {
                          Pose(1.0, 38.815, -120.57, 2500.0, 40.0, 25.0, lens=40.0))),
     "tour": Tour(stops=(Stop("ignition", distance=2500.0, height=1200.0),
                         Stop("head", distance=2500.0, height=1200.0))),
+    "globe": Globe(begin_latitude=38.82, begin_longitude=-120.57, begin_height=8000.0, latitude=38.84,
+                   longitude=-120.55, distance=2500.0, height=1500.0, hold=0.0, stay=0.0),
     "minimap": Minimap(follows="drone", swath=3000.0),
     "satellite": Satellite(swath=6000.0),
     "geostationary": Satellite(swath=6000.0, geostationary=-137.0),
@@ -74,6 +78,7 @@ def seen(settings, run, stage, scene, tmp_path):
         render=replace(settings.render, resolution=(WIDTH, HEIGHT), passes=("depth",)),
     )
     shot = Shot(settings, run)
+    curved_air.switch(stage, shot.local_frame)
     ground.build(shot, stage, None)
     built = cameras.build(shot, stage)
     layers.build(settings, stage)
