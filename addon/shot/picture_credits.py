@@ -1,4 +1,4 @@
-"""Who must be named in a shot's pictures: the owners of its tiles and of its orthophoto."""
+"""Who must be named in a shot's pictures: the owners of tiles, orthophoto and picture of the Earth."""
 
 from __future__ import annotations
 
@@ -20,9 +20,13 @@ if TYPE_CHECKING:
 
 
 def of_settings(settings: Settings) -> Credits:
-    """Those that the settings name: of the orthophoto."""
-    shown = orthophoto.photographed(settings)
-    return Credits(drape.split_credit(settings.terrain.photo_credit) if shown else ())
+    """Those that the settings name: of the orthophoto, and of the picture of the Earth."""
+    terrain, found = settings.terrain, list[str]()
+    if orthophoto.photographed(settings):
+        found += drape.split_credit(terrain.photo_credit)
+    if terrain.globe is not None and any(camera.rig.beyond for camera in settings.cameras):
+        found += drape.split_credit(terrain.globe_credit)
+    return Credits(tuple(dict.fromkeys(found)))
 
 
 def of_cuts(settings: Settings, cuts: Iterable[TileCut]) -> Credits:

@@ -27,7 +27,7 @@ from .settings import frame_list
 from .settings.protocols import CameraSettings
 from .settings.settings import SMOKE_METHODS, Camera, Settings
 from .smoke_scale import Scale
-from .terrain import elevation, globe_picture
+from .terrain import elevation
 from .terrain.elevation import Elevation
 from .terrain.terrain import Terrain
 from .visibility import Visibility
@@ -250,8 +250,7 @@ class Shot:
 
     def warnings(self) -> list[str]:
         """Warnings about the scene file and the camera paths."""
-        credit = globe_picture.credit(self.settings) if self.beyond else []
-        return [*self.settings.notes, *credit, *camera_warnings.ridges(self)]
+        return [*self.settings.notes, *camera_warnings.ridges(self)]
 
     @property
     def perspective_paths(self) -> list[Path]:

@@ -155,7 +155,7 @@ class TerrainSettings:
         "the whole Earth for cameras in space, an equirectangular picture; if left out, one colour",
         affects=(),
     )
-    globe_credit: str = key("", "credit of that picture, to be named beside the film", affects=())
+    globe_credit: str = key("", "credit of that picture, which pictures show", affects=())
     apron: float = key(
         110_000.0,
         "half-width of the terrain drawn around the run; a small one shows its edge",

@@ -39,11 +39,3 @@ def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
     """SHA-256 of the picture."""
     path = settings.terrain.globe
     return {} if path is None else {"globe": content.of_file(path, settings.cache, progress)}
-
-
-def credit(settings: Settings) -> list[str]:
-    """What the user should name beside the pictures; nothing without a picture."""
-    words = settings.terrain.globe_credit.strip()
-    if settings.terrain.globe is None or not words:
-        return []
-    return [f"credit of the globe's picture, to be named beside the pictures: {words}"]

@@ -34,9 +34,12 @@ class Rig:
     ----------
     around
         Whether it is a stereo panorama, which only Cycles renders, with square pictures.
+    beyond
+        Whether it sees the Earth beyond the terrain, which is built then.
     """
 
     around: ClassVar[bool] = False
+    beyond: ClassVar[bool] = False
 
     @classmethod
     def from_view(cls, view: View) -> Rig:

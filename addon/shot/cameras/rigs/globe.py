@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path as File
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -37,6 +37,7 @@ _TERRAIN = 300_000.0  # m from the run within which there may be terrain
 class Globe(Lens):
     """Perspective camera that flies from space to a place, along a great circle."""
 
+    beyond: ClassVar[bool] = True
     begin_latitude: float | None = key(
         None,
         "latitude of the start; if left out, that of the run's middle",
@@ -147,7 +148,7 @@ class Globe(Lens):
             hidden=end.hidden,
             sensor=self.sensor_width,
             clips=clipping.planes(position, ground),
-            beyond=True,
+            beyond=self.beyond,
         )
 
     def parts(self, frames: int) -> Array:
