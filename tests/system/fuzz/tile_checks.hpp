@@ -2,6 +2,7 @@
 
 #include "check.hpp"
 #include "tiles/decode.hpp"
+#include "tiles/kind.hpp"
 
 #include <algorithm>
 #include <array>
@@ -118,7 +119,7 @@ inline void check_content(const std::string& content) {
     decoded = true;
   });
   expect_result_or_input_error([&] { tiles::list_missing(bytes(content), "tile", resources()); });
-  if (decoded && content.front() != '{') {
+  if (decoded && tiles::kind_of(bytes(content), "tile") != tiles::Kind::gltf) {
     const std::string longer = content + "more";
     check(tiles::decode(bytes(longer), "tile", resources(), {}).position.size() == vertices,
           "content ends where its header says");
