@@ -152,7 +152,7 @@ def test_a_moment_with_the_name_counts_for_the_whole_file(tmp_path):
 
 BAD = {
     "none.geojson": (None, "no such file"),
-    "a.txt": ("", "names end in"),
+    "a.txt": ("", "end in .csv"),
     "cut.geojson": ('{"type": "Feat', r"cut.geojson:1:10: not valid JSON"),
     "list.geojson": ("[]", 'no "type"'),
     "metres.geojson": (
