@@ -42,19 +42,19 @@ def in_process(
 ) -> list[dict[str, Any]]:
     """Read; worker side."""
     from ..tiles.loader import Loader
-    from . import tiles
+    from . import tile_source
 
     shot = ShotSource(**choice).shot()
     found = []
     for number in range(len(shot.settings.tiles.sources)):
         progress(number, len(shot.settings.tiles.sources), "reading the tilesets")
-        source = tiles.open_place(shot, number, from_plain(access))
+        source = tile_source.open_place(shot, number, from_plain(access))
         try:
             tree = Loader(source).tree
         finally:
             source.close()
         some = np.argsort(tree.level, kind="stable")[:MOST]
-        _, matrix = tiles.to_scene(shot)
+        _, matrix = tile_source.to_scene(shot)
         placed = tree.volumes.taken(some).moved(matrix[None], np.zeros(len(some), np.int64))
         wide = placed.half + placed.round[:, None]
         corners = type(placed)(placed.centre, placed.axis, wide, placed.round).corners()

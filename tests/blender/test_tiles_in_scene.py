@@ -8,7 +8,7 @@ import pytest
 from firetwin.ellipsoid import ecef
 from firetwin.errors import InputError, UsageError
 from firetwin.imaging.credits import Credits
-from firetwin.jobs import make_tiles, tiles
+from firetwin.jobs import make_tiles, tile_source, tiles
 from firetwin.render import credits, fingerprint
 from firetwin.scene.terrain import build as ground_build
 from firetwin.scene.tiles import build as tiles_build
@@ -114,7 +114,7 @@ def test_a_geoid_that_is_left_out_is_found_or_an_error(tiled, monkeypatch):
         plane = staticmethod(lambda frame: (-24.9, 1e-5, -2e-5))
 
     monkeypatch.setattr(geoid, "find", lambda: Egm96)
-    height, matrix = tiles.to_scene(left_out)
+    height, matrix = tile_source.to_scene(left_out)
     here = np.array([[9000.0, -7000.0, 50.0]])
     place = ecef(*np.radians(np.array(frame.reverse(here))[:2, 0]), np.float64(frame.reverse(here)[2][0]))
     assert height == -24.9

@@ -21,7 +21,7 @@ import tile_files as made
 from firetwin import files
 from firetwin.data import sample
 from firetwin.errors import Error, InputError
-from firetwin.jobs import decode_tiles, make_tiles, tile_access, tiles, worker
+from firetwin.jobs import decode_tiles, make_tiles, tile_access, tile_source, tiles, worker
 from firetwin.jobs.tile_access import PREFERENCE, TileAccess
 from firetwin.shot import tile_cut
 from firetwin.shot.source import ShotSource
@@ -324,13 +324,13 @@ def test_what_ends_early_is_asked_for_once_more(chain, fault):
 def swapped(monkeypatch, leaf, file):
     """Let decoders, in processes of their own, read another file in place of a tile's."""
     monkeypatch.setattr(decode_tiles, "run", IN_PROCESSES)
-    before = tiles._Source._content
+    before = tile_source.TileSource._content
 
     def content(source, number):
         found = before(source, number)
         return replace(found, file=str(file)) if found.name.endswith(leaf) else found
 
-    monkeypatch.setattr(tiles._Source, "_content", content)
+    monkeypatch.setattr(tile_source.TileSource, "_content", content)
 
 
 @pytest.fixture

@@ -1,0 +1,262 @@
+"""Tiles of one source of a shot: chosen, fetched and decoded, until all that is chosen can be shown."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import files
+from ..errors import InputError, input_error
+from ..progress import Progress
+from ..shot import tile_terms
+from ..shot.settings.settings import TileSettings
+from ..shot.shot import Shot
+from ..shot.tile_terms import Use
+from ..tiles import decoded
+from ..tiles.decoded import Summary
+from ..tiles.policies import Policy
+from ..tiles.sources import MissingError
+from . import decode_tiles
+from .decode_tiles import Content
+from .tile_access import TileAccess
+
+if TYPE_CHECKING:
+    from ..tiles.cut import Choice
+    from ..tiles.loader import Loader
+    from ..tiles.sources import Source
+
+_TRIES = 8  # choices at most; each leaves out what could not be decoded, or knows more triangles
+
+
+def open_place(shot: Shot, number: int, access: TileAccess) -> Source:
+    """Open a source of a scene.
+
+    Raises
+    ------
+    InputError
+        It is not there, or not allowed.
+    """
+    from ..tiles.sources import open_source
+
+    place = shot.settings.tiles.sources[number]
+    near = shot.settings.path.parent / place
+    return open_source(str(near) if near.exists() else place, access.network())
+
+
+def to_scene(shot: Shot) -> tuple[float | None, NDArray[np.float64]]:
+    """The geoid's height at a scene, m, and the matrix (4, 4) from Earth-centred metres.
+
+    The height is None for a run of heights above the ellipsoid, which needs none.
+
+    Raises
+    ------
+    InputError
+        It is not known.
+    """
+    from ..tiles import geoid
+    from ..tiles.place import ecef_to_frame
+
+    settings, frame = shot.settings, shot.local_frame
+    if shot.run.vertical != "orthometric":
+        return None, ecef_to_frame(frame)
+    if settings.tiles.geoid is not None:
+        return settings.tiles.geoid, ecef_to_frame(frame, settings.tiles.geoid)
+    found = geoid.find()
+    if found is None:
+        raise input_error(settings.path, 0, 0, f"tiles.geoid is left out, and {geoid.REMEDY}")
+    height, *slope = found.plane(frame)
+    return height, ecef_to_frame(frame, height, (slope[0], slope[1]))
+
+
+@dataclass(frozen=True)
+class PreparedTiles:
+    """A source's share of a cut.
+
+    Attributes
+    ----------
+    names
+        Of decoded tiles.
+    credits
+        A credit for each tile.
+    missing
+        What cannot be had, and why.
+    empty
+        Tiles without triangles.
+    triangles
+        Of all of them.
+    advised
+        The error is the policy's.
+    """
+
+    choice: Choice
+    names: list[str]
+    credits: list[str]
+    missing: list[str]
+    empty: int
+    triangles: int
+    policy: Policy
+    advised: bool
+
+
+class TileSource:
+    """Tiles of one source."""
+
+    def __init__(
+        self,
+        shot: Shot,
+        number: int,
+        folder: Path,
+        matrix: NDArray[np.float64],
+        access: TileAccess,
+        uses: Sequence[Use],
+    ) -> None:
+        from ..tiles.cut import Budget, Views, pixels
+        from ..tiles.loader import Loader
+
+        self.settings, self.folder = shot.settings.tiles, folder
+        source = open_place(shot, number, access)
+        self.policy = source.policy
+        tile_terms.check_source(shot.settings, number, self.policy, uses)
+        self.advised = self.policy.pixel_error > 0.0 and self.settings.error == TileSettings().error
+        self.error = self.policy.pixel_error if self.advised else self.settings.error
+        self.loader: Loader = Loader(source)
+        self.matrix = matrix
+        view_set, heights, halves, eyes = shot.visibility.all_views()
+        earth = self.matrix if all(view.perspective for view in shot.paths) else None
+        self.views = Views(view_set, pixels(heights, halves), eyes, earth)
+        megabytes = self.settings.max_size * 1_000_000
+        self.budget = Budget(self.settings.max_tiles, megabytes, self.settings.max_triangles)
+        self.files: dict[int, str] = {}
+        self._decoded: dict[str, Summary | None] = {}
+
+    def prepared(self, progress: Progress) -> PreparedTiles:
+        """Choose, fetch and decode until everything that is chosen can be shown."""
+        from ..tiles.cut import choose
+
+        triangles: dict[int, int] = {}
+        for _ in range(_TRIES):
+            choice = choose(
+                self.loader,
+                self.views,
+                self.matrix,
+                self.error,
+                self.budget,
+                shadows=True,
+                put=self._put,
+                triangles=triangles,
+            )
+            wanted, bad = self._contents(choice.contents.tolist())
+            failed = decode_tiles.run(list(wanted.values()), progress)
+            bad |= {number: failed[each.name] for number, each in wanted.items() if each.name in failed}
+            for number, reason in bad.items():
+                name = self.loader.source.name(self.loader.content_uri(number))
+                named = reason if reason.startswith(name) else f"{name}: {reason}"
+                self.loader.tree.broken[int(self.loader.tree.content[number, 0])] = named
+            counts = {
+                number: about.triangles if (about := self._summary(each)) else 0
+                for number, each in wanted.items()
+            }
+            triangles |= counts
+            if not bad and sum(counts.values()) <= self.settings.max_triangles:
+                break
+        self.loader.source.close()
+        there = {each.out: about for each in wanted.values() if (about := self._summary(each))}
+        return PreparedTiles(
+            choice,
+            [Path(out).name for out in there],
+            list(self._credits(there.values())),
+            sorted(self.loader.tree.broken.values()),
+            sum(not (about.triangles or about.points) for about in there.values()),
+            sum(about.triangles for about in there.values()),
+            self.policy,
+            self.advised,
+        )
+
+    def _contents(self, numbers: list[int]) -> tuple[dict[int, Content], dict[int, str]]:
+        """What is to be decoded, and why the rest cannot be: files beside it are missing, or it is wrong."""
+        wanted, bad = dict[int, Content](), dict[int, str]()
+        for number in numbers:
+            try:
+                wanted[number] = self._content(number)
+            except (MissingError, _WrongError) as error:
+                bad[number] = str(error)
+        return wanted, bad
+
+    def _put(self, content: int, data: bytes) -> None:
+        """Keep a content under a name that follows it."""
+        self.files[content] = self._stored(data)
+
+    def _stored(self, data: bytes) -> str:
+        path = self.folder / "content" / hashlib.sha256(data).hexdigest()
+        files.keep(path, data)
+        return str(path)
+
+    def _content(self, content: int) -> Content:
+        """What is to be decoded of a content."""
+        tree = self.loader.tree
+        tile, document = int(tree.content[content, 0]), tree.documents[int(tree.content[content, 1])]
+        earth = tree.matrix_of(tile)
+        matrix, path = self.matrix @ earth, self.files[content]
+        key = hashlib.sha256(Path(path).name.encode() + _plain(matrix) + document.up_axis.encode())
+        uri = self.loader.content_uri(content)
+        return Content(
+            file=path,
+            name=self.loader.source.name(uri),
+            matrix=matrix.tolist(),
+            earth_matrix=earth.tolist(),
+            out=str(self.folder / f"{key.hexdigest()[:32]}{decoded.END}"),
+            up_axis=document.up_axis,
+            beside=self._beside(uri, path),
+        )
+
+    def _beside(self, uri: str, path: str) -> dict[str, str]:
+        """Files beside a content that it needs, by their uri."""
+        source, name = self.loader.source, self.loader.source.name(uri)
+        data, found = Path(path).read_bytes(), dict[str, bytes]()
+        while wanted := [each for each in _needed(data, name, found) if each not in found]:
+            found |= {each: source.read(source.resolve(uri, each)) for each in wanted}
+        return {each: self._stored(content) for each, content in found.items()}
+
+    def _summary(self, content: Content) -> Summary | None:
+        """Numbers of a decoded content, read once; None where it could not be decoded, or is damaged."""
+        if self._decoded.get(content.out) is None:
+            self._decoded[content.out] = decoded.summary(Path(content.out))
+        return self._decoded[content.out]
+
+    def _credits(self, shown: Iterable[Summary]) -> Iterator[str]:
+        """A notice for each tile that has one, its document's own after it."""
+        notices = [about.credit for about in shown]
+        notices += [document.copyright for document in self.loader.tree.documents]
+        for notice in notices:
+            yield from filter(None, map(str.strip, notice.split(";")))
+
+
+class _WrongError(Exception):
+    """A content that cannot be read, and is named as a tile that is missing."""
+
+
+def _needed(data: bytes, name: str, found: dict[str, bytes]) -> list[str]:
+    """Files beside a content that it names.
+
+    Raises
+    ------
+    _WrongError
+        It cannot be read.
+    """
+    from firetwin_core import tiles
+
+    try:
+        return tiles.resources_needed(data, name, found)
+    except (InputError, ValueError) as error:
+        raise _WrongError(str(error)) from None
+
+
+def _plain(matrix: NDArray[np.float64]) -> bytes:
+    """A matrix to a tenth of a millimetre at 60 km, so that rounding does not make another tile of it."""
+    return np.round(matrix, 9).tobytes()
