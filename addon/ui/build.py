@@ -117,7 +117,8 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     settings = owned.scene(uid).firetwin
     then = changed_settings.digests(settings)
     chosen, smoke = choice.from_panel(settings), settings.bake_smoke and "smoke" in parts
-    yield InThread("tiles", functools.partial(tiles.prepare, chosen))
+    if settings.tiles.sources:
+        yield InThread("tiles", functools.partial(tiles.prepare, chosen))
     shot, moving = yield InThread("reading the run", lambda **_: _read(chosen, part == ALL))
     if smoke and shot.settings.smoke.enabled:
         yield InThread("smoke", functools.partial(bake.run, chosen, together=True))

@@ -20,7 +20,11 @@ from . import run, sections
 def refusal(panel: bpy.types.PropertyGroup) -> str:
     """Why place names must not be searched beside the panel's tiles; empty: they may."""
     parts = tuple(part for part in fields(TileSettings) if part.name == "sources")
-    for place in sections.take(panel.tiles, parts, TileSettings()).sources:
+    try:
+        sources = sections.take(panel.tiles, parts, TileSettings()).sources
+    except Error:  # a text that is half typed
+        return ""
+    for place in sources:
         policy = policies.of_place(place)
         if not policy.other_geocoder:
             return f"{policy.name} allows no other gazetteer than its own; coordinates work"

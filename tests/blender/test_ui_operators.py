@@ -5,12 +5,13 @@ import shutil
 import bpy
 import exercise_places
 import firetwin
+import numpy as np
 import panel_scene
 import pytest
 from bl_operators.presets import AddPresetBase
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 from firetwin.farm import submission
-from firetwin.jobs import assets, convert, render, render_blend, sample
+from firetwin.jobs import assets, convert, render, render_blend, sample, tile_boxes
 from firetwin.ui import navigation, queue, stations_panel, working
 from mathutils import Euler, Matrix
 from panel_scene import state
@@ -106,6 +107,8 @@ CHANGES = {
     "run_remove": {},
     "vr_landmarks": {},
     "station_map": {},
+    "tiles_preview": {"boxes": True},
+    "tiles_clear": {},
 }
 KEEPS = {
     "copy": {"message": "this"},
@@ -124,6 +127,7 @@ KEEPS = {
     "farm_resume": {},
     "farm_cancel": {},
 }
+BOX = {"name": "set", "tiles": 1, "credits": [], "corners": np.arange(24.0).tolist()}
 LISTENS = {"queue_esc", "station_pick", "stop"}  # for Esc or a click, and while something goes on
 
 
@@ -143,6 +147,7 @@ def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path
     monkeypatch.setattr(sample, "run", lambda folder, **_: shutil.copytree(blend.parent / "other", folder))
     monkeypatch.setattr(render, "run", lambda *_, **__: render.RenderResult(1))
     monkeypatch.setattr(assets, "run", lambda *_, **__: 1)
+    monkeypatch.setattr(tile_boxes, "run", lambda *_, **__: [BOX])
     monkeypatch.setattr(render_blend, "run", lambda *_, **__: 1)
     monkeypatch.setattr(submission, "call", lambda *_, **__: None)
     monkeypatch.setattr(submission, "cancellation", lambda out: [])
@@ -158,6 +163,10 @@ def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path
         if name == "station_map":
             bpy.context.scene.firetwin.stations.file = str(exercise_places.write(tmp_path / "places.gpkg"))
             stations_panel.sync()
+        if name.startswith("tiles"):
+            bpy.context.scene.firetwin.tiles.sources = '"set"'
+        if name == "tiles_clear":
+            bpy.ops.firetwin.tiles_preview(boxes=True)
         bpy.ops.ed.undo_push(message=f"before {name}")
         before = state()
         assert call(name, options, blend.parent) == {"FINISHED"}, name
@@ -170,6 +179,8 @@ def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path
         bpy.ops.ed.undo()
     bpy.context.scene.firetwin.runs.clear()
     bpy.context.scene.firetwin.stations.file = ""
+    bpy.context.scene.firetwin.tiles.sources = ""
+    bpy.ops.firetwin.tiles_clear()
     bpy.ops.ed.undo_push(message="the rest")
     before = state()
     for name, options in KEEPS.items():

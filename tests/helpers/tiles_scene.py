@@ -15,7 +15,7 @@ __all__ = ["decoded_here", "plain_tiles", "tiled"]
 def plain_tiles(monkeypatch):
     """Tiles get a material of one colour: the ground's own is slow to make."""
 
-    def build(shot, stage, images, photos=(), maps=None, skin=""):
+    def build(shot, stage, images, photos=(), maps=None, skin="", globe=None):
         made, tree = nodes.material(skin or "Firetwin Ground")
         colour = tree.input(material.TILE_COLOUR, (1.0, 1.0, 1.0), "Colour")
         tree.surface(tree.output("ShaderNodeBsdfDiffuse", {"Color": colour}))

@@ -3,6 +3,7 @@
 import io
 import json
 import struct
+import sys
 
 import numpy as np
 import pyproj
@@ -12,7 +13,8 @@ from firetwin.ellipsoid import ecef, enu_axes
 from firetwin.errors import InputError
 from firetwin.run import buildings
 from firetwin.run.buildings import placement
-from firetwin.tiles.make import building_mesh, glb, lattice, terrain_tile, tileset
+from firetwin.tiles.make import building_mesh, glb, lattice, pictures, terrain_tile, tileset
+from firetwin_core import sensor
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
@@ -225,3 +227,18 @@ def test_a_glb_of_many_vertices_has_wide_indices():
     accessor = about["accessors"][about["meshes"][0]["primitives"][0]["indices"]]
     view = about["bufferViews"][accessor["bufferView"]]
     assert np.frombuffer(stored, "<u4", 3, view["byteOffset"]).tolist() == [0, 1, count - 1]
+
+
+def test_pictures_are_png_without_pillow(monkeypatch, tmp_path):
+    def colours(latitude, longitude):
+        value = np.arange(len(latitude) * len(longitude) * 3, dtype=np.uint8)
+        return value.reshape(len(latitude), len(longitude), 3)
+
+    axis = np.array([0.0, 1.0])
+    assert pictures.kind(pictures.draw(colours, axis, axis, 8)) == "image/jpeg"
+    monkeypatch.setitem(sys.modules, "PIL", None)
+    data = pictures.draw(colours, axis, axis, 8)
+    assert pictures.kind(data) == "image/png"
+    (tmp_path / "a.png").write_bytes(data)
+    found = np.rint(sensor.read_image(tmp_path / "a.png") * 255)
+    np.testing.assert_array_equal(found, colours(np.zeros(8), np.zeros(8))[::-1])

@@ -11,6 +11,8 @@ import firetwin_core
 import numpy as np
 from numpy.typing import NDArray
 
+from . import pictures
+
 _FLOAT, _SHORT, _INT = 5126, 5123, 5125  # component types; integers are unsigned
 _TYPES = {_FLOAT: "<f4", _SHORT: "<u2", _INT: "<u4"}
 _VERTICES, _INDICES = 34962, 34963
@@ -31,7 +33,7 @@ class Mesh:
     triangles
         (t, 3) vertex numbers, counter-clockwise from outside.
     picture
-        JPEG; empty: none.
+        JPEG or PNG; empty: none.
     colour
         Linear base colour factor, red to alpha.
     """
@@ -78,7 +80,7 @@ def encode(mesh: Mesh, credit: str) -> bytes:
     }
     if mesh.picture:
         surface["baseColorTexture"] = {"index": 0}
-        about["images"] = [{"bufferView": buffer.view(mesh.picture), "mimeType": "image/jpeg"}]
+        about["images"] = [{"bufferView": buffer.view(mesh.picture), "mimeType": pictures.kind(mesh.picture)}]
         about["samplers"] = [{"magFilter": 9729, "minFilter": 9987, "wrapS": 33071, "wrapT": 33071}]
         about["textures"] = [{"source": 0, "sampler": 0}]
     return _container(about | buffer.about(), bytes(buffer.data))

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import io
+import tempfile
+from pathlib import Path
 from typing import Protocol
 
 import numpy as np
+from firetwin_core import sensor
 from numpy.typing import NDArray
-from PIL import Image
 
 Array = NDArray[np.float64]
 _QUALITY = 90
@@ -25,12 +27,31 @@ class Colours(Protocol):
 
 
 def draw(colours: Colours, latitude: Array, longitude: Array, pixels: int) -> bytes:
-    """A JPEG of `pixels` x `pixels` between the ends of two axes, north up."""
+    """A JPEG of `pixels` x `pixels` between the ends of two axes, north up; a PNG without Pillow.
+
+    Blender's own Python has no Pillow.
+    """
     rows, columns = (_centres(axis[0], axis[-1], pixels) for axis in (latitude, longitude))
-    picture = Image.fromarray(np.ascontiguousarray(colours(rows, columns)[::-1]))
+    picture = np.ascontiguousarray(colours(rows, columns)[::-1])
+    try:
+        from PIL import Image
+    except ImportError:
+        return _png(picture)
     stream = io.BytesIO()
-    picture.save(stream, "JPEG", quality=_QUALITY)
+    Image.fromarray(picture).save(stream, "JPEG", quality=_QUALITY)
     return stream.getvalue()
+
+
+def kind(data: bytes) -> str:
+    """Media type of a picture that was drawn."""
+    return "image/png" if data.startswith(b"\x89PNG") else "image/jpeg"
+
+
+def _png(picture: NDArray[np.uint8]) -> bytes:
+    with tempfile.TemporaryDirectory(prefix="firetwin-") as folder:
+        path = Path(folder, "tile.png")
+        sensor.write_image(path, picture / np.float32(255.0))
+        return path.read_bytes()
 
 
 def side(metres: float, resolution: float, least: int = 64, most: int = 512) -> int:

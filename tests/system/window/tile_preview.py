@@ -18,6 +18,7 @@ def tiles() -> Iterator[object]:
     yield 2
     yield idle
     settings().tiles.sources = str(FOLDER / "tileset")
+    settings().tiles.use_geoid, settings().tiles.geoid = True, -24.9
     call(bpy.ops.firetwin.tiles_preview, boxes=True)
     yield 0.5
     yield idle
