@@ -6,13 +6,15 @@ import sys
 from collections.abc import Iterator
 
 import bpy
-from hands import FOLDER, MODULE, built, busy, call, check, here, idle, picture, settings, soon, tab
+from hands import FOLDER, MODULE, built, busy, call, check, here, idle, picture, settings, soon, tab, view
 
 
 def tiles() -> Iterator[object]:
     """Boxes first, then tiles; a second preview is stopped, and the scene is as it was."""
     bpy.ops.wm.read_homefile()
     yield 3
+    view().spaces.active.show_region_ui = True
+    yield 1
     tab()
     settings().scene_file = str(FOLDER / "scene.toml")
     yield 2
