@@ -119,9 +119,9 @@ def test_manifest_and_sidecars_name_credits_and_what_is_missing(film):
     for name, entry in manifest["files"].items():
         assert entry["credits"] == list(WORDS.data), name
         assert entry["missing_tiles"] == [str(gone)], name
-    sidecar = json.loads((out / "drone/pose/drone_pose_000002.json").read_text())["tiles"]
+    sidecar = json.loads((out / "drone/pose/drone_pose_000002.json").read_text())
     assert sidecar["credits"] == list(WORDS.data)
-    assert [each.split(": ")[0] for each in sidecar["missing"]] == [str(gone)]
+    assert [each.split(": ")[0] for each in sidecar["tiles"]["missing"]] == [str(gone)]
     frames = json.loads((out / "drone/transforms.json").read_text())["frames"]
     assert [each["credits"] for each in frames] == [list(WORDS.data)] * 2
 
