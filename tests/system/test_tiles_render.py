@@ -37,7 +37,10 @@ passes = ["rgb", "edl", "pose", "masks"]
 def folder(run_folder, tmp_path_factory):
     """Scene files without and with tiles, and tiles of which one has gone."""
     folder = tmp_path_factory.mktemp("tiles")
-    for name, tiles in (("plain", ""), ("scene", 'tiles = { sources = ["set"], error = 1.0 }')):
+    for name, tiles in (
+        ("plain", ""),
+        ("scene", 'tiles = { sources = ["set"], error = 1.0, geoid = -24.9 }'),
+    ):
         (folder / f"{name}.toml").write_text(SCENE.format(run=run_folder, tiles=tiles))
     run(
         folder,
@@ -48,6 +51,8 @@ def folder(run_folder, tmp_path_factory):
         folder / "set",
         "--credit",
         "; ".join(WORDS.data),
+        "--geoid",
+        -24.9,
     )
     gone = max((folder / "set").rglob("*.glb"), key=lambda path: path.as_posix())
     gone.unlink()
