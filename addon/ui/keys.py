@@ -207,12 +207,14 @@ def _shortest(value: Any) -> Any:
 
 
 def _listed(part: Field, text: str) -> tuple[Any, ...]:
-    """Parse a typed list such as ``1, 2.5``."""
+    """Parse a typed list such as ``1, 2.5``, or of texts with or without quotation marks."""
+    kind = typing.get_args(part.type)[0]
     try:
         listed = json.loads(f"[{text}]")
     except ValueError:
-        raise Error(f'{label(part.name)}: "{text}" is no list; write numbers with commas') from None
-    kind = typing.get_args(part.type)[0]
+        if kind is not str:
+            raise Error(f'{label(part.name)}: "{text}" is no list; write numbers with commas') from None
+        listed = [each for word in text.split(",") if (each := word.strip().strip('"').strip())]
     if not all(type(each) in ((int, float) if kind is float else (kind,)) for each in listed):
         raise Error(f'{label(part.name)}: "{text}" is no valid list: {part.key.described()}')
     return tuple(kind(each) for each in listed)

@@ -14,8 +14,10 @@ from firetwin.jobs import make_tiles, tile_boxes, worker
 from firetwin.jobs.worker import StoppedError
 from firetwin.scene.tiles import preview, reuse
 from firetwin.shot import tile_cut
+from firetwin.shot.settings import schema
+from firetwin.shot.settings.settings import TileSettings
 from firetwin.shot.terrain import tile_heights
-from firetwin.ui import job, scene_file, tile_credits, tile_facts, tiles_panel
+from firetwin.ui import job, keys, scene_file, tile_credits, tile_facts, tiles_panel
 from tiles_scene import *  # noqa: F403
 
 pytestmark = pytest.mark.usefixtures("decoded_here", "plain_tiles")
@@ -57,6 +59,15 @@ def preview_objects():
 
 def test_a_source_beside_the_scene_file_is_found_from_the_panel(tiled_panel, tmp_path):
     assert scene_file.settings(bpy.context.scene).tiles.sources == (str(tmp_path / "set"),)
+
+
+@pytest.mark.parametrize(
+    "text", ['"a/b", "https://x/t.json"', "a/b,https://x/t.json", ' a/b, "https://x/t.json']
+)
+def test_sources_are_typed_with_or_without_quotation_marks(panel, text):
+    (part,) = (each for each in schema.fields(TileSettings) if each.name == "sources")
+    panel.tiles.sources = text
+    assert keys.take(panel.tiles, part) == ("a/b", "https://x/t.json")
 
 
 def test_boxes_are_one_object_of_lines(tiled_panel):
