@@ -3,6 +3,8 @@
 #include "tiles/ground.hpp"
 #include "tiles/height_map.hpp"
 
+#include <pybind11/stl.h>
+
 #include <algorithm>
 #include <array>
 
