@@ -32,7 +32,7 @@ prepare() {
   blender --command extension install-file --repo user_default --enable firetwin.zip >commands.log 2>&1
   firetwin 0 sample sample --frames 61
   if [[ " ${steps[*]} " == *" tiles "* ]]; then
-    firetwin 0 tiles make scene.toml --out tileset --levels 2 --geoid -24.9
+    firetwin 0 tiles make scene.toml --out tileset --levels 2 --geoid -24.9 --credit Sample
   fi
 }
 
