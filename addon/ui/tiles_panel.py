@@ -12,7 +12,7 @@ from ..jobs.worker import Stop
 from ..progress import MessageCallback, Progress
 from ..shot.source import ShotSource
 from ..shot.tile_cut import TileCut
-from . import choice, job, run, target_scene, tile_facts, working
+from . import choice, job, run, target_scene, tile_facts, view, working
 from .job import InThread, Steps
 from .text import labelled, paragraph
 from .working import Working
@@ -74,9 +74,12 @@ def steps(context: bpy.types.Context, only_boxes: bool) -> Steps:
     uid, chosen = context.scene.session_uid, choice.from_panel(context.scene.firetwin)
     found = yield InThread("reading the tilesets", functools.partial(tile_boxes.run, chosen))
     yield "drawing the boxes"
+    new = not owned.built(owned.scene(uid))
     uid, _ = target_scene.prepare(owned.scene(uid), part=True)
-    scene = owned.scene(uid)
-    preview.show_boxes(owned.stage(scene), preview.join([each["corners"] for each in found]))
+    scene, corners = owned.scene(uid), preview.join([each["corners"] for each in found])
+    preview.show_boxes(owned.stage(scene), corners)
+    if new and len(corners):
+        view.look_at_points(scene, corners.reshape(-1, 3))
     tile_facts.remember_boxes(scene.firetwin, found)
     count = sum(each["tiles"] for each in found)
     if only_boxes:
@@ -124,6 +127,8 @@ class FIRETWIN_OT_tiles_clear(bpy.types.Operator):
         preview.remove(stage)
         if not stage.objects_of(build.PART):
             tile_facts.forget(context.scene.firetwin)
+        if not owned.built(context.scene):
+            view.narrow(context.scene)
         return {"FINISHED"}
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import bpy
 import numpy as np
 from firetwin_core.run import Run
 from mathutils import Euler
+from numpy.typing import NDArray
 
 from ..blender import viewport
 from ..run import areas
@@ -49,10 +50,23 @@ def look(scene: bpy.types.Scene, whole: bool = False) -> None:
             region.view_perspective = "CAMERA"
             region.view_camera_zoom, region.view_camera_offset = 10.0, (0.1, 0.0)  # beside the sidebar
             continue
-        region.view_perspective = "PERSP"
-        region.view_location = (0.0, 0.0, scene.firetwin.height)
-        region.view_distance = 1.8 * scene.firetwin.extent
-        region.view_rotation = Euler((_TILT, 0.0, 0.0)).to_quaternion()
+        _overlook(region, (0.0, 0.0, scene.firetwin.height), scene.firetwin.extent)
+
+
+def look_at_points(scene: bpy.types.Scene, points: NDArray[np.float64]) -> None:
+    """Show points (n, 3) from the south in the views of a scene."""
+    widen(scene)
+    low, high = points.min(axis=0), points.max(axis=0)
+    for space in spaces(scene):
+        if space.region_3d is not None:
+            _overlook(space.region_3d, (0.5 * (low + high)).tolist(), float((high - low)[:2].max()))
+
+
+def _overlook(region: bpy.types.RegionView3D, middle: Sequence[float], extent: float) -> None:
+    region.view_perspective = "PERSP"
+    region.view_location = middle
+    region.view_distance = 1.8 * extent
+    region.view_rotation = Euler((_TILT, 0.0, 0.0)).to_quaternion()
 
 
 def remember(settings: bpy.types.PropertyGroup, run: Run) -> None:
