@@ -108,8 +108,9 @@ def run(
         tell(f"rendering {count(finished, 'picture')} again that match; --resume would keep them")
     undone = undone if asked.resume else wanted
     if undone:
-        cameras = " and ".join(dict.fromkeys(picture.camera for picture in undone))
-        tell(f"rendering {count(len(undone), 'picture')} of {cameras}")
+        views = list(dict.fromkeys(picture.camera for picture in undone))
+        tell(f"rendering {count(len(undone), 'picture')} of {' and '.join(views)}")
+        drape.prepare(choice, views, progress, tell, stop, asked.access)
     task = {
         "choice": choice.plain(),
         "filmed": [list(pair) for pair in made_with],
@@ -142,7 +143,6 @@ def prepare_tiles(
     views = list(dict.fromkeys(picture.camera for picture in wanted))
     uses = tile_terms.of_passes(picture.name for picture in wanted)
     tiles.prepare(choice, views, progress, tell, stop, asked.access, uses, keep=asked.resume)
-    drape.prepare(choice, views, progress, tell, stop, asked.access)
 
 
 def make(
