@@ -16,14 +16,14 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..progress import MessageCallback, Progress, count, no_message, share, silent
-from ..shot import picture_credits
-from ..shot.comparison import for_view
+from ..shot import comparison, picture_credits
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
 from ..shot.terrain import drape, drape_plan
 from ..shot.terrain.drape import Drape, DrapeArea
 from ..shot.terrain.drape_plan import PlannedArea
 from ..shot.terrain.raster import extent, overlap, said
+from ..tiles import notices
 from ..tiles.drape import address, wmts
 from ..tiles.drape.address import TileAddress
 from ..tiles.drape.mosaic import Patch, TileServer
@@ -73,7 +73,7 @@ def in_process(
     """Fetch; worker side."""
     shot, network = ShotSource(**choice).shot(), from_plain(access).network()
     made = set()
-    for built in [for_view(shot, view) for view in views] or [shot]:
+    for built in comparison.for_views(shot, views):
         if (path := drape.location(built)) not in made:
             made.add(path)
             for sentence in make(built, progress, network):
@@ -109,7 +109,8 @@ def make(
     missing = tuple(
         f"{name}: {reason}" for key, (name, reason) in sorted(server.missing.items()) if key[0] <= used
     )
-    result = Drape(path.parent, tuple(made), drape.split_credit(terrain.photo_credit), missing)
+    credits = tuple(dict.fromkeys(notices.split(terrain.photo_credit)))
+    result = Drape(path.parent, tuple(made), credits, missing)
     drape.write(result, path)
     credit = f"credit of the orthophoto, which pictures show: {'; '.join(result.credits)}"
     return [credit, *told, *_said_missing(missing)]

@@ -18,7 +18,7 @@ from ..shot import tile_terms
 from ..shot.settings.settings import TileSettings
 from ..shot.shot import Shot
 from ..shot.tile_terms import Use
-from ..tiles import decoded
+from ..tiles import decoded, notices
 from ..tiles.decoded import Summary
 from ..tiles.policies import Policy
 from ..tiles.sources import MissingError
@@ -231,10 +231,10 @@ class TileSource:
 
     def _credits(self, shown: Iterable[Summary]) -> Iterator[str]:
         """A notice for each tile that has one, its document's own after it."""
-        notices = [about.credit for about in shown]
-        notices += [document.copyright for document in self.loader.tree.documents]
-        for notice in notices:
-            yield from filter(None, map(str.strip, notice.split(";")))
+        texts = [about.credit for about in shown]
+        texts += [document.copyright for document in self.loader.tree.documents]
+        for text in texts:
+            yield from notices.split(text)
 
 
 class _WrongError(Exception):

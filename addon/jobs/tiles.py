@@ -16,8 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import Error, InputError
 from ..progress import MessageCallback, Progress, count, no_message, share, silent
-from ..shot import picture_credits, tile_cut, tile_terms
-from ..shot.comparison import for_view
+from ..shot import comparison, picture_credits, tile_cut, tile_terms
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
 from ..shot.terrain import land_use, tile_difference, tile_heights
@@ -127,7 +126,7 @@ def in_process(
             if found.is_file():
                 shutil.copyfile(found, heights)
         shot = source.shot()
-    for built in [for_view(shot, view) for view in views] or [shot]:
+    for built in comparison.for_views(shot, views):
         if not _kept(built, keep):
             for sentence in make(built, progress, how, wanted):
                 tell(sentence)

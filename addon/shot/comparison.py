@@ -23,7 +23,7 @@ from .settings.settings import Camera
 from .shot import Shot
 
 if TYPE_CHECKING:
-    from collections.abc import Collection
+    from collections.abc import Collection, Sequence
 
     from .terrain.terrain import Terrain
 
@@ -105,6 +105,11 @@ def for_view(shot: Shot, view: str) -> Shot:
     """Shot of one camera: of the first run, or ``camera@run`` of another."""
     name, _, label = view.partition("@")
     return for_run(shot.for_camera(name), label)
+
+
+def for_views(shot: Shot, views: Sequence[str]) -> list[Shot]:
+    """Shots of views that are built each by itself; without views the shot of all cameras together."""
+    return [for_view(shot, view) for view in views] or [shot]
 
 
 def for_run(shot: Shot, label: str) -> Shot:

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 from ..errors import input_error
 from ..imaging import credits
 from ..imaging.credits import Credits
+from ..tiles import notices
 from . import comparison, tile_cut
-from .terrain import drape, orthophoto
+from .terrain import orthophoto
 
 if TYPE_CHECKING:
     from .settings.protocols import ShotView
@@ -23,9 +24,9 @@ def of_settings(settings: Settings) -> Credits:
     """Those that the settings name: of the orthophoto, and of the picture of the Earth."""
     terrain, found = settings.terrain, list[str]()
     if orthophoto.photographed(settings):
-        found += drape.split_credit(terrain.photo_credit)
+        found += notices.split(terrain.photo_credit)
     if terrain.globe is not None and any(camera.rig.beyond for camera in settings.cameras):
-        found += drape.split_credit(terrain.globe_credit)
+        found += notices.split(terrain.globe_credit)
     return Credits(tuple(dict.fromkeys(found)))
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from firetwin_core import geo
 
+from . import notices
 from .loader import Loader
 from .place import ecef_to_frame
 from .tree import MODEL
@@ -42,7 +43,7 @@ def gather(loader: Loader, most: int | None) -> dict[str, Any]:
     corners = volumes.corners()
     low = (corners.min(axis=1) - volumes.round[:, None]).min(axis=0)
     high = (corners.max(axis=1) + volumes.round[:, None]).max(axis=0)
-    credits = Counter(part for each in tree.documents for part in _credits(each.copyright))
+    credits = Counter(part for each in tree.documents for part in notices.split(each.copyright))
     return {
         "source": source.name(source.root),
         "policy": source.policy.name,
@@ -89,10 +90,6 @@ def page(facts: dict[str, Any]) -> str:
         error = f"{low:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
         lines.append(f"{number:5} {each['tiles']:10,} {each['with_content']:14,}   {error}")
     return "\n".join([*lines, *(f"missing    {each}" for each in facts["missing"])])
-
-
-def _credits(text: str) -> list[str]:
-    return [part.strip() for part in text.split(";") if part.strip()]
 
 
 def _centre(place: np.ndarray) -> dict[str, float] | None:

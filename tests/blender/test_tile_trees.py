@@ -1,12 +1,12 @@
 """Trees and roofs of photogrammetry: the ground below them, flattening, planting, and the border of tiles."""
 
-from dataclasses import asdict, replace
+from dataclasses import replace
 
 import numpy as np
 import photogrammetry
 import pytest
 from firetwin.errors import InputError
-from firetwin.jobs import decode_tiles, tiles
+from firetwin.jobs import tiles
 from firetwin.scene.tiles import flatten, skirt
 from firetwin.shot import tile_cut, tile_terms
 from firetwin.shot.cameras import flight
@@ -15,19 +15,15 @@ from firetwin.shot.terrain import tile_heights, tile_trees
 from firetwin.tiles import decoded
 from firetwin.tiles.policies import Policy
 from firetwin.tiles.sources._source import Source
+from tiles_scene import *  # noqa: F403
 
 HALF, OFF = 120.0, 1.5  # m
 
 
 @pytest.fixture
-def seen(shot, tmp_path, monkeypatch):
+def seen(shot, tmp_path, decoded_here):
     """Makes shots on photogrammetry between the camera and its target; and that scene."""
 
-    def decode(contents, progress):
-        return decode_tiles.in_process([asdict(each) for each in contents], progress, print)
-
-    monkeypatch.setattr(decode_tiles, "_limit", lambda memory: None)
-    monkeypatch.setattr(decode_tiles, "run", decode)
     middle = shot.bare_ground.point(38.838, -120.553)[0, :2]
     made = photogrammetry.scene(shot.bare_ground.up, middle, HALF, OFF)
     folder = photogrammetry.write(tmp_path / "set", shot.ground.frame, made)

@@ -1,46 +1,28 @@
 """The globe camera: on the great circle, at one feeling of speed, level, above the ground, well clipped."""
 
 from dataclasses import replace
-from datetime import UTC, datetime
 
 import numpy as np
 import pymap3d
 import pyproj
 import pytest
-from firetwin.data import sample
-from firetwin.run import readers
+import sample_evening
 from firetwin.shot.cameras import clipping, zoom
 from firetwin.shot.cameras.rigs.globe import Globe
-from firetwin.shot.settings.settings import Camera, Forest, Settings, TerrainSettings, Time
-from firetwin.shot.shot import Shot
+from firetwin.shot.settings.settings import Camera
 from hypothesis import given
 from hypothesis import settings as hypothesis
 from hypothesis import strategies as st
+from sample_evening import *  # noqa: F403
 
 EARTH = pyproj.Geod(ellps="WGS84")
 FRAMES = 120
 
 
 @pytest.fixture(scope="module")
-def run(tmp_path_factory):
-    """The sample run, two of its times."""
-    out = tmp_path_factory.mktemp("sample") / "run"
-    sample.write(out, frames=2)
-    return readers.open(out)
-
-
-@pytest.fixture(scope="module")
 def whole(run):
-    """Its evening, whose terrain and fire all shots share."""
-    settings = Settings(
-        time=Time(
-            start=datetime(2014, 9, 17, 16, 0, tzinfo=UTC), end=datetime(2014, 9, 18, 1, 0, tzinfo=UTC)
-        ),
-        terrain=TerrainSettings(near_radius=0.0, apron=30_000.0),
-        forest=Forest(trees=False),
-        cameras=(Camera("space", Globe()),),
-    )
-    return Shot(settings, run)
+    """The evening, whose terrain and fire all shots share."""
+    return sample_evening.shot_of(run, Camera("space", Globe()))
 
 
 def shot_of(whole, frames=FRAMES, **globe):

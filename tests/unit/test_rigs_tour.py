@@ -1,46 +1,28 @@
 """The tour: it stops where it should, looks there, keeps above the ground and flies without jumps."""
 
 from dataclasses import replace
-from datetime import UTC, datetime
 
 import numpy as np
 import pytest
-from firetwin.data import sample
+import sample_evening
 from firetwin.errors import InputError
-from firetwin.run import readers
 from firetwin.shot import run_checks
 from firetwin.shot.cameras import flight, path, targets
 from firetwin.shot.cameras.rigs.tour import Stop, Tour, shares
 from firetwin.shot.settings import scene_file
-from firetwin.shot.settings.settings import Camera, Forest, Settings, TerrainSettings, Time
-from firetwin.shot.shot import Shot
+from firetwin.shot.settings.settings import Camera
 from hypothesis import HealthCheck, given
 from hypothesis import settings as hypothesis
 from hypothesis import strategies as st
+from sample_evening import *  # noqa: F403
 
 STOPS = (Stop("Pollock Pines"), Stop("ignition", height=900.0), Stop("head", distance=3000.0))
 
 
 @pytest.fixture(scope="module")
-def run(tmp_path_factory):
-    """The sample run, two of its times."""
-    out = tmp_path_factory.mktemp("sample") / "run"
-    sample.write(out, frames=2)
-    return readers.open(out)
-
-
-@pytest.fixture(scope="module")
 def whole(run):
-    """Its evening, whose terrain and fire all shots share."""
-    settings = Settings(
-        time=Time(
-            start=datetime(2014, 9, 17, 16, 0, tzinfo=UTC), end=datetime(2014, 9, 18, 1, 0, tzinfo=UTC)
-        ),
-        terrain=TerrainSettings(near_radius=0.0, apron=30_000.0),
-        forest=Forest(trees=False),
-        cameras=(Camera("round", Tour(stops=STOPS)),),
-    )
-    return Shot(settings, run)
+    """The evening, whose terrain and fire all shots share."""
+    return sample_evening.shot_of(run, Camera("round", Tour(stops=STOPS)))
 
 
 def shot_of(whole, frames=48, **tour):

@@ -155,8 +155,3 @@ def of_shot(shot: ShotView) -> Drape:
     if not path.is_file():
         raise input_error(path, 0, 0, "the orthophoto of this shot was not fetched; build it again")
     return read(path)
-
-
-def split_credit(text: str) -> tuple[str, ...]:
-    """Notices of a credit line, which semicolons separate, each once."""
-    return tuple(dict.fromkeys(filter(None, map(str.strip, text.split(";")))))
