@@ -99,7 +99,7 @@ def score(arguments: argparse.Namespace) -> None:
         raise UsageError(f"--report: {arguments.report} does not end in .html; name an .html file")
     observed = observations.read(each for each in named if observations.is_one(each))
     if observed.heat and not (observed.perimeters or observed.detections or runs):
-        raise input_error(named[0], 0, 0, "has detections but no perimeter; name a file with a perimeter")
+        raise input_error(named[0], "has detections but no perimeter; name a file with a perimeter")
     found = scores.score(run, observed, runs[0] if runs else None, zone=zone.time_zone(run))
     result(json.dumps(found, indent=1) if arguments.json else page.page(found))
     if arguments.report:
@@ -156,7 +156,7 @@ def imager(arguments: argparse.Namespace) -> None:
         raise UsageError(f"--longitude: {error}") from None
     except imager.NothingSeenError as error:
         finer = "; --instrument viirs has finer ones" if instrument is imager.ABI else ""
-        raise input_error(arguments.run, 0, 0, f"{error}{finer}") from None
+        raise input_error(arguments.run, f"{error}{finer}") from None
     report(len(moments), len(moments))
 
 

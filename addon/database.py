@@ -93,7 +93,7 @@ class Database:
                         self.do(command)
                     self.do(f"PRAGMA user_version = {_FORMAT}")
         if self._format() != _FORMAT:
-            raise input_error(self.path, 0, 0, BROKEN.format("a store"))
+            raise input_error(self.path, BROKEN.format("a store"))
 
     def _format(self) -> int:
         (number,) = self.one("PRAGMA user_version") or (0,)
@@ -109,6 +109,6 @@ class Database:
                 with writing(self.path):
                     raise OSError(errno.ENOSPC, str(error)) from error
             reason = f"cannot be used ({error}); choose a folder that can be written and, if shared, locked"
-            raise input_error(self.path, 0, 0, reason) from error
+            raise input_error(self.path, reason) from error
         except sqlite3.DatabaseError as error:
-            raise input_error(self.path, 0, 0, BROKEN.format("a store")) from error
+            raise input_error(self.path, BROKEN.format("a store")) from error

@@ -48,9 +48,17 @@ class FullDiskError(UnavailableError):
 
 
 def input_error(
-    path: str | PathLike[str], line: int, column: int, reason: str, kind: type[InputError] = InputError
+    path: str | PathLike[str],
+    reason: str,
+    *,
+    line: int = 0,
+    column: int = 0,
+    kind: type[InputError] = InputError,
 ) -> InputError:
-    """InputError at 1-based `line` and `column` (0: none), in the format of the core's messages."""
+    """Create an InputError whose message has the format of the core: `path:line:column: reason`.
+
+    `line` and `column` count from 1; 0 leaves them out.
+    """
     place = str(path)
     if line > 0:
         place += f":{line}" + (f":{column}" if column > 0 else "")
@@ -61,7 +69,7 @@ def input_error(
 
 def full_disk_error(path: str | PathLike[str]) -> InputError:
     """FullDiskError of a file."""
-    return input_error(path, 0, 0, FULL, FullDiskError)
+    return input_error(path, FULL, kind=FullDiskError)
 
 
 def plain(error: Error) -> dict[str, Any]:
@@ -83,7 +91,7 @@ def restored(found: dict[str, Any], more: str = "") -> Error:
     kind = _KINDS[found["kind"]]
     if "place" in found:
         path, line, column, reason = found["place"]
-        return input_error(path, line, column, reason, kind)
+        return input_error(path, reason, line=line, column=column, kind=kind)
     return kind(found["text"] + more)
 
 
@@ -109,7 +117,7 @@ def writing(path: str | PathLike[str]) -> Iterator[None]:
         if disk_is_full(error):
             raise full_disk_error(path) from error
         reason = f"cannot be written ({_words(error)}); choose another place"
-        raise input_error(path, 0, 0, reason) from error
+        raise input_error(path, reason) from error
     except FullDiskError:
         raise
     except Error as error:

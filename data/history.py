@@ -80,11 +80,11 @@ def load(event: str = "king_fire") -> Event:
     """
     path = Path(__file__).parent / f"{event}.toml"
     if event not in events():
-        raise input_error(path, 0, 0, f"no fire is called {event!r}; known are: {', '.join(events())}")
+        raise input_error(path, f"no fire is called {event!r}; known are: {', '.join(events())}")
     try:
         return _parse(tomllib.loads(path.read_text(encoding="utf-8")))
     except (tomllib.TOMLDecodeError, KeyError, TypeError, ValueError) as error:
-        raise input_error(path, 0, 0, f"not a description of a fire: {error!r}") from error
+        raise input_error(path, f"not a description of a fire: {error!r}") from error
 
 
 def _parse(table: dict) -> Event:

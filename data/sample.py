@@ -56,7 +56,7 @@ def write(
     out = Path(out)
     _refuse_strangers(out)
     if format not in FORMATS:
-        raise input_error(out, 0, 0, f"no format is called {format!r}; choose {' or '.join(FORMATS)}")
+        raise input_error(out, f"no format is called {format!r}; choose {' or '.join(FORMATS)}")
     minutes = _minutes(out, frames)
     with writing(out):
         _write(out, minutes, format, progress, pace)
@@ -117,7 +117,7 @@ def _minutes(out: Path, frames: int | None) -> NDArray[np.int64]:
     if frames is None:
         return np.arange(total)
     if not 1 <= frames <= total:
-        raise input_error(out, 0, 0, f"{frames} frames asked for; the sample run has 1 to {total}")
+        raise input_error(out, f"{frames} frames asked for; the sample run has 1 to {total}")
     return np.unique(np.rint(np.linspace(0, stored.MINUTES, frames)).astype(int))
 
 
@@ -131,7 +131,7 @@ def _refuse_strangers(out: Path) -> None:
     except (OSError, ValueError):
         ours = False
     if not ours:
-        raise input_error(out, 0, 0, "exists and is not a sample run; name another folder or remove this one")
+        raise input_error(out, "exists and is not a sample run; name another folder or remove this one")
 
 
 def _static(sample: stored.Sample) -> dict[str, NDArray]:

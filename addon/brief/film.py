@@ -74,7 +74,7 @@ def read(out: Path, hashes: Mapping[str, str], room: int) -> Film:
     pictures = _by_view((path, entry) for path, entry in entries.items() if path.endswith(".png"))
     clips = [path for path in entries if path.endswith(".mp4") and (out / path).is_file()]
     if not pictures and not clips:
-        raise input_error(out, 0, 0, "has no finished pictures; name a folder of firetwin render --out")
+        raise input_error(out, "has no finished pictures; name a folder of firetwin render --out")
     each = max(1, min(EACH, MOST // max(len(pictures), 1)))
     chosen = [picture for view in pictures.values() for picture in _spread(view, each)]
     left_out = []
@@ -95,7 +95,7 @@ def _check_run(
         if differing and "@" not in entry.get("camera", ""):
             names = ", ".join(sorted(differing))
             reason = f"shows another run: {names} differ from those of {path}; name a film of this run"
-            raise input_error(out, 0, 0, reason)
+            raise input_error(out, reason)
 
 
 def _is_within(out: Path, path: str) -> bool:
@@ -135,7 +135,7 @@ def _jpeg(path: Path) -> str:
             small = picture.convert("RGB")
             small.thumbnail((WIDTH, 2 * WIDTH), Image.Resampling.LANCZOS)
     except (UnidentifiedImageError, Image.DecompressionBombError, OSError, ValueError, SyntaxError) as error:
-        raise input_error(path, 0, 0, f"cannot be read ({error}); render it again with --resume") from None
+        raise input_error(path, f"cannot be read ({error}); render it again with --resume") from None
     data = io.BytesIO()
     small.save(data, "JPEG", quality=_QUALITY, optimize=True)
     return data_uri("image/jpeg", data.getvalue())

@@ -61,7 +61,7 @@ class Box:
         (low, high), (left, right) = sides
         if max(-low, high) > LIMIT:
             reason = f"reaches beyond {LIMIT:g} degrees of latitude, where the map of the briefing page ends"
-            raise input_error(run.path, 0, 0, reason)
+            raise input_error(run.path, reason)
         return cls(low, left, high, right)
 
     def joined(self, other: Box) -> Box:

@@ -43,7 +43,7 @@ def needed(shot: Shot) -> list[Path]:
     every = sorted({path.absolute() for path in found})
     for path in every:
         if not path.is_file():
-            raise input_error(path, 0, 0, "is missing, and tasks of the farm would need it")
+            raise input_error(path, "is missing, and tasks of the farm would need it")
     return every
 
 

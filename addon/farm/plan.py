@@ -234,9 +234,7 @@ def write(job: Job, out: Path) -> None:
     """
     path = place(out) / FILE
     if path.exists() and read(out) != job:
-        raise input_error(
-            path, 0, 0, "is another job, or of a changed scene file; choose another output folder"
-        )
+        raise input_error(path, "is another job, or of a changed scene file; choose another output folder")
     text = json.dumps({"format": _FORMAT} | asdict(job), separators=(",", ":")) + "\n"
     files.write_text(path, text)
 
@@ -259,6 +257,6 @@ def read(out: Path) -> Job:
         return Job(**(found | {"tasks": tuple(tasks), "passes": passes, "assets": tuple(found["assets"])}))
     except FileNotFoundError:
         reason = "no farm job here; firetwin farm SCENE.toml --engine NAME --out DIR writes one"
-        raise input_error(path, 0, 0, reason) from None
+        raise input_error(path, reason) from None
     except (OSError, ValueError, TypeError, LookupError, AttributeError) as error:
-        raise input_error(path, 0, 0, f"is no farm job of this version of Firetwin ({error})") from None
+        raise input_error(path, f"is no farm job of this version of Firetwin ({error})") from None

@@ -88,7 +88,7 @@ def first_order(run: Run) -> float:
     """
     moment = divisions.ignition(run)
     if not np.isfinite(moment):
-        raise input_error(Path(run.path), 0, 0, "has no fire; there is nothing to allocate to")
+        raise input_error(Path(run.path), "has no fire; there is nothing to allocate to")
     return max(moment, float(run.times[0]))
 
 

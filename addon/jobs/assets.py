@@ -75,7 +75,7 @@ def run(
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise input_error(out, 0, 0, f"cannot be made ({error.strerror}); choose another place") from None
+        raise input_error(out, f"cannot be made ({error.strerror}); choose another place") from None
     with notify_if_slow(READING):
         choice.shot()
     task = {"choice": choice.plain(), "out": str(out / BLEND)}
@@ -88,7 +88,7 @@ def _refuse_strangers(out: Path) -> None:
     """Refuse a folder that holds another asset library."""
     there = out / CATALOGUE
     if there.exists() and identifier(CATALOGUES[0]) not in there.read_text("utf-8", errors="replace"):
-        raise input_error(there, 0, 0, "belongs to another asset library; choose another folder")
+        raise input_error(there, "belongs to another asset library; choose another folder")
 
 
 def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: MessageCallback) -> int:

@@ -50,7 +50,7 @@ def run(
 def _writable(out: Path) -> None:
     """Check before the build that the file can be written."""
     if out.is_dir():
-        raise input_error(out, 0, 0, "is a folder; name a file in it that ends in .blend")
+        raise input_error(out, "is a folder; name a file in it that ends in .blend")
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
         part = files.part_of(out)
@@ -58,9 +58,9 @@ def _writable(out: Path) -> None:
         part.unlink()
     except OSError as error:
         reason = f"cannot be written ({error.strerror}); choose another place"
-        raise input_error(out, 0, 0, reason) from None
+        raise input_error(out, reason) from None
     if out.exists() and not os.access(out, os.W_OK):
-        raise input_error(out, 0, 0, "is write-protected; choose another name")
+        raise input_error(out, "is write-protected; choose another name")
 
 
 def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: MessageCallback) -> None:
@@ -105,7 +105,7 @@ def save(out: Path, **how: bool) -> None:
         if disk_is_full(error) or no_room(out):
             raise full_disk_error(out) from None
         reason = f"cannot be written: {' '.join(str(error).split())}"
-        raise input_error(out, 0, 0, reason) from None
+        raise input_error(out, reason) from None
     finally:
         with contextlib.suppress(OSError):
             part.unlink(missing_ok=True)

@@ -285,7 +285,7 @@ def _check_device(shot: Shot) -> None:
         if not path.is_file():
             raise
         at = scene_file.error_at(path, ("render", "device"), str(error))
-        raise input_error(at.path, at.line, at.column, at.reason, UnavailableError) from None
+        raise input_error(at.path, at.reason, line=at.line, column=at.column, kind=UnavailableError) from None
 
 
 def frames_of(pictures: list[Any]) -> int:

@@ -69,7 +69,7 @@ def to_scene(shot: Shot) -> tuple[float | None, NDArray[np.float64]]:
         return settings.tiles.geoid, ecef_to_frame(frame, settings.tiles.geoid)
     found = geoid.find()
     if found is None:
-        raise input_error(settings.path, 0, 0, f"tiles.geoid is left out, and {geoid.REMEDY}")
+        raise input_error(settings.path, f"tiles.geoid is left out, and {geoid.REMEDY}")
     height, *slope = found.plane(frame)
     return height, ecef_to_frame(frame, height, (slope[0], slope[1]))
 

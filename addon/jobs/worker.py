@@ -324,7 +324,7 @@ def _of_ours(error: Exception) -> Error:
         return error
     again = is_worth_another_try(error)
     if isinstance(error, OSError) and isinstance(error.filename, str) and error.strerror:
-        return full_disk_error(error.filename) if again else input_error(error.filename, 0, 0, error.strerror)
+        return full_disk_error(error.filename) if again else input_error(error.filename, error.strerror)
     text = str(error) if isinstance(error, OSError) else f"{type(error).__name__}: {error}"
     return TryAgainError(text) if again else Error(text)
 

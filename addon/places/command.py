@@ -50,7 +50,7 @@ def import_files(arguments: argparse.Namespace) -> None:
         say(message)
     if not places.stations:
         reason = "has no station that can be kept" + ("" if len(batches) == 1 else ", nor have the others")
-        raise input_error(arguments.files[0], 0, 0, reason)
+        raise input_error(arguments.files[0], reason)
     if any(source.licence == merging.NO_LICENCE for source in places.sources):
         say("a source has no licence; say whose data it is by --source and --licence before it is shown")
     writing.write(places, arguments.out)
@@ -64,7 +64,7 @@ def make_exercise(arguments: argparse.Namespace, fire: OpenFire) -> None:
     known = run.event in history.events()
     if arguments.towns is None and not known:
         reason = "depicts no known fire, whose towns are published; name a list of bases by --towns"
-        raise input_error(arguments.run, 0, 0, reason)
+        raise input_error(arguments.run, reason)
     if arguments.towns is None:
         places = exercise.of_event(run.event, arguments.seed)
     else:
@@ -74,9 +74,7 @@ def make_exercise(arguments: argparse.Namespace, fire: OpenFire) -> None:
             arguments.towns.name, arguments.seed,
         )  # fmt: skip
     if not places.stations:
-        raise input_error(
-            arguments.towns or arguments.run, 0, 0, "names no place for a base; name one or more"
-        )
+        raise input_error(arguments.towns or arguments.run, "names no place for a base; name one or more")
     writing.write(places, arguments.out)
     bases, resources = count(len(places.stations), "base"), count(len(places.resources), "resource")
     say(f"{bases} with {resources}, all invented. {EXERCISE}")
@@ -150,7 +148,7 @@ def _near(arguments: argparse.Namespace, fire: Fire | None) -> tuple[float, floa
     else:
         found, source = ignition.find(fire.run) or (None, "")
     if found is None:
-        raise input_error(arguments.run, 0, 0, f"has no fire, so no {arguments.near}; give LAT,LON")
+        raise input_error(arguments.run, f"has no fire, so no {arguments.near}; give LAT,LON")
     say(f"{arguments.near}: {found[0]:.4f}, {found[1]:.4f} ({source})")
     return found
 

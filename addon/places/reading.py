@@ -30,18 +30,18 @@ def read(path: Path) -> Places:
         The file is missing, is no file of places, or a row is damaged.
     """
     if not path.is_file():
-        raise input_error(path, 0, 0, "there is no such file; check the path")
+        raise input_error(path, "there is no such file; check the path")
     try:
         with contextlib.closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
             tables = {name for (name,) in base.execute("SELECT name FROM sqlite_master WHERE type = 'table'")}
             if not {"source", "type", "station", "resource", "availability", "area"} <= tables:
-                raise input_error(path, 0, 0, _NO_PLACES)
+                raise input_error(path, _NO_PLACES)
             return _Reader(path, base).places()
     except UnicodeDecodeError:
-        raise input_error(path, 0, 0, "cannot be read: a text in it is not UTF-8") from None
+        raise input_error(path, "cannot be read: a text in it is not UTF-8") from None
     except sqlite3.DatabaseError as error:
         reason = _NO_PLACES if "not a database" in str(error) else f"cannot be read: {error}"
-        raise input_error(path, 0, 0, reason) from None
+        raise input_error(path, reason) from None
 
 
 def _text(value: Any) -> str:
@@ -179,7 +179,7 @@ class _Reader:
             self.wrong("resource", each.id, f"has count {each.count!r}; it is a whole number from 1")
 
     def wrong(self, table: str, number: int, reason: str) -> NoReturn:
-        raise input_error(self.path, 0, 0, f"{table} {number} {reason}")
+        raise input_error(self.path, f"{table} {number} {reason}")
 
 
 NUMBERS = (

@@ -37,7 +37,7 @@ def write(places: Places, path: Path) -> None:
     try:
         files.write(path, put)
     except sqlite3.IntegrityError as error:
-        raise input_error(path, 0, 0, f"cannot hold these places: {error}") from error
+        raise input_error(path, f"cannot hold these places: {error}") from error
 
 
 def _fill(base: sqlite3.Connection, places: Places) -> None:

@@ -33,10 +33,10 @@ def read(out: Path) -> dict[str, Any]:
     except (FileNotFoundError, NotADirectoryError):
         return {"format": _FORMAT, "settings": {}, "files": {}}
     except (OSError, ValueError) as error:
-        place = getattr(error, "lineno", 0), getattr(error, "colno", 0)
-        raise input_error(path, *place, BROKEN.format("a manifest")) from None
+        line, column = getattr(error, "lineno", 0), getattr(error, "colno", 0)
+        raise input_error(path, BROKEN.format("a manifest"), line=line, column=column) from None
     if not isinstance(content, dict) or content.get("format") != _FORMAT:
-        raise input_error(path, 0, 0, BROKEN.format("a manifest"))
+        raise input_error(path, BROKEN.format("a manifest"))
     return content
 
 

@@ -79,7 +79,6 @@ class RenderSession:
             if (picture := Picture(camera, frame, name)) in self.asked:
                 raise input_error(
                     self.store.out / picture.files()[0],
-                    *(0, 0),
                     "another render makes this picture with other settings, or another Firetwin or Blender; "
                     "give each render its own --out, or the same scene file and versions",
                 )

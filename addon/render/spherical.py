@@ -65,7 +65,7 @@ def film(path: Path) -> None:
                     _copy(film, made, end - start)
         os.replace(part, path)
     except (struct.error, Error) as error:
-        raise input_error(path, 0, 0, f"cannot be marked as a film for headsets: {error}") from None
+        raise input_error(path, f"cannot be marked as a film for headsets: {error}") from None
     finally:
         part.unlink(missing_ok=True)
 

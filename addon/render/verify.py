@@ -74,4 +74,4 @@ def _end(path: Path, count: int) -> bytes:
 def _damaged(path: Path, reason: str) -> Exception:
     if no_room(path):
         return full_disk_error(path)
-    return input_error(path, 0, 0, f"{reason}; Blender left it damaged, so render it again")
+    return input_error(path, f"{reason}; Blender left it damaged, so render it again")

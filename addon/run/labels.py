@@ -51,13 +51,13 @@ def read(path: Path) -> list[Label]:
         The file cannot be read or has another format.
     """
     if path.exists() and not path.is_file():  # opening a pipe would block
-        raise input_error(path, 0, 0, "is no file; name a CSV or GeoJSON")
+        raise input_error(path, "is no file; name a CSV or GeoJSON")
     try:
         text = path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
-        raise input_error(path, 0, 0, "is no text in UTF-8; save it as UTF-8") from None
+        raise input_error(path, "is no text in UTF-8; save it as UTF-8") from None
     except OSError as error:
-        raise input_error(path, 0, 0, f"cannot be read ({error.strerror}); name a CSV or GeoJSON") from None
+        raise input_error(path, f"cannot be read ({error.strerror}); name a CSV or GeoJSON") from None
     return _geojson(path, text) if text.lstrip().startswith("{") else _csv(path, text)
 
 
@@ -70,9 +70,9 @@ def _geojson(path: Path, text: str) -> list[Label]:
     try:
         features = json.loads(text)["features"]
     except json.JSONDecodeError as error:
-        raise input_error(path, error.lineno, error.colno, f"is no JSON: {error.msg}") from None
+        raise input_error(path, f"is no JSON: {error.msg}", line=error.lineno, column=error.colno) from None
     except (KeyError, TypeError, ValueError, RecursionError):
-        raise input_error(path, 0, 0, "is no GeoJSON FeatureCollection") from None
+        raise input_error(path, "is no GeoJSON FeatureCollection") from None
     labels = []
     for number, feature in enumerate(features if isinstance(features, list) else [], 1):
         try:
@@ -82,24 +82,26 @@ def _geojson(path: Path, text: str) -> list[Label]:
             name = feature["properties"]["name"]
         except (KeyError, TypeError, ValueError, IndexError):
             reason = f'feature {number} has no name or no coordinates; give it a property "name" and a Point'
-            raise input_error(path, 0, 0, reason) from None
+            raise input_error(path, reason) from None
         try:
             labels.append(_label(path, 0, name, latitude, longitude))
         except InputError as error:
-            raise input_error(path, 0, 0, f"feature {number}: {error.reason}") from None
+            raise input_error(path, f"feature {number}: {error.reason}") from None
     return labels
 
 
 def _label(path: Path, line: int, name: Any, latitude: Any, longitude: Any) -> Label:
     name = " ".join(str(name).split())
     if not 0 < len(name) <= _LONGEST:
-        raise input_error(path, line, 0, f"a name has 1 to {_LONGEST} letters, not {len(name)}")
+        raise input_error(path, f"a name has 1 to {_LONGEST} letters, not {len(name)}", line=line)
     degrees = []
     for what, value, most in (("latitude", latitude, 90.0), ("longitude", longitude, 180.0)):
         try:
             degrees.append(float(value))
         except (TypeError, ValueError, OverflowError):
-            raise input_error(path, line, 0, f"{what} is {value!r}, not a number of degrees") from None
+            raise input_error(path, f"{what} is {value!r}, not a number of degrees", line=line) from None
         if not abs(degrees[-1]) <= most:
-            raise input_error(path, line, 0, f"{what} is {degrees[-1]:g}; it goes from {-most:g} to {most:g}")
+            raise input_error(
+                path, f"{what} is {degrees[-1]:g}; it goes from {-most:g} to {most:g}", line=line
+            )
     return Label(name, *degrees)

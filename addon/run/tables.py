@@ -34,13 +34,13 @@ def rows(
         columns = _columns(next(csv.reader([header], delimiter=comma), []), names)
         for what in needed:
             if what not in columns:
-                raise input_error(path, 1, 0, f"the first line names no column {what}; name {help}")
+                raise input_error(path, f"the first line names no column {what}; name {help}", line=1)
         reader = csv.reader(lines, delimiter=comma)
         for row in reader:
             if any(text.strip() for text in row):
                 yield reader.line_num + 1, {n: row[k] if k < len(row) else "" for n, k in columns.items()}
     except csv.Error as error:
-        raise input_error(path, 0, 0, f"is no CSV: {error}") from None
+        raise input_error(path, f"is no CSV: {error}") from None
 
 
 def _columns(header: list[str], names: Mapping[str, set[str]]) -> dict[str, int]:

@@ -21,7 +21,7 @@ def time_zone(run: Run) -> str:
         run.toml names an unknown zone.
     """
     if run.zone and not known(run.zone):
-        raise input_error(Path(run.path, "run.toml"), 0, 0, f'zone = "{run.zone}" {NOT_KNOWN}')
+        raise input_error(Path(run.path, "run.toml"), f'zone = "{run.zone}" {NOT_KNOWN}')
     if run.zone:
         return run.zone
     if run.event in history.events():

@@ -72,4 +72,4 @@ def check_room(shot: Shot, words: Credits) -> None:
         try:
             credits.blocks(words, *shot.resolution(camera), camera.rig.around)
         except ValueError as error:
-            raise input_error(shot.settings.path, 0, 0, f'camera "{camera.name}": {error}') from None
+            raise input_error(shot.settings.path, f'camera "{camera.name}": {error}') from None

@@ -121,7 +121,7 @@ def routes(shot: Shot, shown: Iterable[Sign]) -> list[Route]:
         drawn = _features(settings.routes_file)
         lines = [Route(line, _origin(each)) for each in drawn for line in each.lines if len(line) > 1]
         if not lines:
-            raise input_error(settings.routes_file, 0, 0, "has no lines; draw routes as LineString features")
+            raise input_error(settings.routes_file, "has no lines; draw routes as LineString features")
         return lines
     began = ignition(shot)
     if not settings.routes or began is None:
@@ -243,7 +243,7 @@ def _outline(outlines: list[Array], latitude: float, longitude: float) -> Array 
 def _features(path: Path) -> list[Feature]:
     found = features(path)
     if isinstance(found, Detections):
-        raise input_error(path, 0, 0, "holds points of satellites; name a file of lines or polygons")
+        raise input_error(path, "holds points of satellites; name a file of lines or polygons")
     return found
 
 

@@ -104,7 +104,7 @@ def read(path: Path) -> TileCut:
         empty, size, triangles = (int(about[name]) for name in ("empty", "bytes", "triangles"))
         return replace(found, empty=empty, bytes=size, triangles=triangles, difference=difference)
     except (OSError, ValueError, LookupError, TypeError) as error:
-        raise input_error(path, 0, 0, f"is no list of chosen tiles ({error}); delete it") from None
+        raise input_error(path, f"is no list of chosen tiles ({error}); delete it") from None
 
 
 def location(shot: ShotView) -> Path:
@@ -131,7 +131,7 @@ def of_shot(shot: ShotView) -> TileCut | None:
     """
     found = prepared(shot)
     if found is None and shot.settings.tiles.sources:
-        raise input_error(location(shot), 0, 0, "the tiles of this shot were not prepared; build it again")
+        raise input_error(location(shot), "the tiles of this shot were not prepared; build it again")
     return found
 
 

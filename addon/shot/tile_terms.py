@@ -91,7 +91,7 @@ def _error(settings: Settings, number: int, reason: str) -> InputError:
     if settings.path.is_file():
         with contextlib.suppress(InputError):  # it has changed since
             return scene_file.error_at(settings.path, ("tiles", "sources", number), reason)
-    return input_error(settings.path, 0, 0, f"tiles.sources: {reason}")
+    return input_error(settings.path, f"tiles.sources: {reason}")
 
 
 def _sources_of(name: str) -> set[str]:

@@ -121,7 +121,7 @@ def check(path: Path, size: int) -> None:
         begins = file.read(len(_MAGIC))
         whole = file.seek(0, 2) == size
     if begins != _MAGIC or not whole:
-        raise input_error(path, 0, 0, "is cut off; free some room on the disk and bake it again")
+        raise input_error(path, "is cut off; free some room on the disk and bake it again")
 
 
 def publish(part: Path, path: Path, size: int) -> None:

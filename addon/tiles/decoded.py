@@ -236,9 +236,9 @@ def read(path: Path) -> Decoded:
         )
         found = Decoded(**arrays, materials=materials, about=_summary(about))
     except (OSError, ValueError, LookupError, TypeError, struct.error) as error:
-        raise input_error(path, 0, 0, f"is no decoded tile ({error}); delete it") from None
+        raise input_error(path, f"is no decoded tile ({error}); delete it") from None
     if not _is_consistent(found):
-        raise input_error(path, 0, 0, "is no decoded tile: its numbers do not fit together; delete it")
+        raise input_error(path, "is no decoded tile: its numbers do not fit together; delete it")
     return found
 
 

@@ -98,9 +98,9 @@ def read(path: Path) -> Geoid:
     try:
         found = _gtx(path) if path.suffix == ".gtx" else _pgm(path)
     except (OSError, ValueError, LookupError, TypeError, struct.error) as error:
-        raise input_error(path, 0, 0, f"is no grid of a geoid ({error}); install it again") from None
+        raise input_error(path, f"is no grid of a geoid ({error}); install it again") from None
     if abs(found.value.shape[1] * found.step[1] - 360.0) > 1.0e-6:
-        raise input_error(path, 0, 0, "does not go all around the Earth; install the whole grid")
+        raise input_error(path, "does not go all around the Earth; install the whole grid")
     return found
 
 

@@ -28,18 +28,18 @@ def parse(data: bytes, file: str) -> Node:
         It is larger than 64 MB, deeper than 256, not UTF-8, not JSON, or has a number that is not finite.
     """
     if len(data) > MOST_BYTES:
-        raise input_error(file, 0, 0, f"is larger than {MOST_BYTES >> 20} MB; split the tileset")
+        raise input_error(file, f"is larger than {MOST_BYTES >> 20} MB; split the tileset")
     data = data.removeprefix(b"\xef\xbb\xbf")
     if _depth(data) > DEEPEST:
-        raise input_error(file, 0, 0, f"has more than {DEEPEST} JSON arrays or objects in one another")
+        raise input_error(file, f"has more than {DEEPEST} JSON arrays or objects in one another")
     try:
         value = json.loads(data.decode("utf-8"), parse_constant=_no_constant)
     except UnicodeDecodeError as error:
-        raise input_error(file, 0, 0, f"is not UTF-8 (byte {error.start + 1})") from error
+        raise input_error(file, f"is not UTF-8 (byte {error.start + 1})") from error
     except json.JSONDecodeError as error:
-        raise input_error(file, error.lineno, error.colno, f"is not JSON: {error.msg}") from error
+        raise input_error(file, f"is not JSON: {error.msg}", line=error.lineno, column=error.colno) from error
     except (ValueError, RecursionError) as error:  # a constant; a number of too many digits
-        raise input_error(file, 0, 0, f"is not JSON: {error}") from error
+        raise input_error(file, f"is not JSON: {error}") from error
     return Node(value, file, "$")
 
 
@@ -76,7 +76,7 @@ class Node:
 
     def error(self, reason: str) -> InputError:
         """InputError with file and JSON path."""
-        return input_error(self.file, 0, 0, f"{self.path}: {reason}")
+        return input_error(self.file, f"{self.path}: {reason}")
 
     def __contains__(self, name: str) -> bool:
         return isinstance(self.value, dict) and name in self.value

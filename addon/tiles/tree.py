@@ -144,7 +144,7 @@ class Tree:
             There may not.
         """
         if self.size + more > MOST_TILES:
-            raise input_error(name, 0, 0, f"makes more than {MOST_TILES:,} tiles; take a part of the tileset")
+            raise input_error(name, f"makes more than {MOST_TILES:,} tiles; take a part of the tileset")
 
     def append(self, rows: Rows) -> int:
         """Append tiles; returns the number of the first one."""
@@ -286,7 +286,7 @@ class Tree:
     def error_at(self, tile: int, reason: str) -> InputError:
         """InputError that names a tile by its file and JSON path."""
         document = self.documents[int(self.document[tile])]
-        return input_error(document.name, 0, 0, f"{self.path(tile)}: {reason}")
+        return input_error(document.name, f"{self.path(tile)}: {reason}")
 
     def path(self, tile: int) -> str:
         """JSON path of a tile in its document; a tile of an implicit tiling has its number."""

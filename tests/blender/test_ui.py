@@ -554,7 +554,7 @@ def test_the_progress_of_work_says_how_far_it_is():
 
 def test_errors_of_a_thread_arrive_where_the_work_is():
     def fail(progress, tell, stop):
-        raise input_error("a.txt", 3, 4, "is wrong; write it otherwise")
+        raise input_error("a.txt", "is wrong; write it otherwise", line=3, column=4)
 
     def steps():
         yield job.InThread("failing", fail)

@@ -349,7 +349,7 @@ def found_time(out):
 
 def test_the_exit_status_says_whether_to_try_again():
     assert task.status_of(UsageError("no such task")) == 2
-    assert task.status_of(input_error("scene.toml", 1, 1, "wrong")) == 2
+    assert task.status_of(input_error("scene.toml", "wrong", line=1, column=1)) == 2
     assert task.status_of(full_disk_error("x")) == 75
     assert task.status_of(OSError(28, "No space left on device")) == 75
     assert task.status_of(TryAgainError("no GPU")) == 75

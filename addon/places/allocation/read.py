@@ -46,7 +46,7 @@ def _status(places: Places, resource: Resource, window: int) -> str:
 
 def _units(path: Path, places: Places, each: Resource) -> list[Unit]:
     if each.count > _MOST:
-        raise input_error(path, 0, 0, f"resource {each.id} has a count of {each.count:,}, above {_MOST:,}")
+        raise input_error(path, f"resource {each.id} has a count of {each.count:,}, above {_MOST:,}")
     station = places.stations[places.station_row[each.station]]
     one = Unit(
         str(each.id), each.type, each.line_m_h, each.mobilise_min, each.speed_km_h, each.cost_hour,
@@ -60,4 +60,4 @@ def _one_currency(path: Path, units: list[Unit]) -> None:
     names = sorted({unit.currency for unit in units if unit.currency})
     if len(names) > 1:
         reason = f"has costs in {' and '.join(names)}; an allocation needs one currency: convert them"
-        raise input_error(path, 0, 0, reason)
+        raise input_error(path, reason)

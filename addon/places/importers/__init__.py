@@ -26,16 +26,16 @@ def importer(path: Path) -> ModuleType:
         The file is missing, is no file, or has no known format.
     """
     if not path.exists():
-        raise input_error(path, 0, 0, "there is no such file; check the path")
+        raise input_error(path, "there is no such file; check the path")
     if not path.is_file():  # opening a pipe would block
-        raise input_error(path, 0, 0, "is no file; name a CSV, GeoJSON, Overpass JSON or GeoPackage")
+        raise input_error(path, "is no file; name a CSV, GeoJSON, Overpass JSON or GeoPackage")
     with path.open("rb") as file:
         head = file.read(_HEAD)
     for name in MODULES:
         module = importlib.import_module(f".{name}", __name__)
         if module.sniff(path, head):
             return module
-    raise input_error(path, 0, 0, _unknown())
+    raise input_error(path, _unknown())
 
 
 def read(path: Path) -> Batch:
@@ -51,12 +51,12 @@ def read(path: Path) -> Batch:
     except Error:
         raise
     except OSError as error:
-        raise input_error(path, 0, 0, (error.strerror or str(error)).lower()) from None
+        raise input_error(path, (error.strerror or str(error)).lower()) from None
     except UnicodeDecodeError:
-        raise input_error(path, 0, 0, "is no text in UTF-8; save it as UTF-8") from None
+        raise input_error(path, "is no text in UTF-8; save it as UTF-8") from None
     except Exception as error:  # Python's errors from unexpected content
         reason = " ".join(str(error).split()) or type(error).__name__
-        raise input_error(path, 0, 0, f"is damaged or incomplete: {reason}") from error
+        raise input_error(path, f"is damaged or incomplete: {reason}") from error
 
 
 def _unknown() -> str:

@@ -41,9 +41,11 @@ def read(path: Path) -> Batch:
     try:
         whole = json.loads(path.read_text(encoding="utf-8-sig"))
     except json.JSONDecodeError as error:
-        raise input_error(path, error.lineno, error.colno, f"not valid JSON: {error.msg}") from None
+        raise input_error(
+            path, f"not valid JSON: {error.msg}", line=error.lineno, column=error.colno
+        ) from None
     except RecursionError as error:
-        raise input_error(path, 0, 0, f"not valid JSON: {error}") from None
+        raise input_error(path, f"not valid JSON: {error}") from None
     if "elements" in whole:
         _read_elements(path, whole, batch)
     else:
@@ -54,13 +56,13 @@ def read(path: Path) -> Batch:
 def _read_elements(path: Path, whole: Mapping[str, Any], batch: Batch) -> None:
     elements = whole["elements"]
     if not isinstance(elements, list):
-        raise input_error(path, 0, 0, 'no answer of Overpass: its "elements" are no list')
+        raise input_error(path, 'no answer of Overpass: its "elements" are no list')
     about = whole.get("osm3s")
     if isinstance(about, dict):
         batch.retrieved = str(about.get("timestamp_osm_base", ""))[:10]
     for number, element in enumerate(elements, 1):
         if not isinstance(element, dict):
-            raise input_error(path, 0, 0, f"element {number} is no table")
+            raise input_error(path, f"element {number} is no table")
         tags = element.get("tags")
         if not isinstance(tags, dict):
             continue  # a node of a way

@@ -53,7 +53,9 @@ def read(path: Path) -> Batch:
 def _resource(path: Path, line: int, row: Mapping[str, str]) -> Resource:
     code = row["type"]
     if types.own_type(code) is None:
-        raise input_error(path, line, 0, f'has type "{code}"; write kind/type, such as engine/3 or tender/1')
+        raise input_error(
+            path, f'has type "{code}"; write kind/type, such as engine/3 or tender/1', line=line
+        )
     word = _words(path, line, row)
     name = drafts.without_telephones(row.get("name", "")) or code
     return Resource(
@@ -73,7 +75,7 @@ def _words(path: Path, line: int, row: Mapping[str, str]) -> Any:
         value = row.get(key, "").lower()
         if value and value not in known:
             listed = ", ".join(each for each in known if each)
-            raise input_error(path, line, 0, f'has {key} "{value}"; it is one of {listed}')
+            raise input_error(path, f'has {key} "{value}"; it is one of {listed}', line=line)
         return value or usual
 
     return word
@@ -89,24 +91,24 @@ def _number(path: Path, line: int, name: str, text: str) -> float | None:
         value = math.nan
     if not 0.0 <= value < math.inf or (name == "speed_km_h" and value == 0.0):
         least = "above 0" if name == "speed_km_h" else "from 0"
-        raise input_error(path, line, 0, f'has {name} "{text}"; it is a number {least}, or empty')
+        raise input_error(path, f'has {name} "{text}"; it is a number {least}, or empty', line=line)
     return value
 
 
 def _count(path: Path, line: int, text: str) -> int:
     if text and not (text.isascii() and text.isdecimal() and 1 <= int(text) <= 10_000):
-        raise input_error(path, line, 0, f'has count "{text}"; it is a whole number from 1 to 10000')
+        raise input_error(path, f'has count "{text}"; it is a whole number from 1 to 10000', line=line)
     return int(text or 1)
 
 
 def _window(path: Path, line: int, row: Mapping[str, str]) -> tuple[datetime, datetime, str, str] | None:
     if not (row.get("begins") or row.get("ends")):
         if row.get("status"):
-            raise input_error(path, line, 0, "has a status without begins and ends; give both")
+            raise input_error(path, "has a status without begins and ends; give both", line=line)
         return None
     begins, ends = (_time(path, line, key, row.get(key, "")) for key in ("begins", "ends"))
     if not begins < ends:
-        raise input_error(path, line, 0, "has begins that is not before ends")
+        raise input_error(path, "has begins that is not before ends", line=line)
     status = _words(path, line, row)("status", STATUSES, "available")
     return begins, ends, status, row.get("area", "")
 
@@ -118,5 +120,5 @@ def _time(path: Path, line: int, key: str, text: str) -> datetime:
         when = None
     if when is None or when.tzinfo is None:
         reason = f'has {key} "{text}"; write a time with its zone, 2014-09-17T16:00-07:00'
-        raise input_error(path, line, 0, reason)
+        raise input_error(path, reason, line=line)
     return when.astimezone(UTC)

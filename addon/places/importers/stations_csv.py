@@ -37,7 +37,7 @@ def read(path: Path) -> Batch:
     for line, row in tables.rows(path, _NAMES, _NEEDED, "name, latitude and longitude (degrees)"):
         origin = row.get("origin", "").strip().lower() or "user"
         if origin not in ORIGINS:
-            raise input_error(path, line, 0, f'has origin "{origin}"; it is one of {", ".join(ORIGINS)}')
+            raise input_error(path, f'has origin "{origin}"; it is one of {", ".join(ORIGINS)}', line=line)
         draft = Draft(
             row["name"], 0.0, 0.0, kind=row.get("kind", "").strip() or "fire station",
             agency=row.get("agency", ""), address=row.get("address", ""),

@@ -123,7 +123,7 @@ def polygons(path: Path) -> list[Feature]:
     found = features(path)
     having = [] if isinstance(found, Detections) else [each for each in found if each.polygons]
     if not having:
-        raise input_error(path, 0, 0, "has no polygons; footprints of buildings are polygons")
+        raise input_error(path, "has no polygons; footprints of buildings are polygons")
     return having
 
 

@@ -50,7 +50,7 @@ class LandRasters:
             del self.layers[name]
             return None
         reason = "has no projection; add a .prj of the same name, or give --projection EPSG:..."
-        raise input_error(layer.path, 0, 0, reason)
+        raise input_error(layer.path, reason)
 
     def category(self, grid: Grid, projection: str) -> NDArray[np.float32] | None:
         """Fuel model number of each cell."""

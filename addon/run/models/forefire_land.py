@@ -148,4 +148,4 @@ def _loads(path: Path) -> dict[int, float]:
     try:
         return {int(row["Index"]): float(row["Sigmad"]) for row in rows}
     except (KeyError, ValueError, TypeError):
-        raise input_error(path, 0, 0, "is no fuels table of ForeFire with Index and Sigmad") from None
+        raise input_error(path, "is no fuels table of ForeFire with Index and Sigmad") from None

@@ -58,11 +58,11 @@ def model(
 ) -> Model:
     """Build a model from maps; the start is the option's (`begun`)."""
     if maps.arrival.shape != grid.shape:
-        raise input_error(files[0], 0, 0, f"has arrival times {maps.arrival.shape} on a grid of {grid.shape}")
+        raise input_error(files[0], f"has arrival times {maps.arrival.shape} on a grid of {grid.shape}")
     for name in ("intensity", "speed", "per_area"):
         values = getattr(maps, name)
         if values is not None and values.shape != grid.shape:
-            raise input_error(files[0], 0, 0, f"has {name} {values.shape} on a grid of {grid.shape}")
+            raise input_error(files[0], f"has {name} {values.shape} on a grid of {grid.shape}")
     fuel = _fuel(maps, grid, land, options.projection, notes)
     category = fuel.category
     lasts = fuels.burn_out(category if category is not None else np.full(grid.shape, np.nan))
@@ -75,7 +75,7 @@ def model(
             maps.arrival, heat_from_intensity.of_fuel(fuel.surface + fuel.canopy), lasts, options.interval
         )
     except Error as error:
-        raise input_error(files[0], 0, 0, str(error)) from None
+        raise input_error(files[0], str(error)) from None
     kept = {} if category is None else {"fuel_category": lambda: category}
     ground = maps.elevation if maps.elevation is not None else land.elevation(grid, options.projection)
     return Model(
@@ -120,7 +120,7 @@ def begun(options: Options, path: Path) -> datetime:
     """
     if options.start is None:
         reason = "has no start time; give it: --start 2014-09-17T04:45:00Z"
-        raise input_error(path, 0, 0, reason)
+        raise input_error(path, reason)
     return options.start
 
 

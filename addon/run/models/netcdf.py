@@ -77,7 +77,7 @@ class File:
 
     def error(self, reason: str) -> InputError:
         """Error about this file."""
-        return input_error(self.path, 0, 0, reason)
+        return input_error(self.path, reason)
 
     def __contains__(self, name: str) -> bool:
         return name in self.variables

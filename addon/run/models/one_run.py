@@ -22,7 +22,7 @@ def of_models(by_format: dict[str, list[Path]]) -> None:
     """
     if len(by_format) > 1:
         (name, (first, *_)), (other, (second, *_)), *_ = by_format.items()
-        raise input_error(second, 0, 0, f"is {other} where {first.name} is {name}; {_ASK}")
+        raise input_error(second, f"is {other} where {first.name} is {name}; {_ASK}")
 
 
 def of_series(paths: list[Path]) -> None:
@@ -37,7 +37,7 @@ def of_series(paths: list[Path]) -> None:
     for path in paths:
         before = names.setdefault(path.name, path)
         if before != path:
-            raise input_error(path, 0, 0, f"has the name of {before}, so it is of another run; {_ASK}")
+            raise input_error(path, f"has the name of {before}, so it is of another run; {_ASK}")
     first = None
     for path in paths if len(paths) > 1 else ():
         corner = _corner(path)
@@ -49,7 +49,7 @@ def of_series(paths: list[Path]) -> None:
             there = "{:.3f}, {:.3f}".format(*first[1])
             here = "{:.3f}, {:.3f}".format(*corner)
             reason = f"has its first cell at {here} where {first[0].name} has {there}: another place; {_ASK}"
-            raise input_error(path, 0, 0, reason)
+            raise input_error(path, reason)
 
 
 def of_one(paths: list[Path]) -> Path:
@@ -61,7 +61,7 @@ def of_one(paths: list[Path]) -> Path:
         There are several.
     """
     if len(paths) > 1:
-        raise input_error(paths[1], 0, 0, f"is another run than {paths[0].name}; {_ASK}")
+        raise input_error(paths[1], f"is another run than {paths[0].name}; {_ASK}")
     return paths[0]
 
 

@@ -197,7 +197,9 @@ def _wrong_word(path: Path, text: str, above: int) -> InputError:
             try:
                 float(word[0])
             except ValueError:
-                return input_error(path, number, word.start() + 1, f"{word[0][:40]!r} is no number")
+                return input_error(
+                    path, f"{word[0][:40]!r} is no number", line=number, column=word.start() + 1
+                )
     return _error(path, "holds something that is no number")
 
 
@@ -257,4 +259,4 @@ def landscape(path: Path) -> dict[str, Raster]:
 
 
 def _error(path: Path, reason: str) -> InputError:
-    return input_error(path, 0, 0, reason)
+    return input_error(path, reason)

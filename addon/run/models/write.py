@@ -50,7 +50,7 @@ def check(out: Path) -> None:
         The place is taken.
     """
     if out.exists() and not (out.is_dir() and not any(out.iterdir())):
-        raise input_error(out, 0, 0, "already exists; remove it or choose another path")
+        raise input_error(out, "already exists; remove it or choose another path")
 
 
 def write(model: Model, out: Path, inputs: str, progress: Progress) -> None:
@@ -68,14 +68,12 @@ def write(model: Model, out: Path, inputs: str, progress: Progress) -> None:
     """
     times = model.times
     if not np.isfinite(times).all() or (np.diff(times) <= 0).any() or np.ptp(times) > LONGEST:
-        raise input_error(
-            model.files[0], 0, 0, "its times are invalid: they do not ascend, or span centuries"
-        )
+        raise input_error(model.files[0], "its times are invalid: they do not ascend, or span centuries")
     part = part_of(out)
     try:
         placed = {before: grid.placed for before, grid in model.grids.items()}
     except Error as error:
-        raise input_error(model.files[0], 0, 0, str(error)) from None
+        raise input_error(model.files[0], str(error)) from None
     shapes = {
         name: (
             len(model.times),
@@ -86,9 +84,7 @@ def write(model: Model, out: Path, inputs: str, progress: Progress) -> None:
     }
     _room(out, sum(4 * int(np.prod(shape, dtype=np.float64)) for shape in shapes.values()))
     if max((4 * np.prod(shape[1:], dtype=np.float64) for shape in shapes.values()), default=0) > _LARGEST:
-        raise input_error(
-            model.files[0], 0, 0, f"a grid of {placed[''].shape} cells is more than can be held"
-        )
+        raise input_error(model.files[0], f"a grid of {placed[''].shape} cells is more than can be held")
     with writing(out):
         out.parent.mkdir(parents=True, exist_ok=True)
         done = _done(part, inputs)
@@ -117,7 +113,7 @@ def _check(part: Path, model: Model) -> None:
     except InputError as error:
         shutil.rmtree(part, ignore_errors=True)
         reason = f"makes no run: {Path(error.path).stem}: {error.reason}; it is most likely damaged"
-        raise input_error(model.files[0], 0, 0, reason) from None
+        raise input_error(model.files[0], reason) from None
 
 
 def _moving(
@@ -138,7 +134,7 @@ def _moving(
                     values = _put(model, name, get(index))
                     if values.shape != shapes[name][1:]:
                         reason = f"{name} is {values.shape} at time {index + 1}, not {shapes[name][1:]}"
-                        raise input_error(model.files[0], 0, 0, reason)
+                        raise input_error(model.files[0], reason)
                     pending.append(pool.submit(_all, open_files[name], values))
                     since += values.nbytes
                 while len(pending) > len(model.moving):
@@ -197,7 +193,7 @@ def _done(part: Path, inputs: str) -> int:
 
 def _save(path: Path, values: NDArray, shape: tuple[int, ...] | None = None) -> None:
     if shape is not None and values.shape != shape:
-        raise input_error(path, 0, 0, f"has shape {values.shape} where the grid has {shape}")
+        raise input_error(path, f"has shape {values.shape} where the grid has {shape}")
     files.write(path, lambda part: np.save(part, values))
 
 
@@ -206,7 +202,7 @@ def _room(out: Path, need: int) -> None:
     there = part_of(out)
     free = shutil.disk_usage(folder).free + sum(each.stat().st_size for each in there.glob("*.npy"))
     if need > free:
-        raise input_error(out, 0, 0, f"needs {size(need)} and the disk has {size(free)} free")
+        raise input_error(out, f"needs {size(need)} and the disk has {size(free)} free")
 
 
 def description(model: Model, inputs: str) -> str:

@@ -137,16 +137,16 @@ def features(path: Path) -> list[Feature] | Detections:
     """
     reader = _reader(path)
     if path.exists() and not path.is_file():  # opening a pipe would block
-        raise input_error(path, 0, 0, "is no file; name one that holds observations")
+        raise input_error(path, "is no file; name one that holds observations")
     try:
         return reader.read(path)
     except Error:
         raise
     except OSError as error:
-        raise input_error(path, 0, 0, (error.strerror or str(error)).lower()) from None
+        raise input_error(path, (error.strerror or str(error)).lower()) from None
     except Exception as error:  # Python's errors or a library's, from unexpected content
         reason = " ".join(str(error).split()) or type(error).__name__
-        raise input_error(path, 0, 0, f"is damaged or incomplete: {reason}") from error
+        raise input_error(path, f"is damaged or incomplete: {reason}") from error
 
 
 def beside(folder: str | Path) -> list[Path]:
@@ -197,7 +197,7 @@ def _reader(path: Path) -> ModuleType:
     name = _READERS.get(path.suffix.lower())
     if name is None:
         known = ", ".join(sorted(_READERS))
-        raise input_error(path, 0, 0, f"cannot be read; files of observations and outlines end in {known}")
+        raise input_error(path, f"cannot be read; files of observations and outlines end in {known}")
     return importlib.import_module(f".{name}", __name__)
 
 
@@ -218,7 +218,7 @@ def _sorted(
         else:
             left += 1
     if not burned and not hot:
-        raise input_error(path, 0, 0, "has no polygons of burned area")
+        raise input_error(path, "has no polygons of burned area")
     if burned and hot:
         assumptions[f"{path.name}: heat within its perimeter is drawn and not compared"] = None
     if left:

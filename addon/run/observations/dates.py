@@ -79,7 +79,7 @@ def parse(path: Path, feature: Feature, assumptions: dict[str, None]) -> datetim
         return moment[0]
     what = f"{days} is no day with its hour" if days else f"none of {', '.join(NAMES[:6])} ... is there"
     where = f"{feature.place}: " if feature.place else ""
-    raise input_error(path, 0, 0, f"{where}has no date ({what}); write {path.name}@2014-09-18T04:00-07:00")
+    raise input_error(path, f"{where}has no date ({what}); write {path.name}@2014-09-18T04:00-07:00")
 
 
 def _moment(value: object) -> tuple[datetime, bool] | None:

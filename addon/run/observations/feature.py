@@ -44,9 +44,7 @@ def ring(path: Path, place: str, points: Iterable[Any]) -> Ring:
     if len(corners) > 1 and (corners[0] == corners[-1]).all():
         corners = corners[:-1]
     if len(corners) < 3:
-        raise input_error(
-            path, 0, 0, f"{place} has a ring of {len(corners)} corners; a polygon has three or more"
-        )
+        raise input_error(path, f"{place} has a ring of {len(corners)} corners; a polygon has three or more")
     return corners
 
 
@@ -61,19 +59,15 @@ def degrees(path: Path, place: str, points: Iterable[Any]) -> Ring:
     try:
         positions = np.array([(float(point[0]), float(point[1])) for point in points]).reshape(-1, 2)
     except (TypeError, ValueError, OverflowError, IndexError, KeyError):
-        raise input_error(
-            path, 0, 0, f"{place} has a ring that is no list of longitudes and latitudes"
-        ) from None
+        raise input_error(path, f"{place} has a ring that is no list of longitudes and latitudes") from None
     if not len(positions):
         return positions
     if not np.isfinite(positions).all():
-        raise input_error(path, 0, 0, f"{place} has a position that is no number")
+        raise input_error(path, f"{place} has a position that is no number")
     wide, high = np.abs(positions).max(axis=0)
     if wide > 540.0 or high > 90.0:
         raise input_error(
             path,
-            0,
-            0,
             f"{place} lies at {positions[0, 0]:g}, {positions[0, 1]:g}, which are no degrees east and north: "
             "save it in WGS84 (EPSG:4326)",
         )

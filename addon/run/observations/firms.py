@@ -29,7 +29,9 @@ def read(path: Path) -> Detections:
         table = csv.DictReader(file)
         names = [name.strip().lower() for name in table.fieldnames or ()]
         if lacking := [name for name in _NEEDED if name not in names]:
-            raise input_error(path, 1, 0, f"no detections of FIRMS: there is no column {', '.join(lacking)}")
+            raise input_error(
+                path, f"no detections of FIRMS: there is no column {', '.join(lacking)}", line=1
+            )
         table.fieldnames = names
         rows = [(table.line_num, row) for row in table]
     confident = [(line, row) for line, row in rows if not _low(row)]
@@ -52,7 +54,7 @@ def _numbers(path: Path, line: int, row: dict[str, str]) -> tuple[float, float, 
     """Latitude, longitude, and the pixel's longer side (m)."""
     latitude, longitude = finite(row["latitude"]), finite(row["longitude"])
     if latitude is None or longitude is None or abs(latitude) > 90.0 or abs(longitude) > 360.0:
-        raise input_error(path, line, 0, "its latitude and longitude are no degrees")
+        raise input_error(path, "its latitude and longitude are no degrees", line=line)
     sides = [finite(row.get(name)) or 0.0 for name in ("scan", "track")]
     if 0.0 < max(sides) < 50.0:
         return latitude, longitude, 1e3 * max(sides)
@@ -68,4 +70,4 @@ def _time(path: Path, line: int, row: dict[str, str]) -> datetime:
             return datetime.strptime(day + hour, form).replace(tzinfo=UTC)
         except ValueError:
             continue
-    raise input_error(path, line, 0, f'acq_date "{day}" with acq_time "{hour}" is no moment')
+    raise input_error(path, f'acq_date "{day}" with acq_time "{hour}" is no moment', line=line)

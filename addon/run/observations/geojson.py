@@ -22,16 +22,18 @@ def read(path: Path) -> list[Feature]:
     try:
         whole = json.loads(path.read_text(encoding="utf-8-sig"))
     except json.JSONDecodeError as error:
-        raise input_error(path, error.lineno, error.colno, f"not valid JSON: {error.msg}") from None
+        raise input_error(
+            path, f"not valid JSON: {error.msg}", line=error.lineno, column=error.colno
+        ) from None
     except (UnicodeDecodeError, RecursionError) as error:
-        raise input_error(path, 0, 0, f"not valid JSON: {error}") from None
+        raise input_error(path, f"not valid JSON: {error}") from None
     if not isinstance(whole, dict) or "type" not in whole:
-        raise input_error(path, 0, 0, 'no GeoJSON: it has no "type"')
+        raise input_error(path, 'no GeoJSON: it has no "type"')
     _check_degrees(path, whole)
     if whole["type"] == "FeatureCollection":
         features = whole.get("features")
         if not isinstance(features, list):
-            raise input_error(path, 0, 0, 'no GeoJSON: its "features" are no list')
+            raise input_error(path, 'no GeoJSON: its "features" are no list')
     else:
         features = [whole if whole["type"] == "Feature" else {"geometry": whole}]
     said = {name: item for name, item in whole.items() if isinstance(item, str | int | float)}
@@ -44,13 +46,13 @@ def _check_degrees(path: Path, whole: dict[str, Any]) -> None:
     properties = crs.get("properties") if isinstance(crs, dict) else None
     name = str(properties.get("name", "")) if isinstance(properties, dict) else ""
     if name and not name.endswith(("CRS84", ":4326", ":4269", ":4979")):
-        raise input_error(path, 0, 0, f"is in {name}; save it in WGS84 (EPSG:4326)")
+        raise input_error(path, f"is in {name}; save it in WGS84 (EPSG:4326)")
 
 
 def _feature(path: Path, place: str, feature: Any, said: dict[str, Any]) -> Feature:
     """Parse a feature; collection properties `said`, such as ForeFire's ``valid_at``, apply to it."""
     if not isinstance(feature, dict):
-        raise input_error(path, 0, 0, f"{place} is no table")
+        raise input_error(path, f"{place} is no table")
     properties = feature.get("properties")
     return Feature(
         tuple(_polygons(path, place, feature.get("geometry"))),
@@ -95,13 +97,13 @@ def _polygons(path: Path, place: str, geometry: Any) -> Iterator[Polygon]:
     if kind not in ("Polygon", "MultiPolygon", "GeometryCollection") or parts == []:
         return
     if not isinstance(parts, list):
-        raise input_error(path, 0, 0, f"{place} is a {kind} without a list of what it is made of")
+        raise input_error(path, f"{place} is a {kind} without a list of what it is made of")
     if kind == "GeometryCollection":
         for part in parts:
             yield from _polygons(path, place, part)
         return
     for polygon in [parts] if kind == "Polygon" else parts:
         if not isinstance(polygon, list):
-            raise input_error(path, 0, 0, f"{place} has a polygon that is no list of rings")
+            raise input_error(path, f"{place} has a polygon that is no list of rings")
         if polygon:
             yield tuple(ring(path, place, inner if isinstance(inner, list) else [None]) for inner in polygon)

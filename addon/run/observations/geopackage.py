@@ -33,7 +33,7 @@ def read(path: Path) -> list[Feature]:
             base.row_factory = sqlite3.Row
             return [row for table in base.execute(_TABLES).fetchall() for row in _rows(path, base, table)]
     except sqlite3.Error as error:
-        raise input_error(path, 0, 0, f"no GeoPackage: {error}") from None
+        raise input_error(path, f"no GeoPackage: {error}") from None
 
 
 _TABLES = (
@@ -56,7 +56,7 @@ def _rows(path: Path, base: sqlite3.Connection, table: sqlite3.Row) -> Iterator[
         except _NoPolygonError:
             parts = {kind: [] for kind in parts}
         except (struct.error, ValueError, IndexError, TypeError):
-            raise input_error(path, 0, 0, f"{place} has a damaged geometry") from None
+            raise input_error(path, f"{place} has a damaged geometry") from None
         outlines = tuple(
             tuple(ring(path, place, to_degrees(path, system, each)) for each in rings)
             for rings in parts["polygon"]

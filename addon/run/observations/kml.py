@@ -24,14 +24,16 @@ def read(path: Path) -> list[Feature]:
     """
     text = _unpacked(path) if path.suffix.lower() == ".kmz" else path.read_bytes()
     if b"<!ENTITY" in text:
-        raise input_error(path, 0, 0, "defines entities, which no KML needs")
+        raise input_error(path, "defines entities, which no KML needs")
     try:
         root = ElementTree.fromstring(text)
     except ElementTree.ParseError as error:
         line, column = error.position
-        raise input_error(path, line, column + 1, f"not valid XML: {str(error).partition(':')[0]}") from None
+        raise input_error(
+            path, f"not valid XML: {str(error).partition(':')[0]}", line=line, column=column + 1
+        ) from None
     except (ValueError, LookupError) as error:
-        raise input_error(path, 0, 0, f"not valid XML: {error}") from None
+        raise input_error(path, f"not valid XML: {error}") from None
     return list(_placemarks(path, root, {}))
 
 
@@ -40,12 +42,12 @@ def _unpacked(path: Path) -> bytes:
         with zipfile.ZipFile(path) as archive:
             inside = [item for item in archive.infolist() if item.filename.lower().endswith(".kml")]
             if not inside:
-                raise input_error(path, 0, 0, "holds no .kml")
+                raise input_error(path, "holds no .kml")
             if inside[0].file_size > _LARGEST:
-                raise input_error(path, 0, 0, f"its .kml has {inside[0].file_size / 1e6:,.0f} MB")
+                raise input_error(path, f"its .kml has {inside[0].file_size / 1e6:,.0f} MB")
             return archive.read(inside[0])
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError) as error:
-        raise input_error(path, 0, 0, f"no KMZ: {str(error)[:1].lower()}{str(error)[1:]}") from None
+        raise input_error(path, f"no KMZ: {str(error)[:1].lower()}{str(error)[1:]}") from None
 
 
 def _placemarks(path: Path, folder: ElementTree.Element, inherited: dict[str, str]) -> Iterator[Feature]:
@@ -105,7 +107,7 @@ def _polygons(path: Path, place: str, placemark: ElementTree.Element) -> Iterato
         if _tag(polygon) == "Polygon":
             rings = [_ring(path, place, text) for text in _rings(polygon, "outerBoundaryIs")]
             if len(rings) != 1:
-                raise input_error(path, 0, 0, f"{place} has a polygon with {len(rings)} outer rings")
+                raise input_error(path, f"{place} has a polygon with {len(rings)} outer rings")
             yield (*rings, *(_ring(path, place, text) for text in _rings(polygon, "innerBoundaryIs")))
 
 

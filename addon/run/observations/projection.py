@@ -35,11 +35,11 @@ def to_degrees(path: Path, system: str, points: NDArray[np.float64]) -> NDArray[
         reason = (
             f"is in {name}: save it in WGS84 (EPSG:4326), or install pyproj (pip install 'firetwin[score]')"
         )
-        raise input_error(path, 0, 0, reason) from None
+        raise input_error(path, reason) from None
     try:
         east, north = Transformer.from_crs(system, "EPSG:4326", always_xy=True).transform(*points.T)
     except ProjError as error:
-        raise input_error(path, 0, 0, f"has a reference system that is none: {error}") from None
+        raise input_error(path, f"has a reference system that is none: {error}") from None
     return np.column_stack([east, north])
 
 

@@ -26,12 +26,12 @@ def read(path: Path) -> list[Feature]:
         import shapefile
     except ModuleNotFoundError:
         reason = "shapefiles need pyshp: pip install 'firetwin[score]'; or save it as GeoJSON"
-        raise input_error(path, 0, 0, reason) from None
+        raise input_error(path, reason) from None
     try:
         system = path.with_suffix(".prj").read_text(encoding="utf-8", errors="replace").strip()
     except OSError:
         reason = "has no .prj, which gives its reference system; add it"
-        raise input_error(path, 0, 0, reason) from None
+        raise input_error(path, reason) from None
     with warnings.catch_warnings(), shapefile.Reader(str(path)) as reader:
         warnings.simplefilter("ignore")  # about damage, which raises an error later
         return [_feature(path, system, i, each) for i, each in enumerate(reader.iterShapeRecords(), 1)]

@@ -35,7 +35,7 @@ def open(path: str | Path) -> Run:
     path = Path(path)
     if not folder.sniff(path) and foreign(path):
         reason = f"is a fire model's own output; make a run of it: firetwin convert {path} --out RUN"
-        raise input_error(path, 0, 0, reason)
+        raise input_error(path, reason)
     return run.open(path)  # which reports errors
 
 
@@ -63,13 +63,13 @@ def gathered(paths: list[Path]) -> list[Path]:
     files: list[Path] = []
     for path in paths:
         if not path.exists():
-            raise input_error(path, 0, 0, "there is no such file or folder; check the path")
+            raise input_error(path, "there is no such file or folder; check the path")
         inner = [path] if path.is_file() else [file for file in sorted(path.iterdir()) if file.is_file()]
         files += [file for file in inner if file not in files]
         if len(files) > _MANY:
-            raise input_error(path, 0, 0, f"holds more than {_MANY:,} files; give those of one run")
+            raise input_error(path, f"holds more than {_MANY:,} files; give those of one run")
     if not files:
-        raise input_error(paths[0], 0, 0, "is a folder without files; give that of a model's output")
+        raise input_error(paths[0], "is a folder without files; give that of a model's output")
     return files
 
 
@@ -97,7 +97,7 @@ def reader(paths: list[Path]) -> ModuleType:
     if len(by_name) > 1:
         by_name.pop(modules[-1].NAME, None)
     if not by_name:
-        raise broken[0] if broken else input_error(paths[0], 0, 0, _why(paths))
+        raise broken[0] if broken else input_error(paths[0], _why(paths))
     one_run.of_models(by_name)
     ((name, ours),) = by_name.items()
     one_run.of_series(ours)

@@ -108,4 +108,4 @@ def _moment(path: Path) -> datetime:
         return datetime(year, month, day, hour, minute, second, tzinfo=UTC)
     except ValueError:
         reason = "its time is in its name only: call it fire_output_YYYY-MM-DD_HH:MM:SS.nc, as the model does"
-        raise input_error(path, 0, 0, reason) from None
+        raise input_error(path, reason) from None

@@ -46,7 +46,7 @@ def read(paths: list[Path], options: Options) -> Model:
         if match and raster.is_raster(path):
             layer = raster.read(path)
             if layer.values.shape != arrival.values.shape:
-                raise input_error(path, 0, 0, "has another grid than the arrival times")
+                raise input_error(path, "has another grid than the arrival times")
             name, unit = _UNITS[match[1]]
             setattr(maps, name, np.where(layer.values > 0, layer.values * np.float64(unit), np.nan))
             files.append(path)

@@ -38,7 +38,7 @@ def read(paths: list[Path], options: Options) -> Model:
         if role in _UNITS and raster.is_raster(path):
             layer = raster.read(path)
             if layer.values.shape != arrival.values.shape:
-                raise input_error(path, 0, 0, "has another grid than the arrival times")
+                raise input_error(path, "has another grid than the arrival times")
             setattr(maps, role, np.where(layer.values > 0, layer.values * np.float64(_UNITS[role]), np.nan))
             files.append(path)
     land = companion_rasters.find(paths, look=True)

@@ -42,7 +42,7 @@ def read(paths: list[Path], options: Options) -> Model:
     domain = {name: file.attribute(name, "domain") for name in forefire_land.DOMAIN}
     file.close()
     if not (domain["Lx"] and domain["Ly"] and domain["Lx"] > 0 and domain["Ly"] > 0):
-        raise input_error(path, 0, 0, "its domain lacks Lx and Ly, the size of the map")
+        raise input_error(path, "its domain lacks Lx and Ly, the size of the map")
     notes = [
         "a cell that the front touched counts as burned, so areas are 2 to 10 % above the fronts' polygons"
     ]
@@ -100,7 +100,7 @@ def _fronts(paths: list[Path], notes: list[str]) -> list[tuple[datetime | None, 
                     moment = datetime.fromisoformat(data["valid_at"]).astimezone(UTC)
                 places = list(_corners([each["geometry"]["coordinates"] for each in data["features"]]))
             except (ValueError, KeyError, TypeError, RecursionError):
-                raise input_error(path, 0, 0, "is no GeoJSON of fronts; leave it out") from None
+                raise input_error(path, "is no GeoJSON of fronts; leave it out") from None
         if not places:
             continue
         x, y = np.array(places, np.float64)[:, :2].T
@@ -150,5 +150,5 @@ def _box(text: str, path: Path | None) -> tuple[float, float, float, float]:
         west, south, east, north = (float(each) for each in text.split(","))
     except ValueError:
         reason = f"its BBoxWSEN is {text!r}, not west, south, east and north in degrees"
-        raise input_error(path or "", 0, 0, reason) from None
+        raise input_error(path or "", reason) from None
     return west, south, east, north

@@ -105,15 +105,15 @@ def _mapping(path: Path | None) -> tuple[dict[str, dict[str, Any]], dict[str, st
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        raise input_error(path, 0, 0, f"is no TOML ({' '.join(str(error).split())})") from None
+        raise input_error(path, f"is no TOML ({' '.join(str(error).split())})") from None
     known = (*_MOVING, *_LEVELS, *_STILL)
     fields = {}
     for name, entry in data.get("fields", {}).items():
         if name not in known:
-            raise input_error(path, 0, 0, f"there is no field {name}, but {', '.join(known)}")
+            raise input_error(path, f"there is no field {name}, but {', '.join(known)}")
         fields[name] = {"variable": entry} if isinstance(entry, str) else dict(entry)
         if not isinstance(fields[name].get("variable"), str):
-            raise input_error(path, 0, 0, f"{name} does not say its variable, in quotes")
+            raise input_error(path, f"{name} does not say its variable, in quotes")
     return fields, dict(data.get("axes", {}))
 
 

@@ -45,7 +45,7 @@ def read(paths: list[Path], options: Options) -> Model:
     arrays = _arrays(path)
     minutes = arrays["time_of_arrival"]
     if minutes.ndim != 2:
-        raise input_error(path, 0, 0, f"time_of_arrival has shape {minutes.shape}, not rows and columns")
+        raise input_error(path, f"time_of_arrival has shape {minutes.shape}, not rows and columns")
     notes = [
         "times are in minutes, fireline_intensity in kW/m, spread_rate in m/min; rows are from the south"
     ]
@@ -77,10 +77,10 @@ def _wind(path: Path, arrays: dict[str, NDArray], notes: list[str]) -> Wind | No
         reason = (
             f"has wind_speed_10m {speed.shape}, upwind_direction {source.shape}: not of its bands and cells"
         )
-        raise input_error(path, 0, 0, reason) from None
+        raise input_error(path, reason) from None
     lasts = float(arrays["band_duration"].ravel()[0]) * 60.0 if "band_duration" in arrays else 0.0
     if len(speed) > 1 and not 0.0 < lasts < np.inf:
-        raise input_error(path, 0, 0, "has wind for several bands; add band_duration (minutes)")
+        raise input_error(path, "has wind for several bands; add band_duration (minutes)")
     notes.append("wind is wind_speed_10m (km/h) from upwind_direction, degrees clockwise from north")
     return given_wind.steps(-speed * np.sin(source), -speed * np.cos(source), 0.0, lasts)
 
@@ -89,7 +89,7 @@ def _bands(path: Path, arrays: dict[str, NDArray], name: str) -> NDArray:
     """Array as (bands, rows, columns), each possibly of length 1."""
     values = arrays[name]
     if values.ndim not in (0, 1, 3) or not np.isfinite(values).all() or values.size == 0:
-        raise input_error(path, 0, 0, f"{name} has shape {values.shape}, not (bands, rows, columns), or gaps")
+        raise input_error(path, f"{name} has shape {values.shape}, not (bands, rows, columns), or gaps")
     return values.reshape(-1, 1, 1) if values.ndim < 3 else values
 
 
@@ -105,7 +105,7 @@ def _grid(path: Path, arrays: dict[str, NDArray], options: Options, notes: list[
         notes.append(said)
         return grid
     reason = "lacks latitude and longitude, or cell_width and cell_height (m); add them with numpy.savez"
-    raise input_error(path, 0, 0, reason)
+    raise input_error(path, reason)
 
 
 def _arrays(path: Path) -> dict[str, NDArray]:
@@ -124,11 +124,11 @@ def _arrays(path: Path) -> dict[str, NDArray]:
         with zipfile.ZipFile(path) as archive:
             sizes = {member.filename: member.file_size for member in archive.infolist()}
         if max(sizes.values()) > _LARGEST:
-            raise input_error(path, 0, 0, "holds an array that is larger than any fire")
+            raise input_error(path, "holds an array that is larger than any fire")
         with np.load(path, allow_pickle=False) as arrays:
             return {name: arrays[name].astype(np.float64) for name in wanted if name in arrays.files}
     except Error:
         raise
     except Exception as error:
         why = " ".join(str(error).split()) or type(error).__name__
-        raise input_error(path, 0, 0, f"cannot be read ({why}); it is damaged") from error
+        raise input_error(path, f"cannot be read ({why}); it is damaged") from error

@@ -107,14 +107,14 @@ def read(path: Path) -> Track:
     """
     reader = _READERS.get(path.suffix.lower())
     if reader is None:
-        raise input_error(path, 0, 0, "is no .gpx, .kml or .csv file; save the track as one of them")
+        raise input_error(path, "is no .gpx, .kml or .csv file; save the track as one of them")
     try:
         state = path.stat()
         return _read(path, state.st_mtime_ns, state.st_size)
     except FileNotFoundError:
-        raise input_error(path, 0, 0, "no such track; see track in the scene file") from None
+        raise input_error(path, "no such track; see track in the scene file") from None
     except OSError as error:
-        raise input_error(path, 0, 0, f"cannot be read: {error.strerror}") from None
+        raise input_error(path, f"cannot be read: {error.strerror}") from None
 
 
 @functools.lru_cache(maxsize=16)
@@ -125,12 +125,12 @@ def _read(path: Path, _changed: int, _size: int) -> Track:
 def _validated(path: Path, points: Sequence[Point]) -> Track:
     """Validate points and make a track."""
     if not points:
-        raise input_error(path, 0, 0, "holds no track: it needs points with latitude and longitude")
+        raise input_error(path, "holds no track: it needs points with latitude and longitude")
     for point in points:
         if not (abs(point.latitude) <= 90.0 and abs(point.longitude) <= 180.0):
             place = f"{point.latitude:g}, {point.longitude:g}"
             reason = f"{place} is no latitude (-90 to 90) and longitude (-180 to 180)"
-            raise input_error(path, point.line, 0, reason)
+            raise input_error(path, reason, line=point.line)
     with_height = _all_or_none(path, points, "height", "a height", "give all points one, or none")
     with_moment = _all_or_none(path, points, "moment", "a time", "give all points one, or none")
     utc = part = None
@@ -154,7 +154,9 @@ def _all_or_none(path: Path, points: Iterable[Point], name: str, what: str, reme
     """
     lacking = [point for point in points if getattr(point, name) is None]
     if lacking and any(getattr(point, name) is not None for point in points):
-        raise input_error(path, lacking[0].line, 0, f"a point without {what} among others with one; {remedy}")
+        raise input_error(
+            path, f"a point without {what} among others with one; {remedy}", line=lacking[0].line
+        )
     return not lacking
 
 
@@ -165,7 +167,7 @@ def _rising(path: Path, points: Sequence[Point]) -> list[Point]:
     for point in points[1:]:
         if isinstance(point.moment, datetime) != dated:
             reason = "some points have a time and others a part of the shot (at); give all the same"
-            raise input_error(path, point.line, 0, reason)
+            raise input_error(path, reason, line=point.line)
         last = ascending[-1]
         if _number(point.moment) > _number(last.moment):
             ascending.append(point)
@@ -173,7 +175,7 @@ def _rising(path: Path, points: Sequence[Point]) -> list[Point]:
             reason = (
                 f"is at {_text(point.moment)}, not later than the point before it; put the points in order"
             )
-            raise input_error(path, point.line, 0, reason)
+            raise input_error(path, reason, line=point.line)
     return ascending
 
 

@@ -27,7 +27,7 @@ def points(path: Path) -> Iterator[Point]:
             for line, value in tables.rows(path, file, _NAMES, ("latitude", "longitude"), _COLUMNS):
                 yield _point(path, line, value)
     except UnicodeDecodeError:
-        raise input_error(path, 0, 0, "is no text in UTF-8; save it as CSV (UTF-8)") from None
+        raise input_error(path, "is no text in UTF-8; save it as CSV (UTF-8)") from None
 
 
 def _point(path: Path, line: int, value: dict[str, str]) -> Point:
@@ -44,7 +44,7 @@ def _moment(path: Path, line: int, value: dict[str, str]) -> datetime | float | 
         part = number(path, line, value["at"], "part of the shot (at)")
         if not 0.0 <= part <= 1.0:
             raise input_error(
-                path, line, 0, f"at is {part:g}; it goes from 0 (first frame) to 1 (last frame)"
+                path, f"at is {part:g}; it goes from 0 (first frame) to 1 (last frame)", line=line
             )
         return part
     return None

@@ -42,7 +42,7 @@ def moment(path: Path, line: int, text: str, zone: bool = False) -> datetime:
             return parsed.astimezone(UTC)
     except (ValueError, OverflowError):
         pass
-    raise input_error(path, line, 0, f'"{text.strip()[:40]}" is no time such as 2014-09-17T21:30:00Z')
+    raise input_error(path, f'"{text.strip()[:40]}" is no time such as 2014-09-17T21:30:00Z', line=line)
 
 
 def number(path: Path, line: int, text: str | None, what: str) -> float:
@@ -58,5 +58,5 @@ def number(path: Path, line: int, text: str | None, what: str) -> float:
     except ValueError:
         parsed = np.nan
     if not np.isfinite(parsed):
-        raise input_error(path, line, 0, f'the {what} is "{(text or "").strip()[:40]}", which is no number')
+        raise input_error(path, f'the {what} is "{(text or "").strip()[:40]}", which is no number', line=line)
     return parsed

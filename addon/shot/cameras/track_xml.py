@@ -71,7 +71,7 @@ def _tracks(path: Path, elements: list[_Element]) -> Iterator[Point]:
                 reason = (
                     f"a track of {len(when)} times <when> and {len(coord)} places <gx:coord>; make them equal"
                 )
-                raise input_error(path, element.line, 0, reason)
+                raise input_error(path, reason, line=element.line)
             for i, place in enumerate(coord):
                 at = moment(path, when[i].line, when[i].text) if when else None
                 yield _kml_point(path, place.line, place.text.split(), mode)._replace(moment=at)
@@ -99,7 +99,7 @@ def _lines(path: Path, elements: list[_Element]) -> Iterator[Point]:
 def _kml_point(path: Path, line: int, parts: list[str], mode: str) -> Point:
     """Parse longitude, latitude and optional height; `mode` is KML's altitude mode."""
     if len(parts) not in (2, 3):
-        raise input_error(path, line, 0, "a place is longitude, latitude and height, in this order")
+        raise input_error(path, "a place is longitude, latitude and height, in this order", line=line)
     longitude, latitude = (number(path, line, text, "longitude or latitude") for text in parts[:2])
     height = number(path, line, parts[2], "height") if len(parts) == 3 else None
     if mode.startswith("clamp"):
@@ -127,7 +127,7 @@ def _elements(path: Path, wanted: set[str]) -> list[_Element]:
 
     def refuse(*_: object) -> None:
         reason = "has a document type (<!DOCTYPE), which no track needs and which may be an attack; remove it"
-        raise input_error(path, parser.CurrentLineNumber, 0, reason)
+        raise input_error(path, reason, line=parser.CurrentLineNumber)
 
     parser.StartElementHandler, parser.EndElementHandler = start, end
     parser.CharacterDataHandler, parser.StartDoctypeDeclHandler = text, refuse
@@ -136,9 +136,9 @@ def _elements(path: Path, wanted: set[str]) -> list[_Element]:
             parser.ParseFile(file)
     except expat.ExpatError as error:
         reason = f"is not whole XML ({expat.ErrorString(error.code)}); export the track again"
-        raise input_error(path, error.lineno, error.offset + 1, reason) from None
+        raise input_error(path, reason, line=error.lineno, column=error.offset + 1) from None
     except (LookupError, ValueError) as error:
-        raise input_error(path, 1, 0, f"cannot be read as XML: {error}") from None
+        raise input_error(path, f"cannot be read as XML: {error}", line=1) from None
     return elements
 
 

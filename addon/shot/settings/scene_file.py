@@ -61,14 +61,14 @@ def error_at(path: Path, where: Where, reason: str) -> InputError:
 
 def _load(path: Path) -> str:
     if path.is_dir():
-        raise input_error(path, 0, 0, _folder(path))
+        raise input_error(path, _folder(path))
     try:
         return path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
-        raise input_error(path, 0, 0, "no such scene file; examples/king_fire.toml shows every key") from None
+        raise input_error(path, "no such scene file; examples/king_fire.toml shows every key") from None
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or error
-        raise input_error(path, 0, 0, f"cannot be read as text: {reason}") from None
+        raise input_error(path, f"cannot be read as text: {reason}") from None
 
 
 def _folder(path: Path) -> str:
@@ -88,7 +88,7 @@ def _syntax_error(path: Path, text: str, message: str) -> InputError:
     match = re.search(r" \(at line (\d+), column (\d+)\)$", message)
     reason = re.sub(r" \(at .*\)$", "", message)
     line, column = (int(match[1]), int(match[2])) if match else (max(1, len(text.splitlines())), 0)
-    return input_error(path, line, column, f"not valid TOML: {reason[:1].lower()}{reason[1:]}")
+    return input_error(path, f"not valid TOML: {reason[:1].lower()}{reason[1:]}", line=line, column=column)
 
 
 class _Reader:
@@ -104,7 +104,7 @@ class _Reader:
         while where and where not in self.places:
             where = where[:-1]
         line, column = self.places.get(where, (0, 0))
-        return input_error(self.path, line, column, reason)
+        return input_error(self.path, reason, line=line, column=column)
 
     def current(self, values: dict[str, Any]) -> dict[str, Any]:
         """Rename former sections and keys to their present names, with a note."""
@@ -129,7 +129,8 @@ class _Reader:
                     here, f"{then} is the former name of {shown.format(now)}, which is there too"
                 )
             reason = f"{then} is called {shown.format(now)} now; the old name is read in this version only"
-            self.former.append(str(input_error(self.path, *self.places[here], reason)))
+            line, column = self.places[here]
+            self.former.append(str(input_error(self.path, reason, line=line, column=column)))
         return {names[name]: value for name, value in values.items()}
 
     def table(self, kind: type, values: dict[str, Any], where: Where) -> Any:

@@ -133,9 +133,7 @@ def read(path: Path) -> Drape:
         lists = {name: tuple(map(str, about[name])) for name in ("credits", "missing")}
         return Drape(path.parent, tuple(areas), **lists)
     except (OSError, ValueError, LookupError, TypeError) as error:
-        raise input_error(
-            path, 0, 0, f"is no list of an orthophoto's pictures ({error}); delete it"
-        ) from None
+        raise input_error(path, f"is no list of an orthophoto's pictures ({error}); delete it") from None
 
 
 def _area(low: list[float], high: list[float], **others: Any) -> DrapeArea:
@@ -153,5 +151,5 @@ def of_shot(shot: ShotView) -> Drape:
     """
     path = location(shot)
     if not path.is_file():
-        raise input_error(path, 0, 0, "the orthophoto of this shot was not fetched; build it again")
+        raise input_error(path, "the orthophoto of this shot was not fetched; build it again")
     return read(path)

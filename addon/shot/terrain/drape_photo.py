@@ -29,7 +29,7 @@ class DrapePhoto(PhotoSource):
 
     def error(self, reason: str) -> InputError:
         """Error about the drape."""
-        return input_error(self.drape.folder, 0, 0, reason)
+        return input_error(self.drape.folder, reason)
 
     def colours(self, latitude: Array, longitude: Array, step: float) -> NDArray[np.float32]:
         """Colours of the finest picture that covers all points, else of the coarsest."""
@@ -63,7 +63,7 @@ class DrapePhoto(PhotoSource):
         try:
             pixels = sensor.read_image(path)
         except InputError as error:
-            raise input_error(path, 0, 0, f"{error.reason}; build the scene again") from None
+            raise input_error(path, f"{error.reason}; build the scene again") from None
         return np.rint(255.0 * np.clip(pixels, 0.0, 1.0)).astype(np.uint8)
 
 

@@ -195,7 +195,7 @@ def check(settings: Settings, run: Run) -> None:
         bounds = (float(west), float(south), float(east), float(north))
         if not overlap(bounds, run.latitude, run.longitude):
             reason = f"covers {said(bounds)}, outside of the run, which covers {said(extent(run))}"
-            raise input_error(path, 0, 0, reason)
+            raise input_error(path, reason)
 
 
 def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
@@ -282,7 +282,7 @@ def _read(settings: Settings) -> list[tuple[str, Feature]]:
     known = [(kind, item) for item in every if (kind := kind_of(item.properties)) and _rings((kind, item))]
     if not known:
         reason = f"has no polygon or line with OpenStreetMap's tags or a kind of {', '.join(KINDS)}"
-        raise input_error(path, 0, 0, reason)
+        raise input_error(path, reason)
     return known
 
 

@@ -237,13 +237,13 @@ class _Plain(PhotoSource):
         try:
             a, d, b, e, c, f = map(float, world.read_text(encoding="utf-8").split())
         except (OSError, ValueError):
-            raise input_error(world, 0, 0, "is no world file: it must hold six numbers, one a line") from None
+            raise input_error(world, "is no world file: it must hold six numbers, one a line") from None
         if not np.isfinite([a, d, b, e, c, f]).all() or abs(a * e - b * d) == 0.0:
-            raise input_error(world, 0, 0, "is no world file: its pixels have no area")
+            raise input_error(world, "is no world file: its pixels have no area")
         return np.array([[a, b, c], [d, e, f]])
 
     def error(self, reason: str) -> InputError:
-        return input_error(self.path, 0, 0, reason)
+        return input_error(self.path, reason)
 
     def colours(self, latitude: Array, longitude: Array, step: float) -> NDArray[np.float32]:
         inverse = np.linalg.inv(self.affine[:, :2])

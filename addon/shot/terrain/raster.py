@@ -90,7 +90,7 @@ class GeoTiff:
 
     def error(self, reason: str) -> InputError:
         """Error about this file."""
-        return input_error(self.path, 0, 0, reason)
+        return input_error(self.path, reason)
 
     @contextmanager
     def open(self) -> Iterator[Any]:

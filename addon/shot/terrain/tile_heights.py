@@ -239,5 +239,5 @@ def read(path: Path, run: Run) -> TileHeights:
         if low.shape != (2,) or not even or not step > 0.0:
             raise ValueError("other shapes")
     except (OSError, ValueError, LookupError, zipfile.BadZipFile) as error:
-        raise input_error(path, 0, 0, f"has no heights of tiles ({error}); delete it") from None
+        raise input_error(path, f"has no heights of tiles ({error}); delete it") from None
     return TileHeights(local_frame(run), Surface(low, step, height, height - depth, shown))

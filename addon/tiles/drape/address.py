@@ -72,17 +72,17 @@ def check(url: str) -> None:
     host = origin(url, name).host
     policy = policies.of_host(host)
     if policy.no_drape:
-        raise input_error(name, 0, 0, f"{policy.name} may not be draped: {policy.no_drape}")
+        raise input_error(name, f"{policy.name} may not be draped: {policy.no_drape}")
     if not is_template(url):
         return
     if "{" in (urlsplit(url).netloc):
-        raise input_error(name, 0, 0, "has a place to fill in its host; name one host")
+        raise input_error(name, "has a place to fill in its host; name one host")
     found = [each[1] for each in _PLACES.finditer(_VARIABLE.sub("", url))]
     if unknown := sorted(set(found) - _KNOWN):
-        raise input_error(name, 0, 0, f"has {{{unknown[0]}}}; known are {{z}}, {{x}}, {{y}} and {{-y}}")
+        raise input_error(name, f"has {{{unknown[0]}}}; known are {{z}}, {{x}}, {{y}} and {{-y}}")
     rows = [each for each in found if each in ("y", "-y")]
     if sorted(each for each in found if each not in rows) != ["x", "z"] or len(rows) != 1:
-        raise input_error(name, 0, 0, "must have {z}, {x} and one of {y} and {-y}, each once")
+        raise input_error(name, "must have {z}, {x} and one of {y} and {-y}, each once")
 
 
 def with_variables(url: str) -> str:
@@ -98,7 +98,7 @@ def with_variables(url: str) -> str:
 
     def value(found: re.Match[str]) -> str:
         if not (text := os.environ.get(found[1], "")):
-            raise input_error(name, 0, 0, f"needs the environment variable {found[1]}")
+            raise input_error(name, f"needs the environment variable {found[1]}")
         values.append(text)
         return text
 
@@ -112,4 +112,4 @@ def with_variables(url: str) -> str:
 def misplaced(name: str) -> InputError:
     """Error of a variable that is no parameter of its own."""
     known = "key, api_key, access_token or token"
-    return input_error(name, 0, 0, f"has a variable that is not the whole of a parameter such as {known}")
+    return input_error(name, f"has a variable that is not the whole of a parameter such as {known}")

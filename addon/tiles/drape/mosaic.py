@@ -116,7 +116,7 @@ class TileServer:
     def _nothing(self) -> InputError:
         """Error of a server without any tile of the scene."""
         name, reason = next(iter(self.missing.values()), ("the orthophoto", "has no tiles"))
-        return input_error(name, 0, 0, f"{reason}; the server has no tile of the scene")
+        return input_error(name, f"{reason}; the server has no tile of the scene")
 
     def _key(self, level: int, column: int, row: int) -> tuple[int, int, int]:
         return level, column % (1 << level), row

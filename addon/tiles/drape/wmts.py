@@ -43,11 +43,11 @@ def address_of(data: bytes, name: str, url: str, layer: str = "") -> TileAddress
     root = _parsed(data, name)
     contents = root.find("./{*}Contents")
     if contents is None:
-        raise input_error(name, 0, 0, "is no WMTS: it has no Contents; name the URL of its capabilities")
+        raise input_error(name, "is no WMTS: it has no Contents; name the URL of its capabilities")
     chosen = _layer(contents, name, layer)
     matrices, levels = _matrix_set(contents, chosen, name)
     if not levels:
-        raise input_error(name, 0, 0, f'the matrix set "{matrices}" has no level')
+        raise input_error(name, f'the matrix set "{matrices}" has no level')
     template = _template(chosen, name, matrices, urljoin(url, _operation(root)), url)
     names = {level: quote(each, safe="") for level, each in levels.items()}
     return TileAddress(template, min(levels), max(levels), names, _box(chosen))
@@ -66,7 +66,7 @@ def _parsed(data: bytes, name: str) -> Element:
     except (ElementTree.ParseError, ValueError, LookupError) as error:
         line, column = getattr(error, "position", (0, 0))
         reason = f"is no WMTS capabilities: {error}; tiles without them are named by {{z}}, {{x}} and {{y}}"
-        raise input_error(name, line, column, reason) from None
+        raise input_error(name, reason, line=line, column=column) from None
 
 
 def _text(element: Element | None, path: str) -> str:
@@ -81,9 +81,9 @@ def _layer(contents: Element, name: str, wanted: str) -> Element:
         return next(iter(layers.values()))
     known = ", ".join(sorted(layers)[:8]) + (", ..." if len(layers) > 8 else "")
     if not layers:
-        raise input_error(name, 0, 0, "has no layer")
+        raise input_error(name, "has no layer")
     what = f'has no layer "{wanted}"' if wanted else f"has {len(layers)} layers; name one of them"
-    raise input_error(name, 0, 0, f"{what}: {known} (terrain.photo_layer)")
+    raise input_error(name, f"{what}: {known} (terrain.photo_layer)")
 
 
 def _matrix_set(contents: Element, layer: Element, name: str) -> tuple[str, dict[int, str]]:
@@ -95,7 +95,7 @@ def _matrix_set(contents: Element, layer: Element, name: str) -> tuple[str, dict
             return each, levels
     sets_there = ", ".join(linked) or "no matrix set"
     reason = f"has tiles in {sets_there}; only WebMercatorQuad (GoogleMapsCompatible) is read"
-    raise input_error(name, 0, 0, f'the layer "{_text(layer, "./{*}Identifier")}" {reason}')
+    raise input_error(name, f'the layer "{_text(layer, "./{*}Identifier")}" {reason}')
 
 
 def _levels(matrices: Element) -> dict[int, str] | None:
@@ -144,7 +144,7 @@ def _filled(template: str, chosen: dict[str, str], name: str) -> str:
 
     def value(found: re.Match[str]) -> str:
         if (text := places.get(found[1].lower())) is None:
-            raise input_error(name, 0, 0, f"its tiles need a {found[1][:60]!r}, which it does not explain")
+            raise input_error(name, f"its tiles need a {found[1][:60]!r}, which it does not explain")
         return text
 
     return _BRACES.sub(value, template)
@@ -156,7 +156,7 @@ def _by_key_and_value(layer: Element, name: str, chosen: dict[str, str], url: st
     kind = next((each for each in _FORMATS if each in formats), "")
     if not kind:
         reason = f"has pictures of {', '.join(formats) or 'no format'}; PNG and JPEG are read"
-        raise input_error(name, 0, 0, f'the layer "{_text(layer, "./{*}Identifier")}" {reason}')
+        raise input_error(name, f'the layer "{_text(layer, "./{*}Identifier")}" {reason}')
     fixed = {
         "service": "WMTS",
         "request": "GetTile",

@@ -88,9 +88,7 @@ class Maker:
     def _check(self) -> None:
         path = self.out / _FILE
         if self.out.is_dir() and any(self.out.iterdir()) and not _is_ours(path):
-            raise input_error(
-                self.out, 0, 0, "is no empty folder and no tileset of Firetwin; name another --out"
-            )
+            raise input_error(self.out, "is no empty folder and no tileset of Firetwin; name another --out")
 
     def _tile(
         self, level: int, row: int, column: int, tiles: dict[tuple[int, int, int], Any]

@@ -107,7 +107,7 @@ def gunzip(data: bytes, most: int, name: str, bits: int = 31) -> bytes:
     except zlib.error as error:
         raise missing(name, f"is damaged: {error}") from error
     if len(result) > limit:
-        raise input_error(name, 0, 0, f"grows to more than {limit:,} bytes when decompressed")
+        raise input_error(name, f"grows to more than {limit:,} bytes when decompressed")
     if not engine.eof:
         raise missing(name, "ends early: its compressed data are not complete")
     return result
@@ -116,4 +116,4 @@ def gunzip(data: bytes, most: int, name: str, bits: int = 31) -> bytes:
 def check_size(size: int, most: int, name: str) -> None:
     """Raise InputError for a file of more than `most` bytes."""
     if size > most:
-        raise input_error(name, 0, 0, f"has {size:,} bytes; at most {most:,} are read")
+        raise input_error(name, f"has {size:,} bytes; at most {most:,} are read")

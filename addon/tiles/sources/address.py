@@ -42,16 +42,14 @@ def origin(url: str, name: str) -> Origin:
         parts: SplitResult = urlsplit(url)
         port = parts.port
     except ValueError as error:
-        raise input_error(name, 0, 0, f"is not a URL: {error}") from None
+        raise input_error(name, f"is not a URL: {error}") from None
     if parts.scheme not in _PORTS or not parts.hostname:
-        raise input_error(
-            name, 0, 0, f"{parts.scheme or 'no scheme'}: is not read from a server; only https is"
-        )
+        raise input_error(name, f"{parts.scheme or 'no scheme'}: is not read from a server; only https is")
     if "@" in parts.netloc:
-        raise input_error(name, 0, 0, "has a user name; keys go into environment variables")
+        raise input_error(name, "has a user name; keys go into environment variables")
     found = Origin(parts.scheme, parts.hostname.lower(), port or _PORTS[parts.scheme])
     if found.scheme == "http" and not is_loopback(found.host):
-        raise input_error(name, 0, 0, "is plain http, which anyone on the way can read; use https")
+        raise input_error(name, "is plain http, which anyone on the way can read; use https")
     return found
 
 
@@ -118,4 +116,4 @@ class Guard:
 def refused_address(host: str, address: str) -> InputError:
     """InputError of a host with a private address."""
     reason = f"has the address {address}, which is not public; --private allows private networks"
-    return input_error(host, 0, 0, reason)
+    return input_error(host, reason)

@@ -34,7 +34,7 @@ class Archive(Source):
         try:
             self._zip = zipfile.ZipFile(path)
         except (OSError, zipfile.BadZipFile, ValueError, NotImplementedError) as error:
-            raise input_error(path, 0, 0, f"cannot be opened as a .3tz archive: {error}") from error
+            raise input_error(path, f"cannot be opened as a .3tz archive: {error}") from error
         self._lock = threading.Lock()
         try:
             self._members = self._checked()
@@ -53,14 +53,14 @@ class Archive(Source):
             raise missing(name, "is not in the archive")
         check_size(member.file_size, most, name)
         if member.file_size > max(GROWTH * member.compress_size, _FREE):
-            raise input_error(name, 0, 0, f"grows more than {GROWTH} times when decompressed")
+            raise input_error(name, f"grows more than {GROWTH} times when decompressed")
         if member.compress_type not in _METHODS:
             reason = (
                 f"is compressed by method {member.compress_type}; pack the archive with deflate, or without"
             )
-            raise input_error(name, 0, 0, reason)
+            raise input_error(name, reason)
         if member.flag_bits & _ENCRYPTED:
-            raise input_error(name, 0, 0, "is encrypted; pack the archive without a password")
+            raise input_error(name, "is encrypted; pack the archive without a password")
         try:
             with self._lock, self._zip.open(member) as file:
                 data = file.read(member.file_size + 1)
@@ -86,7 +86,7 @@ class Archive(Source):
     def _checked(self) -> dict[str, zipfile.ZipInfo]:
         members = self._zip.infolist()
         if len(members) > _MOST_MEMBERS:
-            raise input_error(self.path, 0, 0, f"has more than {_MOST_MEMBERS:,} members")
+            raise input_error(self.path, f"has more than {_MOST_MEMBERS:,} members")
         found: dict[str, zipfile.ZipInfo] = {}
         for member in members:
             name = member.filename
@@ -100,10 +100,8 @@ class Archive(Source):
             )
             # orig_filename: zipfile itself cuts names at a NUL and turns the system's separators.
             if not plain or any(c in member.orig_filename for c in "\\:\0"):
-                raise input_error(
-                    self.path, 0, 0, f"the member {member.orig_filename[:200]!r} leaves the archive"
-                )
+                raise input_error(self.path, f"the member {member.orig_filename[:200]!r} leaves the archive")
             if name in found:
-                raise input_error(self.path, 0, 0, f"the member {name[:200]!r} is there twice")
+                raise input_error(self.path, f"the member {name[:200]!r} is there twice")
             found[name] = member
         return found

@@ -98,7 +98,7 @@ class Connection:
             )
         except library.exceptions.SSLError as error:
             reason = f"its certificate cannot be verified ({self._redactor.text(str(error))[:200]})"
-            raise input_error(name, 0, 0, reason) from None
+            raise input_error(name, reason) from None
         except (library.exceptions.HTTPError, OSError) as error:
             raise TransportError(self._redactor.text(str(error))) from None
         try:
@@ -133,9 +133,7 @@ class Connection:
                 piece = self._inflated(engine, piece, limit + 1 - size)
             size += len(piece)
             if size > limit or raw > most:
-                raise input_error(
-                    name, 0, 0, f"is larger than {most:,} bytes, or grows more than {GROWTH} times"
-                )
+                raise input_error(name, f"is larger than {most:,} bytes, or grows more than {GROWTH} times")
             pieces.append(piece)
         stated = response.headers.get("Content-Length", "")
         if stated.isdecimal() and raw != int(stated):

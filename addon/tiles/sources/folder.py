@@ -26,9 +26,7 @@ class Folder(Source):
     def __init__(self, path: Path) -> None:
         file = path / "tileset.json" if path.is_dir() else path
         if not file.is_file():
-            raise input_error(
-                file, 0, 0, "is not there; name a tileset.json, its folder, a .3tz file or a URL"
-            )
+            raise input_error(file, "is not there; name a tileset.json, its folder, a .3tz file or a URL")
         self.folder = file.parent.resolve()
         self.root = file.name
 
@@ -62,7 +60,7 @@ class Folder(Source):
     def _path(self, uri: str) -> Path:
         path = (self.folder / uri).resolve()
         if not path.is_relative_to(self.folder):
-            raise input_error(self.name(uri), 0, 0, "is a link that leaves the tileset's folder")
+            raise input_error(self.name(uri), "is a link that leaves the tileset's folder")
         if path.exists() and not path.is_file():
             raise missing(self.name(uri), "is not a file")
         return path

@@ -85,7 +85,7 @@ class Http(Source):
         try:
             url, secrets = secret.split(urljoin(base, reference.strip()))
         except ValueError as error:
-            raise input_error(name, 0, 0, f"refers to no URL: {self._say(error)}") from None
+            raise input_error(name, f"refers to no URL: {self._say(error)}") from None
         self.redactor.add(*secrets.values())
         self._allowed(url, name)
         session = secrets.pop(self.policy.session_parameter, "")
@@ -126,7 +126,7 @@ class Http(Source):
         )
         reason = f"{state}, and the network may not be used: {self.network.setting}"
         if uri == self.root:
-            raise input_error(self.name(uri), 0, 0, reason)
+            raise input_error(self.name(uri), reason)
         raise missing(self.name(uri), reason)
 
     def _allowed(self, url: str, name: str) -> Origin:
@@ -134,7 +134,7 @@ class Http(Source):
         found = origin(url, name)
         if found != self.home and not (found.scheme == "https" and found.host in self.network.hosts):
             reason = f"refers to {found}, another host than {self.home}; --host {found.host} allows it"
-            raise input_error(name, 0, 0, self.redactor.text(reason))
+            raise input_error(name, self.redactor.text(reason))
         return found
 
     def _add_key(self) -> None:
@@ -145,7 +145,7 @@ class Http(Source):
         key = os.environ.get(policy.key_variable, "")
         if not key:
             reason = f"{policy.name} needs a key: set the environment variable {policy.key_variable}"
-            raise input_error(self.name(self.root), 0, 0, reason)
+            raise input_error(self.name(self.root), reason)
         self.redactor.add(key)
         self._secrets[policy.key_parameter] = key
 
@@ -197,11 +197,11 @@ class Http(Source):
                 self._failures += 1
                 stop = self._failures >= _MOST_FAILURES
             if stop:
-                raise input_error(name, 0, 0, f"the server does not answer ({why}); try again later")
+                raise input_error(name, f"the server does not answer ({why}); try again later")
             raise missing(name, f"cannot be had after {TRIES + 1} attempts ({why})")
         wait = seconds(asked, tries, self.clock)
         if wait > LONGEST:
-            raise input_error(name, 0, 0, f"the server asks to wait {wait:,.0f} s ({why}); try again then")
+            raise input_error(name, f"the server asks to wait {wait:,.0f} s ({why}); try again then")
         self._pause.ask_for(wait)
 
     def _ask(self, uri: str, kept: Answer | None, most: int, session: str) -> Response:
@@ -221,7 +221,7 @@ class Http(Source):
             there, here = origin(target, self.name(uri)), origin(url, self.name(uri))
             if there != here:
                 reason = f"is redirected to {there}, another host; name its URL there"
-                raise input_error(self.name(uri), 0, 0, self.redactor.text(reason))
+                raise input_error(self.name(uri), self.redactor.text(reason))
             self._own[target] = self._own.get(target, {}) | secrets
             url = target
         raise missing(self.name(uri), f"is redirected more than {_MOST_REDIRECTS} times")
@@ -278,13 +278,13 @@ class Http(Source):
                     return secrets[parameter]
             url = next((each for each, _ in found if contents.kind_by_name(each) == "json"), url)
             self._allowed(url, self.name(self.root))
-        raise input_error(self.name(self.root), 0, 0, "names no new session; try again later")
+        raise input_error(self.name(self.root), "names no new session; try again later")
 
     def _denied(self, uri: str, response: Response, within_session: bool) -> InputError:
         """Error of a request that was refused; a file of an open server is then missing."""
         reason = f"is refused (status {response.status}{self._words(response)})"
         if within_session or uri == self.root or self.bearer:
-            return input_error(self.name(uri), 0, 0, f"{reason}; check the key and its rights")
+            return input_error(self.name(uri), f"{reason}; check the key and its rights")
         return missing(self.name(uri), reason)
 
     def _words(self, response: Response) -> str:

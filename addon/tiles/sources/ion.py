@@ -32,11 +32,11 @@ def open_asset(asset: str, network: Network, clock: Clock | None = None, api: st
     """
     number = asset.removeprefix(PREFIX)
     if not number.isdecimal():
-        raise input_error(asset, 0, 0, "must be ion: and the number of an asset")
+        raise input_error(asset, "must be ion: and the number of an asset")
     token = os.environ.get(POLICY.key_variable, "")
     if not token:
         reason = f"Cesium ion needs a token: set the environment variable {POLICY.key_variable}"
-        raise input_error(asset, 0, 0, reason)
+        raise input_error(asset, reason)
     url = f"{api}/v1/assets/{number}/endpoint"
     uncached = Network(network.online, network.setting, network.hosts, network.private, cache=None)
 

@@ -29,7 +29,7 @@ def relative(base: str, reference: str, name: str) -> str:
     path = reference.partition("#")[0].partition("?")[0]
 
     def refused(reason: str) -> InputError:
-        return input_error(name, 0, 0, f"the reference {reference[:200]!r} {reason}")
+        return input_error(name, f"the reference {reference[:200]!r} {reason}")
 
     if _SCHEME.match(path) or path.startswith("//"):
         raise refused("is not a file of the tileset: files of a folder refer to files of the folder")
