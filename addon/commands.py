@@ -386,7 +386,7 @@ def assets(arguments: argparse.Namespace) -> None:
 
 def schema(arguments: argparse.Namespace) -> None:
     """Print the JSON Schema of scene files."""
-    from .shot.settings.json_schema import json_schema
+    from .shot.schema.json_schema import json_schema
     from .shot.settings.settings import Settings
 
     print(json.dumps(json_schema(Settings), indent=1, ensure_ascii=False))
@@ -458,7 +458,7 @@ def _open(folder: Path) -> Run:
 def _fire(path: Path) -> Fire:
     """Run of a folder, or the first one of a scene file, with the head of its fire."""
     from .places.command import Fire
-    from .shot.run_head import Head
+    from .shot.runs.run_head import Head
 
     run = next(iter(_runs(path).values())) if path.suffix == ".toml" and path.is_file() else _open(path)
     return Fire(run, Head(run))

@@ -14,7 +14,7 @@ from ..render.fingerprint import Fingerprints
 from ..render.picture import Picture
 from ..render.store import Store
 from ..run import content
-from ..shot.settings import frame_list
+from ..shot.schema import frame_list
 from ..shot.shot import Shot
 from . import entries, plan, task
 from .entries import Entry

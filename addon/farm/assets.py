@@ -9,7 +9,7 @@ from ..errors import input_error
 from ..run import content
 from ..shot.fire import observed
 from ..shot.shot import Shot
-from ..shot.terrain import orthophoto
+from ..shot.surface import orthophoto
 
 
 def needed(shot: Shot) -> list[Path]:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from ..errors import Error, UsageError
 from ..progress import Reporter, count, result, say
-from ..shot.settings import frame_list
+from ..shot.schema import frame_list
 from ..shot.source import ShotSource
 from . import assemble, plan, status, submission, task
 from .submission import Submission

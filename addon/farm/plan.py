@@ -15,10 +15,12 @@ from ..render import fingerprint
 from ..render import plan as pictures
 from ..render.picture import Picture
 from ..run.content import sha256
-from ..shot import comparison, frames, scene_runs, tile_terms
-from ..shot.settings import frame_list
+from ..shot import comparison, frames
+from ..shot.runs import scene_runs
+from ..shot.schema import frame_list
 from ..shot.settings.settings import Settings
 from ..shot.shot import Shot
+from ..shot.tiles import tile_terms
 from ..smoke import sources
 from . import assets
 

@@ -15,7 +15,7 @@ from ..jobs import render, solve, worker
 from ..progress import Progress, say
 from ..render import fingerprint
 from ..run.content import sha256
-from ..shot.settings import frame_list
+from ..shot.schema import frame_list
 from ..shot.source import ShotSource
 from . import entries, plan
 from .entries import Log

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from ..errors import Error
 from ..progress import READING, MessageCallback, Progress, no_message, notify_if_slow, silent
-from ..shot import scene_runs
 from ..shot.comparison import for_view
+from ..shot.runs import scene_runs
 from ..shot.source import ShotSource
 from . import worker
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from .. import files
 from ..errors import disk_is_full, full_disk_error, input_error, no_room
 from ..progress import READING, MessageCallback, Progress, no_message, notify_if_slow, silent
-from ..shot import camera_warnings
+from ..shot.cameras import camera_warnings
 from ..shot.source import ShotSource
 from . import drape, tiles, worker
 from .tile_access import TileAccess

@@ -19,9 +19,9 @@ from ..progress import MessageCallback, Progress, count, no_message, share, sile
 from ..shot import comparison, picture_credits
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
-from ..shot.terrain import drape, drape_plan
-from ..shot.terrain.drape import Drape, DrapeArea
-from ..shot.terrain.drape_plan import PlannedArea
+from ..shot.surface import drape, drape_plan
+from ..shot.surface.drape import Drape, DrapeArea
+from ..shot.surface.drape_plan import PlannedArea
 from ..shot.terrain.raster import extent, overlap, said
 from ..tiles import notices
 from ..tiles.drape import address, wmts

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from ..errors import UsageError
 from ..progress import MessageCallback, Progress, no_message, silent
 from ..run import areas, buildings
-from ..shot import tile_terms
 from ..shot.shot import Shot
-from ..shot.terrain import orthophoto
+from ..shot.surface import orthophoto
+from ..shot.tiles import tile_terms
 from ..tiles import geoid
 from ..tiles.make.lattice import Lattice, Surface
 from ..tiles.make.tileset import Maker, Summary

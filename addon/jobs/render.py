@@ -12,10 +12,10 @@ from typing import Any
 from .. import memory
 from ..errors import Error
 from ..progress import READING, MessageCallback, Progress, count, no_message, notify_if_slow, share, silent
-from ..shot import tile_terms
 from ..shot.comparison import for_view
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
+from ..shot.tiles import tile_terms
 from . import drape, solve, tiles, worker
 from .tile_access import TileAccess
 
@@ -303,7 +303,7 @@ def _camera(
     from ..blender import devices
     from ..render import memory_estimate as expected
     from ..render import pictures, plan
-    from ..shot import tile_cut
+    from ..shot.tiles import tile_cut
     from ..smoke import cache, prefetch
     from . import worker_scene
 

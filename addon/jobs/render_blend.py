@@ -10,10 +10,10 @@ from typing import Any
 
 from ..errors import Error
 from ..progress import MessageCallback, Progress, count, no_message, share, silent
-from ..shot import tile_terms
 from ..shot.comparison import for_view
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
+from ..shot.tiles import tile_terms
 from . import worker
 from .render import RenderRequest, frames_of, make, smoky
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import InputError
-from ..shot import tile_cut
+from ..shot.tiles import tile_cut
 from ..smoke.cache import IN_USE
 from ..tiles import decoded
 

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from .. import files
 from ..errors import InputError, input_error
 from ..progress import Progress
-from ..shot import tile_terms
 from ..shot.settings.settings import TileSettings
 from ..shot.shot import Shot
-from ..shot.tile_terms import Use
+from ..shot.tiles import tile_terms
+from ..shot.tiles.tile_terms import Use
 from ..tiles import decoded, notices
 from ..tiles.decoded import Summary
 from ..tiles.policies import Policy

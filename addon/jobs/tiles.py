@@ -16,13 +16,15 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import Error, InputError
 from ..progress import MessageCallback, Progress, count, no_message, share, silent
-from ..shot import comparison, picture_credits, tile_cut, tile_terms
+from ..shot import comparison, picture_credits
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
-from ..shot.terrain import land_use, tile_difference, tile_heights
+from ..shot.surface import land_use
+from ..shot.terrain import tile_heights
 from ..shot.terrain.tile_heights import TileHeights
-from ..shot.tile_cut import TileCut
-from ..shot.tile_terms import Use
+from ..shot.tiles import tile_cut, tile_difference, tile_terms
+from ..shot.tiles.tile_cut import TileCut
+from ..shot.tiles.tile_terms import Use
 from ..tiles import decoded, policies
 from . import tile_source, worker
 from .tile_access import TileAccess, from_plain, permitted

@@ -8,7 +8,8 @@ from typing import Any
 
 from ..errors import Error
 from ..run.content import fingerprint, stamp
-from ..shot import passes, scene_runs
+from ..shot import passes
+from ..shot.runs import scene_runs
 from ..shot.shot import Shot
 from .fingerprint import Fingerprints
 from .picture import Picture, film

@@ -15,13 +15,15 @@ import firetwin_core
 from ..progress import Progress, silent
 from ..run import content
 from ..run.content import fingerprint
-from ..shot import code_fingerprint, comparison, frames, labels, passes, picture_credits, places, tile_cut
+from ..shot import comparison, frames, passes, picture_credits, schema
 from ..shot.cameras import mount
 from ..shot.fire import observed
-from ..shot.settings import schema
+from ..shot.settings import code_fingerprint
 from ..shot.settings.settings import Camera, Settings
 from ..shot.shot import Shot
-from ..shot.terrain import globe_picture, land_use, orthophoto
+from ..shot.stations import labels, station_signs
+from ..shot.surface import globe_picture, land_use, orthophoto
+from ..shot.tiles import tile_cut
 from ..smoke import sources
 from .picture import Picture
 
@@ -122,7 +124,7 @@ def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silen
         | land_use.inputs(shot.settings, progress)
         | globe_picture.inputs(shot.settings, progress)
         | labels.inputs(shot.settings)
-        | places.inputs(shot.settings)
+        | station_signs.inputs(shot.settings)
     )
     more |= observed.inputs(shot.settings, progress)
     shots = {

@@ -7,10 +7,11 @@ from collections.abc import Collection
 
 from ..errors import UsageError
 from ..run.content import fingerprint
-from ..shot import passes, scene_runs
+from ..shot import passes
 from ..shot.cameras import mount
-from ..shot.settings import frame_list
-from ..shot.settings.did_you_mean import suggestion
+from ..shot.runs import scene_runs
+from ..shot.schema import frame_list
+from ..shot.schema.did_you_mean import suggestion
 from ..shot.settings.settings import Camera
 from ..shot.shot import Shot
 from .fingerprint import Fingerprints

@@ -14,7 +14,8 @@ from ..imaging import credits
 from ..imaging.credits import Credits
 from ..progress import Progress, silent
 from ..run import times
-from ..shot import passes, scene_runs
+from ..shot import passes
+from ..shot.runs import scene_runs
 from ..shot.shot import Shot
 from . import engine, films, manifest, picture, spherical, verify
 from .picture import Picture

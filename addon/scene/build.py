@@ -10,10 +10,10 @@ import numpy as np
 
 from ..blender import owned
 from ..progress import MessageCallback
-from ..shot import tile_cut
 from ..shot.light import exposure
 from ..shot.shot import Shot
-from ..shot.terrain import footprints
+from ..shot.surface import footprints
+from ..shot.tiles import tile_cut
 from . import clock, curved_air, infrared, temperature
 from .camera import build as camera
 from .fire import build as fire

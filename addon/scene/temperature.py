@@ -1,12 +1,12 @@
 """Temperatures (K) of all surfaces in the thermal view, as outputs of shader nodes.
 
 Air has the temperature of the run at the point, with a lapse rate of 6.5 K per kilometre above the model's
-terrain. Unburned ground is warmer than the air by (a S - loss) / h: absorbed direct sun S (`shot.sun.direct`)
+terrain. Unburned ground is warmer than the air by (a S - loss) / h: absorbed direct sun S (`run.sun.direct`)
 on the inclined surface, less 70 W/m2 of net long-wave radiation into a clear sky. h is 30 W m-2 K-1 for bare
 ground and 80 for crowns, which stay within some kelvin of the air (both assumed). Shadows of ridges and trees
 do not cool the ground.
 
-Burned ground cools by `shot.air_temperature.cooling`: 97 K above the rest after ten minutes, 38 K after an
+Burned ground cools by `shot.fire.air_temperature.cooling`: 97 K above the rest after ten minutes, 38 K after an
 hour, 19 K after four, where timber burned for two minutes; 12 K after ten minutes where grass burned for a
 quarter of one. Flames are 1000-1500 K (Frankman et al. 2008). A pixel of the front mixes flames with gaps, so
 they are drawn at 1000-1200 K.
@@ -23,7 +23,8 @@ from numpy.typing import NDArray
 
 from ..blender import compat, nodes, owned
 from ..blender.owned import Stage
-from ..shot import air_temperature, sun
+from ..run import sun
+from ..shot.fire import air_temperature
 from ..shot.shot import Shot
 
 FLAME_LOW, FLAME_HIGH = 1000.0, 1200.0  # K

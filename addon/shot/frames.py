@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..run import times
-from .settings import frame_list
+from .schema import frame_list
 
 if TYPE_CHECKING:
     from firetwin_core.run import Run

@@ -10,14 +10,15 @@ from ..errors import input_error
 from ..imaging import credits
 from ..imaging.credits import Credits
 from ..tiles import notices
-from . import comparison, tile_cut
-from .terrain import orthophoto
+from . import comparison
+from .surface import orthophoto
+from .tiles import tile_cut
 
 if TYPE_CHECKING:
     from .settings.protocols import ShotView
     from .settings.settings import Settings
     from .shot import Shot
-    from .tile_cut import TileCut
+    from .tiles.tile_cut import TileCut
 
 
 def of_settings(settings: Settings) -> Credits:

@@ -16,21 +16,22 @@ from ..errors import UsageError
 from ..progress import Progress, silent
 from ..run import content, times, zone
 from ..run.frame import local_frame
-from . import air_temperature, camera_warnings, frames, scene_runs, smoke_scale
-from .cameras import path
+from . import frames
+from .cameras import camera_warnings, path
 from .cameras.path import SENSOR, Path
-from .fire import burning, flame_depth
+from .cameras.visibility import Visibility
+from .fire import air_temperature, burning, flame_depth, smoke_scale
 from .fire.fire import Fire
 from .fire.fuel import DETAIL
+from .fire.smoke_scale import Scale
 from .frames import Frames
-from .settings import frame_list
+from .runs import scene_runs
+from .schema import frame_list
 from .settings.protocols import CameraSettings
 from .settings.settings import SMOKE_METHODS, Camera, Settings
-from .smoke_scale import Scale
 from .terrain import elevation
 from .terrain.elevation import Elevation
 from .terrain.terrain import Terrain
-from .visibility import Visibility
 
 _BURNING_BEFORE = 3600.0  # s before the first frame; ground that burned in this time still counts as burning
 WIDE_LENS = 28.0  # mm, reference focal length at which orthographic views are compared with perspective ones

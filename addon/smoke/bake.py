@@ -18,8 +18,8 @@ from typing import Any
 from ..errors import writing
 from ..progress import MessageCallback, Progress, count, no_message, share, silent, size
 from ..run import content
-from ..shot import code_fingerprint
-from ..shot.settings import schema
+from ..shot import schema
+from ..shot.settings import code_fingerprint
 from ..shot.shot import Shot
 from . import cache, shared_frames, sources
 from .sources import Source

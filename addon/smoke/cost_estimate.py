@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..progress import duration, size
-from ..shot.smoke_scale import FINER
+from ..shot.fire.smoke_scale import FINER
 from . import domains
 from .domains import Domain
 from .flow import Flow

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from ..shot.cameras.path import Path
 from ..shot.fire.fire import Fire
+from ..shot.fire.smoke_scale import FINER, LEVELS, NEST, Scale
 from ..shot.shot import Shot
-from ..shot.smoke_scale import FINER, LEVELS, NEST, Scale
 from . import atmosphere, snapshots
 
 LEAD = 600.0  # s, spin-up of the nest before the first frame, in which its own eddies develop

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from ..shot.fire import heat_release
 from ..shot.fire.fire import Fire
-from ..shot.smoke_scale import Scale
+from ..shot.fire.smoke_scale import Scale
 
 _BLOCK = 300.0  # m, grid on which flames are merged into lights
 _COUNT = 400  # lights at most

@@ -22,8 +22,8 @@ from .. import leases
 from ..errors import writing
 from ..progress import Progress, silent
 from ..run import content
-from ..shot import code_fingerprint
-from ..shot.settings import schema
+from ..shot import schema
+from ..shot.settings import code_fingerprint
 from ..shot.shot import Shot
 from . import cache, domains
 from .domains import Box, Domain

@@ -16,10 +16,10 @@ import numpy as np
 from firetwin_core import flow, lod, volume
 from numpy.typing import NDArray
 
-from ..shot import sun
+from ..run import sun
 from ..shot.cameras.path import SENSOR
+from ..shot.fire.smoke_scale import Scale
 from ..shot.shot import WIDE_LENS, Shot
-from ..shot.smoke_scale import Scale
 from ..shot.terrain import noise
 from . import flame_light, snapshots
 from .close_up import Window

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from .. import files
 from ..errors import writing
 from ..progress import Progress
-from ..shot import sun
+from ..run import sun
 from ..shot.fire import burning
+from ..shot.fire.smoke_scale import FINER, Scale
 from ..shot.shot import Shot
-from ..shot.smoke_scale import FINER, Scale
 from . import atmosphere, cache, domains, snapshots
 from .domains import Domain
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from ..blender import owned
-from ..shot.settings.schema import fields, plain
+from ..shot.schema import fields, plain
 from ..shot.settings.settings import Settings, Time
 from . import camera_list, keys
 from .job import InThread, Steps

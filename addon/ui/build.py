@@ -9,10 +9,11 @@ import bpy
 from ..blender import owned
 from ..errors import Error
 from ..scene.build import PARTS
-from ..shot import camera_warnings, places
-from ..shot.places import Moving
+from ..shot.cameras import camera_warnings
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
+from ..shot.stations import station_signs
+from ..shot.stations.station_signs import Moving
 from . import (
     auto_framing,
     camera_edits,
@@ -146,7 +147,7 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
 def _read(chosen: ShotSource, whole: bool) -> tuple[Shot, Moving | None]:
     """The shot, and for a build of all parts where its fire began and is."""
     shot = chosen.shot()
-    return shot, places.moving(shot) if whole else None
+    return shot, station_signs.moving(shot) if whole else None
 
 
 def _finish(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], new: bool) -> None:

@@ -24,7 +24,7 @@ from dataclasses import replace
 import bpy
 
 from ..errors import Error, InputError
-from ..shot.settings.schema import Field, fields
+from ..shot.schema import Field, fields
 from ..shot.settings.settings import Camera, Settings
 from . import changed_settings, tables
 

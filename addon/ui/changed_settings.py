@@ -11,7 +11,7 @@ import json
 
 import bpy
 
-from ..shot.settings.schema import Field, fields
+from ..shot.schema import Field, fields
 from ..shot.settings.settings import Settings
 from . import keys
 

@@ -17,7 +17,7 @@ import bpy
 import numpy as np
 
 from ..errors import Error
-from ..shot.settings.schema import Field, Key, fields, plain
+from ..shot.schema import Field, Key, fields, plain
 
 Items = tuple[tuple[str, str, str], ...]
 

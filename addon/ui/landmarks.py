@@ -10,7 +10,7 @@ import numpy as np
 from mathutils import Vector
 from numpy.typing import NDArray
 
-from ..shot.places import Moving
+from ..shot.stations.station_signs import Moving
 
 HEAD, IGNITION = "Head of the fire", "Ignition"
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import bpy
 
-from ..shot.settings.schema import fields
+from ..shot.schema import fields
 from ..shot.settings.settings import OtherRun
 from . import sections
 

@@ -11,7 +11,7 @@ from ..errors import Error
 from ..places import store
 from ..places.records import Station
 from ..run import labels
-from ..shot.settings.schema import fields
+from ..shot.schema import fields
 from ..shot.settings.settings import TileSettings
 from ..tiles import policies
 from . import run, sections

@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 from bl_operators.presets import AddPresetBase
 
-from ..shot.settings.schema import Field, fields
+from ..shot.schema import Field, fields
 from . import job, keys, sections, working
 
 _MOVED = (

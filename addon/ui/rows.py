@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..shot.settings.schema import Field, fields
+from ..shot.schema import Field, fields
 from . import keys, sections, working
 from .text import labelled
 

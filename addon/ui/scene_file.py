@@ -14,8 +14,8 @@ import bpy
 
 from .. import files
 from ..errors import Error
+from ..shot.schema import validate
 from ..shot.settings import scene_file, toml_update
-from ..shot.settings.schema import validate
 from ..shot.settings.settings import Settings
 from . import camera_edits, camera_list, keys, other_runs, sections
 

@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 
 from ..scene.build import PARTS
-from ..shot.settings.schema import Field, fields
+from ..shot.schema import Field, fields
 from . import build, job, keys, panel_order, rows, sections
 
 _OWN = ("time",)  # drawn by a panel of its own

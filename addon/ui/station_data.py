@@ -14,7 +14,7 @@ from ..errors import Error
 from ..places import ahead, ignition, picture, store
 from ..places.store import Places
 from ..run import readers
-from ..shot.run_head import Head
+from ..shot.runs.run_head import Head
 from ..shot.terrain.elevation import Elevation
 from . import job
 

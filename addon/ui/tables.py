@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from ..shot.schema import Field
 from ..shot.settings import scene_file, toml_writer
-from ..shot.settings.schema import Field
 
 
 def to_text(part: Field, tables: tuple[Any, ...]) -> str:

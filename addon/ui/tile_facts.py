@@ -8,9 +8,9 @@ from typing import Any
 
 import bpy
 
-from ..shot import tile_cut
 from ..shot.shot import Shot
-from ..shot.tile_cut import TileCut
+from ..shot.tiles import tile_cut
+from ..shot.tiles.tile_cut import TileCut
 from . import tile_credits
 
 _LISTED = 5  # names of missing tiles

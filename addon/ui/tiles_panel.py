@@ -11,7 +11,7 @@ from ..blender import owned
 from ..jobs.worker import Stop
 from ..progress import MessageCallback, Progress
 from ..shot.source import ShotSource
-from ..shot.tile_cut import TileCut
+from ..shot.tiles.tile_cut import TileCut
 from . import choice, job, run, target_scene, tile_facts, view, working
 from .job import InThread, Steps
 from .text import labelled, paragraph
@@ -99,7 +99,7 @@ def _cut(
 ) -> TileCut | None:
     """Prepare a choice of tiles in a process, and read it."""
     from ..jobs import tiles
-    from ..shot import tile_cut
+    from ..shot.tiles import tile_cut
 
     tiles.prepare(chosen, (), progress, tell, stop, preview=coarse)
     shot = chosen.shot()

@@ -9,7 +9,7 @@ from datetime import UTC, datetime, timedelta
 import bpy
 
 from ..run import times
-from ..shot.settings.schema import fields
+from ..shot.schema import fields
 from ..shot.settings.settings import Time
 from ..shot.shot import Shot
 from . import job, keys, rows, run, working

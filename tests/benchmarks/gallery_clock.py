@@ -9,8 +9,7 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import numpy as np
-from firetwin.run import times
-from firetwin.shot import sun
+from firetwin.run import sun, times
 from firetwin_core.run import open as open_run
 
 _LOW = 12.0  # degrees over the horizon that the sun of a day's pictures has at least

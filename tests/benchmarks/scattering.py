@@ -20,7 +20,7 @@ from firetwin.bench.harness import OURS, Bench
 from firetwin.bench.timing import Stopwatch, Times
 from firetwin.jobs import worker
 from firetwin.progress import MessageCallback, Progress, no_message, silent
-from firetwin.shot import sun
+from firetwin.run import sun
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.settings import settings
 from firetwin.shot.shot import Shot

@@ -32,8 +32,9 @@ from firetwin.data import sample
 from firetwin.jobs import tiles
 from firetwin.run import readers
 from firetwin.scene.tiles import build, material, mesh
-from firetwin.shot import auto_framing, tile_cut
+from firetwin.shot import auto_framing
 from firetwin.shot.shot import Shot
+from firetwin.shot.tiles import tile_cut
 
 
 def shot_of(folder: Path, count: int, side: int) -> Shot:

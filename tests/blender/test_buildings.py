@@ -10,7 +10,7 @@ from firetwin.run.buildings import ASSUMED, placement
 from firetwin.scene import build
 from firetwin.scene.terrain import buildings
 from firetwin.shot.shot import Shot
-from firetwin.shot.terrain import footprints
+from firetwin.shot.surface import footprints
 
 HERE = 38.8285, -120.5583
 

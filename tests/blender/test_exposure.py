@@ -12,10 +12,10 @@ from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.fire import emissions
 from firetwin.shot.fire.fire import Fire
+from firetwin.shot.fire.smoke_scale import Scale
 from firetwin.shot.light import exposure, exposure_meter, sky
 from firetwin.shot.settings import settings as scene_settings
 from firetwin.shot.shot import Shot
-from firetwin.shot.smoke_scale import Scale
 from firetwin_core import run as runs
 
 MIDDLE = 38.845, -120.55

@@ -8,9 +8,8 @@ from astral import Observer
 from astral.sun import azimuth, elevation
 from firetwin.blender import compat, owned
 from firetwin.render import engine
-from firetwin.run import frame
+from firetwin.run import frame, sun
 from firetwin.scene.light import build as light
-from firetwin.shot import sun
 from firetwin.shot.light import exposure, sky
 from firetwin.shot.shot import Shot
 

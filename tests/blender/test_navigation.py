@@ -9,12 +9,12 @@ import stations
 from firetwin.blender import owned
 from firetwin.errors import Error
 from firetwin.scene.camera import ground_raycast, read_edits
-from firetwin.shot import places
+from firetwin.shot import schema
 from firetwin.shot.cameras import rigs, targets
 from firetwin.shot.cameras.lenses import LENSES
 from firetwin.shot.cameras.rigs.poses import Poses
-from firetwin.shot.settings import schema
 from firetwin.shot.settings.settings import TileSettings
+from firetwin.shot.stations import station_signs
 from firetwin.ui import (
     camera_list,
     camera_targets,
@@ -113,8 +113,8 @@ def test_a_camera_looks_at_an_empty_that_follows_the_fire_or_stands_at_a_place(p
             place, ahead = _back(scene.camera, frame)
             assert ahead.angle(empty.matrix_world.translation - place) < 1e-3
     assert len(scene.camera.constraints) == 1
-    (tmp_path / "places.csv").write_text("name,latitude,longitude\nStation 61,38.84,-120.55\n")
-    panel.labels.file = str(tmp_path / "places.csv")
+    (tmp_path / "station_signs.csv").write_text("name,latitude,longitude\nStation 61,38.84,-120.55\n")
+    panel.labels.file = str(tmp_path / "station_signs.csv")
     assert bpy.ops.firetwin.camera_aim(target="station", place="station 61") == {"FINISHED"}
     empty = scene.objects["Aim at station 61"]
     assert (empty.location - go_to.place(scene, "38.84 -120.55")).length < 0.01
@@ -213,8 +213,8 @@ def test_one_goes_to_places_names_and_moments(panel):
 
 def test_terms_of_tiles_may_forbid_other_gazetteers(panel, tmp_path):
     """Coordinates and what the run itself names are no search of a gazetteer."""
-    (tmp_path / "places.csv").write_text("name,latitude,longitude\nStation 61,38.84,-120.55\n")
-    panel.labels.file = str(tmp_path / "places.csv")
+    (tmp_path / "station_signs.csv").write_text("name,latitude,longitude\nStation 61,38.84,-120.55\n")
+    panel.labels.file = str(tmp_path / "station_signs.csv")
     scene = bpy.context.scene
     assert go_to.place(scene, "station 61") is not None
     (part,) = (each for each in schema.fields(TileSettings) if each.name == "sources")
@@ -235,9 +235,9 @@ def test_head_ignition_and_stations_are_gone_to(panel, tmp_path):
     panel.stations.file = str(path)
     assert (go_to.place(scene, "base two") - go_to.place(scene, "38.84 -120.55")).length < 0.01
     shot = choice.from_panel(panel).shot()
-    latitude, longitude = places.ignition(shot)
+    latitude, longitude = station_signs.ignition(shot)
     assert (go_to.place(scene, "ignition") - go_to.place(scene, f"{latitude} {longitude}")).length < 5.0
-    wanted = targets.follow("head", shot.bare_ground, shot.frames.times, places._ABOVE)
+    wanted = targets.follow("head", shot.bare_ground, shot.frames.times, station_signs._ABOVE)
     for frame in (1, 3):
         scene.frame_set(frame)
         assert np.array(go_to.place(scene, "Head of the fire")) == pytest.approx(wanted[frame - 1], abs=0.1)
@@ -268,7 +268,7 @@ def test_one_goes_to_the_moment_when_the_fire_reaches_a_station(panel, tmp_path)
 
 
 def test_names_are_off_beside_tiles_whose_terms_forbid_other_gazetteers(panel, tmp_path):
-    file = tmp_path / "places.csv"
+    file = tmp_path / "station_signs.csv"
     file.write_text("name,latitude,longitude\nOld Mill,38.84,-120.55\n")
     panel.labels.file = str(file)
     scene = bpy.context.scene

@@ -13,7 +13,7 @@ import plumes
 import pytest
 from firetwin.blender import compat, owned
 from firetwin.scene.smoke import build as smoke
-from firetwin.shot import visibility
+from firetwin.shot.cameras import visibility
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.settings import scene_file as file
 from firetwin.shot.settings.settings import Camera, Light, SmokeSettings

@@ -8,10 +8,10 @@ import pytest
 from firetwin.errors import InputError
 from firetwin.jobs import tiles
 from firetwin.scene.tiles import flatten, skirt
-from firetwin.shot import tile_cut, tile_terms
 from firetwin.shot.cameras import flight
 from firetwin.shot.shot import Shot
-from firetwin.shot.terrain import tile_heights, tile_trees
+from firetwin.shot.terrain import tile_heights
+from firetwin.shot.tiles import tile_cut, tile_terms, tile_vegetation
 from firetwin.tiles import decoded
 from firetwin.tiles.policies import Policy
 from firetwin.tiles.sources._source import Source
@@ -96,7 +96,7 @@ def test_where_it_burns_is_the_burned_area_and_around(seen):
     shot = make("ours where it burns")
     east, north = made.east.ravel(), made.north.ravel()
     place = np.column_stack([east, north])
-    ours = tile_trees.are_ours(shot, place)
+    ours = tile_vegetation.are_ours(shot, place)
     row, column = shot.ground.indices(*shot.ground.geodetic(east, north))
     burned = shot.ground.burned[np.round(row).astype(int), np.round(column).astype(int)] > 0
     assert ours[burned].all()
@@ -107,21 +107,21 @@ def test_where_it_burns_is_the_burned_area_and_around(seen):
             (column[:, None] - everywhere[:, 1]) * shot.ground.cell[1],
         )
     ).min(axis=1)
-    assert not ours[away > tile_trees.AROUND + 2.5 * max(shot.ground.cell)].any()
+    assert not ours[away > tile_vegetation.AROUND + 2.5 * max(shot.ground.cell)].any()
 
 
 def test_no_tree_stands_in_a_house_or_in_the_tiles_wood(seen):
     make, made = seen
     place = np.column_stack([made.east.ravel(), made.north.ravel(), made.ground.ravel()])
     roof = made.roof.ravel()
-    ours, theirs = (tile_trees.may_stand(make(trees), place) for trees in ("ours", "theirs"))
+    ours, theirs = (tile_vegetation.may_stand(make(trees), place) for trees in ("ours", "theirs"))
     assert ours[~roof].mean() > 0.9
     assert ours[roof].mean() < 0.1
     edge = np.zeros(made.east.shape, bool)
     edge[[0, 1, -2, -1]] = edge[:, [0, 1, -2, -1]] = True
     assert not theirs[~edge.ravel()].any()
     beyond = place + np.array([4.0 * HALF, 0.0, 0.0])
-    assert tile_trees.may_stand(make("theirs"), beyond).all()
+    assert tile_vegetation.may_stand(make("theirs"), beyond).all()
 
 
 def test_things_stand_on_the_ground_and_cameras_clear_the_crowns(seen):

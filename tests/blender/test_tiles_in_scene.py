@@ -13,7 +13,8 @@ from firetwin.render import credits, fingerprint
 from firetwin.scene.terrain import build as ground_build
 from firetwin.scene.tiles import build as tiles_build
 from firetwin.scene.tiles import mesh
-from firetwin.shot import passes, tile_cut
+from firetwin.shot import passes
+from firetwin.shot.tiles import tile_cut
 from firetwin.tiles import geoid
 from tiles_scene import *  # noqa: F403
 

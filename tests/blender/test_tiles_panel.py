@@ -13,10 +13,10 @@ from firetwin.errors import InputError
 from firetwin.jobs import make_tiles, tile_boxes, worker
 from firetwin.jobs.worker import StoppedError
 from firetwin.scene.tiles import preview, reuse
-from firetwin.shot import tile_cut
-from firetwin.shot.settings import schema
+from firetwin.shot import schema
 from firetwin.shot.settings.settings import TileSettings
 from firetwin.shot.terrain import tile_heights
+from firetwin.shot.tiles import tile_cut
 from firetwin.ui import job, keys, scene_file, tile_credits, tile_facts, tiles_panel
 from tiles_scene import *  # noqa: F403
 

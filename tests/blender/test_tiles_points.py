@@ -9,7 +9,7 @@ import tile_files as made
 from firetwin.jobs import tiles
 from firetwin.scene.tiles import build as tiles_build
 from firetwin.scene.tiles import mesh, points
-from firetwin.shot import tile_cut
+from firetwin.shot.tiles import tile_cut
 from firetwin.tiles.place import ecef_to_frame
 from tiles_scene import *  # noqa: F403
 from tilesets import as_bytes, tile, tileset

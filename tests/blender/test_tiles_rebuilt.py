@@ -10,9 +10,9 @@ from firetwin.jobs import tiles
 from firetwin.scene import build as scene_build
 from firetwin.scene.tiles import build as tiles_build
 from firetwin.scene.tiles import reuse
-from firetwin.shot import tile_cut
 from firetwin.shot.shot import Shot
 from firetwin.shot.terrain import tile_heights
+from firetwin.shot.tiles import tile_cut
 from lying_server import Reply, serving
 from tiles_scene import *  # noqa: F403
 

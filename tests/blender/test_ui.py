@@ -14,8 +14,8 @@ from firetwin.blender import devices, owned, viewport
 from firetwin.errors import Error, InputError, input_error
 from firetwin.jobs import assets
 from firetwin.shot import auto_framing, passes
+from firetwin.shot.schema import fields
 from firetwin.shot.settings import scene_file as file
-from firetwin.shot.settings.schema import fields
 from firetwin.smoke import sources
 from firetwin.ui import (
     build,

@@ -4,7 +4,7 @@ import typing
 from datetime import UTC, datetime
 from pathlib import Path
 
-from firetwin.shot.settings import schema
+from firetwin.shot import schema
 from hypothesis import strategies as st
 
 ZONES = ["America/Los_Angeles", "UTC", "Asia/Kathmandu"]

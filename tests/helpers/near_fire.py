@@ -4,7 +4,7 @@ from dataclasses import replace
 from datetime import timedelta
 
 import pytest
-from firetwin.shot import sun
+from firetwin.run import sun
 
 __all__ = ["close", "near", "sun_at"]
 

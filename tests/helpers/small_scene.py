@@ -21,9 +21,9 @@ from firetwin.scene.forest import material as tree_material  # noqa: E402
 from firetwin.scene.forest import preview  # noqa: E402
 from firetwin.scene.terrain import material as ground_material  # noqa: E402
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone  # noqa: E402
+from firetwin.shot.fire.smoke_scale import Scale  # noqa: E402
 from firetwin.shot.settings import settings as scene_settings  # noqa: E402
 from firetwin.shot.shot import Shot  # noqa: E402
-from firetwin.shot.smoke_scale import Scale  # noqa: E402
 from firetwin.smoke import domains  # noqa: E402
 from firetwin_core import run as runs  # noqa: E402
 from firetwin_core import sensor  # noqa: E402

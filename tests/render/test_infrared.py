@@ -10,7 +10,7 @@ from firetwin.blender import nodes
 from firetwin.render import engine
 from firetwin.scene import build, clock, infrared, temperature
 from firetwin.scene.smoke import flow_material
-from firetwin.shot import air_temperature as airs
+from firetwin.shot.fire import air_temperature as airs
 from firetwin.shot.settings.settings import Thermal
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs

@@ -11,7 +11,8 @@ from firetwin.render.picture import Picture
 from firetwin.render.sharing import open_session
 from firetwin.scene import infrared
 from firetwin.scene.build import PARTS
-from firetwin.shot import air_temperature, passes
+from firetwin.shot import passes
+from firetwin.shot.fire import air_temperature
 from firetwin.shot.passes import thermal
 from firetwin_core import sensor
 

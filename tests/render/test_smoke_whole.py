@@ -9,9 +9,9 @@ import pytest
 from firetwin.render import engine
 from firetwin.scene import haze
 from firetwin.scene.smoke import build as smoke
+from firetwin.shot.fire.smoke_scale import Scale
 from firetwin.shot.settings.settings import SmokeSettings
 from firetwin.shot.shot import Shot
-from firetwin.shot.smoke_scale import Scale
 from firetwin.smoke import bake
 
 VOXEL = 40.0

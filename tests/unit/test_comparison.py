@@ -9,11 +9,12 @@ from firetwin.imaging import split_screen
 from firetwin.render import fingerprint, plan
 from firetwin.run import front
 from firetwin.run.score import shapes
-from firetwin.shot import comparison, passes, scene_runs
+from firetwin.shot import comparison, passes
 from firetwin.shot.cameras import path
 from firetwin.shot.cameras.rigs.drone import Drone
 from firetwin.shot.fire import fronts
 from firetwin.shot.passes import difference
+from firetwin.shot.runs import scene_runs
 from firetwin.shot.settings.settings import Camera
 from firetwin.shot.source import ShotSource
 from small_run import RUN_TOML, small_fields, write_field

@@ -10,7 +10,7 @@ import tile_files as made
 from firetwin.errors import InputError
 from firetwin.jobs import decode_tiles
 from firetwin.jobs.decode_tiles import Content
-from firetwin.shot import tile_cut
+from firetwin.shot.tiles import tile_cut
 from firetwin.tiles import decoded
 
 ONE = np.eye(4).tolist()

@@ -5,8 +5,7 @@ from pathlib import Path
 
 import pytest
 from firetwin import cli
-from firetwin.shot import passes
-from firetwin.shot.settings import schema
+from firetwin.shot import passes, schema
 from firetwin.shot.settings.settings import Settings
 
 ROOT = Path(__file__).parents[2]

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from firetwin.shot import passes
 from firetwin.shot.cameras import rigs
-from firetwin.shot.settings.schema import walk
+from firetwin.shot.schema import walk
 from firetwin.shot.settings.settings import Settings
 
 ROOT = Path(__file__).parents[2]

@@ -11,7 +11,7 @@ from firetwin.jobs import drape as job
 from firetwin.jobs import make_tiles
 from firetwin.shot import picture_credits
 from firetwin.shot.source import ShotSource
-from firetwin.shot.terrain import drape, drape_plan, orthophoto
+from firetwin.shot.surface import drape, drape_plan, orthophoto
 from firetwin.tiles.drape import mercator
 from firetwin.tiles.sources.network import Network
 from lying_server import Reply, serving

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from colour_tiles import FRESH, Tiles, colour, png
 from firetwin.errors import InputError
-from firetwin.shot.terrain.drape import Drape, DrapeArea
-from firetwin.shot.terrain.drape_photo import DrapePhoto
+from firetwin.shot.surface.drape import Drape, DrapeArea
+from firetwin.shot.surface.drape_photo import DrapePhoto
 from firetwin.tiles.drape import mercator, mosaic
 from firetwin.tiles.drape.address import TileAddress
 from firetwin.tiles.drape.mosaic import Patch, TileServer

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from firetwin.shot import extent
+from firetwin.shot.fire import extent
 
 
 def test_the_largest_of_several_fires_counts():

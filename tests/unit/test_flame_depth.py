@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 from firetwin.run import areas
-from firetwin.shot import air_temperature
-from firetwin.shot.fire import emissions, flame_depth
+from firetwin.shot.fire import air_temperature, emissions, flame_depth
 from firetwin.shot.settings.settings import Forest, Settings, TerrainSettings, Time
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs

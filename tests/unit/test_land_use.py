@@ -8,7 +8,7 @@ import pytest
 from firetwin.errors import InputError
 from firetwin.run.observations import features
 from firetwin.shot.source import ShotSource
-from firetwin.shot.terrain import land_use
+from firetwin.shot.surface import land_use
 from firetwin_core import run as runs
 from scene_text import GROUND_ALONE
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from firetwin.errors import InputError
 from firetwin.shot.source import ShotSource
-from firetwin.shot.terrain import orthophoto
+from firetwin.shot.surface import orthophoto
 from firetwin_core import sensor
 from scene_text import GROUND_ALONE
 

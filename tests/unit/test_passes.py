@@ -7,9 +7,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from firetwin.imaging import colour_bar
-from firetwin.shot import air_temperature, passes
+from firetwin.shot import passes
 from firetwin.shot.cameras import pixel_rays
 from firetwin.shot.cameras.path import Path
+from firetwin.shot.fire import air_temperature
 from firetwin.shot.passes import thermal as thermal_pass
 from firetwin.shot.settings.settings import Camera, Render, Settings, Thermal, Time
 from firetwin.shot.shot import Shot

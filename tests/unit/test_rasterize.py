@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from firetwin.shot import rasterize
+from firetwin.shot.terrain import rasterize
 
 SHAPE = (60, 80)
 

@@ -7,9 +7,10 @@ from pathlib import Path
 import jsonschema
 import pytest
 from firetwin.errors import InputError
+from firetwin.shot import schema
 from firetwin.shot.cameras import rigs
-from firetwin.shot.settings import scene_file, schema
-from firetwin.shot.settings.json_schema import json_schema
+from firetwin.shot.schema.json_schema import json_schema
+from firetwin.shot.settings import scene_file
 from firetwin.shot.settings.settings import Camera, Settings
 
 TOWER = '''\
@@ -17,7 +18,7 @@ TOWER = '''\
 from dataclasses import dataclass
 
 from firetwin.shot.cameras.rigs import Rig
-from firetwin.shot.settings.schema import key
+from firetwin.shot.schema import key
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from firetwin.errors import InputError
 from firetwin.render import fingerprint
-from firetwin.shot import run_checks
 from firetwin.shot.cameras import path, targets
 from firetwin.shot.cameras.rigs._key import CameraKey
 from firetwin.shot.cameras.rigs.chase import Chase
@@ -15,6 +14,7 @@ from firetwin.shot.cameras.rigs.drone import Drone
 from firetwin.shot.cameras.rigs.lookout import Lookout, LookoutKey
 from firetwin.shot.cameras.rigs.minimap import Minimap
 from firetwin.shot.cameras.rigs.satellite import ORBIT, Satellite
+from firetwin.shot.runs import run_checks
 from firetwin.shot.settings import scene_file
 from firetwin.shot.settings.settings import Camera, Forest, Settings, TerrainSettings, Time
 from firetwin.shot.shot import Shot

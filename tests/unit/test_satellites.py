@@ -5,8 +5,9 @@ from datetime import UTC, datetime
 import numpy as np
 import pytest
 from firetwin.cli import main
-from firetwin.shot import air_temperature, passes
+from firetwin.shot import passes
 from firetwin.shot.cameras.rigs.satellite import Satellite
+from firetwin.shot.fire import air_temperature
 from firetwin.shot.fire.fire import Fire
 from firetwin.shot.satellites import geotiff, imager
 from firetwin.shot.satellites.grid import ORBIT, EvenGrid, FixedGrid, pixel_areas

@@ -10,9 +10,11 @@ from pathlib import Path
 import pytest
 from any_settings import any_table
 from firetwin.errors import InputError
+from firetwin.shot import schema
 from firetwin.shot.cameras.rigs import kinds
-from firetwin.shot.settings import frame_list, scene_file, schema
-from firetwin.shot.settings import toml_positions as places
+from firetwin.shot.schema import frame_list
+from firetwin.shot.schema import toml_positions as places
+from firetwin.shot.settings import scene_file
 from firetwin.shot.settings.settings import Camera, OtherRun, Settings, TerrainSettings, Time
 from hypothesis import given, settings
 from hypothesis import strategies as st

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import jsonschema
 import pytest
-from firetwin.shot import passes
+from firetwin.shot import passes, schema
 from firetwin.shot.cameras.rigs import kinds
 from firetwin.shot.cameras.rigs._key import CameraKey
-from firetwin.shot.settings import scene_file, schema
-from firetwin.shot.settings.json_schema import json_schema
+from firetwin.shot.schema.json_schema import json_schema
+from firetwin.shot.settings import scene_file
 from firetwin.shot.settings.settings import Camera, FireSettings, Render, Settings, Time
 
 ROOT = Path(__file__).parents[2]

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from firetwin.run import areas
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
+from firetwin.shot.fire.smoke_scale import Scale
 from firetwin.shot.light import exposure
 from firetwin.shot.settings.settings import Camera, Settings, Time
 from firetwin.shot.shot import Shot
-from firetwin.shot.smoke_scale import Scale
 from firetwin.smoke import domains
 from firetwin_core import run as runs
 from small_run import RUN_TOML

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from firetwin.shot.smoke_scale import Scale
+from firetwin.shot.fire.smoke_scale import Scale
 from firetwin.smoke.domains import Box, Domain
 
 pytest.importorskip("scipy")

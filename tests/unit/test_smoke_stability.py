@@ -4,7 +4,8 @@ from datetime import UTC, datetime
 
 import numpy as np
 import pytest
-from firetwin.shot import frames, sun
+from firetwin.run import sun
+from firetwin.shot import frames
 from firetwin.shot.settings.settings import Time
 from firetwin.smoke import stability
 from firetwin_core import run as runs

@@ -16,10 +16,11 @@ from firetwin.render import fingerprint, manifest, plan, store
 from firetwin.render.picture import Picture
 from firetwin.render.store import Store
 from firetwin.run import content
-from firetwin.shot import code_fingerprint, passes
+from firetwin.shot import passes
 from firetwin.shot.cameras.rigs._key import CameraKey
 from firetwin.shot.cameras.rigs.drone import Drone
 from firetwin.shot.cameras.rigs.satellite import Satellite
+from firetwin.shot.settings import code_fingerprint
 from firetwin.shot.settings import settings as s
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs

@@ -4,8 +4,7 @@ from datetime import UTC, datetime
 
 import numpy as np
 import pytest
-from firetwin.run import times
-from firetwin.shot import sun
+from firetwin.run import sun, times
 from firetwin_core import run as runs
 
 FULL, NEW = datetime(2014, 9, 9, 8, tzinfo=UTC), datetime(2014, 9, 24, 20, tzinfo=UTC)

@@ -4,8 +4,8 @@ from datetime import datetime
 
 import numpy as np
 import pytest
-from firetwin.run import times
-from firetwin.shot import air_temperature, sun
+from firetwin.run import sun, times
+from firetwin.shot.fire import air_temperature
 from firetwin.shot.settings.settings import BANDS
 from firetwin_core import run as runs
 from firetwin_core import sensor

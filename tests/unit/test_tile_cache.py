@@ -8,8 +8,8 @@ import time
 import pytest
 from firetwin import cli
 from firetwin.jobs import tile_cache
-from firetwin.shot import tile_cut
-from firetwin.shot.tile_cut import TileCut
+from firetwin.shot.tiles import tile_cut
+from firetwin.shot.tiles.tile_cut import TileCut
 from firetwin.tiles import decoded
 from firetwin.tiles.sources import http_cache
 from firetwin.tiles.sources.http_cache import HttpCache

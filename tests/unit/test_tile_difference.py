@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from firetwin.run.frame import local_frame
 from firetwin.shot.settings.settings import Settings
-from firetwin.shot.terrain import tile_difference
 from firetwin.shot.terrain.tile_heights import Surface, TileHeights
+from firetwin.shot.tiles import tile_difference
 from firetwin_core.run import open as open_run
 
 

@@ -6,9 +6,10 @@ import pytest
 from firetwin.errors import InputError
 from firetwin.jobs import build, make_tiles, render, render_blend, tiles
 from firetwin.jobs.tile_access import TileAccess
-from firetwin.shot import passes, tile_terms
+from firetwin.shot import passes
 from firetwin.shot.settings import scene_file
 from firetwin.shot.source import ShotSource
+from firetwin.shot.tiles import tile_terms
 from firetwin.tiles import policies
 from firetwin.tiles.policies import Policy, google, ion
 

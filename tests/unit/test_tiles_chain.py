@@ -23,9 +23,9 @@ from firetwin.data import sample
 from firetwin.errors import Error, InputError
 from firetwin.jobs import decode_tiles, make_tiles, tile_access, tile_source, tiles, worker
 from firetwin.jobs.tile_access import PREFERENCE, TileAccess
-from firetwin.shot import tile_cut
 from firetwin.shot.source import ShotSource
 from firetwin.shot.terrain import tile_heights
+from firetwin.shot.tiles import tile_cut
 from firetwin.tiles import decoded, policies
 from firetwin.tiles.policies import Policy
 from firetwin.tiles.sources import connection, http, http_cache, waiting

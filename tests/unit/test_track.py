@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from firetwin import cli
 from firetwin.errors import InputError
-from firetwin.shot import code_fingerprint, run_checks
 from firetwin.shot.cameras import track
 from firetwin.shot.cameras.rigs.drone import Drone
-from firetwin.shot.settings import scene_file
+from firetwin.shot.runs import run_checks
+from firetwin.shot.settings import code_fingerprint, scene_file
 from firetwin.shot.settings.settings import Camera, Forest, Settings, TerrainSettings, Time
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs

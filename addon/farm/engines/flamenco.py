@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ... import files
 from ...errors import UsageError
-from ...shot.settings import frame_list
+from ...shot.schema import frame_list
 from ._engine import Batch, Engine, find_command
 
 MANAGER = "http://localhost:8080"

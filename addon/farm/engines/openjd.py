@@ -8,7 +8,7 @@ from typing import Any
 
 from ... import files
 from ...errors import UsageError
-from ...shot.settings import frame_list
+from ...shot.schema import frame_list
 from ..plan import FILE, place
 from ._engine import Batch, Engine, find_command
 

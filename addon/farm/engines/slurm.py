@@ -10,7 +10,7 @@ from pathlib import Path
 
 from ... import files
 from ...errors import UsageError
-from ...shot.settings import frame_list
+from ...shot.schema import frame_list
 from . import _shell
 from ._engine import Batch, Engine, find_command
 

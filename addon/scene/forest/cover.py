@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from ...run import fuel_category
 from ...shot.shot import Shot
-from ...shot.terrain import land_use, noise
+from ...shot.surface import land_use
+from ...shot.terrain import noise
 from ...shot.terrain.terrain import Terrain
 from . import biomes, patterns
 

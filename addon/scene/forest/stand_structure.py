@@ -12,8 +12,10 @@ from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...shot.shot import Shot
-from ...shot.terrain import land_use, noise, tile_trees
+from ...shot.surface import land_use
+from ...shot.terrain import noise
 from ...shot.terrain.terrain import box, widened
+from ...shot.tiles import tile_vegetation
 from . import biomes, cover, field_lines
 
 LONE_FUEL = 0.02  # kg/m2; canopy fuel assumed for trees of cells without any: 57 stems a hectare, up to 15 m
@@ -71,7 +73,7 @@ def retained(shot: Shot, position: Array) -> Array:
     if shot.settings.terrain.land_use is not None:
         wet = np.where(land_use.keeps_out(shot, position), 1.0, wet)
     part: Array = np.maximum(stand, lone)
-    return part * (wet < 0.3) * tile_trees.may_stand(shot, position)
+    return part * (wet < 0.3) * tile_vegetation.may_stand(shot, position)
 
 
 def _scattered(shot: Shot, part: float, position: Array) -> Array:

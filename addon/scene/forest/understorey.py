@@ -14,7 +14,9 @@ from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...shot.shot import Shot
-from ...shot.terrain import land_use, noise, tile_trees
+from ...shot.surface import land_use
+from ...shot.terrain import noise
+from ...shot.tiles import tile_vegetation
 from . import biomes, cover, field_lines, models
 
 _PIXELS = 2.0  # least height in pixels of what is drawn; at this height a half of it is
@@ -252,7 +254,7 @@ def _scattered(shot: Shot, kind: PlantKind, number: int, pixel: float, budget: i
         density = density * kind.also(place)
     if shot.settings.terrain.land_use is not None:
         density = density * ~land_use.keeps_out(shot, place)
-    density = density * tile_trees.may_stand(shot, place)
+    density = density * tile_vegetation.may_stand(shot, place)
     stands = np.flatnonzero(lot(2, cells) < density * width**2)
     cells, place, height, tall = cells[stands], place[stands], height[stands], tall[stands]
     position = np.column_stack([place, shot.ground.up(*place.T)]) if len(place) else np.empty((0, 3))

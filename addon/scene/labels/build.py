@@ -10,8 +10,8 @@ import bpy
 
 from ...blender import owned
 from ...blender.owned import Stage
-from ...shot import labels
 from ...shot.shot import Shot
+from ...shot.stations import labels
 from . import facing, lettering, material
 from .lettering import RIM, Part
 

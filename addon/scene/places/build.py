@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ...blender.owned import Stage
-from ...shot import places
 from ...shot.shot import Shot
+from ...shot.stations import station_signs
 from . import buildings, handles, routes, signs
 
 
@@ -12,10 +12,10 @@ def build(shot: Shot, stage: Stage) -> None:
     """Build signs, buildings, handles and routes; nothing where stations are off."""
     settings = shot.settings.stations
     written, walls = stage.part("Stations"), stage.part("Buildings")
-    shown = places.signs(shot)
+    shown = station_signs.signs(shot)
     if shown and settings.signs:
         signs.build(shot, written, shown)
     if shown and settings.buildings:
         buildings.build(shot, stage, walls, shown)
     handles.build(shot, written, shown)
-    routes.build(shot, written, places.routes(shot, shown))
+    routes.build(shot, written, station_signs.routes(shot, shown))

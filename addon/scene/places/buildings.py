@@ -12,8 +12,8 @@ from ...blender import owned
 from ...blender.owned import Stage
 from ...run import areas
 from ...run.buildings import Footprint, stand
-from ...shot.places import Sign
 from ...shot.shot import Shot
+from ...shot.stations.station_signs import Sign
 from ..terrain import buildings
 from ..terrain.buildings import Blocks
 

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import bpy
 
 from ...blender import owned
-from ...shot.places import Sign
 from ...shot.shot import Shot
+from ...shot.stations.station_signs import Sign
 
 STATION = "firetwin_station"
 """Property of a handle: number and name of its station, as `key` writes them."""

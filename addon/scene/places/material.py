@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import bpy
 
-from ...shot.places import FACT, INVENTED, USER
 from ...shot.shot import Shot
+from ...shot.stations.station_signs import FACT, INVENTED, USER
 from ..labels import material
 
 TITLE = "Stations"

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from ...blender import nodes, owned
 from ...run import areas
-from ...shot.places import Route
 from ...shot.shot import Shot
+from ...shot.stations.station_signs import Route
 from ..labels import facing, lettering
 from ..labels.material import FADE
 from . import material

@@ -12,8 +12,8 @@ import bpy
 
 from ...blender import owned
 from ...places.records import EXERCISE
-from ...shot.places import Sign
 from ...shot.shot import Shot
+from ...shot.stations.station_signs import Sign
 from ..labels import facing, lettering
 from ..labels.lettering import Part
 from . import material

@@ -9,7 +9,7 @@ import numpy as np
 from firetwin_core import sensor, volume
 
 from ...blender.owned import Stage, ours
-from ...shot import air_temperature
+from ...shot.fire import air_temperature
 from ...shot.light import sky
 from ...shot.settings.settings import BANDS
 from ...shot.shot import Shot

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ...blender import nodes, owned
 from ...blender.owned import Stage
-from ...shot import sun
+from ...run import sun
 from ...shot.shot import Shot
 from ...smoke.domains import Box
 from . import illumination

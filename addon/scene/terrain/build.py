@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 
 from ...blender import owned
 from ...blender.owned import Stage
-from ...shot import picture_credits, tile_cut
+from ...shot import picture_credits
 from ...shot.shot import Shot
 from ...shot.terrain import mesh_tolerance
+from ...shot.tiles import tile_cut
 from .. import credits
 from ..forest.stand import Stand
 from . import buildings, fields, globe, material, solid_view

@@ -17,7 +17,8 @@ from ...run.buildings import Building, blocks, rings
 from ...run.buildings.rings import Rings
 from ...shot.passes import masks
 from ...shot.shot import Shot
-from ...shot.terrain import footprints, noise
+from ...shot.surface import footprints
+from ...shot.terrain import noise
 from .. import haze, infrared, temperature
 from . import burn_scar, fields, shading_inputs
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ...blender import nodes, owned
 from ...shot.shot import Shot
-from ...shot.terrain import land_use, orthophoto
+from ...shot.surface import land_use, orthophoto
 from ...shot.terrain.terrain import Terrain
 from ..forest import biomes, cover
 from ..forest.stand import Stand

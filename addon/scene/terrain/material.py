@@ -14,7 +14,7 @@ from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.passes import masks
 from ...shot.shot import Shot
-from ...shot.terrain import orthophoto
+from ...shot.surface import orthophoto
 from .. import haze
 from ..forest import biomes
 from ..forest.biomes import Here

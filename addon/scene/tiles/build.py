@@ -10,9 +10,9 @@ import bpy
 
 from ...blender import owned
 from ...blender.owned import Stage
-from ...shot import tile_cut
 from ...shot.shot import Shot
-from ...shot.tile_cut import TileCut
+from ...shot.tiles import tile_cut
+from ...shot.tiles.tile_cut import TileCut
 from ...tiles import decoded
 from ...tiles.decoded import Decoded
 from .. import credits

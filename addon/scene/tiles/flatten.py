@@ -7,9 +7,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...shot import tile_cut
 from ...shot.shot import Shot
-from ...shot.terrain import tile_trees
+from ...shot.tiles import tile_cut, tile_vegetation
 from ...tiles.decoded import Decoded
 
 LEAST = 1.0
@@ -25,7 +24,7 @@ def flatten(shot: Shot, tile: Decoded) -> Decoded:
     growing = np.flatnonzero(heights.growth(place[:, 0], place[:, 1]))
     ground = heights.up(place[growing, 0], place[growing, 1])
     high = place[growing, 2] - ground > LEAST
-    high[high] = tile_trees.are_ours(shot, place[growing[high]])
+    high[high] = tile_vegetation.are_ours(shot, place[growing[high]])
     if not high.any():
         return tile
     moved = growing[high]

@@ -11,10 +11,10 @@ import numpy as np
 
 from ...blender import nodes, owned, state
 from ...blender.owned import Stage
-from ...shot import code_fingerprint
+from ...shot.settings import code_fingerprint
 from ...shot.settings.settings import TileSettings
 from ...shot.shot import Shot
-from ...shot.terrain import land_use, orthophoto
+from ...shot.surface import land_use, orthophoto
 from ..forest.stand import Stand
 from ..terrain import fields, material
 from . import reuse

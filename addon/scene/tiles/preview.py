@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...blender import nodes, owned
 from ...blender.owned import Stage
-from ...shot.tile_cut import TileCut
+from ...shot.tiles.tile_cut import TileCut
 from ...tiles import decoded
 from . import mesh, pictures, slot
 

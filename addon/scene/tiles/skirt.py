@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...shot import tile_cut
 from ...shot.shot import Shot
+from ...shot.tiles import tile_cut
 from ...tiles.decoded import Decoded
 
 _BELOW = 2.0  # m that a skirt reaches below the ground beside it

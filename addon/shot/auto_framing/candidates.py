@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import sun
+from ...run import sun
 from .front import Front
 from .visible_share import VisibleShare
 

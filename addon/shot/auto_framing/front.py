@@ -8,8 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import extent
-from ..fire import burning
+from ..fire import burning, extent
 from ..shot import Shot
 from ..terrain.terrain import NEVER, UNKNOWN, Terrain, box
 from . import straight_plume

@@ -10,7 +10,7 @@ from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
 from ...run import areas, times, zone
-from .. import extent
+from ..fire import extent
 from ..settings.settings import Time
 
 FRAMES, FPS = 48, 12  # four seconds, as in the example

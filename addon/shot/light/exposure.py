@@ -13,7 +13,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import sun
+from ...run import sun
 from ..cameras import targets
 from ..cameras.path import Path
 from ..shot import Shot

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import sun
+from ...run import sun
 from ..shot import Shot
 from ..terrain import noise
 

@@ -85,7 +85,7 @@ def _credits(shot: Shot) -> dict[str, Any]:
 
 def _tiles(shot: Shot) -> dict[str, Any]:
     """What is missing of the tiles that the frame shows, and their screen-space error, pixels."""
-    from .. import tile_cut
+    from ..tiles import tile_cut
 
     cut = tile_cut.prepared(shot)
     return {"tiles": {"missing": list(cut.missing), "error": cut.error}} if cut else {}

@@ -65,7 +65,7 @@ def finish(
 
 def scale(shot: Shot, frame: int) -> tuple[float, float]:
     """Temperatures (K) at the cold and the hot end of the palette in a frame."""
-    from .. import air_temperature
+    from ..fire import air_temperature
     from ..settings.settings import BANDS
 
     low, high = shot.settings.render.thermal_low, shot.settings.render.thermal_high

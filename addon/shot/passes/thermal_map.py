@@ -2,7 +2,7 @@
 
 The run's `temperature` is averaged over ten minutes, or over the frame step if that is longer. The gradient
 black, purple, red, orange, yellow, white shows its excess over unburned air of equal elevation
-(`shot.air_temperature.warmth`). The paper does not define where its gradient begins. Over the whole field,
+(`shot.fire.air_temperature.warmth`). The paper does not define where its gradient begins. Over the whole field,
 cold ridges and warm valleys would take most of it and redden all unburned ground. Black is the excess that
 one percent of unburned cells exceed. White is the warmest of the shot, so colours mean the same in every
 frame. The colour of the visible ground, from depth, is added to the picture's pixels (0..1) and clamped at 1.
@@ -27,8 +27,8 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     from firetwin_core import sensor
     from firetwin_core.terrain import bilinear
 
-    from .. import air_temperature
     from ..cameras import pixel_rays
+    from ..fire import air_temperature
 
     now = float(shot.frames.time(frame))
     above, _ = air_temperature.warmth(shot.run, now - shot.air.averaged, now)

@@ -34,8 +34,7 @@ from firetwin_core.run import Run
 from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
-from .. import air_temperature
-from ..fire import burning
+from ..fire import air_temperature, burning
 from ..fire.fire import Fire
 from .grid import Array, EvenGrid, FixedGrid, ImagerGrid, pixel_areas
 

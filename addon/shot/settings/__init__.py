@@ -1,1 +1,1 @@
-"""Settings and the scene file format: schema, reader, writer, JSON Schema."""
+"""Settings and scene files: reader, writer and the list of all keys."""

@@ -13,10 +13,10 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import InputError, input_error
-from .did_you_mean import suggestion
-from .schema import Field, Key, Where, either, fields, items, validate
+from ..schema import Field, Key, Where, either, fields, items, validate
+from ..schema.did_you_mean import suggestion
+from ..schema.toml_positions import places
 from .settings import FORMER, FORMER_KEYS, Settings
-from .toml_positions import places
 from .toml_writer import text
 
 __all__ = ["error_at", "parse", "read", "text"]

@@ -16,12 +16,12 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from .. import biome_names, passes
+from .. import passes
 from ..cameras import rigs
-from . import frame_list
-from .bounds import file_name, twice
-from .did_you_mean import suggestion
-from .schema import Where, fields, key, kind_of, one_of
+from ..schema import Where, fields, frame_list, key, kind_of, one_of
+from ..schema.bounds import file_name, twice
+from ..schema.did_you_mean import suggestion
+from . import biome_names
 
 BANDS = {"lwir": (8.0, 14.0), "mwir": (3.4, 4.1)}  # um, of infrared cameras
 MOST_RUNS = 3  # comparison runs, in addition to the first run

@@ -19,9 +19,9 @@ from tomlkit.items import AoT
 
 from ... import files
 from ...errors import Error
+from ..schema.toml_positions import Path, places, tables
 from .scene_file import parse, text
 from .settings import FORMER, FORMER_KEYS, Settings
-from .toml_positions import Path, places, tables
 
 Values = dict[str, Any]
 

@@ -10,7 +10,7 @@ from datetime import UTC, datetime, timedelta, tzinfo
 from pathlib import Path
 from typing import Any
 
-from .schema import Field, Key, fields, items, kind_of, plain, summary
+from ..schema import Field, Key, fields, items, kind_of, plain, summary
 from .settings import Settings
 
 Line = tuple[str, str]  # text, and its comment

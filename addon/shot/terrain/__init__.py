@@ -1,1 +1,1 @@
-"""Terrain: elevation, fuels, land use, the apron, and mesh accuracy."""
+"""Terrain: elevation, fuels, the apron, and mesh accuracy."""

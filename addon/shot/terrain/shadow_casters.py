@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import sun
+from ...run import sun
 
 if TYPE_CHECKING:
     from ..settings.protocols import ShotView

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ... import files
 from ...errors import input_error
 from ...run.frame import local_frame
-from .. import rasterize
+from . import rasterize
 
 if TYPE_CHECKING:
     from ...tiles.decoded import Decoded

@@ -17,7 +17,7 @@ from firetwin_core import lod, volume
 from numpy.typing import NDArray
 
 from ...progress import Progress, silent
-from ...shot.code_fingerprint import PACKAGE
+from ...shot.settings.code_fingerprint import PACKAGE
 from ...shot.shot import Shot
 from .. import flame_light
 from ..cost_estimate import Cost

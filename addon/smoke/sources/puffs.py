@@ -8,7 +8,7 @@ from typing import Any
 
 from firetwin_core import constants, volume
 
-from ...shot import sun
+from ...run import sun
 from ...shot.fire import burning
 from ...shot.fire.fire import Cells
 from .. import stability

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
     from firetwin_core.run import Run
 
+    from ...schema import Where
     from ...settings.protocols import CameraSettings, Frames, ShotView
-    from ...settings.schema import Where
     from ._view import View
 
     Place = tuple[Where, float, float]

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from ...settings.bounds import AIM, HEIGHT
-from ...settings.schema import Where, key
+from ...schema import Where, key
+from ...schema.bounds import AIM, HEIGHT
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ...settings.bounds import SENSOR as WIDTH
-from ...settings.bounds import Bounds
-from ...settings.schema import key
+from ...schema import key
+from ...schema.bounds import SENSOR as WIDTH
+from ...schema.bounds import Bounds
 from ..path import SENSOR
 from . import Rig
 

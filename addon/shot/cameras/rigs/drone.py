@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...settings.bounds import CLEARANCE
-from ...settings.schema import Where, key
+from ...schema import Where, key
+from ...schema.bounds import CLEARANCE
 from .. import flight, path, targets
 from ..flight import Waypoints
 from ..path import Array, Path

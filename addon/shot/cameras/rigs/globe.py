@@ -10,8 +10,8 @@ import numpy as np
 
 from ....ellipsoid import enu_axes
 from ....geodesic import direct, inverse
-from ...settings.bounds import AIM, ANGLE, CLEARANCE, HEIGHT, LENGTH
-from ...settings.schema import Where, key
+from ...schema import Where, key
+from ...schema.bounds import AIM, ANGLE, CLEARANCE, HEIGHT, LENGTH
 from .. import clipping, flight, path, zoom
 from ..path import Array, Path
 from ._lens import Lens

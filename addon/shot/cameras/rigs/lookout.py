@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...settings.bounds import ANGLE, HEIGHT
-from ...settings.schema import Where, key
+from ...schema import Where, key
+from ...schema.bounds import ANGLE, HEIGHT
 from .. import path
 from ..path import Path
 from ._key import rising

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...settings.bounds import SWATH
-from ...settings.schema import key
+from ...schema import key
+from ...schema.bounds import SWATH
 from ..path import Path
 from . import Rig
 from .satellite import down

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from ...settings.bounds import SENSOR as WIDTH
-from ...settings.schema import Where, key
+from ...schema import Where, key
+from ...schema.bounds import SENSOR as WIDTH
 from ..path import SENSOR, Path
 from . import Rig
 from ._lens import FOCAL_LENGTH, Lens

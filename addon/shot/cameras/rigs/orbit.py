@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...settings.bounds import AIM, ANGLE, CLEARANCE, HEIGHT, LENGTH
-from ...settings.schema import key
+from ...schema import key
+from ...schema.bounds import AIM, ANGLE, CLEARANCE, HEIGHT, LENGTH
 from .. import flight, path
 from ..path import Path
 from ._lens import FOCAL_LENGTH, Lens

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...settings.bounds import AIM, ANGLE
-from ...settings.schema import Where, key
+from ...schema import Where, key
+from ...schema.bounds import AIM, ANGLE
 from .. import path, sparse_keys
 from .. import rotation as turning
 from ..path import Path

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ....run.frame import local_frame
-from ...settings.bounds import SWATH
-from ...settings.schema import Where, key
+from ...schema import Where, key
+from ...schema.bounds import SWATH
 from .. import path
 from ..path import Array, Path
 from . import Rig

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ....run import labels
-from ...settings.bounds import AIM, ANGLE, CLEARANCE, HEIGHT, LENGTH
-from ...settings.did_you_mean import suggestion
-from ...settings.schema import Where, key
+from ...schema import Where, key
+from ...schema.bounds import AIM, ANGLE, CLEARANCE, HEIGHT, LENGTH
+from ...schema.did_you_mean import suggestion
 from .. import flight, path, targets
 from ..path import Array, Path
 from ._lens import Lens

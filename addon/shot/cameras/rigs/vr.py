@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from ...settings.bounds import CLEARANCE
-from ...settings.schema import Where, key
+from ...schema import Where, key
+from ...schema.bounds import CLEARANCE
 from .. import path
 from ..path import Path
 from ..track import MOMENTS

@@ -7,10 +7,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..run import labels
-from ..run.content import sha256
-from .settings.settings import Settings
-from .shot import Shot
+from ...run import labels
+from ...run.content import sha256
+from ..settings.settings import Settings
+from ..shot import Shot
 
 
 class Labels(NamedTuple):

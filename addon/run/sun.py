@@ -12,7 +12,7 @@ from astral.sun import azimuth, elevation
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from ..run import times
+from . import times
 
 NIGHT = -1.0  # degrees, solar elevation below which the moon shines
 _STARS = (150.0, 40.0)  # degrees, bearing and elevation of the residual light on a night without moon

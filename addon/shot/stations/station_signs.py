@@ -13,20 +13,20 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..ellipsoid import metres_per_degree
-from ..errors import input_error
-from ..places import ahead, measures, store
-from ..places.describe import count_types
-from ..places.records import EXERCISE, ORIGINS, Resource, Station
-from ..places.store import Places
-from ..run import areas
-from ..run.content import sha256
-from ..run.observations import Detections, Feature, features
-from .cameras import targets
-from .settings import scene_file
-from .settings.settings import Settings
-from .shot import Shot
-from .terrain.terrain import Terrain
+from ...ellipsoid import metres_per_degree
+from ...errors import input_error
+from ...places import ahead, measures, store
+from ...places.describe import count_types
+from ...places.records import EXERCISE, ORIGINS, Resource, Station
+from ...places.store import Places
+from ...run import areas
+from ...run.content import sha256
+from ...run.observations import Detections, Feature, features
+from ..cameras import targets
+from ..settings import scene_file
+from ..settings.settings import Settings
+from ..shot import Shot
+from ..terrain.terrain import Terrain
 
 FACT, INVENTED, USER = ORIGINS
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 from firetwin_core.run import Run
 
-from ..run import areas, labels, times
-from . import frames, places
-from .fire import observed
-from .settings import scene_file
-from .settings.settings import Settings
-from .terrain import elevation, globe_picture, land_use, orthophoto
+from ...run import areas, labels, times
+from .. import frames
+from ..fire import observed
+from ..settings import scene_file
+from ..settings.settings import Settings
+from ..stations import station_signs
+from ..surface import globe_picture, land_use, orthophoto
+from ..terrain import elevation
 
 
 def check(settings: Settings, run: Run) -> None:
@@ -29,7 +31,7 @@ def check(settings: Settings, run: Run) -> None:
     observed.check(settings)
     if settings.labels.enabled and settings.labels.file:
         labels.read(settings.labels.file)
-    places.check(settings)
+    station_signs.check(settings)
     for index, camera in enumerate(settings.cameras):
         for where, latitude, longitude in (*camera.rig.coordinates(), *camera.rig.coordinates_in(run)):
             _near(settings, run, ("cameras", index, *where), camera.name, latitude, longitude)

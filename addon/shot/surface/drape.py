@@ -17,9 +17,9 @@ from ...errors import InputError, input_error
 from ...tiles.drape import address
 from ...tiles.drape.mercator import NORTHMOST
 from ...tiles.sources import secret
+from ..cameras.view_digest import of_views
 from ..settings import scene_file
 from ..settings.settings import Settings
-from ..view_digest import of_views
 
 if TYPE_CHECKING:
     from ..settings.protocols import ShotView

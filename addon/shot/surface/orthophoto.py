@@ -23,12 +23,12 @@ from ...progress import Progress, silent
 from ...run import areas, content
 from ..settings import scene_file
 from ..settings.settings import Settings
+from ..terrain.elevation import ramp
+from ..terrain.raster import Array, GeoTiff, extent, overlap, said
 from . import drape
 from .drape_photo import DrapePhoto
-from .elevation import ramp
 from .photo_areas import areas_of, size_of
 from .photo_source import PhotoSource, Pixels, between_pixels, rgba, thinned
-from .raster import Array, GeoTiff, extent, overlap, said
 
 if TYPE_CHECKING:
     from ..settings.protocols import ShotView

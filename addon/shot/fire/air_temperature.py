@@ -13,9 +13,9 @@ from firetwin_core import sensor
 from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
-from . import sun
-from .fire import emissions
-from .settings.protocols import Frames
+from ...run import sun
+from ..settings.protocols import Frames
+from . import emissions
 
 # s, time for which the front heats the ground under timber
 PULSE = emissions.KINDS[emissions.LITTER].residence

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...run import areas
-from .raster import Array
+from ..terrain.raster import Array
 
 if TYPE_CHECKING:
     from ..settings.protocols import ShotView

@@ -6,14 +6,14 @@ import contextlib
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from ..errors import InputError, input_error
-from ..tiles import policies
-from ..tiles.policies import Policy
-from . import passes
-from .settings import scene_file
+from ...errors import InputError, input_error
+from ...tiles import policies
+from ...tiles.policies import Policy
+from .. import passes
+from ..settings import scene_file
 
 if TYPE_CHECKING:
-    from .settings.settings import Settings
+    from ..settings.settings import Settings
 
 Use = tuple[str, str]
 """One of `_REFUSED`, and what needs it, such as a setting and its value."""

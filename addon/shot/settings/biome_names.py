@@ -6,7 +6,7 @@ import ast
 import functools
 from pathlib import Path
 
-_FOLDER = Path(__file__).parents[1] / "scene" / "forest" / "biomes"
+_FOLDER = Path(__file__).parents[2] / "scene" / "forest" / "biomes"
 
 
 @functools.cache

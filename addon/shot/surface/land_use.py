@@ -21,12 +21,11 @@ from ...progress import Progress, silent
 from ...run import content
 from ...run.buildings import height_of, polygons
 from ...run.observations import Feature, feature, features
-from .. import rasterize
 from ..settings import scene_file
 from ..settings.settings import Settings
-from . import noise
+from ..terrain import noise, rasterize
+from ..terrain.raster import extent, overlap, said
 from .orthophoto import OrthophotoImage
-from .raster import extent, overlap, said
 
 if TYPE_CHECKING:
     from ..settings.protocols import ShotView

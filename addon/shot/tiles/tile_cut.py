@@ -10,18 +10,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
 
-from .. import files
-from ..errors import input_error
-from ..imaging.credits import Credits
-from . import comparison, passes
-from .cameras import mount
-from .terrain import tile_heights
-from .terrain.tile_heights import TileHeights
-from .view_digest import of_views
+from ... import files
+from ...errors import input_error
+from ...imaging.credits import Credits
+from .. import comparison, passes
+from ..cameras import mount
+from ..cameras.view_digest import of_views
+from ..terrain import tile_heights
+from ..terrain.tile_heights import TileHeights
 
 if TYPE_CHECKING:
-    from .settings.protocols import ShotView
-    from .shot import Shot
+    from ..settings.protocols import ShotView
+    from ..shot import Shot
 
 
 Finder = Callable[[str], "TileCut | None"]

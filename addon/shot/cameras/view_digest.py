@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from .settings.protocols import ShotView
+    from ..settings.protocols import ShotView
 
 
 def of_views(shot: ShotView, *words: str) -> str:

@@ -7,13 +7,13 @@ from datetime import datetime
 
 from firetwin_core.run import Run
 
-from ..errors import InputError
-from ..run import readers, times
-from . import frames, passes
-from .settings import scene_file
-from .settings.protocols import ShotView
-from .settings.settings import Settings
-from .terrain import elevation
+from ...errors import InputError
+from ...run import readers, times
+from .. import frames, passes
+from ..settings import scene_file
+from ..settings.protocols import ShotView
+from ..settings.settings import Settings
+from ..terrain import elevation
 
 
 def views(settings: Settings) -> list[str]:

@@ -7,7 +7,7 @@ from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...errors import InputError
-from .raster import Array
+from ..terrain.raster import Array
 
 Pixels = NDArray[np.uint8]
 

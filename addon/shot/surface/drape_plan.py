@@ -9,8 +9,8 @@ import numpy as np
 
 from ...tiles.drape import mercator
 from ...tiles.drape.mosaic import Patch
+from ..terrain.raster import Array
 from .photo_areas import areas_of
-from .raster import Array
 
 if TYPE_CHECKING:
     from ..settings.protocols import ShotView

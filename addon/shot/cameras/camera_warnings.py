@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .cameras.path import Path
-from .settings.protocols import ShotView
-from .settings.settings import Settings
+from ..settings.protocols import ShotView
+from ..settings.settings import Settings
+from .path import Path
 
 
 def mono_vr(settings: Settings) -> list[str]:

@@ -8,13 +8,13 @@ import numpy as np
 from firetwin_core import lod
 from numpy.typing import ArrayLike, NDArray
 
-from . import sun
-from .cameras.path import Path
-from .terrain import mesh_tolerance
-from .terrain.terrain import Terrain
+from ...run import sun
+from ..terrain import mesh_tolerance
+from ..terrain.terrain import Terrain
+from .path import Path
 
 if TYPE_CHECKING:
-    from .settings.protocols import ShotView
+    from ..settings.protocols import ShotView
 
 
 _HALF_SPACE = 1.0e9  # tangent of 90 degrees, half the angle of a hemisphere

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from firetwin_core.run import Run
 
-from . import elevation
-from .tile_heights import TileHeights
+from ..terrain import elevation
+from ..terrain.tile_heights import TileHeights
 
 if TYPE_CHECKING:
     from ..settings.settings import Settings

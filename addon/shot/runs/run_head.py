@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 from firetwin_core.run import Run
 
-from ..run import times
-from .cameras import targets
-from .settings.settings import Settings
-from .terrain.terrain import Terrain
+from ...run import times
+from ..cameras import targets
+from ..settings.settings import Settings
+from ..terrain.terrain import Terrain
 
 
 class Head:

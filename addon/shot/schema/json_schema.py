@@ -7,7 +7,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from .schema import Field, Key, fields, plain, summary
+from . import Field, Key, fields, plain, summary
 
 _TYPES = {
     bool: {"type": "boolean"},

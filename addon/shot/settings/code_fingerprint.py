@@ -16,9 +16,9 @@ from pathlib import Path
 
 import firetwin_core
 
-from ..run.content import sha256
-from .cameras import rigs
-from .settings.settings import Camera
+from ...run.content import sha256
+from ..cameras import rigs
+from .settings import Camera
 
 EVERYWHERE = (
     "scene",
@@ -29,14 +29,19 @@ EVERYWHERE = (
     "shot/cameras",
     "shot/fire",
     "shot/light",
+    "shot/runs",
+    "shot/schema",
     "shot/settings",
+    "shot/stations",
+    "shot/surface",
     "shot/terrain",
+    "shot/tiles",
     "shot/cameras/rigs/_key.py",
     "shot/cameras/rigs/_lens.py",
 )
 NAMED = {"stations": ("places", "scene/places")}
 """Folders of an aspect that has another name."""
-PACKAGE = Path(__file__).parents[1]
+PACKAGE = Path(__file__).parents[2]
 
 
 def hashes(aspects: Iterable[str], cameras: Iterable[Camera], *more: str | Path) -> dict[str, str]:

@@ -8,12 +8,12 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import tile_cut
-from .terrain import widened
+from ..terrain.terrain import widened
+from . import tile_cut
 
 if TYPE_CHECKING:
     from ..settings.protocols import ShotView
-    from .tile_heights import TileHeights
+    from ..terrain.tile_heights import TileHeights
 
 OURS, BURNED = "ours", "ours where it burns"
 """Values of `tiles.trees`, beside "theirs"."""

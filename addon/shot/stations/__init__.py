@@ -1,0 +1,1 @@
+"""Station signs, routes and labels of a shot."""

@@ -1,0 +1,1 @@
+"""Surface of the terrain: orthophotos, land use and building footprints."""
