@@ -19,7 +19,7 @@ check_floors() {
 
 files=("$@")
 if ((${#files[@]} == 0)); then
-  mapfile -t files < <(find .ci addon cpp data docs examples tests -type f ! -path '*/out/*')
+  mapfile -t files < <(find .ci addon cpp data docs examples tests ./*.md -type f ! -path '*/out/*')
 fi
 python=() cpp=() shell=()
 for file in "${files[@]}"; do
@@ -29,6 +29,7 @@ for file in "${files[@]}"; do
     *.sh | .ci/run) shell+=("$file") ;;
   esac
 done
+.venv/bin/codespell "${files[@]}"
 if ((${#python[@]})); then
   .venv/bin/ruff format --check "${python[@]}"
   .venv/bin/ruff check "${python[@]}"

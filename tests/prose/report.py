@@ -1,8 +1,9 @@
 """Check docstrings, comments, messages and pages for wording that readers must read twice.
 
-``.venv/bin/python tests/prose`` lists the hits of each folder and page with more than 1.5 hits per 1,000 words,
-and fails if there are any; ``--table`` prints words and rate of every folder and page; ``--list [PATH ...]``
-prints every hit. The rules are in rules.py, each with a hint and two examples that a test checks.
+``.venv/bin/python tests/prose`` lists the hits of each folder and page with more than 1.5 hits per 1,000
+words, and fails if there are any; ``--table`` prints words and rate of every folder and page;
+``--list [PATH ...]`` prints every hit. The rules are in rules.py, each with a hint and two examples that a
+test checks.
 """
 
 from __future__ import annotations
