@@ -355,8 +355,8 @@ def work(what, **_):
         "nameless": OSError(28, "No space left on device"),
         "other": OSError(5, "Input/output error", "c.png"),
         "device": TryAgainError("no GPU"),
-        "asked": input_error("scene.toml", 3, 4, "no GPU", UnavailableError),
-        "wrong": input_error("scene.toml", 3, 4, "the disk is full, says a name"),
+        "asked": input_error("scene.toml", "no GPU", line=3, column=4, kind=UnavailableError),
+        "wrong": input_error("scene.toml", "the disk is full, says a name", line=3, column=4),
         "plain": Error("stopped"),
         "bug": ValueError("odd"),
     }[what]
