@@ -1,4 +1,4 @@
-"""``python -m firetwin`` is the command ``firetwin``."""
+"""Command line as a module: ``python -m firetwin`` is ``firetwin``."""
 
 import sys
 

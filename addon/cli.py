@@ -1,4 +1,4 @@
-"""Command line: ``firetwin sample | info | new | maps | score | brief | build | bake | render | ...``.
+"""Command line: parsers, help, exit codes, and the commands that they call.
 
 Results go to stdout, messages and progress to stderr. Exit status 0: done, 1: failed, 2: bad usage, 130:
 Ctrl-C, 143: SIGTERM. Heavy modules are imported on demand, so that help and usage errors answer at once.

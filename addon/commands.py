@@ -1,4 +1,4 @@
-"""Commands of `cli`; each imports the heavy modules that it needs."""
+"""Commands of the command line; each imports the heavy modules that it needs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A SQLite file that several processes, also of several machines, write at once."""
+"""SQLite files that processes on several machines write at the same time."""
 
 from __future__ import annotations
 

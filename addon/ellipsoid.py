@@ -1,4 +1,4 @@
-"""Lengths on the WGS84 ellipsoid, and places and directions in Earth-centred axes."""
+"""Lengths, positions and directions on the WGS84 ellipsoid and in Earth-centred axes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Text from files, names and other programs, made safe to show: on a terminal, and in Blender's reports."""
+"""Escaped text: names from files and other programs, made safe for a terminal and Blender's reports."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Atomic file writes: a file gets its name once all its content has reached the disk."""
+"""Atomic file writes: a file gets its name after all of its content is on the disk."""
 
 from __future__ import annotations
 

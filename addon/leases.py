@@ -1,4 +1,4 @@
-"""Leases: mutual exclusion and work sharing between processes, also of several machines.
+"""Leases: mutual exclusion and work sharing between processes, on one or several machines.
 
 `lock` is a lock for one piece of work at a time. It is SQLite's lock of an empty database, which all systems
 support and which ends with the process in any case.

@@ -1,14 +1,16 @@
-"""Writes the pages that say what the code says: settings.md and passes_and_cameras.md, beside this file.
+"""Write settings.md and passes_and_cameras.md in this folder, and the table of layers in CONTRIBUTING.md.
 
 ``.venv/bin/python docs/generate.py``; a test compares the pages with the code.
 """
 
 from __future__ import annotations
 
+import ast
 import inspect
 import re
 import sys
-from collections.abc import Iterator
+import tomllib
+from collections.abc import Iterable
 from datetime import datetime
 from itertools import pairwise
 from pathlib import Path
@@ -20,6 +22,7 @@ from firetwin.shot.schema import Field, Key, fields, plain
 from firetwin.shot.settings.settings import Camera, Settings
 
 FOLDER = Path(__file__).parent
+ROOT = FOLDER.parent
 HEAD = "<!-- made by docs/generate.py; change the code, not this page -->\n"
 NAMES = {
     bool: "true or false",
@@ -31,8 +34,8 @@ NAMES = {
 }
 
 
-def table(head: tuple[str, ...], rows: Iterator[tuple[str, ...]]) -> str:
-    """A Markdown table."""
+def table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
+    """Format a Markdown table."""
     lines = [head, tuple("---" for _ in head), *rows]
     return (
         "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines)
@@ -41,7 +44,7 @@ def table(head: tuple[str, ...], rows: Iterator[tuple[str, ...]]) -> str:
 
 
 def value(part: Field) -> str:
-    """A key's default as a scene file writes it."""
+    """Format the default of a key as a scene file writes it."""
     if part.table:
         return "none"
     found = plain(part.type, part.default)
@@ -53,7 +56,7 @@ def value(part: Field) -> str:
 
 
 def kind(part: Field) -> str:
-    """Type, unit and bounds of a key."""
+    """Format type, unit and bounds of a key."""
     if part.table:
         return "list of tables" if part.tables else "table"
     inner = get_args(part.type)
@@ -68,14 +71,14 @@ def kind(part: Field) -> str:
 
 
 def meaning(key: Key, listed: bool = True) -> str:
-    """A key's help and its choices."""
+    """Format the help of a key and its choices."""
     names = key.names() if listed else {}
     choices = [f'`"{name}"`' + (f" {text}" if text else "") for name, text in names.items()]
     return key.help + (": " + "; ".join(choices) if choices else "")
 
 
 def keys(found: list[Field]) -> str:
-    """A table of keys; choices that are passes have a page of their own."""
+    """Format a table of keys; choices that are passes have a separate page."""
     rows = (
         (f"`{p.name}`", value(p), kind(p), meaning(p.key, listed=p.key.choices is not passes.helps))
         for p in found
@@ -86,7 +89,7 @@ def keys(found: list[Field]) -> str:
 
 
 def columns(block: str) -> str:
-    """A table of reStructuredText, with columns under its rulers, as Markdown."""
+    """Convert a table of reStructuredText, with columns under its rulers, to Markdown."""
     ruler, head, _, *rows, _ = block.splitlines()
     starts = [found.start() for found in re.finditer("=+", ruler)]
     cells = [tuple(line[a:b].strip() for a, b in pairwise([*starts, None])) for line in (head, *rows)]
@@ -94,14 +97,14 @@ def columns(block: str) -> str:
 
 
 def prose(text: str | None, module: str = "") -> str:
-    """A docstring as Markdown: tables as they stand, ``code`` in single quotes, no places in the code."""
+    """Convert a docstring to Markdown: tables, single backticks, and no references to modules."""
     blocks = [block for block in re.split(r"\n\n+", inspect.cleandoc(text or ""))]
     blocks = [columns(block) if block.startswith("===") else block.replace("``", "`") for block in blocks]
     return "\n\n".join(re.sub(r"\s*\((?:see `[\w.]+`|`[a-z_]+\.[\w.]+`)\)", "", block) for block in blocks)
 
 
 def settings() -> str:
-    """Every section of a scene file with its keys."""
+    """Describe every section of a scene file with its keys."""
     sections = [part for part in fields(Settings) if part.table]
     own = [part for part in fields(Settings) if not part.table]
     out = [
@@ -127,13 +130,13 @@ def settings() -> str:
 
 
 def sentence(text: str) -> str:
-    """A text with a full stop."""
+    """Complete a sentence with a capital and a full stop."""
     text = text.strip()
     return text[:1].upper() + text[1:] + ("" if text.endswith(".") else ".")
 
 
 def pass_section(each: passes.Pass) -> str:
-    """One pass."""
+    """Describe a pass."""
     files = [passes.file_of("CAMERA", each.name, 1, suffix) for suffix in each.files]
     facts = [f"Files: {', '.join(f'`{file}`' for file in files)}"]
     if each.made_from:
@@ -150,7 +153,7 @@ def pass_section(each: passes.Pass) -> str:
 
 
 def rig_section(name: str, rig: type) -> str:
-    """One kind of camera."""
+    """Describe a kind of camera."""
     texts = (prose(sys.modules[rig.__module__].__doc__), prose(rig.__doc__), keys(list(fields(rig))))
     return "\n\n".join((f"### {name}", *texts))
 
@@ -212,7 +215,7 @@ whole run from space, in true colour and both bands. `examples/film.sh vr` gives
 
 
 def passes_and_cameras() -> str:
-    """Every pass and every kind of camera."""
+    """Describe every pass and every kind of camera."""
     known, kinds = passes.known(), rigs.kinds()
     return "\n".join(
         [
@@ -229,11 +232,51 @@ def passes_and_cameras() -> str:
     )
 
 
-PAGES: dict[str, Any] = {"settings.md": settings, "passes_and_cameras.md": passes_and_cameras}
+def summary(module: Path) -> str:
+    """Return the first line of the docstring of a package or module, without its full stop."""
+    path = module / "__init__.py" if module.is_dir() else module.with_suffix(".py")
+    text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8")))
+    if not text:
+        raise ValueError(f"{path} has no docstring; write one line for the table in CONTRIBUTING.md")
+    return text.splitlines()[0].rstrip(".").replace("``", "`")
+
+
+def layers() -> str:
+    """Format the layers of the contracts in pyproject.toml, from the highest down, with what each has."""
+    configuration = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    out = []
+    for contract in configuration["tool"]["importlinter"]["contracts"]:
+        for container in contract.get("containers", []):
+            folder = ROOT.joinpath("addon", *container.split(".")[1:])
+            rows = []
+            for level, names in enumerate(contract["layers"], 1):
+                for name in re.findall(r"\w+", names):
+                    module = folder / name if name != "data" else ROOT / "data"
+                    path = module.relative_to(ROOT).as_posix() + ("/" if module.is_dir() else ".py")
+                    rows.append((str(level), f"`{path}`", summary(module)))
+            out.append(table(("layer", "module", "content"), rows))
+    return "\n".join(out)
+
+
+def contributing() -> str:
+    """Return CONTRIBUTING.md with the table of layers between its marks."""
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    before, start, rest = text.partition("<!-- layers: made by docs/generate.py -->\n")
+    _, end, after = rest.partition("\n<!-- end of layers -->")
+    if not end:
+        raise ValueError("CONTRIBUTING.md has no marks for the table of layers")
+    return before + start + "\n" + layers() + end + after
+
+
+PAGES: dict[str, Any] = {
+    "settings.md": settings,
+    "passes_and_cameras.md": passes_and_cameras,
+    "../CONTRIBUTING.md": contributing,
+}
 
 
 def pages() -> dict[str, str]:
-    """Text of each page by its name."""
+    """Return the text of each page by its name."""
     return {name: make().rstrip("\n") + "\n" for name, make in PAGES.items()}
 
 

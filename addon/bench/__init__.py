@@ -1,4 +1,4 @@
-"""Benchmarks ``firetwin bench``: run time against error of the steps that a user waits for.
+"""Benchmarks of ``firetwin bench``: run time and error of the ten steps that users wait for.
 
 A subject is a module: the first line of its docstring describes the comparison, and ``run(bench)`` adds rows
 (`Bench.race` runs the tools in turns) and targets. Those for developers are in ``tests/benchmarks``.

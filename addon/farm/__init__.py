@@ -1,4 +1,4 @@
-"""Jobs for render farms: an engine that exists schedules them, one file per engine in `engines`.
+"""Farm jobs: a film as tasks of Slurm, PBS, HTCondor, Open Job Description and other engines.
 
 A job has three stages: bake (flows of smoke), render (cameras x chunks of frames) and assemble. Each task is
 one command that may run twice. A task writes its own pictures and one file of entries under a name of its

@@ -1,4 +1,4 @@
-"""Long jobs of the command line and of Blender's window; each runs in a worker process of its own.
+"""Jobs: build, bake, render and convert, each in a separate worker process.
 
 `build`, `bake` and `render` are called in the user's process. The functions `in_blender` of their modules run
 in the worker process, which has Blender.

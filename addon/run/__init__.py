@@ -1,0 +1,1 @@
+"""Model runs: times, areas, maps, readers of foreign formats, models, observations, and scores."""

@@ -1,1 +1,1 @@
-"""Shots: settings, scene files, cameras, passes, terrain, fire and light. Needs no Blender."""
+"""Shots: what is filmed, resolved once from settings and run: cameras, passes, terrain, fire, light."""

@@ -1,1 +1,1 @@
-"""Smoke without Blender: flow solver runs, snapshots, volume cache, and painting of OpenVDB volumes."""
+"""Smoke: domains, flow solver runs, snapshots, cache, and OpenVDB volumes."""

@@ -1,1 +1,1 @@
-"""3D Tiles: tilesets of folders, archives and servers, and the choice of tiles for a shot."""
+"""3D Tiles: tilesets of folders, archives and servers, and the selection of tiles for a shot."""
