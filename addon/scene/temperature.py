@@ -6,7 +6,7 @@ on the inclined surface, less 70 W/m2 of net long-wave radiation into a clear sk
 ground and 80 for crowns, which stay within some kelvin of the air (both assumed). Shadows of ridges and trees
 do not cool the ground.
 
-Burned ground cools by `shot.fire.air_temperature.cooling`: 97 K above the rest after ten minutes, 38 K after an
+Burned ground cools by `air_temperature.cooling`: 97 K above the rest after ten minutes, 38 K after an
 hour, 19 K after four, where timber burned for two minutes; 12 K after ten minutes where grass burned for a
 quarter of one. Flames are 1000-1500 K (Frankman et al. 2008). A pixel of the front mixes flames with gaps, so
 they are drawn at 1000-1200 K.

@@ -113,8 +113,8 @@ def test_a_camera_looks_at_an_empty_that_follows_the_fire_or_stands_at_a_place(p
             place, ahead = _back(scene.camera, frame)
             assert ahead.angle(empty.matrix_world.translation - place) < 1e-3
     assert len(scene.camera.constraints) == 1
-    (tmp_path / "station_signs.csv").write_text("name,latitude,longitude\nStation 61,38.84,-120.55\n")
-    panel.labels.file = str(tmp_path / "station_signs.csv")
+    (tmp_path / "places.csv").write_text("name,latitude,longitude\nStation 61,38.84,-120.55\n")
+    panel.labels.file = str(tmp_path / "places.csv")
     assert bpy.ops.firetwin.camera_aim(target="station", place="station 61") == {"FINISHED"}
     empty = scene.objects["Aim at station 61"]
     assert (empty.location - go_to.place(scene, "38.84 -120.55")).length < 0.01
@@ -213,8 +213,8 @@ def test_one_goes_to_places_names_and_moments(panel):
 
 def test_terms_of_tiles_may_forbid_other_gazetteers(panel, tmp_path):
     """Coordinates and what the run itself names are no search of a gazetteer."""
-    (tmp_path / "station_signs.csv").write_text("name,latitude,longitude\nStation 61,38.84,-120.55\n")
-    panel.labels.file = str(tmp_path / "station_signs.csv")
+    (tmp_path / "places.csv").write_text("name,latitude,longitude\nStation 61,38.84,-120.55\n")
+    panel.labels.file = str(tmp_path / "places.csv")
     scene = bpy.context.scene
     assert go_to.place(scene, "station 61") is not None
     (part,) = (each for each in schema.fields(TileSettings) if each.name == "sources")
@@ -268,7 +268,7 @@ def test_one_goes_to_the_moment_when_the_fire_reaches_a_station(panel, tmp_path)
 
 
 def test_names_are_off_beside_tiles_whose_terms_forbid_other_gazetteers(panel, tmp_path):
-    file = tmp_path / "station_signs.csv"
+    file = tmp_path / "places.csv"
     file.write_text("name,latitude,longitude\nOld Mill,38.84,-120.55\n")
     panel.labels.file = str(file)
     scene = bpy.context.scene

@@ -1,6 +1,6 @@
 """Overlay pass: infrared hot spots over the visible picture, from 350 K on, opaque from 450 K.
 
-Sunlit ground stays below, and ground that burned minutes ago shows faintly (`shot.fire.air_temperature.cooling`).
+Sunlit ground stays below, and ground that burned minutes ago shows faintly (`air_temperature.cooling`).
 The two temperatures are chosen by eye. The palette resembles ironbow, on the scale of the thermal picture.
 """
 

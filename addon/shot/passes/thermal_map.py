@@ -2,7 +2,7 @@
 
 The run's `temperature` is averaged over ten minutes, or over the frame step if that is longer. The gradient
 black, purple, red, orange, yellow, white shows its excess over unburned air of equal elevation
-(`shot.fire.air_temperature.warmth`). The paper does not define where its gradient begins. Over the whole field,
+(`air_temperature.warmth`). The paper does not define where its gradient begins. Over the whole field,
 cold ridges and warm valleys would take most of it and redden all unburned ground. Black is the excess that
 one percent of unburned cells exceed. White is the warmest of the shot, so colours mean the same in every
 frame. The colour of the visible ground, from depth, is added to the picture's pixels (0..1) and clamped at 1.
