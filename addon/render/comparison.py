@@ -11,6 +11,7 @@ from ..shot import passes
 from ..shot.comparison import for_view
 from ..shot.shot import Shot
 from . import credits, manifest
+from .finish import finisher
 from .picture import Picture
 from .pictures import publish
 from .sharing import RenderSession
@@ -39,7 +40,6 @@ def _finish(shot: Shot, session: RenderSession, part: Path, picture: Picture) ->
     """Write the files of a comparison picture into the temporary folder."""
     comparing, out = passes.known()[picture.name], session.store.out
     assert isinstance(comparing, passes.ComparisonPass)
-    assert comparing.finish
     labels = [run.name for run in shot.settings.runs]
     needed = {name: _files(picture, picture.camera, name, out) for name in comparing.made_from}
     for name, label in itertools.product(comparing.needs_of_all, labels):
@@ -48,7 +48,7 @@ def _finish(shot: Shot, session: RenderSession, part: Path, picture: Picture) ->
         )
     mine = {Path(name).suffix[1:]: part / Path(name).name for name in picture.files()}
     with writing(mine[comparing.files[0]]):
-        comparing.finish(mine, needed, shot, picture.camera, picture.frame)
+        finisher(picture.name)(mine, needed, shot, picture.camera, picture.frame)
     words = manifest.credits_of(session.made_with[picture.camera, picture.name])
     credits.burn(mine["png"], words, f"Firetwin: {shot.run.name}")
 

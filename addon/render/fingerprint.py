@@ -7,7 +7,6 @@ import inspect
 import sys
 from dataclasses import replace
 from importlib import metadata
-from pathlib import Path
 from typing import Any
 
 import firetwin_core
@@ -25,6 +24,7 @@ from ..shot.stations import labels, station_signs
 from ..shot.surface import globe_picture, land_use, orthophoto
 from ..shot.tiles import tile_cut
 from ..smoke import sources
+from . import finish
 from .picture import Picture
 
 Fingerprints = dict[tuple[str, str], dict[str, Any]]
@@ -88,11 +88,10 @@ def _built(settings: Settings, camera: Camera) -> Settings:
 def _modules(name: str) -> list[str]:
     """Code files of a pass, of its post-processing, and of the passes that it is composed from."""
     file, each = inspect.getfile(sys.modules[f"{passes.__name__}.{name}"]), passes.known()[name]
-    helpers = ("imaging", *map(str, sorted(Path(passes.__file__).parent.glob("_[a-z]*.py"))))
     return [
         file,
         *each.code,
-        *(helpers if each.finish else ()),
+        *(finish.code_files(name) if each.finished else ()),
         *(module for need in each.made_from for module in _modules(need)),
     ]
 

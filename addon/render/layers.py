@@ -161,7 +161,7 @@ def write_exr(scene: bpy.types.Scene, folder: str, pictures: Iterable[Picture]) 
 
 def still(each: Pass) -> bool:
     """Whether the render itself writes this pass's PNG: the output of the compositor."""
-    return "png" in each.files and each.finish is None
+    return "png" in each.files and not each.finished
 
 
 def rendered(name: str) -> RenderedPass:

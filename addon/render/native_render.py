@@ -22,7 +22,7 @@ def exact() -> tuple[str, ...]:
 
 
 def _exact(each: passes.Pass) -> bool:
-    return isinstance(each, passes.RenderedPass) and not each.pixel_centres and not each.finish
+    return isinstance(each, passes.RenderedPass) and not each.pixel_centres and not each.finished
 
 
 def to_files(stage: Stage, out: Path, camera: str, names: tuple[str, ...]) -> None:

@@ -20,6 +20,7 @@ from ..shot.cameras.path import compass
 from ..shot.shot import Shot
 from ..smoke.prefetch import Smoke
 from . import credits, engine, integrated, layers, manifest, plan, png, spherical, verify
+from .finish import finisher
 from .picture import Picture
 from .sharing import FrameQueue, RenderSession
 from .store import describe
@@ -144,14 +145,14 @@ class _Frame:
             ]
         )
         for drawn_pass in drawn:
-            if drawn_pass.finish:
+            if drawn_pass.finished:
                 pairs = taken.get(drawn_pass.name, {})
                 there = {
                     need: self.files(Picture(c, self.frame, name), made) for need, (c, name) in pairs.items()
                 }
                 mine = self.files(self.pictures[drawn_pass.name], made)
                 with writing(mine[drawn_pass.files[0]]):
-                    drawn_pass.finish(mine, there, self.shot, self.camera, self.frame)
+                    finisher(drawn_pass.name)(mine, there, self.shot, self.camera, self.frame)
             self._credit(drawn_pass)
         return [self.pictures[name] for name in names]
 

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from firetwin.blender import compat, nodes, owned
 from firetwin.render import engine, layers, pictures
+from firetwin.render.finish import thermal
 from firetwin.render.picture import Picture
 from firetwin.render.sharing import open_session
 from firetwin.scene import infrared
 from firetwin.scene.build import PARTS
 from firetwin.shot import passes
 from firetwin.shot.fire import air_temperature
-from firetwin.shot.passes import thermal
 from firetwin_core import sensor
 
 THERMAL = "drone/thermal/drone_thermal_000002.exr"

@@ -7,13 +7,13 @@ from firetwin.data import sample, stored
 from firetwin.errors import InputError, UsageError
 from firetwin.imaging import split_screen
 from firetwin.render import fingerprint, plan
+from firetwin.render.finish import difference
 from firetwin.run import front
 from firetwin.run.score import shapes
 from firetwin.shot import comparison, passes
 from firetwin.shot.cameras import path
 from firetwin.shot.cameras.rigs.drone import Drone
 from firetwin.shot.fire import fronts
-from firetwin.shot.passes import difference
 from firetwin.shot.runs import scene_runs
 from firetwin.shot.settings.settings import Camera
 from firetwin.shot.source import ShotSource

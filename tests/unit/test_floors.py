@@ -27,7 +27,7 @@ NEVER_BPY = (
     *(
         f"firetwin.render.{name}"
         for name in (
-            *("fingerprint", "films", "manifest", "picture", "plan", "png"),
+            *("fingerprint", "finish", "films", "manifest", "picture", "plan", "png"),
             *("sharing", "store", "verify"),
         )
     ),

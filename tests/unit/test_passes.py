@@ -7,17 +7,20 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from firetwin.imaging import colour_bar
+from firetwin.render import finish
+from firetwin.render.finish import finisher
+from firetwin.render.finish import thermal as thermal_pass
 from firetwin.shot import passes
 from firetwin.shot.cameras import pixel_rays
 from firetwin.shot.cameras.path import Path
 from firetwin.shot.fire import air_temperature
-from firetwin.shot.passes import thermal as thermal_pass
 from firetwin.shot.settings.settings import Camera, Render, Settings, Thermal, Time
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from firetwin_core import sensor
 
 KNOWN = passes.known()
+FINISHED = {path.stem for path in finish.FOLDER.glob("[a-z]*.py")}
 
 
 def test_passes_come_in_their_order():
@@ -38,7 +41,8 @@ def test_a_pass_says_what_it_is(name):
     assert not each.help.endswith(".")
     rendered = isinstance(each, passes.RenderedPass)
     assert ("exr" in each.files) >= rendered  # Blender writes it
-    assert rendered or each.finish
+    assert rendered or each.finished
+    assert each.finished == (name in FINISHED)
     assert set(each.made_from) <= set(KNOWN) - {name}
     assert each.film <= ("png" in each.files)
 
@@ -89,7 +93,7 @@ def thermal(path, radiance, **keys):
     files = {end: path / f"thermal.{end}" for end in ("exr", "png")}
     sensor.write_image(files["exr"], np.repeat(radiance[..., None], 3, axis=-1))
     settings = Settings(render=Render(thermal_low=290.0, thermal_high=1000.0), thermal=Thermal(**keys))
-    KNOWN["thermal"].finish(files, {}, SimpleNamespace(settings=settings), "drone", 1)
+    finisher("thermal")(files, {}, SimpleNamespace(settings=settings), "drone", 1)
     return sensor.read_image(files["exr"]), sensor.read_image(files["png"])[..., :3]
 
 
@@ -199,7 +203,7 @@ def finished(tmp_path, make_run):
         planar[:5] = 1e10
         sensor.write_image(needed["rgb"]["png"], rgb)
         sensor.write_image(needed["depth"]["exr"], planar)
-        KNOWN[name].finish({"png": tmp_path / "made.png"}, needed, seen, "drone", 1)
+        finisher(name)({"png": tmp_path / "made.png"}, needed, seen, "drone", 1)
         return [sensor.read_image(path)[..., :3] for path in (needed["rgb"]["png"], tmp_path / "made.png")]
 
     return finish
@@ -267,7 +271,7 @@ def test_hot_spots_lie_over_the_picture(tmp_path):
     sensor.write_image(needed["thermal"]["exr"], both, None, ["kelvin", "radiance"])
     settings = Settings(render=Render(thermal_low=290.0, thermal_high=800.0))
     path = tmp_path / "overlay.png"
-    KNOWN["overlay"].finish({"png": path}, needed, SimpleNamespace(settings=settings), "drone", 1)
+    finisher("overlay")({"png": path}, needed, SimpleNamespace(settings=settings), "drone", 1)
     found = sensor.read_image(path)
     assert np.abs(found[:5] - 0.4).max() < 0.51 / 255
     hot = sensor.colour([[700.0, 400.0]], 290.0, 800.0, "ironbow", 5.0)[0]
@@ -285,7 +289,7 @@ def test_eye_dome_lighting_darkens_the_sky_behind_the_ground_alone(finished):
 def test_depth_has_both_distances_by_name(tmp_path):
     path = tmp_path / "depth.exr"
     sensor.write_image(path, np.full((20, 40), 1000.0))
-    KNOWN["depth"].finish({"exr": path}, {}, SimpleNamespace(paths=[view(True)]), "drone", 1)
+    finisher("depth")({"exr": path}, {}, SimpleNamespace(paths=[view(True)]), "drone", 1)
     planar, far = np.moveaxis(sensor.read_image(path), -1, 0)
     assert np.all(planar == 1000.0)
     assert far[0, 0] == pytest.approx(1000.0 * np.sqrt(1 + (0.5 * 39 / 40) ** 2 + (0.25 * 19 / 20) ** 2))

@@ -3,7 +3,7 @@
 A module defines `PASS`, a `RenderedPass`, `DerivedPass` or `ComparisonPass` with the module's name.
 
 A pixel without a value, such as the sky's, is 1e10 m in depth, and 0 in normals. Temperatures (K) without a
-value are NaN: `_imager` draws them grey, `sensor.colour` as the coldest.
+value are NaN: the imager passes draw them grey, `sensor.colour` as the coldest.
 """
 
 from __future__ import annotations
@@ -11,16 +11,12 @@ from __future__ import annotations
 import functools
 import importlib
 import pkgutil
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
     from ..settings.protocols import CameraSettings
-
-Files = Mapping[str, Path]
-Finish = Callable[[Files, Mapping[str, Files], Any, str, int], None]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,12 +44,10 @@ class Pass:
     min_rows
         Minimum number of rows; a smaller picture of a camera is enlarged, see `size`.
     code
-        Files and folders of the package that decide its files, in addition to its own module, the helpers of
-        passes (`_NAME.py`) and what all passes depend on.
-    finish
-        Makes the files that Blender does not, or processes those that it made. Arguments are the pass's files
-        by suffix; the files of the passes it needs, by need (``need@run`` for another run) and suffix; the
-        shot; the camera's name; and the frame.
+        Files and folders of the package that decide its files, in addition to its own module, the module that
+        finishes it (`render.finish`) and what all passes depend on.
+    finished
+        Whether a module of `render.finish` makes its files, or completes those that Blender renders.
     """
 
     name: str
@@ -66,7 +60,7 @@ class Pass:
     single_view: bool = False
     min_rows: int = 0
     code: tuple[str, ...] = ()
-    finish: Finish | None = None
+    finished: bool = False
 
     @property
     def made_from(self) -> tuple[str, ...]:
@@ -140,6 +134,7 @@ class DerivedPass(Pass):
 
     needs: tuple[str, ...] = ()
     mount: bool = False
+    finished: bool = True
 
     @property
     def made_from(self) -> tuple[str, ...]:

@@ -8,86 +8,7 @@ three other runs have a part of the picture each (see `split`), compared with th
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from . import ComparisonPass, Files
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from ..shot import Shot
-
-BOTH = "#f0a03c"
-_TINT = 0.6  # opacity of the tint
-_GREY = 0.75  # factor on the grey picture's brightness
-
-
-def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
-    """Tint the picture."""
-    from firetwin_core import sensor
-
-    from ...errors import Error
-    from .. import comparison, picture_credits
-    from ..cameras import pixel_rays
-    from ..fire import fronts
-
-    try:
-        from ...imaging import split_screen
-    except ModuleNotFoundError as error:
-        raise Error(f"the difference pass needs {error.name}, not in Blender: pip install it") from None
-    rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]
-    planar = sensor.read_image(needed["depth"]["exr"])[..., 0]
-    points = pixel_rays.points(pixel_rays.path_of(shot, camera), frame, planar)
-    names, colours = [shot.label, *shot.others], fronts.colours(shot)
-    pictures, keys = [], []
-    for label, kinds in zip(shot.others, classes(shot, points, frame), strict=True):
-        shades = [BOTH, colours[shot.label], colours[label]]
-        pictures.append(tinted(rgb, kinds, shades))
-        keys.append(list(zip(shades, ("burned in both", f"only {names[0]}", f"only {label}"), strict=True)))
-    said = comparison.caption(shot, frame)
-    height, width = pictures[0].shape[:2]
-    below = picture_credits.foot(shot, width, height, compares=True)
-    sensor.write_image(files["png"], split_screen.sheet(pictures, keys, said, below))
-
-
-def classes(shot: Shot, points: NDArray[np.float64], frame: int) -> list[NDArray[np.uint8]]:
-    """Class (h, w) at scene points (h, w, 3), by other run: 1 burned in both, 2 first only, 3 other only.
-
-    0 is unburned, no ground, or ground outside of either grid.
-    """
-    import numpy as np
-
-    from ...run import times
-    from ...run.front import reach
-
-    ground = np.isfinite(points).all(axis=-1)
-    latitude, longitude, _ = shot.local_frame.reverse(points[ground])
-    moment, result = shot.utc(frame), []
-    burned = {}
-    for label, run in {"": shot.run, **shot.others}.items():
-        burned[label] = reach(run).burned(latitude, longitude, times.seconds(run, moment))
-    first = burned.pop("")
-    for other in burned.values():
-        kinds = np.zeros(ground.shape, np.uint8)
-        known = np.isfinite(first) & np.isfinite(other)
-        here, there = first == 1.0, other == 1.0
-        kinds[ground] = np.where(known, np.where(here, np.where(there, 1, 2), np.where(there, 3, 0)), 0)
-        result.append(kinds)
-    return result
-
-
-def tinted(rgb: NDArray, kinds: NDArray[np.uint8], shades: list[str]) -> NDArray[np.float32]:
-    """Tint a picture (h, w, 3), converted to grey, by classes 1 to 3 (h, w)."""
-    import numpy as np
-
-    grey = _GREY * (rgb @ np.array([0.2126, 0.7152, 0.0722]))[..., None]
-    colour = np.array([[0.0] * 3, *([int(s[at : at + 2], 16) / 255.0 for at in (1, 3, 5)] for s in shades)])
-    share = np.where(kinds > 0, _TINT, 0.0)[..., None]
-    return (grey * (1.0 - share) + colour[kinds] * share).astype(np.float32)
-
+from . import ComparisonPass
 
 PASS = ComparisonPass(
     name="difference",
@@ -98,5 +19,4 @@ PASS = ComparisonPass(
     captions=False,
     aspects=frozenset({"time", "camera", "film", "picture", "terrain"}),
     needs=("rgb", "depth"),
-    finish=finish,
 )

@@ -11,105 +11,7 @@ orange), the camera, its path and field of view.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
-from . import DerivedPass, Files, pose
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from ..cameras.path import Path
-    from ..shot import Shot
-
-_ABOVE = {"orthometric": "MSL", "ellipsoidal": "WGS84"}
-_POINTS = ("N", "NE", "E", "SE", "S", "SW", "W", "NW")
-
-
-def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
-    """Compose the panels."""
-    from firetwin_core import sensor
-
-    from ...errors import Error
-
-    try:
-        from ...imaging import sheet as _sheet
-        from . import _map
-    except ModuleNotFoundError as error:
-        raise Error(f"the fused pass needs {error.name}, which is not in Blender: pip install it") from None
-    from .. import picture_credits
-    from ..cameras import mount, pixel_rays
-    from . import thermal
-
-    view = pixel_rays.path_of(shot, camera)
-    taken = mount.taken(shot.settings, shot.cameras, camera, PASS)
-    low, high = thermal.scale(shot, frame)
-    size = PASS.size(shot.resolution(view.camera))
-    sheet = _sheet.Sheet(*size, picture_credits.foot(shot, *size))
-    sheet.head(_title(shot, camera), facts(shot, camera, frame))
-    rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]
-    kelvin = sensor.read_image(needed["thermal"]["exr"])[..., 0]
-    depth = sensor.read_image(needed["depth"]["exr"])[..., 1]
-    pixels = {"rgb": rgb, "thermal": kelvin, "depth": depth}
-    parts = {need: _part(shot, view, frame, taken[need][0], pixels[need].shape) for need in pixels}
-    sheet.picture(0, "VISIBLE", rgb, parts["rgb"], outlined={part: need for need, part in parts.items()})
-    sheet.thermal(1, kelvin, low, high, shot.settings.thermal.palette, thermal.KNEE, parts["thermal"])
-    sheet.depth(3, depth, pixel_rays.SKY, parts["depth"])
-    panel = sheet.panel(2, "MAP")
-    if mount.MAP in taken:
-        photo = sensor.read_image(needed[mount.MAP]["png"])[..., :3]
-        _map.draw(panel, shot, view, frame, photo, _rig(shot, taken[mount.MAP][0]).swath)
-    else:
-        _map.draw(panel, shot, view, frame)
-    sensor.write_image(files["png"], sheet.pixels())
-
-
-def _part(shot: Shot, view: Path, frame: int, name: str, shape: tuple[int, ...]) -> tuple[float, float]:
-    """Fraction of a camera's view, across and up, that the picture of a sensor on its mount covers."""
-    if name == view.camera.name:
-        return 1.0, 1.0
-    across, up = view.halves[frame - 1]
-    own = _rig(shot, name).through(view).halves[frame - 1, 0]
-    return float(own / across), float(own * shape[0] / shape[1] / up)
-
-
-def _rig(shot: Shot, name: str) -> Any:
-    return next(camera.rig for camera in shot.cameras if camera.name == name)
-
-
-def _title(shot: Shot, camera: str) -> str:
-    made_up = " (synthetic)" if shot.run.synthetic and "synthetic" not in shot.run.name.lower() else ""
-    return f"{shot.run.name}{made_up}  ·  {camera}"
-
-
-def facts(shot: Shot, camera: str, frame: int) -> list[tuple[str, list[str]]]:
-    """Facts next to the panels, each with label and lines; the first is the time."""
-    import numpy as np
-
-    from ...run import info, times
-    from ..cameras import pixel_rays
-
-    view, moment = pixel_rays.path_of(shot, camera), shot.utc(frame)
-    here = pose.pose(shot, view, frame)
-    places = (("latitude", "NS"), ("longitude", "EW"))
-    degrees = [f"{abs(here[name]):.5f}° {signs[here[name] < 0.0]}" for name, signs in places]
-    heading, height = here["heading"], f"{here['height']:,.0f} m {_ABOVE[shot.run.vertical]}"
-    pitch = f"pitch {here['pitch']:+.0f}°".replace("-", "\N{MINUS SIGN}")
-    acres = info.burned(shot.run, [shot.frames.time(frame)])[0] / info.ACRE
-    rows = [
-        ("TIME", [times.text(moment, shot.settings.time.zone), f"{moment:%Y-%m-%d %H:%M:%S} UTC"]),
-        ("POSITION", degrees),
-        ("HEIGHT", [f"{here['height_above_ground']:,.0f} m AGL", height]),
-        ("HEADING", [f"{heading:03.0f}° {_POINTS[round(heading / 45.0) % 8]}", pitch]),
-        ("BURNED", [f"{acres:,.0f} acres"]),
-    ]
-    pace = shot.frames.step * shot.settings.time.fps
-    if pace > 0.0:
-        rows.append(("FILM", [f"{float(f'{pace:.3g}'):,g}× as fast"]))  # ",.3g" says 1.12e+04
-    if view.perspective:
-        across = 2.0 * np.degrees(np.arctan(view.halves[frame - 1, 0]))
-        rows.insert(4, ("VIEW", [f"{across:.0f}° wide"]))
-    return rows
-
+from . import DerivedPass
 
 PASS = DerivedPass(
     name="fused",
@@ -123,6 +25,5 @@ PASS = DerivedPass(
     mount=True,
     single_view=True,
     min_rows=720,
-    code=("shot/cameras/rigs/mounted.py", "shot/cameras/rigs/minimap.py"),
-    finish=finish,
+    code=("shot/cameras/rigs/mounted.py", "shot/cameras/rigs/minimap.py", "render/finish/pose.py"),
 )

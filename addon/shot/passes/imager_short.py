@@ -1,9 +1,7 @@
-"""Satellite imager pass in the middle infrared (3.9 um), labelled (see `_imager`)."""
+"""Satellite imager pass in the middle infrared (3.9 um), labelled (see `render.finish._imager`)."""
 
 from __future__ import annotations
 
 from ._band import band
 
-PASS = band(
-    "imager_short", 50, "Brightness temperature of a satellite imager, middle infrared (3.9 µm)", long=False
-)
+PASS = band("imager_short", 50, "Brightness temperature of a satellite imager, middle infrared (3.9 µm)")

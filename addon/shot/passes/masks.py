@@ -25,14 +25,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from . import Files, RenderedPass
+from . import RenderedPass
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from numpy.typing import NDArray
-
-    from ..shot import Shot
 
 SKY, GROUND, BURNED, TREE, SMOKE, FIRE, BUILDING = range(7)
 NAMES = ("sky", "ground", "burned", "tree", "smoke", "fire", "building")
@@ -47,18 +43,6 @@ COLOURS = (
 )
 ALIGHT = 0.3  # fraction of full flame of ground and crowns from which a pixel counts as fire
 HIDES = 0.5  # opacity from which a pixel counts as smoke
-_LEAST = 1.0e-4  # transmittance of smoke below which numbers are not exact
-
-
-def classes(pixels: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """Class, instance and smoke transmittance, (h, w) each, from pixels of `blender.nodes.mask_switch`."""
-    import numpy as np
-
-    clear = pixels[..., 1].astype(np.float64)
-    exact = clear > _LEAST
-    low, code = (np.rint(np.where(exact, pixels[..., k] / np.where(exact, clear, 1.0), 0.0)) for k in (0, 2))
-    kind = np.where(clear > 1.0 - HIDES, code % 8, SMOKE)
-    return kind, low + 4096.0 * (code // 8), clear
 
 
 def numbers(key: NDArray, second: NDArray) -> NDArray:
@@ -66,25 +50,10 @@ def numbers(key: NDArray, second: NDArray) -> NDArray:
 
     Trees of a stand have the halves of 64 random bits. A single tree per cell has the cell and 0: these are
     unique in runs of up to 2^24 - 1 cells.
-    two of these share a number in runs of up to 2^24 - 1 cells.
     """
     import numpy as np
 
     return 1 + (np.asarray(key, np.int64) ^ np.asarray(second, np.int64)) % (2**24 - 1)
-
-
-def finish(files: Files, _needed: Mapping[str, Files], _shot: Shot, _camera: str, _frame: int) -> None:
-    """Separate classes, instances and smoke, and paint the classes."""
-    import numpy as np
-    from firetwin_core import sensor
-
-    names = ["class", "clear", "instance"]  # as EXR files sort them
-    kind, instance, clear = classes(sensor.read_image(files["exr"]))
-    about = {"Comment": "class: " + ", ".join(f"{value} {name}" for value, name in enumerate(NAMES))}
-    channels = np.stack([kind, np.clip(clear, 0.0, 1.0), instance], axis=-1).astype(np.float32)
-    sensor.write_image(files["exr"], channels, about, names)
-    colours = np.array(COLOURS, np.float32) / 255.0
-    sensor.write_image(files["png"], colours[kind.astype(np.int64)])
 
 
 PASS = RenderedPass(
@@ -99,5 +68,5 @@ PASS = RenderedPass(
     channels="colour",
     pixel_centres=True,
     aspects=frozenset({"time", "camera", "picture", "terrain", "forest", "fire", "smoke", "stations"}),
-    finish=finish,
+    finished=True,
 )

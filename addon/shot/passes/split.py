@@ -6,42 +6,7 @@ have a quarter each, with the whole picture at half size.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from . import ComparisonPass, Files, view_of
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from ..shot import Shot
-
-
-def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
-    """Compose the pictures."""
-    from firetwin_core import sensor
-
-    from ...errors import Error
-    from ...run import info, times
-    from .. import comparison, picture_credits
-    from ..fire import fronts
-
-    try:
-        from ...imaging import split_screen
-    except ModuleNotFoundError as error:
-        raise Error(f"the split pass needs {error.name}, which is not in Blender: pip install it") from None
-    moment, colours, drawn = shot.utc(frame), fronts.colours(shot), shot.settings.fire.fronts
-    names = ["rgb", *(view_of("rgb", label) for label in shot.others)]
-    pictures = [sensor.read_image(needed[name]["png"])[..., :3] for name in names]
-    keys = []
-    for label, run in {shot.label: shot.run, **shot.others}.items():
-        acres = info.burned(run, [times.seconds(run, moment)])[0] / info.ACRE
-        others = [(colours[other], f"front of {other}") for other in colours if other != label]
-        keys.append([(colours[label], f"{label}  {acres:,.0f} acres"), *(others if drawn else ())])
-    said = comparison.caption(shot, frame)
-    height, width = pictures[0].shape[:2]
-    below = picture_credits.foot(shot, width, height, compares=True)
-    sensor.write_image(files["png"], split_screen.sheet(pictures, keys, said, below))
-
+from . import ComparisonPass
 
 PASS = ComparisonPass(
     name="split",
@@ -52,5 +17,4 @@ PASS = ComparisonPass(
     captions=False,
     aspects=frozenset({"time", "camera", "film", "picture"}),
     needs_of_all=("rgb",),
-    finish=finish,
 )

@@ -17,63 +17,7 @@ change over time.
 
 from __future__ import annotations
 
-import zlib
-from collections.abc import Mapping
-from pathlib import Path
-from typing import TYPE_CHECKING
-
 from . import RenderedPass
-
-if TYPE_CHECKING:
-    from ..shot import Shot
-
-KNEE = 5.0  # K, above which the palette is logarithmic, so that cold ground shows its relief
-
-
-def finish(
-    files: Mapping[str, Path], _needed: Mapping[str, Mapping[str, Path]], shot: Shot, camera: str, frame: int
-) -> None:
-    """Apply the detector model to the radiance, and write its measurement and the picture."""
-    import numpy as np
-    from firetwin_core import sensor
-
-    from ...imaging import colour_bar
-    from ..settings.settings import BANDS
-
-    settings = shot.settings.thermal
-    table = sensor.PlanckTable(BANDS[settings.band])
-    reached = sensor.read_image(files["exr"])[..., 0]
-    measured, counts = table.detect(
-        reached,
-        blur=settings.blur,
-        noise=settings.noise,
-        saturation=settings.saturation,
-        bits=settings.bits,
-        key=zlib.crc32(f"{camera} {frame} {shot.settings.render.seed}".encode()),
-    )
-    channels = {"kelvin": table.brightness_temperature(measured), "radiance": measured}
-    if counts is not None:
-        channels["signal"] = counts.astype(np.float32)
-    low_um, high_um = BANDS[settings.band]
-    about = {"Comment": f"kelvin: brightness temperature; radiance: W m-2 sr-1, {low_um:g} to {high_um:g} um"}
-    sensor.write_image(files["exr"], np.stack(list(channels.values()), axis=-1), about, list(channels))
-    low, high = scale(shot, frame)
-    shown = sensor.colour(channels["kelvin"], low, high, settings.palette, KNEE)
-    colour_bar.draw(shown, low, high, settings.palette, KNEE)
-    sensor.write_image(files["png"], shown)
-
-
-def scale(shot: Shot, frame: int) -> tuple[float, float]:
-    """Temperatures (K) at the cold and the hot end of the palette in a frame."""
-    from ..fire import air_temperature
-    from ..settings.settings import BANDS
-
-    low, high = shot.settings.render.thermal_low, shot.settings.render.thermal_high
-    if low is None:
-        band = BANDS[shot.settings.thermal.band]
-        low = min(air_temperature.coldest_ground(shot.run, shot.frames.time(frame), band), high - 1.0)
-    return low, high
-
 
 PASS = RenderedPass(
     name="thermal",
@@ -99,5 +43,5 @@ PASS = RenderedPass(
             "stations",
         }
     ),
-    finish=finish,
+    finished=True,
 )

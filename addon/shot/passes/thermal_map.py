@@ -11,37 +11,7 @@ It is the model's air, not what an infrared camera measures.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from . import DerivedPass, Files
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from ..shot import Shot
-
-
-def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
-    """Add the gradient of the model's temperature to the picture."""
-    import numpy as np
-    from firetwin_core import sensor
-    from firetwin_core.terrain import bilinear
-
-    from ..cameras import pixel_rays
-    from ..fire import air_temperature
-
-    now = float(shot.frames.time(frame))
-    above, _ = air_temperature.warmth(shot.run, now - shot.air.averaged, now)
-    planar = sensor.read_image(needed["depth"]["exr"])[..., 0]
-    point = pixel_rays.points(pixel_rays.path_of(shot, camera), frame, planar)
-    ground = np.isfinite(point).all(axis=-1)
-    warmth = np.full(planar.shape, np.nan)
-    if ground.any():
-        latitude, longitude, _ = shot.local_frame.reverse(point[ground])
-        warmth[ground] = bilinear(above, *air_temperature.indices(shot.run, latitude, longitude))
-    rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]
-    sensor.write_image(files["png"], sensor.thermal_composite(rgb, warmth, *shot.air.warmest))
-
+from . import DerivedPass
 
 PASS = DerivedPass(
     name="thermal_map",
@@ -51,5 +21,4 @@ PASS = DerivedPass(
     film=True,
     aspects=frozenset({"time", "camera"}),
     needs=("rgb", "depth"),
-    finish=finish,
 )

@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 from ...run import front
 
 if TYPE_CHECKING:
-    from ..cameras.path import Path
-    from ..shot import Shot
+    from ...shot.cameras.path import Path
+    from ...shot.shot import Shot
 
 _LATELY = 1800.0  # s, time for which burned ground is orange
 _OPEN, _WOODED = np.array([0.86, 0.82, 0.72]), np.array([0.50, 0.60, 0.42])

@@ -15,12 +15,12 @@ from firetwin_core import sensor
 from numpy.typing import NDArray
 
 from ...imaging import colour_bar
-from ..cameras import pixel_rays
-from ..cameras.rigs.satellite import Satellite
-from ..satellites import imager
+from ...shot.cameras import pixel_rays
+from ...shot.cameras.rigs.satellite import Satellite
+from ...shot.satellites import imager
 
 if TYPE_CHECKING:
-    from ..shot import Shot
+    from ...shot.shot import Shot
 
 KNEE = 20.0  # K; warm ground and the burn scar take half of the palette
 PALETTE = "inferno"

@@ -1,0 +1,115 @@
+"""Write the sidecar of a frame: pose, intrinsics, time and units (see `shot.passes.pose`)."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ...shot import picture_credits
+from ...shot.cameras import path, pixel_rays
+from ...shot.cameras.path import Path
+from ...shot.passes import file_of, of_camera
+from ...shot.shot import Shot
+from ...shot.tiles import tile_cut
+from . import Files
+
+UNITS = {
+    "position": "m",
+    "angles": "degrees",
+    "pixels": "pixels",
+    "time": "s since the run began",
+    "depth": "m",
+    "kelvin": "K",
+    "radiance": "W m-2 sr-1",
+}
+
+
+def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
+    """Write the sidecar of a frame."""
+    text = json.dumps(described(shot, pixel_rays.path_of(shot, camera), frame), indent=1) + "\n"
+    files["json"].write_text(text, encoding="utf-8")
+
+
+def described(shot: Shot, view: Path, frame: int) -> dict[str, Any]:
+    """Content of a sidecar."""
+    run, camera = shot.run, view.camera
+    return {
+        "format": "firetwin pose 1",
+        "camera": camera.name,
+        "kind": camera.kind,
+        "frame": frame,
+        "run": run.name,
+        "synthetic": run.synthetic,
+        "time_utc": shot.utc(frame).isoformat(timespec="milliseconds"),
+        "model_time": shot.frames.time(frame),
+        "units": UNITS,
+        "pose": pose(shot, view, frame),
+        "intrinsics": intrinsics(view, frame, *shot.resolution(camera)),
+        "files": {
+            recorded.name: {
+                end: f"../../{file_of(camera.name, recorded.name, frame, end)}" for end in recorded.files
+            }
+            for recorded in of_camera(shot.settings, camera)
+            if recorded.name != "pose"
+        },
+        **_credits(shot),
+        **_tiles(shot),
+    }
+
+
+def _credits(shot: Shot) -> dict[str, Any]:
+    """Who is to be named for what the frame shows, and names of services."""
+    words = picture_credits.of_shot(shot)
+    found = {"credits": list(words.data), "services": list(words.logo)}
+    return {name: values for name, values in found.items() if values}
+
+
+def _tiles(shot: Shot) -> dict[str, Any]:
+    """What is missing of the tiles that the frame shows, and their screen-space error, pixels."""
+    cut = tile_cut.prepared(shot)
+    return {"tiles": {"missing": list(cut.missing), "error": cut.error}} if cut else {}
+
+
+def pose(shot: Shot, view: Path, frame: int) -> dict[str, Any]:
+    """Position and orientation; heights refer to the datum of the run's elevations."""
+    here, turn, frame_of = view.position[frame - 1], view.rotation[frame - 1], shot.local_frame
+    latitude, longitude, height = (float(value[0]) for value in frame_of.reverse(here[None]))
+    east, north, up = path.compass(frame_of, here)
+    right, above, ahead = turn[:, 0], turn[:, 1], -turn[:, 2]
+    # straight down, the picture's upper edge gives the heading
+    level = ahead if abs(ahead @ up) < 0.9999 else above
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = turn, here
+    return {
+        "latitude": latitude,
+        "longitude": longitude,
+        "height": height,
+        "vertical": shot.run.vertical,
+        "height_above_ground": float(here[2] - shot.ground.up(here[0], here[1])[0]),
+        "heading": float(np.degrees(np.arctan2(level @ east, level @ north)) % 360.0),
+        "pitch": float(np.degrees(np.arcsin(np.clip(ahead @ up, -1.0, 1.0)))),
+        "roll": 0.0 if level is above else float(np.degrees(np.arctan2(-(right @ up), above @ up))),
+        "origin": {"latitude": frame_of.latitude, "longitude": frame_of.longitude, "height": frame_of.height},
+        "camera_to_world": matrix.tolist(),
+    }
+
+
+def intrinsics(view: Path, frame: int, width: int, height: int) -> dict[str, Any]:
+    """Camera intrinsics."""
+    across, up = view.halves[frame - 1] / (view.meet or 1.0)
+    eye = height // 2 if view.around else height
+    flat = "perspective" if view.perspective or view.meet else "parallel"
+    return {
+        "projection": "equirectangular" if view.around else flat,
+        "width": width,
+        "height": height,
+        **({"eye": eye, "interocular": view.apart} if view.around else {}),
+        "fx": 0.5 * width / float(across),
+        "fy": 0.5 * eye / float(up),
+        "cx": 0.5 * width,
+        "cy": 0.5 * eye,
+        "distortion": {"model": "none", **dict.fromkeys(("k1", "k2", "k3", "p1", "p2"), 0.0)},
+    }

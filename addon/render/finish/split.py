@@ -1,0 +1,31 @@
+"""Compose the pictures of all runs to a split screen (see `shot.passes.split`)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from firetwin_core import sensor
+
+from ...imaging import split_screen
+from ...run import info, times
+from ...shot import comparison, picture_credits
+from ...shot.fire import fronts
+from ...shot.passes import view_of
+from ...shot.shot import Shot
+from . import Files
+
+
+def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
+    """Compose the pictures."""
+    moment, colours, drawn = shot.utc(frame), fronts.colours(shot), shot.settings.fire.fronts
+    names = ["rgb", *(view_of("rgb", label) for label in shot.others)]
+    pictures = [sensor.read_image(needed[name]["png"])[..., :3] for name in names]
+    keys = []
+    for label, run in {shot.label: shot.run, **shot.others}.items():
+        acres = info.burned(run, [times.seconds(run, moment)])[0] / info.ACRE
+        others = [(colours[other], f"front of {other}") for other in colours if other != label]
+        keys.append([(colours[label], f"{label}  {acres:,.0f} acres"), *(others if drawn else ())])
+    said = comparison.caption(shot, frame)
+    height, width = pictures[0].shape[:2]
+    below = picture_credits.foot(shot, width, height, compares=True)
+    sensor.write_image(files["png"], split_screen.sheet(pictures, keys, said, below))
