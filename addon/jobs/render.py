@@ -274,7 +274,7 @@ def _check_device(shot: Shot) -> None:
 
     from ..blender import devices
     from ..errors import TryAgainError, UnavailableError, input_error
-    from ..shot.settings import scene_file
+    from ..shot.schema import scene_text
 
     render, path = shot.settings.render, shot.settings.path
     if render.engine != "cycles":
@@ -284,7 +284,7 @@ def _check_device(shot: Shot) -> None:
     except TryAgainError as error:
         if not path.is_file():
             raise
-        at = scene_file.error_at(path, ("render", "device"), str(error))
+        at = scene_text.error_at(path, ("render", "device"), str(error))
         raise input_error(at.path, at.reason, line=at.line, column=at.column, kind=UnavailableError) from None
 
 

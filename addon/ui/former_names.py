@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..blender import compat, owned
-from ..shot.settings.settings import FORMER, FORMER_KEYS
+from ..shot.schema.former import FORMER, FORMER_KEYS
 
 
 @bpy.app.handlers.persistent

@@ -12,7 +12,7 @@ from any_settings import any_table
 from firetwin.errors import InputError
 from firetwin.shot import schema
 from firetwin.shot.cameras.rigs import kinds
-from firetwin.shot.schema import frame_list
+from firetwin.shot.schema import frame_list, scene_text
 from firetwin.shot.schema import toml_positions as places
 from firetwin.shot.settings import scene_file
 from firetwin.shot.settings.settings import Camera, OtherRun, Settings, TerrainSettings, Time
@@ -169,9 +169,9 @@ def test_mistakes_are_named_with_their_place(load, tmp_path, old, new, line, col
 
 def test_what_is_found_later_has_a_place_too(load):
     loaded = load(SCENE)
-    error = scene_file.error_at(loaded.path, ("cameras", 0, "keys", 1, "latitude"), "is far away")
+    error = scene_text.error_at(loaded.path, ("cameras", 0, "keys", 1, "latitude"), "is far away")
     assert str(error) == f"{loaded.path}:16:20: is far away"
-    error = scene_file.error_at(loaded.path, ("cameras", 1, "keys", 0, "latitude"), "is far away")
+    error = scene_text.error_at(loaded.path, ("cameras", 1, "keys", 0, "latitude"), "is far away")
     assert str(error) == f"{loaded.path}:18:3: is far away"  # what is not written stands where its table does
 
 

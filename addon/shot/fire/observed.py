@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ...errors import InputError
 from ...progress import Progress, silent
 from ...run import areas, content, observations, times
-from ..settings import scene_file
+from ..schema import scene_text
 from ..settings.settings import Settings
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def check(settings: Settings) -> None:
         Names the file and what to do.
     """
     if settings.fire.observed is not None and not files(settings):
-        raise scene_file.error_at(
+        raise scene_text.error_at(
             settings.path, ("fire", "observed"), "fire.observed is a folder without observations"
         )
     try:
@@ -75,7 +75,7 @@ def check(settings: Settings) -> None:
     except InputError as error:
         if not settings.path.is_file():
             raise
-        raise scene_file.error_at(settings.path, ("fire", "observed"), f"fire.observed: {error}") from None
+        raise scene_text.error_at(settings.path, ("fire", "observed"), f"fire.observed: {error}") from None
 
 
 def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:

@@ -8,7 +8,7 @@ from firetwin_core.run import Run
 from ...run import areas, labels, times
 from .. import frames
 from ..fire import observed
-from ..settings import scene_file
+from ..schema import scene_text
 from ..settings.settings import Settings
 from ..stations import station_signs
 from ..surface import globe_picture, land_use, orthophoto
@@ -37,7 +37,7 @@ def check(settings: Settings, run: Run) -> None:
             _near(settings, run, ("cameras", index, *where), camera.name, latitude, longitude)
         if invalid := camera.rig.validate_against(run, frames.resolve(settings.time, run)):
             reason = f'camera "{camera.name}" {invalid[1]}'
-            raise scene_file.error_at(settings.path, ("cameras", index, *invalid[0]), reason)
+            raise scene_text.error_at(settings.path, ("cameras", index, *invalid[0]), reason)
 
 
 def _window(settings: Settings, run: Run) -> None:
@@ -47,7 +47,7 @@ def _window(settings: Settings, run: Run) -> None:
         if moment is not None and not first <= times.seconds(run, moment) <= last:
             span = " to ".join(f"{times.utc(run, t):%Y-%m-%dT%H:%M:%SZ}" for t in (first, last))
             reason = f"time.{name} lies outside of the run, which has {span}"
-            raise scene_file.error_at(settings.path, ("time", name), reason)
+            raise scene_text.error_at(settings.path, ("time", name), reason)
 
 
 def _near(
@@ -76,4 +76,4 @@ def _near(
             f"middle of the run ({middle[0]:.2f} N {middle[1]:.2f} E); "
             f"the ground ends at {settings.terrain.apron / 1e3:g} km"
         )
-        raise scene_file.error_at(settings.path, where, reason)
+        raise scene_text.error_at(settings.path, where, reason)

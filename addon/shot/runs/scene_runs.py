@@ -10,7 +10,7 @@ from firetwin_core.run import Run
 from ...errors import InputError
 from ...run import readers, times
 from .. import frames, passes
-from ..settings import scene_file
+from ..schema import scene_text
 from ..settings.protocols import ShotView
 from ..settings.settings import Settings
 from ..terrain import elevation
@@ -43,7 +43,7 @@ def open_others(settings: Settings) -> dict[str, Run]:
         except InputError as error:
             if not settings.path.is_file():
                 raise
-            raise scene_file.error_at(settings.path, ("runs", i, "path"), f"runs.path: {error}") from None
+            raise scene_text.error_at(settings.path, ("runs", i, "path"), f"runs.path: {error}") from None
     return runs
 
 
@@ -73,7 +73,7 @@ def check(settings: Settings, run: Run, others: Mapping[str, Run]) -> None:
                 f'run "{name}" has {times.iso(begin)} to {times.iso(end)}, and the shot shows '
                 f"{times.iso(first)} to {times.iso(last)}; {remedy}"
             )
-            raise scene_file.error_at(settings.path, ("runs", i, "path"), reason)
+            raise scene_text.error_at(settings.path, ("runs", i, "path"), reason)
         elevation.check(settings, other)
 
 

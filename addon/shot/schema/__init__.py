@@ -19,9 +19,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from .did_you_mean import suggestion
+from .toml_positions import Where
 
 Names = Mapping[str, str] | tuple[str, ...]
-Where = tuple[str | int, ...]
 
 
 @dataclass(frozen=True)

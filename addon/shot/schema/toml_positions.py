@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import tomllib
 
-Path = tuple[str | int, ...]
+Where = tuple[str | int, ...]
 
 _GAP = re.compile(r"(?:[ \t\r\n]|#[^\n]*)*")
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
@@ -22,12 +22,12 @@ class _Scan:
     def __init__(self, text: str) -> None:
         self.text = text
         self.at = 0
-        self.offsets: dict[Path, int] = {}
-        self.spans: list[tuple[Path, int, int]] = [((), 0, 0)]
-        self._tables: dict[Path, int] = {}  # tables in each array of tables up to here
+        self.offsets: dict[Where, int] = {}
+        self.spans: list[tuple[Where, int, int]] = [((), 0, 0)]
+        self._tables: dict[Where, int] = {}  # tables in each array of tables up to here
 
     def document(self) -> None:
-        table: Path = ()
+        table: Where = ()
         self._skip()
         while self.at < len(self.text):
             start = self.at
@@ -56,7 +56,7 @@ class _Scan:
             return self._take(_LITERAL)[1:-1]
         return self._take(_BARE)
 
-    def _key(self, table: Path) -> Path:
+    def _key(self, table: Where) -> Where:
         """Read a dotted key and record the position of each part."""
         path = table
         while True:
@@ -69,11 +69,11 @@ class _Scan:
             self.at += 1
             self._skip()
 
-    def _inside(self, path: Path) -> Path:
+    def _inside(self, path: Where) -> Where:
         """Resolve the name of an array of tables to its last table."""
         return (*path, self._tables[path] - 1) if path in self._tables else path
 
-    def _header(self, brackets: int, array: bool) -> Path:
+    def _header(self, brackets: int, array: bool) -> Where:
         self.at += brackets
         start = self.at
         self._skip()
@@ -85,7 +85,7 @@ class _Scan:
             names.append(self._name())
             self._skip()
         self.at += brackets
-        path: Path = ()
+        path: Where = ()
         for name in names[:-1]:
             path = self._inside((*path, name))
         path = (*path, names[-1])
@@ -96,13 +96,13 @@ class _Scan:
             self.offsets[path] = start
         return path
 
-    def _pair(self, table: Path) -> None:
+    def _pair(self, table: Where) -> None:
         path = self._key(table)
         self.at += 1  # the equals sign
         self._skip()
         self._value(path)
 
-    def _value(self, path: Path) -> None:
+    def _value(self, path: Where) -> None:
         text, at = self.text, self.at
         if text.startswith('"""', at):
             self._take(_LONG_BASIC)
@@ -119,7 +119,7 @@ class _Scan:
         else:
             self._take(_PLAIN)
 
-    def _array(self, path: Path) -> None:
+    def _array(self, path: Where) -> None:
         self.at += 1
         self._skip()
         index = 0
@@ -130,7 +130,7 @@ class _Scan:
             self._next()
         self.at += 1
 
-    def _inline_table(self, path: Path) -> None:
+    def _inline_table(self, path: Where) -> None:
         self.at += 1
         self._skip()
         while self.text[self.at] != "}":
@@ -145,7 +145,7 @@ class _Scan:
             self._skip()
 
 
-def places(text: str) -> dict[Path, tuple[int, int]]:
+def places(text: str) -> dict[Where, tuple[int, int]]:
     """Line and column (1-based) of every key and array element in a valid TOML text.
 
     A path is the names and indices that lead to a value: ``("cameras", 0, "keys", 2, "at")``.
@@ -155,7 +155,7 @@ def places(text: str) -> dict[Path, tuple[int, int]]:
     return {path: _line_and_column(text, offset) for path, offset in scan.offsets.items()}
 
 
-def tables(text: str) -> list[tuple[Path, int, int]]:
+def tables(text: str) -> list[tuple[Where, int, int]]:
     """Tables of a valid TOML text in order: path, offset of the header, and offset after the last value.
 
     The first one holds the keys above all headers.

@@ -15,11 +15,12 @@ from typing import Any
 from ...errors import InputError, input_error
 from ..schema import Field, Key, Where, either, fields, items, validate
 from ..schema.did_you_mean import suggestion
-from ..schema.toml_positions import places
-from .settings import FORMER, FORMER_KEYS, Settings
+from ..schema.former import FORMER, FORMER_KEYS
+from ..schema.scene_text import SceneText, load
+from .settings import Settings
 from .toml_writer import text
 
-__all__ = ["error_at", "parse", "read", "text"]
+__all__ = ["parse", "read", "text"]
 
 
 def read(path: str | Path) -> Settings:
@@ -31,7 +32,7 @@ def read(path: str | Path) -> Settings:
         The error names the file, line and column, and the remedy.
     """
     path = Path(path)
-    text = _load(path)
+    text = load(path)
     settings = parse(text, path)
     if invalid := validate(settings):
         raise _Reader(path, text).error(*invalid)
@@ -54,35 +55,6 @@ def parse(text: str, path: Path) -> Settings:
     return reader.table(Settings, reader.current(values), ())
 
 
-def error_at(path: Path, where: Where, reason: str) -> InputError:
-    """Error at the value at the path `where` (names and indices), for checks after reading."""
-    return _Reader(path, _load(path)).error(where, reason)
-
-
-def _load(path: Path) -> str:
-    if path.is_dir():
-        raise input_error(path, _folder(path))
-    try:
-        return path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise input_error(path, "no such scene file; examples/king_fire.toml shows every key") from None
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise input_error(path, f"cannot be read as text: {reason}") from None
-
-
-def _folder(path: Path) -> str:
-    """Error message for a folder in place of a scene file."""
-    if (path / "run.toml").is_file():
-        return (
-            f"is a run folder, and a scene file is wanted; this writes one: firetwin new {path} -o SCENE.toml"
-        )
-    inside = sorted(path.glob("*.toml"))
-    return "is a folder, and a scene file is wanted, such as " + (
-        f"{inside[0]}" if inside else "examples/king_fire.toml, which shows every key"
-    )
-
-
 def _syntax_error(path: Path, text: str, message: str) -> InputError:
     """Syntax error; tomllib's messages end in "(at line 3, column 7)" or "(at end of document)"."""
     match = re.search(r" \(at line (\d+), column (\d+)\)$", message)
@@ -91,20 +63,12 @@ def _syntax_error(path: Path, text: str, message: str) -> InputError:
     return input_error(path, f"not valid TOML: {reason[:1].lower()}{reason[1:]}", line=line, column=column)
 
 
-class _Reader:
+class _Reader(SceneText):
     """Makes dataclasses of tables; bounds and choices are validated by `schema.validate`."""
 
     def __init__(self, path: Path, text: str) -> None:
-        self.path = path
-        self.places = {_current(where): at for where, at in places(text).items()}
+        super().__init__(path, text)
         self.former: list[str] = []
-
-    def error(self, where: Where, reason: str) -> InputError:
-        """Error at a key's place, or at the nearest enclosing place in the text."""
-        while where and where not in self.places:
-            where = where[:-1]
-        line, column = self.places.get(where, (0, 0))
-        return input_error(self.path, reason, line=line, column=column)
 
     def current(self, values: dict[str, Any]) -> dict[str, Any]:
         """Rename former sections and keys to their present names, with a note."""
@@ -226,16 +190,6 @@ class _Reader:
         if type(value) is kind:
             return value
         raise self.error(where, f"{_dotted(where)} must be {_TYPES[kind]}, not {_shown(value)}")
-
-
-def _current(where: Where) -> Where:
-    """Path of a value under the present names of its section and key."""
-    if not where:
-        return where
-    section, *inner = FORMER.get(str(where[0]), where[0]), *where[1:]
-    if not inner:
-        return (section,)
-    return (section, FORMER_KEYS.get((str(section), str(inner[0])), inner[0]), *inner[1:])
 
 
 _TYPES = {

@@ -25,10 +25,6 @@ from . import biome_names
 
 BANDS = {"lwir": (8.0, 14.0), "mwir": (3.4, 4.1)}  # um, of infrared cameras
 MOST_RUNS = 3  # comparison runs, in addition to the first run
-FORMER = {"ground": "terrain", "places": "labels"}
-"""Former names of sections, read from scene files and .blend files of the last version."""
-FORMER_KEYS = {("render", "skip"): "cull"}
-"""Former names of keys in sections."""
 
 _LARGEST_SEED = 2**31 - 1  # upper limit in Cycles
 

@@ -19,9 +19,10 @@ from tomlkit.items import AoT
 
 from ... import files
 from ...errors import Error
-from ..schema.toml_positions import Path, places, tables
+from ..schema.former import FORMER, FORMER_KEYS
+from ..schema.toml_positions import Where, places, tables
 from .scene_file import parse, text
-from .settings import FORMER, FORMER_KEYS, Settings
+from .settings import Settings
 
 Values = dict[str, Any]
 
@@ -30,7 +31,7 @@ Values = dict[str, Any]
 class Block:
     """Block of a text: path of its table, comments directly above it, header and keys, and trailing lines."""
 
-    path: Path
+    path: Where
     lead: str
     body: str
     gap: str
@@ -128,7 +129,7 @@ def _with_section(blocks: list[Block], name: str, was: Values, now: Values) -> l
     ]
 
 
-def _with_lists(blocks: list[Block], made: list[Block], path: Path, was: Values, now: Values) -> list[Block]:
+def _with_lists(blocks: list[Block], made: list[Block], path: Where, was: Values, now: Values) -> list[Block]:
     """Update the lists of tables in the table at `path`, and those nested in them."""
     for name in {**was, **now}:
         here = (*path, name)
@@ -142,7 +143,7 @@ def _with_lists(blocks: list[Block], made: list[Block], path: Path, was: Values,
 
 
 def _with_list(
-    blocks: list[Block], made: list[Block], path: Path, name: str, was: Values, now: Values
+    blocks: list[Block], made: list[Block], path: Where, name: str, was: Values, now: Values
 ) -> list[Block]:
     """Reorder, add and remove the tables of a list; `was` is changed accordingly."""
     size = len(path)

@@ -23,7 +23,7 @@ from ...run import areas
 from ...run.content import sha256
 from ...run.observations import Detections, Feature, features
 from ..cameras import targets
-from ..settings import scene_file
+from ..schema import scene_text
 from ..settings.settings import Settings
 from ..shot import Shot
 from ..terrain.terrain import Terrain
@@ -170,7 +170,7 @@ def check(settings: Settings) -> None:
         return
     if known.file is None and known.routes_file is None:
         reason = "stations.enabled needs stations.file, a GeoPackage of stations, or stations.routes_file"
-        raise scene_file.error_at(settings.path, ("stations", "enabled"), reason)
+        raise scene_text.error_at(settings.path, ("stations", "enabled"), reason)
     if known.file is not None:
         store.read(known.file)
     for path in (known.footprints, known.routes_file):

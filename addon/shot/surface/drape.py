@@ -18,7 +18,7 @@ from ...tiles.drape import address
 from ...tiles.drape.mercator import NORTHMOST
 from ...tiles.sources import secret
 from ..cameras.view_digest import of_views
-from ..settings import scene_file
+from ..schema import scene_text
 from ..settings.settings import Settings
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ def check(settings: Settings, run: Run) -> None:
 
 def key_error(settings: Settings, reason: str) -> InputError:
     """Error of the key `terrain.photo_url`."""
-    return scene_file.error_at(settings.path, ("terrain", "photo_url"), f"terrain.photo_url: {reason}")
+    return scene_text.error_at(settings.path, ("terrain", "photo_url"), f"terrain.photo_url: {reason}")
 
 
 def inputs(settings: Settings) -> dict[str, str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...progress import Progress, silent
 from ...run import content
-from ..settings import scene_file
+from ..schema import scene_text
 from ..settings.settings import Settings
 
 _KINDS = (b"\xff\xd8\xff", b"\x89PNG\r\n\x1a\n", b"II*\0", b"MM\0*", b"v/1\x01")
@@ -24,15 +24,15 @@ def check(settings: Settings) -> None:
         return
     if not path.is_file():
         reason = f"terrain.globe: {path} is no file; name a JPEG, PNG, TIFF or EXR"
-        raise scene_file.error_at(settings.path, _WHERE, reason)
+        raise scene_text.error_at(settings.path, _WHERE, reason)
     with path.open("rb") as file:
         begin = file.read(8)
     if not begin.startswith(_KINDS):
         reason = f"terrain.globe: {path} is no JPEG, PNG, TIFF or EXR by its first bytes"
-        raise scene_file.error_at(settings.path, _WHERE, reason)
+        raise scene_text.error_at(settings.path, _WHERE, reason)
     if not settings.terrain.globe_credit.strip():
         reason = "terrain.globe needs terrain.globe_credit, the words that its owner asks for"
-        raise scene_file.error_at(settings.path, _WHERE, reason)
+        raise scene_text.error_at(settings.path, _WHERE, reason)
 
 
 def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:

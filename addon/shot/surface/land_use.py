@@ -21,7 +21,7 @@ from ...progress import Progress, silent
 from ...run import content
 from ...run.buildings import height_of, polygons
 from ...run.observations import Feature, feature, features
-from ..settings import scene_file
+from ..schema import scene_text
 from ..settings.settings import Settings
 from ..terrain import noise, rasterize
 from ..terrain.raster import extent, overlap, said
@@ -273,9 +273,9 @@ def _read(settings: Settings) -> list[tuple[str, Feature]]:
         return []
     where = "terrain", "land_use"
     if path.suffix.lower() not in (".geojson", ".json", ".gpkg"):
-        raise scene_file.error_at(settings.path, where, f"terrain.land_use: {path} is no .geojson or .gpkg")
+        raise scene_text.error_at(settings.path, where, f"terrain.land_use: {path} is no .geojson or .gpkg")
     if not path.is_file():
-        raise scene_file.error_at(settings.path, where, f"terrain.land_use: there is no file {path}")
+        raise scene_text.error_at(settings.path, where, f"terrain.land_use: there is no file {path}")
     every = features(path)
     assert isinstance(every, list)  # of these formats
     known = [(kind, item) for item in every if (kind := kind_of(item.properties)) and _rings((kind, item))]
@@ -297,7 +297,7 @@ def _footprints(settings: Settings) -> list[tuple[str, Feature]]:
         return []
     if not path.is_file():
         where = "terrain", "buildings"
-        raise scene_file.error_at(settings.path, where, f"terrain.buildings: there is no file {path}")
+        raise scene_text.error_at(settings.path, where, f"terrain.buildings: there is no file {path}")
     return [("building", each) for each in polygons(path)]
 
 

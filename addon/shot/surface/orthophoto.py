@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from ...errors import InputError, input_error
 from ...progress import Progress, silent
 from ...run import areas, content
-from ..settings import scene_file
+from ..schema import scene_text
 from ..settings.settings import Settings
 from ..terrain.elevation import ramp
 from ..terrain.raster import Array, GeoTiff, extent, overlap, said
@@ -68,15 +68,15 @@ def check(settings: Settings, run: Run) -> None:
     if settings.terrain.photo is None:
         if settings.terrain.photo_extent:
             where = "terrain", "photo_extent"
-            raise scene_file.error_at(settings.path, where, "terrain.photo_extent needs a terrain.photo")
+            raise scene_text.error_at(settings.path, where, "terrain.photo_extent needs a terrain.photo")
         return
     path = settings.terrain.photo
     if re.search("https?:/", path.as_posix()):
         reason = "terrain.photo is a file; a server's tiles are named by terrain.photo_url"
-        raise scene_file.error_at(settings.path, ("terrain", "photo"), reason)
+        raise scene_text.error_at(settings.path, ("terrain", "photo"), reason)
     if path.exists() and not path.is_file():  # opening a pipe would block
         reason = f"terrain.photo: {path} is no file; name a GeoTIFF, PNG or JPEG"
-        raise scene_file.error_at(settings.path, ("terrain", "photo"), reason)
+        raise scene_text.error_at(settings.path, ("terrain", "photo"), reason)
     source = _file(settings)
     if not overlap(source.bounds, run.latitude, run.longitude):
         raise source.error(
@@ -167,7 +167,7 @@ def _file(settings: Settings) -> PhotoSource:
             start = stream.read(8)
     except OSError as error:
         reason = f"terrain.photo: {path} cannot be read: {error.strerror}"
-        raise scene_file.error_at(settings.path, ("terrain", "photo"), reason) from None
+        raise scene_text.error_at(settings.path, ("terrain", "photo"), reason) from None
     return _Tiff(settings) if start.startswith(_TIFF) else _Plain(settings, path)
 
 
@@ -202,7 +202,7 @@ class _Plain(PhotoSource):
             pixels = sensor.read_image(self.path)
         except InputError as error:
             reason = f"terrain.photo: {self.path} {error.reason}"
-            raise scene_file.error_at(settings.path, ("terrain", "photo"), reason) from None
+            raise scene_text.error_at(settings.path, ("terrain", "photo"), reason) from None
         self.pixels = np.rint(255.0 * np.clip(pixels, 0.0, 1.0)).astype(np.uint8)
         self.affine = self._affine(settings)
         height, width = self.pixels.shape[:2]

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ...errors import Error, InputError, input_error
 from ...run import areas
-from ..settings import scene_file
+from ..schema import scene_text
 from ..settings.settings import Settings
 
 _MEMORY = 64  # MB
@@ -46,7 +46,7 @@ def library(settings: Settings, name: str) -> ModuleType:
         import rasterio.windows
     except ImportError:
         reason = f"terrain.{name} needs the Python package rasterio: {sys.executable} -m pip install rasterio"
-        raise scene_file.error_at(settings.path, ("terrain", name), reason) from None
+        raise scene_text.error_at(settings.path, ("terrain", name), reason) from None
     return rasterio
 
 
@@ -72,7 +72,7 @@ class GeoTiff:
         self.path: Path = getattr(settings.terrain, name)
         if not self.path.is_file():
             reason = f"terrain.{name}: there is no file {self.path}"
-            raise scene_file.error_at(settings.path, ("terrain", name), reason)
+            raise scene_text.error_at(settings.path, ("terrain", name), reason)
         with self.open() as source:
             if source.crs is None or source.transform.is_identity:
                 raise self.error("has no georeference; add one with gdal_edit.py -a_srs and -a_ullr")
@@ -114,7 +114,7 @@ class GeoTiff:
         except (known.RasterioError, OSError, ValueError) as error:
             why = " ".join(str(error.__cause__ or error).split()).replace(str(self.path), "it")
             reason = f"{'.'.join(self.key[1])}: {self.path} cannot be read as a GeoTIFF ({why})"
-            raise scene_file.error_at(*self.key, reason) from error
+            raise scene_text.error_at(*self.key, reason) from error
 
     def overlaps(self, latitude: Array, longitude: Array) -> bool:
         """Whether the raster overlaps the bounding box of these points, degrees."""

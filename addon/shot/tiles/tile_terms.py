@@ -10,7 +10,7 @@ from ...errors import InputError, input_error
 from ...tiles import policies
 from ...tiles.policies import Policy
 from .. import passes
-from ..settings import scene_file
+from ..schema import scene_text
 
 if TYPE_CHECKING:
     from ..settings.settings import Settings
@@ -90,7 +90,7 @@ def _error(settings: Settings, number: int, reason: str) -> InputError:
     """InputError at a source in the scene file, or at the file where its text has none."""
     if settings.path.is_file():
         with contextlib.suppress(InputError):  # it has changed since
-            return scene_file.error_at(settings.path, ("tiles", "sources", number), reason)
+            return scene_text.error_at(settings.path, ("tiles", "sources", number), reason)
     return input_error(settings.path, f"tiles.sources: {reason}")
 
 
