@@ -87,9 +87,9 @@ def enter(store: Store, whole: Iterable[list[Entry]], made_with: Fingerprints) -
     """Enter pictures in a store that does not have them yet."""
     new: dict[tuple[str, str], dict[str, dict[str, Any]]] = defaultdict(dict)
     for made in whole:
-        if not store.intact(made[0].fingerprint, [each.path for each in made]):
+        if not store.is_intact(made[0].fingerprint, [each.path for each in made]):
             pair = made[0].camera, made[0].name
-            new[pair] |= {each.path: each.plain() | manifest.credited(made_with[pair]) for each in made}
+            new[pair] |= {each.path: each.plain() | manifest.credit_entry(made_with[pair]) for each in made}
     for pair, found in new.items():
         store.add(made_with[pair], found)
 

@@ -45,7 +45,7 @@ class PrivateFolder:
         with Store(self.folder, create=True) as store:
             for pair, made in found.items():
                 store.add(made_with[pair], made)
-            self.published = store.number()
+            self.published = store.latest_number()
 
     def publish(self) -> None:
         """Give files that were finished since the last time their places in the film, then enter them."""

@@ -45,7 +45,7 @@ def prune(kept: list[Cached], limit: int, dry_run: bool = False) -> list[Cached]
 
     What is in use is never removed. With `dry_run` nothing is removed; the result is the same.
     """
-    going = cache.beyond(kept, limit)
+    going = cache.to_evict(kept, limit)
     if dry_run:
         return going
     gone = []

@@ -97,7 +97,7 @@ def run(
     with Store(out) as store:
         undone = plan.missing(store, wanted, made_with)
         finished = len(wanted) - len(undone)
-        begun = store.number()
+        begun = store.latest_number()
         if not undone and asked.resume and not (asked.films and any(films.missing(shot, store, made_with))):
             tell(f"{finished} of {count(len(wanted), 'picture')} are finished and match; nothing to render")
             store.export()

@@ -54,7 +54,7 @@ def run(
         digest = hashlib.file_digest(file, "sha256").hexdigest()
     made_with = _made_with(digest, wanted)
     with Store(asked.out, create=True) as store:
-        begun = store.number()
+        begun = store.latest_number()
         undone = plan.missing(store, wanted, made_with, 0 if asked.resume else begun)
         task = {
             "choice": choice.plain(),
@@ -104,7 +104,7 @@ def in_blender(
 
     bpy.ops.wm.open_mainfile(filepath=blend, load_ui=False)
     stage = owned.stage(bpy.data.scenes[scene])
-    layers.mend(stage.scene)
+    layers.repair(stage.scene)
     shot = _with_scene_settings(ShotSource(**choice).shot(), stage.scene)
     todo = [Picture(*picture) for picture in pictures]
     if stage.scene.render.engine == "CYCLES":
@@ -119,7 +119,7 @@ def in_blender(
             if stage.camera(camera) is None:
                 raise Error(f'the camera "{camera}" is not in the scene {scene}; build the cameras again')
             wanted, alone = list(group), for_view(shot, camera)
-            engine.size(alone.settings, stage.scene)
+            engine.set_resolution(alone.settings, stage.scene)
             part = share(progress, done, frames, "rendering")
             renderer.render(alone, stage, session, wanted, part, ready, tell)
             done += frames_of(wanted)

@@ -31,7 +31,7 @@ def build_scene(shot: Shot, progress: Progress, tell: MessageCallback) -> Stage:
         progress(done, total, "building the scene")
     layers.build(shot.settings, stage)
     engine.apply(shot.settings, stage.scene)
-    engine.label(shot.run, stage.scene)
+    engine.set_metadata(shot.run, stage.scene)
     credits.stamp(stage)
     devices.follow(shot.settings.render.device, stage.scene)
     progress(total, total, "building the scene")

@@ -31,7 +31,7 @@ def make(
                     pictures = [Picture(camera, queue.frame, name) for name in queue.names]
                     for picture in pictures:
                         _finish(own, session, part, picture)
-                    if queue.held():
+                    if queue.holds_lease():
                         publish(own, session, part, pictures)
                         done += len(pictures)
 

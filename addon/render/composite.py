@@ -18,7 +18,7 @@ from ..shot.cameras.pixel_rays import SKY
 Array = NDArray[np.float32]
 
 _EDGE = 0.02  # least difference of transmittance across a silhouette
-_REACH, _ALIKE = 2, 0.1  # pixels round an edge; relative depth tolerance of one surface
+_REACH, _SAME_DEPTH = 2, 0.1  # pixels round an edge; relative depth tolerance of one surface
 _SURE = 15.0  # rays at which a pixel's own coverage counts as much as its neighbours'; estimated
 
 
@@ -65,7 +65,7 @@ def taps(surfaces: Surfaces) -> Array:
     return np.stack([near, far, surfaces.fire_distance], axis=-1)
 
 
-def picture(surfaces: Surfaces, distances: Array, marched: Array) -> Array:
+def compose(surfaces: Surfaces, distances: Array, marched: Array) -> Array:
     """Radiance (h, w, 3) of surfaces behind smoke.
 
     Parameters
@@ -91,7 +91,7 @@ def picture(surfaces: Surfaces, distances: Array, marched: Array) -> Array:
     return (np.maximum(behind + fire * flames, 0.0) + light).astype(np.float32)
 
 
-def radiance(surface: Array, flames: Array, warmth: Array, sky: float) -> Array:
+def infrared_radiance(surface: Array, flames: Array, warmth: Array, sky: float) -> Array:
     """Infrared radiance (h, w) before smoke, W m-2 sr-1, from AOVs (see `blender.nodes`).
 
     Parameters
@@ -118,7 +118,7 @@ def _share(surfaces: Surfaces, distances: Array) -> Array:
     share = sure * share + (1.0 - sure) * _nearer(surfaces.distance, distances)
     # An artist's material writes no distance: only the centre ray's depth is known.
     unknown = (surfaces.solid < 0.5) & (surfaces.distance < SKY)
-    share = np.where(unknown, surfaces.distance <= distances[..., 0] * (1.0 + _ALIKE), share)
+    share = np.where(unknown, surfaces.distance <= distances[..., 0] * (1.0 + _SAME_DEPTH), share)
     return np.where(apart > 1.0e-3 * near, share, 1.0)
 
 
@@ -175,7 +175,7 @@ def _without_edges(colour: Array, near: Array, edge: NDArray[np.bool_]) -> Array
             row, column = rows + down, columns + across
             inside = (row >= 0) & (row < height) & (column >= 0) & (column < width)
             row, column = np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)
-            alike = inside & ~edge[row, column] & (np.abs(near[row, column] - here) < _ALIKE * here)
+            alike = inside & ~edge[row, column] & (np.abs(near[row, column] - here) < _SAME_DEPTH * here)
             part = np.float32(np.exp(-0.5 * (down**2 + across**2))) * alike
             total += part[:, None] * colour[row, column]
             weight += part

@@ -39,14 +39,14 @@ def apply(settings: Settings, scene: bpy.types.Scene) -> None:
     render.image_settings.color_mode, render.image_settings.color_depth = "RGB", "8"
     render.image_settings.compression = 15
     render.dither_intensity = 0.0
-    size(settings, scene)
+    set_resolution(settings, scene)
     if settings.render.engine == "eevee":
         _eevee(settings, scene)
     else:
         _cycles(settings, scene)
 
 
-def size(settings: Settings, scene: bpy.types.Scene) -> None:
+def set_resolution(settings: Settings, scene: bpy.types.Scene) -> None:
     """Set the picture's resolution: that of one eye for stereo panoramas, whose files hold both eyes."""
     render = scene.render
     render.resolution_x, render.resolution_y = settings.render.resolution
@@ -125,7 +125,7 @@ def long_steps(scene: bpy.types.Scene, wanted: bool = True) -> Iterator[None]:
         scene.cycles.volume_step_rate = before
 
 
-def label(run: Run, scene: bpy.types.Scene) -> None:
+def set_metadata(run: Run, scene: bpy.types.Scene) -> None:
     """Set every image's metadata: the run that it shows, and no values that differ between renders."""
     render = scene.render
     for name in render.bl_rna.properties.keys():  # noqa: SIM118 (a Blender collection)

@@ -41,7 +41,7 @@ class Eye:
         self.shot, self.stage, self.channels, self.smoke = shot, stage, channels, smoke
         height, width = self.shape = next(iter(channels.values())).shape[:2]
         self._through = functools.partial(
-            rays.through, stage.evaluated(stage.scene.camera), stage.scene, height, width, number
+            rays.pixel_rays, stage.evaluated(stage.scene.camera), stage.scene, height, width, number
         )
         self.rays = self._through()
 
@@ -56,12 +56,12 @@ class Eye:
             for place in _PLACES:
                 found = volume.march(self.smoke, *_lines(self._through(at=place)), ends, light, _STEP)
                 marched += found.reshape(marched.shape) / np.float32(len(_PLACES))
-        return composite.picture(rendered, at, marched)
+        return composite.compose(rendered, at, marched)
 
     def radiance(self, frame: int) -> Array:
         """Infrared radiance (h, w) of surfaces, air and smoke, W m-2 sr-1."""
         channels = self.channels
-        bare = composite.radiance(
+        bare = composite.infrared_radiance(
             channels[nodes.SURFACE],
             channels[nodes.FLAMES],
             channels[nodes.WARMTH][..., 0],

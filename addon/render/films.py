@@ -41,7 +41,7 @@ def missing(shot: Shot, store: Store, made_with: Fingerprints) -> Iterator[Film]
             made_from = _made_from(
                 shot, camera, name, [[frame, hashes[frame]] for frame in hashes if frame in frames]
             )
-            if len(made_from["frames"]) > 1 and not store.intact(fingerprint(made_from), [path]):
+            if len(made_from["frames"]) > 1 and not store.is_intact(fingerprint(made_from), [path]):
                 yield camera, name, made_from
             else:
                 with contextlib.suppress(Error):  # a read-only folder

@@ -33,10 +33,10 @@ _BLACK, _WHITE = (0.0, 0.0, 0.0, 1.0), (1.0, 1.0, 1.0, 1.0)
 def build(settings: Settings, stage: Stage) -> None:
     """Create the missing groups, and set the camera's band from the settings."""
     makers = {
-        "Thermal Blend": thermal_blend,
-        "Thermal Camera": thermal_camera,
-        "Eye Dome": eye_dome,
-        "Overlay": overlaid,
+        "Thermal Blend": thermal_blend_group,
+        "Thermal Camera": thermal_camera_group,
+        "Eye Dome": eye_dome_group,
+        "Overlay": overlay_group,
     }
     for name, make in makers.items():
         if stage.root.get(f"group {name}") is None:
@@ -44,7 +44,7 @@ def build(settings: Settings, stage: Stage) -> None:
     set_band(stage.root["group Thermal Camera"], BANDS[settings.thermal.band])
 
 
-def thermal_blend() -> bpy.types.NodeTree:
+def thermal_blend_group() -> bpy.types.NodeTree:
     """`sensor.thermal_composite`: the paper's temperature gradient added to a picture."""
     tree = nodes.compositor(
         "Firetwin Thermal Blend",
@@ -57,12 +57,12 @@ def thermal_blend() -> bpy.types.NodeTree:
     high = tree.input("High", 330.0, "K where it ends, with white", "Scale")
     strength = tree.input("Strength", 1.0, "How much of the gradient is added", "Scale", least=None)
     heat = tree.colours((kelvin - low) / (high - low), sensor.palette("paper"))
-    sum_ = tree.vector("ADD", _held(tree, image), _times(tree, heat, strength))
-    tree.finish({"Image": _held(tree, sum_)})
+    sum_ = tree.vector("ADD", _clamped(tree, image), _times(tree, heat, strength))
+    tree.finish({"Image": _clamped(tree, sum_)})
     return tree.node_tree
 
 
-def thermal_camera() -> bpy.types.NodeTree:
+def thermal_camera_group() -> bpy.types.NodeTree:
     """`sensor.brightness_temperature` and `sensor.colour`: radiance to an infrared camera's colours."""
     names = sensor.palettes()
     listed = ", ".join(f"{number} {name}" for number, name in enumerate(names, 1))
@@ -89,7 +89,7 @@ def thermal_camera() -> bpy.types.NodeTree:
     return tree.node_tree
 
 
-def eye_dome() -> bpy.types.NodeTree:
+def eye_dome_group() -> bpy.types.NodeTree:
     """Eye-dome lighting (`sensor.eye_dome`): darkens pixels that lie behind their neighbours."""
     tree = nodes.compositor(
         "Firetwin Eye Dome",
@@ -116,7 +116,7 @@ def eye_dome() -> bpy.types.NodeTree:
     return tree.node_tree
 
 
-def overlaid() -> bpy.types.NodeTree:
+def overlay_group() -> bpy.types.NodeTree:
     """`sensor.overlay`: hot spots of one picture over another."""
     tree = nodes.compositor(
         "Firetwin Overlay", "Hot spots of a thermal picture over the visible one", {"Image": _COLOUR}
@@ -177,7 +177,7 @@ def _times(tree: Tree, colour: Any, number: Any) -> Value:
     return tree.output("ShaderNodeVectorMath", {"Vector": colour, "Scale": number}, operation="SCALE")
 
 
-def _held(tree: Tree, colour: Any) -> Value:
+def _clamped(tree: Tree, colour: Any) -> Value:
     """Colour clamped to 0 to 1."""
     above = tree.vector("MAXIMUM", colour, (0.0, 0.0, 0.0))
     return tree.vector("MINIMUM", above, (1.0, 1.0, 1.0))

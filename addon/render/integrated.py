@@ -25,52 +25,54 @@ from . import layers, surfaces
 from .eye import Eye
 from .picture import Picture
 
-TOGETHER = ("rgb", "thermal", "depth")
+MARCHED_PASSES = ("rgb", "thermal", "depth")
 """Passes of one render; it uses the view layer of the first of them that is requested."""
 
 _AOVS = {nodes.SURFACE: "COLOR", nodes.FLAMES: "COLOR", nodes.WARMTH: "VALUE"}
 _PICTURE = "integrated picture"
-_RIGHT_BEFORE, _HALF = 0.1, 0.5  # share of the distance to the camera's target; share of the picture
+_CLOSE, _HALF = 0.1, 0.5  # share of the distance to the camera's target; share of the picture
 
 Array = NDArray[np.float32]
 
 
-class Drawing:
+class IntegratedRenderer:
     """Integrated drawing of a scene; the scene stays set up for it until its Blender ends."""
 
     def __init__(self, shot: Shot, stage: Stage) -> None:
         self.shot, self.stage, self.scene = shot, stage, stage.scene
         self.in_smoke: list[int] = []
         """Frames in which smoke close to the camera hides more than half of the picture."""
-        self.image = _show(self.scene)
+        self.image = _image_node(self.scene)
         _prepare(self.scene)
         self.shadow = _shadow(shot, stage) if shot.settings.smoke.enabled else None
         for volume_object in stage.objects_of("Smoke"):
             volume_object.hide_render = True
         layers.exclude(self.scene, shadow.NAME.lower(), but="rgb")
 
-    def of(self, smoke: Sequence[volume.Bricks], part: Path) -> Callable[[list[Picture]], None]:
+    def frame_renderer(self, smoke: Sequence[volume.Bricks], part: Path) -> Callable[[list[Picture]], None]:
         """Function that renders a frame's pictures with its smoke into a folder, before their `finish`."""
-        return lambda pictures: self._draw({picture.name: picture for picture in pictures}, smoke, part)
+        return lambda pictures: self._render({picture.name: picture for picture in pictures}, smoke, part)
 
-    def _draw(self, pictures: dict[str, Picture], smoke: Sequence[volume.Bricks], part: Path) -> None:
+    def _render(self, pictures: dict[str, Picture], smoke: Sequence[volume.Bricks], part: Path) -> None:
         if self.shadow and "rgb" in pictures:
             self.shadow.cast(self.stage, smoke)
-        together = {name: pictures[name] for name in TOGETHER if name in pictures}
-        if together:
-            self._together(together, smoke, part)
-        others = [picture for name, picture in pictures.items() if name not in together]
+        marched = {name: pictures[name] for name in MARCHED_PASSES if name in pictures}
+        if marched:
+            self._render_marched_passes(marched, smoke, part)
+        others = [picture for name, picture in pictures.items() if name not in marched]
         if others:
-            self._others(others, smoke, part)
+            self._render_centre_rays(others, smoke, part)
 
-    def _together(self, pictures: dict[str, Picture], smoke: Sequence[volume.Bricks], part: Path) -> None:
+    def _render_marched_passes(
+        self, pictures: dict[str, Picture], smoke: Sequence[volume.Bricks], part: Path
+    ) -> None:
         first = next(iter(pictures))
         eyes = [
             Eye(self.shot, self.stage, found[first], number, smoke)
-            for number, found in surfaces.draw(self.scene, [first], part)
+            for number, found in surfaces.render(self.scene, [first], part)
         ]
         if "rgb" in pictures:
-            self._develop([eye.picture() for eye in eyes], pictures["rgb"], part)
+            self._write_visible([eye.picture() for eye in eyes], pictures["rgb"], part)
             self._check_view(eyes[0], pictures["rgb"].frame)
         if "thermal" in pictures:
             heat = [eye.radiance(pictures["thermal"].frame) for eye in eyes]
@@ -84,7 +86,7 @@ class Drawing:
         (view,) = self.shot.paths
         if view.perspective:
             away = float(np.linalg.norm(view.target[frame - 1] - view.position[frame - 1]))
-            if eye.hidden_by_near_smoke(_RIGHT_BEFORE * away) > _HALF:
+            if eye.hidden_by_near_smoke(_CLOSE * away) > _HALF:
                 self.in_smoke.append(frame)
 
     def warnings(self) -> list[str]:
@@ -98,9 +100,11 @@ class Drawing:
             f"{listed}; move it to windward, or higher"
         ]
 
-    def _others(self, pictures: list[Picture], smoke: Sequence[volume.Bricks], part: Path) -> None:
+    def _render_centre_rays(
+        self, pictures: list[Picture], smoke: Sequence[volume.Bricks], part: Path
+    ) -> None:
         """Render passes whose rays all go through pixel centres."""
-        eyes = surfaces.draw(self.scene, [each.name for each in pictures], part, centres=True)
+        eyes = surfaces.render(self.scene, [each.name for each in pictures], part, centres=True)
         for picture in pictures:
             known, halves = layers.rendered(picture.name), []
             for number, found in eyes:
@@ -112,19 +116,19 @@ class Drawing:
                 halves.append(pixels)
             _write(part, picture, np.concatenate(halves))
 
-    def _develop(self, eyes: list[Array], picture: Picture, part: Path) -> None:
+    def _write_visible(self, eyes: list[Array], picture: Picture, part: Path) -> None:
         """Write the pass's files from the light (h, w, 3) of each eye."""
         files = {end: part / Path(picture.file(end)).name for end in ("png", "exr")}
-        developed: dict[str, list[Array]] = {end: [] for end in files}
+        written: dict[str, list[Array]] = {end: [] for end in files}
         two, self.scene.render.use_multiview = self.scene.render.use_multiview, False
         for light in eyes:
             self._composite(light, picture, part)
             if two:
                 for end, file in files.items():
-                    developed[end].append(sensor.read_image(file)[..., :3])
+                    written[end].append(sensor.read_image(file)[..., :3])
         self.scene.render.use_multiview = two
         note = {"Note": self.scene.render.stamp_note_text}
-        for end, halves in developed.items():
+        for end, halves in written.items():
             if two:
                 sensor.write_image(files[end], np.concatenate(halves), note)
 
@@ -140,14 +144,14 @@ class Drawing:
         file.unlink()
 
 
-def wanted(shot: Shot, scene: bpy.types.Scene) -> bool:
+def applies(shot: Shot, scene: bpy.types.Scene) -> bool:
     """Whether a scene's frames are rendered so: the settings ask for it, and the engine is Cycles."""
     return sources.is_integrated(shot) and scene.render.engine == "CYCLES"
 
 
 def _prepare(scene: bpy.types.Scene) -> None:
     """Set up view layers, AOVs and light groups for the integrated renderer."""
-    for name in TOGETHER:
+    for name in MARCHED_PASSES:
         layer = layers.of_pass(scene, name)
         layer.use_pass_z = True
         layer.pass_alpha_threshold = 1.0  # flames are transparent, and emit
@@ -176,7 +180,7 @@ def _shadow(shot: Shot, stage: Stage) -> shadow.Shadow | None:
     return shadow.build(shot, stage, boxes) if boxes else None
 
 
-def _show(scene: bpy.types.Scene) -> bpy.types.Image:
+def _image_node(scene: bpy.types.Scene) -> bpy.types.Image:
     """Replace the visible picture of Cycles in the compositor by an image node."""
     tree = compat.compositor(scene)
     assert tree is not None  # `layers.build` has made it

@@ -31,7 +31,7 @@ def build(settings: Settings, stage: Stage) -> None:
     groups.build(settings, stage)
     if not stage.own:
         return
-    mend(stage.scene)
+    repair(stage.scene)
     for rendered_pass in _rendered():
         layer = _layer(stage.scene, rendered_pass)
         layer[nodes.THERMAL] = 0.0 if rendered_pass.shading == "light" else 1.0
@@ -39,9 +39,9 @@ def build(settings: Settings, stage: Stage) -> None:
         layer.cycles.use_denoising = rendered_pass.shading == "light" and settings.render.denoise
         if rendered_pass.layer_property:
             setattr(layer, rendered_pass.layer_property, True)
-        layer.use = still(rendered_pass) or rendered_pass.name in settings.render.passes
+        layer.use = has_still(rendered_pass) or rendered_pass.name in settings.render.passes
         layer.samples = rendered_pass.samples or 0
-        _leave_out(layer, rendered_pass, None)
+        _exclude_hidden(layer, rendered_pass, None)
     _compositor(stage.scene)
 
 
@@ -53,18 +53,18 @@ def complete(settings: Settings, stage: Stage, parts: Collection[str]) -> None:
     groups.build(settings, stage)
     if not stage.own:
         return
-    mend(stage.scene)
+    repair(stage.scene)
     there = {layer.get(owned.MARK) for layer in stage.scene.view_layers}
     if any(f"pass {each.name}" not in there for each in _rendered()):
         build(settings, stage)
         return
     for rendered_pass in _rendered():
-        _leave_out(_layer(stage.scene, rendered_pass), rendered_pass, parts)
+        _exclude_hidden(_layer(stage.scene, rendered_pass), rendered_pass, parts)
 
 
 def remove(scene: bpy.types.Scene) -> None:
     """Remove our view layers, except the last layer of the scene, and our compositor nodes."""
-    mend(scene)
+    repair(scene)
     for layer in [layer for layer in scene.view_layers if owned.ours(layer)]:
         if len(scene.view_layers) > 1:
             scene.view_layers.remove(layer)
@@ -80,7 +80,7 @@ def remove(scene: bpy.types.Scene) -> None:
             compat.no_compositor(scene)
 
 
-def mend(scene: bpy.types.Scene) -> None:
+def repair(scene: bpy.types.Scene) -> None:
     """Repair compositor nodes that Blender lost when it opened a file of another version.
 
     These are the outputs of File Output nodes, and our mark on the node that shows our picture.
@@ -120,13 +120,13 @@ def select(scene: bpy.types.Scene, names: Iterable[str]) -> None:
 
 
 @contextmanager
-def plain(scene: bpy.types.Scene, names: Iterable[str]) -> Iterator[None]:
+def black_materials(scene: bpy.types.Scene, names: Iterable[str]) -> Iterator[None]:
     """Context: override materials by black in layers of geometry passes, so that shading costs no time.
 
     The override is opaque where these layers' own materials are. It is off in scenes with materials of an
     artist.
     """
-    shapes = {f"pass {name}" for name in names if _geometry_only(name)}
+    shapes = {f"pass {name}" for name in names if _is_geometry_only(name)}
     geometry_layers = [layer for layer in scene.view_layers if layer.get(owned.MARK) in shapes]
     if not geometry_layers or not all(
         owned.ours(material) for material in bpy.data.materials if material.users
@@ -159,7 +159,7 @@ def write_exr(scene: bpy.types.Scene, folder: str, pictures: Iterable[Picture]) 
                 compat.exr_output_path(node, folder, stems[what])
 
 
-def still(each: Pass) -> bool:
+def has_still(each: Pass) -> bool:
     """Whether the render itself writes this pass's PNG: the output of the compositor."""
     return "png" in each.files and not each.finished
 
@@ -176,7 +176,7 @@ def _rendered() -> list[RenderedPass]:
     return [known_pass for known_pass in passes.known().values() if isinstance(known_pass, RenderedPass)]
 
 
-def _geometry_only(name: str) -> bool:
+def _is_geometry_only(name: str) -> bool:
     each = passes.known()[name]
     return isinstance(each, RenderedPass) and each.geometry_only
 
@@ -193,7 +193,7 @@ def _layer(scene: bpy.types.Scene, each: RenderedPass) -> bpy.types.ViewLayer:
     return owned.mark(layer, what)
 
 
-def _leave_out(layer: bpy.types.ViewLayer, each: RenderedPass, parts: Collection[str] | None) -> None:
+def _exclude_hidden(layer: bpy.types.ViewLayer, each: RenderedPass, parts: Collection[str] | None) -> None:
     """Exclude the collections that a pass does not show: those of these parts, or of all for None."""
     for child in _parts(layer):
         part = str(child.collection[owned.MARK]).lower()
@@ -235,7 +235,7 @@ def _record(scene: bpy.types.Scene, tree: bpy.types.NodeTree, each: RenderedPass
     source.scene = scene
     source.layer = of_pass(scene, each.name).name
     image = source.outputs[each.socket]
-    if still(each):
+    if has_still(each):
         image = compat.bloom(tree, image, Threshold=2.0, Maximum=20.0, Strength=0.25)
         compat.composite(tree, image)
     if each.channels == "grey" and each.socket == "Image":

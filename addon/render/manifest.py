@@ -52,7 +52,7 @@ def credits_of(made_with: dict[str, Any]) -> Credits:
     return Credits(tuple(found.get("data", ())), tuple(found.get("logo", ())))
 
 
-def credited(made_with: dict[str, Any], words: Credits | None = None) -> dict[str, list[str]]:
+def credit_entry(made_with: dict[str, Any], words: Credits | None = None) -> dict[str, list[str]]:
     """What an entry says of a picture: who is to be named, and which tiles are missing.
 
     Parameters

@@ -15,13 +15,13 @@ from . import layers
 from .picture import Picture
 
 
-def exact() -> tuple[str, ...]:
+def unprocessed_passes() -> tuple[str, ...]:
     """Passes that Blender's own render writes as is: others need their own rays or post-processing."""
     known = passes.known().items()
-    return tuple(name for name, each in known if _exact(each))
+    return tuple(name for name, each in known if _is_unprocessed(each))
 
 
-def _exact(each: passes.Pass) -> bool:
+def _is_unprocessed(each: passes.Pass) -> bool:
     return isinstance(each, passes.RenderedPass) and not each.pixel_centres and not each.finished
 
 
@@ -38,10 +38,10 @@ def to_files(stage: Stage, out: Path, camera: str, names: tuple[str, ...]) -> No
     Error
         The scene has no compositor.
     """
-    chosen = [name for name in exact() if name in names]
+    chosen = [name for name in unprocessed_passes() if name in names]
     if compat.compositor(stage.scene) is None:
         raise Error("the scene's compositor is gone, which writes the passes; build the scene again")
-    layers.mend(stage.scene)
+    layers.repair(stage.scene)
     layers.select(stage.scene, chosen)
     pictures = {name: Picture(camera, 1, name) for name in chosen}
     for node in _nodes(stage.scene):
@@ -51,7 +51,7 @@ def to_files(stage: Stage, out: Path, camera: str, names: tuple[str, ...]) -> No
             node.mute = picture is None
             if picture is not None:
                 compat.exr_output_path(node, str(out / camera / picture.name), picture.stem())
-    still = next((name for name in chosen if layers.still(passes.known()[name])), None)
+    still = next((name for name in chosen if layers.has_still(passes.known()[name])), None)
     if still is not None:
         stage.scene.render.filepath = str(out / camera / still / f"{pictures[still].stem()}######")
 
@@ -63,7 +63,7 @@ def to_none(stage: Stage) -> None:
             node.mute = True
 
 
-def writes(scene: bpy.types.Scene) -> bool:
+def has_outputs(scene: bpy.types.Scene) -> bool:
     """Whether Blender's own renders write pass files."""
     return any(str(node.get(owned.MARK, "")).startswith("exr ") and not node.mute for node in _nodes(scene))
 

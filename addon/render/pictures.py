@@ -54,18 +54,18 @@ def render(
     -------
     Number of frames that this render finished.
     """
-    engine.label(shot.run, stage.scene)
+    engine.set_metadata(shot.run, stage.scene)
     made, note = 0, ""
-    marched = integrated.wanted(shot, stage.scene) and bool(plan.rendered(shot, wanted))
-    drawing = integrated.Drawing(shot, stage) if marched else None
+    marched = integrated.applies(shot, stage.scene) and bool(plan.rendered(shot, wanted))
+    renderer = integrated.IntegratedRenderer(shot, stage) if marched else None
     with session.leases.part_folder() as part, session.queue(wanted, tell) as queue:
         while queue.step():
             progress(queue.done, queue.total, "rendering", note)
-            if finished := _frame(shot, stage, session, part, queue, ready, drawing):
+            if finished := _frame(shot, stage, session, part, queue, ready, renderer):
                 made, note = made + 1, _preview(finished)
             memory.give_back()
         progress(queue.done, queue.total, "rendering", note)
-    for text in drawing.warnings() if drawing else ():
+    for text in renderer.warnings() if renderer else ():
         tell(text)
     return made
 
@@ -77,7 +77,7 @@ def _frame(
     part: Path,
     queue: FrameQueue,
     ready: Ready,
-    drawing: integrated.Drawing | None,
+    renderer: integrated.IntegratedRenderer | None,
 ) -> list[Picture]:
     """Render and publish the queue's current frame; empty where another render has taken its lease over.
 
@@ -87,13 +87,13 @@ def _frame(
     memory.give_back()
     try:
         frame = _Frame(shot, stage, session, part, queue.camera, queue.frame)
-        frame.draw = drawing.of(smoke or (), part) if drawing else frame.draw_layers
+        frame.draw = renderer.frame_renderer(smoke or (), part) if renderer else frame.draw_layers
         finished = frame.render(queue.names)
     except Exception:
-        if queue.held():
+        if queue.holds_lease():
             raise
         return []  # the temporary files go with it
-    if not queue.held():
+    if not queue.holds_lease():
         return []
     publish(shot, session, part, finished, frame.words)
     return finished
@@ -134,8 +134,8 @@ class _Frame:
         }
         own = {name for needs in taken.values() for camera, name in needs.values() if camera == self.camera}
         store, made_with = self.session.store, self.session.made_with
-        lacking = {need for need in own - set(names) if plan.missing(store, [self.pictures[need]], made_with)}
-        drawn = [known[name] for name in known if name in names or name in lacking]
+        missing = {need for need in own - set(names) if plan.missing(store, [self.pictures[need]], made_with)}
+        drawn = [known[name] for name in known if name in names or name in missing]
         made = {self.pictures[drawn_pass.name] for drawn_pass in drawn}
         self.draw(
             [
@@ -174,11 +174,11 @@ class _Frame:
             names = [each.name for each in group]
             layers.select(self.scene, names)
             layers.write_exr(self.scene, str(self.part), group)
-            still = next((each for each in group if layers.still(passes.known()[each.name])), None)
+            still = next((each for each in group if layers.has_still(passes.known()[each.name])), None)
             if still:
                 self.scene.render.filepath = str(self.part / Path(still.file("png")).name)
             steps = engine.long_steps(self.scene, through_smoke)
-            with steps, engine.pixel_centres(self.scene, centres), layers.plain(self.scene, names):
+            with steps, engine.pixel_centres(self.scene, centres), layers.black_materials(self.scene, names):
                 bpy.ops.render.render(write_still=still is not None, scene=self.scene.name)
 
     def files(self, picture: Picture, made: set[Picture]) -> dict[str, Path]:
@@ -209,13 +209,13 @@ def publish(
         path, size = made[name], passes.known()[picture.name].size(shot.settings.render.resolution)
         if path.suffix == ".png" and path.exists():
             with writing(path):
-                png.forget_times(path)
+                png.remove_render_times(path)
                 if shot.camera(picture.camera).rig.around:
                     spherical.still(path, size, _heading(shot, picture))
         verify.picture(path, size)
     for picture in pictures:
         entries = {}
-        about = manifest.credited(session.made_with[picture.camera, picture.name], words)
+        about = manifest.credit_entry(session.made_with[picture.camera, picture.name], words)
         for name in picture.files():
             entries[name] = describe(made[name]) | {
                 "camera": picture.camera,

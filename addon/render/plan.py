@@ -145,7 +145,7 @@ def missing(store: Store, wanted: list[Picture], made_with: Fingerprints, after:
     return [
         picture
         for picture in wanted
-        if not store.intact(keys[picture.camera, picture.name], picture.files(), after)
+        if not store.is_intact(keys[picture.camera, picture.name], picture.files(), after)
     ]
 
 

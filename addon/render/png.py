@@ -9,7 +9,7 @@ _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _TIMES = b"cycles."
 
 
-def forget_times(path: Path) -> None:
+def remove_render_times(path: Path) -> None:
     """Remove Cycles' text chunks; a file that is no PNG, or is truncated, stays as it is."""
     data = path.read_bytes()
     kept, place = [_SIGNATURE], len(_SIGNATURE)

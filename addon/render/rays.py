@@ -47,7 +47,7 @@ class Rays:
         return np.sqrt(np.maximum(square, 0.0)).astype(np.float32)
 
 
-def through(
+def pixel_rays(
     camera: bpy.types.Object,
     scene: bpy.types.Scene,
     height: int,

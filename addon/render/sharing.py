@@ -75,7 +75,9 @@ class RenderSession:
         InputError
             Since this render began, a picture that it is asked for was made with another fingerprint.
         """
-        for camera, frame, name in self.store.made_otherwise(self._keys, self.since) if self.asked else ():
+        for camera, frame, name in (
+            self.store.made_with_other_settings(self._keys, self.since) if self.asked else ()
+        ):
             if (picture := Picture(camera, frame, name)) in self.asked:
                 raise input_error(
                     self.store.out / picture.files()[0],
@@ -189,7 +191,7 @@ class FrameQueue:
         """The next frame, if this render holds its lease and it is of the same camera; else empty."""
         return [self.following[0][1]] if self.following and self.following[0][0] == self.camera else []
 
-    def held(self) -> bool:
+    def holds_lease(self) -> bool:
         """Whether the lease of the current frame is still ours; it expires without heartbeats."""
         return self.leases.held(_name(self.camera, self.frame))
 

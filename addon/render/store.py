@@ -66,7 +66,7 @@ class Store:
                     *(self._stamp(path), json.dumps(entry)),
                 )
 
-    def intact(self, key: str, paths: Iterable[str], after: int = 0) -> bool:
+    def is_intact(self, key: str, paths: Iterable[str], after: int = 0) -> bool:
         """Whether these files are unchanged since they were made with the settings of fingerprint `key`.
 
         Parameters
@@ -81,7 +81,7 @@ class Store:
                 return False
         return True
 
-    def made_otherwise(self, keys: Iterable[str], since: int) -> list[tuple[str, int, str]]:
+    def made_with_other_settings(self, keys: Iterable[str], since: int) -> list[tuple[str, int, str]]:
         """Pictures (camera, frame, pass) entered after number `since` with settings of other fingerprints."""
         return self.data.all(
             "SELECT camera, frame, pass FROM files WHERE number > ? AND frame IS NOT NULL "
@@ -102,7 +102,7 @@ class Store:
             if path.endswith(suffix) and self._is_unchanged(path, state, entry)
         }
 
-    def number(self) -> int:
+    def latest_number(self) -> int:
         """Number of the latest entry; numbers increase with every entry."""
         (last,) = self.data.one("SELECT max(number) FROM files") or (None,)
         return last or 0
@@ -122,7 +122,7 @@ class Store:
 
     def export(self) -> None:
         """Write the manifest, unless it is up to date."""
-        number = str(self.number())
+        number = str(self.latest_number())
         if self.note("exported") == number and (self.out / manifest.NAME).exists():
             return
         rows = self.data.all("SELECT path, settings, entry FROM files ORDER BY path")

@@ -20,7 +20,7 @@ Channels = dict[str, NDArray[np.float32]]
 _ORDER = "RGBXYZVA"
 
 
-def draw(
+def render(
     scene: bpy.types.Scene, names: Collection[str], folder: Path, centres: bool = False
 ) -> list[tuple[int, dict[str, Channels]]]:
     """Render the view layers of passes with one call.
@@ -41,7 +41,11 @@ def draw(
     chance = cycles.min_transparent_bounces
     cycles.min_transparent_bounces = engine.TRANSPARENT  # AOVs are not corrected for Russian roulette
     try:
-        with compat.raw_file(scene, file), engine.pixel_centres(scene, centres), layers.plain(scene, names):
+        with (
+            compat.raw_file(scene, file),
+            engine.pixel_centres(scene, centres),
+            layers.black_materials(scene, names),
+        ):
             bpy.ops.render.render(write_still=True, scene=scene.name)
         memory.give_back()
     finally:

@@ -49,7 +49,7 @@ def _film(shot: Shot, session: RenderSession, camera: str, name: str, made_from:
             frames = [frame for frame, _ in made_from["frames"]]
             size = passes.known()[name].size(shot.resolution(shot.camera(camera)))
             _settings(shot, size, scene, made, len(frames))
-            engine.label(scene_runs.of_view(shot, camera), scene)
+            engine.set_metadata(scene_runs.of_view(shot, camera), scene)
             mine = session.made_with[camera, name]
             _strips(shot, scene, out, camera, name, frames, manifest.credits_of(mine))
             with writing(path):
@@ -57,7 +57,7 @@ def _film(shot: Shot, session: RenderSession, camera: str, name: str, made_from:
             if shot.camera(camera).rig.around:
                 spherical.film(made)
             verify.film(made)
-            entry = describe(made) | {"camera": camera, "pass": name} | manifest.credited(mine)
+            entry = describe(made) | {"camera": camera, "pass": name} | manifest.credit_entry(mine)
             files.publish(made, path)
             session.store.add(made_from, {picture.film(camera, name): entry})
     finally:

@@ -55,7 +55,7 @@ def air(sun: float, ground: float) -> Air:
     # nights are colder near the ground, not warmer aloft
     theta = _MIXED_THETA + warmer - np.interp(_MIXED, _HEIGHTS, warmer)
     water = np.minimum(
-        np.interp(_HEIGHTS, *_WATER), _MAX_HUMIDITY * _held(theta, _pressure(ground + _HEIGHTS))
+        np.interp(_HEIGHTS, *_WATER), _MAX_HUMIDITY * _saturation(theta, _pressure(ground + _HEIGHTS))
     )
     return Air(_HEIGHTS, theta, water, float(_pressure(ground)))
 
@@ -65,7 +65,7 @@ def _pressure(height: Array | float) -> Array | float:
     return 101325.0 * np.maximum(1.0 - 2.25577e-5 * np.asarray(height), 0.0) ** 5.25588
 
 
-def _held(potential_temperature: Array, pressure: Array | float) -> Array:
+def _saturation(potential_temperature: Array, pressure: Array | float) -> Array:
     """Saturation mixing ratio of water vapour, kg/kg, by Magnus' formula (cpp/flow/thermodynamics.hpp)."""
     celsius = potential_temperature * (pressure / 1e5) ** 0.2857 - 273.15
     vapour = 610.94 * np.exp(17.625 * celsius / (celsius + 243.04))

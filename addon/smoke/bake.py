@@ -39,12 +39,12 @@ def folder(shot: Shot, progress: Progress = silent) -> Path:
 
     The path is absolute, as Blender takes relative ones from the .blend file.
     """
-    return shot.settings.cache.absolute() / _key(shot, progress)
+    return shot.settings.cache.absolute() / _cache_key(shot, progress)
 
 
 def file(shot: Shot, frame: int) -> Path:
     """Volume file of a frame."""
-    return _in(folder(shot), frame)
+    return _volume_path(folder(shot), frame)
 
 
 def bake(shot: Shot, progress: Progress = silent, frames: Iterable[int] | None = None) -> Path:
@@ -62,17 +62,17 @@ def bake(shot: Shot, progress: Progress = silent, frames: Iterable[int] | None =
     InputError
         The cache cannot be written.
     """
-    place = _prepared(shot, progress)
-    wanted = shot_frames(shot) if frames is None else _of_shot(shot, frames)
+    place = _prepare_folder(shot, progress)
+    wanted = shot_frames(shot) if frames is None else _frames_of_shot(shot, frames)
 
-    def lacking() -> list[int]:
-        return [frame for frame in wanted if not _in(place, frame).exists()]
+    def missing_frames() -> list[int]:
+        return [frame for frame in wanted if not _volume_path(place, frame).exists()]
 
-    missing = lacking()
+    missing = missing_frames()
     for one, listed in shared_frames.frames(shot, missing):
         own = share(progress, len(wanted) - len(missing), len(wanted), "smoke")
         shared_frames.link(bake(one, own, listed), place, listed)
-        missing = lacking()
+        missing = missing_frames()
     done = len(wanted) - len(missing)
     progress(done, len(wanted), "smoke")
     if not missing:
@@ -80,8 +80,8 @@ def bake(shot: Shot, progress: Progress = silent, frames: Iterable[int] | None =
     source = sources.select(shot)
     with cache.in_use(place), source.in_use():
         source.prepare(missing, progress)
-        with ThreadPoolExecutor(_at_once(len(missing))) as pool:
-            tasks = [pool.submit(source.write, _in(place, frame), frame) for frame in missing]
+        with ThreadPoolExecutor(_parallel_frames(len(missing))) as pool:
+            tasks = [pool.submit(source.write, _volume_path(place, frame), frame) for frame in missing]
             try:
                 for task in as_completed(tasks):
                     task.result()
@@ -117,7 +117,7 @@ def ahead(
     InputError
         The cache cannot be written.
     """
-    wanted = _of_shot(shot, frames)
+    wanted = _frames_of_shot(shot, frames)
     if not wanted or not shot.settings.smoke.enabled:
         yield lambda frame, ahead=None: None
         return
@@ -133,7 +133,7 @@ def estimate(shot: Shot, frames: Iterable[int]) -> int | None:
     """Estimated bytes of the volumes of `frames`, from the mean of those that exist; None without any."""
     sizes = {path.name: path.stat().st_size for path in folder(shot).glob("*.vdb")}
     there = sum(name.startswith("smoke") for name in sizes)
-    return round(sum(sizes.values()) / there * len(_of_shot(shot, frames))) if there else None
+    return round(sum(sizes.values()) / there * len(_frames_of_shot(shot, frames))) if there else None
 
 
 class BakeQueue:
@@ -178,7 +178,7 @@ class _Volumes(BakeQueue):
 
     def __init__(self, shot: Shot, frames: list[int], progress: Progress, tell: MessageCallback) -> None:
         super().__init__(shot, progress, tell)
-        self.frames, self.place = frames, _prepared(shot, progress)
+        self.frames, self.place = frames, _prepare_folder(shot, progress)
 
     def ready(self, frame: int, ahead: Iterable[int] | None = None) -> None:
         """Wait for a frame and start the next one."""
@@ -188,7 +188,7 @@ class _Volumes(BakeQueue):
         after = self.frames[self.frames.index(frame) + 1 :]
         if ahead is not None:
             after = [number for number in ahead if number in self.frames]
-        following = next((number for number in after if not _in(self.place, number).exists()), None)
+        following = next((number for number in after if not _volume_path(self.place, number).exists()), None)
         if following is not None:
             self._begin(following)
         task = self.tasks.get(frame)
@@ -196,39 +196,39 @@ class _Volumes(BakeQueue):
             self.progress(0, 1, "smoke of the first picture")
             task.result()
             self.progress(1, 1, "smoke of the first picture")
-            self.tell(self._room())
+            self.tell(self._disk_space())
         self.progress, self.tell = silent, no_message
 
-    def _room(self) -> str:
+    def _disk_space(self) -> str:
         """Message on the disk space that the volumes need."""
         needed = size(max(estimate(self.shot, self.frames) or 0, 1e6))
         return f"smoke of {count(len(self.frames), 'frame')} takes about {needed} in {self.place}"
 
     def _begin(self, frame: int) -> None:
-        path = _in(self.place, frame)
+        path = _volume_path(self.place, frame)
         if frame not in self.tasks and not path.exists():
             self.tasks[frame] = self.pool.submit(self.source.write, path, frame)
 
 
-def _in(place: Path, frame: int) -> Path:
+def _volume_path(place: Path, frame: int) -> Path:
     return place / f"smoke_{frame:06d}.vdb"
 
 
-def _of_shot(shot: Shot, frames: Iterable[int]) -> list[int]:
+def _frames_of_shot(shot: Shot, frames: Iterable[int]) -> list[int]:
     """Those of `frames` that the shot has, without duplicates."""
     return [frame for frame in dict.fromkeys(frames) if 1 <= frame <= shot.frames.count]
 
 
-def _prepared(shot: Shot, progress: Progress) -> Path:
+def _prepare_folder(shot: Shot, progress: Progress) -> Path:
     """Create the folder of the volumes and remove unfinished files."""
     place = folder(shot, progress)
     with writing(place):
         place.mkdir(parents=True, exist_ok=True)
-    cache.sweep(place)
+    cache.remove_unfinished(place)
     return place
 
 
-def _at_once(frames: int) -> int:
+def _parallel_frames(frames: int) -> int:
     """Number of frames made in parallel."""
     try:
         free = os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
@@ -237,7 +237,7 @@ def _at_once(frames: int) -> int:
     return max(1, min(frames, (os.cpu_count() or 1) // _FRAME_PROCESSORS, free // _FRAME_MEMORY))
 
 
-def _key(shot: Shot, progress: Progress) -> str:
+def _cache_key(shot: Shot, progress: Progress) -> str:
     """Cache key: hash of all inputs of the volumes."""
     settings, complete = shot.settings, shot.settings.smoke.complete
     source = sources.select(shot)

@@ -63,7 +63,7 @@ def list_volumes(cache: Path) -> list[CachedVolumes]:
     return sorted(volumes, key=lambda volume: -volume.used)
 
 
-def beyond(volumes: list[_T], limit: int) -> list[_T]:
+def to_evict(volumes: list[_T], limit: int) -> list[_T]:
     """Least recently used volumes to evict so that the rest takes at most `limit` bytes; never any in use."""
     left, going = limit - sum(volume.bytes for volume in volumes if volume.in_use), []
     for each in sorted((volume for volume in volumes if not volume.in_use), key=lambda each: -each.used):
@@ -89,7 +89,7 @@ def remove(volumes: CachedVolumes) -> bool:
 def in_use(*folders: Path) -> Iterator[None]:
     """Heartbeat of use: touch the folders, whose modification time is their time of last use."""
 
-    def sign() -> None:
+    def heartbeat() -> None:
         for folder in folders:
             with contextlib.suppress(OSError):
                 os.utime(folder)
@@ -97,11 +97,11 @@ def in_use(*folders: Path) -> Iterator[None]:
     for folder in folders:
         with writing(folder):
             os.utime(folder)
-    with leases.heartbeats(_HEARTBEAT, sign):
+    with leases.heartbeats(_HEARTBEAT, heartbeat):
         yield
 
 
-def sweep(folder: Path) -> None:
+def remove_unfinished(folder: Path) -> None:
     """Remove abandoned unfinished files."""
     for path in folder.glob(".*.part.*"):
         with contextlib.suppress(OSError):

@@ -35,8 +35,8 @@ _NEST_SEEN = 60_000.0  # m; for cameras farther away the nest adds no visible de
 _NEST_SWATH = 20_000.0  # m; wider pictures from above show more of the domain than of the nest
 _SNAP = 1000.0  # m; a nest stays in place under small camera changes
 _TOP = 600.0, 2.0  # m, and factor on the plume rise: least height of the box
-_LEAST_WIND = 1.0  # m/s, lower limit of the wind in the plume rise
-_EVEN = (1, 2, 3, 5)  # factors of the side lengths, for the fast transforms
+_MIN_WIND = 1.0  # m/s, lower limit of the wind in the plume rise
+_SIZE_FACTORS = (1, 2, 3, 5)  # factors of the side lengths, for the fast transforms
 
 Array = NDArray[np.float64]
 
@@ -101,10 +101,10 @@ class Domain:
 
     def has(self, frame: int) -> bool:
         """Whether a frame's snapshot exists."""
-        return snapshots.is_whole(self.snapshot_path(frame), (len(self.box.levels) - 1, *self.box.shape))
+        return snapshots.is_complete(self.snapshot_path(frame), (len(self.box.levels) - 1, *self.box.shape))
 
 
-def whole(shot: Shot) -> Box | None:
+def outer_box(shot: Shot) -> Box | None:
     """Domain box around everything that burns from spin-up to the last frame; None without fire.
 
     It is independent of the cameras.
@@ -131,7 +131,7 @@ def whole(shot: Shot) -> Box | None:
     return Box(levels, (rows, columns), cell, (float(corner[0]), float(corner[1])))
 
 
-def nest(shot: Shot, around: Box) -> Box | None:
+def nest_box(shot: Shot, around: Box) -> Box | None:
     """Nested box around the heat that cameras look at; None without a near camera or without spin-up for it.
 
     If all heat fits, the nest is centred on it for any camera, so that cameras share the solution.
@@ -205,7 +205,7 @@ def _height_fraction(shot: Shot) -> float:
     """
     times = np.linspace(shot.frames.first, shot.frames.last, 5)
     power = max(float(shot.fire.sources(time).power.sum()) for time in times)
-    wind = max(atmosphere.WIND * float(np.hypot(*shot.wind)), _LEAST_WIND)
+    wind = max(atmosphere.WIND * float(np.hypot(*shot.wind)), _MIN_WIND)
     rise = 2.6 * np.cbrt(constants.BUOYANCY_FLUX * power / (wind * atmosphere.STABILITY))
     lowest, growth, count = _LEVELS
     return min((_TOP[0] + _TOP[1] * rise) / ((lowest + 0.5 * growth) * count), 1.0)
@@ -239,7 +239,7 @@ def _fast_size(cells: int) -> int:
     """Next even cell count of at least 48 with prime factors 2, 3 and 5 only, for fast transforms."""
     for count in range(max(cells, 48), 10 * max(cells, 48)):
         left = count
-        for factor in _EVEN[1:]:
+        for factor in _SIZE_FACTORS[1:]:
             while left % factor == 0:
                 left //= factor
         if left == 1 and count % 2 == 0:

@@ -17,7 +17,7 @@ _POWER, _REACH, _CORE, _EVERY = 1e9, 600.0, 250.0, 3  # W, m, m, cells; at a fir
 Array = NDArray[np.float64]
 
 
-def luminous(fire: Fire, time: float, scale: Scale) -> tuple[Array, Array]:
+def lights(fire: Fire, time: float, scale: Scale) -> tuple[Array, Array]:
     """Lights of the flames in smoke: positions (n, 3), m, and luminous powers (n,), W."""
     lights = heat_release.lights(fire.sources(time).luminous(), scale.length(_BLOCK), _COUNT)
     return lights.position + np.array([0.0, 0.0, scale.length(_FLAME_HEIGHT)]), lights.power

@@ -56,10 +56,10 @@ class Flow:
     @functools.cached_property
     def domains(self) -> list[Domain]:
         """The domain of the whole fire and the nested domain if there is one; empty without fire."""
-        box = domains.whole(self.shot)
+        box = domains.outer_box(self.shot)
         if box is None:
             return []
-        fine = domains.nest(self.shot, box)
+        fine = domains.nest_box(self.shot, box)
         ground = domains.smooth_ground(self.shot, box, 2)
         scale = self.shot.scale
         mean, top = float(ground.mean()), box.levels[-1]
@@ -138,7 +138,7 @@ class Flow:
         """Protect the snapshots from eviction while in use."""
         folders = self._make_folders()
         for folder in folders:
-            cache.sweep(folder)
+            cache.remove_unfinished(folder)
         with cache.in_use(*folders):
             yield
 

@@ -36,18 +36,19 @@ LIGHT = 0.65 / 4, 0.5
 root of the transmission is stored, which half floats resolve to four times the optical depth.
 """
 DEEP = 6.0  # optical depth beyond which smoke is `hidden`: transmission is 0.25 %
-_THICKEST = 0.03  # 1/m, at which extinction saturates: denser smoke is as opaque and needs shorter steps
+_MAX_EXTINCTION = 0.03  # 1/m, upper limit; denser smoke would look equally opaque but need shorter steps
 _NEAR = (20.0, 36.0)  # m, smallest and largest voxels of the nest
 _PIXELS = 4.0  # pixels per voxel between these limits: finer smoke shows no better and costs more
 _FAR = 80.0  # m, voxels outside of the nest
-_ALONE = 60.0  # m, smallest voxels without a nest
+_UNNESTED = 60.0  # m, smallest voxels without a nest
 _NOISE = {True: (340.0, (3.5, 2.5, 2.5)), False: (1100.0, (2.5, 1.5, 1.5))}  # m; blur of the drift, cells
 _SURFACE_STEP = 40.0  # m
 _INSIDE, _FADE = 600.0, (700.0, 4000.0)  # m from a box's side where smoke ends, and over which it fades
-_TORN, _TEARS, _EDGE = 0.8, 6000.0, 1.4  # of that way, m: how ragged smoke ends; and how steeply at the side
+# Ragged ends of smoke: amplitude as a share of the fade, size (m), and steepness at the side.
+_RAGGEDNESS, _RAGGED_SIZE, _EDGE = 0.8, 6000.0, 1.4
 _THINNING = 6  # exponent of the fade at the far end: dense smoke stays opaque down to a hundredth
-_SKIPPED = 1e-9  # kg/m3; thinner smoke is skipped
-_THIN = 5.0e-5  # 1/m; thinner smoke is not stored
+_MIN_DENSITY = 1e-9  # kg/m3; thinner smoke is skipped
+_MIN_EXTINCTION = 5.0e-5  # 1/m; thinner smoke is not stored
 _AGES = 20.0, 600.0  # s, ages of dark and of white smoke
 _BLOCK, _ROUND = 16, 300.0  # voxels of a culling block; m of margin for multiply scattered light
 
@@ -102,7 +103,7 @@ def layers(shot: Shot, solved: Flow) -> list[Layer]:
     wanted, length = shot.settings.smoke.voxel_size, shot.scale.length
     far = length(_FAR)
     if len(domains) == 1:
-        near = min(max(_PIXELS * _pixel(shot), length(_ALONE)), far)
+        near = min(max(_PIXELS * _pixel(shot), length(_UNNESTED)), far)
         return [Layer("smoke", domains[0], wanted or near, False)]
     least, most = map(length, _NEAR)
     near = float(np.clip(_PIXELS * _pixel(shot), least, most))
@@ -118,14 +119,14 @@ def _pixel(shot: Shot) -> float:
     return shot.fire_distance * (shot.pixel[0] if shot.perspective_paths else plain)
 
 
-def thickest(scale: Scale) -> float:
+def max_extinction(scale: Scale) -> float:
     """Extinction (1/m) at which smoke saturates."""
-    return _THICKEST / scale.ratio
+    return _MAX_EXTINCTION / scale.ratio
 
 
-def thinnest(scale: Scale) -> float:
+def min_extinction(scale: Scale) -> float:
     """Extinction (1/m) below which smoke is not stored."""
-    return _THIN / scale.ratio
+    return _MIN_EXTINCTION / scale.ratio
 
 
 class Painter:
@@ -140,7 +141,7 @@ class Painter:
     def __init__(self, shot: Shot, layer: Layer, inner: Box | None) -> None:
         self.shot, self.layer, self.inner = shot, layer, inner
         self.scale = layer.domain.scale
-        self._thin = thinnest(self.scale)
+        self._thin = min_extinction(self.scale)
 
     def write(
         self,
@@ -218,7 +219,7 @@ class Painter:
         snapshot = snapshots.load(self.layer.domain.snapshot_path(frame))
         voxel = self.layer.voxel
         origin, surface, end, share, count = self._brick(snapshot, window)
-        wanted = _wanted(views, origin, (*surface.shape, count), voxel, self.scale.length(_ROUND))
+        wanted = _visible_blocks(views, origin, (*surface.shape, count), voxel, self.scale.length(_ROUND))
         smoke = self._detail(snapshot, lights).paint_sparse(
             origin, voxel, surface, end, count, wanted, self._thin
         )
@@ -248,7 +249,7 @@ class Painter:
         heights = self._heights[1:, snapshot.low[1] : snapshot.low[1] + rows, snapshot.low[0] :][
             :, :, :columns
         ]
-        seen = snapshot.fields["smoke"] > _SKIPPED
+        seen = snapshot.fields["smoke"] > _MIN_DENSITY
         lowest = float(surface.min())
         base = np.floor(lowest / voxel) * voxel
         top = float(heights[: len(seen)][seen].max(initial=lowest)) + 2.0 * box.spacing
@@ -279,7 +280,9 @@ class Painter:
             close = 0.0 if window is None else window.share(x, y)
             drawn = self._inside(box, x, y, _FADE[0])
             return np.ones((x + y).shape), drawn * (close if self.layer.close else 1.0 - close)
-        torn = _TORN * noise.fractal(x, y, self.scale.length(_TEARS), 6, self.shot.settings.seed, 0.6)
+        torn = _RAGGEDNESS * noise.fractal(
+            x, y, self.scale.length(_RAGGED_SIZE), 6, self.shot.settings.seed, 0.6
+        )
         end = self._inside(box, x, y, _FADE[1], torn) ** _THINNING
         return end, np.ones_like(end) if self.inner is None else 1.0 - self._inside(
             self.inner, x, y, _FADE[0]
@@ -321,13 +324,13 @@ class Painter:
             blur=blur,
             opacity=mix.opacity,
             condensation_height=shot.settings.smoke.cloud_base,
-            max_extinction=shot.settings.smoke.extinction or thickest(scale),
+            max_extinction=shot.settings.smoke.extinction or max_extinction(scale),
             ages=(scale.time(_AGES[0]), scale.time(_AGES[1])),
             seed=shot.settings.seed,
         )
 
 
-def _wanted(
+def _visible_blocks(
     views: lod.ViewSet | None,
     origin: tuple[float, float, float],
     shape: tuple[int, ...],

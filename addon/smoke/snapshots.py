@@ -131,7 +131,7 @@ def load_smoke(path: Path) -> tuple[tuple[int, int], NDArray[np.float32]]:
         raise BrokenError(path) from error
 
 
-def is_whole(path: Path, shape: tuple[int, int, int]) -> bool:
+def is_complete(path: Path, shape: tuple[int, int, int]) -> bool:
     """Whether a file looks like a complete snapshot of a flow of so many cells. Reads headers only."""
     try:
         with zipfile.ZipFile(path) as file:

@@ -10,7 +10,7 @@ MERGE = 5000.0  # m, distance within which plumes merge (assumed: about the plum
 TURN = (-10.0, 2.0)  # degrees, solar elevations between which night turns into day
 
 
-def under(height: float) -> float:
+def at_elevation(height: float) -> float:
     """Squared buoyancy frequency (1/s2) under a sun at elevation `height` (degrees).
 
     Between night and day its logarithm is interpolated smoothly, so that smoke changes without a jump.

@@ -159,7 +159,7 @@ def _finish(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], new: boo
     if here.own and (new or len(parts) == len(PARTS)):
         layers.build(shot.settings, here)
         engine.apply(shot.settings, scene)
-        engine.label(shot.run, scene)
+        engine.set_metadata(shot.run, scene)
         credits.stamp(here)
         devices.follow(shot.settings.render.device, scene)
     else:

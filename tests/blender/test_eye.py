@@ -39,7 +39,7 @@ def test_smoke_right_before_an_eye_hides_its_picture(looking):
 
 
 def test_a_camera_in_smoke_is_told_of(looking):
-    drawing = object.__new__(integrated.Drawing)
+    renderer = object.__new__(integrated.IntegratedRenderer)
     places = np.array([[100.0, -200.0, 0.0]] * 3)
     view = SimpleNamespace(
         perspective=True,
@@ -47,12 +47,12 @@ def test_a_camera_in_smoke_is_told_of(looking):
         target=np.add(places, [1000.0, 0.0, 0.0]),
         camera=SimpleNamespace(name="drone"),
     )
-    drawing.in_smoke, drawing.shot = [], SimpleNamespace(paths=[view])
-    drawing._check_view(looking(-500.0, -200.0), 1)
-    assert drawing.warnings() == []
-    drawing._check_view(looking(100.0, -200.0), 2)
-    (text,) = drawing.warnings()
+    renderer.in_smoke, renderer.shot = [], SimpleNamespace(paths=[view])
+    renderer._check_view(looking(-500.0, -200.0), 1)
+    assert renderer.warnings() == []
+    renderer._check_view(looking(100.0, -200.0), 2)
+    (text,) = renderer.warnings()
     assert text.startswith('camera "drone" stands in smoke')
     assert "in frame 2; move it" in text
-    drawing._check_view(looking(100.0, -200.0), 3)
-    assert "in 2 frames" in "".join(drawing.warnings())
+    renderer._check_view(looking(100.0, -200.0), 3)
+    assert "in 2 frames" in "".join(renderer.warnings())

@@ -42,7 +42,7 @@ def film(shot, stage, tmp_path, monkeypatch):
 
     monkeypatch.setattr(pictures, "_Frame", Frame)
     monkeypatch.setattr(pictures, "publish", lambda *_: None)
-    monkeypatch.setattr(integrated, "wanted", lambda *_: False)
+    monkeypatch.setattr(integrated, "applies", lambda *_: False)
     monkeypatch.setattr(memory, "give_back", lambda: events.append("give back"))
 
     def make(count):

@@ -30,9 +30,9 @@ def rays_of(scene, size, two):
     """Rays of the scene's camera, of both eyes one above the other where there are two."""
     width, height = size
     if not two:
-        found = [rays.through(scene.camera, scene, height, width, 0)]
+        found = [rays.pixel_rays(scene.camera, scene, height, width, 0)]
     else:
-        found = [rays.through(scene.camera, scene, height // 2, width, eye) for eye in (-1, 1)]
+        found = [rays.pixel_rays(scene.camera, scene, height // 2, width, eye) for eye in (-1, 1)]
     origins = [np.broadcast_to(each.origins, each.directions.shape) for each in found]
     return found, np.concatenate(origins), np.concatenate([each.directions for each in found])
 
@@ -72,7 +72,7 @@ def test_the_sky_is_behind_all_smoke(settings, run):
     stage = owned.adopt(bpy.context.scene)
     build.build(shot, stage.scene, parts=("cameras",))
     stage.scene.camera = stage.camera("drone")
-    found = rays.through(stage.scene.camera, stage.scene, 9, 16, 0)
+    found = rays.pixel_rays(stage.scene.camera, stage.scene, 9, 16, 0)
     assert found.of_depth(np.full((9, 16), 1.0e10, np.float32)).min() > 1.0e9
 
 
@@ -84,5 +84,5 @@ def test_a_camera_is_where_its_own_scene_has_it(settings, run):
     assert bpy.context.scene != stage.scene
     stage.scene.camera = stage.camera("drone")
     stage.scene.frame_set(2)
-    found = rays.through(stage.evaluated(stage.scene.camera), stage.scene, 9, 16, 0)
+    found = rays.pixel_rays(stage.evaluated(stage.scene.camera), stage.scene, 9, 16, 0)
     assert found.origins == pytest.approx(shot.paths[0].position[1], abs=0.01)

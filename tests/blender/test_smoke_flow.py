@@ -269,15 +269,15 @@ def test_what_nobody_sees_is_not_painted_and_nothing_else_changes(shot, flowing,
     painter = flow_frames.Painter(shot, flow_frames.layers(shot, solved)[-1], None)
     views = shot.visibility.view_set(1)
     asked = []
-    real = flow_frames._wanted
+    real = flow_frames._visible_blocks
 
     def wanted(*given):
         asked.append(real(*given))
         return asked[-1]
 
-    monkeypatch.setattr(flow_frames, "_wanted", wanted)
+    monkeypatch.setattr(flow_frames, "_visible_blocks", wanted)
     painter.write(tmp_path / "some.vdb", 1, None, views, {})
-    monkeypatch.setattr(flow_frames, "_wanted", lambda *given: None)
+    monkeypatch.setattr(flow_frames, "_visible_blocks", lambda *given: None)
     painter.write(tmp_path / "all.vdb", 1, None, views, {})
     assert asked[0].any()
     some, whole = grids(tmp_path / "some.vdb")[0], grids(tmp_path / "all.vdb")[0]
@@ -384,7 +384,7 @@ def test_the_scene_shows_both_layers(shot, stage, scene):
     for volume in volumes.values():
         volume.grids.load()
         assert {grid.name for grid in volume.grids} >= {"density", "fresh", "sun", "sky"}
-        assert volume.render.clipping <= 1.01 * flow_frames.thinnest(
+        assert volume.render.clipping <= 1.01 * flow_frames.min_extinction(
             shot.scale
         )  # else what is painted is left out in blocks
 

@@ -115,7 +115,7 @@ def baked(shot):
             assert np.isfinite(values).all()
             assert values.min(initial=0.0) >= 0.0
             if grid.name == "density":
-                assert values.max(initial=0.0) <= flow_frames.thickest(shot.scale) * 1.01
+                assert values.max(initial=0.0) <= flow_frames.max_extinction(shot.scale) * 1.01
                 found.append(values)
     for domain in Flow(shot).domains:
         assert np.isfinite(domain.heights()).all()

@@ -86,9 +86,9 @@ def test_a_scene_keeps_its_credits_and_blenders_own_renders_show_them(stage, run
 
     part.objects.link(bpy.data.objects.new("Tile", bpy.data.meshes.new("Tile")))
     assert credits.of_scene(stage) == WORDS
-    engine.label(run, stage.scene)
+    engine.set_metadata(run, stage.scene)
     credits.stamp(stage)
     assert stage.scene.render.use_stamp
     assert stage.scene.render.stamp_note_text.endswith(WORDS.text())
-    engine.label(run, stage.scene)
+    engine.set_metadata(run, stage.scene)
     assert not stage.scene.render.use_stamp

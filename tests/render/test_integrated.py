@@ -131,4 +131,4 @@ def test_settings_decide_how_smoke_is_drawn(near_settings, run):
     assert drawn(enabled=False)
     for other in ({"draw": "volume"}, {"method": "puffs"}, {"lighting": "traced"}, {"engine": "eevee"}):
         assert not drawn(**other)
-    assert integrated.TOGETHER == ("rgb", "thermal", "depth")
+    assert integrated.MARCHED_PASSES == ("rgb", "thermal", "depth")

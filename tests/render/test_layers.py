@@ -192,11 +192,11 @@ def test_layers_leave_out_what_their_sensor_does_not_see(plain):
 
 def test_depth_is_drawn_without_materials_unless_one_is_an_artists(plain):
     depth, normal = (plain.view_layers[name] for name in ("depth", "normal"))
-    with layers.plain(plain, ["depth", "normal"]):
+    with layers.black_materials(plain, ["depth", "normal"]):
         black = depth.material_override.name
         assert normal.material_override is None
     assert depth.material_override is None
     assert black not in bpy.data.materials
     bpy.data.objects["Firetwin Card"].data.materials.append(bpy.data.materials.new("Lace"))
-    with layers.plain(plain, ["depth"]):
+    with layers.black_materials(plain, ["depth"]):
         assert depth.material_override is None

@@ -91,6 +91,6 @@ def test_a_scene_as_it_stands_keeps_both_eyes_and_their_size(settings, run, scen
         scene.render.resolution_percentage = percent
         stands = render_blend._with_scene_settings(shot, scene)
         assert stands.settings.render.resolution == (across, across)
-        engine.size(stands.settings, scene)
+        engine.set_resolution(stands.settings, scene)
         size = scene.render.resolution_x, scene.render.resolution_y, scene.render.use_multiview
         assert size == (across, across // 2, True)  # of each eye

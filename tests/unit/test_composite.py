@@ -37,7 +37,7 @@ def even_smoke(seen, extinction=1e-3, shine=2.0):
 
 def picture(found, **smoke):
     seen = composite.taps(found)
-    return composite.picture(found, seen, even_smoke(seen, **smoke))
+    return composite.compose(found, seen, even_smoke(seen, **smoke))
 
 
 @given(st.floats(0.0, 50.0), st.floats(10.0, 1e4))
@@ -143,11 +143,13 @@ def test_infrared_radiance_of_flames_is_bounded_by_their_own():
     flames = np.zeros((*SIZE, 3), np.float32)
     flames[..., 2] = [0.0, 0.5, 1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 0.0]
     warmth = flames[..., 2] * 1000.0
-    found = composite.radiance(surface, flames, warmth, 20.0)
+    found = composite.infrared_radiance(surface, flames, warmth, 20.0)
     assert found[0, :5] == pytest.approx([50.0, 525.0, 1000.0, 1000.0, 1000.0])
 
 
 def test_infrared_radiance_of_the_sky_fills_what_is_not_solid():
     surface = np.full((*SIZE, 3), [0.0, 0.25, 0.25 * 60.0], np.float32)
     none = np.zeros((*SIZE, 3), np.float32)
-    assert composite.radiance(surface, none, none[..., 0], 20.0) == pytest.approx(0.25 * 60.0 + 0.75 * 20.0)
+    assert composite.infrared_radiance(surface, none, none[..., 0], 20.0) == pytest.approx(
+        0.25 * 60.0 + 0.75 * 20.0
+    )

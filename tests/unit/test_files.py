@@ -311,15 +311,15 @@ def test_notes_of_how_long_it_took_are_taken_out_of_a_picture(tmp_path):
     pixels = np.random.default_rng(1).integers(0, 255, (36, 64, 3)).astype(np.float32) / 255
     sensor.write_image(path, pixels, {"Note": "kept"})
     plain = path.read_bytes()
-    png.forget_times(path)
+    png.remove_render_times(path)
     assert path.read_bytes() == plain
     body = b"tEXtcycles.rgb.total_time\x0000:01.25"
     note = struct.pack(">I", len(body) - 4) + body + struct.pack(">I", 0)
     path.write_bytes(plain[:33] + note + plain[33:])
-    png.forget_times(path)
+    png.remove_render_times(path)
     assert path.read_bytes() == plain
     path.write_bytes(plain[:-30])
-    png.forget_times(path)
+    png.remove_render_times(path)
     assert path.read_bytes() == plain[:-30]
 
 

@@ -106,7 +106,7 @@ def test_a_render_that_meets_pictures_of_other_settings_stops(tmp_path, meet):
 def test_pictures_made_earlier_or_not_asked_for_stop_nobody(tmp_path):
     with opened(tmp_path, 8, "earlier") as other:
         make(other, WANTED[0])
-        with opened(tmp_path, 4, "mine", since=other.store.number(), asked=WANTED[:2]) as mine:
+        with opened(tmp_path, 4, "mine", since=other.store.latest_number(), asked=WANTED[:2]) as mine:
             make(other, WANTED[2])
             assert mine.free(WANTED[:2], print) == WANTED[:2]
             make(other, WANTED[1])

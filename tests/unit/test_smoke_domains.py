@@ -78,7 +78,7 @@ CASES = [
 @pytest.mark.parametrize("case", CASES, ids=str)
 def test_any_fire_gets_boxes_round_its_heat(make_shot, case):
     shot = make_shot(**case)
-    box = domains.whole(shot)
+    box = domains.outer_box(shot)
     for time in (shot.frames.first, shot.frames.middle, shot.frames.last):
         found = shot.fire.sources(time)
         if found.power.sum() > 0.0 and box is not None:
@@ -88,7 +88,7 @@ def test_any_fire_gets_boxes_round_its_heat(make_shot, case):
     assert box is not None
     assert np.prod(box.shape) * (len(box.levels) - 1) < 20e6
     assert np.all(np.diff(box.levels) > 0.0)
-    nest = domains.nest(shot, box)
+    nest = domains.nest_box(shot, box)
     if nest is not None:
         assert np.all(np.array(nest.corner) > box.corner)
         assert np.all(np.array(nest.high) < box.high)
@@ -102,7 +102,7 @@ def test_any_fire_is_exposed_for(make_shot, case):
 
 
 def test_a_weak_fire_needs_no_air_far_above_it(make_shot):
-    assert domains.whole(make_shot(1000.0)).levels[-1] < 6000.0
+    assert domains.outer_box(make_shot(1000.0)).levels[-1] < 6000.0
 
 
 def test_cells_of_the_king_fire_have_the_levels_they_were_chosen_with():

@@ -17,7 +17,7 @@ def run(make_run):
 
 
 def at(run, time):
-    return stability.under(sun.position(run, time)[1])
+    return stability.at_elevation(sun.position(run, time)[1])
 
 
 def test_nights_are_stable_and_afternoons_mixed(run):

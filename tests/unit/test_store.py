@@ -115,7 +115,7 @@ def test_a_finished_shot_is_not_missing(finished):
 def test_what_was_entered_before_a_number_counts_for_nothing(finished):
     out, picture, made_with = finished
     with Store(out) as made:
-        number = made.number()
+        number = made.latest_number()
         assert missing(out, [picture], made_with, number) == [picture]
         made.add(made_with["drone", "rgb"], {n: store.describe(out / n) for n in picture.files()})
     assert missing(out, [picture], made_with, number) == []

@@ -86,9 +86,9 @@ def test_an_entry_of_the_manifest_names_credits_and_what_is_missing():
         "credits": {"data": ["A"], "logo": ["B"]},
     }
     assert manifest.credits_of(made_with) == Credits(("A",), ("B",))
-    assert manifest.credited(made_with, Credits(("A", "D"))) == {
+    assert manifest.credit_entry(made_with, Credits(("A", "D"))) == {
         "credits": ["A", "D"],
         "services": ["B"],
         "missing_tiles": ["c.glb"],
     }
-    assert manifest.credited({}) == {}
+    assert manifest.credit_entry({}) == {}

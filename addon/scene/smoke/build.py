@@ -52,7 +52,8 @@ def _hang(
     volume.sequence_mode = "CLIP"
     volume.render.space = "WORLD"
     volume.render.step_size = layer.step
-    volume.render.clipping = flow_frames.thinnest(shot.scale)  # Cycles culls thinner smoke, in visible blocks
+    # Cycles culls thinner smoke, in visible blocks.
+    volume.render.clipping = flow_frames.min_extinction(shot.scale)
     volume.display.density = layer.extinction  # in the solid view, like the render's
     volume.display.wireframe_type = "NONE"
     volume.materials.append(look)

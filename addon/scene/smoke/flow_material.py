@@ -64,7 +64,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     shader = infrared.smoke(tree, shot, stage, visible, density)
     # A mix by 0 or 1 evaluates one side only, and more than half of all steps are outside of smoke.
     clear = tree.output("ShaderNodeVolumeAbsorption", {"Density": 0.0})
-    tree.volume(tree.mix_shader(density > 0.5 * flow_frames.thinnest(shot.scale), clear, shader))
+    tree.volume(tree.mix_shader(density > 0.5 * flow_frames.min_extinction(shot.scale), clear, shader))
     made.cycles.volume_sampling = "DISTANCE"
     made.cycles.emission_sampling = "NONE"
     return made

@@ -177,7 +177,7 @@ class Source(ABC):
 
     def lights(self, time: float) -> Lights:
         """Lights of the flames in smoke at a model time, s."""
-        return flame_light.luminous(self.shot.fire, time, self.shot.scale)
+        return flame_light.lights(self.shot.fire, time, self.shot.scale)
 
     def metadata(self, time: float, smoke: str) -> dict[str, str]:
         """Metadata of a volume. `smoke` describes its origin."""

@@ -82,7 +82,7 @@ class FlowSource(Source):
 
     def layers(self) -> list[VolumeLayer]:
         """Volume layers of both domains; one empty volume without fire."""
-        thickest = self.shot.settings.smoke.extinction or flow_frames.thickest(self.shot.scale)
+        thickest = self.shot.settings.smoke.extinction or flow_frames.max_extinction(self.shot.scale)
         depth = view.SOLVED_STEP_DEPTH if self.marched else view.STEP_DEPTH
         result = [
             VolumeLayer(layer.name, layer.voxel, depth / thickest * (1.0 if layer.fine else 2.0), thickest)

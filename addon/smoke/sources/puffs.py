@@ -45,7 +45,7 @@ class PuffSource(SingleVolume):
             max_age=self.shot.settings.smoke.max_age,
             burn_time=burning.BURN_TIME,
             smoke_fraction=self.shot.fire.smoke.per_heat * constants.HEAT_OF_COMBUSTION,
-            stability=stability.under(sun.position(self.shot.run, time)[1]),
+            stability=stability.at_elevation(sun.position(self.shot.run, time)[1]),
             interval=scale.time(_INTERVAL),
             block=scale.length(_BLOCK),
             merge_radius=scale.length(stability.MERGE),
