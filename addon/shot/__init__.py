@@ -1,1 +1,1 @@
-"""Shots: what is filmed, resolved once from settings and run: cameras, passes, terrain, fire, light."""
+"""Shots: settings and run, resolved once: cameras, passes, terrain, fire and light."""
