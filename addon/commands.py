@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from .jobs.cache import Cached
     from .jobs.render import RenderResult
-    from .jobs.tile_access import TileAccess
+    from .jobs.tiles.access import TileAccess
     from .places.command import Fire
     from .shot.source import ShotSource
 
@@ -243,7 +243,7 @@ def tiles(arguments: argparse.Namespace) -> None:
     if arguments.verb == "make":
         _make_tiles(arguments)
         return
-    from .jobs.tile_access import permitted
+    from .jobs.tiles.access import permitted
     from .tiles import command
 
     command.run(arguments, permitted(_access(arguments)).network())
@@ -251,7 +251,7 @@ def tiles(arguments: argparse.Namespace) -> None:
 
 def _access(arguments: argparse.Namespace) -> TileAccess:
     """How tiles may be had."""
-    from .jobs.tile_access import TileAccess
+    from .jobs.tiles.access import TileAccess
 
     return TileAccess(
         strict=arguments.strict,
@@ -262,14 +262,14 @@ def _access(arguments: argparse.Namespace) -> TileAccess:
 
 
 def _make_tiles(arguments: argparse.Namespace) -> None:
-    from .jobs import drape, make_tiles
+    from .jobs.tiles import imagery, make
 
-    request = make_tiles.TilesRequest(
+    request = make.TilesRequest(
         arguments.out, arguments.levels, arguments.buildings, arguments.geoid, arguments.credit
     )
     choice, reporter = _choice(arguments), Reporter("tiles")
-    drape.prepare(choice, (), reporter, say)
-    made = make_tiles.run(choice.shot(), request, reporter, say)
+    imagery.prepare(choice, (), reporter, say)
+    made = make.run(choice.shot(), request, reporter, say)
     errors = ", ".join(f"{error:.3g}" for error in made.errors)
     buildings = f" with {count(made.buildings, 'building')}" if made.buildings else ""
     say(f"{count(made.tiles, 'tile')}{buildings}, {size(made.bytes)}; errors of the levels: {errors} m")
@@ -351,7 +351,7 @@ def cache(arguments: argparse.Namespace) -> None:
 
 def _kinds(kept: Iterable[Cached]) -> str:
     """What is in a cache."""
-    from .jobs.tile_cache import CachedTiles
+    from .jobs.tiles.cache import CachedTiles
 
     some = any(isinstance(each, CachedTiles) for each in kept)
     return "smoke volumes and tiles" if some else "smoke volumes"

@@ -11,8 +11,9 @@ from ..errors import disk_is_full, full_disk_error, input_error, no_room
 from ..progress import READING, MessageCallback, Progress, no_message, notify_if_slow, silent
 from ..shot.cameras import camera_warnings
 from ..shot.source import ShotSource
-from . import drape, tiles, worker
-from .tile_access import TileAccess
+from . import worker
+from .tiles import imagery, selection
+from .tiles.access import TileAccess
 
 
 def run(
@@ -40,8 +41,8 @@ def run(
     with notify_if_slow(READING):
         choice.shot()
     pack = ("pack", "the .blend file (render makes pictures without one)")
-    tiles.prepare(choice, (), progress, tell, stop, access, [pack])
-    drape.prepare(choice, (), progress, tell, stop, access)
+    selection.prepare(choice, (), progress, tell, stop, access, [pack])
+    imagery.prepare(choice, (), progress, tell, stop, access)
     worker.run(
         f"{__name__}:in_blender", {"choice": choice.plain(), "out": str(out)}, progress, stop=stop, tell=tell
     )

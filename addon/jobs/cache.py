@@ -11,8 +11,8 @@ from ..smoke import cache
 from ..smoke.cache import CachedVolumes
 from ..tiles.sources import http_cache
 from ..tiles.sources.http_cache import HttpCache
-from . import tile_cache
-from .tile_cache import CachedTiles
+from .tiles import cache as tile_cache
+from .tiles.cache import CachedTiles
 
 Cached = CachedVolumes | CachedTiles
 

@@ -16,8 +16,9 @@ from ..shot.comparison import for_view
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
 from ..shot.tiles import tile_terms
-from . import drape, solve, tiles, worker
-from .tile_access import TileAccess
+from . import solve, worker
+from .tiles import imagery, selection
+from .tiles.access import TileAccess
 
 Selection = tuple[str | None, str | tuple[str, ...] | None, str | None]
 """Frames, camera and passes, as `render.plan.pictures` takes them."""
@@ -110,7 +111,7 @@ def run(
     if undone:
         views = list(dict.fromkeys(picture.camera for picture in undone))
         tell(f"rendering {count(len(undone), 'picture')} of {' and '.join(views)}")
-        drape.prepare(choice, views, progress, tell, stop, asked.access)
+        imagery.prepare(choice, views, progress, tell, stop, asked.access)
     task = {
         "choice": choice.plain(),
         "filmed": [list(pair) for pair in made_with],
@@ -142,7 +143,7 @@ def prepare_tiles(
     """
     views = list(dict.fromkeys(picture.camera for picture in wanted))
     uses = tile_terms.of_passes(picture.name for picture in wanted)
-    tiles.prepare(choice, views, progress, tell, stop, asked.access, uses, keep=asked.resume)
+    selection.prepare(choice, views, progress, tell, stop, asked.access, uses, keep=asked.resume)
 
 
 def make(

@@ -107,7 +107,8 @@ class FIRETWIN_OT_solve(Working, bpy.types.Operator):
 
 def steps(context: bpy.types.Context, part: str) -> Steps:
     """Build a part of the scene, or all of it."""
-    from ..jobs import bake, drape, tiles
+    from ..jobs import bake
+    from ..jobs.tiles import imagery, selection
     from ..scene import build
 
     uid, settings = context.scene.session_uid, context.scene.firetwin
@@ -119,12 +120,12 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     then = changed_settings.digests(settings)
     chosen, smoke = choice.from_panel(settings), settings.bake_smoke and "smoke" in parts
     if settings.tiles.sources:
-        yield InThread("tiles", functools.partial(tiles.prepare, chosen))
+        yield InThread("tiles", functools.partial(selection.prepare, chosen))
     shot, moving = yield InThread("reading the run", lambda **_: _read(chosen, part == ALL))
     if smoke and shot.settings.smoke.enabled:
         yield InThread("smoke", functools.partial(bake.run, chosen, together=True))
     if shot.settings.terrain.photo_url and "terrain" in parts:
-        yield InThread("orthophoto", functools.partial(drape.prepare, chosen, ()))
+        yield InThread("orthophoto", functools.partial(imagery.prepare, chosen, ()))
     yield "removing the previous build"
     if bpy.context.mode != "OBJECT":
         raise Error("leave the edit mode, then build again")

@@ -68,11 +68,11 @@ class FIRETWIN_OT_tiles_preview(Working, bpy.types.Operator):
 
 def steps(context: bpy.types.Context, only_boxes: bool) -> Steps:
     """Show boxes and coarse tiles, and fetch the tiles of the film."""
-    from ..jobs import tile_boxes
+    from ..jobs.tiles import bounding_boxes
     from ..scene.tiles import preview
 
     uid, chosen = context.scene.session_uid, choice.from_panel(context.scene.firetwin)
-    found = yield InThread("reading the tilesets", functools.partial(tile_boxes.run, chosen))
+    found = yield InThread("reading the tilesets", functools.partial(bounding_boxes.run, chosen))
     yield "drawing the boxes"
     new = not owned.built(owned.scene(uid))
     uid, _ = target_scene.prepare(owned.scene(uid), part=True)
@@ -98,12 +98,12 @@ def _cut(
     chosen: ShotSource, progress: Progress, tell: MessageCallback, stop: Stop, coarse: bool
 ) -> TileCut | None:
     """Prepare a choice of tiles in a process, and read it."""
-    from ..jobs import tiles
+    from ..jobs.tiles import selection
     from ..shot.tiles import tile_cut
 
-    tiles.prepare(chosen, (), progress, tell, stop, preview=coarse)
+    selection.prepare(chosen, (), progress, tell, stop, preview=coarse)
     shot = chosen.shot()
-    return tile_cut.of_shot(tiles.coarse(shot) if coarse else shot)
+    return tile_cut.of_shot(selection.coarse(shot) if coarse else shot)
 
 
 class FIRETWIN_OT_tiles_clear(bpy.types.Operator):

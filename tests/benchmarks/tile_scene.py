@@ -29,7 +29,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 import tile_grid
 from firetwin.blender import owned
 from firetwin.data import sample
-from firetwin.jobs import tiles
+from firetwin.jobs.tiles import selection
 from firetwin.run import readers
 from firetwin.scene.tiles import build, material, mesh
 from firetwin.shot import auto_framing
@@ -82,7 +82,7 @@ def measured(folder: Path, count: int, side: int) -> dict[str, Any]:
     stage = owned.adopt(bpy.context.scene)
     found: dict[str, Any] = {}
     for turn in ("first", "second"):
-        found[f"{turn} prepare"] = seconds(lambda: tiles.make(shot))
+        found[f"{turn} prepare"] = seconds(lambda: selection.make(shot))
         cut = tile_cut.of_shot(shot)
         assert cut is not None
         found[f"{turn} build"] = seconds(lambda cut=cut: build.build(shot, stage, cut, None))

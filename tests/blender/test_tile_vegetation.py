@@ -6,7 +6,7 @@ import numpy as np
 import photogrammetry
 import pytest
 from firetwin.errors import InputError
-from firetwin.jobs import tiles
+from firetwin.jobs.tiles import selection
 from firetwin.scene.tiles import flatten, skirt
 from firetwin.shot.cameras import flight
 from firetwin.shot.shot import Shot
@@ -33,14 +33,14 @@ def seen(shot, tmp_path, decoded_here):
         terrain = replace(shot.settings.terrain, stand="elevation")
         settings = replace(shot.settings, tiles=known, cache=tmp_path / "cache", terrain=terrain)
         first = Shot(settings, shot.run)
-        tiles.make(first, uses=tile_terms.of_scene(settings))
+        selection.make(first, uses=tile_terms.of_scene(settings))
         if stand == "elevation":
             return first
         settings = replace(settings, terrain=replace(terrain, stand=stand))
         heights = tile_cut.location(first).with_suffix(tile_cut.HEIGHTS)
         tile_heights.location(settings, shot.run).write_bytes(heights.read_bytes())
         second = Shot(settings, shot.run)
-        tiles.make(second)
+        selection.make(second)
         return second
 
     return make, made

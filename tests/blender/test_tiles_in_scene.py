@@ -8,7 +8,7 @@ import pytest
 from firetwin.ellipsoid import ecef
 from firetwin.errors import InputError, UsageError
 from firetwin.imaging.credits import Credits
-from firetwin.jobs import make_tiles, tile_source, tiles
+from firetwin.jobs.tiles import make, selection, source
 from firetwin.render import credits, fingerprint
 from firetwin.render.finish import finisher
 from firetwin.scene.terrain import build as ground_build
@@ -88,7 +88,7 @@ def test_sidecars_name_credits_and_missing_tiles(tiled, tmp_path):
 def test_pictures_that_are_too_small_for_credits_are_refused(tiled):
     small = replace(tiled.settings, render=replace(tiled.settings.render, resolution=(16, 16)))
     with pytest.raises(InputError, match="do not fit into a picture of 16 x 16"):
-        tiles.make(tiled._with_settings(small))
+        selection.make(tiled._with_settings(small))
 
 
 def test_tiles_that_were_not_prepared_are_an_error(tiled):
@@ -99,7 +99,7 @@ def test_tiles_that_were_not_prepared_are_an_error(tiled):
 
 def test_a_wrong_geoid_is_told_with_the_right_one(tiled):
     wrong = replace(tiled.settings.tiles, geoid=-20.0)
-    told = tiles.make(moved := tiled._with_settings(replace(tiled.settings, tiles=wrong)))
+    told = selection.make(moved := tiled._with_settings(replace(tiled.settings, tiles=wrong)))
     assert "is 4.9 m below the scene's own" in told[1]
     assert told[1].endswith("write tiles.geoid = -24.9")
     low, median, high = tile_cut.of_shot(moved).difference
@@ -115,7 +115,7 @@ def test_a_geoid_that_is_left_out_is_found_or_an_error(tiled, monkeypatch):
         plane = staticmethod(lambda frame: (-24.9, 1e-5, -2e-5))
 
     monkeypatch.setattr(geoid, "find", lambda: Egm96)
-    height, matrix = tile_source.to_scene(left_out)
+    height, matrix = source.to_scene(left_out)
     here = np.array([[9000.0, -7000.0, 50.0]])
     place = ecef(*np.radians(np.array(frame.reverse(here))[:2, 0]), np.float64(frame.reverse(here)[2][0]))
     assert height == -24.9
@@ -124,6 +124,6 @@ def test_a_geoid_that_is_left_out_is_found_or_an_error(tiled, monkeypatch):
     )
     monkeypatch.setattr(geoid, "find", lambda: None)
     with pytest.raises(InputError, match=r"tiles\.geoid is left out.*as a number"):
-        tiles.make(left_out)
+        selection.make(left_out)
     with pytest.raises(UsageError, match=r"--geoid: .*as a number"):
-        make_tiles.run(tiled, make_tiles.TilesRequest(tiled.settings.cache / "x"))
+        make.run(tiled, make.TilesRequest(tiled.settings.cache / "x"))

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from firetwin.blender import owned
 from firetwin.errors import InputError
-from firetwin.jobs import make_tiles, tile_boxes, worker
+from firetwin.jobs import worker
+from firetwin.jobs.tiles import bounding_boxes, make
 from firetwin.jobs.worker import StoppedError
 from firetwin.scene.tiles import preview, reuse
 from firetwin.shot import schema
@@ -43,7 +44,7 @@ def here(monkeypatch):
 @pytest.fixture
 def tiled_panel(panel, here, settings, shot, tmp_path, monkeypatch):
     """The panel of a small shot with a set of its own ground beside the scene file."""
-    make_tiles.run(shot, make_tiles.TilesRequest(tmp_path / "set", credit="A; B", geoid=-24.9))
+    make.run(shot, make.TilesRequest(tmp_path / "set", credit="A; B", geoid=-24.9))
     monkeypatch.setattr(tile_heights, "_MOST", 200)  # points of heights, which nothing here looks at
     panel.output = str(tmp_path / "out")
     bare = replace(settings.forest, trees=False)
@@ -149,7 +150,7 @@ def test_a_source_that_cannot_be_read_is_told(tiled_panel, monkeypatch):
     def refuse(*_, **__):
         raise InputError("city", 0, 0, "network access is not allowed; allow it in Preferences > System")
 
-    monkeypatch.setattr(tile_boxes, "run", refuse)
+    monkeypatch.setattr(bounding_boxes, "run", refuse)
     with pytest.raises(RuntimeError, match="network access is not allowed"):
         bpy.ops.firetwin.tiles_preview()
     assert not preview_objects()

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 import tile_files as made
-from firetwin.jobs import tiles
+from firetwin.jobs.tiles import selection
 from firetwin.scene.tiles import build as tiles_build
 from firetwin.scene.tiles import mesh, points
 from firetwin.shot.tiles import tile_cut
@@ -40,7 +40,7 @@ def cloud(shot, tmp_path):
     (folder / "a.cmpt").write_bytes(both)
     known = replace(shot.settings.tiles, sources=(str(folder),), geoid=0.0)
     found = shot._with_settings(replace(shot.settings, tiles=known, cache=tmp_path / "cache"))
-    tiles.make(found)
+    selection.make(found)
     return found
 
 

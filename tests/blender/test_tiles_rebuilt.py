@@ -6,7 +6,7 @@ from pathlib import Path
 import bpy
 import pytest
 from firetwin.blender import owned, state
-from firetwin.jobs import tiles
+from firetwin.jobs.tiles import selection
 from firetwin.scene import build as scene_build
 from firetwin.scene.tiles import build as tiles_build
 from firetwin.scene.tiles import reuse
@@ -47,15 +47,15 @@ def test_the_same_cut_makes_nothing_new(tiled, stage):
 
 
 def test_nothing_is_fetched_or_decoded_again(tiled, monkeypatch):
-    from firetwin.jobs import decode_tiles
+    from firetwin.jobs.tiles import decode as job
 
     def decode(contents, progress):
         assert all(Path(each.out).exists() for each in contents)
         return {}
 
-    monkeypatch.setattr(decode_tiles, "run", decode)
+    monkeypatch.setattr(job, "run", decode)
     before = tile_cut.of_shot(tiled)
-    tiles.make(tiled)
+    selection.make(tiled)
     assert tile_cut.of_shot(tiled) == before
 
 
@@ -69,10 +69,10 @@ def test_of_a_server_nothing_is_fetched_again(tiled, tmp_path, monkeypatch):
         sources = (f"{server.url}/tileset.json",)
         settings = replace(tiled.settings, tiles=replace(tiled.settings.tiles, sources=sources))
         shot = Shot(settings, tiled.run)
-        tiles.make(shot)
+        selection.make(shot)
         asked = len(server.asked)
         cut = tile_cut.of_shot(shot)
-        tiles.make(shot)
+        selection.make(shot)
         assert len(server.asked) == asked > len(cut.tiles)
         assert tile_cut.of_shot(shot) == cut
     assert cut.tiles == tile_cut.of_shot(tiled).tiles  # as those of a folder: named by their content

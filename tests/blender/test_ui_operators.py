@@ -11,7 +11,8 @@ import pytest
 from bl_operators.presets import AddPresetBase
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 from firetwin.farm import submission
-from firetwin.jobs import assets, convert, render, render_blend, sample, tile_boxes
+from firetwin.jobs import assets, convert, render, render_blend, sample
+from firetwin.jobs.tiles import bounding_boxes
 from firetwin.ui import navigation, queue, stations_panel, working
 from mathutils import Euler, Matrix
 from panel_scene import state
@@ -147,7 +148,7 @@ def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path
     monkeypatch.setattr(sample, "run", lambda folder, **_: shutil.copytree(blend.parent / "other", folder))
     monkeypatch.setattr(render, "run", lambda *_, **__: render.RenderResult(1))
     monkeypatch.setattr(assets, "run", lambda *_, **__: 1)
-    monkeypatch.setattr(tile_boxes, "run", lambda *_, **__: [BOX])
+    monkeypatch.setattr(bounding_boxes, "run", lambda *_, **__: [BOX])
     monkeypatch.setattr(render_blend, "run", lambda *_, **__: 1)
     monkeypatch.setattr(submission, "call", lambda *_, **__: None)
     monkeypatch.setattr(submission, "cancellation", lambda out: [])

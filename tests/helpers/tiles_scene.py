@@ -5,7 +5,7 @@ from dataclasses import asdict, replace
 
 import pytest
 from firetwin.blender import nodes
-from firetwin.jobs import decode_tiles, make_tiles, tiles
+from firetwin.jobs.tiles import make, selection
 from firetwin.scene.terrain import material
 
 __all__ = ["decoded_here", "plain_tiles", "tiled"]
@@ -29,19 +29,19 @@ def decoded_here(monkeypatch):
     """Decode within this process."""
 
     def decode(contents, progress):
-        return decode_tiles.in_process([asdict(each) for each in contents], progress, print)
+        return decode.in_process([asdict(each) for each in contents], progress, print)
 
-    monkeypatch.setattr(decode_tiles, "_limit", lambda memory: None)
-    monkeypatch.setattr(decode_tiles, "run", decode)
+    monkeypatch.setattr(decode, "_limit", lambda memory: None)
+    monkeypatch.setattr(decode, "run", decode)
 
 
 @pytest.fixture
 def tiled(shot, tmp_path, decoded_here):
     """A shot on tiles of its own ground in `tmp_path`/set, prepared within this process."""
-    make_tiles.run(shot, make_tiles.TilesRequest(tmp_path / "set", credit="Somebody", geoid=-24.9))
+    make.run(shot, make.TilesRequest(tmp_path / "set", credit="Somebody", geoid=-24.9))
     known = replace(shot.settings.tiles, sources=(str(tmp_path / "set"),), error=2.0, geoid=-24.9)
     found = shot._with_settings(replace(shot.settings, tiles=known, cache=tmp_path / "cache"))
-    told = tiles.make(found)
+    told = selection.make(found)
     assert told[0] == "credits of tiles, which pictures show: Somebody"
     assert re.fullmatch(r"the tiles' ground is 0\.0 m above .* 90 % of places\)", told[1])
     return found

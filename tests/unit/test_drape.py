@@ -7,12 +7,12 @@ import pytest
 from colour_tiles import FRESH, Tiles, colour, png
 from firetwin.errors import InputError
 from firetwin.imaging.credits import Credits
-from firetwin.jobs import drape as job
-from firetwin.jobs import make_tiles
+from firetwin.jobs.tiles import imagery
+from firetwin.jobs.tiles import make as make_job
 from firetwin.shot import picture_credits
 from firetwin.shot.source import ShotSource
 from firetwin.shot.surface import drape, drape_plan, orthophoto
-from firetwin.tiles.drape import mercator
+from firetwin.tiles.imagery import mercator
 from firetwin.tiles.sources.network import Network
 from lying_server import Reply, serving
 from scene_text import GROUND_ALONE
@@ -43,7 +43,7 @@ def make(make_run, tmp_path, server):
 
 def fetched(choice, tmp_path, **network):
     shot = choice.shot()
-    return shot, job.make(shot, network=Network(**({"cache": tmp_path / "http"} | network)))
+    return shot, imagery.make(shot, network=Network(**({"cache": tmp_path / "http"} | network)))
 
 
 def test_each_place_of_the_ground_has_the_colour_of_its_tile(make, tmp_path):
@@ -245,7 +245,7 @@ def test_keys_are_in_no_file_message_and_log(make, tmp_path, server, caplog, mon
 
 def test_a_tileset_that_is_made_has_these_colours(make, tmp_path):
     shot, _ = fetched(make("photo_size = 512"), tmp_path)
-    colours = make_tiles._Photo(shot)
+    colours = make_job._Photo(shot)
     (area,) = drape.of_shot(shot).areas
     x, y = 0.5 + np.floor(mercator.tile_at(38.904, -120.592, area.level))
     latitude, longitude = mercator.place_of(x, y, area.level)
@@ -258,7 +258,7 @@ def test_the_job_fetches_in_a_process_of_its_own(make, tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "home"))
     monkeypatch.setenv("LOCALAPPDATA", str(tmp_path / "home"))
     choice, told = make("photo_size = 300"), []
-    job.prepare(choice, tell=told.append)
+    imagery.prepare(choice, tell=told.append)
     assert drape.of_shot(choice.shot()).credits == ("Somebody", "Somebody else")
     assert told[0].startswith("credit of the orthophoto")
     assert (tmp_path / "home").exists()

@@ -4,8 +4,9 @@ import subprocess
 
 import pytest
 from firetwin.errors import InputError
-from firetwin.jobs import build, make_tiles, render, render_blend, tiles
-from firetwin.jobs.tile_access import TileAccess
+from firetwin.jobs import build, render, render_blend
+from firetwin.jobs.tiles import make, selection
+from firetwin.jobs.tiles.access import TileAccess
 from firetwin.shot import passes
 from firetwin.shot.settings import scene_file
 from firetwin.shot.source import ShotSource
@@ -105,13 +106,14 @@ def _refused(choice, use):
 )
 def test_settings_are_refused(scene, more, use):
     choice = ShotSource(scene=str(scene(more=more)))
-    _refused(lambda: tiles.prepare(choice), use)
+    _refused(lambda: selection.prepare(choice), use)
 
 
 def test_jobs_are_refused_before_anything_is_fetched(scene, tmp_path):
     choice = ShotSource(scene=str(scene()))
-    _refused(lambda: tiles.prepare(choice, access=TileAccess(online=False)), "without its server.*--offline")
-    _refused(lambda: tiles.prepare(choice, uses=[("pack", "the file")]), "packed")
+    offline = TileAccess(online=False)
+    _refused(lambda: selection.prepare(choice, access=offline), "without its server.*--offline")
+    _refused(lambda: selection.prepare(choice, uses=[("pack", "the file")]), "packed")
     for other in (ion.POLICY, google.POLICY):
         settings = choice.settings()
         with pytest.raises(InputError, match=other.name):
@@ -131,7 +133,7 @@ def test_each_job_asks(scene, run_folder_of_sample, tmp_path):
     stood = ShotSource(scene=str(scene(more='terrain = { stand = "tiles" }')), run=str(run_folder_of_sample))
     shot = choice.shot()
     shot.settings = stood.settings()
-    _refused(lambda: make_tiles.run(shot, make_tiles.TilesRequest(tmp_path / "set")), "tiles make")
+    _refused(lambda: make.run(shot, make.TilesRequest(tmp_path / "set")), "tiles make")
     assert not (tmp_path / "set").exists()
 
 

@@ -21,8 +21,9 @@ import tile_files as made
 from firetwin import files
 from firetwin.data import sample
 from firetwin.errors import Error, InputError
-from firetwin.jobs import decode_tiles, make_tiles, tile_access, tile_source, tiles, worker
-from firetwin.jobs.tile_access import PREFERENCE, TileAccess
+from firetwin.jobs import worker
+from firetwin.jobs.tiles import access, decode, make, selection, source
+from firetwin.jobs.tiles.access import PREFERENCE, TileAccess
 from firetwin.shot.source import ShotSource
 from firetwin.shot.terrain import tile_heights
 from firetwin.shot.tiles import tile_cut
@@ -66,7 +67,7 @@ def ground(tmp_path_factory):
     sample.write(folder / "run", 2)
     (folder / "scene.toml").write_text(SCENE)
     shot = ShotSource(scene=str(folder / "scene.toml")).shot()
-    make_tiles.run(shot, make_tiles.TilesRequest(folder / "set", levels=2, credit="Somebody", geoid=-24.9))
+    make.run(shot, make.TilesRequest(folder / "set", levels=2, credit="Somebody", geoid=-24.9))
     text = (folder / "set" / "tileset.json").read_bytes()
     return shot, {"/t/tileset.json": text} | dict(squares(json.loads(text)["root"]))
 
@@ -113,7 +114,7 @@ class Chain:
     def make(self, **access):
         """The cut, and what is said of it."""
         shot = self.shot_of()
-        told = tiles.make(shot, access=TileAccess(**access))
+        told = selection.make(shot, access=TileAccess(**access))
         return tile_cut.of_shot(shot), "\n".join(told)
 
     def leaf(self):
@@ -141,27 +142,27 @@ def clock(monkeypatch):
     return clock
 
 
-IN_PROCESSES = decode_tiles.run
+IN_PROCESSES = decode.run
 
 
 def here(contents, progress):
     """Decode in this process, which takes a tenth of the time; tests of decoders start some."""
     left = [asdict(each) for each in contents if decoded.summary(Path(each.out)) is None]
-    return decode_tiles.in_process(left, progress, print)
+    return decode.in_process(left, progress, print)
 
 
 @pytest.fixture
 def chain(ground, server, tmp_path, monkeypatch, clock):
     monkeypatch.setattr(tile_heights.np, "savez_compressed", np.savez)  # compressing takes most of the time
-    monkeypatch.setattr(decode_tiles, "_limit", lambda memory: None)
-    monkeypatch.setattr(decode_tiles, "run", here)
+    monkeypatch.setattr(decode, "_limit", lambda memory: None)
+    monkeypatch.setattr(decode, "run", here)
     monkeypatch.setattr(tile_heights, "_MOST", 200)  # points of heights, which nothing here looks at
 
     def network(access):
         hosts = access.hosts, access.private
         return Network(access.online, access.setting, *hosts, cache=tmp_path / "user")
 
-    monkeypatch.setattr(tile_access.TileAccess, "network", network)
+    monkeypatch.setattr(access.TileAccess, "network", network)
     return Chain(ground, server, tmp_path)
 
 
@@ -323,14 +324,14 @@ def test_what_ends_early_is_asked_for_once_more(chain, fault):
 
 def swapped(monkeypatch, leaf, file):
     """Let decoders, in processes of their own, read another file in place of a tile's."""
-    monkeypatch.setattr(decode_tiles, "run", IN_PROCESSES)
-    before = tile_source.TileSource._content
+    monkeypatch.setattr(decode, "run", IN_PROCESSES)
+    before = source.TileSource._content
 
     def content(source, number):
         found = before(source, number)
         return replace(found, file=str(file)) if found.name.endswith(leaf) else found
 
-    monkeypatch.setattr(tile_source.TileSource, "_content", content)
+    monkeypatch.setattr(source.TileSource, "_content", content)
 
 
 @pytest.fixture
@@ -342,7 +343,7 @@ def pipe(tmp_path):
 
 def test_a_decoder_that_takes_too_long_loses_its_tile_alone(chain, monkeypatch, pipe):
     leaf, whole = chain.leaf()
-    monkeypatch.setattr(decode_tiles, "_SECONDS", 2.5)
+    monkeypatch.setattr(decode, "_SECONDS", 2.5)
     swapped(monkeypatch, leaf, pipe)
     cut, told = chain.make()
     (reason,) = cut.missing
@@ -372,7 +373,7 @@ def test_a_decoder_that_dies_loses_its_tile_alone(chain, monkeypatch, pipe):
             os.close(writing)
             return
 
-    monkeypatch.setattr(decode_tiles.os, "cpu_count", lambda: 1)
+    monkeypatch.setattr(decode.os, "cpu_count", lambda: 1)
     monkeypatch.setattr(worker.subprocess, "Popen", popen)
     threading.Thread(target=kill, daemon=True).start()
     swapped(monkeypatch, leaf, pipe)
@@ -384,7 +385,7 @@ def test_a_decoder_that_dies_loses_its_tile_alone(chain, monkeypatch, pipe):
 
 def test_a_decoder_over_its_memory_loses_its_tile_alone(chain, monkeypatch):
     leaf, whole = chain.leaf()
-    monkeypatch.setattr(decode_tiles, "_MEMORY", 1_500_000_000)
+    monkeypatch.setattr(decode, "_MEMORY", 1_500_000_000)
     swapped(monkeypatch, leaf, "/dev/zero")
     cut, _ = chain.make()
     (reason,) = cut.missing
@@ -497,14 +498,14 @@ def test_a_film_is_continued_with_its_tiles_while_the_server_has_others(chain):
     leaf, whole = chain.leaf()
     shot = chain.shot_of()
     chain.make()
-    assert tiles._kept(shot, keep=True)
-    assert not tiles._kept(shot, keep=False)
+    assert selection._kept(shot, keep=True)
+    assert not selection._kept(shot, keep=False)
     (whole.folder / whole.tiles[0]).unlink()
-    assert not tiles._kept(shot, keep=True)
+    assert not selection._kept(shot, keep=True)
     chain.forget()
     chain.server.answers[leaf] = Reply(404)
     chain.make()
-    assert not tiles._kept(shot, keep=True)
+    assert not selection._kept(shot, keep=True)
 
 
 def test_a_policys_error_is_taken_where_the_scene_has_none_of_its_own(chain, monkeypatch):
@@ -517,7 +518,7 @@ def test_a_policys_error_is_taken_where_the_scene_has_none_of_its_own(chain, mon
     shot = chain.shot_of()
     default = replace(shot.settings.tiles, error=2.0)
     shot = shot._with_settings(replace(shot.settings, tiles=default))
-    told = "\n".join(tiles.make(shot))
+    told = "\n".join(selection.make(shot))
     assert "an imitation recommends tiles to 20 pixels" in told
     assert "credits of tiles, which pictures show: Imitation Maps; Somebody" in told
     assert tile_cut.of_shot(shot).error >= 20.0

@@ -1,6 +1,6 @@
 """The orthophoto of a server (`terrain.photo_url`): pictures of its tiles, fetched before a shot is built.
 
-`jobs.drape` fetches them; here is what it writes, and who is to be named for them.
+`jobs.tiles.imagery` fetches them; here is what it writes, and who is to be named for them.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from firetwin_core.run import Run
 
 from ... import files
 from ...errors import InputError, input_error
-from ...tiles.drape import address
-from ...tiles.drape.mercator import NORTHMOST
+from ...tiles.imagery import address
+from ...tiles.imagery.mercator import NORTHMOST
 from ...tiles.sources import secret
 from ..cameras.view_digest import of_views
 from ..schema import scene_text

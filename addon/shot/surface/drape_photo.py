@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...errors import InputError, input_error
 from ...run import areas
-from ...tiles.drape import mercator
+from ...tiles.imagery import mercator
 from ..terrain.raster import Array
 from .drape import Drape, DrapeArea
 from .photo_source import PhotoSource, Pixels, between_pixels, rgba, thinned

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...tiles.drape import mercator
-from ...tiles.drape.mosaic import Patch
+from ...tiles.imagery import mercator
+from ...tiles.imagery.mosaic import Patch
 from ..terrain.raster import Array
 from .photo_areas import areas_of
 

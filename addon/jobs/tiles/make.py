@@ -9,15 +9,15 @@ import numpy as np
 from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
-from ..errors import UsageError
-from ..progress import MessageCallback, Progress, no_message, silent
-from ..run import areas, buildings
-from ..shot.shot import Shot
-from ..shot.surface import orthophoto
-from ..shot.tiles import tile_terms
-from ..tiles import geoid
-from ..tiles.make.lattice import Lattice, Surface
-from ..tiles.make.tileset import Maker, Summary
+from ...errors import UsageError
+from ...progress import MessageCallback, Progress, no_message, silent
+from ...run import areas, buildings
+from ...shot.shot import Shot
+from ...shot.surface import orthophoto
+from ...shot.tiles import tile_terms
+from ...tiles import geoid
+from ...tiles.make.lattice import Lattice, Surface
+from ...tiles.make.tileset import Maker, Summary
 
 Array = NDArray[np.float64]
 _FINEST = 4097  # points along an axis of an elevation model

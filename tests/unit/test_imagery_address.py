@@ -3,7 +3,7 @@
 import pytest
 from firetwin.errors import InputError
 from firetwin.tiles import policies
-from firetwin.tiles.drape import address
+from firetwin.tiles.imagery import address
 from firetwin.tiles.policies import openstreetmap
 
 HTTPS = "https://a.example/{z}/{x}/{y}.png"

@@ -6,7 +6,7 @@ import sys
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
-from ..tiles.sources import Network
+from ...tiles.sources import Network
 
 PREFERENCE = "allow it by Edit > Preferences > System > Network > Allow Online Access"
 

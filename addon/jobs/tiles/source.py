@@ -11,25 +11,25 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import files
-from ..errors import InputError, input_error
-from ..progress import Progress
-from ..shot.settings.settings import TileSettings
-from ..shot.shot import Shot
-from ..shot.tiles import tile_terms
-from ..shot.tiles.tile_terms import Use
-from ..tiles import decoded, notices
-from ..tiles.decoded import Summary
-from ..tiles.policies import Policy
-from ..tiles.sources import MissingError
-from . import decode_tiles
-from .decode_tiles import Content
-from .tile_access import TileAccess
+from ... import files
+from ...errors import InputError, input_error
+from ...progress import Progress
+from ...shot.settings.settings import TileSettings
+from ...shot.shot import Shot
+from ...shot.tiles import tile_terms
+from ...shot.tiles.tile_terms import Use
+from ...tiles import decoded, notices
+from ...tiles.decoded import Summary
+from ...tiles.policies import Policy
+from ...tiles.sources import MissingError
+from . import decode
+from .access import TileAccess
+from .decode import Content
 
 if TYPE_CHECKING:
-    from ..tiles.cut import Choice
-    from ..tiles.loader import Loader
-    from ..tiles.sources import Source
+    from ...tiles.cut import Choice
+    from ...tiles.loader import Loader
+    from ...tiles.sources import Source
 
 _TRIES = 8  # choices at most; each leaves out what could not be decoded, or knows more triangles
 
@@ -42,7 +42,7 @@ def open_place(shot: Shot, number: int, access: TileAccess) -> Source:
     InputError
         It is not there, or not allowed.
     """
-    from ..tiles.sources import open_source
+    from ...tiles.sources import open_source
 
     place = shot.settings.tiles.sources[number]
     near = shot.settings.path.parent / place
@@ -59,8 +59,8 @@ def to_scene(shot: Shot) -> tuple[float | None, NDArray[np.float64]]:
     InputError
         It is not known.
     """
-    from ..tiles import geoid
-    from ..tiles.place import ecef_to_frame
+    from ...tiles import geoid
+    from ...tiles.place import ecef_to_frame
 
     settings, frame = shot.settings, shot.local_frame
     if shot.run.vertical != "orthometric":
@@ -116,8 +116,8 @@ class TileSource:
         access: TileAccess,
         uses: Sequence[Use],
     ) -> None:
-        from ..tiles.cut import Budget, Views, pixels
-        from ..tiles.loader import Loader
+        from ...tiles.cut import Budget, Views, pixels
+        from ...tiles.loader import Loader
 
         self.settings, self.folder = shot.settings.tiles, folder
         source = open_place(shot, number, access)
@@ -137,7 +137,7 @@ class TileSource:
 
     def prepared(self, progress: Progress) -> PreparedTiles:
         """Choose, fetch and decode until everything that is chosen can be shown."""
-        from ..tiles.cut import choose
+        from ...tiles.cut import choose
 
         triangles: dict[int, int] = {}
         for _ in range(_TRIES):
@@ -152,7 +152,7 @@ class TileSource:
                 triangles=triangles,
             )
             wanted, bad = self._contents(choice.contents.tolist())
-            failed = decode_tiles.run(list(wanted.values()), progress)
+            failed = decode.run(list(wanted.values()), progress)
             bad |= {number: failed[each.name] for number, each in wanted.items() if each.name in failed}
             for number, reason in bad.items():
                 name = self.loader.source.name(self.loader.content_uri(number))

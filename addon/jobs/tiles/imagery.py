@@ -14,25 +14,25 @@ import numpy as np
 from firetwin_core import sensor
 from numpy.typing import NDArray
 
-from ..errors import InputError
-from ..progress import MessageCallback, Progress, count, no_message, share, silent
-from ..shot import comparison, picture_credits
-from ..shot.shot import Shot
-from ..shot.source import ShotSource
-from ..shot.surface import drape, drape_plan
-from ..shot.surface.drape import Drape, DrapeArea
-from ..shot.surface.drape_plan import PlannedArea
-from ..shot.terrain.raster import extent, overlap, said
-from ..tiles import notices
-from ..tiles.drape import address, wmts
-from ..tiles.drape.address import TileAddress
-from ..tiles.drape.mosaic import Patch, TileServer
-from ..tiles.sources.address import origin
-from ..tiles.sources.http import Http
-from ..tiles.sources.network import Network
-from ..tiles.sources.waiting import Clock
-from . import worker
-from .tile_access import TileAccess, from_plain, permitted
+from ...errors import InputError
+from ...progress import MessageCallback, Progress, count, no_message, share, silent
+from ...shot import comparison, picture_credits
+from ...shot.shot import Shot
+from ...shot.source import ShotSource
+from ...shot.surface import drape, drape_plan
+from ...shot.surface.drape import Drape, DrapeArea
+from ...shot.surface.drape_plan import PlannedArea
+from ...shot.terrain.raster import extent, overlap, said
+from ...tiles import notices
+from ...tiles.imagery import address, wmts
+from ...tiles.imagery.address import TileAddress
+from ...tiles.imagery.mosaic import Patch, TileServer
+from ...tiles.sources.address import origin
+from ...tiles.sources.http import Http
+from ...tiles.sources.network import Network
+from ...tiles.sources.waiting import Clock
+from .. import worker
+from .access import TileAccess, from_plain, permitted
 
 _NAMED = 3  # missing tiles that are named; all are in the drape's file
 

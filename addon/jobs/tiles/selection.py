@@ -1,6 +1,6 @@
 """Prepares a shot's 3-D Tiles: chooses them, fetches what is new, and decodes it to files of the cache.
 
-Fetching happens in a process without Blender, decoding in processes of their own (`decode_tiles`). Blender
+Fetching happens in a process without Blender, decoding in processes of their own (`decode`). Blender
 reads arrays that were checked.
 """
 
@@ -12,26 +12,24 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from ..errors import Error, InputError
-from ..progress import MessageCallback, Progress, count, no_message, share, silent
-from ..shot import comparison, picture_credits
-from ..shot.shot import Shot
-from ..shot.source import ShotSource
-from ..shot.surface import land_use
-from ..shot.terrain import tile_heights
-from ..shot.terrain.tile_heights import TileHeights
-from ..shot.tiles import tile_cut, tile_difference, tile_terms
-from ..shot.tiles.tile_cut import TileCut
-from ..shot.tiles.tile_terms import Use
-from ..tiles import decoded, policies
-from . import tile_source, worker
-from .tile_access import TileAccess, from_plain, permitted
-from .tile_source import PreparedTiles, TileSource
-
-if TYPE_CHECKING:
-    pass
+from ...errors import Error, InputError
+from ...progress import MessageCallback, Progress, count, no_message, share, silent
+from ...shot import comparison, picture_credits
+from ...shot.shot import Shot
+from ...shot.source import ShotSource
+from ...shot.surface import land_use
+from ...shot.terrain import tile_heights
+from ...shot.terrain.tile_heights import TileHeights
+from ...shot.tiles import tile_cut, tile_difference, tile_terms
+from ...shot.tiles.tile_cut import TileCut
+from ...shot.tiles.tile_terms import Use
+from ...tiles import decoded, policies
+from .. import worker
+from . import source as tile_source
+from .access import TileAccess, from_plain, permitted
+from .source import PreparedTiles, TileSource
 
 PREVIEW_ERROR, PREVIEW_SIZE = 64.0, 200
 """Pixels and MB of a coarse choice."""

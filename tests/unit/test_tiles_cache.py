@@ -7,7 +7,7 @@ import time
 
 import pytest
 from firetwin import cli
-from firetwin.jobs import tile_cache
+from firetwin.jobs.tiles import cache
 from firetwin.shot.tiles import tile_cut
 from firetwin.shot.tiles.tile_cut import TileCut
 from firetwin.tiles import decoded
@@ -57,7 +57,7 @@ def _names(place):
 
 
 def test_each_file_is_counted_once(kept):
-    first, second, rest = tile_cache.list_tiles(kept.parent)
+    first, second, rest = cache.list_tiles(kept.parent)
     assert (first.folder.stem, second.folder.stem, rest.folder) == ("a" * 16, "b" * 16, kept)
     assert rest.bytes == 3000
     inodes = {path.stat().st_ino: path.stat().st_size for path in kept.rglob("*") if path.is_file()}
@@ -79,7 +79,7 @@ def test_they_are_listed_with_volumes(kept, capsys):
 
 
 def test_the_least_recently_used_goes_and_leaves_what_another_needs(kept, capsys):
-    first, second, _ = tile_cache.list_tiles(kept.parent)
+    first, second, _ = cache.list_tiles(kept.parent)
     limit = str(first.bytes + second.bytes - 1)
     before = _names(kept)
     assert cli.main(["cache", "--prune", "--limit", limit, "--dry-run", str(kept.parent)]) == 0
@@ -109,30 +109,30 @@ def test_what_is_in_use_stays(kept):
 
 
 def test_what_came_into_use_meanwhile_stays(kept):
-    first, *_ = tile_cache.list_tiles(kept.parent)
+    first, *_ = cache.list_tiles(kept.parent)
     _used(first.folder, 0.0)
-    assert not tile_cache.remove(first)
+    assert not cache.remove(first)
     assert first.folder.exists()
 
 
 def test_a_damaged_choice_names_its_own_files_alone(kept):
     (kept / f"{'a' * 16}.json").write_text("{")
     _used(kept / f"{'a' * 16}.json", HOUR)
-    first, second, _ = tile_cache.list_tiles(kept.parent)
+    first, second, _ = cache.list_tiles(kept.parent)
     assert first.names == {f"{'a' * 16}.json", f"{'a' * 16}.npz", f"{'a' * 16}/0.1001.jpg"}
     assert f"{1:032x}.tile" in second.names
 
 
 def test_answers_of_servers_are_listed_and_pruned(kept, capsys):
-    cache = HttpCache(http_cache.folder())
+    answers = HttpCache(http_cache.folder())
     for number in range(3):
-        cache.put(
+        answers.put(
             f"https://x.example/{number}",
             bytes(1000),
             {"Cache-Control": "max-age=60"},
             time.time() - 7230 + number,
         )
-    cache.close()
+    answers.close()
     assert cli.main(["cache", str(kept.parent)]) == 0
     assert f"{http_cache.folder()}  0 MB  3 answers, used 2 h 0 min ago" in capsys.readouterr().out
     arguments = ["cache", "--prune", "--answers", "2500", str(kept.parent)]

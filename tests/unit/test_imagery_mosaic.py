@@ -6,9 +6,9 @@ from colour_tiles import FRESH, Tiles, colour, png
 from firetwin.errors import InputError
 from firetwin.shot.surface.drape import Drape, DrapeArea
 from firetwin.shot.surface.drape_photo import DrapePhoto
-from firetwin.tiles.drape import mercator, mosaic
-from firetwin.tiles.drape.address import TileAddress
-from firetwin.tiles.drape.mosaic import Patch, TileServer
+from firetwin.tiles.imagery import mercator, mosaic
+from firetwin.tiles.imagery.address import TileAddress
+from firetwin.tiles.imagery.mosaic import Patch, TileServer
 from firetwin.tiles.sources import MissingError
 from firetwin.tiles.sources.http import Http
 from firetwin.tiles.sources.network import Network

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from ..progress import MessageCallback, Progress, no_message, silent
-from ..shot.source import ShotSource
-from . import worker
-from .tile_access import TileAccess, from_plain, permitted
+from ...progress import MessageCallback, Progress, no_message, silent
+from ...shot.source import ShotSource
+from .. import worker
+from .access import TileAccess, from_plain, permitted
 
 MOST = 2000
 """Boxes of a source at most, those of the coarsest tiles."""
@@ -41,8 +41,8 @@ def in_process(
     choice: dict[str, str], access: dict[str, Any], progress: Progress, tell: MessageCallback
 ) -> list[dict[str, Any]]:
     """Read; worker side."""
-    from ..tiles.loader import Loader
-    from . import tile_source
+    from ...tiles.loader import Loader
+    from . import source as tile_source
 
     shot = ShotSource(**choice).shot()
     found = []

@@ -14,10 +14,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..errors import InputError
-from ..shot.tiles import tile_cut
-from ..smoke.cache import IN_USE
-from ..tiles import decoded
+from ...errors import InputError
+from ...shot.tiles import tile_cut
+from ...smoke.cache import IN_USE
+from ...tiles import decoded
 
 FOLDER = "tiles"
 _CUT = re.compile(r"[0-9a-f]{16}")

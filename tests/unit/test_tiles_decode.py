@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import tile_files as made
 from firetwin.errors import InputError
-from firetwin.jobs import decode_tiles
-from firetwin.jobs.decode_tiles import Content
+from firetwin.jobs.tiles import decode
+from firetwin.jobs.tiles.decode import Content
 from firetwin.shot.tiles import tile_cut
 from firetwin.tiles import decoded
 
@@ -23,13 +23,13 @@ def content(folder, name, data):
 
 def test_a_tile_comes_back_as_it_was_decoded(tmp_path):
     good = content(tmp_path, "good.glb", made.square().glb())
-    assert decode_tiles.run([good]) == {}
+    assert decode.run([good]) == {}
     tile = decoded.read(tmp_path / "good.glb.tile")
     assert tile.position.shape == (4, 3)
     assert tile.triangle.shape == (2, 3)
     assert tile.material_index.tolist() == [0, 0]
     before = os.stat(good.out).st_mtime_ns
-    assert decode_tiles.run([good]) == {}
+    assert decode.run([good]) == {}
     assert os.stat(good.out).st_mtime_ns == before  # what is there is not decoded again
 
 
@@ -39,7 +39,7 @@ def test_a_wrong_tile_is_named_and_the_others_go_on(tmp_path):
         content(tmp_path, "bad.glb", made.square().glb()[:60]),
         content(tmp_path, "last.glb", made.square().glb()),
     ]
-    bad = decode_tiles.run(contents)
+    bad = decode.run(contents)
     assert list(bad) == ["bad.glb"]
     assert (tmp_path / "last.glb.tile").exists()
 
@@ -48,8 +48,8 @@ def test_a_process_that_dies_loses_its_tile_alone(tmp_path, monkeypatch):
     contents = [content(tmp_path, f"{k}.glb", made.square().glb()) for k in range(3)]
     (tmp_path / "1.glb").unlink()
     os.mkfifo(tmp_path / "1.glb")  # reading it blocks for ever
-    monkeypatch.setattr(decode_tiles, "_SECONDS", 8.0)
-    bad = decode_tiles.run(contents)
+    monkeypatch.setattr(decode, "_SECONDS", 8.0)
+    bad = decode.run(contents)
     assert list(bad) == ["1.glb"]
     assert "no progress" in bad["1.glb"]
     assert (tmp_path / "0.glb.tile").exists()
@@ -58,7 +58,7 @@ def test_a_process_that_dies_loses_its_tile_alone(tmp_path, monkeypatch):
 
 def test_a_decoded_tile_whose_numbers_do_not_fit_is_refused(tmp_path):
     good = content(tmp_path, "good.glb", made.square().glb())
-    decode_tiles.run([good])
+    decode.run([good])
     data = Path(good.out).read_bytes()
     tile = decoded.read(Path(good.out))
     wrong = data.replace(tile.triangle.tobytes(), (tile.triangle + 9).tobytes())
@@ -70,14 +70,14 @@ def test_a_decoded_tile_whose_numbers_do_not_fit_is_refused(tmp_path):
 
 def test_a_decoded_tile_that_is_cut_off_is_decoded_again(tmp_path):
     good = content(tmp_path, "good.glb", made.square().glb())
-    decode_tiles.run([good])
+    decode.run([good])
     whole = Path(good.out).read_bytes()
     for length in (0, 10, 30, len(whole) - 1):
         Path(good.out).write_bytes(whole[:length])
         assert decoded.summary(Path(good.out)) is None
         with pytest.raises(InputError, match="no decoded tile"):
             decoded.read(Path(good.out))
-    decode_tiles.run([good])
+    decode.run([good])
     assert Path(good.out).read_bytes() == whole
     assert decoded.summary(Path(good.out)).triangles == 2
 

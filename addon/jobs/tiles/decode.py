@@ -16,10 +16,10 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError
-from ..progress import MessageCallback, Progress, silent
-from ..tiles import decoded
-from . import worker
+from ...errors import InputError
+from ...progress import MessageCallback, Progress, silent
+from ...tiles import decoded
+from .. import worker
 
 _MEMORY = 3 << 30
 """bytes of address space of a decoding process."""

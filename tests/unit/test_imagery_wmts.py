@@ -2,7 +2,7 @@
 
 import pytest
 from firetwin.errors import InputError
-from firetwin.tiles.drape import wmts
+from firetwin.tiles.imagery import wmts
 from wmts_text import FORMAT, RESOURCE, document, layer, matrices
 
 URL = "https://a.example/wmts/1.0.0/WMTSCapabilities.xml?map=hills"

@@ -7,12 +7,12 @@ from types import SimpleNamespace
 import pytest
 from firetwin import cli
 from firetwin.errors import InputError
-from firetwin.jobs import tile_access
-from firetwin.jobs.tile_access import TileAccess
+from firetwin.jobs.tiles import access as job
+from firetwin.jobs.tiles.access import TileAccess
 from firetwin.tiles.sources import open_source
 from lying_server import serving
 
-MANIFEST = Path(tile_access.__file__).parents[1] / "blender_manifest.toml"
+MANIFEST = Path(job.__file__).parents[2] / "blender_manifest.toml"
 
 
 @pytest.fixture
@@ -21,24 +21,24 @@ def blender(monkeypatch):
 
     def make(online):
         app = SimpleNamespace(module=False, online_access=online)
-        monkeypatch.setitem(tile_access.sys.modules, "bpy", SimpleNamespace(app=app))
+        monkeypatch.setitem(job.sys.modules, "bpy", SimpleNamespace(app=app))
 
     return make
 
 
 def test_access_goes_to_another_process_and_back():
     access = TileAccess(strict=True, online=False, hosts=("a.example", "b.example"), private=True)
-    assert tile_access.from_plain(access.plain()) == access
+    assert job.from_plain(access.plain()) == access
     network = access.network()
     assert (network.online, network.hosts, network.private) == (False, ("a.example", "b.example"), True)
 
 
 def test_blender_is_asked_and_the_preference_is_named(blender, capsys):
     blender(True)
-    assert tile_access.permitted(TileAccess()) == TileAccess()
+    assert job.permitted(TileAccess()) == TileAccess()
     blender(False)
-    access = tile_access.permitted(TileAccess(strict=True))
-    assert (access.strict, access.online, access.setting) == (True, False, tile_access.PREFERENCE)
+    access = job.permitted(TileAccess(strict=True))
+    assert (access.strict, access.online, access.setting) == (True, False, job.PREFERENCE)
     with serving() as server:
         source = open_source(f"{server.url}/tileset.json", access.network())
         with pytest.raises(InputError, match="System > Network > Allow Online Access"):
@@ -59,11 +59,11 @@ def test_files_of_this_machine_need_no_permission(blender, tmp_path, capsys):
 
 
 def test_python_without_blenders_window_has_no_such_preference(monkeypatch):
-    monkeypatch.delitem(tile_access.sys.modules, "bpy", raising=False)
-    assert tile_access.is_online()
+    monkeypatch.delitem(job.sys.modules, "bpy", raising=False)
+    assert job.is_online()
     app = SimpleNamespace(module=True, online_access=False)
-    monkeypatch.setitem(tile_access.sys.modules, "bpy", SimpleNamespace(app=app))
-    assert tile_access.is_online()
+    monkeypatch.setitem(job.sys.modules, "bpy", SimpleNamespace(app=app))
+    assert job.is_online()
 
 
 def test_the_extension_says_what_it_uses_the_network_for():

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from firetwin.tiles.drape import mercator
+from firetwin.tiles.imagery import mercator
 
 PLACES = [(38.9, -120.6), (-33.5, 151.2), (78.22, 15.65), (85.0, 179.99), (-84.99, -179.99), (0.001, -0.001)]
 
