@@ -21,8 +21,8 @@ from typing import NoReturn
 from .brief import arguments as brief
 from .escaped import escaped
 from .farm import arguments as farm
-from .places import arguments as places
-from .places.allocation import arguments as allocation
+from .stations import arguments as stations
+from .stations.allocation import arguments as allocation
 from .tiles import arguments as tiles
 
 EPILOG = """\
@@ -41,7 +41,7 @@ a film of your own run:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit status."""
-    words, options = farm.normal(list(sys.argv[1:] if argv is None else argv))
+    words, options = farm.normal(_current_names(list(sys.argv[1:] if argv is None else argv)))
     arguments = _parser().parse_args(words)
     arguments.options = options
     if isinstance(sys.stdout, io.TextIOWrapper):
@@ -60,6 +60,19 @@ def main(argv: Sequence[str] | None = None) -> int:
         if arguments.debug:
             raise
         return _report(error)
+
+
+def _current_names(words: list[str]) -> list[str]:
+    """Replace the former name of a command or an option, with a note."""
+    from .progress import say
+
+    if words[:1] == ["places"]:
+        say("`firetwin places` is now `firetwin stations`; the former name works until the next version")
+        return ["stations", *words[1:]]
+    if words[:1] == ["brief"] and any(re.match(r"--places(=|$)", word) for word in words):
+        say("`--places` is now `--stations`; the former name works until the next version")
+        return [re.sub(r"^--places(?==|$)", "--stations", word) for word in words]
+    return words
 
 
 def _passes() -> str:
@@ -290,11 +303,11 @@ def _parser() -> argparse.ArgumentParser:
         "--dry-run", action="store_true", help="list what --prune would remove; remove nothing"
     )
 
-    places.add_places(
-        command("places", "make or list a file of stations and resources", places.PLACES), _path
+    stations.add_stations(
+        command("stations", "make or list a file of stations and resources", stations.STATIONS), _path
     )
-    places.add_resources(
-        command("resources", "list resources that answer a query", places.RESOURCES), _path, _moment
+    stations.add_resources(
+        command("resources", "list resources that answer a query", stations.RESOURCES), _path, _moment
     )
 
     assets = command("assets", "write an asset library of trees, materials and node groups", ASSETS)

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from .jobs.cache import Cached
     from .jobs.render import RenderResult
     from .jobs.tiles.access import TileAccess
-    from .places.command import Fire
     from .shot.source import ShotSource
+    from .stations.command import Fire
 
 
 def sample(arguments: argparse.Namespace) -> None:
@@ -123,7 +123,7 @@ def brief(arguments: argparse.Namespace) -> None:
     from .brief import briefing, page, text
 
     request = briefing.Request(
-        arguments.scene, arguments.places, arguments.film, arguments.against, arguments.limit
+        arguments.scene, arguments.stations, arguments.film, arguments.against, arguments.limit
     )
     with notify_if_slow(READING):
         found = briefing.gather(request)
@@ -224,16 +224,16 @@ def farm(arguments: argparse.Namespace) -> int | None:
     return command.run(arguments, _choice)
 
 
-def places(arguments: argparse.Namespace) -> None:
+def stations(arguments: argparse.Namespace) -> None:
     """Make or list a file of stations and resources."""
-    from .places import command
+    from .stations import command
 
-    command.run_places(arguments, _fire)
+    command.run_stations(arguments, _fire)
 
 
 def resources(arguments: argparse.Namespace) -> int:
     """List resources that answer a query."""
-    from .places import command
+    from .stations import command
 
     return command.find_resources(arguments, _fire)
 
@@ -280,13 +280,13 @@ def allocate(arguments: argparse.Namespace) -> None:
     """Suggest an allocation of resources. Exercise: not operational advice."""
     from .errors import Error
     from .jobs import allocate
-    from .places.allocation import page, read
-    from .places.allocation.problem import Request
     from .run import times
+    from .stations.allocation import page, read
+    from .stations.allocation.problem import Request
 
     run = _open(arguments.run)
     start = arguments.start or times.utc(run, allocate.first_order(run))
-    units, left = read.read(arguments.places, start)
+    units, left = read.read(arguments.stations, start)
     request = Request(
         arguments.budget,
         arguments.response,
@@ -457,8 +457,8 @@ def _open(folder: Path) -> Run:
 
 def _fire(path: Path) -> Fire:
     """Run of a folder, or the first one of a scene file, with the head of its fire."""
-    from .places.command import Fire
     from .shot.runs.run_head import Head
+    from .stations.command import Fire
 
     run = next(iter(_runs(path).values())) if path.suffix == ".toml" and path.is_file() else _open(path)
     return Fire(run, Head(run))

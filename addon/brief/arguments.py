@@ -20,7 +20,7 @@ def add(parser: argparse.ArgumentParser, path: Callable[[str], Path], size: Call
     parser.add_argument("scene", metavar="SCENE|RUN", type=path, help="scene file, or run folder")
     parser.add_argument("--out", metavar="X.html", type=path, required=True, help="file to write")
     parser.add_argument(
-        "--places", metavar="FILE.gpkg", type=path, help="GeoPackage of stations and resources (none)"
+        "--stations", metavar="FILE.gpkg", type=path, help="GeoPackage of stations and resources (none)"
     )
     parser.add_argument(
         "--film", metavar="DIR", type=path, help="folder of firetwin render, for pictures and clips (none)"

@@ -11,15 +11,15 @@ from typing import Any
 from firetwin_core.run import Run
 
 from ..errors import UsageError
-from ..places import store
-from ..places.records import Resource, Station
-from ..places.store import Places
 from ..run import areas, content, info, labels, observations, readers, score, times, zone
 from ..run.labels import Label
 from ..run.observations import Perimeter
 from ..shot.settings.settings import Settings
 from ..shot.source import ShotSource
 from ..shot.terrain.elevation import Elevation
+from ..stations import reading
+from ..stations.records import Resource, Station
+from ..stations.station_file import StationFile
 from . import film, fronts, layers, reached
 from .arguments import LIMIT
 from .film import Film
@@ -36,7 +36,7 @@ class Request:
     ----------
     scene
         Scene file, or run folder.
-    places, film
+    stations, film
         GeoPackage of stations, and folder of a film; None: the page has none.
     against
         Files of observations; empty: those in the run's folder.
@@ -45,7 +45,7 @@ class Request:
     """
 
     scene: Path
-    places: Path | None = None
+    stations: Path | None = None
     film: Path | None = None
     against: Sequence[str | Path] = ()
     limit: int = LIMIT
@@ -105,7 +105,7 @@ class Briefing:
     fronts: list[Front]
     tolerance: float
     points: list[Point]
-    places: Places | None
+    station_file: StationFile | None
     film: Film | None
     observed: list[Perimeter]
     scores: dict[str, Any] | None
@@ -120,7 +120,7 @@ class Briefing:
 
     def resources(self, station: Station) -> list[Resource]:
         """Resources of a station."""
-        return self.places.resources_of[station.id] if self.places else []
+        return self.station_file.resources_of[station.id] if self.station_file else []
 
     def origins(self, station: Station) -> set[str]:
         """Origins of a station and of its resources."""
@@ -136,7 +136,7 @@ def gather(request: Request) -> Briefing:
         A file cannot be used; the error names it and what to do.
     """
     run, settings, elevation = _open(request.scene)
-    stations = store.read(request.places) if request.places else None
+    station_file = reading.read(request.stations) if request.stations else None
     shown = film.read(request.film, _hashes(run), request.limit // 2) if request.film else None
     clock = settings.time.zone if settings else zone.time_zone(run)
     named = request.against or observations.beside(Path(run.path))
@@ -151,8 +151,8 @@ def gather(request: Request) -> Briefing:
         layers=layers.draw(run, elevation.fuel, clock),
         fronts=lines,
         tolerance=tolerance,
-        points=_points(run, settings, stations),
-        places=stations,
+        points=_points(run, settings, station_file),
+        station_file=station_file,
         film=shown,
         observed=[p for p in seen.perimeters if run.times[0] <= times.seconds(run, p.time) <= run.times[-1]],
         scores=scores,
@@ -169,11 +169,11 @@ def _hashes(run: Run) -> dict[str, str]:
     return {name: value for name, value in hashes.items() if name != "run.toml"}  # a name may change
 
 
-def _points(run: Run, settings: Settings | None, stations: Places | None) -> list[Point]:
+def _points(run: Run, settings: Settings | None, station_file: StationFile | None) -> list[Point]:
     """Stations, then named places within the run's grid, and how the fire reaches each."""
     file = settings.labels.file if settings else None
     towns = labels.read(file) if file else labels.known(run)
-    by_name = sorted(stations.stations, key=lambda each: (each.title, each.id)) if stations else ()
+    by_name = sorted(station_file.stations, key=lambda each: (each.title, each.id)) if station_file else ()
     spots: list[Station | Label] = [*by_name, *towns]
     found = reached.find(run, [s.latitude for s in spots], [s.longitude for s in spots])
     middle = 0.5 * float(run.longitude[0] + run.longitude[-1])

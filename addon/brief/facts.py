@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from datetime import datetime
 
-from ..places.records import Availability, Resource, Type
-from ..places.store import Places
 from ..run import times
+from ..stations.records import Availability, Resource, Type
+from ..stations.station_file import StationFile
 
 _OF_TYPE = {
     "tank_l": ("tank", "l"),
@@ -27,9 +27,9 @@ _OWN = {
 _COSTS = {"cost_mobilise": "to mobilise", "cost_hour": "per hour", "cost_day": "per day"}
 
 
-def facts(places: Places, resource: Resource) -> str:
+def facts(station_file: StationFile, resource: Resource) -> str:
     """What is known of one unit: ``tank at least 1,893 l, speed 60 km/h, cost 110 USD per hour, ...``."""
-    type_ = places.type_of[resource.type]
+    type_ = station_file.type_of[resource.type]
     return ", ".join((*_numbers(type_, _OF_TYPE, " at least"), *_numbers(resource, _OWN), *_words(resource)))
 
 
@@ -55,11 +55,11 @@ def _number(value: float) -> str:
 
 
 def availability(
-    places: Places, resource: Resource, zone: str, span: tuple[datetime, datetime]
+    station_file: StationFile, resource: Resource, zone: str, span: tuple[datetime, datetime]
 ) -> Iterator[str]:
     """Windows that overlap a span of time (UTC), in local time; how many do not."""
     first, last = span
-    windows = places.windows_of[resource.id]
+    windows = station_file.windows_of[resource.id]
     shown = [each for each in windows if each.begins <= last and each.ends > first]
     yield from (_window(each, zone) for each in shown)
     if left := len(windows) - len(shown):

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 
-from ..places.describe import degrees, web_map_address
-from ..places.records import EXERCISE, Resource, Station
-from ..places.store import Places
 from ..run import times
+from ..stations.describe import degrees, web_map_address
+from ..stations.records import EXERCISE, Resource, Station
+from ..stations.station_file import StationFile
 from . import facts
 from .briefing import Briefing, Point
 from .reached import Reached
@@ -65,7 +65,7 @@ def distance(metres: float) -> str:
 
 
 def _warning(briefing: Briefing) -> Iterator[str]:
-    if briefing.places is not None and briefing.places.exercise:
+    if briefing.station_file is not None and briefing.station_file.exercise:
         yield (
             f'<p class="warn"><b>{EXERCISE}.</b> Rows marked "exercise" are made up: which engine stands '
             "where, its crew, its times and its costs.</p>"
@@ -110,31 +110,31 @@ def _table(caption: str, head: Iterable[str], inside: str, kind: str = "") -> st
 
 
 def _station(briefing: Briefing, point: Point) -> str:
-    station, places = point.station, briefing.places
-    assert station is not None and places is not None  # noqa: PT018
-    resources, source = briefing.resources(station), places.source_of[station.source].name
+    station, station_file = point.station, briefing.station_file
+    assert station is not None and station_file is not None  # noqa: PT018
+    resources, source = briefing.resources(station), station_file.source_of[station.source].name
     words = ", ".join(filter(None, (station.kind, station.agency)))
     types = "|".join(dict.fromkeys(resource.type for resource in resources))
     address = f"<small>{quote(station.address)}</small>" if station.address else ""
     rows = [
         f"<tr><td>{_button(point)}</td><td>{quote(words)}{address}</td><td>{_when(briefing, point)}</td>"
         f"<td>{_origin(station.origin, source)}</td><td>{_web_map(point)}</td></tr>",
-        *(_resource(briefing, places, station, resource) for resource in resources),
+        *(_resource(briefing, station_file, station, resource) for resource in resources),
     ]
     data = _data(point, station.kind, "|".join(sorted(briefing.origins(station))), types)
     return f"<tbody {data}>{''.join(rows)}</tbody>"
 
 
-def _resource(briefing: Briefing, places: Places, station: Station, resource: Resource) -> str:
+def _resource(briefing: Briefing, station_file: StationFile, station: Station, resource: Resource) -> str:
     number = f"{resource.count:,} × " if resource.count > 1 else ""
     span = briefing.fronts[0].utc, briefing.fronts[-1].utc
-    lines = [resource.note, *facts.availability(places, resource, briefing.zone, span)]
+    lines = [resource.note, *facts.availability(station_file, resource, briefing.zone, span)]
     small = "".join(f"<small>{quote(line)}</small>" for line in lines if line)
     name = f"{number}{resource.type}" + (f", {resource.name}" if resource.name else "")
-    source = places.source_of[resource.source].name if resource.source != station.source else ""
+    source = station_file.source_of[resource.source].name if resource.source != station.source else ""
     return (
         f'<tr class="resource"><td>{quote(name)}</td>'
-        f'<td colspan="2">{quote(facts.facts(places, resource))}{small}</td>'
+        f'<td colspan="2">{quote(facts.facts(station_file, resource))}{small}</td>'
         f"<td>{_origin(resource.origin, source)}</td><td></td></tr>"
     )
 

@@ -14,8 +14,8 @@ import firetwin_core
 import numpy as np
 
 from ..errors import UsageError
-from ..places.records import EXERCISE
 from ..run import times
+from ..stations.records import EXERCISE
 from . import curve, fronts, lists, map_panel, sections
 from .briefing import Briefing, Point
 from .mercator import Box
@@ -76,7 +76,7 @@ def html(briefing: Briefing, limit: int) -> str:
 def notes(briefing: Briefing) -> list[str]:
     """What whoever makes the page should know: what is made up, left out or not computed."""
     made_up = ["this run is synthetic, and the page says so"] if briefing.run.synthetic else []
-    if briefing.places is not None and briefing.places.exercise:
+    if briefing.station_file is not None and briefing.station_file.exercise:
         made_up.append(f'the page says "{EXERCISE}": rows of its stations are made up')
     left_out = [f"left out: {text}" for text in briefing.film.left_out] if briefing.film else []
     unscored = [f"no scores: {briefing.no_scores}"] if briefing.no_scores else []
@@ -102,7 +102,7 @@ def _data(briefing: Briefing) -> dict[str, Any]:
     """What the page's script reads."""
     whole = map_panel.bounds(briefing.layers)
     count = max(len(briefing.fronts) - 1, 1)
-    sources = briefing.places.sources if briefing.places else ()
+    sources = briefing.station_file.sources if briefing.station_file else ()
     return {
         "view": _corners(map_panel.view(briefing.fronts, whole)),
         "bounds": _corners(whole),

@@ -1,4 +1,4 @@
-"""When the fire of a run reaches places of the page: by `places.ahead`, until the run's last time."""
+"""Arrival of a run's fire at the places of the page (`stations.fire_arrival`), until the run's last time."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import ArrayLike
 
-from ..places import ahead
+from ..stations import fire_arrival
 
 State = Literal["reached", "before", "never", "outside"]
 _STATES: dict[int, State] = {
-    ahead.REACHED: "reached",
-    ahead.BEFORE: "before",
-    ahead.NEVER: "never",
-    ahead.OUTSIDE: "outside",
+    fire_arrival.REACHED: "reached",
+    fire_arrival.BEFORE: "before",
+    fire_arrival.NEVER: "never",
+    fire_arrival.OUTSIDE: "outside",
 }
 
 
@@ -29,7 +29,8 @@ class Reached:
     state
         "reached"; "before" the run's first time; "never" until its last; "outside" of its grid.
     span
-        Model times (s) of "reached", else None: its time, the earliest and the latest (see `ahead.Arrivals`).
+        Model times (s) of "reached", else None: its time, the earliest and the latest (see
+        `fire_arrival.Arrivals`).
     distance
         To the nearest cell that burns, m, of "never"; else None, and where nothing burns.
     """
@@ -49,11 +50,11 @@ def find(run: Run, latitude: ArrayLike, longitude: ArrayLike) -> list[Reached]:
     latitude, longitude = (np.atleast_1d(np.asarray(each, np.float64)) for each in (latitude, longitude))
     if not latitude.size:
         return []
-    found = ahead.sample(run, latitude, longitude, until=float(run.times[-1]))
+    found = fire_arrival.sample(run, latitude, longitude, until=float(run.times[-1]))
     return [_reached(found, index) for index in range(len(latitude))]
 
 
-def _reached(found: ahead.Arrivals, index: int) -> Reached:
+def _reached(found: fire_arrival.Arrivals, index: int) -> Reached:
     state = _STATES[int(found.state[index])]
     if state == "reached":
         time, earliest, latest = (float(each[index]) for each in (found.time, found.earliest, found.latest))

@@ -10,9 +10,9 @@ from typing import Any
 import firetwin_core
 
 from ..data.history import SQUARE_METRES_PER_ACRE
-from ..places.records import EXERCISE, Source
 from ..run import times
 from ..run.score import report, used
+from ..stations.records import EXERCISE, Source
 from . import curve
 from .briefing import Briefing
 from .film import CLIP, WIDTH, Film, Shown
@@ -42,7 +42,7 @@ def _head(briefing: Briefing) -> Iterator[str]:
             "<b>This run is synthetic:</b> made up, not the output of a fire model. "
             "It says nothing of where a fire went or will go."
         )
-    if briefing.places is not None and briefing.places.exercise:
+    if briefing.station_file is not None and briefing.station_file.exercise:
         warnings.append(f"<b>{EXERCISE}.</b>")
     if warnings:
         yield f'<p class="warn">{"<br>".join(warnings)}</p>'
@@ -190,7 +190,7 @@ def _sources(briefing: Briefing) -> Iterator[str]:
         what == "Named places" for what, _ in briefing.inputs
     ):
         yield "<b>Named places</b>: positions as gazetteers print them (Firetwin's data/king_fire.toml)"
-    for each in briefing.places.sources if briefing.places else ():
+    for each in briefing.station_file.sources if briefing.station_file else ():
         yield f"<b>Stations and resources</b>: {_source(each)}"
     if briefing.film:
         yield "<b>Pictures and clips</b>: rendered by Firetwin with Blender from this run"

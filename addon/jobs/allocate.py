@@ -15,15 +15,15 @@ import numpy as np
 from firetwin_core.run import Run
 
 from ..errors import UsageError, input_error
-from ..places.allocation import containment, divisions, nearest, shortfall, suggestion
-from ..places.allocation.containment import Answer
-from ..places.allocation.divisions import HOUR
-from ..places.allocation.model import USUAL, Options
-from ..places.allocation.nearest import Nearest
-from ..places.allocation.problem import Problem, Request, state
-from ..places.allocation.resources import Unit, usable
 from ..progress import MessageCallback, Progress, no_message, silent
 from ..run import times
+from ..stations.allocation import containment, divisions, nearest, shortfall, suggestion
+from ..stations.allocation.containment import Answer
+from ..stations.allocation.divisions import HOUR
+from ..stations.allocation.model import USUAL, Options
+from ..stations.allocation.nearest import Nearest
+from ..stations.allocation.problem import Problem, Request, state
+from ..stations.allocation.resources import Unit, usable
 from . import worker
 
 HOURS = 12

@@ -21,8 +21,8 @@ from .forest import build as forest
 from .forest import stand
 from .labels import build as labels
 from .light import build as light
-from .places import build as stations
 from .smoke import build as smoke
+from .stations import build as stations
 from .terrain import build as ground
 from .tiles import build as tiles
 from .tiles import preview

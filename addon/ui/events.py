@@ -42,6 +42,6 @@ def _arrivals(panel: bpy.types.PropertyGroup) -> list[Event]:
     arrivals = loaded.arrivals
     return [
         Event(times.utc(loaded.run, float(time)), f"the fire reaches {station.name}", station.name)
-        for station, time in zip(loaded.places.stations, arrivals.time, strict=True)
+        for station, time in zip(loaded.station_file.stations, arrivals.time, strict=True)
         if time == time  # NaN: it does not come
     ]

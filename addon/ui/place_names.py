@@ -8,11 +8,11 @@ from pathlib import Path
 import bpy
 
 from ..errors import Error
-from ..places import store
-from ..places.records import Station
 from ..run import labels
 from ..shot.schema import fields
 from ..shot.settings.settings import TileSettings
+from ..stations import reading
+from ..stations.records import Station
 from ..tiles import policies
 from . import run, sections
 
@@ -61,7 +61,7 @@ def stations(panel: bpy.types.PropertyGroup) -> tuple[Station, ...]:
 
 @functools.lru_cache(maxsize=4)
 def _read_stations(path: Path, changed: int) -> tuple[Station, ...]:
-    return store.read(path).stations
+    return reading.read(path).stations
 
 
 @functools.lru_cache(maxsize=4)

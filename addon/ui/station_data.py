@@ -11,11 +11,11 @@ import bpy
 from firetwin_core.run import Run
 
 from ..errors import Error
-from ..places import ahead, ignition, picture, store
-from ..places.store import Places
 from ..run import readers
 from ..shot.runs.run_head import Head
 from ..shot.terrain.elevation import Elevation
+from ..stations import fire_arrival, ignition, picture, reading
+from ..stations.station_file import StationFile
 from . import job
 
 
@@ -44,9 +44,9 @@ class Loaded:
         Why the run cannot be read; empty where it can.
     """
 
-    places: Places
+    station_file: StationFile
     run: Run | None = None
-    arrivals: ahead.Arrivals | None = None
+    arrivals: fire_arrival.Arrivals | None = None
     ignition: tuple[float, float] | None = None
     head: Head | None = None
     plan: picture.Map | None = None
@@ -91,7 +91,12 @@ def get(wanted: Key) -> Loaded | str | None:
 def kinds() -> list[str]:
     """Kinds of resources of what was read last."""
     return sorted(
-        {each.kind for found in _known.values() if isinstance(found, Loaded) for each in found.places.types}
+        {
+            each.kind
+            for found in _known.values()
+            if isinstance(found, Loaded)
+            for each in found.station_file.types
+        }
     )
 
 
@@ -117,18 +122,18 @@ def load(file: Path, folder: Path | None) -> Loaded:
     InputError
         The file of places cannot be read.
     """
-    places = store.read(file)
+    station_file = reading.read(file)
     if folder is None:
-        return Loaded(places, plan=picture.prepare(None, *places.positions))
+        return Loaded(station_file, plan=picture.prepare(None, *station_file.positions))
     try:
         run = readers.open(folder)
         ground = picture.Field(
             run.fuel_latitude, run.fuel_longitude, Elevation(run).fuel, run.fuel_arrival_time()
         )
-        arrivals = ahead.sample(run, *places.positions)
+        arrivals = fire_arrival.sample(run, *station_file.positions)
         began = ignition.find(run)
     except (Error, OSError, ValueError, RuntimeError) as error:
-        plan = picture.prepare(None, *places.positions)
-        return Loaded(places, plan=plan, problem=job.describe_error(error))
-    plan = picture.prepare(ground, *places.positions)
-    return Loaded(places, run, arrivals, began and began[0], Head(run), plan)
+        plan = picture.prepare(None, *station_file.positions)
+        return Loaded(station_file, plan=plan, problem=job.describe_error(error))
+    plan = picture.prepare(ground, *station_file.positions)
+    return Loaded(station_file, run, arrivals, began and began[0], Head(run), plan)

@@ -9,10 +9,10 @@ from datetime import datetime
 import bpy
 
 from ..errors import Error
-from ..places import arguments
-from ..places.records import MODES
-from ..places.search import Query
 from ..run import times
+from ..stations import arguments
+from ..stations.records import MODES
+from ..stations.search import Query
 from . import keys, station_data, station_sync, time
 from .station_data import Loaded
 

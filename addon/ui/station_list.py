@@ -11,11 +11,11 @@ from dataclasses import dataclass, field
 import bpy
 
 from ..errors import Error
-from ..places import ahead, listing
-from ..places.listing import Row
-from ..places.records import Station
-from ..places.search import Query
 from ..progress import count
+from ..stations import fire_arrival, listing
+from ..stations.listing import Row
+from ..stations.records import Station
+from ..stations.search import Query
 from . import station_data, station_filter
 from .station_data import Key, Loaded
 
@@ -100,13 +100,13 @@ def describe(panel: bpy.types.PropertyGroup) -> None:
     loaded, now = _shown.loaded, (panel.station, id(_shown.loaded))
     if _detail[0] == now:
         return
-    station = None if loaded is None else listing.find(loaded.places.stations, panel.station)
+    station = None if loaded is None else listing.find(loaded.station_file.stations, panel.station)
     if loaded is None or station is None:
         _detail = now, None
         return
-    lines = listing.facts(loaded.places, station)
+    lines = listing.facts(loaded.station_file, station)
     if loaded.run is not None and loaded.arrivals is not None:
-        reached = ahead.text(loaded.run, loaded.arrivals, loaded.places.station_row[station.id])
+        reached = fire_arrival.text(loaded.run, loaded.arrivals, loaded.station_file.station_row[station.id])
         marked = not lines[-1][0]  # that it is an exercise stands last
         lines.insert(len(lines) - marked, ("Fire", reached))
     _detail = now, Detail(station, lines)
@@ -125,7 +125,7 @@ def forget() -> None:
 
 
 def _survey(wanted: Key, loaded: Loaded, asked: Query) -> Shown:
-    found = listing.survey(loaded.places, asked)
+    found = listing.survey(loaded.station_file, asked)
     told = count(len(found.rows), "station")
     out = ", ".join(f"{number:,} {reason}" for reason, number in found.left_out.items())
     told += f"; left out: {out}" if out else ""

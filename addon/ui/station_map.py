@@ -9,8 +9,8 @@ import bpy.utils.previews
 import numpy as np
 
 from ..blender import owned
-from ..places import listing, picture
 from ..run import times
+from ..stations import listing, picture
 from . import station_filter, station_list, station_selection, station_sync, working
 
 IMAGE = "Firetwin Stations Map"

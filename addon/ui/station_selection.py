@@ -10,7 +10,7 @@ from __future__ import annotations
 import bpy
 
 from ..blender import owned
-from ..scene.places.handles import STATION
+from ..scene.stations.handles import STATION
 from . import station_list, station_sync, working
 
 

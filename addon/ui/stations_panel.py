@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import bpy
 
-from ..places.describe import web_map_address
-from ..places.records import EXERCISE
+from ..stations.describe import web_map_address
+from ..stations.records import EXERCISE
 from . import (
     go_to,
     job,

@@ -5,7 +5,7 @@ import firetwin
 import numpy as np
 import panel_scene
 import pytest
-import stations
+import small_stations
 from firetwin.blender import owned
 from firetwin.errors import Error
 from firetwin.scene.camera import ground_raycast, read_edits
@@ -229,7 +229,7 @@ def test_terms_of_tiles_may_forbid_other_gazetteers(panel, tmp_path):
 
 def test_head_ignition_and_stations_are_gone_to(panel, tmp_path):
     scene = bpy.context.scene
-    path = stations.write(
+    path = small_stations.write(
         tmp_path / "stations.gpkg", [(1, "Base Two", 38.84, -120.55, "exercise base", "exercise")]
     )
     panel.stations.file = str(path)
@@ -247,7 +247,7 @@ def test_head_ignition_and_stations_are_gone_to(panel, tmp_path):
 
 def test_one_goes_to_the_moment_when_the_fire_reaches_a_station(panel, tmp_path):
     scene = bpy.context.scene
-    path = stations.write(
+    path = small_stations.write(
         tmp_path / "stations.gpkg",
         [
             (1, "Base Two", 38.84, -120.55, "exercise base", "exercise"),
@@ -306,7 +306,7 @@ def test_vr_landmarks_need_the_viewer(panel):
 def test_vr_landmarks_stand_on_the_ground_and_go_with_the_head(vr_viewer, panel, tmp_path):
     scene = bpy.context.scene
     path = tmp_path / "stations.gpkg"
-    stations.write(path, [(1, "Base Two", 38.87, -120.55, "exercise base", "exercise")])
+    small_stations.write(path, [(1, "Base Two", 38.87, -120.55, "exercise base", "exercise")])
     panel.stations.file = str(path)
     for _ in range(2):  # a second time changes none
         assert bpy.ops.firetwin.vr_landmarks() == {"FINISHED"}

@@ -1,15 +1,15 @@
 """The panel of stations: filters are those of a search; list, 3D view and map share one selection."""
 
 import bpy
-import exercise_places
+import exercise_stations
 import firetwin
 import numpy as np
 import panel_scene
 import pytest
-from exercise_places import BASE, BEYOND, NEAR
-from firetwin.places import describe, search
-from firetwin.places.search import Query
-from firetwin.scene.places.handles import STATION
+from exercise_stations import BASE, BEYOND, NEAR
+from firetwin.scene.stations.handles import STATION
+from firetwin.stations import describe, search
+from firetwin.stations.search import Query
 from firetwin.ui import (
     station_data,
     station_list,
@@ -26,7 +26,7 @@ def blend(run_folder, tmp_path_factory):
     folder = tmp_path_factory.mktemp("stations")
     path = panel_scene.build(run_folder, folder)
     for panel in panel_scene.opened(path):
-        panel.stations.file = str(exercise_places.write(folder / "places.gpkg"))
+        panel.stations.file = str(exercise_stations.write(folder / "places.gpkg"))
         panel.stations.enabled = True
         bpy.ops.firetwin.build(part="stations")
         bpy.ops.wm.save_mainfile()
@@ -62,7 +62,9 @@ def click(key):
 def searched(**conditions):
     """Names of the stations of a search, each once."""
     return list(
-        dict.fromkeys(e.station.name for e in search.find(exercise_places.PLACES, Query(**conditions)))
+        dict.fromkeys(
+            e.station.name for e in search.find(exercise_stations.STATION_FILE, Query(**conditions))
+        )
     )
 
 
@@ -84,7 +86,7 @@ def test_filters_are_those_of_a_search(panel):
         stations_panel.sync()
         assert names() == searched(near=near, **conditions) != [], change
     rows = bpy.context.window_manager.firetwin_stations.rows
-    match = search.find(exercise_places.PLACES, Query(near=near, kinds=("engine",)))[0]
+    match = search.find(exercise_stations.STATION_FILE, Query(near=near, kinds=("engine",)))[0]
     assert (rows[0].name, rows[0].minutes) == (match.station.name, f"{match.minutes:.0f} min")
     assert rows[0].exercise
 

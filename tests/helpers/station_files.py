@@ -3,7 +3,7 @@
 import json
 import sqlite3
 
-from firetwin.places import geometry
+from firetwin.stations import geometry
 
 HIFLD_COLUMNS = (
     *("X", "Y", "OBJECTID", "ID", "SECCLASS", "NAME", "TELEPHONE", "ADDRESS", "ADDRESS2", "CITY", "STATE"),

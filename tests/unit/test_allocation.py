@@ -10,13 +10,14 @@ from datetime import UTC, datetime, timedelta
 
 import numpy as np
 import pytest
-import stations
+import small_stations
 from fires import LATITUDE, LONGITUDE, axes, round_fire
 from firetwin import cli
 from firetwin.errors import Error, InputError, UsageError
 from firetwin.jobs import allocate
-from firetwin.places import measures, store
-from firetwin.places.allocation import (
+from firetwin.run import areas, readers
+from firetwin.stations import measures, reading
+from firetwin.stations.allocation import (
     LIMITS,
     arguments,
     containment,
@@ -28,11 +29,10 @@ from firetwin.places.allocation import (
     shortfall,
     ties,
 )
-from firetwin.places.allocation.model import Options
-from firetwin.places.allocation.problem import Problem, Request
-from firetwin.places.allocation.resources import Unit
-from firetwin.places.records import EXERCISE, Availability, Station
-from firetwin.run import areas, readers
+from firetwin.stations.allocation.model import Options
+from firetwin.stations.allocation.problem import Problem, Request
+from firetwin.stations.allocation.resources import Unit
+from firetwin.stations.records import EXERCISE, Availability, Station
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -324,54 +324,54 @@ def test_what_lacks_a_number_is_left_out_and_told():
 
 
 @pytest.fixture
-def places(tmp_path):
+def station_file(tmp_path):
     """A file of places: seven engines, and a dozer that is committed until five."""
     bases = [Station(1, "North", 38.95, -120.6, "exercise", 1), Station(2, "", 38.9, -120.7, "exercise", 1)]
     known = {"line_m_h": 8000.0, "cost_hour": 100.0, "currency": "USD"}
     sent = [
-        stations.resource(7, 1, "engine/3", 7, 60.0, 10.0, **known),
-        stations.resource(9, 2, "dozer/2", 1, 60.0, 10.0, name="Dozer", **known),
+        small_stations.resource(7, 1, "engine/3", 7, 60.0, 10.0, **known),
+        small_stations.resource(9, 2, "dozer/2", 1, 60.0, 10.0, name="Dozer", **known),
     ]
     day, five = timedelta(days=1), datetime(2014, 9, 17, 5, tzinfo=UTC)
     windows = [Availability(9, five - day, five, "committed"), Availability(9, five, five + day)]
-    return stations.put(tmp_path / "places.gpkg", bases, sent, windows)
+    return small_stations.put(tmp_path / "places.gpkg", bases, sent, windows)
 
 
-def test_resources_are_read_as_they_are_at_the_time(places):
-    units, left = read.read(places, START)
+def test_resources_are_read_as_they_are_at_the_time(station_file):
+    units, left = read.read(station_file, START)
     assert [unit.id for unit in units] == [f"7-{k}" for k in range(1, 8)]
     assert (units[0].name, units[0].lat, units[0].currency) == ("North", 38.95, "USD")
     assert left == ["9 (dozer/2) is committed"]
-    assert [unit.id for unit in read.read(places, START + timedelta(minutes=15))[0]][-1] == "9"
-    assert read.read(places, START + timedelta(days=2))[1] == ["9 (dozer/2) is of unknown status then"]
+    assert [unit.id for unit in read.read(station_file, START + timedelta(minutes=15))[0]][-1] == "9"
+    assert read.read(station_file, START + timedelta(days=2))[1] == ["9 (dozer/2) is of unknown status then"]
 
 
-def test_costs_in_two_currencies_are_told(places):
-    found = store.read(places)
+def test_costs_in_two_currencies_are_told(station_file):
+    found = reading.read(station_file)
     changed = [replace(found.resources[0], currency="EUR"), replace(found.resources[1], currency="USD")]
-    stations.put(places, found.stations, changed)
+    small_stations.put(station_file, found.stations, changed)
     with pytest.raises(InputError, match="has costs in EUR and USD"):
-        read.read(places, START)
-    stations.put(places, found.stations, [replace(changed[0], count=10_001)])
+        read.read(station_file, START)
+    small_stations.put(station_file, found.stations, [replace(changed[0], count=10_001)])
     with pytest.raises(InputError, match="resource 7 has a count of 10,001, above 10,000"):
-        read.read(places, START)
+        read.read(station_file, START)
 
 
-def test_a_unit_costs_what_a_search_says(places):
-    found = store.read(places)
+def test_a_unit_costs_what_a_search_says(station_file):
+    found = reading.read(station_file)
     rates = [{"cost_mobilise": 40.0}, {"cost_hour": None, "cost_day": 900.0}]
     rows = [replace(each, count=1, **more) for each, more in zip(found.resources, rates, strict=True)]
-    stations.put(places, found.stations, rows)
-    units, _ = read.read(places, START)
+    small_stations.put(station_file, found.stations, rows)
+    units, _ = read.read(station_file, START)
     assert resources.usable(units) == (units, [])
     assert resources.costs(units, 30.0).tolist() == [40.0 + 3000.0, 1800.0]
-    assert measures.cost_of(store.read(places), 30.0).tolist() == [40.0 + 3000.0, 1800.0]
+    assert measures.cost_of(reading.read(station_file), 30.0).tolist() == [40.0 + 3000.0, 1800.0]
 
 
 def test_an_exercise_of_the_program_can_be_allocated(round_run, tmp_path, capsys):
     towns, out = tmp_path / "towns.csv", tmp_path / "exercise.gpkg"
     towns.write_text("name,latitude,longitude\nAlpha,38.95,-120.6\nBravo,38.9,-120.7\n")
-    made = ["places", "exercise", str(round_run), "--towns", str(towns), "--out", str(out)]
+    made = ["stations", "exercise", str(round_run), "--towns", str(towns), "--out", str(out)]
     assert cli.main(made) == 0
     capsys.readouterr()
     code = cli.main(["allocate", str(out), str(round_run), "--hours", "2", "--escape-loss", "10", "--json"])
@@ -381,8 +381,8 @@ def test_an_exercise_of_the_program_can_be_allocated(round_run, tmp_path, capsys
     assert found["units"]["cost"] == "USD"
 
 
-def test_the_command_prints_a_suggestion_or_why_there_is_none(round_run, places, capsys):
-    line = ["allocate", str(places), str(round_run), "--hours", "2", "--divisions", "3"]
+def test_the_command_prints_a_suggestion_or_why_there_is_none(round_run, station_file, capsys):
+    line = ["allocate", str(station_file), str(round_run), "--hours", "2", "--divisions", "3"]
     assert cli.main([*line, "--standard-response", "engine/3=2", "--minutes", "45"]) == 0
     text = capsys.readouterr().out
     assert "division A" in text

@@ -9,15 +9,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import stations
+import small_stations
 import whole_run
 from firetwin import cli
 from firetwin.brief import arguments, briefing, curve, facts, film, lists, page, reached, sections, text
 from firetwin.data import history
 from firetwin.errors import InputError, UsageError
-from firetwin.places import ahead, store
 from firetwin.render import manifest
 from firetwin.run import content
+from firetwin.stations import fire_arrival, reading
 from firetwin_core import run as runs
 from page_parts import PageParts
 from PIL import Image
@@ -59,7 +59,7 @@ def parts(scene, limit=10_000_000, **options):
 
 @pytest.fixture
 def gpkg(tmp_path):
-    return stations.briefed(tmp_path / "places.gpkg", PLACES)
+    return small_stations.briefed(tmp_path / "places.gpkg", PLACES)
 
 
 def test_leaflet_is_the_published_one_with_its_licence():
@@ -97,7 +97,7 @@ def test_a_synthetic_run_is_called_synthetic(own):
 
 
 def test_nothing_can_be_loaded_or_sent(folder, gpkg):
-    made = parts(folder, places=gpkg)
+    made = parts(folder, stations=gpkg)
     ((policy, _),) = made.all("meta", **{"http-equiv": "Content-Security-Policy"})
     rules = dict(rule.strip().split(" ", 1) for rule in policy["content"].split(";"))
     assert rules == {
@@ -125,11 +125,11 @@ def test_nothing_can_be_loaded_or_sent(folder, gpkg):
 
 def test_hostile_texts_of_files_stay_texts(own, tmp_path):
     change(own, name=HOSTILE)
-    harmless = stations.briefed(tmp_path / "harmless.gpkg", [("Alpha", 38.9, -120.6)])
-    found = store.read(harmless)
+    harmless = small_stations.briefed(tmp_path / "harmless.gpkg", [("Alpha", 38.9, -120.6)])
+    found = reading.read(harmless)
     (station,) = found.stations
     station = replace(station, name=HOSTILE, agency=HOSTILE, kind=HOSTILE, address=HOSTILE)
-    gpkg = stations.put(tmp_path / "hostile.gpkg", [station], found.resources, found.availability)
+    gpkg = small_stations.put(tmp_path / "hostile.gpkg", [station], found.resources, found.availability)
     with sqlite3.connect(gpkg) as base:
         base.execute(
             "UPDATE source SET name = ?, licence = ?, url = 'javascript:alert(4)'", (HOSTILE, HOSTILE)
@@ -139,10 +139,10 @@ def test_hostile_texts_of_files_stay_texts(own, tmp_path):
         base.execute("UPDATE resource SET type = ?", [HOSTILE])
         base.execute("UPDATE type SET code = ?, kind = ? WHERE code = 'engine/3'", [HOSTILE] * 2)
     base.close()
-    plain, hostile = parts(own), parts(own, places=gpkg)
+    plain, hostile = parts(own), parts(own, stations=gpkg)
     assert len(hostile.all("script")) == len(plain.all("script")) == 3
     assert {tag for tag, _, _ in hostile.elements} == {
-        tag for tag, _, _ in parts(own, places=harmless).elements
+        tag for tag, _, _ in parts(own, stations=harmless).elements
     }
     assert all(not name.startswith("on") for _, attributes, _ in hostile.elements for name in attributes)
     assert not any("javascript:" in attributes.get("href", "") for _, attributes, _ in hostile.elements)
@@ -162,7 +162,7 @@ def test_json_in_a_script_cannot_end_it():
 
 
 def test_each_exercise_row_says_exercise(folder, gpkg):
-    made = parts(folder, places=gpkg)
+    made = parts(folder, stations=gpkg)
     assert made.text.count("Exercise: not operational advice") == 2  # of the page, and of its list
     rows = [inside for attributes, inside in made.all("tr") if attributes.get("class") == "resource"]
     groups = [inside for attributes, inside in made.all("tbody") if "data-id" in attributes]
@@ -185,14 +185,14 @@ def test_availability_is_that_of_the_runs_time(folder, gpkg):
             row = 10, begins, ends, status, "Local"
             base.execute(f"INSERT INTO availability ({columns}) VALUES (?, ?, ?, ?, ?)", row)
     base.close()
-    made = parts(folder, places=gpkg)
+    made = parts(folder, stations=gpkg)
     assert "16 Sep 2014 21:00 -08 to 16 Sep 2014 22:00 -08: committed, Local" in made.text
     assert "reserved, Local" not in made.text
     assert made.text.count("2 more periods before or after the run") == 1
 
 
 def test_facts_are_called_facts_beside_the_resources_of_an_exercise(folder, tmp_path):
-    made = parts(folder, places=stations.briefed(tmp_path / "facts.gpkg", PLACES[1:], origin="fact"))
+    made = parts(folder, stations=small_stations.briefed(tmp_path / "facts.gpkg", PLACES[1:], origin="fact"))
     tags = [
         inside for attributes, inside in made.all("span") if attributes.get("class", "").startswith("tag")
     ]
@@ -201,7 +201,7 @@ def test_facts_are_called_facts_beside_the_resources_of_an_exercise(folder, tmp_
 
 
 def test_stations_have_an_ordinary_link_to_a_web_map(folder, gpkg):
-    made = parts(folder, places=gpkg)
+    made = parts(folder, stations=gpkg)
     links = [attributes for attributes, inside in made.all("a") if inside == "Open in web map"]
     assert (
         links[0]["href"]
@@ -219,7 +219,7 @@ def test_the_fire_reaches_a_place_between_the_times_of_the_cells_around(folder):
     far = float(run.fuel_latitude[never_row]), float(run.fuel_longitude[never_column])
     found = reached.find(run, [latitude + 1e-4, *far[:1], 10.0], [longitude - 1e-4 + 360.0, far[1], 10.0])
     assert [each.state for each in found] == ["reached", "never", "outside"]
-    sampled = ahead.sample(run, [latitude + 1e-4], [longitude - 1e-4])
+    sampled = fire_arrival.sample(run, [latitude + 1e-4], [longitude - 1e-4])
     assert found[0].span == (sampled.time[0], sampled.earliest[0], sampled.latest[0])
     assert found[0].span[1] <= found[0].time <= found[0].span[2]
     burned = np.argwhere(np.isfinite(arrival))
@@ -245,7 +245,7 @@ def test_places_burned_before_the_run_began_are_told(folder):
 
 
 def test_what_a_list_says_of_a_place(folder, gpkg):
-    made = parts(folder, places=gpkg)
+    made = parts(folder, stations=gpkg)
     states = {point["name"]: (point["state"], point["text"]) for point in made.data["points"]}
     assert states["Alpha"][0] == "reached"
     moment = r"17 Sep 04:\d\d"
@@ -395,13 +395,13 @@ def test_what_burns_after_the_run_ends_is_never_reached_in_it(folder):
 def test_a_file_that_is_none_of_places_is_one_clear_error(folder, tmp_path):
     (tmp_path / "notes.gpkg").write_text("notes " * 100)
     with pytest.raises(
-        InputError, match=r"notes.gpkg: is no file of places; make one: firetwin places import"
+        InputError, match=r"notes.gpkg: is no file of places; make one: firetwin stations import"
     ):
-        parts(folder, places=tmp_path / "notes.gpkg")
+        parts(folder, stations=tmp_path / "notes.gpkg")
 
 
 def test_resources_say_what_is_known_of_them(gpkg):
-    found = store.read(gpkg)
+    found = reading.read(gpkg)
     engine, crew = found.resources_of[1]
     assert facts.facts(found, engine) == (
         "tank at least 1,893 l, pump at least 568 l/min, people at least 3, speed 60 km/h, "
@@ -418,7 +418,7 @@ def test_small_runs_have_a_page_too(tmp_path, odd):
 
 def test_a_place_on_the_other_side_of_the_antimeridian_is_drawn_beside_the_run(tmp_path):
     run = whole_run.write(tmp_path / "run", cells=60, at=(52.0, 179.999))
-    made = parts(run, places=stations.briefed(tmp_path / "p.gpkg", [("Alpha", 52.0, -179.9995)]))
+    made = parts(run, stations=small_stations.briefed(tmp_path / "p.gpkg", [("Alpha", 52.0, -179.9995)]))
     (point,) = made.data["points"]
     assert point["longitude"] == pytest.approx(180.0005)
     assert point["state"] != "outside"
@@ -447,7 +447,7 @@ def test_sources_and_licences_are_all_named(folder, gpkg):
 
 def test_the_command_writes_the_file_and_tells_what_to_know(folder, gpkg, tmp_path, capsys):
     out = tmp_path / "made" / "page.html"
-    assert cli.main(["brief", str(folder), "--out", str(out), "--places", str(gpkg)]) == 0
+    assert cli.main(["brief", str(folder), "--out", str(out), "--stations", str(gpkg)]) == 0
     told = capsys.readouterr()
     assert told.out.strip() == str(out)
     assert "Exercise: not operational advice" in told.err

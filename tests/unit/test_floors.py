@@ -21,7 +21,7 @@ NEVER_BPY = (
         "firetwin.progress",
     ),
     *("firetwin.cli", "firetwin.commands", "firetwin.data"),
-    *("firetwin.run", "firetwin.places", "firetwin.tiles"),
+    *("firetwin.run", "firetwin.stations", "firetwin.tiles"),
     *("firetwin.imaging", "firetwin.shot", "firetwin.smoke"),
     *("firetwin.jobs", "firetwin.farm", "firetwin.bench", "firetwin.brief"),
     *(

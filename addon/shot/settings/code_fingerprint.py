@@ -1,7 +1,7 @@
 """Code fingerprint: hashes of the code that makes a product, so that files record it.
 
-The code of an aspect is the folder of its name in ``scene``, and next to it where there is one, or those in
-`NAMED`. Common to all aspects are the modules directly in ``scene``, those in `EVERYWHERE`, the cameras' rigs
+The code of an aspect is the folder of its name in ``scene``, and the folder of its name next to ``scene`` if
+there is one. All aspects share the modules directly in ``scene``, those in `EVERYWHERE`, the cameras' rigs
 with the files that they read, and the compiled core.
 """
 
@@ -39,8 +39,6 @@ EVERYWHERE = (
     "shot/cameras/rigs/_key.py",
     "shot/cameras/rigs/_lens.py",
 )
-NAMED = {"stations": ("places", "scene/places")}
-"""Folders of an aspect that has another name."""
 PACKAGE = Path(__file__).parents[2]
 
 
@@ -53,7 +51,7 @@ def hashes(aspects: Iterable[str], cameras: Iterable[Camera], *more: str | Path)
         Further files: of the package, such as "render/engine.py", or of other places.
     """
     cameras = list(cameras)
-    wanted = [place for name in sorted(aspects) for place in NAMED.get(name, (name, f"scene/{name}"))]
+    wanted = [place for name in sorted(aspects) for place in (name, f"scene/{name}")]
     folders = [place for place in wanted if (PACKAGE / place).is_dir()]
     rigs = {file for camera in cameras for file in _modules(type(camera.rig))}
     places = [PACKAGE / place for place in (*EVERYWHERE, *folders, *rigs, *more)]

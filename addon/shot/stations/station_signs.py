@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 
 from ...ellipsoid import metres_per_degree
 from ...errors import input_error
-from ...places import ahead, measures, store
-from ...places.describe import count_types
-from ...places.records import EXERCISE, ORIGINS, Resource, Station
-from ...places.store import Places
 from ...run import areas
 from ...run.content import sha256
 from ...run.observations import Detections, Feature, features
+from ...stations import fire_arrival, measures, reading
+from ...stations.describe import count_types
+from ...stations.records import EXERCISE, ORIGINS, Resource, Station
+from ...stations.station_file import StationFile
 from ..cameras import targets
 from ..schema import scene_text
 from ..settings.settings import Settings
@@ -97,7 +97,7 @@ def signs(shot: Shot) -> list[Sign]:
     settings = shot.settings.stations
     if not settings.enabled or settings.file is None:
         return []
-    known = store.read(settings.file)
+    known = reading.read(settings.file)
     here = [each for each in known.stations if covers(shot.ground, each.latitude, each.longitude)]
     outlines, minutes, fire = _outlines(shot.settings), _minutes(shot, known, here), _fire(shot, here)
     return [
@@ -132,7 +132,7 @@ def routes(shot: Shot, shown: Iterable[Sign]) -> list[Route]:
 
 def ignition(shot: Shot) -> tuple[float, float] | None:
     """Latitude and longitude of the middle of the fuel cells that burn first; None where nothing burns."""
-    return ahead.first_burned(shot.run)
+    return fire_arrival.first_burned(shot.run)
 
 
 def moving(shot: Shot) -> Moving:
@@ -172,13 +172,13 @@ def check(settings: Settings) -> None:
         reason = "stations.enabled needs stations.file, a GeoPackage of stations, or stations.routes_file"
         raise scene_text.error_at(settings.path, ("stations", "enabled"), reason)
     if known.file is not None:
-        store.read(known.file)
+        reading.read(known.file)
     for path in (known.footprints, known.routes_file):
         if path is not None:
             _features(path)
 
 
-def _minutes(shot: Shot, known: Places, here: Sequence[Station]) -> list[str]:
+def _minutes(shot: Shot, known: StationFile, here: Sequence[Station]) -> list[str]:
     """Least minutes from the order to the arrival at the ignition; empty where not known or not shown."""
     began = ignition(shot)
     if "minutes" not in shot.settings.stations.show or began is None:
@@ -191,7 +191,7 @@ def _fire(shot: Shot, here: Sequence[Station]) -> list[str]:
     """When the fire of the run reaches stations; empty where it is not shown."""
     if "fire" not in shot.settings.stations.show:
         return [""] * len(here)
-    found = ahead.sample(shot.run, [each.latitude for each in here], [each.longitude for each in here])
+    found = fire_arrival.sample(shot.run, [each.latitude for each in here], [each.longitude for each in here])
     return [f"fire: {found.text(shot.run, k, shot.settings.time.zone)}" for k in range(len(here))]
 
 

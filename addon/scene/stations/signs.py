@@ -1,0 +1,77 @@
+"""Signs of stations: a plate of text on a stem, which faces the camera and has the same size everywhere.
+
+Near the camera a sign has all lines; farther away it has the name alone. One that shows anything of an
+exercise says so in both forms.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import bpy
+
+from ...blender import owned
+from ...shot.shot import Shot
+from ...shot.stations.station_signs import Sign
+from ...stations.records import EXERCISE
+from ..labels import facing, lettering
+from ..labels.lettering import Part
+from . import material
+
+_SMALL = 0.62  # letter height of the lines below the name, in that of the name
+_GAP = 0.42  # between two lines, in letter heights
+_EDGE = 0.35  # between text and the edge of the plate
+_STEM, _TIER = 3.0, (4.5, 2.9)  # plate over the ground; from row to row, of both forms
+_SHORT = "Exercise"  # on the short form
+
+_LETTERS, _PLATE = 0, 1
+
+
+def build(shot: Shot, collection: bpy.types.Collection, shown: Sequence[Sign]) -> bpy.types.Object:
+    """Build "Firetwin Signs"."""
+    settings, looks = shot.settings.stations, material.signs(shot)
+    library = owned.library("Station Signs")
+    position = shot.ground.point([each.latitude for each in shown], [each.longitude for each in shown])
+    rows = facing.tiers(shot, position)
+    with lettering.typeface() as font:
+        for k, (sign, row) in enumerate(zip(shown, rows, strict=True)):
+            for form, lines in enumerate((full(sign), short(sign))):
+                parts = plate(lines, _STEM + _TIER[form] * int(row), material.accent(sign.origin), font)
+                number = k + form * len(shown)
+                mesh = lettering.mesh(f"Firetwin Sign {number:05d}", parts, looks)
+                lettering.camera_rays_only(owned.add(library, f"Sign {number:05d}", mesh))
+    detail = settings.detail, len(shown)
+    group = facing.node_group(shot, material.TITLE, library, settings.size, settings.distance, detail)
+    return facing.points(collection, "Signs", position, group)
+
+
+def full(sign: Sign) -> list[tuple[str, bool]]:
+    """Lines of a sign from top to bottom, and whether each is in the colour of its origin."""
+    return [(sign.name, False), *((line, line == EXERCISE) for line in sign.lines)]
+
+
+def short(sign: Sign) -> list[tuple[str, bool]]:
+    """The name alone, and that it is an exercise's."""
+    return [(sign.name, False), *([(_SHORT, True)] if sign.exercise else [])]
+
+
+def plate(
+    lines: Sequence[tuple[str, bool]], low: float, accent: int, font: bpy.types.VectorFont | None
+) -> list[Part]:
+    """Text on a plate with a bar and a stem in the accent's colour; the plate's lower edge at `low`.
+
+    The name is one unit high.
+    """
+    parts, y = [], low + _EDGE
+    for k, (text, coloured) in reversed(list(enumerate(lines))):
+        size = _SMALL if k else 1.0
+        parts.append(
+            lettering.letters(text, y + 0.2 * size, 0.0, 0.03, font, accent if coloured else _LETTERS, size)
+        )
+        y += size + _GAP * (_SMALL if k > 1 else 1.0)
+    wide = max((abs(x) for part in parts for x, _, _ in part.points), default=0.0) + _EDGE
+    top = y - _GAP + _EDGE
+    parts.append(lettering.rectangle(-wide, wide, low, top, 0.0, _PLATE))
+    parts.append(lettering.rectangle(-wide, wide, low - 0.12, low, 0.01, accent))
+    parts.append(lettering.stem(low - 0.12, accent))
+    return parts

@@ -1,0 +1,106 @@
+"""The command line of `firetwin allocate`; nothing heavy is imported here."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Callable
+from datetime import datetime
+from pathlib import Path
+
+from ..records import EXERCISE
+from . import LIMITS
+
+DETAIL = f"""\
+{EXERCISE}. Suggests which resources of a file of places to send to which division of a run's front,
+so that the line that they build is as long as the front at the hour of containment, at the least cost and
+loss (after Donovan and Rideout 2003). Divisions are sectors about the centre of what has burned, A clockwise
+from north.
+
+  firetwin allocate places.gpkg RUN --budget 250000 --standard-response engine/3=4,dozer/2=1 --minutes 60
+
+Limits: {"; ".join(LIMITS)}.
+It needs the extra `resources`. Exit status: 0 suggested, 1 there is no allocation (stderr says why)."""
+
+
+def add(
+    parser: argparse.ArgumentParser,
+    path: Callable[[str], Path],
+    count: Callable[[str], int],
+    moment: Callable[[str], datetime],
+) -> None:
+    """Define the arguments.
+
+    Parameters
+    ----------
+    path, count, moment
+        Types of arguments.
+    """
+    parser.add_argument(
+        "stations", metavar="STATIONS.gpkg", type=path, help="file with stations and resources"
+    )
+    parser.add_argument("run", metavar="RUN", type=path, help="run folder")
+    parser.add_argument(
+        "--divisions", metavar="N", type=count, default=4, help="number of divisions, up to 26 (4)"
+    )
+    parser.add_argument(
+        "--from",
+        dest="start",
+        metavar="TIME",
+        type=moment,
+        help="time of the order, such as 2014-09-17T16:00-07:00 (the ignition)",
+    )
+    parser.add_argument(
+        "--hours", metavar="N", type=count, help="hours after the order (12, or fewer if the run ends)"
+    )
+    parser.add_argument(
+        "--budget", metavar="X", type=_amount, help="most that all resources may cost (no limit)"
+    )
+    parser.add_argument(
+        "--standard-response",
+        dest="response",
+        metavar="TYPE=N,...",
+        type=response,
+        default={},
+        help="least number by type or kind that arrives in time, such as engine/3=4,dozer=1 (none)",
+    )
+    parser.add_argument(
+        "--minutes",
+        metavar="MIN",
+        type=_amount,
+        default=60.0,
+        help="time limit of the standard response, min (60)",
+    )
+    parser.add_argument(
+        "--loss-hectare", metavar="X", type=_amount, default=0.0, help="loss per burned hectare (0)"
+    )
+    parser.add_argument(
+        "--escape-loss",
+        metavar="X",
+        type=_amount,
+        help="loss of a division that is not contained (each has to be)",
+    )
+    parser.add_argument("--json", action="store_true", help="write JSON")
+
+
+def response(text: str) -> dict[str, int]:
+    """Numbers by type of "engine/3=4,dozer/2=1"."""
+    found: dict[str, int] = {}
+    for part in text.split(","):
+        kind, _, number = (word.strip() for word in part.partition("="))
+        if not kind or not number.isdecimal() or int(number) < 1:
+            raise argparse.ArgumentTypeError(f"must be as engine/3=4,dozer/2=1, not {text!r}")
+        if kind in found:
+            raise argparse.ArgumentTypeError(f"names {kind} twice")
+        found[kind] = int(number)
+    return found
+
+
+def _amount(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0.0 <= value < math.inf:
+        raise argparse.ArgumentTypeError(f"must be a number of at least 0, not {text!r}")
+    return value

@@ -1,0 +1,65 @@
+"""Resources of a file of places as an allocation takes them: unit by unit, as they are at a time."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from pathlib import Path
+
+from ...errors import input_error
+from .. import measures, reading
+from ..records import Resource
+from ..station_file import StationFile
+from .resources import Unit
+
+_MOST = 10_000  # units of one row
+
+
+def read(path: Path, moment: datetime) -> tuple[list[Unit], list[str]]:
+    """Units that are available at a time, and sentences on those that are not.
+
+    A row of several units gives as many, with ids such as 7-1 and 7-2. A resource without any window of
+    availability is available.
+
+    Raises
+    ------
+    InputError
+        The file is no file of places, is damaged, or has costs in several currencies.
+    """
+    station_file = reading.read(path)
+    units: list[Unit] = []
+    left: list[str] = []
+    for resource, window in zip(
+        station_file.resources, measures.windows_at(station_file, moment).tolist(), strict=True
+    ):
+        status = _status(station_file, resource, window)
+        if status == "available":
+            units += _units(path, station_file, resource)
+        else:
+            left.append(f"{resource.id} ({resource.type}) is {status}")
+    _one_currency(path, units)
+    return units, left
+
+
+def _status(station_file: StationFile, resource: Resource, window: int) -> str:
+    if window >= 0:
+        return station_file.availability[int(station_file.windows.number[window])].status
+    return "of unknown status then" if station_file.windows_of[resource.id] else "available"
+
+
+def _units(path: Path, station_file: StationFile, each: Resource) -> list[Unit]:
+    if each.count > _MOST:
+        raise input_error(path, f"resource {each.id} has a count of {each.count:,}, above {_MOST:,}")
+    station = station_file.stations[station_file.station_row[each.station]]
+    one = Unit(
+        str(each.id), each.type, each.line_m_h, each.mobilise_min, each.speed_km_h, each.cost_hour,
+        station.latitude, station.longitude, each.name or station.title, each.origin, each.currency,
+        each.cost_mobilise, each.cost_day,
+    )  # fmt: skip
+    return [one._replace(id=f"{each.id}-{k}") for k in range(1, each.count + 1)] if each.count > 1 else [one]
+
+
+def _one_currency(path: Path, units: list[Unit]) -> None:
+    names = sorted({unit.currency for unit in units if unit.currency})
+    if len(names) > 1:
+        reason = f"has costs in {' and '.join(names)}; an allocation needs one currency: convert them"
+        raise input_error(path, reason)

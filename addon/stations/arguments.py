@@ -1,0 +1,205 @@
+"""The command lines of `firetwin stations` and `firetwin resources`; nothing heavy is imported here."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import re
+from collections.abc import Callable
+from datetime import date, datetime
+from pathlib import Path
+
+from .records import DETOUR, MODES, STAFFING
+
+STATIONS = """\
+Makes and lists files of stations and resources (GeoPackage, which QGIS opens too).
+
+  firetwin stations import stations.csv --out places.gpkg
+  firetwin stations exercise RUN --out exercise.gpkg
+  firetwin stations info places.gpkg
+
+import reads fire stations of HIFLD (CSV, GeoJSON), of the USGS (structures; GeoPackage, GeoJSON) and of
+OpenStreetMap (Overpass JSON, GeoJSON), CSV of stations (name, latitude, longitude) and of resources (station,
+type), and files of places. Formats are found by content. Stations within 150 m of like name and kind are
+merged. Telephones and persons are never stored. exercise invents resources at bases in towns around the fire
+of a run; all of it is labelled as an exercise."""
+
+RESOURCES = """\
+Lists what answers all conditions, soonest first. Five words have one meaning each. Area of coverage: the
+polygon drawn for the station, else the resource's radius, else what it reaches within --minutes. Budget:
+mobilising and --hours of work, summed. Tonnage: water or retardant delivered in an hour by round trips. Mode:
+attack, structure, drop, line, water, lift or command. Availability: its status at a time.
+
+With --tonnes-per-hour the list is the cheapest set that delivers it; the exit status is 1 if there is none
+within --budget. With --budget alone it is what arrives first and can be paid. Units and assumptions are
+printed. With --run the list says when the fire reaches each station, with the earliest and the latest time,
+or how close it comes.
+A file without resources lists its stations, as --stations does."""
+
+_LENGTHS = {"": 1.0, "km": 1.0, "m": 0.001, "mi": 1.609344}
+
+
+def add_stations(parser: argparse.ArgumentParser, path: Callable[[str], Path]) -> None:
+    """Define the verbs of `firetwin stations`."""
+    verbs = parser.add_subparsers(dest="verb", metavar="VERB", required=True)
+
+    def verb(name: str, summary: str) -> argparse.ArgumentParser:
+        found = verbs.add_parser(name, help=summary, description=f"{summary[0].upper()}{summary[1:]}.")
+        found.add_argument("--debug", action="store_true", help="show a traceback when something fails")
+        return found
+
+    def out(parser: argparse.ArgumentParser) -> None:
+        parser.add_argument("--out", metavar="STATIONS.gpkg", type=path, required=True, help="file to write")
+        parser.add_argument("--overwrite", action="store_true", help="replace an existing file")
+
+    made = verb("import", "make a file of places of other files")
+    made.add_argument("files", metavar="FILE", nargs="+", type=path, help="files of any known format")
+    out(made)
+    made.add_argument("--source", metavar="NAME", default="", help="name of the source (the format's)")
+    made.add_argument("--licence", metavar="TEXT", default="", help="licence of the data (the format's)")
+    made.add_argument("--url", metavar="URL", default="", help="address of the source (the format's)")
+    made.add_argument(
+        "--date", metavar="DAY", type=_day, default=None, help="day of the data, 2026-11-25 (the file's)"
+    )
+
+    exercise = verb("exercise", "invent an exercise's resources around the fire of a run")
+    exercise.add_argument("run", metavar="RUN", type=path, help="run folder, or a scene file: its first run")
+    out(exercise)
+    exercise.add_argument(
+        "--towns", metavar="FILE", type=path,
+        help="CSV or GeoJSON with name, latitude, longitude of bases (published towns of a known fire)",
+    )  # fmt: skip
+    exercise.add_argument("--seed", metavar="N", type=_seed, default=0, help="another exercise (0)")
+
+    info = verb("info", "list what is in a file of places")
+    info.add_argument("file", metavar="STATIONS.gpkg", type=path, help="file of places")
+    info.add_argument("--json", action="store_true", help="write JSON")
+
+
+def add_resources(
+    parser: argparse.ArgumentParser, path: Callable[[str], Path], moment: Callable[[str], datetime]
+) -> None:
+    """Define the options of `firetwin resources`."""
+    parser.add_argument("file", metavar="STATIONS.gpkg", type=path, help="file of places")
+    parser.add_argument("--run", metavar="RUN", type=path, help="run folder, or a scene file: its first run")
+    parser.add_argument(
+        "--near", metavar="PLACE", type=_place,
+        help="LAT,LON; or of --run: ignition, or head (of the fire at the time --available-at)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--within", metavar="LENGTH", type=_length, help="straight distance, such as 60km or 40mi"
+    )
+    parser.add_argument(
+        "--minutes", metavar="N", type=_positive, help="time from the order to the arrival, min"
+    )
+    parser.add_argument("--kind", metavar="LIST", type=_words, default=(), help="kinds, such as engine,dozer")
+    parser.add_argument(
+        "--type", metavar="LIST", type=parse_types, default=(), help="types, such as 3, 1-3 or VLAT"
+    )
+    parser.add_argument("--mode", metavar="LIST", type=_among(MODES), default=(), help="operational modes")
+    parser.add_argument("--staffing", metavar="LIST", type=_among(STAFFING), default=(), help="employment")
+    parser.add_argument("--night", action="store_true", help="only what works at night")
+    parser.add_argument("--available-at", metavar="TIME", type=moment, help="time, 2014-09-17T16:00-07:00")
+    parser.add_argument(
+        "--tonnes-per-hour", metavar="T", type=_positive, help="water or retardant delivered, t/h"
+    )
+    parser.add_argument("--budget", metavar="COST", type=_positive, help="greatest cost of the set")
+    parser.add_argument(
+        "--currency", metavar="CODE", default="USD", type=str.upper, help="of the budget (USD)"
+    )
+    for name, unit, usual, what in (
+        ("hours", "H", 12.0, "hours of work that are paid"),
+        ("detour", "FACTOR", DETOUR, "length of roads by straight distance"),
+        ("refill", "KM", 5.0, "distance of the place of refilling, km; air tankers fill at their base"),
+        ("turnaround", "MIN", 10.0, "time to fill and to discharge in a round trip, min"),
+    ):
+        help = f"{what} ({usual:g})"
+        parser.add_argument(f"--{name}", metavar=unit, type=_positive, default=usual, help=help)
+    parser.add_argument(
+        "--ahead", action="store_true", help="only where the fire of --run arrives, soonest first"
+    )
+    parser.add_argument(
+        "--clearance", metavar="LENGTH", type=_length, default=0.5,
+        help="distance to the fire at which --ahead keeps a station that itself does not burn (500m)",
+    )  # fmt: skip
+    parser.add_argument("--stations", action="store_true", help="list stations instead of resources")
+    parser.add_argument("--json", action="store_true", help="write JSON")
+
+
+def _place(text: str) -> str | tuple[float, float]:
+    if text in ("ignition", "head"):
+        return text
+    try:
+        latitude, longitude = (float(part) for part in text.split(","))
+    except ValueError:
+        latitude = longitude = math.nan
+    if not (abs(latitude) <= 90.0 and abs(longitude) <= 180.0):
+        raise argparse.ArgumentTypeError(
+            f"must be ignition, head, or degrees north and east such as 38.78,-120.60, not {text!r}"
+        )
+    return latitude, longitude
+
+
+def _length(text: str) -> float:
+    match = re.fullmatch(r"(\d+(?:\.\d+)?) ?([a-z]*)", text.strip().lower(), re.ASCII)
+    if not match or match[2] not in _LENGTHS or float(match[1]) <= 0.0:
+        raise argparse.ArgumentTypeError(f"must be a length such as 60km, 500m or 40mi, not {text!r}")
+    return float(match[1]) * _LENGTHS[match[2]]
+
+
+def _positive(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0.0 < value < 1e12:
+        raise argparse.ArgumentTypeError(f"must be a number above 0, not {text!r}")
+    return value
+
+
+def _seed(text: str) -> int:
+    if not (text.isascii() and text.isdecimal() and len(text) < 10):
+        raise argparse.ArgumentTypeError(f"must be a whole number from 0, not {text!r}")
+    return int(text)
+
+
+def _day(text: str) -> str:
+    try:
+        return date.fromisoformat(text).isoformat()
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"must be a day such as 2026-11-25, not {text!r}") from None
+
+
+def _words(text: str) -> tuple[str, ...]:
+    found = tuple(part.strip().lower() for part in text.split(",") if part.strip())
+    if not found:
+        raise argparse.ArgumentTypeError("is empty; give words with commas between them")
+    return found
+
+
+def parse_types(text: str) -> tuple[str, ...]:
+    """Types of a list such as ``1-3,VLAT``.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        It is empty, or a range goes backwards.
+    """
+    found: list[str] = []
+    for part in _words(text):
+        match = re.fullmatch(r"(\d)-(\d)", part, re.ASCII)
+        if match and match[1] > match[2]:
+            raise argparse.ArgumentTypeError(f"{part!r} goes backwards; write {match[2]}-{match[1]}")
+        found += [str(k) for k in range(int(match[1]), int(match[2]) + 1)] if match else [part]
+    return tuple(found)
+
+
+def _among(known: tuple[str, ...]) -> Callable[[str], tuple[str, ...]]:
+    def words(text: str) -> tuple[str, ...]:
+        found = _words(text)
+        for word in found:
+            if word not in known:
+                raise argparse.ArgumentTypeError(f"{word!r} is none of {', '.join(known)}")
+        return found
+
+    return words

@@ -1,0 +1,186 @@
+"""What `firetwin stations` and `firetwin resources` do."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import datetime, timedelta
+from pathlib import Path
+
+from firetwin_core.run import Run
+
+from ..data import history
+from ..errors import UsageError, input_error
+from ..progress import count, result, say
+from ..run import labels, times, zone
+from . import exercise, ignition, importers, merging, page, reading, search, station_search, writing
+from .records import EXERCISE
+
+
+@dataclass(frozen=True)
+class Fire:
+    """A run, and the head of its fire: degrees north and east at a time; None while nothing burns."""
+
+    run: Run
+    head: Callable[[datetime], tuple[float, float] | None]
+
+
+OpenFire = Callable[[Path], Fire]
+
+
+def run_stations(arguments: argparse.Namespace, fire: OpenFire) -> None:
+    """Do what a verb of `firetwin stations` says."""
+    if arguments.verb == "info":
+        show_info(arguments)
+    elif arguments.verb == "import":
+        import_files(arguments)
+    else:
+        make_exercise(arguments, fire)
+
+
+def import_files(arguments: argparse.Namespace) -> None:
+    """Make a file of places of others."""
+    _check_out(arguments)
+    about = merging.About(arguments.source, arguments.licence, arguments.date or "", arguments.url)
+    batches = [(path, importers.read(path)) for path in arguments.files]
+    station_file, messages = merging.merge(batches, about)
+    for message in messages:
+        say(message)
+    if not station_file.stations:
+        reason = "has no station that can be kept" + ("" if len(batches) == 1 else ", nor have the others")
+        raise input_error(arguments.files[0], reason)
+    if any(source.licence == merging.NO_LICENCE for source in station_file.sources):
+        say("a source has no licence; say whose data it is by --source and --licence before it is shown")
+    writing.write(station_file, arguments.out)
+    result(arguments.out)
+
+
+def make_exercise(arguments: argparse.Namespace, fire: OpenFire) -> None:
+    """Invent an exercise around the fire of a run."""
+    _check_out(arguments)
+    run = fire(arguments.run).run
+    known = run.event in history.events()
+    if arguments.towns is None and not known:
+        reason = "depicts no known fire, whose towns are published; name a list of bases by --towns"
+        raise input_error(arguments.run, reason)
+    if arguments.towns is None:
+        station_file = exercise.of_event(run.event, arguments.seed)
+    else:
+        begins, ends = (times.utc(run, float(run.times[index])) for index in (0, -1))
+        station_file = exercise.make(
+            labels.read(arguments.towns), begins, ends + timedelta(days=7), zone.time_zone(run), run.name,
+            arguments.towns.name, arguments.seed,
+        )  # fmt: skip
+    if not station_file.stations:
+        raise input_error(arguments.towns or arguments.run, "names no place for a base; name one or more")
+    writing.write(station_file, arguments.out)
+    bases, resources = (
+        count(len(station_file.stations), "base"),
+        count(len(station_file.resources), "resource"),
+    )
+    say(f"{bases} with {resources}, all invented. {EXERCISE}")
+    result(arguments.out)
+
+
+def show_info(arguments: argparse.Namespace) -> None:
+    """List what is in a file of places."""
+    facts = page.facts(reading.read(arguments.file))
+    result(json.dumps(facts, indent=1, ensure_ascii=False) if arguments.json else page.info(facts))
+
+
+def find_resources(arguments: argparse.Namespace, fire: OpenFire) -> int:
+    """List resources or stations that answer a query; 1 where no set delivers what is asked for."""
+    _check_query(arguments)
+    station_file = reading.read(arguments.file)
+    opened = fire(arguments.run) if arguments.run else None
+    query = _query(arguments, _near(arguments, opened))
+    if arguments.stations or not station_file.resources:
+        _check_stations(arguments)
+        found: search.Found | station_search.Found = station_search.survey(station_file, query)
+    else:
+        found = search.survey(station_file, query)
+    answer = page.Answer(station_file, query, found, opened.run if opened else None)
+    if arguments.ahead:
+        answer = answer.ahead(arguments.clearance)
+    result(json.dumps(answer.plain(), indent=1, ensure_ascii=False) if arguments.json else answer.page())
+    if answer.found.shortfall:
+        say(f"no set: {answer.found.shortfall}")
+        return 1
+    return 0
+
+
+def _check_query(arguments: argparse.Namespace) -> None:
+    """Check that options have those that they need.
+
+    Raises
+    ------
+    UsageError
+        One is missing.
+    """
+    if arguments.near in ("ignition", "head") and arguments.run is None:
+        raise UsageError(f"--near: {arguments.near} is that of a run's fire; name the run by --run")
+    if arguments.near == "head" and arguments.available_at is None:
+        raise UsageError("--near: head is where the fire is at a time; name it by --available-at")
+    if arguments.ahead and arguments.run is None:
+        raise UsageError("--ahead: needs the fire of a run; name it by --run")
+    for name in ("within", "minutes", "tonnes_per_hour"):
+        if getattr(arguments, name) is not None and arguments.near is None:
+            raise UsageError(f"--{name.replace('_', '-')}: needs a place to go to; name it by --near")
+
+
+def _check_stations(arguments: argparse.Namespace) -> None:
+    asked = {
+        "minutes": arguments.minutes, "kind": arguments.kind, "type": arguments.type, "mode": arguments.mode,
+        "staffing": arguments.staffing, "night": arguments.night, "budget": arguments.budget,
+        "tonnes-per-hour": arguments.tonnes_per_hour,
+    }  # fmt: skip
+    for name, value in asked.items():
+        if value:
+            why = "--stations lists stations" if arguments.stations else f"{arguments.file} has none"
+            raise UsageError(f"--{name}: is a condition on resources, and {why}")
+
+
+def _near(arguments: argparse.Namespace, fire: Fire | None) -> tuple[float, float] | None:
+    """Coordinates of the place that resources go to; a word for one is said with its source."""
+    if fire is None or not isinstance(arguments.near, str):
+        return arguments.near
+    if arguments.near == "head":
+        found, source = fire.head(arguments.available_at), "the run's front"
+    else:
+        found, source = ignition.find(fire.run) or (None, "")
+    if found is None:
+        raise input_error(arguments.run, f"has no fire, so no {arguments.near}; give LAT,LON")
+    say(f"{arguments.near}: {found[0]:.4f}, {found[1]:.4f} ({source})")
+    return found
+
+
+def _query(arguments: argparse.Namespace, near: tuple[float, float] | None) -> search.Query:
+    return search.Query(
+        near=near,
+        within_km=arguments.within,
+        minutes=arguments.minutes,
+        kinds=arguments.kind,
+        types=arguments.type,
+        modes=arguments.mode,
+        staffing=arguments.staffing,
+        night=arguments.night,
+        at=arguments.available_at,
+        tonnes_per_hour=arguments.tonnes_per_hour,
+        budget=arguments.budget,
+        currency=arguments.currency,
+        hours=arguments.hours,
+        detour=arguments.detour,
+        refill_km=arguments.refill,
+        turnaround_min=arguments.turnaround,
+    )
+
+
+def _check_out(arguments: argparse.Namespace) -> None:
+    out: Path = arguments.out
+    if out.suffix.lower() != ".gpkg":
+        raise UsageError(f"--out: {out} does not end in .gpkg; name a .gpkg file")
+    if out.exists() and not arguments.overwrite:
+        hint = "to add to it, name it among the files too; " if arguments.verb == "import" else ""
+        raise UsageError(f"--out: {out} exists already; {hint}choose another name, or add --overwrite")

@@ -1,0 +1,67 @@
+"""Importers of stations and resources: each module reads one format, recognised by file content.
+
+A module has ``NAME``, the format's name for people, ``sniff(path, head) -> bool``, whether a file with these
+first bytes has the format, and ``read(path) -> Batch``. `MODULES` is the order in which they are tried.
+"""
+
+from __future__ import annotations
+
+import importlib
+from pathlib import Path
+from types import ModuleType
+
+from ...errors import Error, input_error
+from ..import_rows import Batch
+
+MODULES = ("firetwin", "usgs", "hifld", "osm", "resources_csv", "stations_csv")
+_HEAD = 65536  # bytes by which a format is recognised
+
+
+def importer(path: Path) -> ModuleType:
+    """Select the importer that recognises a file.
+
+    Raises
+    ------
+    InputError
+        The file is missing, is no file, or has no known format.
+    """
+    if not path.exists():
+        raise input_error(path, "there is no such file; check the path")
+    if not path.is_file():  # opening a pipe would block
+        raise input_error(path, "is no file; name a CSV, GeoJSON, Overpass JSON or GeoPackage")
+    with path.open("rb") as file:
+        head = file.read(_HEAD)
+    for name in MODULES:
+        module = importlib.import_module(f".{name}", __name__)
+        if module.sniff(path, head):
+            return module
+    raise input_error(path, _unknown())
+
+
+def read(path: Path) -> Batch:
+    """Read a file of any known format.
+
+    Raises
+    ------
+    InputError
+        The file is missing, has no known format, or is damaged.
+    """
+    try:
+        return importer(path).read(path)
+    except Error:
+        raise
+    except OSError as error:
+        raise input_error(path, (error.strerror or str(error)).lower()) from None
+    except UnicodeDecodeError:
+        raise input_error(path, "is no text in UTF-8; save it as UTF-8") from None
+    except Exception as error:  # Python's errors from unexpected content
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise input_error(path, f"is damaged or incomplete: {reason}") from error
+
+
+def _unknown() -> str:
+    known = (
+        "HIFLD fire stations (CSV, GeoJSON), USGS structures (GeoPackage, GeoJSON), OpenStreetMap (Overpass "
+        "JSON, GeoJSON), CSV of stations (name, latitude, longitude) and of resources (station, type)"
+    )
+    return f"has no known format: {known}"

@@ -1,0 +1,29 @@
+"""A file of places of Firetwin's own: it is taken over as it is, so that others can be added to it."""
+
+from __future__ import annotations
+
+import contextlib
+import sqlite3
+from pathlib import Path
+
+from .. import reading
+from ..import_rows import Batch
+
+NAME = "places"
+
+
+def sniff(path: Path, head: bytes) -> bool:
+    """Whether it is a GeoPackage with our tables."""
+    if not head.startswith(b"SQLite format 3\0"):
+        return False
+    with contextlib.closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
+        try:
+            tables = {name for (name,) in base.execute("SELECT name FROM sqlite_master WHERE type = 'table'")}
+        except sqlite3.DatabaseError:
+            return False
+    return tables >= {"station", "resource", "source", "availability"}
+
+
+def read(path: Path) -> Batch:
+    """Read it."""
+    return Batch(whole=reading.read(path), name=NAME)

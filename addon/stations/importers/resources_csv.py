@@ -1,0 +1,124 @@
+"""Resources of the user's own: CSV with the station and the type of each, and what is known of it.
+
+The station is named as in a file of stations, by its name or its number. A row with begins, ends and status
+says when it is available; more rows of the same name and station add windows.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from ...errors import input_error
+from .. import import_rows, types
+from ..import_rows import Batch, ResourceDraft
+from ..reading import NUMBERS
+from ..records import MODES, ORIGINS, STAFFING, STATUSES, Resource
+from . import tables
+
+NAME = "CSV of resources"
+
+_NAMES = {
+    "station": {"station", "station_id", "base"},
+    "type": {"type"},
+    "name": {"name", "resource", "title"},
+    **{name: {name} for name in (*NUMBERS, "count", "currency", "mode", "staffing", "night")},
+    **{name: {name} for name in ("origin", "note", "begins", "ends", "status", "area")},
+}
+_NEEDED = ("station", "type")
+_YES = {"": False, "no": False, "0": False, "false": False, "yes": True, "1": True, "true": True}
+
+
+def sniff(path: Path, head: bytes) -> bool:
+    """Whether the first line names station and type, and no position."""
+    found = tables.columns(head)
+    return all(_NAMES[need] & found for need in _NEEDED) and not {"latitude", "lat"} & found
+
+
+def read(path: Path) -> Batch:
+    """Read all resources; their origin is the user's, unless a column says otherwise."""
+    batch = Batch(name=path.stem, dropped=import_rows.private(tables.header(path).values()))
+    help = 'station and type, such as "engine/3"'
+    for line, row in tables.rows(path, _NAMES, _NEEDED, help):
+        plain = {key: " ".join(value.split()) for key, value in row.items()}
+        resource = _resource(path, line, plain)
+        window = _window(path, line, plain)
+        batch.resources.append(ResourceDraft(resource, plain["station"], f"line {line}", window))
+    return batch
+
+
+def _resource(path: Path, line: int, row: Mapping[str, str]) -> Resource:
+    code = row["type"]
+    if types.own_type(code) is None:
+        raise input_error(
+            path, f'has type "{code}"; write kind/type, such as engine/3 or tender/1', line=line
+        )
+    word = _words(path, line, row)
+    name = import_rows.without_telephones(row.get("name", "")) or code
+    return Resource(
+        0, 0, code, name, word("origin", ORIGINS, "user"), 0,
+        count=_count(path, line, row.get("count", "")),
+        **{name: _number(path, line, name, row.get(name, "")) for name in NUMBERS},
+        currency=row.get("currency", "").upper() or "USD",
+        mode=word("mode", MODES, types.mode_of(code)),
+        staffing=word("staffing", STAFFING, ""),
+        night=_YES[word("night", tuple(_YES), "")],
+        note=import_rows.without_telephones(row.get("note", "")),
+    )  # fmt: skip
+
+
+def _words(path: Path, line: int, row: Mapping[str, str]) -> Any:
+    def word(key: str, known: tuple[str, ...], usual: str) -> str:
+        value = row.get(key, "").lower()
+        if value and value not in known:
+            listed = ", ".join(each for each in known if each)
+            raise input_error(path, f'has {key} "{value}"; it is one of {listed}', line=line)
+        return value or usual
+
+    return word
+
+
+def _number(path: Path, line: int, name: str, text: str) -> float | None:
+    """Number of a column; None where it is empty."""
+    if not text:
+        return None
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0.0 <= value < math.inf or (name == "speed_km_h" and value == 0.0):
+        least = "above 0" if name == "speed_km_h" else "from 0"
+        raise input_error(path, f'has {name} "{text}"; it is a number {least}, or empty', line=line)
+    return value
+
+
+def _count(path: Path, line: int, text: str) -> int:
+    if text and not (text.isascii() and text.isdecimal() and 1 <= int(text) <= 10_000):
+        raise input_error(path, f'has count "{text}"; it is a whole number from 1 to 10000', line=line)
+    return int(text or 1)
+
+
+def _window(path: Path, line: int, row: Mapping[str, str]) -> tuple[datetime, datetime, str, str] | None:
+    if not (row.get("begins") or row.get("ends")):
+        if row.get("status"):
+            raise input_error(path, "has a status without begins and ends; give both", line=line)
+        return None
+    begins, ends = (_time(path, line, key, row.get(key, "")) for key in ("begins", "ends"))
+    if not begins < ends:
+        raise input_error(path, "has begins that is not before ends", line=line)
+    status = _words(path, line, row)("status", STATUSES, "available")
+    return begins, ends, status, row.get("area", "")
+
+
+def _time(path: Path, line: int, key: str, text: str) -> datetime:
+    try:
+        when = datetime.fromisoformat(text)
+    except ValueError:
+        when = None
+    if when is None or when.tzinfo is None:
+        reason = f'has {key} "{text}"; write a time with its zone, 2014-09-17T16:00-07:00'
+        raise input_error(path, reason, line=line)
+    return when.astimezone(UTC)

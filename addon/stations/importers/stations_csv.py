@@ -1,0 +1,47 @@
+"""Stations of the user's own: CSV with name, latitude and longitude, and optional columns."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ...errors import input_error
+from .. import import_rows
+from ..import_rows import Batch, Draft
+from ..records import ORIGINS
+from . import tables
+
+NAME = "CSV of stations"
+
+_NAMES = {
+    "name": {"name", "station", "title"},
+    "latitude": {"latitude", "lat", "y"},
+    "longitude": {"longitude", "lon", "lng", "long", "x"},
+    "kind": {"kind", "type"},
+    "agency": {"agency", "operator", "department"},
+    "address": {"address"},
+    "source_id": {"id", "number", "source_id", "ref"},
+    "origin": {"origin"},
+}
+_NEEDED = ("name", "latitude", "longitude")
+
+
+def sniff(path: Path, head: bytes) -> bool:
+    """Whether the first line names the three columns."""
+    found = tables.columns(head)
+    return all(_NAMES[need] & found for need in _NEEDED)
+
+
+def read(path: Path) -> Batch:
+    """Read all stations; their origin is the user's, unless a column says otherwise."""
+    batch = Batch(name=path.stem, dropped=import_rows.private(tables.header(path).values()))
+    for line, row in tables.rows(path, _NAMES, _NEEDED, "name, latitude and longitude (degrees)"):
+        origin = row.get("origin", "").strip().lower() or "user"
+        if origin not in ORIGINS:
+            raise input_error(path, f'has origin "{origin}"; it is one of {", ".join(ORIGINS)}', line=line)
+        draft = Draft(
+            row["name"], 0.0, 0.0, kind=row.get("kind", "").strip() or "fire station",
+            agency=row.get("agency", ""), address=row.get("address", ""),
+            source_id=row.get("source_id", "").strip(), origin=origin, place=f"line {line}",
+        )  # fmt: skip
+        import_rows.add(batch, row["latitude"], row["longitude"], draft)
+    return batch

@@ -1,0 +1,94 @@
+"""Fire stations of the USGS National Structures Dataset: GeoPackage or GeoJSON.
+
+Points with NAME, ADDRESS, CITY, STATE, ZIPCODE, FTYPE, FCODE, PERMANENT_IDENTIFIER, LOADDATE. Fire stations
+are FTYPE 740 (emergency response and law enforcement) with FCODE 74026; other structures are passed over.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import sqlite3
+from collections.abc import Mapping
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from ...run.observations import geojson, geopackage
+from .. import import_rows
+from ..import_rows import Batch, Draft
+
+NAME = "USGS National Structures Dataset"
+LICENCE = "public domain (US Geological Survey)"
+URL = "https://www.usgs.gov/national-structures-dataset"
+
+FTYPE, FCODE = 740, 74026
+_SQLITE = b"SQLite format 3\0"
+_OTHER = f"of other structures (FCODE is not {FCODE})"
+
+
+def sniff(path: Path, head: bytes) -> bool:
+    """Whether there are features with FTYPE and FCODE."""
+    if not head.startswith(_SQLITE):
+        text = head.lower()
+        start = head.lstrip(b"\xef\xbb\xbf \r\n").startswith(b"{")
+        return start and b'"fcode"' in text and b'"ftype"' in text
+    with contextlib.closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
+        try:
+            tables = [name for (name,) in base.execute("SELECT table_name FROM gpkg_geometry_columns")]
+            return any(_is_ours(base, table) for table in tables)
+        except sqlite3.DatabaseError:
+            return False
+
+
+def _is_ours(base: sqlite3.Connection, table: str) -> bool:
+    names = {
+        row[1].lower() for row in base.execute("SELECT * FROM pragma_table_info(?)", (table,)).fetchall()
+    }
+    return {"ftype", "fcode"} <= names
+
+
+def read(path: Path) -> Batch:
+    """Read the fire stations among all structures."""
+    batch = Batch(name=NAME, licence=LICENCE, url=URL)
+    names: set[str] = set()
+    with path.open("rb") as file:
+        binary = file.read(len(_SQLITE)) == _SQLITE
+    for feature in (geopackage if binary else geojson).read(path):
+        row = {str(key).lower(): value for key, value in feature.properties.items()}
+        names |= set(map(str, feature.properties))
+        if _number(row.get("fcode")) != FCODE or _number(row.get("ftype")) not in (FTYPE, None):
+            batch.refused.add(_OTHER, feature.place)
+            continue
+        x, y = feature.points[0] if len(feature.points) else (None, None)
+        address = [_text(row, key) for key in ("address", "city", "state", "zipcode")]
+        draft = Draft(
+            _text(row, "name"), 0.0, 0.0, address=", ".join(each for each in address if each),
+            source_id=_text(row, "permanent_identifier"), place=feature.place,
+        )  # fmt: skip
+        import_rows.add(batch, y, x, draft)
+        batch.retrieved = max(batch.retrieved, _day(row.get("loaddate")))
+    batch.dropped = import_rows.private(names)
+    return batch
+
+
+def _text(row: Mapping[str, Any], key: str) -> str:
+    value = row.get(key)
+    return "" if value is None else str(value).strip()
+
+
+def _number(value: Any) -> int | None:
+    try:
+        return int(float(value))
+    except (TypeError, ValueError, OverflowError):
+        return None
+
+
+def _day(value: Any) -> str:
+    """Day of a date: text of ISO 8601, or milliseconds since 1970; empty for none."""
+    if isinstance(value, int | float) and 1e11 < value < 1e14:
+        return datetime.fromtimestamp(value / 1e3, UTC).date().isoformat()
+    text = str(value or "")[:10].replace("/", "-")
+    try:
+        return datetime.fromisoformat(text).date().isoformat()
+    except ValueError:
+        return ""

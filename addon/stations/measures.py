@@ -1,0 +1,205 @@
+"""What a query measures of every resource at once: distance, minutes, cost, tonnes, and what rules it out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import datetime
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .distance import covers, distance_km
+from .records import AIR, DETOUR
+from .station_file import StationFile
+
+if TYPE_CHECKING:
+    from .search import Query
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+COVERAGE = ("time", "radius", "area")
+"""What an area of coverage is, by its number in `Measures.coverage`."""
+
+_MOST = 10**10  # cents and kg/h
+
+
+@dataclass(frozen=True)
+class Measures:
+    """Values (n,) of all resources, of all units of a row; NaN is not known.
+
+    Attributes
+    ----------
+    coverage
+        Index into `COVERAGE`.
+    cents, kg_h
+        Cost rounded to cents and delivery rounded down to kg/h, for sums without rounding; 0 is not known.
+    tests
+        Reasons why resources are ruled out, each with a mask (n,) of those; the most evident first.
+    """
+
+    distance_km: Array
+    minutes: Array
+    cost: Array
+    tonnes_per_hour: Array
+    coverage: NDArray[np.int64]
+    cents: NDArray[np.int64]
+    kg_h: NDArray[np.int64]
+    tests: tuple[tuple[str, Mask], ...]
+
+
+def measure(station_file: StationFile, query: Query) -> Measures:
+    """Measure all resources for a query."""
+    columns, codes = station_file.columns, station_file.codes
+    nothing = np.full(len(columns.id), np.nan)
+    air = codes.kind.isin(AIR)
+    far = nothing
+    if query.near is not None:
+        far = distance_km(*station_file.positions, query.near)[columns.station]
+    way = np.where(air, 1.0, query.detour)
+    minutes = travel_minutes(far, air, columns.speed_km_h, columns.mobilise_min, query.detour)
+    cost = cost_of(station_file, query.hours)
+    tonnes = delivery(station_file, query, far, air, way)
+    coverage, covered = coverages(station_file, query, far)
+    return Measures(
+        far,
+        minutes,
+        cost,
+        tonnes,
+        coverage,
+        _whole(np.round(cost * 100.0)),
+        _whole(np.floor(tonnes * 1000.0 + 1e-6)),
+        tuple(_tests(station_file, query, far, minutes, cost, tonnes, covered)),
+    )
+
+
+def travel_minutes(
+    far_km: ArrayLike, air: ArrayLike, speed_km_h: Array, mobilise_min: Array, detour: float = DETOUR
+) -> Array:
+    """Minutes from the order to the arrival: mobilising and the way, which is straight by air.
+
+    NaN where the speed or the time to mobilise is. All broadcast.
+    """
+    way = np.asarray(far_km, np.float64) * np.where(air, 1.0, detour)
+    return mobilise_min + 60.0 * way / speed_km_h
+
+
+def least_minutes(station_file: StationFile, near: tuple[float, float]) -> Array:
+    """Least minutes (stations,) of what stands at each station; NaN where nothing has them."""
+    columns, least = station_file.columns, np.full(len(station_file.stations), np.nan)
+    far = distance_km(*station_file.positions, near)[columns.station]
+    minutes = travel_minutes(far, station_file.codes.kind.isin(AIR), columns.speed_km_h, columns.mobilise_min)
+    np.fmin.at(least, columns.station, minutes)
+    return least
+
+
+def cost_of(station_file: StationFile, hours: float) -> Array:
+    """Cost (n,) of mobilising and of hours of work; see `unit_cost`."""
+    columns = station_file.columns
+    return columns.count * unit_cost(columns.cost_mobilise, columns.cost_hour, columns.cost_day, hours)
+
+
+def unit_cost(mobilise: Array, hour: Array, day: Array, hours: float) -> Array:
+    """Cost (n,) of one unit: mobilising, and work by the hour, or by days without a rate by the hour.
+
+    What costs nothing to mobilise need not say so. NaN without a rate.
+    """
+    work = np.where(np.isnan(hour), day * np.ceil(hours / 24.0), hour * hours)
+    return np.nan_to_num(mobilise) + work
+
+
+def delivery(station_file: StationFile, query: Query, far: Array, air: Mask, way: Array) -> Array:
+    """Delivery (n,), t/h, by round trips between the place and where the tank is filled.
+
+    Air tankers fill at their station, all others at `Query.refill_km`. 0 for what carries nothing.
+    """
+    columns = station_file.columns
+    home = station_file.codes.kind.isin(("airtanker",))
+    one_way = np.where(home, far, query.refill_km) * way
+    trip = 2.0 * one_way / columns.speed_km_h + query.turnaround_min / 60.0
+    with np.errstate(divide="ignore"):
+        return columns.count * np.where(np.isnan(columns.load_kg), 0.0, columns.load_kg / 1000.0 / trip)
+
+
+def coverages(station_file: StationFile, query: Query, far: Array) -> tuple[NDArray[np.int64], Mask]:
+    """What the area of coverage of each resource is, and whether the place lies in it (n,)."""
+    columns = station_file.columns
+    drawn = np.zeros(len(station_file.stations), np.bool_)
+    inside = np.zeros(len(station_file.stations), np.bool_)
+    for area in station_file.areas:
+        row = station_file.station_row[area.station]
+        drawn[row] = True
+        inside[row] |= query.near is not None and covers(area, *query.near)
+    by_area, by_radius = drawn[columns.station], ~np.isnan(columns.radius_km)
+    coverage = np.where(by_area, 2, np.where(by_radius, 1, 0))
+    if query.near is None:
+        return coverage, np.ones(len(coverage), np.bool_)
+    within = ~by_radius | (far <= columns.radius_km)
+    return coverage, np.where(by_area, inside[columns.station], within)
+
+
+def _tests(
+    station_file: StationFile,
+    query: Query,
+    far: Array,
+    minutes: Array,
+    cost: Array,
+    tonnes: Array,
+    covered: Mask,
+) -> list[tuple[str, Mask]]:
+    codes, tests = station_file.codes, []
+    for word, wanted, column in (
+        ("kind", query.kinds, codes.kind),
+        ("type", query.types, codes.type),
+        ("mode", query.modes, codes.mode),
+        ("staffing", query.staffing, codes.staffing),
+    ):
+        if wanted:
+            tests.append((f"of another {word}", ~column.isin(wanted)))
+    if query.night:
+        tests.append(("not at night", ~station_file.columns.night))
+    if query.at is not None:
+        status = statuses(station_file, query.at)
+        tests += [("of unknown status then", status < 0), ("not available then", status == 0)]
+    if query.within_km is not None:
+        tests.append((f"farther than {query.within_km:g} km", ~(far <= query.within_km)))
+    tests.append(("outside of their area of coverage", ~covered))
+    if query.minutes is not None:
+        tests += [
+            ("of unknown speed or time to mobilise", np.isnan(minutes)),
+            (f"later than {query.minutes:g} min", minutes > query.minutes),
+        ]
+    if query.tonnes_per_hour is not None:
+        tests += [("of unknown tonnage", np.isnan(tonnes)), ("carry nothing", tonnes <= 0.0)]
+    if query.budget is not None or query.tonnes_per_hour is not None:
+        other = ~codes.currency.isin((query.currency,))
+        tests += [("of unknown cost", np.isnan(cost)), (f"not paid in {query.currency}", other)]
+    return tests
+
+
+def statuses(station_file: StationFile, at: datetime) -> NDArray[np.int64]:
+    """Status (n,) of all resources at a time: 1 available, 0 not, -1 not known."""
+    found = windows_at(station_file, at)
+    known = found >= 0
+    found[known] = station_file.windows.available[found[known]]
+    return found
+
+
+def windows_at(station_file: StationFile, at: datetime) -> NDArray[np.int64]:
+    """Index (n,) into `StationFile.windows` of what counts for each resource at a time; -1 without any.
+
+    Of windows that overlap it is the one that begins last.
+    """
+    found, windows, time = (
+        np.full(len(station_file.resources), -1, np.int64),
+        station_file.windows,
+        at.timestamp(),
+    )
+    now = (windows.begins <= time) & (time < windows.ends)
+    found[windows.row[now]] = np.flatnonzero(now)  # of one row the last stays
+    return found
+
+
+def _whole(values: Array) -> NDArray[np.int64]:
+    return np.clip(np.nan_to_num(values), 0.0, _MOST).astype(np.int64)

@@ -1,0 +1,228 @@
+"""Batches of importers made one: sources numbered, duplicates merged, resources given their station."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from datetime import UTC, datetime
+from pathlib import Path
+
+import numpy as np
+
+from ..progress import count
+from . import names, types
+from .distance import distance_km
+from .import_rows import Batch, ResourceDraft
+from .records import Area, Availability, Resource, Source, Station, Type
+from .station_file import StationFile
+
+NEAR = 150.0  # m, within which two stations of like name and kind are one
+_DEGREE = 111_000.0  # m of latitude, at least 110,574
+NO_LICENCE = "not stated"
+_NO_STATION = "of a station that is not there"
+_MANY_STATIONS = "of a station whose name several have (name its number)"
+
+
+@dataclass(frozen=True)
+class About:
+    """What the user says of the files' source; empty where it is the format's or the file's."""
+
+    name: str = ""
+    licence: str = ""
+    retrieved: str = ""
+    url: str = ""
+
+
+@dataclass
+class _Merged:
+    """What grows file by file."""
+
+    stations: list[Station] = field(default_factory=list)
+    resources: list[Resource] = field(default_factory=list)
+    availability: list[Availability] = field(default_factory=list)
+    sources: list[Source] = field(default_factory=list)
+    types: dict[str, Type] = field(default_factory=dict)
+    areas: list[Area] = field(default_factory=list)
+    messages: list[str] = field(default_factory=list)
+
+
+def merge(batches: Sequence[tuple[Path, Batch]], about: About) -> tuple[StationFile, list[str]]:
+    """StationFile of all batches, and a line for what each file gave, merged, refused and dropped.
+
+    Tables of resources come after all stations, whatever the order of the files.
+    """
+    merged = _Merged(types={each.code: each for each in types.standard_types()})
+    for path, batch in sorted(batches, key=lambda pair: bool(pair[1].resources)):
+        if batch.whole is not None:
+            _take_over(merged, batch.whole)
+            stations, resources = len(batch.whole.stations), len(batch.whole.resources)
+            merged.messages.append(f"{path}: {_counted(stations, resources)}")
+            continue
+        source = _source(merged, path, batch, about)
+        _add_stations(merged, batch, source)
+        number = _add_resources(merged, batch, source)
+        _tell(merged, path, batch, source, number)
+    _merge_duplicates(merged)
+    station_file = StationFile(
+        tuple(merged.stations), tuple(merged.resources), tuple(merged.availability), tuple(merged.sources),
+        tuple(merged.types.values()), tuple(merged.areas),
+    )  # fmt: skip
+    return station_file, merged.messages
+
+
+def _counted(stations: int, resources: int) -> str:
+    parts = [count(stations, "station")] if stations or not resources else []
+    return " and ".join(parts + ([count(resources, "resource")] if resources else []))
+
+
+def _source(merged: _Merged, path: Path, batch: Batch, about: About) -> Source:
+    """Source of a file, with the day of the file where nobody says the data's."""
+    changed = datetime.fromtimestamp(path.stat().st_mtime, UTC).date().isoformat()
+    with path.open("rb") as file:
+        digest = hashlib.file_digest(file, "sha256").hexdigest()
+    source = Source(
+        len(merged.sources) + 1,
+        about.name or batch.name,
+        about.licence or batch.licence or NO_LICENCE,
+        about.retrieved or batch.retrieved or changed,
+        about.url or batch.url,
+        digest,
+    )
+    merged.sources.append(source)
+    return source
+
+
+def _tell(merged: _Merged, path: Path, batch: Batch, source: Source, resources: int) -> None:
+    what = _counted(len(batch.stations), resources)
+    about = f"source {source.name}, licence {source.licence}, data of {source.retrieved}"
+    merged.messages.append(f"{path}: {what}; {about}")
+    merged.messages += [f"{path}: {line}" for line in batch.refused.lines()]
+    if batch.dropped:
+        listed = ", ".join(batch.dropped)
+        merged.messages.append(f"{path}: telephones and persons are not kept ({listed})")
+
+
+def _add_stations(merged: _Merged, batch: Batch, source: Source) -> None:
+    first = max((each.id for each in merged.stations), default=0) + 1
+    for number, draft in enumerate(batch.stations, first):
+        merged.stations.append(
+            Station(
+                number, draft.name, draft.latitude, draft.longitude, draft.origin, source.id, draft.kind,
+                draft.agency, draft.address, draft.source_id,
+            )
+        )  # fmt: skip
+
+
+def _add_resources(merged: _Merged, batch: Batch, source: Source) -> int:
+    """Add resources whose station is known; rows of one name at one station add windows. Their number."""
+    by_word = _stations_by_word(merged.stations)
+    number = max((each.id for each in merged.resources), default=0)
+    known: dict[tuple[int, str, str], int] = {}
+    for draft in batch.resources:
+        station = _station_of(by_word, draft, batch)
+        if station is None:
+            continue
+        key = station, draft.resource.type, draft.resource.name
+        if key not in known or draft.window is None:
+            number += 1
+            known[key] = number
+            made = replace(draft.resource, id=number, station=station, source=source.id)
+            merged.resources.append(made)
+            own = types.own_type(made.type)
+            if own is not None:
+                merged.types.setdefault(own.code, own)
+        if draft.window is not None:
+            begins, ends, status, area = draft.window
+            merged.availability.append(Availability(known[key], begins, ends, status, area))
+    return len(known)
+
+
+def _stations_by_word(stations: Iterable[Station]) -> dict[str, set[int]]:
+    """Numbers of stations by their name and their number in the source, both in lower case."""
+    found: dict[str, set[int]] = {}
+    for station in stations:
+        for word in {station.name.lower(), station.source_id.lower()} - {""}:
+            found.setdefault(word, set()).add(station.id)
+    return found
+
+
+def _station_of(by_word: dict[str, set[int]], draft: ResourceDraft, batch: Batch) -> int | None:
+    found = by_word.get(draft.station.lower(), set())
+    if len(found) != 1:
+        batch.refused.add(_MANY_STATIONS if found else _NO_STATION, draft.place)
+        return None
+    return next(iter(found))
+
+
+def _take_over(merged: _Merged, station_file: StationFile) -> None:
+    """Add a file of places with new numbers."""
+    source, station, resource, area = (
+        max((each.id for each in rows), default=0)
+        for rows in (merged.sources, merged.stations, merged.resources, merged.areas)
+    )
+    merged.sources += [replace(each, id=each.id + source) for each in station_file.sources]
+    merged.stations += [
+        replace(each, id=each.id + station, source=each.source + source) for each in station_file.stations
+    ]
+    merged.resources += [
+        replace(each, id=each.id + resource, station=each.station + station, source=each.source + source)
+        for each in station_file.resources
+    ]
+    merged.availability += [
+        replace(each, resource=each.resource + resource) for each in station_file.availability
+    ]
+    merged.areas += [
+        replace(each, id=each.id + area, station=each.station + station) for each in station_file.areas
+    ]
+    merged.types.update({each.code: each for each in station_file.types if each.code not in merged.types})
+
+
+def _merge_duplicates(merged: _Merged) -> None:
+    """Merge stations within `NEAR` of like name and kind into the first, which gets what it lacks."""
+    into = duplicates(merged.stations)
+    if not into:
+        return
+    by_id = {each.id: each for each in merged.stations}
+    for other, first in into.items():
+        kept, gone = by_id[first], by_id[other]
+        by_id[first] = replace(kept, agency=kept.agency or gone.agency, address=kept.address or gone.address)
+    merged.stations = [by_id[each.id] for each in merged.stations if each.id not in into]
+    merged.resources = [
+        replace(each, station=into.get(each.station, each.station)) for each in merged.resources
+    ]
+    merged.areas = [replace(each, station=into.get(each.station, each.station)) for each in merged.areas]
+    what = "duplicate" if len(into) == 1 else "duplicates"
+    merged.messages.append(f"{len(into):,} {what} merged: within {NEAR:g} m, of like name and kind")
+
+
+def duplicates(stations: Sequence[Station]) -> dict[int, int]:
+    """Number of the station that each duplicate is merged into; those of exercises are never merged."""
+    latitude = np.array([each.latitude for each in stations])
+    order = np.argsort(latitude, kind="stable")
+    ends = np.searchsorted(latitude[order], latitude[order] + NEAR / (_DEGREE - 500.0), "right")
+    pairs = [
+        (int(order[low]), int(order[high]))
+        for low, end in enumerate(ends.tolist())
+        for high in range(low + 1, end)
+        if _alike(stations[order[low]], stations[order[high]])
+    ]
+    into: dict[int, int] = {}
+    for one, other in sorted((min(pair), max(pair)) for pair in pairs):
+        first, second = stations[one], stations[other]
+        if first.id in into or second.id in into:
+            continue
+        (far,) = distance_km([first.latitude], [first.longitude], (second.latitude, second.longitude))
+        if far * 1000.0 <= NEAR:
+            into[second.id] = first.id
+    return into
+
+
+def _alike(one: Station, other: Station) -> bool:
+    """Whether two stations of about one latitude may be the same, without their distance."""
+    return (
+        abs(one.longitude - other.longitude) < 0.1
+        and one.kind == other.kind
+        and "exercise" not in (one.origin, other.origin)
+        and names.alike(one.name, other.name)
+    )

@@ -1,0 +1,265 @@
+"""Answers of searches and content of files: as data for programs and as text for people."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
+from datetime import datetime
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from firetwin_core.run import Run
+
+from ..escaped import escaped
+from ..progress import count
+from ..run import times
+from . import fire_arrival, search, station_search
+from .records import EXERCISE, Source
+from .station_file import StationFile
+
+
+@dataclass(frozen=True)
+class Answer:
+    """Answer of a search, with the fire of a run where one is named."""
+
+    station_file: StationFile
+    query: search.Query
+    found: search.Found | station_search.Found
+    run: Run | None = None
+
+    @property
+    def matches(self) -> Sequence[search.Match | station_search.StationMatch]:
+        """What is listed."""
+        return self.found.matches
+
+    @cached_property
+    def arrivals(self) -> fire_arrival.Arrivals | None:
+        """When the fire reaches the station of each match."""
+        if self.run is None:
+            return None
+        at = [each.station for each in self.matches]
+        return fire_arrival.sample(self.run, [each.latitude for each in at], [each.longitude for each in at])
+
+    def ahead(self, clearance_km: float) -> Answer:
+        """Matches whose station the fire reaches or comes close to, after the query's time if it has one.
+
+        They come by that time. What already burned before the run is left out.
+        """
+        found, arrivals, run = self.found, self.arrivals, self.run
+        if arrivals is None or run is None:
+            return self
+        then = -np.inf if self.query.at is None else times.seconds(run, self.query.at)
+        close = (arrivals.nearest_km <= clearance_km) & (arrivals.state != fire_arrival.BEFORE)
+        keep = close & (arrivals.nearest_time > max(then, float(run.times[0])))
+        reasons = Counter(
+            "fire: there before that time" if near else f"fire: {fire_arrival.STATES[state]}"
+            for near, state in zip(close[~keep].tolist(), arrivals.state[~keep].tolist(), strict=True)
+        )
+        order = np.flatnonzero(keep)
+        order = order[np.argsort(arrivals.nearest_time[order], kind="stable")]
+        matches: Any = [found.matches[k] for k in order]
+        return replace(self, found=replace(found, matches=matches, left_out=found.left_out | dict(reasons)))
+
+    @property
+    def exercise(self) -> bool:
+        """Whether anything in the file was invented."""
+        return self.station_file.exercise
+
+    @property
+    def sources(self) -> list[Source]:
+        """Sources of all that is listed."""
+        used = {number for each in self.matches for number in _sources(each)}
+        return [source for source in self.station_file.sources if source.id in used]
+
+    def assumptions(self) -> list[str]:
+        """Units and assumptions of what is listed."""
+        query, of_resources = self.query, isinstance(self.found, search.Found)
+        lines = []
+        if query.near is not None:
+            lines.append(f"distances: straight to {query.near[0]:.4f}, {query.near[1]:.4f}, km")
+        if of_resources:
+            lines += [
+                f"minutes: mobilising and the way; roads are {query.detour:g} times the straight distance, "
+                "aircraft fly straight",
+                f"cost: mobilising and {query.hours:g} h of work",
+                "t/h: its load, else its type's least tank of water; round trips to a place of refilling "
+                f"{query.refill_km:g} km away, of air tankers to their base; {query.turnaround_min:g} min to "
+                "fill and to discharge",
+            ]
+        if self.run is not None:
+            lines.append(f"fire: of the run {self.run.name}, until {self._text(float(self.run.times[-1]))}")
+            if not self.run.has(fire_arrival.OWN):
+                lines.append(
+                    "fire: times are estimated from heat fluxes; what burned before the run counts as never"
+                )
+        return lines
+
+    def plain(self) -> dict[str, Any]:
+        """Data for programs; lengths in km, times in UTC."""
+        query = asdict(self.query)
+        query["at"] = times.iso(self.query.at) if self.query.at else None
+        answer = {
+            "exercise": self.exercise,
+            "label": EXERCISE if self.exercise else "",
+            "query": query,
+            "assumptions": self.assumptions(),
+            "sources": [asdict(source) for source in self.sources],
+            "left_out": self.found.left_out,
+            "shortfall": self.found.shortfall,
+            "matches": [
+                asdict(each) | ({"fire": self._fire(k)} if self.run else {})
+                for k, each in enumerate(self.matches)
+            ],
+        }
+        if isinstance(self.found, search.Found):
+            answer |= {
+                "cost": self.found.cost,
+                "tonnes_per_hour": self.found.tonnes_per_hour,
+                "candidates": self.found.candidates,
+            }
+        return answer
+
+    def page(self) -> str:
+        """Text for people."""
+        found, lines = self.found, [EXERCISE] if self.exercise else []
+        rows = [self._row(k, each) for k, each in enumerate(self.matches)]
+        if rows:
+            heads = ["km", "origin", "station"]
+            if isinstance(found, search.Found):
+                heads = [
+                    "min",
+                    "km",
+                    "t/h",
+                    f"cost, {self.query.currency}",
+                    "type",
+                    "origin",
+                    "resource",
+                    "station",
+                ]
+            lines += _table(heads + (["fire"] if self.run else []), rows)
+        lines.append(self._sum())
+        lines += [f"left out: {number:,} {reason}" for reason, number in found.left_out.items()]
+        lines += self.assumptions()
+        lines += [_source_line(asdict(source)) for source in self.sources]
+        return "\n".join(lines)
+
+    def _sum(self) -> str:
+        found = self.found
+        if not isinstance(found, search.Found):
+            return count(len(self.matches), "station")
+        text = count(len(found.matches), "resource")
+        if found.candidates:
+            text += f" of {found.candidates:,}: {found.cost:,.0f} {self.query.currency}"
+        return text + (f", {found.tonnes_per_hour:.1f} t/h" if found.matches else "")
+
+    def _row(self, index: int, match: search.Match | station_search.StationMatch) -> list[str]:
+        fire = [self._fire_text(index)] if self.run else []
+        if isinstance(match, station_search.StationMatch):
+            return [_number(match.distance_km, 1), match.station.origin, escaped(match.station.name), *fire]
+        each = match.resource
+        name = escaped(each.name) + (f" ({each.count})" if each.count > 1 else "")
+        return [
+            _number(match.minutes, 0), _number(match.distance_km, 1), _number(match.tonnes_per_hour, 1),
+            _number(match.cost, 0), escaped(each.type), each.origin, name, escaped(match.station.name), *fire,
+        ]  # fmt: skip
+
+    def _fire(self, index: int) -> dict[str, Any]:
+        """When the fire reaches a match: its state, and UTC of the time, the earliest and the latest."""
+        arrivals, run = self.arrivals, self.run
+        assert arrivals is not None and run is not None  # noqa: PT018
+        known = arrivals.utc(run, index)
+        names = ("time", "earliest", "latest")
+        near = float(arrivals.nearest_km[index])
+        there = None if np.isnan(near) else times.utc(run, float(arrivals.nearest_time[index]))
+        return {
+            "state": fire_arrival.STATES[arrivals.state[index]],
+            "nearest_km": None if there is None else near,
+            "nearest_time": None if there is None else times.iso(there),
+        } | {name: None if known is None else times.iso(known[k]) for k, name in enumerate(names)}
+
+    def _fire_text(self, index: int) -> str:
+        arrivals, run = self.arrivals, self.run
+        assert arrivals is not None and run is not None  # noqa: PT018
+        return fire_arrival.text(run, arrivals, index)
+
+    def _text(self, seconds: float) -> str:
+        assert self.run is not None
+        return fire_arrival.clock(self.run, seconds)
+
+
+def facts(station_file: StationFile) -> dict[str, Any]:
+    """What `firetwin stations info` shows."""
+    latitude, longitude = station_file.positions
+    there = len(latitude) > 0
+    begins, ends = (
+        _iso(pick((getattr(each, name) for each in station_file.availability), default=None))
+        for pick, name in ((min, "begins"), (max, "ends"))
+    )
+    return {
+        "exercise": station_file.exercise,
+        "label": EXERCISE if station_file.exercise else "",
+        "stations": len(station_file.stations),
+        "resources": len(station_file.resources),
+        "areas": len(station_file.areas),
+        "origins": dict(
+            Counter(each.origin for rows in (station_file.stations, station_file.resources) for each in rows)
+        ),
+        "types": dict(sorted(Counter(each.type for each in station_file.resources).items())),
+        "latitude": [float(latitude.min()), float(latitude.max())] if there else None,
+        "longitude": [float(longitude.min()), float(longitude.max())] if there else None,
+        "windows": {"count": len(station_file.availability), "begins": begins, "ends": ends},
+        "sources": [asdict(source) for source in station_file.sources],
+    }
+
+
+def info(known: dict[str, Any]) -> str:
+    """Text of `facts`."""
+    lines = [known["label"]] if known["exercise"] else []
+    lines.append(f"stations   {known['stations']:,}")
+    if known["latitude"]:
+        (south, north), (west, east) = known["latitude"], known["longitude"]
+        lines.append(f"extent     {south:.4f} to {north:.4f} N, {west:.4f} to {east:.4f} E")
+    lines.append(f"resources  {known['resources']:,}")
+    lines += [f"  {escaped(code):<14} {number:,}" for code, number in known["types"].items()]
+    if known["areas"]:
+        lines.append(f"areas      {known['areas']:,}")
+    lines += [f"origin     {origin}: {count(number, 'row')}" for origin, number in known["origins"].items()]
+    windows = known["windows"]
+    if windows["count"]:
+        lines.append(f"windows    {windows['count']:,}, {windows['begins']} to {windows['ends']}")
+    lines += [_source_line(source) for source in known["sources"]]
+    return "\n".join(lines)
+
+
+def _iso(when: datetime | None) -> str | None:
+    return None if when is None else times.iso(when)
+
+
+def _source_line(source: dict[str, Any]) -> str:
+    address = f" ({escaped(source['url'])})" if source["url"] else ""
+    name, licence = escaped(source["name"]), escaped(source["licence"])
+    return f"source     {name}, licence {licence}, data of {source['retrieved']}{address}"
+
+
+def _sources(match: search.Match | station_search.StationMatch) -> set[int]:
+    own = {match.resource.source} if isinstance(match, search.Match) else set()
+    return {match.station.source, *own}
+
+
+def _number(value: float | None, digits: int) -> str:
+    return "?" if value is None else f"{value:,.{digits}f}"
+
+
+def _table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
+    """Lines of a table: numbers to the right, words to the left."""
+    widths = [max(map(len, column)) for column in zip(heads, *rows, strict=True)]
+    right = [head in ("min", "km", "t/h") or head.startswith("cost") for head in heads]
+    return [
+        "  ".join(
+            cell.rjust(width) if to_right else cell.ljust(width)
+            for cell, width, to_right in zip(row, widths, right, strict=True)
+        ).rstrip()
+        for row in (heads, *rows)
+    ]

@@ -1,0 +1,195 @@
+"""Reading of a file of places, also of one that QGIS edited."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import sqlite3
+from dataclasses import fields
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any, NoReturn, TypeVar
+
+from ..errors import input_error
+from ..run.observations import geopackage
+from . import geometry
+from .records import MODES, ORIGINS, STATUSES, Area, Availability, Resource, Source, Station, Type
+from .station_file import StationFile
+
+Record = TypeVar("Record", Source, Type, Resource)
+
+_NOT_STATIONS = "is no file of places; make one: firetwin stations import FILE --out STATIONS.gpkg"
+
+
+def read(path: Path) -> StationFile:
+    """Read all tables; the position of a station is that of its geometry.
+
+    Raises
+    ------
+    InputError
+        The file is missing, is no file of places, or a row is damaged.
+    """
+    if not path.is_file():
+        raise input_error(path, "there is no such file; check the path")
+    try:
+        with contextlib.closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
+            tables = {name for (name,) in base.execute("SELECT name FROM sqlite_master WHERE type = 'table'")}
+            if not {"source", "type", "station", "resource", "availability", "area"} <= tables:
+                raise input_error(path, _NOT_STATIONS)
+            return _Reader(path, base).station_file()
+    except UnicodeDecodeError:
+        raise input_error(path, "cannot be read: a text in it is not UTF-8") from None
+    except sqlite3.DatabaseError as error:
+        reason = _NOT_STATIONS if "not a database" in str(error) else f"cannot be read: {error}"
+        raise input_error(path, reason) from None
+
+
+def _text(value: Any) -> str:
+    """Text of a column, into which SQLite lets other programs write anything."""
+    if isinstance(value, str):
+        return value
+    return "" if value is None else str(value)
+
+
+class _Reader:
+    def __init__(self, path: Path, base: sqlite3.Connection) -> None:
+        self.path, self.base = path, base
+
+    def station_file(self) -> StationFile:
+        station_file = StationFile(
+            self.stations(),
+            self.records(Resource, "resource", "id"),
+            self.availability(),
+            self.records(Source, "source", "id"),
+            self.records(Type, "type", "fid"),
+            self.areas(),
+        )
+        self.check(station_file)
+        return station_file
+
+    def records(self, kind: type[Record], table: str, key: str) -> tuple[Record, ...]:
+        """Records whose fields are named as the table's columns are; a text that is missing is empty."""
+        names = [each.name for each in fields(kind)]
+        texts = [k for k, each in enumerate(fields(kind)) if each.type == "str"]
+        flags = [k for k, each in enumerate(fields(kind)) if each.type == "bool"]
+        found = []
+        for row in self.base.execute(f"SELECT {', '.join(names)} FROM {table} ORDER BY {key}"):
+            values = list(row)
+            for k in texts:
+                values[k] = _text(values[k])
+            for k in flags:
+                values[k] = bool(values[k])
+            found.append(kind(*values))
+        return tuple(found)
+
+    def stations(self) -> tuple[Station, ...]:
+        command = (
+            "SELECT fid, geom, name, origin, source, kind, agency, address, source_id, picture "
+            "FROM station ORDER BY fid"
+        )
+        found = []
+        for number, blob, name, origin, source, *texts in self.base.execute(command):
+            latitude, longitude = self.position(number, blob)
+            found.append(
+                Station(number, _text(name), latitude, longitude, origin, source, *map(_text, texts))
+            )
+        return tuple(found)
+
+    def position(self, number: int, blob: Any) -> tuple[float, float]:
+        found = geometry.position(blob) if isinstance(blob, bytes) else None
+        if found is None and isinstance(blob, bytes):
+            points = geopackage.points(blob)
+            found = (float(points[0][1]), float(points[0][0])) if points else None
+        if found is None or not (abs(found[0]) <= 90.0 and abs(found[1]) <= 540.0):
+            self.wrong("station", number, "has no position in degrees; move it in a map, or remove it")
+        return found
+
+    def availability(self) -> tuple[Availability, ...]:
+        command = "SELECT id, resource, begins, ends, status, area FROM availability ORDER BY id"
+        return tuple(
+            Availability(
+                resource,
+                self.time(number, "begins", begins),
+                self.time(number, "ends", ends),
+                status,
+                _text(area),
+            )
+            for number, resource, begins, ends, status, area in self.base.execute(command)
+        )
+
+    def time(self, number: int, column: str, text: Any) -> datetime:
+        try:
+            when = datetime.fromisoformat(text)
+        except (TypeError, ValueError):
+            self.wrong("availability", number, f"has no time in {column}; write 2014-09-17T22:42:00Z")
+        return when.astimezone(UTC) if when.tzinfo else when.replace(tzinfo=UTC)
+
+    def areas(self) -> tuple[Area, ...]:
+        found = []
+        command = "SELECT fid, geom, name, kind, station FROM area ORDER BY fid"
+        for number, blob, name, kind, station in self.base.execute(command):
+            polygons = geopackage.polygons(blob) if isinstance(blob, bytes) else ()
+            if not polygons:
+                self.wrong("area", number, "has no polygon; draw it again, or remove it")
+            found.append(Area(number, _text(name), _text(kind), station, polygons))
+        return tuple(found)
+
+    def check(self, station_file: StationFile) -> None:
+        """Check what other programs may have written: references, words and numbers."""
+        stations, sources = station_file.station_row, station_file.source_of
+        resources = {each.id for each in station_file.resources}
+        for station in station_file.stations:
+            self.origin("station", station.id, station.origin, station.source in sources)
+        for each in station_file.resources:
+            self.origin("resource", each.id, each.origin, each.source in sources)
+            if each.station not in stations:
+                self.wrong("resource", each.id, f"stands at station {each.station}, which there is not")
+            if each.type not in station_file.type_of:
+                self.wrong("resource", each.id, f'has type "{each.type}", which table type has not')
+            if each.mode not in MODES:
+                self.wrong("resource", each.id, f'has mode "{each.mode}"; modes are {", ".join(MODES)}')
+            self.numbers(each)
+        for window in station_file.availability:
+            if window.resource not in resources:
+                self.wrong("resource", window.resource, "has a window of availability, and is not there")
+            if window.status not in STATUSES:
+                reason = f'has status "{window.status}"; they are {", ".join(STATUSES)}'
+                self.wrong("resource", window.resource, reason)
+        for area in station_file.areas:
+            if area.station not in stations:
+                self.wrong("area", area.id, f"is of station {area.station}, which there is not")
+
+    def origin(self, table: str, number: int, origin: str, known: bool) -> None:
+        if origin not in ORIGINS:
+            self.wrong(table, number, f'has origin "{origin}"; it is one of {", ".join(ORIGINS)}')
+        if not known:
+            self.wrong(table, number, "has no source; each row names one of table source")
+
+    def numbers(self, each: Resource) -> None:
+        """Check that numbers are finite and not negative, that a speed is above 0, and that it counts."""
+        for name in NUMBERS:
+            value = getattr(each, name)
+            if value is None:
+                continue
+            if not isinstance(value, int | float) or not 0.0 <= value < math.inf:
+                self.wrong("resource", each.id, f"has {name} {value!r}; it is a number from 0")
+        if each.speed_km_h == 0.0:
+            self.wrong("resource", each.id, "has speed_km_h 0; leave it empty where it is not known")
+        if not isinstance(each.count, int) or each.count < 1:
+            self.wrong("resource", each.id, f"has count {each.count!r}; it is a whole number from 1")
+
+    def wrong(self, table: str, number: int, reason: str) -> NoReturn:
+        raise input_error(self.path, f"{table} {number} {reason}")
+
+
+NUMBERS = (
+    "load_kg",
+    "speed_km_h",
+    "mobilise_min",
+    "radius_km",
+    "line_m_h",
+    "cost_mobilise",
+    "cost_hour",
+    "cost_day",
+)
+"""Numbers of a resource, each of which may be unknown."""

@@ -1,0 +1,101 @@
+"""Places: the time of searches among many resources, and the error of arrival times from heat fluxes.
+
+    .venv/bin/python tests/benchmarks/station_search.py RUN [--resources N]
+
+RUN has arrival times of its own; beside them are those that the same run gives without them, at places drawn
+by chance that the fire reaches in both.
+"""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+import statistics
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from firetwin.stations import fire_arrival, reading, search, writing
+from firetwin.stations.search import Query
+from firetwin_core import run as runs
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
+
+from random_stations import CENTRE, NOON, random_stations
+
+STATION_FILE = 40_000
+REPEATS = 5
+SEARCHES = {
+    "60 km, 45 min, engines of types 1 to 3": Query(
+        near=CENTRE, within_km=60.0, minutes=45.0, kinds=("engine",), types=("1", "2", "3"), at=NOON
+    ),
+    "all that are available": Query(near=CENTRE, at=NOON),
+    "cheapest 20 t/h": Query(near=CENTRE, at=NOON, tonnes_per_hour=20.0),
+    "cheapest 5,000 t/h": Query(near=CENTRE, tonnes_per_hour=5000.0),
+    "first for a budget of 1,000,000": Query(near=CENTRE, budget=1e6),
+}
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("run", metavar="RUN", type=Path, help="run folder with fuel_arrival_time")
+    parser.add_argument("--resources", metavar="N", type=int, default=100_000, help="resources (100000)")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        time_searches(Path(folder) / "places.gpkg", options.resources)
+        compare_arrivals(options.run, Path(folder) / "run")
+
+
+def time_searches(path: Path, number: int) -> None:
+    """Median times of reading a file and of searches in it."""
+    writing.write(random_stations(1, max(number // 20, 1), number), path)
+    seconds, station_file = timed(lambda: reading.read(path))
+    print(f"{number:,} resources: read {seconds:.2f} s")
+    seconds, _ = timed(lambda: (station_file.columns, station_file.codes, station_file.windows), 1)
+    print(f"  arrays, once {seconds:.2f} s")
+    for name, query in SEARCHES.items():
+        seconds, found = timed(lambda query=query: search.survey(station_file, query))
+        print(f"  {name}: {seconds:.3f} s, {len(found.matches):,} listed")
+
+
+def timed(work: Callable, repeats: int = REPEATS) -> tuple[float, object]:
+    """Median seconds, and what is made."""
+    every = []
+    for _ in range(repeats):
+        begin = time.perf_counter()
+        made = work()
+        every.append(time.perf_counter() - begin)
+    return statistics.median(every), made
+
+
+def compare_arrivals(folder: Path, copy: Path) -> None:
+    """Arrival times at places with and without the run's own."""
+    shutil.copytree(folder, copy, ignore=shutil.ignore_patterns(f"{fire_arrival.OWN}*"))
+    own, flux = runs.open(folder), runs.open(copy)
+    rng = np.random.default_rng(1)
+    latitude, longitude = (
+        rng.uniform(axis.min(), axis.max(), STATION_FILE) for axis in (own.fuel_latitude, own.fuel_longitude)
+    )
+    true, found = (fire_arrival.sample(run, latitude, longitude) for run in (own, flux))
+    both = (true.state == fire_arrival.REACHED) & (found.state == fire_arrival.REACHED)
+    error = (found.time - true.time)[both] / 60.0
+    within = ((found.earliest <= true.time) & (true.time <= found.latest))[both]
+    wide, narrow = (np.median((each.latest - each.earliest)[both]) / 60.0 for each in (found, true))
+    before = true.state == fire_arrival.BEFORE
+    print(f"{both.sum():,} places; model output every {np.median(np.diff(own.times)):.0f} s")
+    print(f"  error {np.abs(error).mean():.0f} min in the mean, bias {error.mean():+.1f} min")
+    print(f"  between earliest and latest: {100.0 * within.mean():.0f} %; median width {wide:.0f} min")
+    print(f"  median width with times of its own {narrow:.0f} min")
+    missed = (true.state == fire_arrival.REACHED) & (found.state == fire_arrival.NEVER)
+    added = (true.state == fire_arrival.NEVER) & (found.state == fire_arrival.REACHED)
+    print(f"  reached, by fluxes never: {missed.sum():,}; never, by fluxes reached: {added.sum():,}")
+    never = before & (found.state == fire_arrival.NEVER)
+    print(f"  burned before the run: {before.sum():,}, by fluxes never: {never.sum():,}")
+
+
+if __name__ == "__main__":
+    main()

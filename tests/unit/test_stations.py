@@ -1,0 +1,127 @@
+"""What signs and routes of stations show, how an exercise is told, and what is said of wrong files."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import small_stations
+from firetwin.errors import InputError
+from firetwin.run import times
+from firetwin.shot.settings import scene_file
+from firetwin.shot.settings.settings import StationSettings
+from firetwin.shot.shot import Shot
+from firetwin.shot.stations import station_signs
+from firetwin.stations import describe, fire_arrival, measures, reading
+from firetwin.stations.records import EXERCISE, Station
+from firetwin_core import run as runs
+
+ROWS = [
+    (1, "Fact Station", 38.9030, -120.5920, "fire station", "fact"),
+    (2, "Base Two", 38.9060, -120.5900, "exercise base", "exercise"),
+    (3, "Elsewhere", 10.0, 20.0, "fire station", "fact"),
+]
+RESOURCES = [
+    (2, "engine/3", 2, 60.0, 5.0, "exercise"),
+    (2, "helicopter/2", 1, 200.0, 30.0, "exercise"),
+    (1, "engine/6", 1, None, None, "fact"),
+]
+
+
+@pytest.fixture
+def shot_of(make_run, tmp_path):
+    """A shot of the small run with stations: shot_of(resources, **settings)."""
+    run, path = make_run(), tmp_path / "scene.toml"
+    path.write_text('run = "run"\n[time]\nframes = 2\n')
+
+    def make(resources=RESOURCES, **more):
+        file = small_stations.write(tmp_path / "stations.gpkg", ROWS, resources)
+        settings = replace(scene_file.read(path), stations=StationSettings(enabled=True, file=file, **more))
+        return Shot(settings, runs.open(run))
+
+    return make
+
+
+def test_signs_have_name_kind_resources_minutes_and_origin(shot_of):
+    shot = shot_of()
+    fact, base = station_signs.signs(shot)  # one lies beyond the ground
+    assert (fact.name, fact.origin, fact.lines) == ("Fact Station", "fact", ("fire station", "1 x engine/6"))
+    far = np.hypot(
+        *(shot.ground.point(38.906, -120.59) - shot.ground.point(*station_signs.ignition(shot)))[0, :2]
+    )
+    least = 5.0 + 1.4 * far / 1000.0
+    assert base.lines == (
+        "exercise base",
+        "2 x engine/3, 1 x helicopter/2",
+        f"{least:.0f} min to the ignition",
+        EXERCISE,
+    )
+
+
+def test_a_sign_says_when_the_fire_reaches_it_where_that_is_asked_for(shot_of):
+    shot = shot_of(show=("fire",))
+    fact, base = station_signs.signs(shot)
+    found = fire_arrival.sample(shot.run, [fact.latitude, base.latitude], [fact.longitude, base.longitude])
+    assert found.state.tolist() == [fire_arrival.REACHED, fire_arrival.NEVER]
+    assert fact.lines == (f"fire: {times.text(found.utc(shot.run, 0)[0], shot.settings.time.zone)}",)
+    assert base.lines[0].startswith("fire: never; at ")
+    assert base.lines[1:] == (EXERCISE,)
+
+
+def test_what_an_exercise_adds_to_a_fact_is_an_exercise(shot_of, tmp_path):
+    invented = [(1, "engine/3", 1, None, None, "exercise")]
+    for show, origin in ((("kind", "resources"), "exercise"), (("kind",), "fact")):
+        fact = station_signs.signs(shot_of(invented, show=show))[0]
+        assert fact.origin == origin
+        assert (EXERCISE in fact.lines) == (origin == "exercise")
+
+
+def test_air_goes_straight_and_the_ground_by_roads(tmp_path):
+    to = (39.0 + 10.0 / 111.02, -120.5)  # 10 km to the north
+    rows = [(k, f"Station {k}", 39.0, -120.5, "", "fact") for k in range(1, 5)]
+    known = [("engine/3", 60.0, 3.0), ("helicopter/1", 60.0, 3.0), ("engine/3", None, 3.0)]
+    sent = [(1, *known[0]), (2, *known[0]), (2, *known[1]), (3, *known[2])]
+    resources = [(station, type_, 1, speed, minutes, "fact") for station, type_, speed, minutes in sent]
+    found = reading.read(small_stations.write(tmp_path / "stations.gpkg", rows, resources))
+    least = measures.least_minutes(found, to)
+    np.testing.assert_allclose(least, [3.0 + 14.0, 3.0 + 10.0, np.nan, np.nan], atol=0.05)
+
+
+def test_a_sign_sums_up_resources_and_has_a_short_name(shot_of):
+    many = [small_stations.resource(k, 1, f"engine/{k}", k) for k in range(1, 6)]
+    assert describe.count_types(many, 3) == "5 x engine/5, 4 x engine/4, 3 x engine/3 and 2 more types"
+    shot = shot_of()
+    at = shot.settings.stations.file
+    names = ["A " * 99, " \n"]
+    small_stations.put(at, [Station(k, name, *ROWS[0][2:4], "fact", 1) for k, name in enumerate(names, 1)])
+    first, second = station_signs.signs(shot)
+    assert (len(first.name), second.name) == (80, "station 2")
+
+
+def test_routes_are_straight_lines_or_the_users(shot_of, tmp_path):
+    assert not station_signs.routes(shot_of(), [])
+    shot = shot_of(routes=True)
+    found = station_signs.routes(shot, station_signs.signs(shot))
+    assert [route.origin for route in found] == ["fact", "exercise"]
+    latitude, longitude = station_signs.ignition(shot)
+    assert all(np.array_equal(route.line[-1], (longitude, latitude)) for route in found)
+    line = {"type": "LineString", "coordinates": [[-120.6, 38.9], [-120.59, 38.905], [-120.588, 38.906]]}
+    feature = {"type": "Feature", "properties": {"origin": "exercise"}, "geometry": line}
+    (tmp_path / "routes.geojson").write_text(json.dumps(feature))
+    own = replace(shot.settings.stations, routes_file=tmp_path / "routes.geojson")
+    (route,) = station_signs.routes(Shot(replace(shot.settings, stations=own), shot.run), [])
+    assert (len(route.line), route.origin) == (3, "exercise")
+
+
+def test_files_are_inputs_of_pictures_only_where_stations_are_on(shot_of):
+    settings = shot_of().settings
+    assert set(station_signs.inputs(settings)) == {"stations"}
+    assert not station_signs.inputs(replace(settings, stations=replace(settings.stations, enabled=False)))
+
+
+def test_stations_without_a_file_are_an_error_that_names_the_key(shot_of):
+    settings = shot_of().settings
+    settings.path.write_text('run = "run"\n[stations]\nenabled = true\n')
+    with pytest.raises(InputError, match=r"scene\.toml:3:\d+: stations\.enabled needs stations\.file"):
+        station_signs.check(scene_file.read(settings.path))
+    station_signs.check(settings)

@@ -1,0 +1,258 @@
+"""`firetwin stations` and `firetwin resources`: what they print, what they write, and how they fail."""
+
+import json
+from datetime import timedelta
+
+import numpy as np
+import pytest
+from firetwin import cli, commands
+from firetwin.run import times
+from firetwin.stations import fire_arrival, page, reading, search, station_search, writing
+from firetwin.stations.arguments import _length, parse_types
+from firetwin.stations.records import EXERCISE
+from firetwin.stations.search import Query
+from firetwin_core import run as runs
+from random_stations import CENTRE, NOON, random_stations
+from small_run import RUN_TOML, small_fields
+from station_files import write_hifld
+
+
+def firetwin(capsys, *arguments):
+    """Run the command in this process: status, stdout, stderr."""
+    try:
+        status = cli.main([*map(str, arguments)])
+    except SystemExit as error:
+        status = error.code
+    out, err = capsys.readouterr()
+    return status, out, err
+
+
+@pytest.fixture
+def run(make_run):
+    """The small run of the King Fire's name, with a front that goes north."""
+    fields = small_fields()
+    y = fields["fuel_latitude"]
+    arrival = np.repeat((10.0 + 10_000.0 * (y - y[0]))[:, None], len(fields["fuel_longitude"]), axis=1)
+    arrival[7] = np.nan
+    return make_run(fuel_arrival_time=arrival)
+
+
+@pytest.fixture
+def exercise(tmp_path, run, capsys):
+    path = tmp_path / "exercise.gpkg"
+    assert firetwin(capsys, "stations", "exercise", run, "--out", path)[0] == 0
+    return path
+
+
+def test_import_says_what_it_did_and_info_lists_it(tmp_path, capsys):
+    path, out = write_hifld(tmp_path / "stations.csv"), tmp_path / "places.gpkg"
+    status, printed, said = firetwin(
+        capsys, "stations", "import", path, "--out", out, "--licence", "mine", "--date", "2026-11-01"
+    )
+    assert (status, printed) == (0, f"{out}\n")
+    assert "4 stations; source HIFLD fire stations, licence mine, data of 2026-11-01" in said
+    assert said.count("refused") == 3
+    status, printed, _ = firetwin(capsys, "stations", "info", out)
+    assert status == 0
+    assert "stations   3" in printed
+    assert "data of 2026-11-01" in printed
+    assert EXERCISE not in printed
+    status, printed, said = firetwin(capsys, "stations", "info", out, "--json")
+    assert json.loads(printed)["origins"] == {"fact": 3}
+
+
+def test_an_exercise_is_labelled_wherever_it_is_shown(exercise, capsys):
+    for command in (("stations", "info"), ("resources",)):
+        assert firetwin(capsys, *command, exercise)[1].startswith(f"{EXERCISE}\n")
+        found = json.loads(firetwin(capsys, *command, exercise, "--json")[1])
+        assert (found["exercise"], found["label"]) == (True, EXERCISE)
+    assert reading.read(exercise).exercise
+
+
+def test_an_exercise_elsewhere_needs_bases(tmp_path, make_run, capsys):
+    folder = make_run(toml=RUN_TOML.replace('event = "king_fire"', ""))
+    out = tmp_path / "exercise.gpkg"
+    status, _, said = firetwin(capsys, "stations", "exercise", folder, "--out", out)
+    assert status == 1
+    assert "name a list of bases by --towns" in said
+    (tmp_path / "towns.csv").write_text("name,lat,lon\nCamp,38.9,-120.6\n")
+    towns = ("--towns", tmp_path / "towns.csv", "--seed", "4")
+    assert firetwin(capsys, "stations", "exercise", folder, "--out", out, *towns)[0] == 0
+    assert [each.name for each in reading.read(out).stations] == ["Exercise base Camp"]
+
+
+def test_the_five_words_as_text_and_as_json(exercise, run, capsys):
+    asked = (
+        *("--run", run, "--near", "ignition", "--within", "60km", "--minutes", 90, "--kind", "engine"),
+        *("--type", "1-3", "--mode", "attack", "--available-at", "2014-09-17T16:00-07:00"),
+    )
+    status, printed, said = firetwin(capsys, "resources", exercise, *asked)
+    assert status == 0
+    assert "ignition: 38.7820, -120.6040 (Wikipedia" in said
+    for words in (
+        "min  ",
+        "cost, USD",
+        "roads are 1.4 times",
+        "12 h of work",
+        "source     exercise for King",
+    ):
+        assert words in printed
+    answer = json.loads(firetwin(capsys, "resources", exercise, *asked, "--json")[1])
+    assert answer["query"]["types"] == ["1", "2", "3"]
+    assert answer["matches"]
+    for match in answer["matches"]:
+        assert match["resource"]["type"] == "engine/3"
+        assert match["resource"]["origin"] == "exercise"
+        assert match["minutes"] <= 90
+        assert match["distance_km"] <= 60
+        assert match["fire"]["state"] == "outside of the run"
+    asked += ("--tonnes-per-hour", 9, "--budget", 100000)
+    chosen = json.loads(firetwin(capsys, "resources", exercise, *asked, "--json")[1])
+    assert chosen["tonnes_per_hour"] >= 9.0
+    assert chosen["candidates"] == len(answer["matches"])
+    assert chosen["cost"] == pytest.approx(sum(each["cost"] for each in chosen["matches"]))
+
+
+def test_no_set_is_a_failure_that_says_why(exercise, capsys):
+    asked = ("--near", "38.9,-120.6", "--tonnes-per-hour", 20)
+    status, printed, said = firetwin(capsys, "resources", exercise, *asked, "--budget", 10)
+    assert status == 1
+    assert "firetwin: no set: the cheapest set costs" in said
+    assert "0 resources of" in printed
+    status, _, said = firetwin(capsys, "resources", exercise, *asked[:3], 9999)
+    assert status == 1
+    assert "together deliver" in said
+
+
+STATIONS = (
+    "name,lat,lon\nSouth,38.9005,-120.592\nMiddle,38.904,-120.592\nNorth,38.9096,-120.592\nFar,39.5,-120.5\n"
+)
+
+
+def test_what_lies_ahead_of_the_fire_and_when(tmp_path, run, capsys):
+    (tmp_path / "stations.csv").write_text(STATIONS)
+    out = tmp_path / "places.gpkg"
+    firetwin(capsys, "stations", "import", tmp_path / "stations.csv", "--out", out)
+    every = json.loads(firetwin(capsys, "resources", out, "--run", run, "--json")[1])
+    states = {each["station"]["name"]: each["fire"] for each in every["matches"]}
+    assert [states[name]["state"] for name in ("South", "Middle", "North", "Far")] == [
+        *("reached", "reached", "never", "outside of the run"),
+    ]
+    assert states["North"]["time"] is None
+    opened = runs.open(run)
+    wanted = times.iso(times.utc(opened, 10.0 + 10_000.0 * (38.904 - opened.fuel_latitude[0])))
+    assert states["Middle"]["time"] == wanted
+    assert states["Middle"]["earliest"] <= wanted <= states["Middle"]["latest"]
+    later = times.utc(opened, 30.0).isoformat()
+    asked = ("resources", out, "--run", run, "--ahead", "--available-at", later)
+    status, printed, _ = firetwin(capsys, *asked)
+    assert status == 0
+    middle, north = (line for line in printed.splitlines() if line.startswith(" ?"))
+    assert "Middle" in middle
+    assert "PDT (16 Sep" in middle
+    assert "North" in north
+    assert "never; at 0.2 km 16 Sep" in north  # its cell does not burn, the one beside it does
+    printed = firetwin(capsys, *asked, "--clearance", "50m")[1]
+    for line in ("1 fire: there before that time", "1 fire: never", "1 fire: outside of the run"):
+        assert f"left out: {line}" in printed
+
+
+def test_the_head_is_where_the_fire_is_then(exercise, run, capsys):
+    opened = runs.open(run)
+    at = times.utc(opened, 40.0).isoformat()
+    status, _, said = firetwin(
+        capsys, "resources", exercise, "--run", run, "--near", "head", "--available-at", at
+    )
+    assert status == 0
+    latitude, longitude = map(float, said.partition("head: ")[2].partition(" (")[0].split(","))
+    front = opened.fuel_latitude[0] + 30.0 / 10_000.0
+    assert abs(latitude - front) < 0.002
+    assert opened.fuel_longitude[0] < longitude < opened.fuel_longitude[-1]
+    before = times.utc(opened, -60.0).isoformat()
+    status, _, said = firetwin(
+        capsys, "resources", exercise, "--run", run, "--near", "head", "--available-at", before
+    )
+    assert status == 1
+    assert "has no fire, so no head" in said
+    assert commands._fire(run).head(times.utc(opened, -60.0)) is None
+
+
+@pytest.mark.parametrize(
+    ("options", "reason"),
+    [
+        (["--near", "ignition"], "--near: ignition is that of a run's fire; name the run by --run"),
+        (["--within", "60km"], "--within: needs a place to go to"),
+        (["--tonnes-per-hour", "2"], "--tonnes-per-hour: needs a place"),
+        (["--ahead"], "--ahead: needs the fire of a run"),
+        (["--near", "38.9"], "must be ignition, head, or degrees"),
+        (["--near", "98.9,1"], "must be ignition, head, or degrees"),
+        (["--within", "60 furlongs"], "must be a length such as 60km"),
+        (["--minutes", "0"], "must be a number above 0"),
+        (["--type", "3-1"], "goes backwards; write 1-3"),
+        (["--mode", "shopping"], "is none of attack, structure"),
+        (["--available-at", "noon"], "must be a time with its zone"),
+        (["--kind", ","], "is empty"),
+        (["--stations", "--kind", "engine"], "--kind: is a condition on resources"),
+    ],
+)
+def test_mistakes_are_named(exercise, capsys, options, reason):
+    status, printed, said = firetwin(capsys, "resources", exercise, *options)
+    assert (status, printed) == (2, "")
+    assert reason in said
+
+
+def test_a_head_needs_a_time(exercise, run, capsys):
+    status, _, said = firetwin(capsys, "resources", exercise, "--run", run, "--near", "head")
+    assert status == 2
+    assert "name it by --available-at" in said
+
+
+def test_a_file_that_is_there_is_kept(exercise, run, capsys):
+    before = exercise.read_bytes()
+    status, _, said = firetwin(capsys, "stations", "exercise", run, "--out", exercise)
+    assert status == 2
+    assert "exists already" in said
+    assert exercise.read_bytes() == before
+    assert (
+        firetwin(capsys, "stations", "exercise", run, "--out", exercise, "--overwrite", "--seed", 1)[0] == 0
+    )
+    assert exercise.read_bytes() != before
+    assert "name a .gpkg file" in firetwin(capsys, "stations", "exercise", run, "--out", "x.db")[2]
+
+
+def test_a_file_without_any_station_is_not_written(tmp_path, capsys):
+    (tmp_path / "stations.csv").write_text("name,lat,lon\nA,,\n")
+    status, _, said = firetwin(
+        capsys, "stations", "import", tmp_path / "stations.csv", "--out", tmp_path / "p.gpkg"
+    )
+    assert status == 1
+    assert "has no station that can be kept" in said
+    assert not (tmp_path / "p.gpkg").exists()
+
+
+def test_stations_by_distance():
+    station_file = random_stations(5)
+    found = station_search.survey(station_file, Query(near=CENTRE, within_km=50.0))
+    distances = [each.distance_km for each in found.matches]
+    assert distances == sorted(distances)
+    assert len(distances) + sum(found.left_out.values()) == len(station_file.stations)
+    assert max(distances) <= 50.0
+    assert [each.distance_km for each in station_search.survey(station_file, Query()).matches] == [None] * 6
+
+
+def test_an_answer_without_a_run_is_not_ahead_of_anything(tmp_path):
+    station_file = random_stations(5, gaps=0.0)
+    writing.write(station_file, tmp_path / "p.gpkg")
+    read = reading.read(tmp_path / "p.gpkg")
+    answer = page.Answer(read, Query(near=CENTRE), search.survey(read, Query(near=CENTRE)))
+    assert answer.ahead(1.0) is answer
+    assert "fire" not in answer.plain()["matches"][0]
+    assert page.facts(read)["windows"]["begins"] >= times.iso(NOON - timedelta(hours=6))
+    assert len(fire_arrival.STATES) == 4
+
+
+def test_words_of_options():
+    assert _length("60km") == 60.0
+    assert _length("40 mi") == pytest.approx(64.37, abs=0.01)
+    assert _length("500m") == 0.5
+    assert parse_types("1-3,VLAT") == ("1", "2", "3", "vlat")
