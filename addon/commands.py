@@ -387,7 +387,7 @@ def assets(arguments: argparse.Namespace) -> None:
 def schema(arguments: argparse.Namespace) -> None:
     """Print the JSON Schema of scene files."""
     from .shot.schema.json_schema import json_schema
-    from .shot.settings.settings import Settings
+    from .shot.settings import Settings
 
     print(json.dumps(json_schema(Settings), indent=1, ensure_ascii=False))
 
@@ -489,7 +489,7 @@ def _fitted(
     from .progress import READING, notify_if_slow
     from .run import times
     from .shot import auto_framing
-    from .shot.settings.settings import Time
+    from .shot.sections import Time
 
     opened, window = _open(run), Time(*asked)
     first, last = (times.utc(opened, float(opened.times[i])) for i in (0, -1))

@@ -19,7 +19,7 @@ from typing import Any, get_args
 from firetwin.shot import passes
 from firetwin.shot.cameras import rigs
 from firetwin.shot.schema import Field, Key, fields, plain
-from firetwin.shot.settings.settings import Camera, Settings
+from firetwin.shot.settings import Camera, Settings
 
 FOLDER = Path(__file__).parent
 ROOT = FOLDER.parent

@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 
 from ..jobs import worker
 from ..progress import MessageCallback, Progress, no_message, silent
+from ..shot import sections, settings
 from ..shot.cameras.rigs.drone import CameraKey, Drone
 from ..shot.passes import file_of
-from ..shot.settings import settings
 from ..shot.shot import Shot
 from .harness import OURS, Bench
 from .smoke import VOXEL, ring
@@ -204,9 +204,9 @@ def _file(folder: Path, draw: str) -> settings.Settings:
         path=folder / "scene.toml",
         run=folder / "sample",
         cache=folder / "cache",
-        time=settings.Time(start=MOMENT, frames=1),
-        smoke=settings.SmokeSettings(spin_up=300.0, draw=draw),
-        forest=settings.Forest(budget=20_000),
+        time=sections.Time(start=MOMENT, frames=1),
+        smoke=sections.SmokeSettings(spin_up=300.0, draw=draw),
+        forest=sections.Forest(budget=20_000),
         cameras=(settings.Camera(rig=Drone(keys=(VIEW,))),),
         render=settings.Render(resolution=FRAME, samples=SAMPLES, denoise=True, passes=PASSES),
     )

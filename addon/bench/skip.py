@@ -17,8 +17,8 @@ from .. import memory
 from ..data import sample
 from ..jobs import worker
 from ..progress import MessageCallback, Progress, no_message, silent
+from ..shot import sections, settings
 from ..shot.cameras.rigs.drone import CameraKey, Drone
-from ..shot.settings import settings
 from .harness import OURS, Bench
 from .timing import Stopwatch, Times
 
@@ -80,9 +80,9 @@ def scene_file(folder: Path, skip: bool) -> settings.Settings:
         path=folder / "scene.toml",
         run=folder / "run",
         cache=folder / "cache",
-        time=settings.Time(start=MOMENT, frames=1),
-        forest=settings.Forest(draw_distance=REACH),
-        smoke=settings.SmokeSettings(enabled=False),
+        time=sections.Time(start=MOMENT, frames=1),
+        forest=sections.Forest(draw_distance=REACH),
+        smoke=sections.SmokeSettings(enabled=False),
         cameras=(settings.Camera("drone", Drone(keys=(VIEW,))),),
         render=settings.Render(resolution=RESOLUTION, samples=SAMPLES, passes=("rgb",), cull=skip),
     )

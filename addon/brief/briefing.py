@@ -14,7 +14,7 @@ from ..errors import UsageError
 from ..run import areas, content, info, labels, observations, readers, score, times, zone
 from ..run.labels import Label
 from ..run.observations import Perimeter
-from ..shot.settings.settings import Settings
+from ..shot.settings import Settings
 from ..shot.source import ShotSource
 from ..shot.terrain.elevation import Elevation
 from ..stations import reading

@@ -18,7 +18,7 @@ from ..run.content import sha256
 from ..shot import comparison, frames
 from ..shot.runs import scene_runs
 from ..shot.schema import frame_list
-from ..shot.settings.settings import Settings
+from ..shot.settings import Settings
 from ..shot.shot import Shot
 from ..shot.tiles import tile_terms
 from ..smoke import sources

@@ -13,7 +13,7 @@ import bpy
 from firetwin_core.run import Run
 
 from ..blender import compat, owned
-from ..shot.settings.settings import Settings
+from ..shot.settings import Settings
 
 TRANSPARENT = 256
 """Transparent bounces of a ray. Blender 4.5 bounds a volume by a hull of boxes 8 voxels wide. The faces of

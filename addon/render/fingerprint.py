@@ -17,8 +17,7 @@ from ..run.content import fingerprint
 from ..shot import comparison, frames, passes, picture_credits, schema
 from ..shot.cameras import mount
 from ..shot.fire import observed
-from ..shot.settings import code_fingerprint
-from ..shot.settings.settings import Camera, Settings
+from ..shot.settings import Camera, Settings, code_fingerprint
 from ..shot.shot import Shot
 from ..shot.stations import labels, station_signs
 from ..shot.surface import globe_picture, land_use, orthophoto

@@ -20,7 +20,8 @@ from firetwin_core import sensor
 from ..blender import compat, nodes
 from ..blender.nodes import Tree, Value
 from ..blender.owned import Stage
-from ..shot.settings.settings import BANDS, Settings
+from ..shot.sections import BANDS
+from ..shot.settings import Settings
 from .finish import edl, overlay, thermal
 
 RANGE = 180.0, 1800.0  # K

@@ -16,7 +16,7 @@ from ..blender import compat, nodes, owned
 from ..blender.owned import Stage
 from ..shot import passes
 from ..shot.passes import Pass, RenderedPass
-from ..shot.settings.settings import Settings
+from ..shot.settings import Settings
 from . import groups
 from .picture import Picture
 

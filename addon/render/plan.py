@@ -12,7 +12,7 @@ from ..shot.cameras import mount
 from ..shot.runs import scene_runs
 from ..shot.schema import frame_list
 from ..shot.schema.did_you_mean import suggestion
-from ..shot.settings.settings import Camera
+from ..shot.settings import Camera
 from ..shot.shot import Shot
 from .fingerprint import Fingerprints
 from .picture import Picture

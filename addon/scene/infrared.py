@@ -27,7 +27,7 @@ from firetwin_core import sensor
 from ..blender import nodes, owned
 from ..blender.owned import Stage
 from ..shot.fire import air_temperature as model
-from ..shot.settings.settings import BANDS
+from ..shot.sections import BANDS
 from ..shot.shot import Shot
 from . import haze, temperature
 

@@ -19,7 +19,7 @@ from ..progress import Progress, silent
 from ..run import times
 from . import passes
 from .cameras.path import Path
-from .settings.settings import Camera
+from .settings import Camera
 from .shot import Shot
 
 if TYPE_CHECKING:

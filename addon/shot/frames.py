@@ -15,7 +15,8 @@ from .schema import frame_list
 if TYPE_CHECKING:
     from firetwin_core.run import Run
 
-    from .settings.settings import Camera, Settings, Time
+    from .sections import Time
+    from .settings import Camera, Settings
 
 
 @dataclass(frozen=True)

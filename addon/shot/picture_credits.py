@@ -15,8 +15,8 @@ from .surface import orthophoto
 from .tiles import tile_cut
 
 if TYPE_CHECKING:
+    from .settings import Settings
     from .settings.protocols import ShotView
-    from .settings.settings import Settings
     from .shot import Shot
     from .tiles.tile_cut import TileCut
 

@@ -27,8 +27,9 @@ from .fire.smoke_scale import Scale
 from .frames import Frames
 from .runs import scene_runs
 from .schema import frame_list
+from .sections import SMOKE_METHODS
+from .settings import Camera, Settings
 from .settings.protocols import CameraSettings
-from .settings.settings import SMOKE_METHODS, Camera, Settings
 from .terrain import elevation
 from .terrain.elevation import Elevation
 from .terrain.terrain import Terrain

@@ -6,8 +6,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .settings import scene_file
-from .settings.settings import Settings
+from .settings import Settings, scene_file
 
 if TYPE_CHECKING:
     from .shot import Shot

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..shot import passes
-from ..shot.settings.settings import Camera, Settings
+from ..shot.settings import Camera, Settings
 from ..shot.shot import Shot
 
 _NEAR, _BEHIND = 0.1, 25_000.0  # nearest distance as fraction of the fire's, and m beyond the fire

@@ -13,7 +13,8 @@ import bpy
 
 from ..blender import owned
 from ..shot.schema import fields, plain
-from ..shot.settings.settings import Settings, Time
+from ..shot.sections import Time
+from ..shot.settings import Settings
 from . import camera_list, keys
 from .job import InThread, Steps
 

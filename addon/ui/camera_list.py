@@ -25,7 +25,7 @@ import bpy
 
 from ..errors import Error, InputError
 from ..shot.schema import Field, fields
-from ..shot.settings.settings import Camera, Settings
+from ..shot.settings import Camera, Settings
 from . import changed_settings, tables
 
 

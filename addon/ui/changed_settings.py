@@ -12,7 +12,7 @@ import json
 import bpy
 
 from ..shot.schema import Field, fields
-from ..shot.settings.settings import Settings
+from ..shot.settings import Settings
 from . import keys
 
 ALONE = ("terrain", "forest", "fire", "smoke", "light", "labels", "stations")

@@ -11,7 +11,7 @@ from ..scene.camera import ground_raycast, read_edits
 from ..shot.cameras import rigs, rotation
 from ..shot.cameras.lenses import LENSES
 from ..shot.cameras.rigs._view import View
-from ..shot.settings.settings import Camera
+from ..shot.settings import Camera
 from . import camera_edits, camera_list, choice, job, keys, run, working
 from .job import InThread, Message, Steps
 from .working import Working

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import bpy
 
 from ..shot.schema import fields
-from ..shot.settings.settings import OtherRun
+from ..shot.settings import OtherRun
 from . import sections
 
 FIRETWIN_PG_otherrun = sections.group(OtherRun)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..shot.settings.settings import MOST_RUNS
+from ..shot.settings import MOST_RUNS
 from . import job, working
 from .text import paragraph
 

@@ -10,7 +10,7 @@ import bpy
 from ..errors import Error
 from ..run import labels
 from ..shot.schema import fields
-from ..shot.settings.settings import TileSettings
+from ..shot.sections import TileSettings
 from ..stations import reading
 from ..stations.records import Station
 from ..tiles import policies

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..shot.settings.settings import Render
+from ..shot.settings import Render
 from . import keys
 
 _PACKAGE = __package__.rpartition(".")[0]

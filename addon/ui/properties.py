@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..farm import plan
-from ..shot.settings.settings import Settings
+from ..shot.settings import Settings
 from . import (
     camera_list,
     farm,

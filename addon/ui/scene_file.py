@@ -15,8 +15,7 @@ import bpy
 from .. import files
 from ..errors import Error
 from ..shot.schema import validate
-from ..shot.settings import scene_file, toml_update
-from ..shot.settings.settings import Settings
+from ..shot.settings import Settings, scene_file, toml_update
 from . import camera_edits, camera_list, keys, other_runs, sections
 
 

@@ -14,7 +14,7 @@ from typing import Any
 import bpy
 
 from ..shot.schema import Field, fields, summary
-from ..shot.settings.settings import Settings
+from ..shot.settings import Settings
 from . import changed_settings, keys
 from .tables import from_text, to_text
 

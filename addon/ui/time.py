@@ -10,7 +10,7 @@ import bpy
 
 from ..run import times
 from ..shot.schema import fields
-from ..shot.settings.settings import Time
+from ..shot.sections import Time
 from ..shot.shot import Shot
 from . import job, keys, rows, run, working
 from .text import labelled

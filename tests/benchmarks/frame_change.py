@@ -14,8 +14,8 @@ from firetwin.bench.harness import OURS, Bench
 from firetwin.bench.timing import LEAST, Stopwatch, Times
 from firetwin.jobs import worker
 from firetwin.progress import MessageCallback, Progress, no_message, silent
+from firetwin.shot import sections, settings
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
-from firetwin.shot.settings import settings
 from firetwin.shot.shot import Shot
 
 START, END = datetime(2014, 9, 17, 23, 0, tzinfo=UTC), datetime(2014, 9, 17, 23, 24, tzinfo=UTC)
@@ -43,8 +43,8 @@ def scene_file(folder: Path) -> settings.Settings:
         path=folder / "scene.toml",
         run=folder / "sample",
         cache=folder / "cache",
-        time=settings.Time(start=START, end=END, frames=FRAMES),
-        smoke=settings.SmokeSettings(enabled=False),
+        time=sections.Time(start=START, end=END, frames=FRAMES),
+        smoke=sections.SmokeSettings(enabled=False),
         cameras=(settings.Camera(rig=Drone(keys=(VIEW,))),),
     )
 

@@ -21,8 +21,8 @@ from firetwin.bench.timing import Stopwatch, Times
 from firetwin.jobs import worker
 from firetwin.progress import MessageCallback, Progress, no_message, silent
 from firetwin.run import sun
+from firetwin.shot import sections, settings
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
-from firetwin.shot.settings import settings
 from firetwin.shot.shot import Shot
 from firetwin_core import flow, volume
 from numpy.typing import NDArray
@@ -121,9 +121,9 @@ def scene_file(folder: Path) -> settings.Settings:
         path=folder / "scene.toml",
         run=folder / "sample",
         cache=folder / "cache",
-        time=settings.Time(start=MOMENT, frames=1),
-        smoke=settings.SmokeSettings(method="flow", voxel_size=VOXEL),
-        light=settings.Light(exposure=0.5),
+        time=sections.Time(start=MOMENT, frames=1),
+        smoke=sections.SmokeSettings(method="flow", voxel_size=VOXEL),
+        light=sections.Light(exposure=0.5),
         cameras=(settings.Camera(rig=Drone(keys=(VIEW,), focal_length=LENS)),),
         render=settings.Render(resolution=RESOLUTION, samples=SAMPLES, passes=("rgb",)),
     )

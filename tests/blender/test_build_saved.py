@@ -9,7 +9,7 @@ from firetwin.blender import nodes
 from firetwin.scene import build
 from firetwin.scene.forest import levels, models, preview
 from firetwin.shot.cameras.rigs.satellite import Satellite
-from firetwin.shot.settings.settings import Camera
+from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core import forest
 from firetwin_core import run as runs

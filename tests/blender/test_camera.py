@@ -10,7 +10,7 @@ from firetwin.shot.cameras import targets
 from firetwin.shot.cameras.rigs.drone import Drone
 from firetwin.shot.cameras.rigs.lookout import Lookout, LookoutKey
 from firetwin.shot.cameras.rigs.satellite import Satellite
-from firetwin.shot.settings.settings import Camera
+from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core import lod
 from mathutils import Vector

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import bpy
 import firetwin
-from firetwin.shot.settings.settings import OtherRun
+from firetwin.shot.settings import OtherRun
 from firetwin.ui import other_runs
 
 

@@ -8,13 +8,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from firetwin.scene import glow
+from firetwin.shot import sections
+from firetwin.shot import settings as scene_settings
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.fire import emissions
 from firetwin.shot.fire.fire import Fire
 from firetwin.shot.fire.smoke_scale import Scale
 from firetwin.shot.light import exposure, exposure_meter, sky
-from firetwin.shot.settings import settings as scene_settings
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 
@@ -66,8 +67,8 @@ def filmed(settings):
         )
         return replace(
             settings,
-            time=scene_settings.Time(start=moment, end=moment if frames == 1 else None, frames=frames),
-            smoke=scene_settings.SmokeSettings(**smoke),
+            time=sections.Time(start=moment, end=moment if frames == 1 else None, frames=frames),
+            smoke=sections.SmokeSettings(**smoke),
             light=light or settings.light,
             cameras=(scene_settings.Camera("drone", Drone(keys=keys)),),
         )
@@ -170,7 +171,7 @@ def test_ground_behind_a_ridge_lies_in_its_shade_and_slopes_to_the_sun_are_brigh
 
 
 def test_what_the_scene_file_says_wins_at_every_frame(filmed, night_run):
-    given = scene_settings.Light(exposure=-1.25)
+    given = sections.Light(exposure=-1.25)
     assert np.all(stops(filmed(1.5, frames=3, light=given), night_run) == -1.25)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from firetwin.scene.fire import build as fire
 from firetwin.scene.fire import flames
-from firetwin.shot.settings.settings import FireSettings
+from firetwin.shot.sections import FireSettings
 from firetwin.shot.shot import Shot
 from firetwin_core import flux
 from firetwin_core import run as runs

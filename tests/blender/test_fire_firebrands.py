@@ -8,7 +8,7 @@ import pytest
 from firetwin.scene.fire import build as fire
 from firetwin.scene.fire import firebrands, flames
 from firetwin.shot.fire import burning
-from firetwin.shot.settings.settings import FireSettings
+from firetwin.shot.sections import FireSettings
 from firetwin.shot.shot import Shot
 from near_fire import FRAMES, moved
 

@@ -13,7 +13,7 @@ from firetwin.scene.fire import lamp_objects, lamps
 from firetwin.scene.smoke import build as smoke
 from firetwin.shot import auto_framing
 from firetwin.shot.fire.fire import Fire
-from firetwin.shot.settings.settings import Light, SmokeSettings
+from firetwin.shot.sections import Light, SmokeSettings
 from firetwin.shot.shot import Shot
 from near_fire import from_height
 

@@ -9,7 +9,7 @@ from firetwin.scene.forest import build as forest
 from firetwin.scene.forest import models, plot, stand, visibility
 from firetwin.scene.forest.material import TORCHING
 from firetwin.shot.cameras.rigs.satellite import Satellite
-from firetwin.shot.settings.settings import Camera
+from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin.shot.terrain.terrain import NEVER
 from firetwin_core import forest as core

@@ -7,7 +7,7 @@ import pytest
 from firetwin.scene.forest import stand
 from firetwin.scene.terrain import build as ground_build
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
-from firetwin.shot.settings.settings import Camera
+from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from mathutils.bvhtree import BVHTree
 

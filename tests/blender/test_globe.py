@@ -13,7 +13,7 @@ from firetwin.scene.terrain import globe, material
 from firetwin.shot import picture_credits
 from firetwin.shot.cameras.rigs.globe import Globe
 from firetwin.shot.runs import run_checks
-from firetwin.shot.settings.settings import Camera
+from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core.terrain import bilinear
 

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from firetwin.scene import build
-from firetwin.shot.settings.settings import LabelSettings
+from firetwin.shot.sections import LabelSettings
 from firetwin.shot.shot import Shot
 
 

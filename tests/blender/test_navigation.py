@@ -13,7 +13,7 @@ from firetwin.shot import schema
 from firetwin.shot.cameras import rigs, targets
 from firetwin.shot.cameras.lenses import LENSES
 from firetwin.shot.cameras.rigs.poses import Poses
-from firetwin.shot.settings.settings import TileSettings
+from firetwin.shot.sections import TileSettings
 from firetwin.shot.stations import station_signs
 from firetwin.ui import (
     camera_list,

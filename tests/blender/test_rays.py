@@ -13,7 +13,7 @@ from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.cameras.rigs.minimap import Minimap
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.cameras.rigs.vr import Vr
-from firetwin.shot.settings.settings import Camera
+from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 
 KEYS = (CameraKey(0.0, 38.825, -120.56, 400.0, "point", 38.845, -120.55, 0.0),)

@@ -12,8 +12,7 @@ from firetwin.scene.terrain import build as ground
 from firetwin.shot.cameras.rigs.drone import Drone
 from firetwin.shot.cameras.rigs.poses import Poses
 from firetwin.shot.cameras.rigs.satellite import Satellite
-from firetwin.shot.settings import scene_file
-from firetwin.shot.settings.settings import Camera
+from firetwin.shot.settings import Camera, scene_file
 from firetwin.shot.shot import Shot
 from mathutils import Euler
 

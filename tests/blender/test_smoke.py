@@ -15,8 +15,9 @@ from firetwin.blender import compat, owned
 from firetwin.scene.smoke import build as smoke
 from firetwin.shot.cameras import visibility
 from firetwin.shot.cameras.rigs.satellite import Satellite
+from firetwin.shot.sections import Light, SmokeSettings
+from firetwin.shot.settings import Camera
 from firetwin.shot.settings import scene_file as file
-from firetwin.shot.settings.settings import Camera, Light, SmokeSettings
 from firetwin.shot.shot import Shot
 from firetwin.smoke import bake, cache, sources
 from firetwin.smoke.sources.puffs import PuffSource

@@ -11,7 +11,7 @@ from firetwin.blender import owned
 from firetwin.render import layers
 from firetwin.scene import build
 from firetwin.scene.stations import buildings, routes, signs
-from firetwin.shot.settings.settings import StationSettings
+from firetwin.shot.sections import StationSettings
 from firetwin.shot.shot import Shot
 from firetwin.shot.stations import station_signs
 from firetwin.stations.records import EXERCISE

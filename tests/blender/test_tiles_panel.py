@@ -15,7 +15,7 @@ from firetwin.jobs.tiles import bounding_boxes, make
 from firetwin.jobs.worker import StoppedError
 from firetwin.scene.tiles import preview, reuse
 from firetwin.shot import schema
-from firetwin.shot.settings.settings import TileSettings
+from firetwin.shot.sections import TileSettings
 from firetwin.shot.terrain import tile_heights
 from firetwin.shot.tiles import tile_cut
 from firetwin.ui import job, keys, scene_file, tile_credits, tile_facts, tiles_panel

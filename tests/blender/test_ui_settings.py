@@ -10,8 +10,8 @@ import pytest
 from firetwin.errors import Error
 from firetwin.scene.build import PARTS
 from firetwin.shot import schema
+from firetwin.shot.settings import Render, Settings
 from firetwin.shot.settings import scene_file as file
-from firetwin.shot.settings.settings import Render, Settings
 from firetwin.ui import camera_list, changed_settings, job, keys, scene_file, sections
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st

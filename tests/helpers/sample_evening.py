@@ -5,7 +5,8 @@ from datetime import UTC, datetime
 import pytest
 from firetwin.data import sample
 from firetwin.run import readers
-from firetwin.shot.settings.settings import Forest, Settings, TerrainSettings, Time
+from firetwin.shot.sections import Forest, TerrainSettings, Time
+from firetwin.shot.settings import Settings
 from firetwin.shot.shot import Shot
 
 __all__ = ["run"]

@@ -14,7 +14,7 @@ from firetwin import cli
 from firetwin.render import plan
 from firetwin.shot import schema
 from firetwin.shot.cameras.rigs import kinds
-from firetwin.shot.settings.settings import Settings
+from firetwin.shot.settings import Settings
 from firetwin.shot.source import ShotSource
 from hypothesis import strategies as st
 

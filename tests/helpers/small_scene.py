@@ -20,9 +20,10 @@ from firetwin.scene.fire import material as flame_material  # noqa: E402
 from firetwin.scene.forest import material as tree_material  # noqa: E402
 from firetwin.scene.forest import preview  # noqa: E402
 from firetwin.scene.terrain import material as ground_material  # noqa: E402
+from firetwin.shot import sections  # noqa: E402
+from firetwin.shot import settings as scene_settings  # noqa: E402
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone  # noqa: E402
 from firetwin.shot.fire.smoke_scale import Scale  # noqa: E402
-from firetwin.shot.settings import settings as scene_settings  # noqa: E402
 from firetwin.shot.shot import Shot  # noqa: E402
 from firetwin.smoke import domains  # noqa: E402
 from firetwin_core import run as runs  # noqa: E402
@@ -121,14 +122,14 @@ def _settings(run_folder, folder):
         path=folder / "scene.toml",
         run=run_folder,
         cache=folder / "cache",
-        time=scene_settings.Time(
+        time=sections.Time(
             start=datetime(2014, 9, 17, 21, 0, tzinfo=UTC),
             end=datetime(2014, 9, 17, 22, 0, tzinfo=UTC),
             frames=3,
         ),
-        terrain=scene_settings.TerrainSettings(near_radius=0.0, apron=20_000.0),
-        forest=scene_settings.Forest(density="paper"),
-        smoke=scene_settings.SmokeSettings(enabled=False),
+        terrain=sections.TerrainSettings(near_radius=0.0, apron=20_000.0),
+        forest=sections.Forest(density="paper"),
+        smoke=sections.SmokeSettings(enabled=False),
         cameras=(scene_settings.Camera("drone", Drone(keys=keys)),),
         render=scene_settings.Render(resolution=(64, 36), samples=4, denoise=False),
     )

@@ -22,7 +22,7 @@ from firetwin.shot.cameras.rigs.orbit import Orbit
 from firetwin.shot.cameras.rigs.poses import Pose, Poses
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.cameras.rigs.tour import Stop, Tour
-from firetwin.shot.settings.settings import Camera
+from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core import sensor
 from mathutils import Vector

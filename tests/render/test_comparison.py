@@ -10,7 +10,7 @@ import rendered
 from firetwin.blender import owned
 from firetwin.render.store import Store
 from firetwin.scene.fire import build as fire
-from firetwin.shot.settings.settings import OtherRun
+from firetwin.shot.settings import OtherRun
 from firetwin.shot.shot import Shot
 from firetwin_core import sensor
 from scene_text import TINY

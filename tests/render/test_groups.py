@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 from firetwin.blender import compat
 from firetwin.render import groups
-from firetwin.shot.settings import settings as scene_settings
+from firetwin.shot import sections
+from firetwin.shot import settings as scene_settings
 from firetwin_core import sensor
 
 HEIGHT, WIDTH = 24, 40
@@ -25,7 +26,7 @@ def composite(scene, stage, tmp_path):
     """Run a group on arrays and numbers by its inputs' names; an output as (h, w, channels)."""
 
     def run(name, band="lwir", output="Image", bits=32, **inputs):
-        settings = scene_settings.Settings(thermal=scene_settings.Thermal(band=band))
+        settings = scene_settings.Settings(thermal=sections.Thermal(band=band))
         groups.build(settings, stage)
         tree = compat.new_compositor(scene)
         node = tree.nodes.new("CompositorNodeGroup")
@@ -79,7 +80,7 @@ def test_thermal_blend_is_the_papers_sum(composite):
 @pytest.mark.parametrize("band", ["lwir", "mwir"])
 def test_a_thermal_camera_reads_temperatures_off_radiance(composite, band):
     warm = kelvin(185.0, 1750.0)
-    limits = scene_settings.BANDS[band]
+    limits = sections.BANDS[band]
     made = composite(
         "Thermal Camera", band, "Kelvin", Radiance=sensor.radiance(warm, limits).astype(np.float32)
     )

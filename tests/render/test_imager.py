@@ -11,7 +11,7 @@ from firetwin.scene.terrain import build as ground
 from firetwin.shot import passes
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.satellites import imager
-from firetwin.shot.settings.settings import Camera
+from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core import sensor
 

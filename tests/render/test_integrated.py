@@ -13,7 +13,8 @@ from firetwin.render.sharing import open_session
 from firetwin.scene import build
 from firetwin.shot import passes
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
-from firetwin.shot.settings.settings import Camera, Time
+from firetwin.shot.sections import Time
+from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin.smoke import bake, close_up, sources
 from firetwin_core import sensor

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from firetwin.render import layers
 from firetwin.scene import build
-from firetwin.shot.settings.settings import LabelSettings
+from firetwin.shot.sections import LabelSettings
 from firetwin.shot.shot import Shot
 
 

@@ -14,7 +14,7 @@ from firetwin.shot import passes
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.cameras.rigs.mounted import Mounted
 from firetwin.shot.passes import masks
-from firetwin.shot.settings.settings import Camera
+from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core import sensor
 

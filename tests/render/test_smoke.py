@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from firetwin.render import layers
 from firetwin.scene import build
-from firetwin.shot.settings.settings import SmokeSettings
+from firetwin.shot.sections import SmokeSettings
 from firetwin.shot.shot import Shot
 from firetwin.smoke import bake
 

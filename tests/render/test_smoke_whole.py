@@ -10,7 +10,7 @@ from firetwin.render import engine
 from firetwin.scene import haze
 from firetwin.scene.smoke import build as smoke
 from firetwin.shot.fire.smoke_scale import Scale
-from firetwin.shot.settings.settings import SmokeSettings
+from firetwin.shot.sections import SmokeSettings
 from firetwin.shot.shot import Shot
 from firetwin.smoke import bake
 

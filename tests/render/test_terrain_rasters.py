@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from firetwin.scene import build
 from firetwin.shot.cameras.rigs.satellite import Satellite
-from firetwin.shot.settings.settings import Camera
+from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core import sensor
 

@@ -13,7 +13,7 @@ from firetwin.scene.terrain import build as ground
 from firetwin.shot.cameras import pixel_rays
 from firetwin.shot.cameras.rigs._key import CameraKey
 from firetwin.shot.cameras.rigs.vr import Vr
-from firetwin.shot.settings.settings import Camera
+from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core import sensor
 

@@ -15,8 +15,8 @@ from firetwin.errors import InputError
 from firetwin.jobs import build as build_job
 from firetwin.jobs import render as render_job
 from firetwin.jobs import worker
+from firetwin.shot.sections import SmokeSettings
 from firetwin.shot.settings import scene_file
-from firetwin.shot.settings.settings import SmokeSettings
 from firetwin.shot.shot import Shot
 from firetwin.shot.source import ShotSource
 from firetwin.smoke import bake

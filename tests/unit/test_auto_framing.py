@@ -13,8 +13,8 @@ from firetwin.shot import auto_framing
 from firetwin.shot.auto_framing import candidates, front, overview, straight_plume, visible_share, window
 from firetwin.shot.fire import emissions
 from firetwin.shot.runs import run_checks
+from firetwin.shot.sections import Time
 from firetwin.shot.settings import scene_file
-from firetwin.shot.settings.settings import Time
 from firetwin.shot.shot import Shot
 from firetwin.shot.source import ShotSource
 from small_run import small_fields

@@ -8,8 +8,9 @@ from firetwin.run import fuel_category as categories
 from firetwin.scene.forest import biomes, cover, field_lines, models, patterns, stand_structure, understorey
 from firetwin.scene.forest.biomes import Land, Season
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
-from firetwin.shot.settings import biome_names as named
-from firetwin.shot.settings.settings import Camera, Forest, Settings, TerrainSettings
+from firetwin.shot.sections import Forest, TerrainSettings
+from firetwin.shot.sections import biome_names as named
+from firetwin.shot.settings import Camera, Settings
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from small_run import FX, FY

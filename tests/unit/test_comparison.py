@@ -15,7 +15,7 @@ from firetwin.shot.cameras import path
 from firetwin.shot.cameras.rigs.drone import Drone
 from firetwin.shot.fire import fronts
 from firetwin.shot.runs import scene_runs
-from firetwin.shot.settings.settings import Camera
+from firetwin.shot.settings import Camera
 from firetwin.shot.source import ShotSource
 from small_run import RUN_TOML, small_fields, write_field
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from firetwin import cli
 from firetwin.shot import passes, schema
-from firetwin.shot.settings.settings import Settings
+from firetwin.shot.settings import Settings
 
 ROOT = Path(__file__).parents[2]
 GLOSSARY = (ROOT / "docs/glossary.md").read_text(encoding="utf-8")

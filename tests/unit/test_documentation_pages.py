@@ -8,7 +8,7 @@ import pytest
 from firetwin.shot import passes
 from firetwin.shot.cameras import rigs
 from firetwin.shot.schema import walk
-from firetwin.shot.settings.settings import Settings
+from firetwin.shot.settings import Settings
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"

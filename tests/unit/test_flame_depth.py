@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from firetwin.run import areas
 from firetwin.shot.fire import air_temperature, emissions, flame_depth
-from firetwin.shot.settings.settings import Forest, Settings, TerrainSettings, Time
+from firetwin.shot.sections import Forest, TerrainSettings, Time
+from firetwin.shot.settings import Settings
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from small_run import NT, RUN_TOML

@@ -12,7 +12,8 @@ from firetwin.shot.cameras import flight
 from firetwin.shot.cameras.path import hidden
 from firetwin.shot.cameras.rigs._key import CameraKey
 from firetwin.shot.cameras.rigs.drone import Drone
-from firetwin.shot.settings.settings import Camera, Forest, Settings, TerrainSettings, Time
+from firetwin.shot.sections import Forest, TerrainSettings, Time
+from firetwin.shot.settings import Camera, Settings
 from firetwin.shot.shot import Shot
 
 pyproj = pytest.importorskip("pyproj")

@@ -8,7 +8,8 @@ import pytest
 from firetwin.jobs import render
 from firetwin.render.picture import Picture
 from firetwin.shot.cameras.rigs.orbit import Orbit
-from firetwin.shot.settings.settings import Camera, Forest, Render, Settings, TerrainSettings, Time
+from firetwin.shot.sections import Forest, TerrainSettings, Time
+from firetwin.shot.settings import Camera, Render, Settings
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from hypothesis import given

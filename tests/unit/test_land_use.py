@@ -116,7 +116,8 @@ def test_no_plant_stands_on_water_roads_fields_and_buildings(make):
 
 
 def test_without_a_map_there_is_nothing(make_run):
-    from firetwin.shot.settings.settings import Settings, TerrainSettings
+    from firetwin.shot.sections import TerrainSettings
+    from firetwin.shot.settings import Settings
     from firetwin.shot.shot import Shot
 
     shot = Shot(Settings(terrain=TerrainSettings(apron=0.0)), runs.open(make_run()))

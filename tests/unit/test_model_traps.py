@@ -168,7 +168,7 @@ def test_fronts_have_holes(tmp_path):
 
 def test_the_ground_burns_where_the_model_says(tmp_path, converted):
     """Islands that a fire left out are invented in a synthetic run alone."""
-    from firetwin.shot.settings.settings import Settings
+    from firetwin.shot.settings import Settings
     from firetwin.shot.terrain.terrain import Terrain
 
     arrival = np.hypot(*np.mgrid[-60:60, -60:60]) * 10.0

@@ -22,8 +22,8 @@ from firetwin.shot.cameras.rigs.minimap import Minimap
 from firetwin.shot.cameras.rigs.mounted import Mounted
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.passes import masks
-from firetwin.shot.settings import scene_file
-from firetwin.shot.settings.settings import Camera, Render, Settings, TerrainSettings, Time
+from firetwin.shot.sections import TerrainSettings, Time
+from firetwin.shot.settings import Camera, Render, Settings, scene_file
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from firetwin_core import sensor

@@ -14,7 +14,8 @@ from firetwin.shot import passes
 from firetwin.shot.cameras import pixel_rays
 from firetwin.shot.cameras.path import Path
 from firetwin.shot.fire import air_temperature
-from firetwin.shot.settings.settings import Camera, Render, Settings, Thermal, Time
+from firetwin.shot.sections import Thermal, Time
+from firetwin.shot.settings import Camera, Render, Settings
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from firetwin_core import sensor

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from firetwin.shot.cameras import rotation, sparse_keys
 from firetwin.shot.cameras.rigs import poses
-from firetwin.shot.settings import scene_file
-from firetwin.shot.settings.settings import Camera, Forest, Settings, TerrainSettings, Time
+from firetwin.shot.sections import Forest, TerrainSettings, Time
+from firetwin.shot.settings import Camera, Settings, scene_file
 from firetwin.shot.shot import Shot
 from firetwin_core import geo
 from firetwin_core import run as runs

@@ -288,7 +288,7 @@ def test_latitudes_never_turn(make_run, axis):
 def test_a_place_is_found_across_the_antimeridian(make_run, low):
     """Cameras are given from -180 to 180, and the local frame gives no others back."""
     from firetwin.run import info
-    from firetwin.shot.settings.settings import Settings
+    from firetwin.shot.settings import Settings
     from firetwin.shot.terrain.terrain import Terrain
 
     shift = 180.0 - MODEL.mean()

@@ -10,8 +10,7 @@ from firetwin.errors import InputError
 from firetwin.shot import schema
 from firetwin.shot.cameras import rigs
 from firetwin.shot.schema.json_schema import json_schema
-from firetwin.shot.settings import scene_file
-from firetwin.shot.settings.settings import Camera, Settings
+from firetwin.shot.settings import Camera, Settings, scene_file
 
 TOWER = '''\
 """A tower: a camera on the ground."""

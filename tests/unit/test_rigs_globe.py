@@ -9,7 +9,7 @@ import pytest
 import sample_evening
 from firetwin.shot.cameras import clipping, zoom
 from firetwin.shot.cameras.rigs.globe import Globe
-from firetwin.shot.settings.settings import Camera
+from firetwin.shot.settings import Camera
 from hypothesis import given
 from hypothesis import settings as hypothesis
 from hypothesis import strategies as st

@@ -6,7 +6,8 @@ from datetime import UTC, datetime
 import numpy as np
 import pytest
 from firetwin.shot.cameras.rigs.orbit import Orbit
-from firetwin.shot.settings.settings import Camera, Forest, Settings, TerrainSettings, Time
+from firetwin.shot.sections import Forest, TerrainSettings, Time
+from firetwin.shot.settings import Camera, Settings
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from hypothesis import HealthCheck, given

@@ -15,8 +15,8 @@ from firetwin.shot.cameras.rigs.lookout import Lookout, LookoutKey
 from firetwin.shot.cameras.rigs.minimap import Minimap
 from firetwin.shot.cameras.rigs.satellite import ORBIT, Satellite
 from firetwin.shot.runs import run_checks
-from firetwin.shot.settings import scene_file
-from firetwin.shot.settings.settings import Camera, Forest, Settings, TerrainSettings, Time
+from firetwin.shot.sections import Forest, TerrainSettings, Time
+from firetwin.shot.settings import Camera, Settings, scene_file
 from firetwin.shot.shot import Shot
 from firetwin_core import lod
 from firetwin_core import run as runs

@@ -9,8 +9,7 @@ from firetwin.errors import InputError
 from firetwin.shot.cameras import flight, path, targets
 from firetwin.shot.cameras.rigs.tour import Stop, Tour, shares
 from firetwin.shot.runs import run_checks
-from firetwin.shot.settings import scene_file
-from firetwin.shot.settings.settings import Camera
+from firetwin.shot.settings import Camera, scene_file
 from hypothesis import HealthCheck, given
 from hypothesis import settings as hypothesis
 from hypothesis import strategies as st

@@ -11,7 +11,8 @@ from firetwin.shot.fire import air_temperature
 from firetwin.shot.fire.fire import Fire
 from firetwin.shot.satellites import geotiff, imager
 from firetwin.shot.satellites.grid import ORBIT, EvenGrid, FixedGrid, pixel_areas
-from firetwin.shot.settings.settings import Camera, Render, Settings, Time
+from firetwin.shot.sections import Time
+from firetwin.shot.settings import Camera, Render, Settings
 from firetwin.shot.shot import Shot
 from firetwin_core import constants, sensor
 from firetwin_core import run as runs

@@ -14,8 +14,8 @@ from firetwin.shot import schema
 from firetwin.shot.cameras.rigs import kinds
 from firetwin.shot.schema import frame_list, scene_text
 from firetwin.shot.schema import toml_positions as places
-from firetwin.shot.settings import scene_file
-from firetwin.shot.settings.settings import Camera, OtherRun, Settings, TerrainSettings, Time
+from firetwin.shot.sections import TerrainSettings, Time
+from firetwin.shot.settings import Camera, OtherRun, Settings, scene_file
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

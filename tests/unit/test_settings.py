@@ -12,8 +12,8 @@ from firetwin.shot import passes, schema
 from firetwin.shot.cameras.rigs import kinds
 from firetwin.shot.cameras.rigs._key import CameraKey
 from firetwin.shot.schema.json_schema import json_schema
-from firetwin.shot.settings import scene_file
-from firetwin.shot.settings.settings import Camera, FireSettings, Render, Settings, Time
+from firetwin.shot.sections import FireSettings, Time
+from firetwin.shot.settings import Camera, Render, Settings, scene_file
 
 ROOT = Path(__file__).parents[2]
 DRONE, SATELLITE = kinds()["drone"], kinds()["satellite"]

@@ -9,7 +9,8 @@ from firetwin.run import areas
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.fire.smoke_scale import Scale
 from firetwin.shot.light import exposure
-from firetwin.shot.settings.settings import Camera, Settings, Time
+from firetwin.shot.sections import Time
+from firetwin.shot.settings import Camera, Settings
 from firetwin.shot.shot import Shot
 from firetwin.smoke import domains
 from firetwin_core import run as runs

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from firetwin.run import sun
 from firetwin.shot import frames
-from firetwin.shot.settings.settings import Time
+from firetwin.shot.sections import Time
 from firetwin.smoke import stability
 from firetwin_core import run as runs
 

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 from firetwin.shot.fire import burning
-from firetwin.shot.settings.settings import SMOKE_METHODS, Settings, SmokeSettings, Time
+from firetwin.shot.sections import SMOKE_METHODS, SmokeSettings, Time
+from firetwin.shot.settings import Settings
 from firetwin.shot.shot import Shot
 from firetwin.smoke import bake, sources
 from firetwin_core import run as runs

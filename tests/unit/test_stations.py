@@ -8,8 +8,8 @@ import pytest
 import small_stations
 from firetwin.errors import InputError
 from firetwin.run import times
+from firetwin.shot.sections import StationSettings
 from firetwin.shot.settings import scene_file
-from firetwin.shot.settings.settings import StationSettings
 from firetwin.shot.shot import Shot
 from firetwin.shot.stations import station_signs
 from firetwin.stations import describe, fire_arrival, measures, reading

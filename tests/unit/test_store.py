@@ -16,12 +16,12 @@ from firetwin.render import fingerprint, manifest, plan, store
 from firetwin.render.picture import Picture
 from firetwin.render.store import Store
 from firetwin.run import content
-from firetwin.shot import passes
+from firetwin.shot import passes, sections
+from firetwin.shot import settings as s
 from firetwin.shot.cameras.rigs._key import CameraKey
 from firetwin.shot.cameras.rigs.drone import Drone
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.settings import code_fingerprint
-from firetwin.shot.settings import settings as s
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 
@@ -29,7 +29,7 @@ CAMERAS = (
     s.Camera("drone", Drone(keys=(CameraKey(),))),
     s.Camera("satellite", Satellite(), frames="4", passes=("thermal", "rgb")),
 )
-SETTINGS = s.Settings(time=s.Time(frames=4), cameras=CAMERAS)
+SETTINGS = s.Settings(time=sections.Time(frames=4), cameras=CAMERAS)
 
 
 @pytest.fixture
@@ -239,11 +239,11 @@ def test_a_picture_depends_on_the_settings_that_it_shows():
     assert (
         changes(time=replace(SETTINGS.time, fps=5, zone="UTC")) == {"fused"} | compared
     )  # they tell the time
-    assert changes(terrain=s.TerrainSettings(apron=1.0)) == everything
+    assert changes(terrain=sections.TerrainSettings(apron=1.0)) == everything
     assert changes(render=s.Render(resolution=(64, 36))) == everything
     assert changes(render=s.Render(samples=7)) == lit
-    assert changes(light=s.Light(haze=0.5)) == lit
-    assert changes(smoke=s.SmokeSettings(max_age=9.0)) == lit | {"masks"}
+    assert changes(light=sections.Light(haze=0.5)) == lit
+    assert changes(smoke=sections.SmokeSettings(max_age=9.0)) == lit | {"masks"}
     assert changes(render=s.Render(thermal_high=900.0)) == {"thermal", "overlay", "fused"}
     assert changes(render=s.Render(passes=("rgb",), video=False, device="cpu")) == {"pose"}
     # What is built, and how finely, depends on what is filmed of it.

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from firetwin.run.frame import local_frame
-from firetwin.shot.settings.settings import Settings
+from firetwin.shot.settings import Settings
 from firetwin.shot.terrain.tile_heights import Surface, TileHeights
 from firetwin.shot.tiles import tile_difference
 from firetwin_core.run import open as open_run

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from firetwin.run.frame import local_frame
-from firetwin.shot.settings.settings import Settings, TerrainSettings
+from firetwin.shot.sections import TerrainSettings
+from firetwin.shot.settings import Settings
 from firetwin.shot.terrain.elevation import Elevation, _Stacked
 from firetwin.shot.terrain.terrain import Terrain
 from firetwin.shot.terrain.tile_heights import Surface, TileHeights

@@ -9,8 +9,9 @@ import pytest
 from firetwin.scene.fire import flames
 from firetwin.shot.cameras.rigs.orbit import Orbit
 from firetwin.shot.fire.fire import Fire
-from firetwin.shot.settings.settings import Camera, Forest, Settings, TerrainSettings, Time
-from firetwin.shot.settings.settings import FireSettings as FireSettings
+from firetwin.shot.sections import FireSettings as FireSettings
+from firetwin.shot.sections import Forest, TerrainSettings, Time
+from firetwin.shot.settings import Camera, Settings
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from small_run import FX, FY, RUN_TOML, write_field

@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 from any_settings import any_table
 from firetwin.shot.cameras.rigs._key import CameraKey
-from firetwin.shot.settings import scene_file, toml_update
-from firetwin.shot.settings.settings import Settings
+from firetwin.shot.settings import Settings, scene_file, toml_update
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

@@ -11,8 +11,8 @@ from firetwin.errors import InputError
 from firetwin.shot.cameras import track
 from firetwin.shot.cameras.rigs.drone import Drone
 from firetwin.shot.runs import run_checks
-from firetwin.shot.settings import code_fingerprint, scene_file
-from firetwin.shot.settings.settings import Camera, Forest, Settings, TerrainSettings, Time
+from firetwin.shot.sections import Forest, TerrainSettings, Time
+from firetwin.shot.settings import Camera, Settings, code_fingerprint, scene_file
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from hypothesis import HealthCheck, given

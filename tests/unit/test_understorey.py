@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from firetwin.scene.forest import fire_effects, models, understorey
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
-from firetwin.shot.settings.settings import Camera, Forest, Render, Settings, TerrainSettings
+from firetwin.shot.sections import Forest, TerrainSettings
+from firetwin.shot.settings import Camera, Render, Settings
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from hypothesis import given

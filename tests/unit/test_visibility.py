@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from firetwin.shot.cameras.rigs.orbit import Orbit
 from firetwin.shot.cameras.rigs.satellite import Satellite
-from firetwin.shot.settings.settings import Camera, Forest, Render, Settings, TerrainSettings, Time
+from firetwin.shot.sections import Forest, TerrainSettings, Time
+from firetwin.shot.settings import Camera, Render, Settings
 from firetwin.shot.shot import Shot
 from firetwin.shot.terrain import mesh_tolerance, shadow_casters
 from firetwin_core import lod

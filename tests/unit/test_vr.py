@@ -15,8 +15,8 @@ from firetwin.shot.cameras.rigs._key import CameraKey
 from firetwin.shot.cameras.rigs.drone import Drone
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.cameras.rigs.vr import Vr
-from firetwin.shot.settings import scene_file
-from firetwin.shot.settings.settings import Camera, Forest, Render, Settings, TerrainSettings, Time
+from firetwin.shot.sections import Forest, TerrainSettings, Time
+from firetwin.shot.settings import Camera, Render, Settings, scene_file
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from firetwin_core import sensor

@@ -5,7 +5,8 @@ import pytest
 from firetwin.errors import InputError, UsageError
 from firetwin.run import readers, zone
 from firetwin.run.models.model import Options
-from firetwin.shot.settings.settings import Settings, Time
+from firetwin.shot.sections import Time
+from firetwin.shot.settings import Settings
 from firetwin.shot.shot import Shot
 from small_run import RUN_TOML
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ... import files
 from ...errors import InputError, input_error
 from ...progress import Progress
-from ...shot.settings.settings import TileSettings
+from ...shot.sections import TileSettings
 from ...shot.shot import Shot
 from ...shot.tiles import tile_terms
 from ...shot.tiles.tile_terms import Use

@@ -18,7 +18,7 @@ from ...errors import Error
 from ...shot.cameras import rotation as turning
 from ...shot.cameras import sparse_keys
 from ...shot.cameras.rigs import _lens, poses
-from ...shot.settings.settings import Camera
+from ...shot.settings import Camera
 from . import edit_detection, ground_raycast
 
 _PLACE = "firetwin_place"  # property of the root: latitude and longitude of the scene's origin

@@ -11,8 +11,8 @@ import numpy as np
 
 from ...blender import nodes, owned, state
 from ...blender.owned import Stage
+from ...shot.sections import TileSettings
 from ...shot.settings import code_fingerprint
-from ...shot.settings.settings import TileSettings
 from ...shot.shot import Shot
 from ...shot.surface import land_use, orthophoto
 from ..forest.stand import Stand

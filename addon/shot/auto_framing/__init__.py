@@ -11,7 +11,8 @@ from pathlib import Path
 
 from firetwin_core.run import Run
 
-from ..settings.settings import Settings, Time
+from ..sections import Time
+from ..settings import Settings
 from ..shot import Shot
 from . import chase, flank, front, overview, satellite, text, window
 from .candidates import PlacedCamera

@@ -15,7 +15,7 @@ from .visible_share import VisibleShare
 
 if TYPE_CHECKING:
     from ..cameras.path import Path
-    from ..settings.settings import Camera
+    from ..settings import Camera
 
 LEAST = 0.5  # visible fraction of the front that a camera must reach
 ENOUGH = 0.55  # visible fraction at which the search ends

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..cameras.rigs.chase import Chase
-from ..settings.settings import Camera
+from ..settings import Camera
 from . import candidates
 from .candidates import PlacedCamera, Tried
 from .front import Front

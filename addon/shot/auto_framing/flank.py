@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from ..cameras.rigs._key import CameraKey
 from ..cameras.rigs.drone import Drone
-from ..settings.settings import Camera
+from ..settings import Camera
 from . import candidates
 from .candidates import PlacedCamera, Tried
 from .front import Front, some

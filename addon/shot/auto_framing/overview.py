@@ -7,7 +7,7 @@ import numpy as np
 from ..cameras.path import UP, look
 from ..cameras.rigs._key import CameraKey
 from ..cameras.rigs.drone import Drone
-from ..settings.settings import Camera
+from ..settings import Camera
 from . import candidates
 from .candidates import Array, PlacedCamera, Tried
 from .front import Front, some

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..cameras.rigs._key import CameraKey
 from ..cameras.rigs.satellite import Satellite
-from ..settings.settings import Camera
+from ..settings import Camera
 from . import candidates
 from .candidates import PlacedCamera
 from .front import Front

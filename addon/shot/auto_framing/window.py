@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...run import areas, times, zone
 from ..fire import extent
-from ..settings.settings import Time
+from ..sections import Time
 
 FRAMES, FPS = 48, 12  # four seconds, as in the example
 _PACE = 20.0  # m of the fire's size per second of the window: 24 minutes for 29 km, as in the example

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..settings import Settings
 from ..settings.protocols import ShotView
-from ..settings.settings import Settings
 from .path import Path
 
 

@@ -15,7 +15,7 @@ from .rigs.minimap import Minimap
 from .rigs.mounted import Mounted
 
 if TYPE_CHECKING:
-    from ..settings.settings import Camera, Settings
+    from ..settings import Camera, Settings
 
 MAP = "map"
 

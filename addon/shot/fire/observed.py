@@ -20,7 +20,7 @@ from ...errors import InputError
 from ...progress import Progress, silent
 from ...run import areas, content, observations, times
 from ..schema import scene_text
-from ..settings.settings import Settings
+from ..settings import Settings
 
 if TYPE_CHECKING:
     from ..shot import Shot

@@ -13,7 +13,7 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from ..settings.settings import SmokeSettings
+from ..sections import SmokeSettings
 from . import burning
 
 REFERENCE = 200.0  # m

@@ -33,7 +33,7 @@ class Pass:
         Suffixes of its files.
     aspects
         Aspects of the settings on which its own work depends: names of sections, or "camera", "picture",
-        "grain", "thermal", "film" or "passes"; see `settings.settings`. A name stands for its folders
+        "grain", "thermal", "film" or "passes"; see `sections`. A name stands for its folders
         ``NAME`` and ``scene/NAME`` in `code_fingerprint` too.
     film
         Whether its PNG files make a film.

@@ -9,7 +9,7 @@ from ...run import areas, labels, times
 from .. import frames
 from ..fire import observed
 from ..schema import scene_text
-from ..settings.settings import Settings
+from ..settings import Settings
 from ..stations import station_signs
 from ..surface import globe_picture, land_use, orthophoto
 from ..terrain import elevation

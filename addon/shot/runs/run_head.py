@@ -11,7 +11,7 @@ from firetwin_core.run import Run
 
 from ...run import times
 from ..cameras import targets
-from ..settings.settings import Settings
+from ..settings import Settings
 from ..terrain.terrain import Terrain
 
 

@@ -11,8 +11,8 @@ from ...errors import InputError
 from ...run import readers, times
 from .. import frames, passes
 from ..schema import scene_text
+from ..settings import Settings
 from ..settings.protocols import ShotView
-from ..settings.settings import Settings
 from ..terrain import elevation
 
 

@@ -18,7 +18,7 @@ import firetwin_core
 
 from ...run.content import sha256
 from ..cameras import rigs
-from .settings import Camera
+from . import Camera
 
 EVERYWHERE = (
     "scene",
@@ -31,6 +31,7 @@ EVERYWHERE = (
     "shot/light",
     "shot/runs",
     "shot/schema",
+    "shot/sections",
     "shot/settings",
     "shot/stations",
     "shot/surface",

@@ -17,7 +17,7 @@ from ..schema import Field, Key, Where, either, fields, items, validate
 from ..schema.did_you_mean import suggestion
 from ..schema.former import FORMER, FORMER_KEYS
 from ..schema.scene_text import SceneText, load
-from .settings import Settings
+from . import Settings
 from .toml_writer import text
 
 __all__ = ["parse", "read", "text"]

@@ -21,8 +21,8 @@ from ... import files
 from ...errors import Error
 from ..schema.former import FORMER, FORMER_KEYS
 from ..schema.toml_positions import Where, places, tables
+from . import Settings
 from .scene_file import parse, text
-from .settings import Settings
 
 Values = dict[str, Any]
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ..schema import Field, Key, fields, items, kind_of, plain, summary
-from .settings import Settings
+from . import Settings
 
 Line = tuple[str, str]  # text, and its comment
 

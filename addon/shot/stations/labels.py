@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ...run import labels
 from ...run.content import sha256
-from ..settings.settings import Settings
+from ..settings import Settings
 from ..shot import Shot
 
 

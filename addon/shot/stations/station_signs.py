@@ -24,7 +24,7 @@ from ...stations.records import EXERCISE, ORIGINS, Resource, Station
 from ...stations.station_file import StationFile
 from ..cameras import targets
 from ..schema import scene_text
-from ..settings.settings import Settings
+from ..settings import Settings
 from ..shot import Shot
 from ..terrain.terrain import Terrain
 

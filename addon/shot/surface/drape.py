@@ -19,7 +19,7 @@ from ...tiles.imagery.mercator import NORTHMOST
 from ...tiles.sources import secret
 from ..cameras.view_digest import of_views
 from ..schema import scene_text
-from ..settings.settings import Settings
+from ..settings import Settings
 
 if TYPE_CHECKING:
     from ..settings.protocols import ShotView

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ...progress import Progress, silent
 from ...run import content
 from ..schema import scene_text
-from ..settings.settings import Settings
+from ..settings import Settings
 
 _KINDS = (b"\xff\xd8\xff", b"\x89PNG\r\n\x1a\n", b"II*\0", b"MM\0*", b"v/1\x01")
 _WHERE = "terrain", "globe"

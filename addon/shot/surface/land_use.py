@@ -22,7 +22,7 @@ from ...run import content
 from ...run.buildings import height_of, polygons
 from ...run.observations import Feature, feature, features
 from ..schema import scene_text
-from ..settings.settings import Settings
+from ..settings import Settings
 from ..terrain import noise, rasterize
 from ..terrain.raster import extent, overlap, said
 from .orthophoto import OrthophotoImage

@@ -22,7 +22,7 @@ from ...errors import InputError, input_error
 from ...progress import Progress, silent
 from ...run import areas, content
 from ..schema import scene_text
-from ..settings.settings import Settings
+from ..settings import Settings
 from ..terrain.elevation import ramp
 from ..terrain.raster import Array, GeoTiff, extent, overlap, said
 from . import drape

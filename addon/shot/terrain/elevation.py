@@ -14,7 +14,7 @@ from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...run import areas
-from ..settings.settings import Settings
+from ..settings import Settings
 from . import rim, tile_heights
 from .raster import Array, GeoTiff, extent, said
 from .tile_heights import TileHeights

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from ...errors import Error, InputError, input_error
 from ...run import areas
 from ..schema import scene_text
-from ..settings.settings import Settings
+from ..settings import Settings
 
 _MEMORY = 64  # MB
 _SAMPLES, _SAMPLE_SIZE = 6, 8  # samples along each side, and their size in pixels

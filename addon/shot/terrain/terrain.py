@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...run import areas, fuel_category
 from ...run.frame import local_frame
 from ..fire import burning
-from ..settings.settings import Settings
+from ..settings import Settings
 from . import apron, dem_patch, noise
 from .elevation import Elevation
 

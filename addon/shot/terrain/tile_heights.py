@@ -23,7 +23,7 @@ from . import rasterize
 
 if TYPE_CHECKING:
     from ...tiles.decoded import Decoded
-    from ..settings.settings import Settings
+    from ..settings import Settings
 
 Array = NDArray[np.float64]
 Known = Callable[[Array, Array], Array]

@@ -12,7 +12,7 @@ from ..terrain import elevation
 from ..terrain.tile_heights import TileHeights
 
 if TYPE_CHECKING:
-    from ..settings.settings import Settings
+    from ..settings import Settings
 
 MOST = 3.0
 """m, median beyond which the user is warned."""

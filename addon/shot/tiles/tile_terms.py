@@ -13,7 +13,7 @@ from .. import passes
 from ..schema import scene_text
 
 if TYPE_CHECKING:
-    from ..settings.settings import Settings
+    from ..settings import Settings
 
 Use = tuple[str, str]
 """One of `_REFUSED`, and what needs it, such as a setting and its value."""

@@ -15,7 +15,7 @@ import numpy as np
 from firetwin_core.run import Run
 
 from ....run import blocks, fuel_category, times
-from ....shot.settings import biome_names
+from ....shot.sections import biome_names
 from ....shot.shot import Shot
 from ._biome import Biome, Colour, Land, OpenLand, Plants, Season, Species
 
