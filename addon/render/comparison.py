@@ -20,7 +20,7 @@ from .sharing import RenderSession
 def make(
     shot: Shot, session: RenderSession, wanted: list[Picture], progress: Progress, tell: MessageCallback
 ) -> None:
-    """Make the comparison pictures that no other render leases, once all of their inputs are finished."""
+    """Make the comparison pictures that no other render leases, once all their inputs are finished."""
     done = 0
     while free := session.free(wanted, tell):
         for camera, group in itertools.groupby(free, key=lambda picture: picture.camera):
@@ -54,6 +54,6 @@ def _finish(shot: Shot, session: RenderSession, part: Path, picture: Picture) ->
 
 
 def _files(picture: Picture, view: str, name: str, out: Path) -> dict[str, Path]:
-    """Paths of finished files, by suffix, of the same frame in a pass of a view."""
+    """Return paths of finished files, by suffix, of the same frame in a pass of a view."""
     paths = Picture(view, picture.frame, name).files()
     return {Path(path).suffix[1:]: out / path for path in paths}

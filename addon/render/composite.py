@@ -1,9 +1,9 @@
 """Composites ray-marched smoke over surfaces that Cycles rendered, in linear light. Needs no Blender.
 
-Smoke is sampled at taps along each pixel's ray: its in-scattered light up to there, and its transmittance. A
-pixel at a silhouette covers a near and a far surface. Its taps are the least and greatest depth of its 3 x 3
-neighbourhood. The coverage of the near surface is estimated from the mean nearness (1 / distance) of the
-pixel's few rays, and from its neighbours. Flames have a tap of their own.
+Smoke is sampled at taps along each pixel's ray, which give the in-scattered radiance up to the tap, and the
+transmittance. A pixel at a silhouette covers a near and a far surface. Its taps are the least and greatest
+depth of its 3 x 3 neighbourhood. The coverage of the near surface is estimated from the mean nearness (1 /
+distance) of the pixel's few rays, and from its neighbours. Flames have a separate tap.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from ..shot.cameras.pixel_rays import SKY
 
 Array = NDArray[np.float32]
 
-_EDGE = 0.02  # least difference of transmittance across a silhouette
+_EDGE = 0.02  # smallest difference of transmittance across a silhouette
 _REACH, _SAME_DEPTH = 2, 0.1  # pixels round an edge; relative depth tolerance of one surface
-_SURE = 15.0  # rays at which a pixel's own coverage counts as much as its neighbours'; estimated
+_SURE = 15.0  # rays at which a pixel's coverage has the same weight as its neighbours'; estimated
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Surfaces:
     Attributes
     ----------
     colour
-        (h, w, 3) radiance of all light; denoised where the settings ask for it.
+        (h, w, 3) radiance of all light, denoised if the settings say so.
     noisy
         (h, w, 3) radiance before denoising.
     fire
@@ -60,13 +60,13 @@ class Surfaces:
 
 
 def taps(surfaces: Surfaces) -> Array:
-    """Sample distances of smoke (h, w, 3), m: near surface, far surface and flames."""
+    """Return sample distances of smoke (h, w, 3), m: near surface, far surface and flames."""
     near, far = _around(surfaces.distance, np.minimum), _around(surfaces.distance, np.maximum)
     return np.stack([near, far, surfaces.fire_distance], axis=-1)
 
 
 def compose(surfaces: Surfaces, distances: Array, marched: Array) -> Array:
-    """Radiance (h, w, 3) of surfaces behind smoke.
+    """Composite surfaces and smoke to radiance (h, w, 3).
 
     Parameters
     ----------
@@ -83,8 +83,8 @@ def compose(surfaces: Surfaces, distances: Array, marched: Array) -> Array:
     behind = solid * (share * near + (1.0 - share) * far)
     edge = np.abs(near - far)[..., 0] > _EDGE
     inner = _without_edges(solid, distances[..., 0], edge)
-    # The near surface at an edge takes the colour of its neighbours: a denoiser mixes it with distant light,
-    # such as fire behind smoke.
+    # At an edge the near surface takes the colour of its neighbours, because a denoiser mixes it with distant
+    # light, such as fire behind smoke.
     split = share * inner * (near - far) + solid * far
     behind = np.where(edge[..., None], split, behind)
     light = share * smoke[:, :, 0] + (1.0 - share) * smoke[:, :, 1]
@@ -92,7 +92,7 @@ def compose(surfaces: Surfaces, distances: Array, marched: Array) -> Array:
 
 
 def infrared_radiance(surface: Array, flames: Array, warmth: Array, sky: float) -> Array:
-    """Infrared radiance (h, w) before smoke, W m-2 sr-1, from AOVs (see `blender.nodes`).
+    """Compute infrared radiance (h, w) without smoke, W m-2 sr-1, from AOVs (see `blender.nodes`).
 
     Parameters
     ----------
@@ -105,25 +105,25 @@ def infrared_radiance(surface: Array, flames: Array, warmth: Array, sky: float) 
     """
     emissivity = flames[..., 2]
     behind = surface[..., 2] + np.clip(1.0 - surface[..., 1], 0.0, 1.0) * sky
-    # Emissivities of overlapping flames add up past 1: such a pixel has their mean radiance.
+    # Emissivities of overlapping flames can add up to more than 1; the pixel then has their mean radiance.
     return warmth / np.maximum(emissivity, 1.0) + np.clip(1.0 - emissivity, 0.0, 1.0) * behind
 
 
 def _share(surfaces: Surfaces, distances: Array) -> Array:
-    """Coverage (h, w), 0 to 1, of each pixel by its near surface."""
+    """Estimate the coverage (h, w), 0 to 1, of each pixel by its near surface."""
     near, far = (1000.0 / np.hypot(distances[..., k], surfaces.aside) for k in (0, 1))
     apart = near - far
     share = np.clip((surfaces.nearness - far) / np.where(apart > 0.0, apart, 1.0), 0.0, 1.0)
     sure = surfaces.rays / (surfaces.rays + _SURE)
     share = sure * share + (1.0 - sure) * _nearer(surfaces.distance, distances)
-    # An artist's material writes no distance: only the centre ray's depth is known.
+    # Materials of an artist do not write distance: only the depth of the centre ray is known.
     unknown = (surfaces.solid < 0.5) & (surfaces.distance < SKY)
     share = np.where(unknown, surfaces.distance <= distances[..., 0] * (1.0 + _SAME_DEPTH), share)
     return np.where(apart > 1.0e-3 * near, share, 1.0)
 
 
 def _nearer(distance: Array, distances: Array) -> Array:
-    """Share (h, w) of each 3 x 3 neighbourhood at its near tap's depth, with the centre weighted most."""
+    """Compute the share (h, w) of each 3 x 3 neighbourhood at its near tap's depth, centre-weighted."""
     middle = np.sqrt(distances[..., 0] * np.minimum(distances[..., 1], 1.0e10))
     padded = np.pad(distance, 1, mode="edge")
     height, width = distance.shape
@@ -136,31 +136,31 @@ def _nearer(distance: Array, distances: Array) -> Array:
 
 
 def _fire(surfaces: Surfaces) -> Array:
-    """Flame light (h, w, 3) in the denoised colour: its share is the neighbours', as denoisers spread it."""
+    """Estimate the flame light (h, w, 3) in the denoised colour, with shares blurred as denoisers do."""
     part = blurred(surfaces.fire) / np.maximum(blurred(surfaces.noisy), 1.0e-6)
     alight = (surfaces.fire_distance > 0.0)[..., None]
     return np.where(alight, surfaces.colour * np.clip(part, 0.0, 1.0), 0.0)
 
 
 def blurred(values: Array) -> Array:
-    """Weighted mean (h, w, c) of each 3 x 3 neighbourhood, with the centre weighted most."""
+    """Compute the centre-weighted mean (h, w, c) of each 3 x 3 neighbourhood."""
     padded = np.pad(values, ((1, 1), (1, 1), (0, 0)), mode="edge")
     rows = 0.25 * padded[:-2] + 0.5 * padded[1:-1] + 0.25 * padded[2:]
     return 0.25 * rows[:, :-2] + 0.5 * rows[:, 1:-1] + 0.25 * rows[:, 2:]
 
 
 def _around(values: Array, pick: np.ufunc) -> Array:
-    """Minimum or maximum of each 3 x 3 neighbourhood."""
+    """Compute the minimum or maximum of each 3 x 3 neighbourhood."""
     padded = np.pad(values, 1, mode="edge")
     rows = pick(pick(padded[:-2], padded[1:-1]), padded[2:])
     return pick(pick(rows[:, :-2], rows[:, 1:-1]), rows[:, 2:])
 
 
 def _without_edges(colour: Array, near: Array, edge: NDArray[np.bool_]) -> Array:
-    """Colour (h, w, 3) with edge pixels replaced by the mean of neighbours of equal depth that are no edges.
+    """Replace edge pixels of a colour (h, w, 3) by the mean of non-edge neighbours at equal depth.
 
-    Without such neighbours the pixel takes the darkest colour of its 3 x 3: bright outliers are fire behind
-    smoke.
+    If there are none, the pixel takes the darkest colour of its 3 x 3 neighbourhood: bright outliers are fire
+    behind smoke.
     """
     cleaned = colour.copy()
     rows, columns = np.nonzero(edge)

@@ -1,8 +1,8 @@
-"""Draws credits of tiles and photos into pictures; what people look at shows them, whatever the settings say.
+"""Credits of tiles and photos, drawn into all pictures for viewing, whatever the settings.
 
-Pictures of passes that make films have them in their pixels. Depth, masks, normals, temperatures (EXR) and
-the linear picture (EXR) keep their values: the manifest and the sidecars of `shot.passes.pose` name the same
-credits for them.
+Pictures of passes that make films have credits in their pixels. Depth, masks, normals, temperatures (EXR) and
+the linear picture (EXR) are unchanged: their credits are in the manifest and in the sidecars of
+`shot.passes.pose`.
 """
 
 from __future__ import annotations
@@ -29,14 +29,14 @@ def burn(path: Path, words: Credits, note: str, around: bool = False) -> None:
     Parameters
     ----------
     note
-        Of the file: what it shows.
+        Description of the content, for the file's metadata.
     around
-        It is a panorama of two eyes.
+        The picture is a stereo panorama.
 
     Raises
     ------
     ValueError
-        They do not fit into it.
+        The credits do not fit into the picture.
     """
     if not words:
         return
@@ -50,7 +50,7 @@ def burn(path: Path, words: Credits, note: str, around: bool = False) -> None:
 
 
 def stamp(stage: owned.Stage) -> None:
-    """Let Blender's own renders of a scene have its credits too."""
+    """Add the credits to the metadata of Blender's own renders of a scene."""
     if words := of_scene(stage):
         render = stage.scene.render
         render.use_stamp = render.use_stamp_note = True
@@ -61,7 +61,7 @@ def stamp(stage: owned.Stage) -> None:
 
 @functools.lru_cache(maxsize=8)
 def _drawn(block: Block) -> NDArray[np.float32]:
-    """Opacity (h, w), 0..1, of a block's text, by Blender's typeface, which has most scripts."""
+    """Draw a block's text in Blender's typeface, which covers most scripts, as opacity (h, w), 0..1."""
     import blf
     import imbuf
 
@@ -74,7 +74,7 @@ def _drawn(block: Block) -> NDArray[np.float32]:
             for number, text in enumerate(reversed(lines)):
                 blf.size(face, block.size)
                 wide = blf.dimensions(face, text)[0]
-                if wide > block.width - 2.0 * edge:  # a script that is wider than was reckoned with
+                if wide > block.width - 2.0 * edge:  # a script wider than estimated
                     blf.size(face, block.size * (block.width - 2.0 * edge) / wide)
                     wide = blf.dimensions(face, text)[0]
                 at = block.width - edge - wide if right else edge
@@ -89,7 +89,7 @@ def _drawn(block: Block) -> NDArray[np.float32]:
 
 @functools.cache
 def _face() -> int:
-    """Number of Blender's typeface; its fallbacks come along."""
+    """Load Blender's typeface with its fallbacks, and return its number."""
     import blf
 
     path = compat.typeface_path()

@@ -2,8 +2,8 @@
 
 It lists the frames whose visible picture and sidecar (see `shot.passes.pose`) are finished, with intrinsics
 and `transform_matrix`. `passes` lists every finished file of the frame. Cameras without a perspective
-projection have no index. `credits` of a frame are those of its tiles. The file is replaced atomically when a
-render ends.
+projection have no index. `credits` of a frame name the sources of its tiles. The file is replaced atomically
+when a render ends.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def _put(text: str, part: Path) -> None:
 
 
 def _frame(folder: Path, shown: str, passes: dict[str, list[str]]) -> dict[str, Any] | None:
-    """Index entry of one frame; None where its projection is parallel or its sidecar is missing."""
+    """Make the index entry of one frame; None if its projection is parallel or its sidecar is missing."""
     try:
         sidecar = json.loads((folder / passes["pose"][0]).read_text(encoding="utf-8"))
     except (OSError, ValueError):

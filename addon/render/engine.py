@@ -1,7 +1,7 @@
 """Render engine settings of Cycles and EEVEE: samples, bounces, light paths and pixel filter.
 
-The Cycles values cut render time and leave the picture unchanged: indirect and transmitted light adds little
-in a landscape of ash, leaves and smoke. "Cost" in the documentation gives the measurements.
+The Cycles values cut render time with little change to the picture: a landscape of ash, leaves and smoke has
+little indirect and transmitted light. "Cost" in the documentation gives the measurements.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from ..blender import compat, owned
 from ..shot.settings import Settings
 
 TRANSPARENT = 256
-"""Transparent bounces of a ray. Blender 4.5 bounds a volume by a hull of boxes 8 voxels wide. The faces of
-the hull count as transparent surfaces for light rays. The usual dozen bounces would stop light in the gaps
+"""Transparent bounces of a ray. Blender 4.5 bounds a volume by a hull of boxes 8 voxels wide. Light rays
+treat the faces of the hull as transparent surfaces. The usual dozen bounces would stop light in the gaps
 between billows, and smoke would show black blocks with straight edges. A ray of the sample run meets up to 35
 faces."""
 
@@ -47,7 +47,7 @@ def apply(settings: Settings, scene: bpy.types.Scene) -> None:
 
 
 def set_resolution(settings: Settings, scene: bpy.types.Scene) -> None:
-    """Set the picture's resolution: that of one eye for stereo panoramas, whose files hold both eyes."""
+    """Set the resolution of the picture, or of one eye for stereo panoramas, whose files have both eyes."""
     render = scene.render
     render.resolution_x, render.resolution_y = settings.render.resolution
     render.resolution_percentage = 100
@@ -76,10 +76,10 @@ def _cycles(settings: Settings, scene: bpy.types.Scene) -> None:
     cycles.film_exposure = 1.0
     scene.render.use_persistent_data = False  # guiding saved no time in three frames and takes memory
     cycles.pixel_filter_type, cycles.filter_width = "BLACKMAN_HARRIS", 1.5
-    cycles.fast_gi_method = "ADD"  # as often as the world's settings say: `scene.light.build`
+    cycles.fast_gi_method = "ADD"  # number of bounces: world settings, see `scene.light.build`
     filled = cycles.use_fast_gi = scene.world is not None and owned.ours(scene.world)
-    cycles.diffuse_bounces = 0 if filled else 1  # the fill light approximates the first bounce too
-    if scene.world is not None:  # the sky has no sun disc: a map of its own resolution costs 2 s a frame
+    cycles.diffuse_bounces = 0 if filled else 1  # the fill light approximates the first bounce as well
+    if scene.world is not None:  # the sky has no sun disc, and its automatic map resolution costs 2 s a frame
         scene.world.cycles.sampling_method = "MANUAL"
         scene.world.cycles.sample_map_resolution = 256
 
@@ -95,9 +95,9 @@ def _eevee(settings: Settings, scene: bpy.types.Scene) -> None:
 
 @contextmanager
 def pixel_centres(scene: bpy.types.Scene, wanted: bool = True) -> Iterator[None]:
-    """Context: with `wanted`, Cycles sends rays through pixel centres, as depth and masks need.
+    """Send Cycles' rays through pixel centres, as depth and masks require, if `wanted`.
 
-    Random termination of rays in smoke and flames (Russian roulette) is off.
+    Random termination of rays in smoke and flames (Russian roulette) is disabled.
     """
     if not wanted:
         yield
@@ -116,7 +116,7 @@ def pixel_centres(scene: bpy.types.Scene, wanted: bool = True) -> Iterator[None]
 
 @contextmanager
 def long_steps(scene: bpy.types.Scene, wanted: bool = True) -> Iterator[None]:
-    """Context: with `wanted`, Cycles marches smoke in the longest steps that infrared light allows."""
+    """Let Cycles march smoke in the longest steps that are accurate enough in infrared, if `wanted`."""
     before = scene.cycles.volume_step_rate
     scene.cycles.volume_step_rate = before * (_CLEAR_STEPS if wanted else 1.0)
     try:
@@ -126,7 +126,7 @@ def long_steps(scene: bpy.types.Scene, wanted: bool = True) -> Iterator[None]:
 
 
 def set_metadata(run: Run, scene: bpy.types.Scene) -> None:
-    """Set every image's metadata: the run that it shows, and no values that differ between renders."""
+    """Set the metadata of all images: the run, and no values that differ between renders."""
     render = scene.render
     for name in render.bl_rna.properties.keys():  # noqa: SIM118 (a Blender collection)
         if name.startswith("use_stamp"):

@@ -1,4 +1,4 @@
-"""One eye of a camera: surfaces that Cycles rendered, and smoke that is ray-marched over them."""
+"""One eye of a camera: surfaces rendered by Cycles, composited with ray-marched smoke."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Array = NDArray[np.float32]
 
 _STEP = 0.5  # voxels, step of the ray march
 _SPARSE, _HIDES = 16, 3.0  # pixels between rays; optical depth that transmits 5 % of light
-_PLACES = ((0.25, 0.25), (0.75, 0.75))  # marched rays per pixel, whose mean is the pixel's smoke
+_PLACES = ((0.25, 0.25), (0.75, 0.75))  # positions of the marched rays in a pixel, which are averaged
 
 
 class Eye:
@@ -46,7 +46,7 @@ class Eye:
         self.rays = self._through()
 
     def picture(self) -> Array:
-        """Radiance (h, w, 3) of surfaces behind smoke."""
+        """Compute the radiance (h, w, 3) of surfaces and smoke."""
         rendered = self._surfaces()
         at = composite.taps(rendered)
         marched = np.zeros((*at.shape, 4), np.float32)
@@ -59,7 +59,7 @@ class Eye:
         return composite.compose(rendered, at, marched)
 
     def radiance(self, frame: int) -> Array:
-        """Infrared radiance (h, w) of surfaces, air and smoke, W m-2 sr-1."""
+        """Compute the infrared radiance (h, w) of surfaces, air and smoke, W m-2 sr-1."""
         channels = self.channels
         bare = composite.infrared_radiance(
             channels[nodes.SURFACE],
@@ -75,14 +75,14 @@ class Eye:
         return bare * through + light
 
     def transmittance(self) -> Array:
-        """Transmittance (h, w) of smoke in green light, from the camera to a pixel's surface."""
+        """Compute the transmittance (h, w) of smoke in green light, from the camera to the surfaces."""
         if not self.smoke:
             return np.ones(self.shape, np.float32)
         depth = volume.optical_depth(self.smoke, *_lines(self.rays), self.distance.ravel(), step=_STEP)
         return np.exp(-depth * illumination.thickness(self.stage)).reshape(self.shape)
 
     def hidden_by_near_smoke(self, near: float) -> float:
-        """Share of the picture, 0 to 1, whose background is hidden by smoke nearer than `near` m."""
+        """Estimate the share of the picture, 0 to 1, that is hidden by smoke nearer than `near` m."""
         if not self.smoke:
             return 0.0
         rays, every = self.rays, (slice(None, None, _SPARSE), slice(None, None, _SPARSE))
@@ -115,6 +115,6 @@ class Eye:
 
 
 def _lines(lines: rays.Rays) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Origins and directions of rays, in the layout of `firetwin_core.volume`."""
+    """Return origins and directions of rays, in the layout of `firetwin_core.volume`."""
     origins = lines.origins if lines.origins.ndim == 1 else lines.origins.reshape(-1, 3)
     return origins, lines.directions.reshape(-1, 3)

@@ -1,4 +1,4 @@
-"""Films that are missing or older than their frames. Needs no Blender."""
+"""Search for films that are missing or older than their frames. Needs no Blender."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ Film = tuple[str, str, dict[str, Any]]
 
 
 def missing(shot: Shot, store: Store, made_with: Fingerprints) -> Iterator[Film]:
-    """Films of two or more pictures that are missing, damaged or out of date.
+    """Find films of two or more pictures that are missing, damaged or out of date.
 
-    A film holds the finished pictures made with these settings, by camera and pass. The pictures are checked
-    one by one only where the film or the folder of its pictures changed since the last check.
+    A film consists of the finished pictures of a camera and pass that were made with these settings. Pictures
+    are checked one by one only if the film or their folder changed since the last check.
     """
     if not shot.settings.render.video:
         return
@@ -49,7 +49,7 @@ def missing(shot: Shot, store: Store, made_with: Fingerprints) -> Iterator[Film]
 
 
 def _made_from(shot: Shot, camera: str, name: str, pictures: list[list[Any]]) -> dict[str, Any]:
-    """Inputs that decide a film: its pictures (frame, hash), its frame rate and its captions."""
+    """Collect the inputs of a film: its pictures (frame, hash), its frame rate and its captions."""
     time, frames = shot.settings.time, shot.frames
     return {
         "film": name,
@@ -67,9 +67,9 @@ def _made_from(shot: Shot, camera: str, name: str, pictures: list[list[Any]]) ->
 
 
 def _state(shot: Shot, store: Store, camera: str, name: str, key: str) -> str:
-    """Cheap change detection: a hash of the film's stamp, its pictures' folder and the settings.
+    """Hash the stamps of the film and of its pictures' folder, and the settings, as a cheap change detection.
 
-    Its cost does not grow with the number of pictures.
+    The cost does not depend on the number of pictures.
     """
     stamps = []
     for path in (store.out / film(camera, name), (store.out / Picture(camera, 1, name).file("png")).parent):

@@ -1,4 +1,4 @@
-"""Fingerprint of a picture: hash of all inputs that decide its pixels, to find stale files on resume."""
+"""Fingerprint of a picture: hash of all inputs that determine its pixels, to find stale files on resume."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ _RENDERING = (
 
 
 def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) -> dict[str, Any]:
-    """Inputs of a camera's frames in one pass: settings of that camera, and of the camera that it follows.
+    """Collect the inputs of a camera's frames in one pass, including settings of the camera that it follows.
 
     Parameters
     ----------
@@ -69,23 +69,23 @@ def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) 
 
 
 def _smoke(settings: Settings, run: dict[str, str], aspects: frozenset[str]) -> list[str]:
-    """Code files of the source of smoke."""
+    """List the code files of the smoke source."""
     return sources.choose(settings.smoke.method, run).code_files() if "smoke" in aspects else []
 
 
 def _built(settings: Settings, camera: Camera) -> Settings:
-    """Settings with `render.chunk` as it takes effect for a camera: 0 where all frames are built at once.
+    """Resolve `render.chunk` for a camera: 0 if all its frames are built at once.
 
-    The chunk decides the terrain mesh, the plants that pass culling, the lamps of the flames and the
-    firebrands. So the pictures of a film in chunks depend on the frames at which chunks begin. A film of one
-    chunk does not depend on the chunk's greatest length.
+    The chunk determines the terrain mesh, the visible plants, the lamps of the flames and the firebrands.
+    Therefore the pictures of a film in chunks depend on the frames at which chunks begin. A film of one chunk
+    does not depend on the maximum chunk length.
     """
     chunk = frames.chunk(settings, camera)
     return replace(settings, render=replace(settings.render, chunk=chunk))
 
 
 def _modules(name: str) -> list[str]:
-    """Code files of a pass, of its post-processing, and of the passes that it is composed from."""
+    """List the code files of a pass, of its post-processing, and of the passes that it is composed from."""
     file, each = inspect.getfile(sys.modules[f"{passes.__name__}.{name}"]), passes.known()[name]
     return [
         file,
@@ -97,7 +97,7 @@ def _modules(name: str) -> list[str]:
 
 @functools.cache
 def versions() -> dict[str, str]:
-    """Versions of Firetwin and Blender; Blender need not be loaded."""
+    """Return the versions of Firetwin and Blender, without loading Blender."""
     if "bpy" in sys.modules:
         blender = ".".join(str(part) for part in sys.modules["bpy"].app.version)
     else:
@@ -109,14 +109,14 @@ def versions() -> dict[str, str]:
 
 
 def of_pictures(shot: Shot, pictures: list[Picture], progress: Progress = silent) -> Fingerprints:
-    """Fingerprints of each (camera, pass) of the pictures, and of the passes that these are made from."""
+    """Compute the fingerprints of each (camera, pass) of the pictures, and of the passes that they need."""
     asked = {(p.camera, p.name) for p in pictures}
     needed = {(camera, need) for camera, name in asked for need in passes.known()[name].made_from}
     return of_pairs(shot, asked | needed, progress)
 
 
 def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silent) -> Fingerprints:
-    """Fingerprints of each (camera, pass); fields of the runs that have no hash yet are read."""
+    """Compute the fingerprints of each (camera, pass); fields of the runs without a cached hash are read."""
     more = (
         orthophoto.inputs(shot.settings, progress)
         | land_use.inputs(shot.settings, progress)
@@ -138,7 +138,7 @@ def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silen
 
 
 def _tiles(shot: Shot, view: str, name: str, find: tile_cut.Finder) -> dict[str, Any]:
-    """Tiles that a pass shows, and credits; without tiles that were not prepared yet."""
+    """Collect the tiles that a pass shows, and their credits, as far as they are prepared."""
     if "terrain" not in passes.known()[name].all_aspects:
         return {}
     cuts = tile_cut.of_pass(shot, view, name, find)
@@ -155,7 +155,7 @@ def _tiles(shot: Shot, view: str, name: str, find: tile_cut.Finder) -> dict[str,
 
 
 def _other_runs(shot: Shot, name: str, progress: Progress) -> dict[str, Any]:
-    """Inputs of a pass from the other runs that it compares with."""
+    """Collect the inputs of a pass from the other runs that it compares."""
     each = passes.known()[name]
     if not passes.compares(name) and not (shot.settings.fire.fronts and "fire" in each.all_aspects):
         return {}

@@ -1,12 +1,12 @@
 """Compositor node groups: thermal blend, thermal camera, eye-dome lighting and overlay, for artists.
 
 Every built scene has them (Add > Group in the compositor). They match `firetwin_core.sensor` within 1e-5.
-Colours are display-referred, 0..1, as in a PNG: an Image node reads them as Non-Color, and the scene's view
-transform is Raw. Depth and radiance are those of the view layers "depth" and "thermal", and of their EXR
+Colours are display-referred, 0..1, as in a PNG: Image nodes must read them as Non-Color, and the scene's view
+transform must be Raw. Depth and radiance come from the view layers "depth" and "thermal", or from their EXR
 files.
 
 `Thermal Camera` evaluates temperature as a polynomial of the band's radiance, within 3e-6 of the inverse of
-the band integral from 180 to 1800 K (`RANGE`); its band is that of the scene's settings.
+the band integral from 180 to 1800 K (`RANGE`), for the band in the scene's settings.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def build(settings: Settings, stage: Stage) -> None:
 
 
 def thermal_blend_group() -> bpy.types.NodeTree:
-    """`sensor.thermal_composite`: the paper's temperature gradient added to a picture."""
+    """Create the group of `sensor.thermal_composite`: the paper's temperature gradient added to a picture."""
     tree = nodes.compositor(
         "Firetwin Thermal Blend",
         "The FIRETWIN paper's thermal view: colours of the model's temperature added to the picture",
@@ -54,9 +54,9 @@ def thermal_blend_group() -> bpy.types.NodeTree:
     )
     image = tree.input("Image", _BLACK, "Picture in display colours, 0 to 1")
     kelvin = _temperature(tree)
-    low = tree.input("Low", 300.0, "K where the gradient begins, with black", "Scale")
-    high = tree.input("High", 330.0, "K where it ends, with white", "Scale")
-    strength = tree.input("Strength", 1.0, "How much of the gradient is added", "Scale", least=None)
+    low = tree.input("Low", 300.0, "K at the black end of the gradient", "Scale")
+    high = tree.input("High", 330.0, "K at the white end of the gradient", "Scale")
+    strength = tree.input("Strength", 1.0, "Factor on the gradient", "Scale", least=None)
     heat = tree.colours((kelvin - low) / (high - low), sensor.palette("paper"))
     sum_ = tree.vector("ADD", _clamped(tree, image), _times(tree, heat, strength))
     tree.finish({"Image": _clamped(tree, sum_)})
@@ -64,7 +64,7 @@ def thermal_blend_group() -> bpy.types.NodeTree:
 
 
 def thermal_camera_group() -> bpy.types.NodeTree:
-    """`sensor.brightness_temperature` and `sensor.colour`: radiance to an infrared camera's colours."""
+    """Create the group of `sensor.brightness_temperature` and `sensor.colour`: radiance to colours."""
     names = sensor.palettes()
     listed = ", ".join(f"{number} {name}" for number, name in enumerate(names, 1))
     tree = nodes.compositor(
@@ -72,11 +72,11 @@ def thermal_camera_group() -> bpy.types.NodeTree:
         "Brightness temperature (K) of infrared radiance, and its picture by a palette",
         {"Image": _COLOUR, "Kelvin": _NUMBER},
     )
-    of = "Of the band, W m-2 sr-1: the image of the view layer thermal"
+    of = "Band radiance, W m-2 sr-1: the image of the view layer thermal"
     radiance = tree.input("Radiance", 55.0, of, least=None)
     low = tree.input("Low", 290.0, "K at the cold end of the palette", "Temperatures")
-    high = tree.input("High", 1000.0, "K at its hot end", "Temperatures")
-    closes = "K above the cold end where the scale begins to close up"
+    high = tree.input("High", 1000.0, "K at the hot end of the palette", "Temperatures")
+    closes = "K above the cold end from which the palette is logarithmic"
     knee = tree.input("Knee", thermal.KNEE, closes, "Temperatures", 0.01)
     palette = tree.input("Palette", 1, listed, "Look", 1, len(names))
     kelvin = _kelvin(tree, radiance)
@@ -91,19 +91,19 @@ def thermal_camera_group() -> bpy.types.NodeTree:
 
 
 def eye_dome_group() -> bpy.types.NodeTree:
-    """Eye-dome lighting (`sensor.eye_dome`): darkens pixels that lie behind their neighbours."""
+    """Create the group of `sensor.eye_dome`: darkens pixels behind their neighbours."""
     tree = nodes.compositor(
         "Firetwin Eye Dome",
-        "Eye-dome lighting: what lies behind its neighbours is darker, so that shapes stand out",
+        "Eye-dome lighting: darkens pixels behind their neighbours, which emphasises shapes",
         {"Image": _COLOUR, "Shade": _NUMBER},
     )
     image = tree.input("Image", _WHITE, "Picture in display colours, 0 to 1")
-    along = "Along the camera's axis, m: the depth of the view layer depth"
+    along = "Depth along the camera's axis, m: the image of the view layer depth"
     depth = tree.input("Depth", 1000.0, along, least=None)
     strength = tree.input("Strength", edl.STRENGTH, "How dark", "Shade")
-    radius = tree.input("Radius", edl.RADIUS, "How far away the eight neighbours are, pixels", "Shade", 1)
+    radius = tree.input("Radius", edl.RADIUS, "Distance to the eight neighbours, pixels", "Shade", 1)
     depth = tree.math("MINIMUM", tree.math("MAXIMUM", depth, _NEAREST), _DEEPEST)
-    # Nearness: outside the picture Translate gives 0, the greatest depth, which adds nothing.
+    # Nearness: outside the picture Translate returns 0, the greatest depth, which has no effect.
     near = tree.math("LOGARITHM", _DEEPEST / depth, 2.0)
     total: Any = 0.0
     for down, across in ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1)):
@@ -111,23 +111,23 @@ def eye_dome_group() -> bpy.types.NodeTree:
         there = tree.pick(compat.whole_pixels(tree.node("CompositorNodeTranslate", moved)))
         total = total + tree.math(
             "MINIMUM", near - there, 0.0
-        )  # a node's first input sets the picture's offset
+        )  # the first input determines the picture's offset
     shade = (total * strength * 0.125).exp()
     tree.finish({"Image": _times(tree, image, shade), "Shade": shade})
     return tree.node_tree
 
 
 def overlay_group() -> bpy.types.NodeTree:
-    """`sensor.overlay`: hot spots of one picture over another."""
+    """Create the group of `sensor.overlay`: hot spots of one picture over another."""
     tree = nodes.compositor(
         "Firetwin Overlay", "Hot spots of a thermal picture over the visible one", {"Image": _COLOUR}
     )
     image = tree.input("Image", _BLACK, "Picture below, in display colours, 0 to 1")
-    spots = tree.input("Thermal", _WHITE, "Picture of the hot spots, in register")
+    spots = tree.input("Thermal", _WHITE, "Picture of the hot spots, registered to the image")
     kelvin = _temperature(tree)
-    start = tree.input("From", overlay.START, "K above which it begins to show", "Where")
-    full = tree.input("To", overlay.FULL, "K from which it shows in full", "Where")
-    opacity = tree.input("Opacity", overlay.OPACITY, "Of what shows in full", "Where", most=1.0)
+    start = tree.input("From", overlay.START, "K above which the overlay fades in", "Where")
+    full = tree.input("To", overlay.FULL, "K from which the overlay has full opacity", "Where")
+    opacity = tree.input("Opacity", overlay.OPACITY, "Full opacity of the overlay", "Where", most=1.0)
     part = ((kelvin - start) / (full - start)).clamp() * opacity
     change = tree.vector("SUBTRACT", spots, image)
     tree.finish({"Image": tree.vector("ADD", image, _times(tree, change, part))})
@@ -149,7 +149,7 @@ def set_band(group: bpy.types.NodeTree, band: tuple[float, float]) -> None:
 
 
 def _kelvin(tree: Tree, radiance: Value) -> Value:
-    """Reciprocal temperature 1 / T by Horner's rule in log radiance; `set_band` sets the coefficients."""
+    """Evaluate 1 / temperature by Horner's rule in log radiance; `set_band` sets the coefficients."""
     held = tree.math("MAXIMUM", radiance, _named(tree, "Least"))
     held = tree.math("MINIMUM", held, _named(tree, "Most"))
     x = _log(tree, held) * _named(tree, "Scale") + _named(tree, "Shift")
@@ -174,11 +174,11 @@ def _log(tree: Tree, value: Any) -> Value:
 
 
 def _times(tree: Tree, colour: Any, number: Any) -> Value:
-    """Product of a colour and a number."""
+    """Multiply a colour by a number."""
     return tree.output("ShaderNodeVectorMath", {"Vector": colour, "Scale": number}, operation="SCALE")
 
 
 def _clamped(tree: Tree, colour: Any) -> Value:
-    """Colour clamped to 0 to 1."""
+    """Clamp a colour to 0 to 1."""
     above = tree.vector("MAXIMUM", colour, (0.0, 0.0, 0.0))
     return tree.vector("MINIMUM", above, (1.0, 1.0, 1.0))

@@ -1,8 +1,8 @@
-"""Integrated renderer: one Cycles render of a frame's surfaces, with smoke ray-marched over it.
+"""Integrated renderer: surfaces rendered by Cycles, composited with ray-marched smoke.
 
 Cycles renders only the shadow of smoke. The visible picture, infrared radiance and depth come from one
-render: AOVs give it temperature and flames, and the first ray of a pixel goes through its centre, where depth
-is sampled. Other passes, of one ray per pixel, come from a second render.
+render, in which AOVs record temperature and flames, and the first ray of a pixel goes through its centre to
+sample depth. Other passes, of one ray per pixel, come from a second render.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from .eye import Eye
 from .picture import Picture
 
 MARCHED_PASSES = ("rgb", "thermal", "depth")
-"""Passes of one render; it uses the view layer of the first of them that is requested."""
+"""Passes that share one render, in the view layer of the first of them that is requested."""
 
 _AOVS = {nodes.SURFACE: "COLOR", nodes.FLAMES: "COLOR", nodes.WARMTH: "VALUE"}
 _PICTURE = "integrated picture"
@@ -36,7 +36,7 @@ Array = NDArray[np.float32]
 
 
 class IntegratedRenderer:
-    """Integrated drawing of a scene; the scene stays set up for it until its Blender ends."""
+    """Integrated renderer of a scene; it changes the scene's setup until its Blender process ends."""
 
     def __init__(self, shot: Shot, stage: Stage) -> None:
         self.shot, self.stage, self.scene = shot, stage, stage.scene
@@ -50,7 +50,7 @@ class IntegratedRenderer:
         layers.exclude(self.scene, shadow.NAME.lower(), but="rgb")
 
     def frame_renderer(self, smoke: Sequence[volume.Bricks], part: Path) -> Callable[[list[Picture]], None]:
-        """Function that renders a frame's pictures with its smoke into a folder, before their `finish`."""
+        """Return a function that renders a frame's pictures with its smoke into a folder, before `finish`."""
         return lambda pictures: self._render({picture.name: picture for picture in pictures}, smoke, part)
 
     def _render(self, pictures: dict[str, Picture], smoke: Sequence[volume.Bricks], part: Path) -> None:
@@ -90,13 +90,13 @@ class IntegratedRenderer:
                 self.in_smoke.append(frame)
 
     def warnings(self) -> list[str]:
-        """Warnings for the user about the pictures."""
+        """Return warnings for the user about the pictures."""
         if not self.in_smoke:
             return []
         (view,) = self.shot.paths
         listed = f"frame {self.in_smoke[0]}" if len(self.in_smoke) == 1 else f"{len(self.in_smoke)} frames"
         return [
-            f'camera "{view.camera.name}" stands in smoke, which hides more than half of its picture in '
+            f'camera "{view.camera.name}" is inside smoke that hides more than half of its picture in '
             f"{listed}; move it to windward, or higher"
         ]
 
@@ -117,7 +117,7 @@ class IntegratedRenderer:
             _write(part, picture, np.concatenate(halves))
 
     def _write_visible(self, eyes: list[Array], picture: Picture, part: Path) -> None:
-        """Write the pass's files from the light (h, w, 3) of each eye."""
+        """Write the files of the visible picture from the radiance (h, w, 3) of each eye."""
         files = {end: part / Path(picture.file(end)).name for end in ("png", "exr")}
         written: dict[str, list[Array]] = {end: [] for end in files}
         two, self.scene.render.use_multiview = self.scene.render.use_multiview, False
@@ -133,7 +133,7 @@ class IntegratedRenderer:
                 sensor.write_image(files[end], np.concatenate(halves), note)
 
     def _composite(self, light: Array, picture: Picture, part: Path) -> None:
-        """Replace Cycles' picture in the compositor by this light, and write the pass's files."""
+        """Replace Cycles' picture in the compositor by this radiance, and write the files."""
         file = part / "light.exr"
         sensor.write_image(file, light)
         self.image.filepath = str(file)
@@ -145,7 +145,7 @@ class IntegratedRenderer:
 
 
 def applies(shot: Shot, scene: bpy.types.Scene) -> bool:
-    """Whether a scene's frames are rendered so: the settings ask for it, and the engine is Cycles."""
+    """Return whether a scene uses the integrated renderer: by its settings, and only in Cycles."""
     return sources.is_integrated(shot) and scene.render.engine == "CYCLES"
 
 
@@ -154,9 +154,9 @@ def _prepare(scene: bpy.types.Scene) -> None:
     for name in MARCHED_PASSES:
         layer = layers.of_pass(scene, name)
         layer.use_pass_z = True
-        layer.pass_alpha_threshold = 1.0  # flames are transparent, and emit
+        layer.pass_alpha_threshold = 1.0  # flames are transparent emitters
         if name != "depth":
-            layer.samples = 0  # the same samples in all passes, so that one does not depend on the others
+            layer.samples = 0  # equal samples, so that a pass does not depend on other requested passes
             known = {each.name for each in layer.aovs}
             for aov, kind in _AOVS.items():
                 if aov not in known:

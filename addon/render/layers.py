@@ -2,7 +2,7 @@
 
 Data layers are never denoised: a denoiser changes 300 K to 299.86 K. The File Output nodes stay muted until a
 render unmutes them, so that rendering in Blender's window writes no stray files. View layers and nodes of the
-user stay as they are. Those of Firetwin stay once they exist, so an artist's nodes between them are retained.
+user are unchanged. Existing ones of Firetwin are reused, which preserves an artist's nodes between them.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ SOURCE, _BETWEEN = "CompositorNodeRLayers", ("CompositorNodeGlare", "CompositorN
 
 
 def build(settings: Settings, stage: Stage) -> None:
-    """Create view layers and compositor of a scene of our own, and set the layers from the settings.
+    """Create view layers and compositor of a Firetwin scene, and set the layers from the settings.
 
-    It runs last: layers exclude collections that exist by then.
+    Call it last: layers can only exclude existing collections.
     """
     groups.build(settings, stage)
     if not stage.own:
@@ -48,7 +48,7 @@ def build(settings: Settings, stage: Stage) -> None:
 def complete(settings: Settings, stage: Stage, parts: Collection[str]) -> None:
     """Update view layers after some parts were rebuilt: exclude the collections that a pass does not show.
 
-    Missing layers are created; all else stays.
+    Missing layers are created; the rest is unchanged.
     """
     groups.build(settings, stage)
     if not stage.own:
@@ -83,7 +83,7 @@ def remove(scene: bpy.types.Scene) -> None:
 def repair(scene: bpy.types.Scene) -> None:
     """Repair compositor nodes that Blender lost when it opened a file of another version.
 
-    These are the outputs of File Output nodes, and our mark on the node that shows our picture.
+    They are outputs of File Output nodes, and our mark on the node with our picture.
     """
     compat.drop_copies()
     tree = compat.compositor(scene)
@@ -99,7 +99,7 @@ def repair(scene: bpy.types.Scene) -> None:
 
 
 def of_pass(scene: bpy.types.Scene, name: str) -> bpy.types.ViewLayer:
-    """View layer of a pass."""
+    """Return the view layer of a pass."""
     return next(layer for layer in scene.view_layers if owned.ours(layer, f"pass {name}"))
 
 
@@ -121,10 +121,10 @@ def select(scene: bpy.types.Scene, names: Iterable[str]) -> None:
 
 @contextmanager
 def black_materials(scene: bpy.types.Scene, names: Iterable[str]) -> Iterator[None]:
-    """Context: override materials by black in layers of geometry passes, so that shading costs no time.
+    """Override materials by black in layers of geometry passes, so that shading costs no time.
 
-    The override is opaque where these layers' own materials are. It is off in scenes with materials of an
-    artist.
+    The override is opaque exactly where the materials of these layers are. It is disabled in scenes with
+    materials of an artist.
     """
     shapes = {f"pass {name}" for name in names if _is_geometry_only(name)}
     geometry_layers = [layer for layer in scene.view_layers if layer.get(owned.MARK) in shapes]
@@ -160,19 +160,19 @@ def write_exr(scene: bpy.types.Scene, folder: str, pictures: Iterable[Picture]) 
 
 
 def has_still(each: Pass) -> bool:
-    """Whether the render itself writes this pass's PNG: the output of the compositor."""
+    """Return whether the compositor's output is this pass's PNG."""
     return "png" in each.files and not each.finished
 
 
 def rendered(name: str) -> RenderedPass:
-    """A pass with a view layer."""
+    """Look up a pass that has a view layer."""
     each = passes.known()[name]
     assert isinstance(each, RenderedPass)
     return each
 
 
 def _rendered() -> list[RenderedPass]:
-    """Passes with a view layer."""
+    """List the passes that have a view layer."""
     return [known_pass for known_pass in passes.known().values() if isinstance(known_pass, RenderedPass)]
 
 
@@ -182,7 +182,7 @@ def _is_geometry_only(name: str) -> bool:
 
 
 def _layer(scene: bpy.types.Scene, each: RenderedPass) -> bpy.types.ViewLayer:
-    """View layer of a pass: an existing one, else the default one of a new scene, else a new one."""
+    """Return the view layer of a pass: an existing one, else a new scene's default layer, else a new one."""
     what = f"pass {each.name}"
     for layer in scene.view_layers:
         if owned.ours(layer, what):
@@ -194,16 +194,16 @@ def _layer(scene: bpy.types.Scene, each: RenderedPass) -> bpy.types.ViewLayer:
 
 
 def _exclude_hidden(layer: bpy.types.ViewLayer, each: RenderedPass, parts: Collection[str] | None) -> None:
-    """Exclude the collections that a pass does not show: those of these parts, or of all for None."""
+    """Exclude the collections of `parts` (None: of all parts) that a pass does not show."""
     for child in _parts(layer):
         part = str(child.collection[owned.MARK]).lower()
         if parts is None or part in parts:
-            written = part in ("labels", "stations")  # seen by eyes alone
+            written = part in ("labels", "stations")  # only visible to people
             child.exclude = part in each.excludes or (each.shading != "light" and written)
 
 
 def _parts(layer: bpy.types.ViewLayer) -> Iterator[bpy.types.LayerCollection]:
-    """Our collections in a view layer, without those below excluded ones."""
+    """Yield our collections in a view layer, except children of excluded collections."""
     pending = list(layer.layer_collection.children)
     while pending:
         child = pending.pop()
@@ -214,7 +214,7 @@ def _parts(layer: bpy.types.ViewLayer) -> Iterator[bpy.types.LayerCollection]:
 
 
 def _compositor(scene: bpy.types.Scene) -> None:
-    """Add missing nodes to our compositor; a compositor of the user stays as it is."""
+    """Add missing nodes to our compositor; a compositor of the user is unchanged."""
     tree = compat.compositor(scene)
     if tree is None:
         tree = compat.new_compositor(scene)
@@ -239,7 +239,7 @@ def _record(scene: bpy.types.Scene, tree: bpy.types.NodeTree, each: RenderedPass
         image = compat.bloom(tree, image, Threshold=2.0, Maximum=20.0, Strength=0.25)
         compat.composite(tree, image)
     if each.channels == "grey" and each.socket == "Image":
-        parts = tree.nodes.new("CompositorNodeSeparateColor")  # all channels hold the same value
+        parts = tree.nodes.new("CompositorNodeSeparateColor")  # all channels are equal
         tree.links.new(image, parts.inputs[0])
         image = parts.outputs[0]
     _file(tree, each, image)
@@ -253,7 +253,7 @@ def _file(tree: bpy.types.NodeTree, each: RenderedPass, image: bpy.types.NodeSoc
 
 
 def _image(tree: bpy.types.NodeTree, each: RenderedPass) -> bpy.types.NodeSocket:
-    """Output socket that `_record` created for a pass's view layer."""
+    """Return the output socket that `_record` created for a pass's view layer."""
     ours = [node for node in tree.nodes if owned.ours(node)]
     source = next(node for node in ours if node.bl_idname == SOURCE and node.layer == each.name)
     image = source.outputs[each.socket]

@@ -20,7 +20,7 @@ _FORMAT = 1
 
 
 def read(out: Path) -> dict[str, Any]:
-    """Read the manifest of an output folder; an empty one where there is none.
+    """Read the manifest of an output folder; empty if the file does not exist.
 
     Raises
     ------
@@ -41,24 +41,24 @@ def read(out: Path) -> dict[str, Any]:
 
 
 def write(out: Path, settings: dict[str, Any], entries: dict[str, Any]) -> None:
-    """Write the manifest atomically: a reader gets the new one or the previous one."""
+    """Write the manifest atomically: readers get either the new or the previous one."""
     text = json.dumps({"format": _FORMAT, "settings": settings, "files": entries}, indent=1) + "\n"
     files.write_text(out / NAME, text)
 
 
 def credits_of(made_with: dict[str, Any]) -> Credits:
-    """Credits of a picture by the inputs of its fingerprint."""
+    """Return the credits of a picture from the inputs of its fingerprint."""
     found = made_with.get("credits", {})
     return Credits(tuple(found.get("data", ())), tuple(found.get("logo", ())))
 
 
 def credit_entry(made_with: dict[str, Any], words: Credits | None = None) -> dict[str, list[str]]:
-    """What an entry says of a picture: who is to be named, and which tiles are missing.
+    """Make a picture's credits and missing tiles for its entry.
 
     Parameters
     ----------
     words
-        Credits besides those of the inputs.
+        Further credits.
     """
     named = credits_of(made_with).joined(words or Credits())
     missing = made_with.get("tiles", {}).get("missing", [])

@@ -13,18 +13,18 @@ from ..smoke import sources
 
 BASE, SOLVER = 0.72e9, 0.3e9
 PIXEL, PLANT, FACE, CELL, VOXEL = 790.0, 2550.0, 255.0, 175.0, 7.0
-"""Bytes per pixel of a picture, plant, mesh face, cell of a flow that is being solved, and voxel of smoke.
+"""Bytes per pixel of a picture, plant, mesh face, cell of a flow during its solution, and voxel of smoke.
 
-They cover Blender, our libraries, flames and the solver's process. Fitted to peaks of the first frame of
-examples/king_fire.toml without smoke, 0.96 to 2.98 GB: all plants, a third and none, 640 and 1920 pixels
-wide, a mesh of a third. The figure per voxel is that of the film, in which a tenth of the box holds smoke. A
-box full of smoke takes several times as much.
+They cover Blender, our libraries, flames and the solver's process. They were fitted to peaks of the first
+frame of examples/king_fire.toml without smoke, 0.96 to 2.98 GB: all plants, a third and none, 640 and 1920
+pixels wide, a mesh of a third. The figure per voxel applies to the film, in which smoke fills a tenth of the
+box. A box full of smoke takes several times as much.
 """
 
 
 @dataclass(frozen=True)
 class Load:
-    """Sizes that decide a render's memory; `cells` and `voxels` are those of smoke."""
+    """Sizes that determine a render's memory: pixels, plants, mesh faces, and cells and voxels of smoke."""
 
     pixels: int
     plants: int
@@ -45,9 +45,9 @@ class Load:
 
 
 def load(shot: Shot, stage: Stage, frames: Iterable[int] = ()) -> Load | None:
-    """Sizes of rendering a shot's one camera on its built stage; `frames` show smoke.
+    """Compute the load of rendering a shot of one camera on its built stage; `frames` show smoke.
 
-    None for smoke that is not a solved flow with ray-marched rendering: it has no estimate.
+    Returns None for smoke other than a ray-marched solved flow, which has no estimate.
     """
     (camera,) = shot.settings.cameras
     smoky = list(frames)
@@ -75,6 +75,6 @@ def _smoke(shot: Shot, frames: list[int]) -> dict[str, int]:
 
 
 def describe(load: Load) -> str:
-    """Message with the memory estimate, before a render."""
+    """Format the memory estimate as a message before a render."""
     beside = f", and {size(load.solver)} while the smoke's flow is solved" if load.solver else ""
     return f"rendering takes about {size(load.bytes)} of memory at most{beside}"

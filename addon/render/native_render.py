@@ -16,7 +16,7 @@ from .picture import Picture
 
 
 def unprocessed_passes() -> tuple[str, ...]:
-    """Passes that Blender's own render writes as is: others need their own rays or post-processing."""
+    """List the passes that Blender's own render can write: others need special rays or post-processing."""
     known = passes.known().items()
     return tuple(name for name, each in known if _is_unprocessed(each))
 
@@ -31,7 +31,7 @@ def to_files(stage: Stage, out: Path, camera: str, names: tuple[str, ...]) -> No
     Parameters
     ----------
     names
-        Passes; those that are not `exact` are ignored.
+        Passes; those not in `unprocessed_passes` are ignored.
 
     Raises
     ------
@@ -40,7 +40,7 @@ def to_files(stage: Stage, out: Path, camera: str, names: tuple[str, ...]) -> No
     """
     chosen = [name for name in unprocessed_passes() if name in names]
     if compat.compositor(stage.scene) is None:
-        raise Error("the scene's compositor is gone, which writes the passes; build the scene again")
+        raise Error("the scene has no compositor, which writes the passes; build the scene again")
     layers.repair(stage.scene)
     layers.select(stage.scene, chosen)
     pictures = {name: Picture(camera, 1, name) for name in chosen}
@@ -64,11 +64,11 @@ def to_none(stage: Stage) -> None:
 
 
 def has_outputs(scene: bpy.types.Scene) -> bool:
-    """Whether Blender's own renders write pass files."""
+    """Return whether Blender's own renders write pass files."""
     return any(str(node.get(owned.MARK, "")).startswith("exr ") and not node.mute for node in _nodes(scene))
 
 
 def _nodes(scene: bpy.types.Scene) -> Iterable[bpy.types.Node]:
-    """Of the compositor, which an artist may have taken away."""
+    """Return the compositor's nodes; an artist may have removed the compositor."""
     tree = compat.compositor(scene)
     return tree.nodes if tree is not None else ()

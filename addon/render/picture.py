@@ -17,19 +17,19 @@ class Picture:
     name: str  # of the pass
 
     def stem(self) -> str:
-        """File stem such as ``drone_rgb_``; Blender appends the six digits of the frame."""
+        """Return the file stem, such as ``drone_rgb_``; Blender appends the six digits of the frame."""
         return f"{self.camera}_{self.name}_"
 
     def files(self) -> tuple[str, ...]:
-        """Paths of its files, relative to the output folder."""
+        """Return the paths of its files, relative to the output folder."""
         ends = passes.known()[self.name].files
         return tuple(passes.file_of(self.camera, self.name, self.frame, end) for end in ends)
 
     def file(self, suffix: str) -> str:
-        """Path of its file with this suffix."""
+        """Return the path of its file with this suffix."""
         return next(path for path in self.files() if path.endswith(suffix))
 
 
 def film(camera: str, name: str) -> str:
-    """Path of a camera's film, relative to the output folder."""
+    """Return the path of a camera's film, relative to the output folder."""
     return str(PurePosixPath(camera, f"{camera}_{name}.mp4"))

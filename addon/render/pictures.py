@@ -37,16 +37,16 @@ def render(
     ready: Ready = lambda frame, ahead: None,
     tell: MessageCallback = no_message,
 ) -> int:
-    """Render the pictures of a built scene that no other render leases, and enter them in the store.
+    """Render the pictures of a built scene without a lease of another render, and enter them in the store.
 
     Parameters
     ----------
     progress
-        Its note is the picture of the last frame, relative to the output folder. Frames that other renders
-        lease count as not done, also at the end.
+        Its note is the picture of the last frame, relative to the output folder. Frames leased by other
+        renders count as not done, even at the end.
     ready
-        Called before each frame, with the frames that follow it. The frame's smoke is on the disk when this
-        returns, or is the returned value (see `smoke.prefetch`).
+        Called before each frame, with the frames after it. When it returns, the frame's smoke is on disk, or
+        is the returned value (see `smoke.prefetch`).
     tell
         Receives warnings about the pictures.
 
@@ -79,9 +79,9 @@ def _frame(
     ready: Ready,
     renderer: integrated.IntegratedRenderer | None,
 ) -> list[Picture]:
-    """Render and publish the queue's current frame; empty where another render has taken its lease over.
+    """Render and publish the queue's current frame; empty if another render took over its lease.
 
-    The frame's memory is free when this returns.
+    The memory of the frame is freed on return.
     """
     smoke = ready(queue.frame, queue.ahead)
     memory.give_back()
@@ -92,7 +92,7 @@ def _frame(
     except Exception:
         if queue.holds_lease():
             raise
-        return []  # the temporary files go with it
+        return []  # the new holder of the lease renders the frame
     if not queue.holds_lease():
         return []
     publish(shot, session, part, finished, frame.words)
@@ -100,7 +100,7 @@ def _frame(
 
 
 def _preview(pictures: list[Picture]) -> str:
-    """A frame's file to report as its preview, relative to the output folder: a PNG if there is one."""
+    """Choose a file as preview of a frame, relative to the output folder: a PNG if there is one."""
     names = [name for picture in pictures for name in picture.files()]
     return next((name for name in names if name.endswith(".png")), names[0])
 
@@ -126,7 +126,7 @@ class _Frame:
         self.words = credits.of_scene(stage)
 
     def render(self, names: list[str]) -> list[Picture]:
-        """Write the files of these passes, and of the passes that they need, into the temporary folder."""
+        """Write the files of these passes, and of the passes they need, into the temporary folder."""
         known = passes.known()
         taken = {
             name: mount.taken(self.shot.settings, self.shot.cameras, self.camera, known[name])
@@ -182,7 +182,7 @@ class _Frame:
                 bpy.ops.render.render(write_still=still is not None, scene=self.scene.name)
 
     def files(self, picture: Picture, made: set[Picture]) -> dict[str, Path]:
-        """Files of a picture by suffix: temporary ones for pictures in `made`, else the published ones."""
+        """Return a picture's files by suffix: temporary files for pictures in `made`, else published ones."""
         out = self.session.store.out
         paths = map(Path, picture.files())
         return {path.suffix[1:]: self.part / path.name if picture in made else out / path for path in paths}
@@ -196,12 +196,12 @@ def publish(
     Parameters
     ----------
     words
-        Credits of tiles in the scene, besides those of the fingerprint.
+        Credits of tiles in the scene, in addition to the fingerprint's.
 
     Raises
     ------
     InputError
-        A file is damaged, or another render makes these pictures with other settings.
+        A file is damaged, or another render writes these pictures with other settings.
     """
     session.check_others()
     made = {name: part / Path(name).name for each in pictures for name in each.files()}
@@ -229,7 +229,7 @@ def publish(
 
 
 def _heading(shot: Shot, picture: Picture) -> float:
-    """Heading of a picture's centre, degrees clockwise from north."""
+    """Compute the heading of a picture's centre, degrees clockwise from north."""
     view = pixel_rays.path_of(shot, picture.camera)
     east, north, _ = compass(shot.local_frame, view.position[picture.frame - 1])
     ahead = -view.rotation[picture.frame - 1][:, 2]

@@ -1,4 +1,4 @@
-"""Render plan: which pictures are requested, and which of them are missing. Needs no Blender."""
+"""Render plan: requested pictures, and missing ones among them. Needs no Blender."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def pictures(
     camera: str | Collection[str] | None = None,
     names: str | None = None,
 ) -> list[Picture]:
-    """Requested pictures: those of the scene file, filtered by the command line; by camera, then run.
+    """List the requested pictures of a scene file, filtered by the command line; by camera, then run.
 
     Pictures of other cameras that they are composed from are added and come first (see `shot.cameras.mount`).
     Comparisons of runs come last. The passes that they need are added before them.
@@ -37,7 +37,7 @@ def pictures(
     camera
         Only this camera, or these, in all runs; ``camera@run``: in that run.
     names
-        Passes such as "rgb,thermal", in place of those of the scene file.
+        Passes such as "rgb,thermal", in place of the scene file's passes.
 
     Raises
     ------
@@ -46,7 +46,7 @@ def pictures(
     """
     settings = shot.settings
     if frames is not None and not frames.strip():
-        raise UsageError("--frames: is empty; name some, such as 1-10, or leave --frames out for all")
+        raise UsageError("--frames: is empty; give frames, such as 1-10, or omit --frames for all frames")
     try:
         wanted = frame_list.parse(frames or "", shot.frames.count)
     except ValueError as error:
@@ -67,7 +67,9 @@ def pictures(
         if reason := passes.refused(passes.known()[name], shot.camera(view), settings.render.engine):
             raise UsageError(f"--passes: {reason}")
     if chosen and not settings.runs and (alone := [name for name in chosen if passes.compares(name)]):
-        raise UsageError(f'--passes: "{alone[0]}" compares runs, and {settings.path} has no [[runs]]')
+        raise UsageError(
+            f'--passes: "{alone[0]}" compares runs, but {settings.path} has no [[runs]]; add one'
+        )
     drawn, compared = [], []
     for view in views:
         camera_of_view = shot.camera(view)
@@ -78,12 +80,14 @@ def pictures(
         drawn += [Picture(view, frame, name) for frame in listed for name in made]
         compared += [Picture(view, frame, name) for frame in listed for name in last]
     if not drawn:
-        raise UsageError(f"--frames {frames}: {' and '.join(views)} has none of these frames; name its own")
+        raise UsageError(
+            f"--frames {frames}: {' and '.join(views)} has none of these frames; choose frames of the camera"
+        )
     return _with_inputs(shot, drawn) + compared
 
 
 def _split_comparisons(asked: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Split passes of the first run into those of this run alone, and comparisons with other runs."""
+    """Split passes of the first run into passes of this run alone, and comparisons with other runs."""
     known = passes.known()
     compared = tuple(name for name in asked if passes.compares(name))
     needed = {need for name in compared for need in known[name].made_from}
@@ -91,7 +95,7 @@ def _split_comparisons(asked: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[s
 
 
 def rounds(shot: Shot, wanted: list[Picture]) -> list[list[Picture]]:
-    """Rounds of rendering: first the pictures without inputs from other cameras, then those with them."""
+    """Group pictures into rounds of rendering: pictures that need other cameras' pictures come second."""
     last = {
         picture.camera for picture in wanted if _inputs_of_other_cameras(shot, picture.camera, picture.name)
     }
@@ -102,7 +106,7 @@ def rounds(shot: Shot, wanted: list[Picture]) -> list[list[Picture]]:
 
 
 def rendered(shot: Shot, wanted: list[Picture]) -> set[tuple[str, str]]:
-    """Cameras and passes that Blender renders for these pictures; the others are composed from files."""
+    """Find the cameras and passes that Blender must render; the others are composed from files."""
     pairs = {(picture.camera, picture.name) for picture in wanted}
     for camera, name in list(pairs):
         pairs |= set(mount.taken(shot.settings, shot.cameras, camera, passes.known()[name]).values())
@@ -127,19 +131,19 @@ def _with_inputs(shot: Shot, found: list[Picture]) -> list[Picture]:
 
 
 def _inputs_of_other_cameras(shot: Shot, view: str, name: str) -> list[tuple[str, str]]:
-    """Inputs of a pass from other cameras of the same run: (camera, pass)."""
+    """Return a pass's inputs from other cameras of the same run: (camera, pass)."""
     camera, mark, run = view.partition("@")
     taken = mount.taken(shot.settings, shot.cameras, camera, passes.known()[name])
     return [(c + mark + run, need) for c, need in taken.values() if c != camera]
 
 
 def missing(store: Store, wanted: list[Picture], made_with: Fingerprints, after: int = 0) -> list[Picture]:
-    """Pictures whose files are missing, damaged, or made with other settings.
+    """Find pictures whose files are missing, damaged, or made with other settings.
 
     Parameters
     ----------
     after
-        Entries of the store up to this number do not count.
+        Entries of the store up to this number count as missing.
     """
     keys = {which: fingerprint(values) for which, values in made_with.items()}
     return [
@@ -150,7 +154,7 @@ def missing(store: Store, wanted: list[Picture], made_with: Fingerprints, after:
 
 
 def _frames(shot: Shot, camera: Camera, asked: list[int]) -> list[int]:
-    """Requested frames that a camera films."""
+    """Return the requested frames that a camera films."""
     if not camera.frames.strip():
         return asked
     own = set(shot.frames_of(camera))

@@ -1,4 +1,4 @@
-"""PNG metadata: removes the render times that Cycles writes, so that equal pictures are equal files."""
+"""PNG metadata: removal of the render times that Cycles writes, so that equal pictures are equal files."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _TIMES = b"cycles."
 
 
 def remove_render_times(path: Path) -> None:
-    """Remove Cycles' text chunks; a file that is no PNG, or is truncated, stays as it is."""
+    """Remove Cycles' text chunks; other or truncated files are unchanged."""
     data = path.read_bytes()
     kept, place = [_SIGNATURE], len(_SIGNATURE)
     while place + 12 <= len(data):

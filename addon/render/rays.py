@@ -20,7 +20,7 @@ class Rays:
     Attributes
     ----------
     origins
-        (h, w, 3) m, or (3,) where all rays share one origin.
+        (h, w, 3) m, or (3,) if all rays share one origin.
     directions
         (h, w, 3) unit vectors.
     aside
@@ -36,13 +36,13 @@ class Rays:
     slant: Array | None
 
     def of_depth(self, depth: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Distances (h, w) along the rays for Cycles' depths, m."""
+        """Convert Cycles' depths, m, to distances (h, w) along the rays."""
         if self.slant is None:
             return self.of_distance(depth)
         return (depth * self.slant).astype(np.float32)
 
     def of_distance(self, distance: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Distances (h, w) along the rays for distances from the camera, m."""
+        """Convert distances from the camera, m, to distances (h, w) along the rays."""
         square = distance.astype(np.float64) ** 2 - self.aside**2
         return np.sqrt(np.maximum(square, 0.0)).astype(np.float32)
 
@@ -55,7 +55,7 @@ def pixel_rays(
     eye: float,
     at: tuple[float, float] = (0.5, 0.5),
 ) -> Rays:
-    """Rays of a camera's picture.
+    """Compute the rays through a picture's pixels.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ def pixel_rays(
 
 
 def _frame(camera: bpy.types.Object, scene: bpy.types.Scene) -> tuple[Array, Array, float]:
-    """Image plane in camera space: lower left and upper right corner, and its distance."""
+    """Return the image plane in camera space: lower left and upper right corner, and distance."""
     corners = np.array(camera.data.view_frame(scene=scene))
     return corners.min(axis=0), corners.max(axis=0), float(-corners[0, 2])
 
@@ -96,7 +96,7 @@ def _around(
     eye: float,
     at: tuple[float, float],
 ) -> Rays:
-    """Rays of a spherical panorama."""
+    """Compute the rays of a spherical panorama."""
     height, width = shape
     bearing, elevation = panorama.pixels(2 * height, width, at)
     bearing, elevation = bearing[:height], elevation[:height]

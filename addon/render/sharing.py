@@ -1,7 +1,7 @@
-"""Render queue of frames that several renders into one folder share by leases. Needs no Blender.
+"""Render queue of frames, shared through leases by several renders into one folder. Needs no Blender.
 
-Renders with equal fingerprints divide the frames. With other fingerprints each would replace the other's
-pictures without end, so a render that meets such pictures stops.
+Renders with equal fingerprints divide the frames. With different fingerprints they would replace each other's
+pictures endlessly, so a render that meets such pictures stops.
 """
 
 from __future__ import annotations
@@ -41,11 +41,11 @@ class RenderSession:
     since
         Number of the store's latest entry when the render began.
     asked
-        All pictures that the render is asked for, also finished ones.
+        All requested pictures, including finished ones.
     finished
-        Pictures that this session finished. They stay finished whatever another render writes.
+        Pictures that this session finished. They remain finished, whatever another render writes.
     others_leases
-        Names of all leases that other renders held at a poll, also of those that have expired since.
+        Names of all leases that other renders held at any poll, including expired ones.
     """
 
     store: Store
@@ -58,7 +58,7 @@ class RenderSession:
     others_leases: set[str] = field(default_factory=set)
 
     def missing(self, wanted: list[Picture]) -> list[Picture]:
-        """Pictures that are not finished."""
+        """Find pictures that are not finished."""
         rest = [picture for picture in wanted if picture not in self.finished]
         return plan.missing(self.store, rest, self.made_with, self.after)
 
@@ -73,7 +73,7 @@ class RenderSession:
         Raises
         ------
         InputError
-            Since this render began, a picture that it is asked for was made with another fingerprint.
+            Since this render began, a requested picture was made with another fingerprint.
         """
         for camera, frame, name in (
             self.store.made_with_other_settings(self._keys, self.since) if self.asked else ()
@@ -86,7 +86,7 @@ class RenderSession:
                 )
 
     def free(self, wanted: list[Picture], tell: MessageCallback) -> list[Picture]:
-        """Unfinished pictures without a lease; waits until there are some; none when all are finished."""
+        """Wait for unfinished pictures without a lease, and return them; empty if all are finished."""
         waiting = False
         while True:
             self.check_others()
@@ -105,14 +105,14 @@ class RenderSession:
             time.sleep(_POLL_INTERVAL)
 
     def leased_by_others(self) -> set[str]:
-        """Names of the leases of other renders."""
+        """Return the names of other renders' leases."""
         others = self.leases.of_others()
         self.others_leases.update(others)
         return others
 
     @contextmanager
     def queue(self, wanted: list[Picture], tell: MessageCallback = no_message) -> Iterator[FrameQueue]:
-        """Frame queue of these pictures, in their order; releases its leases at the end."""
+        """Open a frame queue of these pictures, in order; it releases its leases at the end."""
         queue = FrameQueue(self, wanted, tell)
         try:
             yield queue
@@ -139,13 +139,13 @@ def open_session(
     since: int = 0,
     asked: Collection[Picture] = (),
 ) -> Iterator[RenderSession]:
-    """Open a render session in an output folder; creates the store where it is missing."""
+    """Open a render session in an output folder; create the store if necessary."""
     with Store(out, create=True) as store, Leases(store.data, owner or new_owner()) as held:
         yield RenderSession(store, held, made_with, after, since, frozenset(asked))
 
 
 class FrameQueue:
-    """Queue of frames: each step leases the current frame and the next one, which can be prepared meanwhile.
+    """Queue of frames: each step leases the current frame, and the next one for its preparation.
 
     Attributes
     ----------
@@ -165,12 +165,12 @@ class FrameQueue:
         self.names: list[str] = []
 
     def step(self) -> bool:
-        """Lease the next frame that is neither finished nor leased; False when there is none now.
+        """Lease the next frame that is neither finished nor leased; False if there is none at present.
 
         Raises
         ------
         InputError
-            Another render makes these pictures with other settings (see `RenderSession.check_others`).
+            Another render writes these pictures with other settings (see `RenderSession.check_others`).
         """
         self._release()
         self.session.check_others()
@@ -183,16 +183,16 @@ class FrameQueue:
 
     @property
     def done(self) -> int:
-        """Number of finished frames, also those that this queue found finished by another render."""
+        """Number of finished frames, including frames finished by other renders."""
         return self.total - len(self.waiting) - bool(self.camera) - bool(self.following)
 
     @property
     def ahead(self) -> list[int]:
-        """The next frame, if this render holds its lease and it is of the same camera; else empty."""
+        """The next frame, if it has the same camera and this render holds its lease; else empty."""
         return [self.following[0][1]] if self.following and self.following[0][0] == self.camera else []
 
     def holds_lease(self) -> bool:
-        """Whether the lease of the current frame is still ours; it expires without heartbeats."""
+        """Return whether this render still holds the current frame's lease; it expires without heartbeats."""
         return self.leases.held(_name(self.camera, self.frame))
 
     def end(self) -> None:
@@ -210,7 +210,7 @@ class FrameQueue:
                 if missing := self.session.missing(self.waiting.pop(frame)):
                     if _name(*frame) in self.session.others_leases:
                         self.tell(
-                            f"taking over {frame[0]} frame {frame[1]}, which another render left unfinished"
+                            f"taking over {frame[0]} frame {frame[1]}, left unfinished by another render"
                         )
                     return frame, [picture.name for picture in missing]
                 self.leases.give(_name(*frame))

@@ -1,8 +1,8 @@
 """Metadata of stereo 360-degree pictures and films (top-bottom, the left eye above), for VR players.
 
 Stills: XMP in the GPano namespace (https://developers.google.com/streetview/spherical-metadata), with the
-sizes of the file. GPano has no stereo, so the layout of the eyes is in GSpherical. Films: the boxes `st3d`
-and `sv3d` of Spherical Video V2
+size of the file. GPano does not support stereo, so the layout of the eyes is in GSpherical. Films: the boxes
+`st3d` and `sv3d` of Spherical Video V2
 (https://github.com/google/spatial-media/blob/master/docs/spherical-video-v2-rfc.md).
 """
 
@@ -47,7 +47,7 @@ def still(path: Path, size: tuple[int, int], heading: float) -> None:
 
 
 def film(path: Path) -> None:
-    """Write the boxes into an MP4 film of H.264; data after its `moov` moves, and chunk offsets are updated.
+    """Insert the boxes into an H.264 film in MP4; data after its `moov` moves, and chunk offsets are updated.
 
     Raises
     ------
@@ -65,13 +65,13 @@ def film(path: Path) -> None:
                     _copy(film, made, end - start)
         os.replace(part, path)
     except (struct.error, Error) as error:
-        raise input_error(path, f"cannot be marked as a film for headsets: {error}") from None
+        raise input_error(path, f"cannot get the metadata of VR films: {error}") from None
     finally:
         part.unlink(missing_ok=True)
 
 
 def _boxes_of_file(film: BinaryIO, size: int) -> Iterator[tuple[bytes, int, int]]:
-    """Kind, start and end of each box of a file."""
+    """Yield kind, start and end of each box of a file."""
     place = 0
     while place < size:
         film.seek(place)
@@ -87,15 +87,15 @@ def _copy(film: BinaryIO, made: BinaryIO, count: int) -> None:
 
 
 def _moov(box: bytes, end: int) -> bytes:
-    """A `moov` with our boxes added; `end` is its end in the file."""
+    """Add our boxes to a `moov`, which ends at `end` in the file."""
     body = _edited(b"moov", box[8:], end, 0)
     if _OURS not in body:
-        raise Error("it has no H.264 in it")
+        raise Error("no H.264 track")
     return _box(b"moov", _edited(b"moov", box[8:], end, len(body) + 8 - len(box)))
 
 
 def _edited(kind: bytes, body: bytes, end: int, growth: int) -> bytes:
-    """Body of a box with our boxes added; offsets of chunks from `end` on grow by `growth` bytes."""
+    """Add our boxes to a box's body; offsets of chunks from `end` on grow by `growth` bytes."""
     if kind in _CONTAINERS:
         return b"".join(_box(k, _edited(k, b, end, growth)) for k, b in _boxes(body))
     if kind == b"stsd":
@@ -108,7 +108,7 @@ def _edited(kind: bytes, body: bytes, end: int, growth: int) -> bytes:
 
 
 def _entry(body: bytes) -> bytes:
-    """An `avc1` with our boxes after its `avcC` and before its optional boxes."""
+    """Add our boxes to an `avc1`, after its `avcC` and before its optional boxes."""
     inside = [(k, b) for k, b in _boxes(body[_ENTRY:]) if k not in (b"st3d", b"sv3d")]
     return body[:_ENTRY] + b"".join(_box(k, b) + _OURS * (k == b"avcC") for k, b in inside)
 

@@ -1,8 +1,8 @@
-"""Store of an output folder: which files are finished, and the settings that produced them.
+"""Store of an output folder: its finished files and the settings that produced them.
 
-``store.sqlite`` holds the size, the SHA-256 and the fingerprint of the settings of every finished file, and
-the full settings of every fingerprint. Several renders, also of several machines, may share a folder (see
-`leases`). ``manifest.json`` holds the same for people and other programs.
+``store.sqlite`` records the size, the SHA-256 and the fingerprint of the settings of every finished file, and
+the full settings of every fingerprint. Several renders, on one or several machines, may share a folder (see
+`leases`). ``manifest.json`` has the same content for people and other programs.
 """
 
 from __future__ import annotations
@@ -33,12 +33,12 @@ class Store:
     Parameters
     ----------
     create
-        Create it where it is missing; otherwise a missing store reads as an empty one.
+        Create the store if it is missing; otherwise a missing store reads as empty.
 
     Raises
     ------
     InputError
-        The file is no store, or the manifest next to it is not one of Firetwin.
+        The file is not a store, or the manifest next to it is not Firetwin's.
     """
 
     def __init__(self, out: Path, create: bool = False) -> None:
@@ -67,12 +67,12 @@ class Store:
                 )
 
     def is_intact(self, key: str, paths: Iterable[str], after: int = 0) -> bool:
-        """Whether these files are unchanged since they were made with the settings of fingerprint `key`.
+        """Return whether these files are unchanged since they were made with the fingerprint `key`.
 
         Parameters
         ----------
         after
-            Entries up to this `number` do not count.
+            Entries up to this number count as missing.
         """
         query = "SELECT number, settings, stamp, entry FROM files WHERE path = ?"
         for path in paths:
@@ -82,7 +82,7 @@ class Store:
         return True
 
     def made_with_other_settings(self, keys: Iterable[str], since: int) -> list[tuple[str, int, str]]:
-        """Pictures (camera, frame, pass) entered after number `since` with settings of other fingerprints."""
+        """List pictures (camera, frame, pass) entered after `since` with other fingerprints than `keys`."""
         return self.data.all(
             "SELECT camera, frame, pass FROM files WHERE number > ? AND frame IS NOT NULL "
             "AND settings NOT IN (SELECT value FROM json_each(?)) ORDER BY number",
@@ -90,7 +90,7 @@ class Store:
         )
 
     def pictures(self, camera: str, name: str, key: str, suffix: str) -> dict[int, str]:
-        """Hashes, by frame, of a camera's unchanged pictures in a pass made with these settings."""
+        """Return hashes, by frame, of a camera's unchanged pictures in a pass made with these settings."""
         rows = self.data.all(
             "SELECT frame, path, stamp, entry FROM files WHERE camera = ? AND pass = ? AND settings = ? "
             "AND frame IS NOT NULL ORDER BY frame",
@@ -103,16 +103,16 @@ class Store:
         }
 
     def latest_number(self) -> int:
-        """Number of the latest entry; numbers increase with every entry."""
+        """Return the number of the latest entry; numbers increase with every entry."""
         (last,) = self.data.one("SELECT max(number) FROM files") or (None,)
         return last or 0
 
     def names(self) -> list[str]:
-        """Paths of all finished files, sorted."""
+        """List the paths of all finished files, sorted."""
         return [path for (path,) in self.data.all("SELECT path FROM files ORDER BY path")]
 
     def note(self, name: str) -> str | None:
-        """The note stored under a name; None without one."""
+        """Read the note stored under a name; None if there is none."""
         row = self.data.one("SELECT note FROM notes WHERE name = ?", name)
         return row[0] if row else None
 
@@ -121,7 +121,7 @@ class Store:
         self.data.do("INSERT OR REPLACE INTO notes VALUES (?, ?)", name, note)
 
     def export(self) -> None:
-        """Write the manifest, unless it is up to date."""
+        """Write the manifest unless it is up to date."""
         number = str(self.latest_number())
         if self.note("exported") == number and (self.out / manifest.NAME).exists():
             return
@@ -140,7 +140,7 @@ class Store:
             return None
 
     def _is_unchanged(self, path: str, state: str | None, entry: str) -> bool:
-        """Whether a file is unchanged: by its stamp; where that differs, as of a copy, by its content."""
+        """Return whether a file is unchanged, by its stamp or, if that differs (a copy), by its content."""
         now = self._stamp(path)
         if now is None or now == state:
             return now is not None
@@ -152,5 +152,5 @@ class Store:
 
 
 def describe(path: Path) -> dict[str, Any]:
-    """Size and hash of a finished file."""
+    """Compute the size and hash of a finished file."""
     return {"bytes": path.stat().st_size, "sha256": sha256(path)}

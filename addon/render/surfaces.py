@@ -34,7 +34,7 @@ def render(
 
     Returns
     -------
-    For each eye (-1 for the left and 1 for the right of two, or 0): its number, and its channels by pass.
+    For each eye: its number (-1 left, 1 right, or 0 for mono), and its channels by pass.
     """
     layers.select(scene, names)
     file, cycles = folder / "surfaces.exr", scene.cycles

@@ -1,4 +1,4 @@
-"""File verification: a picture or film that is damaged is never entered in a store."""
+"""File verification: damaged pictures and films are never entered in a store."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def picture(path: Path, size: tuple[int, int]) -> None:
     Raises
     ------
     InputError
-        The file is missing, truncated or of another size.
+        The file is missing, truncated or has another size.
     """
     if path.suffix == ".json":
         return _text(path)
@@ -38,7 +38,7 @@ def _text(path: Path) -> None:
     try:
         json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        raise _damaged(path, f"is no JSON: {error}") from None
+        raise _damaged(path, f"is not JSON: {error}") from None
 
 
 def film(path: Path) -> None:
@@ -74,4 +74,4 @@ def _end(path: Path, count: int) -> bytes:
 def _damaged(path: Path, reason: str) -> Exception:
     if no_room(path):
         return full_disk_error(path)
-    return input_error(path, f"{reason}; Blender left it damaged, so render it again")
+    return input_error(path, f"{reason}: Blender wrote a damaged file; render it again")

@@ -33,7 +33,7 @@ def make(shot: Shot, session: RenderSession, progress: Progress = silent) -> Non
             this = {(camera, name): session.made_with[camera, name]}
             for film in films.missing(shot, session.store, this):
                 _film(shot, session, *film)
-            any(films.missing(shot, session.store, this))  # notes in the store that the film is up to date
+            any(films.missing(shot, session.store, this))  # records in the store that the film is up to date
         finally:
             session.leases.give(path)
         progress(done, len(wanted), "filming")
@@ -95,9 +95,9 @@ def _strips(
     numbers: list[int],
     words: Credits,
 ) -> None:
-    """Add a strip for each picture, and its model time as a caption; stereo films have one for each eye.
+    """Add a strip for each picture, with its model time as a caption (one for each eye in stereo films).
 
-    Captions stand above the credits that the pictures have.
+    Captions are placed above the pictures' credits.
     """
     editor = scene.sequence_editor_create()
     (width, height), around = shot.resolution(shot.camera(camera)), shot.camera(camera).rig.around

@@ -52,7 +52,7 @@ def test_a_camera_in_smoke_is_told_of(looking):
     assert renderer.warnings() == []
     renderer._check_view(looking(100.0, -200.0), 2)
     (text,) = renderer.warnings()
-    assert text.startswith('camera "drone" stands in smoke')
+    assert text.startswith('camera "drone" is inside smoke')
     assert "in frame 2; move it" in text
     renderer._check_view(looking(100.0, -200.0), 3)
     assert "in 2 frames" in "".join(renderer.warnings())

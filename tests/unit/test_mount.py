@@ -212,7 +212,7 @@ def test_a_sidecar_is_made_again_when_passes_change_and_pictures_are_not():
 def test_a_cut_off_sidecar_is_no_whole_file(tmp_path):
     path = tmp_path / "pose.json"
     path.write_text('{"pose": ')
-    with pytest.raises(InputError, match="is no JSON"):
+    with pytest.raises(InputError, match="is not JSON"):
         verify.picture(path, (1, 1))
     path.write_text("{}")
     verify.picture(path, (1, 1))

@@ -124,8 +124,8 @@ def test_frames_of_another_render_are_told_and_taken_over(tmp_path, monkeypatch)
         assert render(mine, told.append) == [2, 3]
     assert told == [
         "waiting for 2 frames of another render; taken over 16 s after its last heartbeat",
-        "taking over drone frame 2, which another render left unfinished",
-        "taking over drone frame 3, which another render left unfinished",
+        "taking over drone frame 2, left unfinished by another render",
+        "taking over drone frame 3, left unfinished by another render",
     ]
 
 

@@ -1,4 +1,4 @@
-"""Finishing of pictures: each module makes the files of the pass of its name, or completes the rendered ones.
+"""Finishing of pictures: each module writes the files of the pass of its name, or completes rendered files.
 
 A module defines `finish`, unless its name begins with "_". It runs without Blender.
 """
@@ -45,6 +45,6 @@ def finisher(name: str) -> Finish:
 
 
 def code_files(name: str) -> list[str]:
-    """Files and folders of the package that decide how pictures of a pass are finished."""
+    """List the files and folders of the package that finish pictures of a pass."""
     helpers = sorted(path.name for path in FOLDER.glob("_[a-z]*.py"))
     return ["imaging", *(f"render/finish/{file}" for file in (f"{name}.py", *helpers))]

@@ -1,8 +1,8 @@
 """Satellite imager picture, registered to a camera's picture, with pixels of the imager's size.
 
-A camera above the equator stands for GOES-R's ABI at its longitude, any other for VIIRS (see
+A camera above the equator represents GOES-R's ABI at its longitude, any other camera VIIRS (see
 `shot.satellites.imager`). Each visible ground point, from depth, shows the imager's pixel that contains it.
-Points outside of all whole pixels in the run's domain are grey.
+Points outside of all complete pixels in the run's domain are grey.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def draw(png: Path, depth: Path, shot: Shot, camera: str, frame: int, long: bool
 
 
 def _instrument(shot: Shot, rig: object) -> tuple[imager.Instrument, imager.ImagerGrid]:
-    """Imager that a camera stands for, and its pixel grid."""
+    """Return the imager that a camera represents, and its pixel grid."""
     longitude = rig.geostationary if isinstance(rig, Satellite) else None
     instrument = imager.VIIRS if longitude is None else imager.ABI
     return instrument, imager.grid_of(instrument, shot.run, longitude or 0.0)
@@ -63,7 +63,7 @@ def _instrument(shot: Shot, rig: object) -> tuple[imager.Instrument, imager.Imag
 def _register(
     shot: Shot, points: NDArray[np.float64], measured: imager.ImagerPicture, band: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Brightness temperature (h, w), K, of the imager's pixels at scene points (h, w, 3); NaN outside."""
+    """Sample the imager's brightness temperature (h, w), K, at scene points (h, w, 3); NaN outside."""
     kelvin = np.full(points.shape[:2], np.nan)
     ground = np.isfinite(points).all(axis=-1)
     if not ground.any():

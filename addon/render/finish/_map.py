@@ -1,8 +1,8 @@
 """Map around a camera: a minimap's picture or the run's relief, with fire and camera drawn over it.
 
-The front is a bright line, ground burned in the last half hour orange, the burn scar dark red. The camera has
-its path and field of view. Fire and scar come from the run, so smoke in a minimap's picture does not occlude
-them.
+The front is a bright line, ground burned in the last half hour orange, the burn scar dark red. The camera is
+drawn with its path and field of view. Fire and scar come from the run, so smoke in a minimap's picture does
+not occlude them.
 """
 
 from __future__ import annotations
@@ -58,13 +58,13 @@ def draw(
 
 
 def _reach(view: Path) -> float:
-    """Distance from the centre to the sides, m, that keeps the camera's target on the map in every frame."""
+    """Choose the distance from centre to sides, m, that keeps the target on the map in every frame."""
     away = np.linalg.norm((view.target - view.position)[:, :2], axis=1)
     return max(_LEAST, 2.2 * float(away.max()))
 
 
 def _ground(shot: Shot, here: NDArray, east: NDArray, north: NDArray) -> NDArray:
-    """Ground colours (rows, columns, 3) at scene metres from `here`, north first."""
+    """Compute ground colours (rows, columns, 3) at scene metres from `here`, north first."""
     row, column = shot.ground.indices(*_places(shot, here, east, north))
     fields = shot.ground.fields
     height, canopy = (
@@ -78,7 +78,7 @@ def _ground(shot: Shot, here: NDArray, east: NDArray, north: NDArray) -> NDArray
 
 
 def _places(shot: Shot, here: NDArray, east: NDArray, north: NDArray) -> tuple[NDArray, NDArray]:
-    """Latitude and longitude (rows * columns) at scene metres from `here`."""
+    """Convert scene metres from `here` to latitude and longitude (rows * columns)."""
     x, y = np.meshgrid(here[0] + east, here[1] + north)
     return shot.ground.geodetic(x.ravel(), y.ravel())
 
@@ -104,7 +104,7 @@ def _fire(axes: Axes, shot: Shot, here: NDArray, east: NDArray, north: NDArray, 
 
 
 def _sight(axes: Axes, view: Path, frame: int, reach: float) -> None:
-    """Draw the field of view: filled up to the target, and its sides on to the map's edge."""
+    """Draw the field of view: filled up to the target, with its sides extended to the edge of the map."""
     if not view.perspective:
         return
     ahead = -view.rotation[frame - 1][:2, 2]

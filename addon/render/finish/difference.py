@@ -40,7 +40,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
 
 
 def classes(shot: Shot, points: NDArray[np.float64], frame: int) -> list[NDArray[np.uint8]]:
-    """Class (h, w) at scene points (h, w, 3), by other run: 1 burned in both, 2 first only, 3 other only.
+    """Classify scene points (h, w, 3), by other run: 1 burned in both, 2 first only, 3 other only.
 
     0 is unburned, no ground, or ground outside of either grid.
     """

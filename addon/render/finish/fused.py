@@ -47,7 +47,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
 
 
 def _part(shot: Shot, view: Path, frame: int, name: str, shape: tuple[int, ...]) -> tuple[float, float]:
-    """Fraction of a camera's view, across and up, that the picture of a sensor on its mount covers."""
+    """Compute the fraction of a camera's view, across and up, that a sensor on its mount covers."""
     if name == view.camera.name:
         return 1.0, 1.0
     across, up = view.halves[frame - 1]
@@ -65,7 +65,7 @@ def _title(shot: Shot, camera: str) -> str:
 
 
 def facts(shot: Shot, camera: str, frame: int) -> list[tuple[str, list[str]]]:
-    """Facts next to the panels, each with label and lines; the first is the time."""
+    """Collect the facts next to the panels, each with label and lines; the first is the time."""
     view, moment = pixel_rays.path_of(shot, camera), shot.utc(frame)
     here = pose.pose(shot, view, frame)
     places = (("latitude", "NS"), ("longitude", "EW"))
@@ -82,7 +82,7 @@ def facts(shot: Shot, camera: str, frame: int) -> list[tuple[str, list[str]]]:
     ]
     pace = shot.frames.step * shot.settings.time.fps
     if pace > 0.0:
-        rows.append(("FILM", [f"{float(f'{pace:.3g}'):,g}× as fast"]))  # ",.3g" says 1.12e+04
+        rows.append(("FILM", [f"{float(f'{pace:.3g}'):,g}× as fast"]))  # ",.3g" would print 1.12e+04
     if view.perspective:
         across = 2.0 * np.degrees(np.arctan(view.halves[frame - 1, 0]))
         rows.insert(4, ("VIEW", [f"{across:.0f}° wide"]))

@@ -12,11 +12,11 @@ from ...shot.passes.masks import COLOURS, HIDES, NAMES, SMOKE
 from ...shot.shot import Shot
 from . import Files
 
-_LEAST = 1.0e-4  # transmittance of smoke below which numbers are not exact
+_LEAST = 1.0e-4  # transmittance of smoke below which class numbers are inexact
 
 
 def classes(pixels: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """Class, instance and smoke transmittance, (h, w) each, from pixels of `blender.nodes.mask_switch`."""
+    """Separate pixels of `blender.nodes.mask_switch` into class, instance and transmittance, (h, w) each."""
     clear = pixels[..., 1].astype(np.float64)
     exact = clear > _LEAST
     low, code = (np.rint(np.where(exact, pixels[..., k] / np.where(exact, clear, 1.0), 0.0)) for k in (0, 2))

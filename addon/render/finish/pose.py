@@ -34,7 +34,7 @@ def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, 
 
 
 def described(shot: Shot, view: Path, frame: int) -> dict[str, Any]:
-    """Content of a sidecar."""
+    """Make the content of a sidecar."""
     run, camera = shot.run, view.camera
     return {
         "format": "firetwin pose 1",
@@ -61,25 +61,25 @@ def described(shot: Shot, view: Path, frame: int) -> dict[str, Any]:
 
 
 def _credits(shot: Shot) -> dict[str, Any]:
-    """Who is to be named for what the frame shows, and names of services."""
+    """Collect the credits of the frame and the names of tile services."""
     words = picture_credits.of_shot(shot)
     found = {"credits": list(words.data), "services": list(words.logo)}
     return {name: values for name, values in found.items() if values}
 
 
 def _tiles(shot: Shot) -> dict[str, Any]:
-    """What is missing of the tiles that the frame shows, and their screen-space error, pixels."""
+    """Collect the missing tiles of the frame and the screen-space error, pixels."""
     cut = tile_cut.prepared(shot)
     return {"tiles": {"missing": list(cut.missing), "error": cut.error}} if cut else {}
 
 
 def pose(shot: Shot, view: Path, frame: int) -> dict[str, Any]:
-    """Position and orientation; heights refer to the datum of the run's elevations."""
+    """Compute position and orientation; heights refer to the datum of the run's elevations."""
     here, turn, frame_of = view.position[frame - 1], view.rotation[frame - 1], shot.local_frame
     latitude, longitude, height = (float(value[0]) for value in frame_of.reverse(here[None]))
     east, north, up = path.compass(frame_of, here)
     right, above, ahead = turn[:, 0], turn[:, 1], -turn[:, 2]
-    # straight down, the picture's upper edge gives the heading
+    # for a camera looking straight down, the upper edge of the picture defines the heading
     level = ahead if abs(ahead @ up) < 0.9999 else above
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = turn, here
@@ -98,7 +98,7 @@ def pose(shot: Shot, view: Path, frame: int) -> dict[str, Any]:
 
 
 def intrinsics(view: Path, frame: int, width: int, height: int) -> dict[str, Any]:
-    """Camera intrinsics."""
+    """Compute the camera intrinsics."""
     across, up = view.halves[frame - 1] / (view.meet or 1.0)
     eye = height // 2 if view.around else height
     flat = "perspective" if view.perspective or view.meet else "parallel"

@@ -43,7 +43,7 @@ def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, 
 
 
 def scale(shot: Shot, frame: int) -> tuple[float, float]:
-    """Temperatures (K) at the cold and the hot end of the palette in a frame."""
+    """Return the temperatures (K) at the cold and the hot end of the palette in a frame."""
     low, high = shot.settings.render.thermal_low, shot.settings.render.thermal_high
     if low is None:
         band = BANDS[shot.settings.thermal.band]
