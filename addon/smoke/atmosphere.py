@@ -14,11 +14,11 @@ from . import stability
 WIND = 0.75  # factor on the run's near-surface wind, which includes the fire's own inflow (assumed)
 _SHEAR = 0.1  # exponent of the wind power law, over rough ground by day
 _VEER = 10.0, 4000.0  # degrees of veering to the right, up to this height, m
-_VEER_LIMIT = 1.2  # times that height, above which wind turns no further
+_VEER_LIMIT = 1.2  # times that height, above which the wind direction is constant
 _MIXED_THETA = (
     312.0  # K, potential temperature of the mixed layer: 27 degrees C over ground at 1200 m (assumed)
 )
-_MIXED = 3300.0  # m, depth of the layer that a dry September day mixes (assumed)
+_MIXED = 3300.0  # m, mixed layer of a dry September day (assumed)
 # K/m, potential temperature gradient: mixed layer, free atmosphere, nocturnal valley inversion
 _DAY, _ALOFT, _NIGHT = 0.3e-3, 4.5e-3, 12e-3
 STABILITY = (
@@ -36,7 +36,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Air:
-    """Atmospheric profile at heights (n,), m above ground, as `firetwin_core.flow.Profile` takes it."""
+    """Atmospheric profile at heights (n,), m above ground, for `firetwin_core.flow.Profile`."""
 
     height: Array
     potential_temperature: Array
@@ -45,14 +45,14 @@ class Air:
 
 
 def air(sun: float, ground: float) -> Air:
-    """Atmosphere under a sun at elevation `sun` (degrees), over ground of mean height (m above the sea)."""
+    """Estimate the atmosphere for the elevation of the sun (degrees) and the mean ground height (m)."""
     day = float(noise.smoothstep(*stability.TURN, sun))
     low = np.exp(np.log(_NIGHT) + day * (np.log(_DAY) - np.log(_NIGHT)))
     gradient = np.where(
         _HEIGHTS[1:] <= _INVERSION, low, np.where(_HEIGHTS[1:] <= _MIXED, _DAY + (1 - day) * 2.7e-3, _ALOFT)
     )
     warmer = np.concatenate([[0.0], np.cumsum(gradient * np.diff(_HEIGHTS))])
-    # nights are colder near the ground, not warmer aloft
+    # at night the ground layer is colder; air aloft is unchanged
     theta = _MIXED_THETA + warmer - np.interp(_MIXED, _HEIGHTS, warmer)
     water = np.minimum(
         np.interp(_HEIGHTS, *_WATER), _MAX_HUMIDITY * _saturation(theta, _pressure(ground + _HEIGHTS))
@@ -61,19 +61,19 @@ def air(sun: float, ground: float) -> Air:
 
 
 def _pressure(height: Array | float) -> Array | float:
-    """Pressure, Pa, at heights above the sea, m: International Standard Atmosphere."""
+    """Return pressure, Pa, at heights above the sea, m, in the International Standard Atmosphere."""
     return 101325.0 * np.maximum(1.0 - 2.25577e-5 * np.asarray(height), 0.0) ** 5.25588
 
 
 def _saturation(potential_temperature: Array, pressure: Array | float) -> Array:
-    """Saturation mixing ratio of water vapour, kg/kg, by Magnus' formula (cpp/flow/thermodynamics.hpp)."""
+    """Return the saturation mixing ratio, kg/kg, by Magnus' formula (cpp/flow/thermodynamics.hpp)."""
     celsius = potential_temperature * (pressure / 1e5) ** 0.2857 - 273.15
     vapour = 610.94 * np.exp(17.625 * celsius / (celsius + 243.04))
     return 0.622 * vapour / (pressure - 0.378 * vapour)
 
 
 def wind(near_ground: tuple[float, float]) -> Array:
-    """Wind profile (n, 2), m/s, from the wind at 10 m: a power law that veers with height."""
+    """Return the wind profile (n, 2), m/s, from the wind at 10 m: a power law that veers with height."""
     speed = WIND * np.hypot(*near_ground) * (np.maximum(_HEIGHTS, 10.0) / 10.0) ** _SHEAR
     degrees, height = _VEER
     turned = np.radians(degrees) * np.clip(_HEIGHTS / height, 0.0, _VEER_LIMIT)

@@ -1,8 +1,8 @@
 """Bake: write the smoke volumes of a shot to disk, one OpenVDB file per frame.
 
 Files are ``<cache>/<key>/smoke_000001.vdb``. The key is a hash of the run's inputs, of the settings that
-affect smoke, and of the code that makes it. A changed setting therefore never shows stale smoke, and a
-repeated bake has nothing to do. Files are renamed into place when complete.
+affect smoke, and of the code that makes it. Therefore changed settings never show stale smoke, and a repeated
+bake does no work. Files are renamed into place when complete.
 """
 
 from __future__ import annotations
@@ -28,30 +28,30 @@ from .view import resolution, shot_frames
 
 __all__ = ["ahead", "bake", "estimate", "file", "folder", "resolution", "shot_frames"]
 
-_FRAME_MEMORY = 2 << 30  # bytes of memory per frame; 0.5 GB was measured, and 1.9 GB for a flow
-_FRAME_PROCESSORS = 4  # processors per frame; two frames at once on these took as long and twice the memory
+_FRAME_MEMORY = 2 << 30  # bytes of memory per frame; measured: 0.5 GB, and 1.9 GB for a flow
+_FRAME_PROCESSORS = 4  # per frame; on four, two frames in parallel took as long and twice the memory
 _NOT_IN_FILES = ("enabled", "extinction", "voxel_size", "draw")
 """Keys of [smoke] that affect only rendering; voxel sizes are hashed separately."""
 
 
 def folder(shot: Shot, progress: Progress = silent) -> Path:
-    """Cache folder of this shot's smoke. Inputs that were not read before are read now.
+    """Return the cache folder of this shot's smoke. This may read inputs of the run.
 
-    The path is absolute, as Blender takes relative ones from the .blend file.
+    The path is absolute, because Blender resolves relative paths against the .blend file.
     """
     return shot.settings.cache.absolute() / _cache_key(shot, progress)
 
 
 def file(shot: Shot, frame: int) -> Path:
-    """Volume file of a frame."""
+    """Return the volume file of a frame."""
     return _volume_path(folder(shot), frame)
 
 
 def bake(shot: Shot, progress: Progress = silent, frames: Iterable[int] | None = None) -> Path:
-    """Write the missing volumes of the shot, or of those of `frames` that it has.
+    """Write the missing volumes of the shot, or of its frames among `frames`.
 
-    Several frames are made in parallel, as processors and memory allow. A frame filmed by only one of several
-    cameras uses that camera's own volume, as a render of this camera does; it is made once for both.
+    Several frames are baked in parallel, as processors and memory allow. A frame filmed by only one of
+    several cameras shares the volume with a render of that camera alone.
 
     Returns
     -------
@@ -99,18 +99,18 @@ def ahead(
 ) -> Iterator[Callable[..., None]]:
     """Write volumes during rendering, one frame ahead.
 
-    Yields a function ``ready(frame, ahead)``. It waits for a frame's volume and starts the first missing one
-    of the frames `ahead`, by default those that follow. It raises the error of that frame. With smoke off it
-    does nothing.
+    Yields a function ``ready(frame, ahead)``. It waits for a frame's volume, or raises its error, and starts
+    the first missing one of the frames `ahead`, by default the following frames. Without smoke it does
+    nothing.
 
     Parameters
     ----------
     frames
         Frames in order of rendering; frames outside of the shot are ignored.
     progress
-        Called while the first frame is waited for.
+        Called while waiting for the first frame.
     tell
-        Receives a message on the disk space needed, once a volume exists to estimate it.
+        Receives a message on the required disk space, as soon as a volume exists to estimate it.
 
     Raises
     ------
@@ -130,19 +130,19 @@ def ahead(
 
 
 def estimate(shot: Shot, frames: Iterable[int]) -> int | None:
-    """Estimated bytes of the volumes of `frames`, from the mean of those that exist; None without any."""
+    """Estimate the bytes of the volumes of `frames` from the mean of existing volumes; None without any."""
     sizes = {path.name: path.stat().st_size for path in folder(shot).glob("*.vdb")}
     there = sum(name.startswith("smoke") for name in sizes)
     return round(sum(sizes.values()) / there * len(_frames_of_shot(shot, frames))) if there else None
 
 
 class BakeQueue:
-    """Queue of frames whose smoke one thread makes.
+    """Queue of frames whose smoke is prepared by one thread.
 
     Attributes
     ----------
     elsewhere
-        Whether another of our processes prepares the shot; None: no such process.
+        True while another Firetwin process prepares the shot; None: there is no other process.
     """
 
     elsewhere: Callable[[], bool] | None = None
@@ -200,7 +200,7 @@ class _Volumes(BakeQueue):
         self.progress, self.tell = silent, no_message
 
     def _disk_space(self) -> str:
-        """Message on the disk space that the volumes need."""
+        """Format the message on disk space."""
         needed = size(max(estimate(self.shot, self.frames) or 0, 1e6))
         return f"smoke of {count(len(self.frames), 'frame')} takes about {needed} in {self.place}"
 
@@ -215,7 +215,7 @@ def _volume_path(place: Path, frame: int) -> Path:
 
 
 def _frames_of_shot(shot: Shot, frames: Iterable[int]) -> list[int]:
-    """Those of `frames` that the shot has, without duplicates."""
+    """Return the frames of the shot among `frames`, without duplicates."""
     return [frame for frame in dict.fromkeys(frames) if 1 <= frame <= shot.frames.count]
 
 
@@ -229,7 +229,7 @@ def _prepare_folder(shot: Shot, progress: Progress) -> Path:
 
 
 def _parallel_frames(frames: int) -> int:
-    """Number of frames made in parallel."""
+    """Return the number of frames to bake in parallel."""
     try:
         free = os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
     except (AttributeError, OSError, ValueError):
@@ -238,7 +238,7 @@ def _parallel_frames(frames: int) -> int:
 
 
 def _cache_key(shot: Shot, progress: Progress) -> str:
-    """Cache key: hash of all inputs of the volumes."""
+    """Compute the cache key: a hash of all inputs of the volumes."""
     settings, complete = shot.settings, shot.settings.smoke.complete
     source = sources.select(shot)
     inputs = schema.select(
@@ -248,7 +248,7 @@ def _cache_key(shot: Shot, progress: Progress) -> str:
     for name in (*_NOT_IN_FILES, *source.unused_settings):
         del inputs["smoke"][name]
     inputs |= source.inputs()
-    if not complete:  # what is culled depends on the cameras and their frames
+    if not complete:  # culling depends on the cameras and their frames
         width, height = settings.render.resolution
         for camera in inputs.get("cameras", ()):
             del camera["frames"]  # normalised form

@@ -14,18 +14,18 @@ from typing import Protocol, TypeVar
 from .. import files, leases
 from ..errors import Error, input_error, writing
 
-IN_USE = 600.0  # s since the last heartbeat; also the age at which an unfinished file is abandoned
+IN_USE = 600.0  # s since the last heartbeat; also the age of an unfinished file that counts as abandoned
 _HEARTBEAT = 60.0  # s between heartbeats
 _MAGIC = b" BDV\0\0\0\0"
 _OURS = re.compile(r"\.?((smoke|far|moment)_\d{6,}|state)(\.[0-9a-f]{12}\.part)?\.(vdb|npz)|state\.lock")
 
 
 class Cached(Protocol):
-    """What is kept together in a cache."""
+    """Entry of a cache that is evicted as a unit."""
 
     @property
     def bytes(self) -> int:
-        """Its size."""
+        """Size, bytes."""
 
     @property
     def used(self) -> float:
@@ -33,7 +33,7 @@ class Cached(Protocol):
 
     @property
     def in_use(self) -> bool:
-        """Whether it must stay."""
+        """True if the entry must not be evicted."""
 
 
 _T = TypeVar("_T", bound=Cached)
@@ -49,12 +49,12 @@ class CachedVolumes:
 
     @property
     def in_use(self) -> bool:
-        """Whether a bake or a render may be using them."""
+        """True if a bake or a render may be using the volumes."""
         return time.time() - self.used < IN_USE
 
 
 def list_volumes(cache: Path) -> list[CachedVolumes]:
-    """Volumes in a cache, most recently used first. Foreign files are ignored."""
+    """List the volumes in a cache, most recently used first. Foreign files are ignored."""
     volumes = []
     for folder in cache.iterdir() if cache.is_dir() else ():
         if re.fullmatch("[0-9a-f]{16}", folder.name) and folder.is_dir() and not folder.is_symlink():
@@ -64,7 +64,7 @@ def list_volumes(cache: Path) -> list[CachedVolumes]:
 
 
 def to_evict(volumes: list[_T], limit: int) -> list[_T]:
-    """Least recently used volumes to evict so that the rest takes at most `limit` bytes; never any in use."""
+    """Choose least recently used entries to evict to keep at most `limit` bytes; never entries in use."""
     left, going = limit - sum(volume.bytes for volume in volumes if volume.in_use), []
     for each in sorted((volume for volume in volumes if not volume.in_use), key=lambda each: -each.used):
         left -= each.bytes
@@ -87,7 +87,7 @@ def remove(volumes: CachedVolumes) -> bool:
 
 @contextlib.contextmanager
 def in_use(*folders: Path) -> Iterator[None]:
-    """Heartbeat of use: touch the folders, whose modification time is their time of last use."""
+    """Signal use by a heartbeat that touches the folders; their modification time is the time of last use."""
 
     def heartbeat() -> None:
         for folder in folders:
@@ -121,22 +121,22 @@ def check(path: Path, size: int) -> None:
         begins = file.read(len(_MAGIC))
         whole = file.seek(0, 2) == size
     if begins != _MAGIC or not whole:
-        raise input_error(path, "is cut off; free some room on the disk and bake it again")
+        raise input_error(path, "is truncated; free disk space and bake it again")
 
 
 def publish(part: Path, path: Path, size: int) -> None:
-    """Rename a complete volume of `size` bytes into place. A concurrent writer replaces it by the same."""
+    """Rename a complete volume of `size` bytes into place. Concurrent writers write identical files."""
     try:
         check(part, size)
         files.publish(part, path)
-    except Error:  # Windows does not replace an open file
+    except Error:  # Windows cannot replace an open file
         part.unlink(missing_ok=True)
         if not path.exists():
             raise
 
 
 def _measure(folder: Path) -> CachedVolumes:
-    """Measure a folder's volumes. A volume linked into several folders (`shared_frames`) is shared out."""
+    """Measure a folder's volumes. Volumes linked into several folders (`shared_frames`) count in parts."""
     states = [path.stat() for path in folder.iterdir() if _OURS.fullmatch(path.name)]
     size = sum(state.st_size // max(state.st_nlink, 1) for state in states)
     return CachedVolumes(folder, size, folder.stat().st_mtime)

@@ -1,4 +1,4 @@
-"""Close-up smoke: a window before the camera with voxels a third as wide. Needs no Blender."""
+"""Close-up smoke: a window in front of the camera with voxels a third as wide. Needs no Blender."""
 
 from __future__ import annotations
 
@@ -10,11 +10,9 @@ from numpy.typing import NDArray
 from ..shot.shot import Shot
 
 FINER = 3  # subdivisions of a coarse voxel
-_NEAR = 60.0  # coarse voxels; beyond this distance from all cameras finer voxels show no more detail
-_HALF, _AHEAD = (
-    40.0,
-    0.6,
-)  # voxels of the rest, half of the square's side; of that its middle is before a camera
+_NEAR = 60.0  # coarse voxels; beyond this distance from all cameras finer voxels add no visible detail
+# Half the side of the square (coarse voxels), and share of it by which its centre is in front of the camera.
+_HALF, _AHEAD = 40.0, 0.6
 _FADE = 0.3  # fraction of the half side over which fine and coarse smoke are blended
 
 Array = NDArray[np.float64]
@@ -29,14 +27,14 @@ class Window:
     voxel: float
 
     def share(self, x: Array, y: Array) -> Array:
-        """Blend weight of the window's smoke at points: 0 outside and at the sides, 1 farther in."""
+        """Compute the blend weight of the window's smoke at points: 0 outside and at the sides, 1 inside."""
         sides = (x - self.low[0], self.high[0] - x, y - self.low[1], self.high[1] - y)
         depth = np.minimum(np.minimum(*sides[:2]), np.minimum(*sides[2:]))
         return np.clip(depth / (_FADE * 0.5 * (self.high[0] - self.low[0])), 0.0, 1.0)
 
 
 def window(shot: Shot, frame: int, voxel: float) -> Window | None:
-    """Window around the eyes of a frame if voxels of `voxel` m are too coarse for them; else None."""
+    """Return a window around the eyes of a frame if voxels of `voxel` m are too coarse there, else None."""
     if shot.settings.smoke.voxel_size or shot.fire_distance > _NEAR * voxel:
         return None
     paths = [path for path in shot.perspective_paths if frame - 1 in shot.filmed(path)]

@@ -28,11 +28,11 @@ class Cost:
     folder: Path
 
     def brief(self) -> str:
-        """Short form: ``about 2 min, 1.1 GB``."""
+        """Format the cost briefly: ``about 2 min, 1.1 GB``."""
         return f"about {duration(self.seconds)}, {size(self.bytes)}"
 
     def describe(self) -> str:
-        """Full sentence with time, disk space and the alternative."""
+        """Describe time, disk space and the alternative in a sentence."""
         return (
             f"the air over {duration(self.time)} of the fire is solved once in cells of {self.cells}, which "
             f"takes about {duration(self.seconds)} on 2 cores and {size(self.bytes)} in {self.folder}; "
@@ -41,7 +41,7 @@ class Cost:
 
 
 def estimate(flow: Flow) -> Cost | None:
-    """Cost of the remaining solution of a flow; None if it is complete."""
+    """Estimate the cost of the remaining solution of a flow; None if it is complete."""
     shot, frames = flow.shot, flow.shot.frames
     missing = [
         domain_left for domain_left in flow.domains if not domain_left.snapshot_path(frames.count).exists()
@@ -60,6 +60,6 @@ def estimate(flow: Flow) -> Cost | None:
 
 
 def _widths(solved: list[Domain]) -> str:
-    """Cell widths of the domain and of the nested domain if there is one."""
+    """Format the cell widths of the domain and of the nested domain if there is one."""
     outer, *inner = (f"{domain.box.spacing:.3g} m" for domain in solved)
     return outer + "".join(f", {domain} where cameras look" for domain in inner)

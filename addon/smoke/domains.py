@@ -23,17 +23,17 @@ LEAD = 600.0  # s, spin-up of the nest before the first frame, in which its own 
 _LEVELS, _NEST_LEVELS = (
     (60.0, 270.0, LEVELS[0]),
     (36.0, 186.0, LEVELS[1]),
-)  # lowest m, growth to the highest, count
-_MARGIN = 5000.0  # m around the burning area, for the inflow of the fire
+)  # depth of the lowest level (m), growth to the highest, number of levels
+_MARGIN = 5000.0  # m around the burning area, for the fire's inflow
 _DOWNWIND = (6000.0, 15_000.0)  # m, downwind extent, least and most
 _WIDEST = 130_000.0  # m, side limit; smoke of more distant burning cells is left out
 _SHARE = 0.01  # fraction of the heat that may lie outside of the bounds on each side
 _NEST = NEST  # cells along a side: 12 km
-_MAX_COVERED = 0.8  # fraction of a nest's side up to which the fire's extent lets the nest centre on it
+_MAX_COVERED = 0.8  # fire extent / nest side, up to which the nest is centred on the complete fire
 _NEST_ROUND = 6000.0  # m; radius of the heat on which the nest is centred, near the camera's target
-_NEST_SEEN = 60_000.0  # m; for cameras farther away the nest adds no visible detail
+_NEST_SEEN = 60_000.0  # m; the nest adds no visible detail for cameras farther away
 _NEST_SWATH = 20_000.0  # m; wider pictures from above show more of the domain than of the nest
-_SNAP = 1000.0  # m; a nest stays in place under small camera changes
+_SNAP = 1000.0  # m; grid for the nest's position, so that small camera changes do not move it
 _TOP = 600.0, 2.0  # m, and factor on the plume rise: least height of the box
 _MIN_WIND = 1.0  # m/s, lower limit of the wind in the plume rise
 _SIZE_FACTORS = (1, 2, 3, 5)  # factors of the side lengths, for the fast transforms
@@ -51,11 +51,11 @@ class Box:
     corner: tuple[float, float]
 
     def plain(self) -> list[object]:
-        """JSON form."""
+        """Return the JSON form."""
         return [list(self.levels), list(self.shape), self.spacing, list(self.corner)]
 
     def middles(self) -> tuple[Array, Array]:
-        """Cell centres: x (nx,) of columns and y (ny,) of rows, m."""
+        """Return cell centres: x (nx,) of columns and y (ny,) of rows, m."""
         x, y = (
             low + (np.arange(n) + 0.5) * self.spacing
             for low, n in zip(self.corner, self.shape[::-1], strict=True)
@@ -90,22 +90,22 @@ class Domain:
         return math.prod(self.box.shape) * (len(self.box.levels) - 1)
 
     def heights(self) -> Array:
-        """Heights of cell centres (nz, rows, columns), m."""
+        """Compute the heights of cell centres (nz, rows, columns), m."""
         levels = np.array(self.box.levels)
         middles = 0.5 * (levels[1:] + levels[:-1])[:, None, None]
         return self.mean + middles + (self.ground - self.mean) * np.maximum(1.0 - middles / self.top, 0.0)
 
     def snapshot_path(self, frame: int) -> FilePath:
-        """Snapshot file of a frame."""
+        """Return the snapshot file of a frame."""
         return self.folder / f"moment_{frame:06d}.npz"
 
     def has(self, frame: int) -> bool:
-        """Whether a frame's snapshot exists."""
+        """Return whether a frame's snapshot exists."""
         return snapshots.is_complete(self.snapshot_path(frame), (len(self.box.levels) - 1, *self.box.shape))
 
 
 def outer_box(shot: Shot) -> Box | None:
-    """Domain box around everything that burns from spin-up to the last frame; None without fire.
+    """Return a box around all fire from spin-up to the last frame; None without fire.
 
     It is independent of the cameras.
     """
@@ -132,7 +132,7 @@ def outer_box(shot: Shot) -> Box | None:
 
 
 def nest_box(shot: Shot, around: Box) -> Box | None:
-    """Nested box around the heat that cameras look at; None without a near camera or without spin-up for it.
+    """Return a nested box around the heat in view; None without a near camera or without spin-up time.
 
     If all heat fits, the nest is centred on it for any camera, so that cameras share the solution.
     """
@@ -151,14 +151,14 @@ def nest_box(shot: Shot, around: Box) -> Box | None:
     corner = np.round((middle - 0.5 * side) / snap) * snap
     corner = np.clip(corner, np.array(around.corner) + room, np.array(around.high) - side - room)
     corner = np.round(corner / around.spacing) * around.spacing
-    if np.any(corner < np.array(around.corner) + room):  # the box is hardly wider than the nest
+    if np.any(corner < np.array(around.corner) + room):  # the box is only slightly wider than the nest
         return None
     levels = _levels(_NEST_LEVELS, shot.scale.ratio, _height_fraction(shot))
     return Box(levels, (_NEST, _NEST), fine, (float(corner[0]), float(corner[1])))
 
 
 def smooth_ground(shot: Shot, box: Box, smoothings: int) -> Array:
-    """Smoothed ground height in a box's cells (rows, columns), m."""
+    """Compute smoothed ground heights in a box's cells (rows, columns), m."""
     x, y = box.middles()
     height = shot.bare_ground.up(np.tile(x, len(y)), np.repeat(y, len(x))).reshape(len(y), len(x))
     for _ in range(smoothings):
@@ -171,7 +171,7 @@ def smooth_ground(shot: Shot, box: Box, smoothings: int) -> Array:
 
 
 def _burning(shot: Shot) -> tuple[Array, Array]:
-    """Bounds (x, y) of the shot's heat without outliers, lowest and highest, m; unbounded without heat."""
+    """Return bounds (x, y) of the shot's heat without outliers, lowest and highest, m; infinite if none."""
     bounds = [_bounds(shot.fire, time) for time in np.linspace(shot.frames.first, shot.frames.last, 5)]
     extents = np.array([each for each in bounds if each is not None])
     if len(extents) == 0:
@@ -180,7 +180,7 @@ def _burning(shot: Shot) -> tuple[Array, Array]:
 
 
 def _heat_centre(shot: Shot, target: Array) -> Array | None:
-    """Centre (x, y) of the heat around the source nearest to `target`; None without heat."""
+    """Return the centre (x, y) of the heat around the source nearest to `target`; None without heat."""
     sources = shot.fire.sources(shot.frames.middle)
     if len(sources.power) == 0:
         return None
@@ -191,17 +191,18 @@ def _heat_centre(shot: Shot, target: Array) -> Array | None:
 
 
 def _sees_nest(view: Path, scale: Scale) -> bool:
-    """Whether the nest adds visible detail for a camera."""
+    """Return whether the nest adds visible detail for a camera."""
     if not view.perspective:
         return 2.0 * view.half[0] < scale.length(_NEST_SWATH)
     return np.hypot(*(view.position - view.target).mean(axis=0)[:2]) < scale.length(_NEST_SEEN)
 
 
 def _height_fraction(shot: Shot) -> float:
-    """Fraction of the full domain height that the plume needs; else a small fire's plume spans few levels.
+    """Return the share of the full domain height that the plume needs.
 
-    Plume rise is 2.6 (F / (U s))^(1/3) (G. A. Briggs 1975, "Plume rise predictions", AMS Lectures on Air
-    Pollution), with buoyancy flux F = g Q / (pi cp rho T), at the daytime stability.
+    At full height, the plume of a small fire would span few levels. Plume rise is 2.6 (F / (U s))^(1/3) (G.
+    A. Briggs 1975, "Plume rise predictions", AMS Lectures on Air Pollution), with buoyancy flux F = g Q / (pi
+    cp rho T), at the daytime stability.
     """
     times = np.linspace(shot.frames.first, shot.frames.last, 5)
     power = max(float(shot.fire.sources(time).power.sum()) for time in times)
@@ -212,7 +213,7 @@ def _height_fraction(shot: Shot) -> float:
 
 
 def _levels(depths: tuple[float, float, int], ratio: float, fraction: float) -> tuple[float, ...]:
-    """Levels of linearly growing depth, m above ground: the lowest scales with the cells."""
+    """Return levels of linearly growing depth, m above ground; the lowest scales with the cells."""
     lowest, growth, count = depths
     top = (lowest + 0.5 * growth) * count * fraction
     lowest *= ratio
@@ -222,7 +223,7 @@ def _levels(depths: tuple[float, float, int], ratio: float, fraction: float) -> 
 
 
 def _bounds(fire: Fire, time: float) -> Array | None:
-    """Bounds (2, 2), lowest and highest x and y, of all heat without outliers, m."""
+    """Return bounds (2, 2), lowest and highest x and y, of all heat without outliers, m."""
     sources = fire.sources(time)
     if sources.power.sum() <= 0.0:
         return None
@@ -236,7 +237,7 @@ def _bounds(fire: Fire, time: float) -> Array | None:
 
 
 def _fast_size(cells: int) -> int:
-    """Next even cell count of at least 48 with prime factors 2, 3 and 5 only, for fast transforms."""
+    """Round up to an even cell count of at least 48 with prime factors 2, 3 and 5, for fast transforms."""
     for count in range(max(cells, 48), 10 * max(cells, 48)):
         left = count
         for factor in _SIZE_FACTORS[1:]:

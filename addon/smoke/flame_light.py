@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 
 def lights(fire: Fire, time: float, scale: Scale) -> tuple[Array, Array]:
-    """Lights of the flames in smoke: positions (n, 3), m, and luminous powers (n,), W."""
+    """Merge flames to lights in smoke: positions (n, 3), m, and luminous powers (n,), W."""
     lights = heat_release.lights(fire.sources(time).luminous(), scale.length(_BLOCK), _COUNT)
     return lights.position + np.array([0.0, 0.0, scale.length(_FLAME_HEIGHT)]), lights.power
 
@@ -26,7 +26,10 @@ def lights(fire: Fire, time: float, scale: Scale) -> tuple[Array, Array]:
 def glow(
     lights: tuple[Array, Array], heights: Array, spacing: float, corner: tuple[float, float], scale: Scale
 ) -> NDArray[np.float32]:
-    """Glow in cells: sum of P / 1 GW exp(-r / 600 m) / (1 + (r / 250 m)^2); every third cell, then linear."""
+    """Compute the glow in cells: sum of P / 1 GW exp(-r / 600 m) / (1 + (r / 250 m)^2).
+
+    It is computed in every third cell and interpolated linearly.
+    """
     places, power = lights
     reach, core = np.float32(scale.length(_REACH)), np.float32(scale.length(_CORE) ** 2)
     every = [np.unique(np.append(np.arange(0, count, _EVERY), count - 1)) for count in heights.shape]

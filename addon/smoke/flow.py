@@ -44,18 +44,18 @@ class Flow:
         self.progress = progress
         self.stop = threading.Event()
         self.elsewhere: Callable[[], bool] = lambda: False
-        """Whether another of our processes is solving the flow."""
+        """True while another Firetwin process is solving the flow."""
         self._lock = threading.Lock()
         self._integrator: Integrator | None = None
 
     @property
     def begin(self) -> float:
-        """Model time at which solving begins, s."""
+        """Model time at which the solution begins, s."""
         return self.shot.frames.first - self.shot.spin_up
 
     @functools.cached_property
     def domains(self) -> list[Domain]:
-        """The domain of the whole fire and the nested domain if there is one; empty without fire."""
+        """The domain around the fire, and the nested domain if there is one; empty without fire."""
         box = domains.outer_box(self.shot)
         if box is None:
             return []
@@ -84,7 +84,7 @@ class Flow:
         Raises
         ------
         StoppedError
-            `stop` was set in the meantime.
+            `stop` was set.
         InputError
             The cache cannot be written.
         """
@@ -113,7 +113,7 @@ class Flow:
                     self._integrator.solve(frame, progress, max(frame, last))
 
     def has(self, frame: int) -> bool:
-        """Whether a frame's snapshots exist in all domains."""
+        """Return whether a frame's snapshots exist in all domains."""
         return all(domain.has(frame) for domain in self.domains)
 
     def solve(self, frames: Iterable[int], progress: Progress = silent) -> None:
@@ -125,8 +125,8 @@ class Flow:
             self._integrator = None  # frees half a gigabyte
 
     def renew(self, frame: int) -> None:
-        """Solve a frame's snapshots again after a file turned out broken."""
-        self.elsewhere = lambda: False  # the other process is past this frame
+        """Solve a frame's snapshots again because a file is broken."""
+        self.elsewhere = lambda: False  # the other process has passed this frame
         with self._lock:
             for domain in self.domains:
                 with writing(domain.folder):
@@ -151,7 +151,7 @@ class Flow:
         return folders
 
     def _folder(self, boxes: list[Box]) -> Path:
-        """Snapshot folder of the innermost of these nested boxes, named by a hash of all inputs."""
+        """Return the snapshot folder of the innermost of these boxes, named by a hash of all inputs."""
         shot = self.shot
         inputs = {
             "sources": code_fingerprint.hashes((), (), *_MADE_BY),

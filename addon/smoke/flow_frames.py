@@ -1,9 +1,9 @@
 """Flow frames: paint snapshots of a solved flow, with subgrid detail, into OpenVDB files. Needs no Blender.
 
-A frame has one file, or two: the nested domain, and the rest with larger voxels. The two cross-fade at their
-border. The grids are: `density`, extinction in 1/m. `fresh`, 1 for young and 0 for aged smoke. `sun` and
-`sky`, transmitted fraction of their light, see `LIGHT`. `hidden`, 1 for smoke occluded by other smoke in all
-views, see `DEEP`. `glow`, light of flames in the dark, 1 amid 1 GW of them.
+A frame has one file, or two: the nested domain, and the rest with larger voxels. The two are blended at their
+border. The grids are: `density`, extinction in 1/m; `fresh`, 1 for young and 0 for aged smoke; `sun` and
+`sky`, transmittance of their light, see `LIGHT`; `hidden`, 1 for smoke occluded by other smoke in all views,
+see `DEEP`; `glow`, light of flames in the dark, 1 among flames of 1 GW.
 """
 
 from __future__ import annotations
@@ -27,38 +27,39 @@ from .domains import Box, Domain
 from .flow import Flow
 
 GRIDS = ("density", "fresh", "sun", "sky", "hidden", "glow")
-"""Grids of a volume, all of one voxel size. `sky` on voxels twice as large saves 10 of 40 MB. But Cycles 4.5
-offsets each grid by half a voxel of its own, and took 12.6 instead of 10.3 processor seconds for a picture.
+"""Grids of a volume, all of one voxel size. `sky` on voxels twice as large would save 10 of 40 MB, but Cycles
+4.5 offsets each grid by half of its voxel size, and took 12.6 instead of 10.3 processor seconds for a
+picture.
 """
 LIGHT = 0.65 / 4, 0.5
-"""Fractions of optical depth that attenuate `sun` and `sky`. Forward-scattered light counts as unscattered:
-0.36 of 0.86 to 0.95 for an asymmetry of 0.6 (Joseph, Wiscombe and Weinman 1976); 0.65 remains. The fourth
-root of the transmission is stored, which half floats resolve to four times the optical depth.
+"""Factors on the optical depth for `sun` and `sky`. Forward-scattered light counts as unscattered: 0.36 of
+0.86 to 0.95 for an asymmetry of 0.6 (Joseph, Wiscombe and Weinman 1976); 0.65 remains. `sun` is the fourth
+root of the transmittance, which half floats resolve up to four times the optical depth.
 """
-DEEP = 6.0  # optical depth beyond which smoke is `hidden`: transmission is 0.25 %
+DEEP = 6.0  # optical depth beyond which smoke is `hidden`: transmittance is 0.25 %
 _MAX_EXTINCTION = 0.03  # 1/m, upper limit; denser smoke would look equally opaque but need shorter steps
 _NEAR = (20.0, 36.0)  # m, smallest and largest voxels of the nest
-_PIXELS = 4.0  # pixels per voxel between these limits: finer smoke shows no better and costs more
+_PIXELS = 4.0  # pixels per voxel between these limits: finer smoke costs more without visible detail
 _FAR = 80.0  # m, voxels outside of the nest
 _UNNESTED = 60.0  # m, smallest voxels without a nest
 _NOISE = {True: (340.0, (3.5, 2.5, 2.5)), False: (1100.0, (2.5, 1.5, 1.5))}  # m; blur of the drift, cells
 _SURFACE_STEP = 40.0  # m
-_INSIDE, _FADE = 600.0, (700.0, 4000.0)  # m from a box's side where smoke ends, and over which it fades
+_INSIDE, _FADE = 600.0, (700.0, 4000.0)  # m from a box's side: where smoke ends, and range of its fade
 # Ragged ends of smoke: amplitude as a share of the fade, size (m), and steepness at the side.
 _RAGGEDNESS, _RAGGED_SIZE, _EDGE = 0.8, 6000.0, 1.4
-_THINNING = 6  # exponent of the fade at the far end: dense smoke stays opaque down to a hundredth
+_THINNING = 6  # exponent of the fade at the far end: dense smoke is opaque down to a hundredth
 _MIN_DENSITY = 1e-9  # kg/m3; thinner smoke is skipped
 _MIN_EXTINCTION = 5.0e-5  # 1/m; thinner smoke is not stored
-_AGES = 20.0, 600.0  # s, ages of dark and of white smoke
+_AGES = 20.0, 600.0  # s, ages between which smoke turns from dark to white
 _BLOCK, _ROUND = 16, 300.0  # voxels of a culling block; m of margin for multiply scattered light
 
-# Lengths, times and extinctions are those of a fire on cells of `smoke_scale.REFERENCE` m.
+# Lengths, times and extinctions apply to a fire on cells of `smoke_scale.REFERENCE` m.
 
 Array = NDArray[np.float64]
 Brick = tuple[NDArray[np.float32], float, list[float]]
 """Values (nx, ny, nz), voxel size and centre of the first voxel (m), as `volume.smoke_light` takes them."""
 Eyes = tuple[Array, Array]
-"""Viewpoints, as `Visibility.eyes` returns them."""
+"""Viewpoints, as returned by `Visibility.eyes`."""
 
 
 @dataclass(frozen=True)
@@ -88,7 +89,7 @@ class Layer:
     voxel: float
     fine: bool
     close: bool = False
-    """Whether only the part within a frame's close-up window is drawn."""
+    """Draw only the part within a frame's close-up window."""
 
     def file(self, folder: Path, frame: int) -> Path:
         """Volume file of a frame."""
@@ -96,7 +97,7 @@ class Layer:
 
 
 def layers(shot: Shot, solved: Flow) -> list[Layer]:
-    """Volume layers of a shot's smoke. The last one is written last and is named "smoke"."""
+    """List the volume layers of a shot's smoke. The last one is named "smoke" and is written last."""
     domains = solved.domains
     if not domains:
         return []
@@ -114,18 +115,18 @@ def layers(shot: Shot, solved: Flow) -> list[Layer]:
 
 
 def _pixel(shot: Shot) -> float:
-    """Smallest pixel size (m) at the fire."""
+    """Return the smallest pixel size (m) at the fire."""
     plain = SENSOR / WIDE_LENS / shot.settings.render.resolution[0]  # without a perspective camera
     return shot.fire_distance * (shot.pixel[0] if shot.perspective_paths else plain)
 
 
 def max_extinction(scale: Scale) -> float:
-    """Extinction (1/m) at which smoke saturates."""
+    """Return the extinction (1/m) at which smoke saturates."""
     return _MAX_EXTINCTION / scale.ratio
 
 
 def min_extinction(scale: Scale) -> float:
-    """Extinction (1/m) below which smoke is not stored."""
+    """Return the extinction (1/m) below which smoke is not stored."""
     return _MIN_EXTINCTION / scale.ratio
 
 
@@ -135,7 +136,7 @@ class Painter:
     Parameters
     ----------
     inner
-        Box of a finer layer, which is left out.
+        Box of a finer layer, which is excluded.
     """
 
     def __init__(self, shot: Shot, layer: Layer, inner: Box | None) -> None:
@@ -166,8 +167,8 @@ class Painter:
 
         Returns
         -------
-        Summary of the file, and this layer's effect on the next. Smoke attenuates sunlight even where it is
-        not drawn.
+        Summary of the file, and this layer's effect on the next. Smoke that is not drawn attenuates sunlight
+        as well.
         """
         painted = self._paint(frame, lights, views, beyond)
         voxel, origin = self.layer.voxel, painted.origin
@@ -229,13 +230,13 @@ class Painter:
 
     @functools.cached_property
     def _heights(self) -> Array:
-        """Heights of the ground and of cell centres (1 + nz, rows, columns), m, as in the solver."""
+        """Return heights of the ground and of cell centres (1 + nz, rows, columns), m, as in the solver."""
         return np.concatenate([self.layer.domain.ground[None], self.layer.domain.heights()])
 
     def _brick(
         self, snapshot: snapshots.Snapshot, window: Window | None
     ) -> tuple[tuple[float, float, float], Array, Array, Array, int]:
-        """First voxel's centre, columns' ground heights, the weights of `_shares`, and number of levels."""
+        """Return the first voxel's centre, ground heights, the weights of `_shares`, and number of levels."""
         box, voxel = self.layer.domain.box, self.layer.voxel
         _nz, rows, columns = snapshot.fields["smoke"].shape
         low = np.array(box.corner) + np.array(snapshot.low) * box.spacing
@@ -259,12 +260,12 @@ class Painter:
 
     @property
     def _surface_step(self) -> float:
-        """Spacing of samples of the true ground, m."""
+        """Return the spacing of samples of the true ground, m."""
         return self.scale.length(_SURFACE_STEP)
 
     @functools.cached_property
     def _surface(self) -> Array:
-        """True ground height over the box (nx, ny) every `_surface_step` m."""
+        """Return true ground heights over the box (nx, ny) every `_surface_step` m."""
         box = self.layer.domain.box
         x, y = (
             np.arange(low, high + self._surface_step, self._surface_step)
@@ -274,7 +275,7 @@ class Painter:
         return up.reshape(len(x), len(y))
 
     def _shares(self, x: Array, y: Array, window: Window | None = None) -> tuple[Array, Array]:
-        """Weights 0..1 at points: smoke that attenuates light, and fraction of it that this layer draws."""
+        """Return weights 0..1 at points: smoke that attenuates light, and share of it that is drawn."""
         box = self.layer.domain.box
         if self.layer.fine:
             close = 0.0 if window is None else window.share(x, y)
@@ -289,7 +290,7 @@ class Painter:
         )
 
     def _inside(self, box: Box, x: Array, y: Array, fade: float, torn: Array | float = 0.0) -> Array:
-        """Fade of a box: 0 outside and near its sides, 1 farther in than `fade`; `torn` offsets the depth."""
+        """Fade a box from 0 outside and near its sides to 1 deeper than `fade`; `torn` offsets the depth."""
         low, high = box.corner, box.high
         depth = np.minimum(np.minimum(x - low[0], high[0] - x), np.minimum(y - low[1], high[1] - y))
         way = (depth - self.scale.length(_INSIDE)) / self.scale.length(fade)
@@ -303,7 +304,7 @@ class Painter:
         corner = box.corner[0] + west * box.spacing, box.corner[1] + south * box.spacing
         size, blur = _NOISE[self.layer.fine]
         mix = shot.fire.smoke
-        # Thresholds apply to a crown fire's smoke; they are lower for thinner smoke of equal temperature.
+        # Thresholds are for a crown fire's smoke; they are lower for thinner smoke of equal temperature.
         fields = snapshot.fields | {"smoke": snapshot.fields["smoke"] / np.float32(mix.dilution)}
         scale = self.layer.domain.scale
         levels = np.array(box.levels)
@@ -337,7 +338,7 @@ def _visible_blocks(
     voxel: float,
     around: float,
 ) -> NDArray[np.bool_] | None:
-    """Culling mask of a brick's blocks that are visible. `volume.write` leaves out the other blocks."""
+    """Return the mask of visible blocks of a grid. `volume.write` excludes the other blocks."""
     if views is None:
         return None
     side = _BLOCK * voxel

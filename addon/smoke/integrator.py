@@ -28,14 +28,14 @@ _SOURCE_STEP = 30.0  # s between updates of the heat sources
 _RAMP = 300.0  # s in which the fire ramps up; a sudden start would send out a pressure wave
 # Gusts of the sources: standard deviation of the logarithm, correlation length (m) and time (s).
 _GUSTS = 0.6, 400.0, 90.0
-_FINE_GUSTS = 0.9, 180.0, 45.0  # the same in the nest, for single flame runs
+_FINE_GUSTS = 0.9, 180.0, 45.0  # as above, in the nest, for individual runs of flame
 _SIDES = (8.0, 40.0), (10.0, 8.0)  # sponge layer of domain and nest: cells and relaxation time (s)
 _TOP = 60.0  # s, relaxation time of the Rayleigh damping at the top
 _DRAG = 300.0  # s, relaxation time of surface drag on wind in the lowest level, per its depth
 _DEPTH = 90.0  # m, injection depth of heat and smoke
 _DRIFT = 240.0  # s before the first frame from which detail is advected; twice its lifetime
 _SAVE = 30.0  # s between checkpoints
-_LONGEST_STEP = 1.2  # times the scale's step, upper limit between frames
+_LONGEST_STEP = 1.2  # times the scale's step, upper limit of the step between frames
 
 
 class IntegratorStoppedError(Exception):
@@ -48,11 +48,11 @@ class Integrator:
     Parameters
     ----------
     nested
-        The domain of the whole fire, and the nested domain if there is one.
+        The domain around the fire, and the nested domain if there is one.
     stop
         Event that stops solving.
     frame
-        Latest frame that a checkpoint may have passed.
+        Checkpoints later than this frame are ignored.
     """
 
     def __init__(self, shot: Shot, nested: list[Domain], stop: Event, frame: int) -> None:
@@ -99,7 +99,7 @@ class Integrator:
         return next(step for step, reached in self.frame_of.items() if reached == frame)
 
     def _work(self) -> NDArray[np.int64]:
-        """Cumulative work of the steps, in steps of the outer domain."""
+        """Return the cumulative work of the steps, in steps of the outer domain."""
         left = self.shot.spin_up - np.concatenate([[0.0], np.cumsum(self.steps)[:-1]])
         cost = np.ones(len(self.steps))
         if len(self.domains) > 1:
@@ -215,7 +215,7 @@ class Integrator:
     def _settings(
         self, sponge_width: float, sponge_time: float, gusts: tuple[float, float, float]
     ) -> flow.SolverSettings:
-        """Solver settings at the shot's scale; `gusts` are strength, size (m) and time (s)."""
+        """Make solver settings at the shot's scale; `gusts` are strength, size (m) and time (s)."""
         strength, size, time = gusts
         return flow.SolverSettings(
             sponge_width=sponge_width,
@@ -231,17 +231,17 @@ class Integrator:
 
 
 def _nested_lead(shot: Shot) -> float:
-    """Spin-up of the nested domain before the first frame, s."""
+    """Return the spin-up time of the nested domain before the first frame, s."""
     return shot.scale.time(domains.LEAD)
 
 
 def _count(dt: float, scale: Scale) -> int:
-    """Substeps of the nest in a step of the outer domain."""
+    """Return the number of nest steps in a step of the outer domain."""
     return max(1, round(dt * FINER / scale.step))
 
 
 def _schedule(shot: Shot) -> tuple[list[float], dict[int, int]]:
-    """Lengths of all steps, s, and the frame reached after a number of steps."""
+    """Compute the lengths of all steps, s, and the frames reached after a number of steps."""
     frames, step = shot.frames, shot.scale.step
     lead = math.ceil(shot.spin_up / step)
     steps = [shot.spin_up / lead] * lead if lead else []
@@ -254,7 +254,7 @@ def _schedule(shot: Shot) -> tuple[list[float], dict[int, int]]:
 
 
 def _winds(shot: Shot, begin: float) -> list[tuple[float, float]]:
-    """The run's near-surface wind at every source update."""
+    """Return the run's near-surface wind at every source update."""
     slot = shot.scale.time(_SOURCE_STEP)
     count = max(1, math.ceil((shot.frames.last - begin) / slot) + 1)
     winds = burning.wind_at(shot.run, begin + slot * np.arange(count), shot.fire.surroundings)

@@ -1,7 +1,7 @@
 """Plume mass and optical depth of a shot, with published values for comparison.
 
-Needs no Blender. Optical depth is that of the smoke's mass alone, at 4 m2/g in green light. Ash and droplets
-of a crown fire's column (see `flow_frames`) are drawn in addition, for looks.
+Needs no Blender. Optical depth includes only the smoke's mass, at 4 m2/g in green light. Ash and droplets of
+a crown fire's column (see `flow_frames`) are drawn in addition, for appearance.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from ..shot.shot import Shot
 from . import snapshots, sources
 from .domains import Domain
 
-_AVERAGING = 1000.0  # m, averaging width, about that of satellites and photometers
-_SMOKY = 0.1  # optical depth from which a column belongs to the plume
-_MAX_SNAPSHOTS = 3  # snapshots at most that are measured
+_AVERAGING = 1000.0  # m, averaging width, similar to satellites and photometers
+_SMOKY = 0.1  # least optical depth of a column of the plume
+_MAX_SNAPSHOTS = 3  # largest number of snapshots to measure
 
-# Over burning savanna in Zambia, at 440 nm (Eck et al. 2003, doi 10.1029/2002JD002321). Of wildfires in the
-# western United States, at 550 nm, where photometers measured 0.5 to 3 (Ye et al. 2022, doi
-# 10.3390/rs14236113). Both are of dispersed smoke; young plumes near the fire are deeper than either range.
+# Savanna fires in Zambia, at 440 nm (Eck et al. 2003, doi 10.1029/2002JD002321), and wildfires in the western
+# United States, at 550 nm, where photometers measured 0.5 to 3 (Ye et al. 2022, doi 10.3390/rs14236113). Both
+# describe dispersed smoke; young plumes near the fire are deeper than either range.
 _PUBLISHED = {
     False: ("of savanna fires", 0.4, 2.5, "Eck et al. 2003"),
     True: ("of western wildfires", 0.5, 3.0, "Ye et al. 2022"),
@@ -49,7 +49,7 @@ class PlumeMass:
 
 
 def measure(shot: Shot) -> PlumeMass:
-    """Measure the plume of a shot from the flow's snapshots that exist."""
+    """Measure the plume of a shot from existing snapshots of the flow."""
     frames = shot.frames
     made = shot.fire.smoke_made(frames.first, frames.last)
     looks = np.unique(
@@ -66,7 +66,7 @@ def measure(shot: Shot) -> PlumeMass:
 
 
 def describe(shot: Shot) -> str:
-    """Describe the smoke of a shot in words: mass, fuels and optical depth."""
+    """Describe the smoke of a shot: mass, fuels and optical depth."""
     plume, mix = measure(shot), shot.fire.smoke
     shares = [
         f"{round(100.0 * share)} % {kind.name}"
@@ -78,13 +78,13 @@ def describe(shot: Shot) -> str:
         return text
     where, low, high, source = _PUBLISHED[bool(mix.dark > 0.75)]
     return (
-        f"{text}; optical depth from above {plume.deepest:.2g} where it is deepest, {plume.wide:.2g} over a "
+        f"{text}; optical depth from above {plume.deepest:.2g} at most, {plume.wide:.2g} over a "
         f"kilometre, {plume.mean:.2g} over the plume (smoke {where}, spread: {low:g} to {high:g}, {source})"
     )
 
 
 def _depths(domain: Domain, frame: int) -> tuple[float, float, float]:
-    """Optical depths of a snapshot: maximum of a column, maximum over `_AVERAGING`, and mean of the plume."""
+    """Compute optical depths of a snapshot: maximum of a column, over `_AVERAGING`, and the plume's mean."""
     depth = columns(domain, *snapshots.load_smoke(domain.snapshot_path(frame)))
     side = max(1, round(_AVERAGING / domain.box.spacing))
     padded = np.pad(depth, [(0, -count % side) for count in depth.shape])
@@ -94,7 +94,7 @@ def _depths(domain: Domain, frame: int) -> tuple[float, float, float]:
 
 
 def columns(domain: Domain, low: tuple[int, int], smoke: NDArray[np.float32]) -> NDArray[np.float64]:
-    """Vertical optical depth (ny, nx) of smoke (nz, ny, nx), kg/m3, of a block that starts at `low`."""
+    """Compute the vertical optical depth (ny, nx) of smoke (nz, ny, nx), kg/m3, in a block from `low`."""
     (west, south), (_, rows, across) = low, smoke.shape
     thick = np.diff(domain.box.levels)[: len(smoke)]
     ground = domain.ground[south : south + rows, west : west + across]

@@ -38,14 +38,13 @@ def bricks(
 ) -> Iterator[Ready]:
     """Paint smoke bricks during rendering.
 
-    Yields a function ``ready(frame, after)``. It waits for a frame's smoke and returns it; meanwhile the
-    first of the frames `after` is painted. Frames outside of `frames` have no smoke. It raises the error of
-    that frame.
+    Yields a function ``ready(frame, after)``. It waits for a frame's smoke and returns it, or raises its
+    error; meanwhile the first of the frames `after` is painted. Frames outside of `frames` have no smoke.
 
     Parameters
     ----------
     elsewhere
-        Whether another of our processes prepares the shot. What it leaves undone is done here.
+        True while another Firetwin process prepares the shot. Its unfinished work is completed here.
     """
     line = _Bricks(shot, set(frames), progress, tell, elsewhere)
     try:

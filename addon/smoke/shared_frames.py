@@ -1,4 +1,4 @@
-"""Shared frames: frames that only one camera films share their smoke volumes with that camera's own shot."""
+"""Shared frames: frames filmed by one camera share smoke volumes with the shot of that camera alone."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from . import sources
 
 
 def frames(shot: Shot, wanted: Iterable[int]) -> list[tuple[Shot, list[int]]]:
-    """Group those of the `wanted` frames that a single camera films, with the shot of that camera.
+    """Group the `wanted` frames filmed by a single camera, with the shot of that camera.
 
-    A camera is left out if its own shot has other smoke resolution than the shot of all cameras.
+    A camera is excluded if the smoke of its shot has another resolution than with all cameras.
     """
     cameras = shot.settings.cameras
     if len(cameras) < 2 or shot.settings.smoke.complete or not shot.settings.render.cull:
@@ -47,6 +47,6 @@ def _link_or_copy(path: Path, part: Path) -> None:
 
 
 def _resolution_inputs(shot: Shot) -> list[object]:
-    """Camera-dependent inputs that decide the smoke's resolution."""
+    """Return the camera-dependent inputs that determine the smoke's resolution."""
     source = sources.select(shot)
     return [source.inputs(), source.voxels()]

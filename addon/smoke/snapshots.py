@@ -30,7 +30,7 @@ _UNREADABLE = (OSError, EOFError, LookupError, TypeError, ValueError, zipfile.Ba
 
 
 class BrokenError(Exception):
-    """The file is truncated or is no snapshot of this flow."""
+    """The file is truncated or is not a snapshot of this flow."""
 
 
 @dataclass(frozen=True)
@@ -42,10 +42,10 @@ class Snapshot:
     low
         Column and row of the block's first cell.
     fields
-        smoke, age, rise, temperature_excess (nz, ny, nx) and drift (nz, ny, nx, 2, 3), as of
+        smoke, age, rise, temperature_excess (nz, ny, nx) and drift (nz, ny, nx, 2, 3), as in
         `firetwin_core.flow`.
     weights, turns
-        Weights and turn counts of the drift's two phases.
+        Blend weights and restart counts of the drift's two phases.
     mass
         Mass budget of smoke, kg.
     """
@@ -132,7 +132,7 @@ def load_smoke(path: Path) -> tuple[tuple[int, int], NDArray[np.float32]]:
 
 
 def is_complete(path: Path, shape: tuple[int, int, int]) -> bool:
-    """Whether a file looks like a complete snapshot of a flow of so many cells. Reads headers only."""
+    """Return whether a file's headers describe a complete snapshot of a flow of `shape` cells."""
     try:
         with zipfile.ZipFile(path) as file:
             if set(file.namelist()) != {f"{name}.npy" for name in _NAMES}:
@@ -150,7 +150,7 @@ def is_complete(path: Path, shape: tuple[int, int, int]) -> bool:
 
 
 def read(path: Path) -> Fields:
-    """Read all arrays of a file that `write` made.
+    """Read all arrays of a file written by `write`.
 
     Raises
     ------
@@ -167,7 +167,7 @@ def read(path: Path) -> Fields:
 
 
 def _header(file: zipfile.ZipFile, name: str) -> tuple[int, ...]:
-    """Shape of an array in an .npz file."""
+    """Read the shape of an array in an .npz file."""
     with file.open(f"{name}.npy") as part:
         np.lib.format.read_magic(part)
         return np.lib.format.read_array_header_1_0(part)[0]
@@ -184,7 +184,7 @@ def write(path: Path, arrays: Fields, packing: int = 0) -> None:
 
 
 def _upsampled(values: NDArray[np.float32], axis: int, count: int) -> NDArray[np.float32]:
-    """Upsample every second of `count` points to all of them along an axis, linearly."""
+    """Upsample every second of `count` points linearly to all points along an axis."""
     values = np.moveaxis(values, axis, 0)
     doubled = np.repeat(values, 2, 0)
     doubled[1:-1:2] = 0.5 * (values[:-1] + values[1:])
@@ -192,6 +192,6 @@ def _upsampled(values: NDArray[np.float32], axis: int, count: int) -> NDArray[np
 
 
 def _range(there: NDArray[np.bool_]) -> slice:
-    """Slice from the first to the last true element; one element if there is none."""
+    """Return the slice from the first to the last true element; one element if there is none."""
     indices = np.flatnonzero(there)
     return slice(int(indices[0]), int(indices[-1]) + 1) if len(indices) else slice(0, 1)

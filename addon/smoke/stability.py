@@ -11,9 +11,9 @@ TURN = (-10.0, 2.0)  # degrees, solar elevations between which night turns into 
 
 
 def at_elevation(height: float) -> float:
-    """Squared buoyancy frequency (1/s2) under a sun at elevation `height` (degrees).
+    """Return the squared buoyancy frequency (1/s2) for the sun's elevation `height` (degrees).
 
-    Between night and day its logarithm is interpolated smoothly, so that smoke changes without a jump.
+    Its logarithm is interpolated smoothly between night and day, so that smoke changes continuously.
     """
     day = float(noise.smoothstep(*TURN, height))
     return float(NIGHT * (DAY / NIGHT) ** day)

@@ -13,7 +13,7 @@ from ..shot.shot import Shot
 _NEAR, _BEHIND = 0.1, 25_000.0  # nearest distance as fraction of the fire's, and m beyond the fire
 _VOXELS, _EXTINCTION = (50.0, 160.0), (0.009, 0.03)  # m, 1/m, at a fire of 15 km
 STEP_DEPTH = 0.8  # optical depth of a ray step in thick smoke; much longer steps lose smoke
-SOLVED_STEP_DEPTH = 1.2  # with light in the volume: FLIP error 0.019 against steps of 0.2; 0.8 has 0.010
+SOLVED_STEP_DEPTH = 1.2  # with light in the volume: FLIP difference 0.019 from steps of 0.2 (0.010 at 0.8)
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Resolution:
 
 
 def resolution(shot: Shot) -> Resolution:
-    """Voxel size and extinction from the scene file; defaults follow the cameras."""
+    """Return the voxel size and extinction of the scene file; defaults depend on the cameras."""
     smoke = shot.settings.smoke
     voxel = smoke.voxel_size or _voxel(shot)
     thick = np.array(_EXTINCTION) / shot.scale.ratio
@@ -45,18 +45,18 @@ def resolution(shot: Shot) -> Resolution:
 
 
 def _voxel(shot: Shot) -> float:
-    """Voxel size of puffs (m): coarser with distance and with the fire's size."""
+    """Return the voxel size of puffs (m), which increases with distance and with the fire's size."""
     least, most = (shot.scale.length(limit) for limit in _VOXELS)
     return float(np.clip(70.0 * (shot.fire_distance / 4000.0) ** 0.4, least, most))
 
 
 def span(shot: Shot) -> tuple[float, float]:
-    """Near and far distances from the cameras (m) for smoke. Old smoke may extend beyond the far one."""
+    """Return near and far camera distances (m) for smoke. Old smoke may extend beyond the far one."""
     return max(_NEAR * shot.fire_distance, 1.0), shot.fire_distance + _BEHIND
 
 
 def shot_frames(shot: Shot) -> list[int]:
-    """Frames in which some pass shows smoke; all frames without cameras."""
+    """List the frames in which a pass shows smoke; all frames if there are no cameras."""
     cameras = shot.settings.cameras
     if not cameras:
         return list(range(1, shot.frames.count + 1))
@@ -65,7 +65,7 @@ def shot_frames(shot: Shot) -> list[int]:
 
 
 def _shows_smoke(settings: Settings, camera: Camera) -> bool:
-    """Whether a camera's passes, or the passes that they are composed of, show smoke."""
+    """Return whether a camera's passes, or the passes that they are composed of, show smoke."""
     return any(_sees_smoke(recorded) for recorded in passes.of_camera(settings, camera))
 
 

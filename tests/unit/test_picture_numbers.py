@@ -193,8 +193,8 @@ def test_slopes_face_downhill_and_patches_have_their_shares():
 
 def test_optical_depths_are_read_from_what_is_said_of_smoke():
     line = (
-        "firetwin: 12 t of smoke in 5 min, from 100 % grass; optical depth from above 3.2 where it is "
-        "deepest, 1.1 over a kilometre (measured over savanna fires: 0.4 to 2.5, Eck et al. 2003)\n"
+        "firetwin: 12 t of smoke in 5 min, from 100 % grass; optical depth from above 3.2 at "
+        "most, 1.1 over a kilometre (measured over savanna fires: 0.4 to 2.5, Eck et al. 2003)\n"
     )
     found = pictures.smoke_said(line)
     assert found["optical_depth"] == [3.2, 1.1]

@@ -1,6 +1,6 @@
-"""Smoke sources: each module of this folder is one, unless its name begins with "_".
+"""Smoke sources: each module of this folder defines one, unless its name begins with "_".
 
-A module defines `SOURCE`, a class of `Source` with the module's name.
+A module defines `SOURCE`, a subclass of `Source` with the module's name.
 """
 
 from __future__ import annotations
@@ -18,18 +18,18 @@ __all__ = ["Source", "VolumeLayer", "choices", "choose", "is_integrated", "known
 
 @functools.cache
 def known() -> dict[str, type[Source]]:
-    """All sources by name."""
+    """Load all sources, by name."""
     names = [module.name for module in pkgutil.iter_modules(__path__) if module.name[0] != "_"]
     return {name: importlib.import_module(f"{__name__}.{name}").SOURCE for name in sorted(names)}
 
 
 def choices() -> dict[str, str]:
-    """Help of each source that `smoke.method` selects, by name."""
+    """Return the help of each source that `smoke.method` can select, by name."""
     return {name: source.help for name, source in known().items() if not source.fields}
 
 
 def preview() -> str:
-    """Name of the source that is a quick preview of another one."""
+    """Return the name of the source that is a quick preview of another one."""
     return next(name for name, source in known().items() if source.preview_of)
 
 
@@ -45,7 +45,7 @@ def select(shot: Shot) -> Source:
 
 
 def is_integrated(shot: Shot) -> bool:
-    """Whether Cycles renders frames without smoke: it is ray-marched separately, or there is none."""
+    """Return whether Cycles renders frames without smoke, which is absent or ray-marched separately."""
     smoke = shot.settings.smoke
     if shot.settings.render.engine != "cycles" or smoke.draw != "integrated":
         return False

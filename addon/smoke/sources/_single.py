@@ -41,7 +41,7 @@ class SingleVolume(Source):
         return [round(self.resolution.voxel, 3)]
 
     def layers(self) -> list[VolumeLayer]:
-        """The single volume layer."""
+        """Return the single volume layer."""
         return [VolumeLayer("smoke", self.resolution.voxel, self.resolution.step, self.resolution.extinction)]
 
     def write(self, path: Path, frame: int) -> volume.VdbSummary:
@@ -63,4 +63,4 @@ class SingleVolume(Source):
 
     @abstractmethod
     def _write_volume(self, path: Path, time: float, more: dict[str, Any]) -> volume.VdbSummary:
-        """Write the smoke at a model time (s). `more` holds further arguments of the core's writer."""
+        """Write the smoke at a model time (s). `more` has further arguments of the core's writer."""

@@ -29,7 +29,7 @@ Lights = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 @dataclass(frozen=True)
 class VolumeLayer:
-    """Volume layer: volumes of one name and their rendering in Cycles.
+    """Volume layer: volumes with one name, and their rendering parameters in Cycles.
 
     Attributes
     ----------
@@ -47,7 +47,7 @@ class VolumeLayer:
     extinction: float
 
     def file(self, folder: Path, frame: int) -> Path:
-        """Volume file of a frame."""
+        """Return the volume file of a frame."""
         return folder / f"{self.name}_{frame:06d}.vdb"
 
 
@@ -61,19 +61,18 @@ class Source(ABC):
     help
         Help in one line.
     fields
-        Run fields that it draws. It is selected for every run that has them, for any `smoke.method`. A source
-        without such fields is selected by `smoke.method`.
+        Run fields that it draws. Every run that has them uses this source, whatever `smoke.method` is. A
+        source without such fields is selected by `smoke.method`.
     history
-        Key of [smoke] with the history that its smoke needs before the first frame, s. Empty if it needs
-        none.
+        Key of [smoke] with the required history of smoke before the first frame, s; empty: none.
     preview_of
         Name of the source that it previews, if any.
     illuminated
-        Whether its volumes hold the light that reaches the smoke.
+        True if its volumes contain the light that reaches the smoke.
     unused_settings
         Keys of [smoke] that do not affect its volumes.
     code
-        Files and folders of the package that decide its volumes, in addition to its own module, this folder's
+        Files and folders of the package that determine its volumes, in addition to its module, this folder's
         helpers (`_NAME.py`) and the folder ``smoke``.
     """
 
@@ -91,43 +90,43 @@ class Source(ABC):
         self.progress: Progress = silent
         """Called during preparations while frames are written."""
         self.elsewhere: Callable[[], bool] = lambda: False
-        """Whether another of our processes prepares the shot."""
+        """True while another Firetwin process prepares the shot."""
         self.stop = threading.Event()
         """Event that stops preparations."""
 
     @classmethod
     def code_files(cls) -> list[str]:
-        """Files and folders whose code decides its volumes, in addition to the folder ``smoke``."""
+        """List files and folders whose code determines its volumes, in addition to the folder ``smoke``."""
         own = [Path(inspect.getfile(cls)), *sorted(Path(__file__).parent.glob("_*.py"))]
         return [_relative(path) for path in own] + list(cls.code)
 
     # inputs of its volumes, in addition to the run, the time and [smoke]
 
     def inputs(self) -> dict[str, Any]:
-        """Further inputs of its volumes, in JSON form."""
+        """Return further inputs of its volumes, in JSON form."""
         return {}
 
     @abstractmethod
     def voxels(self) -> list[Any]:
-        """Voxel sizes of its volumes, in JSON form."""
+        """Return the voxel sizes of its volumes, in JSON form."""
 
     # preparation, once before frames are written
 
     @property
     def domains(self) -> list[Domain]:
-        """Flow domains of the source: the whole fire's and the nested one if there is one."""
+        """Return the flow domains of the source: around the fire, and the nested one if there is one."""
         return []
 
     def cost(self) -> Cost | None:
-        """Cost of preparing the shot; None if there is nothing to prepare."""
+        """Estimate the cost of preparing the shot; None if there is nothing to prepare."""
         return None
 
     def is_prepared(self, frame: int) -> bool:
-        """Whether a frame can be written at once."""
+        """Return whether a frame can be written without preparation."""
         return True
 
     def solutions(self) -> frozenset[str]:
-        """Names of the cache folders of what is solved before frames are painted; views may share them."""
+        """Return names of the cache folders of the solutions to paint frames from; views may share them."""
         return frozenset()
 
     def prepare(self, frames: Iterable[int], progress: Progress = silent) -> None:
@@ -142,26 +141,26 @@ class Source(ABC):
 
     @property
     def marched(self) -> bool:
-        """Whether its `bricks` can be ray-marched."""
+        """True if its `bricks` can be ray-marched."""
         return False
 
     @abstractmethod
     def layers(self) -> list[VolumeLayer]:
-        """Volume layers of a frame; the last one is named "smoke"."""
+        """Return the volume layers of a frame; the last one is named "smoke"."""
 
     @abstractmethod
     def write(self, path: Path, frame: int) -> volume.VdbSummary:
-        """Write a frame's volumes next to `path`, and last the layer "smoke" as `path`.
+        """Write a frame's volumes next to `path`, with the layer "smoke" last, as `path`.
 
         A file appears when it is complete, even if several threads or processes write it.
         """
 
     def bricks(self, frame: int) -> list[volume.Bricks]:
-        """Bricks of a frame for ray marching; empty if it is not `marched`."""
+        """Return the bricks of a frame for ray marching; empty if the source is not `marched`."""
         return []
 
     def painted_voxels(self) -> int:
-        """Voxels of the largest box that `bricks` paints."""
+        """Return the number of voxels of the largest box that `bricks` paints."""
         return 0
 
     # shared by all sources
@@ -172,15 +171,15 @@ class Source(ABC):
         return None if self.shot.settings.smoke.complete else self.shot.visibility
 
     def view_set(self, frame: int) -> lod.ViewSet | None:
-        """View set of a frame for culling; None if all smoke is wanted."""
+        """Return the view set of a frame for culling; None if all smoke is wanted."""
         return self.visibility.view_set(frame) if self.visibility else None
 
     def lights(self, time: float) -> Lights:
-        """Lights of the flames in smoke at a model time, s."""
+        """Return the lights of the flames in smoke at a model time, s."""
         return flame_light.lights(self.shot.fire, time, self.shot.scale)
 
     def metadata(self, time: float, smoke: str) -> dict[str, str]:
-        """Metadata of a volume. `smoke` describes its origin."""
+        """Return the metadata of a volume. `smoke` describes its origin."""
         return {
             "run": self.shot.run.name,
             "smoke": smoke,
@@ -191,5 +190,5 @@ class Source(ABC):
 
 
 def _relative(path: Path) -> str:
-    """Path relative to the package; other paths stay as they are."""
+    """Make a path relative to the package; other paths are unchanged."""
     return path.relative_to(PACKAGE).as_posix() if path.is_relative_to(PACKAGE) else str(path)

@@ -42,28 +42,28 @@ class FlowSource(Source):
         self._close_painter: flow_frames.Painter | None = None
 
     def inputs(self) -> dict[str, Any]:
-        """Folders of its snapshots, and the extinction of its voxels."""
+        """Return the folders of its snapshots, and the extinction of its voxels."""
         return {"flow": [self.flow.key(), self.shot.settings.smoke.extinction]}
 
     def voxels(self) -> list[Any]:
-        """Layers with their voxel sizes, and the flow's cell sizes, m."""
+        """Return layers with their voxel sizes, and the flow's cell sizes, m."""
         return [[layer.name, layer.voxel, self.shot.scale.cell] for layer in self._painted]
 
     @property
     def domains(self) -> list[Domain]:
-        """Flow domains."""
+        """Return the flow domains."""
         return self.flow.domains
 
     def cost(self) -> cost_estimate.Cost | None:
-        """Cost of the remaining solution."""
+        """Estimate the cost of the remaining solution."""
         return cost_estimate.estimate(self.flow)
 
     def is_prepared(self, frame: int) -> bool:
-        """Whether the frame's snapshots exist."""
+        """Return whether the frame's snapshots exist."""
         return self.flow.has(frame)
 
     def solutions(self) -> frozenset[str]:
-        """Folders of its snapshots."""
+        """Return the folders of its snapshots."""
         return frozenset(self.flow.key())
 
     def prepare(self, frames: Iterable[int], progress: Progress = silent) -> None:
@@ -77,11 +77,11 @@ class FlowSource(Source):
 
     @property
     def marched(self) -> bool:
-        """Whether light is computed once per frame and stored in the volumes."""
+        """True: light is computed once per frame and stored in the volumes."""
         return self.shot.settings.smoke.lighting == "solved"
 
     def layers(self) -> list[VolumeLayer]:
-        """Volume layers of both domains; one empty volume without fire."""
+        """Return the volume layers of both domains; one empty volume without fire."""
         thickest = self.shot.settings.smoke.extinction or flow_frames.max_extinction(self.shot.scale)
         depth = view.SOLVED_STEP_DEPTH if self.marched else view.STEP_DEPTH
         result = [
@@ -91,7 +91,7 @@ class FlowSource(Source):
         return result or [VolumeLayer("smoke", _EMPTY, _EMPTY, thickest)]
 
     def painted_voxels(self) -> int:
-        """Voxels of the largest layer's whole domain, with or without smoke."""
+        """Return the number of voxels of the largest layer's domain, with or without smoke."""
         return max((_voxels(layer) for layer in self._painted), default=0)
 
     def write(self, path: Path, frame: int) -> volume.VdbSummary:
@@ -117,7 +117,7 @@ class FlowSource(Source):
         return written
 
     def bricks(self, frame: int) -> list[volume.Bricks]:
-        """Bricks of a frame for ray marching, without a file."""
+        """Return the bricks of a frame for ray marching, without a file."""
         self.flow.ready(frame)
         what = (frame, self._glow(float(self.times[frame - 1])), self.view_set(frame))
         result: list[volume.Bricks] = []
@@ -139,24 +139,24 @@ class FlowSource(Source):
 
     @functools.cached_property
     def painters(self) -> list[flow_frames.Painter]:
-        """Painters, one for each layer."""
+        """Return a painter for each layer."""
         layers = self._painted
         inner = layers[-1].domain.box if len(layers) > 1 else None
         return [flow_frames.Painter(self.shot, layer, None if layer.fine else inner) for layer in layers]
 
     def _close(self, layer: flow_frames.Layer, window: close_up.Window) -> flow_frames.Painter:
-        """Painter of a layer's part within a close-up window."""
+        """Return the painter of a layer's part within a close-up window."""
         if self._close_painter is None:
             close = replace(layer, voxel=window.voxel, close=True)
             self._close_painter = flow_frames.Painter(self.shot, close, None)
         return self._close_painter
 
     def _glow(self, time: float) -> Lights | None:
-        """Lights of the flames in smoke; None at a model time (s) of daylight that outshines them."""
+        """Return the lights of flames in smoke; None at a model time (s) of daylight that outshines them."""
         return self.lights(time) if exposure.darkness(self.shot, time) > 0.0 else None
 
     def _unbroken(self, frame: int, paint: Callable[[], Made]) -> Made:
-        """Result of `paint` on a frame's snapshots. Broken snapshots are solved again."""
+        """Return the result of `paint` on a frame's snapshots. Broken snapshots are solved again."""
         try:
             return paint()
         except snapshots.BrokenError:
@@ -165,7 +165,7 @@ class FlowSource(Source):
 
 
 def _voxels(layer: flow_frames.Layer) -> int:
-    """Voxels of a layer's whole domain, with or without smoke."""
+    """Return the number of voxels of a layer's domain, with or without smoke."""
     box = layer.domain.box
     sides = (*(count * box.spacing for count in box.shape), box.levels[-1])
     return math.prod(math.ceil(side / layer.voxel) for side in sides)

@@ -12,7 +12,7 @@ from ._single import SingleVolume
 
 
 class ModelSource(SingleVolume):
-    """Smoke of the model, resampled from its terrain-following levels."""
+    """Smoke of the model, resampled from terrain-following levels."""
 
     name = "model"
     help = "the model's own smoke"
@@ -20,7 +20,7 @@ class ModelSource(SingleVolume):
     made_from = "of the model, smoke_3d"
 
     def _write_volume(self, path: Path, time: float, more: dict[str, Any]) -> volume.VdbSummary:
-        """Write the smoke at a model time (s). Outside of the model's times there is none."""
+        """Write the smoke at a model time (s); there is none outside of the model's times."""
         run = self.shot.run
         known = float(np.clip(time, run.times[0], run.times[-1]))
         smoke = run.smoke_3d_at(known)

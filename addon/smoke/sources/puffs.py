@@ -14,7 +14,7 @@ from ...shot.fire.fire import Cells
 from .. import stability
 from ._single import SingleVolume
 
-_BLOCK, _INTERVAL = 400.0, 60.0  # m and s within which burning fuel forms one puff, in a fire of 15 km
+_BLOCK, _INTERVAL = 400.0, 60.0  # m and s within which burning fuel forms one puff, for a fire of 15 km
 
 
 class PuffSource(SingleVolume):
@@ -28,12 +28,12 @@ class PuffSource(SingleVolume):
 
     @functools.cached_property
     def cells(self) -> Cells:
-        """Burning cells that emit puffs, up to the end of the last frame's interval."""
+        """Find the burning cells that emit puffs, up to the end of the last frame's interval."""
         first = self.times[0] - self.shot.settings.smoke.max_age - burning.BURN_TIME
         return self.shot.fire.cells(first, self.times[-1] + 600.0)
 
     def puffs(self, time: float) -> volume.Puffs:
-        """Puffs at a model time, s."""
+        """Compute the puffs at a model time, s."""
         cells, scale = self.cells, self.shot.scale
         return volume.puffs(
             time,
