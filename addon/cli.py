@@ -18,9 +18,8 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import NoReturn
 
-from .brief import arguments as brief
+from . import rooms
 from .escaped import escaped
-from .farm import arguments as farm
 from .stations import arguments as stations
 from .stations.allocation import arguments as allocation
 from .tiles import arguments as tiles
@@ -41,7 +40,18 @@ a film of your own run:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit status."""
-    words, options = farm.normal(_current_names(list(sys.argv[1:] if argv is None else argv)))
+    words = _current_names(list(sys.argv[1:] if argv is None else argv))
+    options: list[str] = []
+    room = rooms.COMMANDS.get(words[0]) if words else None
+    if room and not rooms.is_installed(room):
+        from .progress import say
+
+        say(f"the command {words[0]} needs the package firetwin/{room}, which is missing; reinstall Firetwin")
+        return 2
+    if room == "farm":
+        from .farm import arguments as farm
+
+        words, options = farm.normal(words)
     arguments = _parser().parse_args(words)
     arguments.options = options
     if isinstance(sys.stdout, io.TextIOWrapper):
@@ -213,7 +223,10 @@ def _parser() -> argparse.ArgumentParser:
     )
     score.add_argument("--json", action="store_true", help="write JSON")
 
-    brief.add(command("brief", "write a briefing page of a run", brief.DETAIL), _path, _size)
+    if rooms.is_installed("brief"):
+        from .brief import arguments as brief
+
+        brief.add(command("brief", "write a briefing page of a run", brief.DETAIL), _path, _size)
 
     imager = command("imager", "simulate a satellite imager's measurements of a run", IMAGER)
     imager.add_argument("run", metavar="RUN", type=_path, help="run folder")
@@ -265,8 +278,10 @@ def _parser() -> argparse.ArgumentParser:
     render.add_argument("--json", action="store_true", help="write JSON: files and memory")
     tiles.add_access(render)
 
-    farm.add(command("farm", "plan a film for a render farm", farm.DETAIL), _path, _count)
+    if rooms.is_installed("farm"):
+        from .farm import arguments as farm
 
+        farm.add(command("farm", "plan a film for a render farm", farm.DETAIL), _path, _count)
     tiles.add(command("tiles", "read and make 3D tilesets", tiles.DETAIL), _path, _count)
     allocation.add(
         command("allocate", "suggest an allocation of resources (exercise)", allocation.DETAIL),

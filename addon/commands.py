@@ -114,25 +114,9 @@ def score(arguments: argparse.Namespace) -> None:
 
 def brief(arguments: argparse.Namespace) -> None:
     """Write the briefing page of a run."""
-    from . import files
-    from .errors import UsageError
-    from .progress import READING, notify_if_slow
+    from .brief import command
 
-    if arguments.out.suffix.lower() != ".html":
-        raise UsageError(f"--out: {arguments.out} does not end in .html; name an .html file")
-    from .brief import briefing, page, text
-
-    request = briefing.Request(
-        arguments.scene, arguments.stations, arguments.film, arguments.against, arguments.limit
-    )
-    with notify_if_slow(READING):
-        found = briefing.gather(request)
-    for note in page.notes(found):
-        say(note)
-    made = page.html(found, arguments.limit)
-    files.write_text(arguments.out, made, newline="\n")
-    say(f"one file of {text.size(len(made.encode()))}, which loads nothing from elsewhere")
-    result(arguments.out)
+    command.run(arguments)
 
 
 def imager(arguments: argparse.Namespace) -> None:

@@ -9,8 +9,6 @@ from . import (
     camera_targets,
     cameras_panel,
     command,
-    farm,
-    farm_watch,
     foreign,
     former_names,
     go_to,
@@ -25,6 +23,7 @@ from . import (
     queue,
     render,
     report,
+    room_panels,
     rows,
     run,
     section_panels,
@@ -56,7 +55,7 @@ classes = (
     *place_names.classes,
     *render.classes,
     *background.classes,
-    *farm.classes,
+    *room_panels.classes,
     *section_panels.classes,
     *stations_panel.classes,
     *tiles_panel.classes,
@@ -81,7 +80,7 @@ def unregister() -> None:
     """Undo `register` in reverse order; running tasks are cancelled."""
     working.abandon()
     queue.clear()
-    farm_watch.forget()
+    room_panels.unregister()
     maps.forget()
     tile_credits.unregister()
     stations_panel.unregister()

@@ -37,9 +37,6 @@ def _items() -> tuple[tuple[str, str, str, str, int], ...]:
     )
 
 
-ITEMS = _items()
-
-
 def _out(panel: bpy.types.PropertyGroup) -> Path:
     return Path(scene_file.resolved(panel.farm_output))
 
@@ -150,6 +147,31 @@ def _submitted(command: list[str], out: Path, last: str) -> Steps:
     yield InThread("reading the status", lambda **_: farm_watch.read(out))
     farm_watch.start(out)
     return last
+
+
+class FarmProperties:
+    """Properties of the scene that this panel shows"""
+
+    farm_engine: bpy.props.EnumProperty(
+        name="Engine", description="Engine that runs the tasks", items=_items(), default="slurm"
+    )
+    farm_output: bpy.props.StringProperty(
+        name="Output",
+        description="Folder for the film and the job, which all machines of the farm see under this path; "
+        "each job has its own",
+        subtype="DIR_PATH",
+        default="//firetwin_farm",
+        options={"PATH_SUPPORTS_BLEND_RELATIVE"},
+    )
+    farm_chunk: bpy.props.IntProperty(
+        name="Frames per task",
+        description="Frames per task; rounded up to multiples of Chunk where that splits the film",
+        default=plan.CHUNK,
+        min=1,
+    )
+    farm_options: bpy.props.StringProperty(
+        name="Options", description="Options of the engine's own command, as on a command line"
+    )
 
 
 class FIRETWIN_OT_farm_write(Working, bpy.types.Operator):
@@ -304,3 +326,9 @@ _WORKS = (
     FIRETWIN_OT_farm_cancel,
 )
 classes = (*_WORKS, FIRETWIN_PT_farm)
+properties = FarmProperties
+
+
+def unregister() -> None:
+    """End the watch of the job."""
+    farm_watch.forget()

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import bpy
 
-from ..farm import plan
 from ..shot.settings import Settings
 from . import (
     camera_list,
-    farm,
     keys,
     other_runs,
     render,
+    room_panels,
     run,
     scene_file,
     sections,
@@ -29,7 +28,7 @@ _SETTINGS = sections.properties(sections.single() + sections.sections(), Setting
 _Settings: type = type("Settings", (), {"__annotations__": _SETTINGS})
 
 
-class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings):
+class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings, *room_panels.properties):
     """Settings of the scene, choices of the panel, and facts about the run"""
 
     run: bpy.props.StringProperty(
@@ -133,26 +132,6 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings):
         name="Keep finished",
         description="Render only pictures that are missing or have other settings",
         default=True,
-    )
-    farm_engine: bpy.props.EnumProperty(
-        name="Engine", description="Engine that runs the tasks", items=farm.ITEMS, default="slurm"
-    )
-    farm_output: bpy.props.StringProperty(
-        name="Output",
-        description="Folder for the film and the job, which all machines of the farm see under this path; "
-        "each job has its own",
-        subtype="DIR_PATH",
-        default="//firetwin_farm",
-        options=_BLEND_RELATIVE,
-    )
-    farm_chunk: bpy.props.IntProperty(
-        name="Frames per task",
-        description="Frames per task; rounded up to multiples of Chunk where that splits the film",
-        default=plan.CHUNK,
-        min=1,
-    )
-    farm_options: bpy.props.StringProperty(
-        name="Options", description="Options of the engine's own command, as on a command line"
     )
 
 

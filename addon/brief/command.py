@@ -1,0 +1,34 @@
+"""The command `firetwin brief`."""
+
+from __future__ import annotations
+
+import argparse
+
+from .. import files
+from ..errors import UsageError
+from ..progress import READING, notify_if_slow, result, say
+
+
+def run(arguments: argparse.Namespace) -> None:
+    """Write the briefing page of a run.
+
+    Raises
+    ------
+    UsageError
+        The name of the page does not end in .html.
+    """
+    if arguments.out.suffix.lower() != ".html":
+        raise UsageError(f"--out: {arguments.out} does not end in .html; name an .html file")
+    from . import briefing, page, text  # after the check, which answers at once
+
+    request = briefing.Request(
+        arguments.scene, arguments.stations, arguments.film, arguments.against, arguments.limit
+    )
+    with notify_if_slow(READING):
+        found = briefing.gather(request)
+    for note in page.notes(found):
+        say(note)
+    made = page.html(found, arguments.limit)
+    files.write_text(arguments.out, made, newline="\n")
+    say(f"one file of {text.size(len(made.encode()))}, which loads nothing from elsewhere")
+    result(arguments.out)

@@ -1,0 +1,26 @@
+"""Panels of the rooms of the top floor that are installed.
+
+A panel's module has `classes` to register, `properties` (a class of annotations for the scene) and
+`unregister`.
+"""
+
+from __future__ import annotations
+
+from types import ModuleType
+
+from .. import rooms
+
+panels: list[ModuleType] = []
+if rooms.is_installed("farm"):
+    from . import farm
+
+    panels.append(farm)
+
+classes = tuple(each for panel in panels for each in panel.classes)
+properties = tuple(panel.properties for panel in panels)
+
+
+def unregister() -> None:
+    """End what the panels have started."""
+    for panel in panels:
+        panel.unregister()
