@@ -26,7 +26,7 @@ ROOT = FOLDER.parent
 HEAD = "<!-- made by docs/generate.py; change the code, not this page -->\n"
 NAMES = {
     bool: "true or false",
-    int: "whole number",
+    int: "integer",
     float: "number",
     str: "text",
     Path: "path",
@@ -49,7 +49,7 @@ def value(part: Field) -> str:
         return "none"
     found = plain(part.type, part.default)
     if found is None or found == "" or found == []:
-        return "left out"
+        return "not set"
     if isinstance(found, bool):
         return f"`{str(found).lower()}`"
     return f"`{found}`".replace("'", '"') if not isinstance(found, str) else f'`"{found}"`'
@@ -83,7 +83,7 @@ def keys(found: list[Field]) -> str:
         (f"`{p.name}`", value(p), kind(p), meaning(p.key, listed=p.key.choices is not passes.helps))
         for p in found
     )
-    out = table(("key", "default", "what it takes", "meaning"), rows)
+    out = table(("key", "default", "value", "meaning"), rows)
     inner = [f"\nEach table of `{p.name}`:\n\n{keys(list(fields(p.table)))}" for p in found if p.table]
     return out + "".join(inner)
 
@@ -142,11 +142,11 @@ def pass_section(each: passes.Pass) -> str:
     if each.made_from:
         facts.append(f"Made from: {', '.join(f'[`{name}`](#{name})' for name in each.made_from)}")
     if isinstance(each, passes.RenderedPass) and each.excludes:
-        facts.append(f"Leaves out: {', '.join(each.excludes)}")
+        facts.append(f"Excludes: {', '.join(each.excludes)}")
     if isinstance(each, passes.RenderedPass) and each.samples:
         facts.append(f"Rays per pixel: {each.samples}")
-    facts += ["A film is made of it"] if each.film else []
-    facts += ["Not for cameras that see all round"] if each.single_view else []
+    facts += ["Written as a film, too"] if each.film else []
+    facts += ["Not for panoramas"] if each.single_view else []
     facts += ["Compares the runs of `[[runs]]`"] if isinstance(each, passes.ComparisonPass) else []
     text = prose(sys.modules[f"{passes.__name__}.{each.name}"].__doc__)
     return f"### {each.name}\n\n{text}\n\n" + "\n".join(f"- {fact}." for fact in facts) + "\n"
@@ -159,58 +159,57 @@ def rig_section(name: str, rig: type) -> str:
 
 
 SETTINGS = """\
-A scene file is TOML. Each section below is a table of it, and each key has a default.
+A scene file is TOML. Each section below is one of its tables, and each key has a default.
 `examples/king_fire.toml` shows and explains every key. `firetwin new RUN -o my_scene.toml` writes a short
 one. Lengths are metres and angles degrees. Relative paths start at the scene file's folder.
 
-`firetwin schema > firetwin.json` and a first line `#:schema firetwin.json` let a TOML editor complete and
-check a scene file. A section that has got another name is read under its former name, with a note:
-`[ground]` is now `[terrain]`, `[places]` is `[labels]`.
+With `firetwin schema > firetwin.json` and a first line `#:schema firetwin.json`, a TOML editor completes and
+validates a scene file. Former names of sections and keys are read with a note; `CHANGELOG.md` lists them.
 """
 
 PASSES = """\
-A pass is one kind of picture that a camera records. `[render] passes` names those of all cameras; a
-camera's own `passes` come instead. A file in `addon/shot/passes/` is one pass. EXR files have 32 bits a
-number; `rgb` has them scene-linear.
+A pass is a kind of picture that a camera records. `[render] passes` lists the passes of all cameras; the
+`passes` of a camera override it. A file in `addon/shot/passes/` is one pass. EXR files have 32 bits per
+value; the EXR of `rgb` is scene-linear.
 
-`fused`, `split` and `difference` need matplotlib. `imager_short` and `imager_long` are ABI's for a
-satellite over the equator, else VIIRS's; no satellite took such a picture in 2014. `pose` with `rgb` also
-writes an index for nerfstudio, `CAMERA/transforms.json`. `thermal_map` and `edl` follow the FIRETWIN paper.
-`normal` and `masks` take one more render, of one ray a pixel. The `[thermal]` section sets the band (8 to
-14 or 3.4 to 4.1 µm), the palette and the detector's flaws.
+`fused`, `split` and `difference` need matplotlib. `imager_short` and `imager_long` are bands of ABI for a
+satellite over the equator, else bands of VIIRS; no satellite took such a picture in 2014. `pose` with `rgb`
+also writes an index for nerfstudio, `CAMERA/transforms.json`. `thermal_map` and `edl` follow the FIRETWIN
+paper. `normal` and `masks` need an additional render with one ray per pixel. The `[thermal]` section sets
+the band (8 to 14 or 3.4 to 4.1 µm), the palette and the flaws of the detector.
 
-Compositor groups for films of your own give what the passes give from files, within 1e-5: *Firetwin Thermal
-Blend*, *Thermal Camera*, *Eye Dome* and *Overlay*. They are in every scene that is built.
+Each built scene has compositor groups with the results of these passes, within 1e-5: *Firetwin Thermal
+Blend*, *Thermal Camera*, *Eye Dome* and *Overlay*.
 """
 
 CAMERAS = """\
-`kind` of `[[cameras]]` names one of these; a file in `addon/shot/cameras/rigs/` is one. Lenses and chips
-are in millimetres. Keys have handles that can be moved in Blender.
+`kind` of `[[cameras]]` is one of these; a file in `addon/shot/cameras/rigs/` is one kind. Focal lengths and
+sensors are in millimetres. Keys have handles that can be moved in Blender.
 
 A drone looks ahead, at a point or at the fire, and stays above its clearance. It flies from key to key or
 along a GPX, KML or CSV track. `firetwin track SCENE.toml --camera NAME --out FILE.gpx` writes a camera's
-way; a drone with `track = "FILE.gpx"` flies it again. Heights of tracks count from the datum of the run's
+path; a drone with `track = "FILE.gpx"` flies it again. Heights of tracks refer to the datum of the run's
 elevations.
 
-A `tour` visits places for a film: by a label's name, by position, the "head" of the fire or its "ignition".
-Times of stays and flights are shares of the whole film. It comes from the side of the place before, stands
-still, and flies on with an eased start and end, above the terrain.
+A `tour` visits places for a film: by the name of a label, by position, the "head" of the fire or its
+"ignition". Times of stays and flights are shares of the film. The camera comes from the side of the previous
+place, stops, and continues with an eased start and end, above the terrain.
 
-A `globe` flies from space to a place: along the geodesic, with equal speed on the screen from 2,000 km down
-(van Wijk and Nuij 2003). It starts with a view straight down and ends as a `tour` stands at its stop, with a
-level horizon all the way. Places are computed in double precision in the scene's axes, so the Earth's
-curvature is in them. Clip planes follow the height, frame by frame. With such a camera the terrain goes over
-into the WGS84 ellipsoid, in one colour, or in `terrain.globe`, a picture of yours; it needs a credit. Haze
-follows the curvature, the sky darkens with height and lies about the limb.
+A `globe` flies from space to a place: along the geodesic, at constant speed on the screen from 2,000 km down
+(van Wijk and Nuij 2003). It starts with a view straight down and ends like a stop of a `tour`, with a level
+horizon all along. Positions are computed in double precision in the scene's axes and include the Earth's
+curvature. Clip planes follow the height, frame by frame. With such a camera the terrain continues into the
+WGS84 ellipsoid, in one colour or in your picture `terrain.globe`, which needs a credit. Haze follows the
+curvature; the sky darkens with height and surrounds the limb.
 
-`vr` needs Cycles. The left eye's equirectangular picture lies above the right one's. Stills say so in XMP
-(GPano), films in `st3d` and `sv3d`. A `satellite` looks straight down and to scale from above all smoke, or
-from its longitude over the equator in perspective.
+`vr` needs Cycles. The left eye's equirectangular picture is above the right eye's. Stills have XMP metadata
+for this (GPano), films `st3d` and `sv3d`. A `satellite` looks straight down and to scale from above all
+smoke, or from its longitude over the equator in perspective.
 
-Three examples, each one command, write into `examples/out/NAME`. `examples/film.sh drone_feed` gives all
-feeds of a drone's mount, with their fused view, sidecars and masks. `examples/film.sh satellite` gives the
-whole run from space, in true colour and both bands. `examples/film.sh vr` gives a clip for headsets.
-`examples/rigs.toml` has one of each of the other cameras. All four film the synthetic sample run.
+Three examples, each one command, write to `examples/out/NAME`. `examples/film.sh drone_feed` writes all
+feeds of a drone's mount, with their fused view, sidecars and masks. `examples/film.sh satellite` writes the
+complete run from space, in true colour and both bands. `examples/film.sh vr` writes a clip for headsets.
+`examples/rigs.toml` has one camera of each other kind. All four film the synthetic sample run.
 """
 
 
@@ -223,7 +222,7 @@ def passes_and_cameras() -> str:
             "# Passes and cameras\n",
             "## Passes\n",
             PASSES,
-            table(("pass", "what a camera records"), ((f"[`{n}`](#{n})", p.help) for n, p in known.items())),
+            table(("pass", "content"), ((f"[`{n}`](#{n})", p.help) for n, p in known.items())),
             *(pass_section(each) for each in known.values()),
             "## Cameras\n",
             CAMERAS,

@@ -33,8 +33,8 @@ class Pass:
         Suffixes of its files.
     aspects
         Aspects of the settings on which its own work depends: names of sections, or "camera", "picture",
-        "grain", "thermal", "film" or "passes"; see `sections`. A name stands for its folders
-        ``NAME`` and ``scene/NAME`` in `code_fingerprint` too.
+        "grain", "thermal", "film" or "passes"; see `sections`. A name also means its folders
+        ``NAME`` and ``scene/NAME`` in `code_fingerprint`.
     film
         Whether its PNG files make a film.
     captions
@@ -64,16 +64,16 @@ class Pass:
 
     @property
     def made_from(self) -> tuple[str, ...]:
-        """Passes whose files it needs, of its own run or of all runs."""
+        """Passes whose files it needs, of its run or of all runs."""
         return ()
 
     @property
     def all_aspects(self) -> frozenset[str]:
-        """Aspects on which its files depend: its own and those of the passes that they are made from."""
+        """Aspects on which its files depend, with the aspects of the passes that they are made from."""
         return self.aspects.union(*(known()[name].all_aspects for name in self.made_from))
 
     def size(self, resolution: tuple[int, int]) -> tuple[int, int]:
-        """Columns and rows, both even, of its picture for a camera's resolution."""
+        """Return columns and rows, both even, of its picture for a camera's resolution."""
         width, height = resolution
         rows = self.min_rows
         return resolution if height >= rows else (2 * round(width * rows / height / 2), rows)
@@ -81,7 +81,7 @@ class Pass:
 
 @dataclass(frozen=True, kw_only=True)
 class RenderedPass(Pass):
-    """Pass that Blender renders in a view layer of its own.
+    """Pass that Blender renders in a separate view layer.
 
     Attributes
     ----------
@@ -95,7 +95,7 @@ class RenderedPass(Pass):
     excludes
         Parts of the scene excluded from its view layer.
     samples
-        Samples per pixel; None: those of [render].
+        Samples per pixel; None: the samples of [render].
     channels
         Channels of its EXR: "colour" or "grey".
     bits
@@ -156,35 +156,35 @@ class ComparisonPass(DerivedPass):
 
     @property
     def made_from(self) -> tuple[str, ...]:
-        """Passes whose files it needs, of its own run or of all runs."""
+        """Passes whose files it needs, of its run or of all runs."""
         return tuple(dict.fromkeys((*self.needs, *self.needs_of_all)))
 
 
 @functools.cache
 def known() -> dict[str, Pass]:
-    """All passes by name, in order."""
+    """Return all passes by name, in order."""
     names = [module.name for module in pkgutil.iter_modules(__path__) if module.name[0] != "_"]
     passes = [importlib.import_module(f"{__name__}.{name}").PASS for name in names]
     return {entry.name: entry for entry in sorted(passes, key=lambda entry: entry.order)}
 
 
 def helps() -> dict[str, str]:
-    """Help of all passes by name, in order."""
+    """Return the help of all passes by name, in order."""
     return {name: entry.help for name, entry in known().items()}
 
 
 def file_of(camera: str, name: str, frame: int, suffix: str) -> str:
-    """File of a camera's frame in a pass, relative to the output folder."""
+    """Return the file of a camera's frame in a pass, relative to the output folder."""
     return f"{camera}/{name}/{camera}_{name}_{frame:06d}.{suffix}"
 
 
 def view_of(camera: str, run: str) -> str:
-    """Name of a camera's view of another run."""
+    """Return the name of a camera's view of another run."""
     return f"{camera}@{run}"
 
 
 def in_other_runs(names: Iterable[str]) -> tuple[str, ...]:
-    """Passes that a camera records in comparison runs, in order."""
+    """Return the passes that a camera records in comparison runs, in order."""
     asked = [known()[name] for name in names]
     wanted = {
         name
@@ -195,21 +195,21 @@ def in_other_runs(names: Iterable[str]) -> tuple[str, ...]:
 
 
 def records_masks(each: Pass) -> bool:
-    """Whether its shaders output per-pixel classes."""
+    """Return True if the shaders of a pass output per-pixel classes."""
     return isinstance(each, RenderedPass) and each.shading == "masks"
 
 
 def compares(name: str) -> bool:
-    """Whether a pass compares runs."""
+    """Return True if a pass compares runs."""
     return isinstance(known()[name], ComparisonPass)
 
 
 def refused(each: Pass, camera: CameraSettings, engine: str) -> str:
-    """Reason why a camera cannot record a pass with an engine; empty if it can."""
+    """Return the reason why a camera cannot record a pass with an engine; empty if it can."""
     if records_masks(each) and engine == "eevee":
         return (
-            f'camera "{camera.name}" cannot record {each.name} with EEVEE, which keeps 11 bits of a number, '
-            "and numbers of trees have more; render it with Cycles"
+            f'camera "{camera.name}" cannot record {each.name} with EEVEE, whose pixels have 11 bits, '
+            "too few for tree numbers; render it with Cycles"
         )
     if each.single_view and camera.rig.around:
         return f'camera "{camera.name}" is a panorama and cannot record {each.name}'
@@ -217,6 +217,6 @@ def refused(each: Pass, camera: CameraSettings, engine: str) -> str:
 
 
 def of_camera(settings: Any, camera: CameraSettings) -> tuple[Pass, ...]:
-    """Passes of a camera in order: its own, or else those of `settings.render`."""
+    """Return the passes of a camera in order: `camera.passes`, or else `settings.render.passes`."""
     names = camera.passes or settings.render.passes
     return tuple(entry for entry in known().values() if entry.name in names)

@@ -1,7 +1,7 @@
 """Depth pass: distance to terrain and trees, m, along the camera's axis and along the ray.
 
-The EXR has two channels, `planar` and `range`. Flames and smoke are left out, as they have no surface. One
-ray goes through each pixel's centre, so no pixel averages near and far. The sky is 1e10 m, as in all of
+The EXR has two channels, `planar` and `range`. Flames and smoke are excluded, as they have no surface. One
+ray goes through each pixel's centre, so no pixel averages near and far. The sky is 1e10 m, as everywhere in
 Blender. A panorama has no axis: both channels are the distance from mid-eye.
 """
 

@@ -1,12 +1,12 @@
 """Fused pass: visible, thermal, depth and map panels of a camera in one picture, with time and position.
 
 The picture has the camera's size, and at least 720 rows for legibility. Depth has the same colours in every
-frame of a shot; temperatures have those of the thermal pass. Sensors on the camera's mount supply what it
-does not record itself (see `shot.cameras.mount`). All panels are registered: a point has the same position
-in each. A sensor with a smaller field of view fills its part of the panel and is outlined in the visible
-picture. The map is the picture of a minimap that follows the camera; else relief and canopy of the run are
-drawn, north up, around the camera. Over either are drawn the front, the burned area (the last half hour in
-orange), the camera, its path and field of view.
+frame of a shot; temperatures have the colours of the thermal pass. Sensors on the camera's mount supply
+passes that it does not record (see `shot.cameras.mount`). All panels are registered: a point has the same
+position in each. A sensor with a smaller field of view fills its part of the panel and is outlined in the
+visible picture. The map is the picture of a minimap that follows the camera; else relief and canopy of the
+run, north up, around the camera. It shows the front, the burned area (the last half hour in orange), the
+camera, its path and field of view.
 """
 
 from __future__ import annotations

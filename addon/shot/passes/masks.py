@@ -1,24 +1,24 @@
 """Mask pass: semantic class and instance of each pixel, as ground truth for machine learning.
 
-======== ===== ================================================================================
-class    value what counts
-======== ===== ================================================================================
-sky      0     where no ray ends
-ground   1     what has not burned, with brush, grass, rocks, water, and forest too far for single trees
-burned   2     ground and brush that the fire has passed
+======== ===== =================================================================================
+class    value content
+======== ===== =================================================================================
+sky      0     rays that hit nothing
+ground   1     unburned ground, with brush, grass, rocks, water, and forest too far for single trees
+burned   2     ground and brush behind the front
 tree     3     living or burned
-smoke    4     hides more than half of what is behind it, in green light
+smoke    4     transmits less than half of the light behind it, in green
 fire     5     flames in the air, on the ground and in crowns, and firebrands
-building 6     blocks of footprints and of stations, burned or not; those of 3-D Tiles are ground
-======== ===== ================================================================================
+building 6     blocks of footprints and of stations, burned or not; buildings in 3-D Tiles are ground
+======== ===== =================================================================================
 
-The EXR holds `class`; `clear`, the transmittance 0..1 of smoke; and `instance`, the number of the tree or
-building (0: none). A building's is its place among the footprints, from 1. A tree has one number in every
-frame, camera and film of a run with one `seed`: it comes from the
-tree's own identity (see `numbers`), not from its index among built trees. Of n visible trees about n^2 / 2^25
-pairs share a number. The PNG shows each class in one colour. One ray goes through each pixel's centre without
-filtering, so numbers stay integers. Behind opaque smoke the instance is unknown: 0. EEVEE's pixels hold 11
-bits (half floats), too few for tree numbers, so it is refused.
+The EXR has `class`; `clear`, the transmittance 0..1 of smoke; and `instance`, the number of the tree or
+building (0: none). The number of a building is its position among the footprints, from 1. A tree has the same
+number in every frame, camera and film of a run with one `seed`: it depends on the identity of the tree (see
+`numbers`), not on its index among built trees. About n^2 / 2^25 pairs among n visible trees share a number.
+The PNG shows each class in one colour. One ray goes through each pixel's centre without filtering, so numbers
+stay integers. Behind opaque smoke the instance is unknown: 0. Pixels of EEVEE have 11 bits (half floats), too
+few for tree numbers, so EEVEE is rejected.
 """
 
 from __future__ import annotations

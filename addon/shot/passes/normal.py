@@ -1,6 +1,6 @@
 """Normal pass: surface normals of terrain and trees, unit vectors x east, y north, z up in the scene's frame.
 
-Flames and smoke are left out, as they have no surface. One ray goes through each pixel's centre. The sky is
+Flames and smoke are excluded, as they have no surface. One ray goes through each pixel's centre. The sky is
 0. It is the mesh normal, without bump maps of materials.
 """
 

@@ -1,7 +1,7 @@
 """Split screen pass: all runs' visible pictures at one time, with names, burned area and front colours.
 
 Two runs have a half each, with the central half of their pictures: the same landscape in both. Three or four
-have a quarter each, with the whole picture at half size.
+have a quarter each, with the complete picture at half size.
 """
 
 from __future__ import annotations
