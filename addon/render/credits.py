@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ..blender import compat, owned
 from ..imaging import credits
 from ..imaging.credits import Block, Credits
-from ..scene.credits import of_scene
+from ..scene.credits import read_scene
 
 _STRIP = 0.05  # grey level behind the text
 
@@ -51,7 +51,7 @@ def burn(path: Path, words: Credits, note: str, around: bool = False) -> None:
 
 def stamp(stage: owned.Stage) -> None:
     """Add the credits to the metadata of Blender's own renders of a scene."""
-    if words := of_scene(stage):
+    if words := read_scene(stage):
         render = stage.scene.render
         render.use_stamp = render.use_stamp_note = True
         render.stamp_note_text = f"{render.stamp_note_text}\n{words.text()}"

@@ -65,7 +65,7 @@ class Eye:
             channels[nodes.SURFACE],
             channels[nodes.FLAMES],
             channels[nodes.WARMTH][..., 0],
-            infrared.sky(self.shot),
+            infrared.sky_radiance(self.shot),
         )
         if not self.smoke:
             return bare

@@ -1,7 +1,7 @@
 """Asset builder: a shot's trees, materials, node groups and cameras as assets, with previews of trees.
 
-Variation between trees is read from the instancer, or else from the object. So a single tree has these values
-as custom properties, and an artist can burn it with its `arrival_time`.
+Variation between trees is read from the instancer if there is one, else from the object. A single tree
+therefore has these values as custom properties, and an artist can burn it by setting `arrival_time`.
 """
 
 from __future__ import annotations
@@ -32,9 +32,9 @@ HEIGHTS = {
     **{"pine": 18.0, "spruce": 18.0, "birch": 15.0},
     **{"brush": 1.2, "log": 0.5, "rock": 0.8, "tuft": 0.4, "twigs": 0.15},
 }
-"""m; heights of one model of each class in the library."""
+"""Heights (m) of one model of each class in the library."""
 
-_HIGH = 5.0  # m; classes that are trees
+_HIGH = 5.0  # m; classes taller than this are trees
 _PICTURE = 128  # pixels
 _ALONE = {"arrival_time": NEVER, "tint": 0.5, "dead": 0.5, "scorch": 0.0, "torched": 0.0, "elevation": 1500.0}
 _KINDS = {
@@ -47,12 +47,12 @@ Identify = Callable[[str], str]
 
 
 def build(shot: Shot, identify: Identify, progress: Progress = silent) -> int:
-    """Create all assets in the current file, with our node groups that exist; returns their number.
+    """Create all assets in the current file, including our node groups, and return their number.
 
     Parameters
     ----------
     identify
-        Function that gives the UUID of a catalogue by name.
+        Function that maps a catalogue's name to its UUID.
     """
     stage = owned.adopt(bpy.context.scene)
     clock.build(shot, stage)
@@ -69,17 +69,17 @@ def build(shot: Shot, identify: Identify, progress: Progress = silent) -> int:
             if node.type == "GROUP" and node.node_tree.name.startswith("Firetwin Smoke Shader"):
                 node.node_tree.name = f"Firetwin Smoke Shader {name}"
     camera.build(shot, stage)
-    _trees(trees, identify, progress)
-    _materials(identify)
+    _mark_trees(trees, identify, progress)
+    _mark_materials(identify)
     for group in filter(owned.ours, bpy.data.node_groups):
-        _mark(group, identify(_KINDS[group.bl_idname]), _inputs(group))
+        _mark(group, identify(_KINDS[group.bl_idname]), _describe_group(group))
     for obj in (obj for obj in stage.root.all_objects if obj.type == "CAMERA"):
         _mark(obj, identify("Cameras"), "A camera of the shot, with its path")
     blocks = (bpy.data.objects, bpy.data.materials, bpy.data.node_groups)
     return sum(block.asset_data is not None for kind in blocks for block in kind)
 
 
-def _trees(made: bpy.types.Collection, identify: Identify, progress: Progress) -> None:
+def _mark_trees(made: bpy.types.Collection, identify: Identify, progress: Progress) -> None:
     """Name and mark the finest level of every model, and render its preview."""
     count: dict[str, int] = defaultdict(int)
     every = models.every()
@@ -89,21 +89,21 @@ def _trees(made: bpy.types.Collection, identify: Identify, progress: Progress) -
             progress(k, len(every), "drawing the trees")
             obj = made.objects[f"Firetwin Tree {k:02d} 0"]
             high = HEIGHTS[model.kind] > _HIGH or (model.kind, model.state) == ("brush", "living")
-            what = _name(model)
+            what = _model_name(model)
             if model.state == "snag":
                 what = f"{what} Snag" if high else f"Burned {what}"
             count[what] += 1
             obj.name = f"{what} {count[what]}"
             for name, value in _ALONE.items():
                 obj[name] = value
-            _mark(obj, identify("Trees" if high else "Undergrowth"), _about(model, high))
+            _mark(obj, identify("Trees" if high else "Undergrowth"), _describe_model(model, high))
             obj.scale = (HEIGHTS[model.kind],) * 3
             studio.draw(obj)
         studio.close()
 
 
-def _materials(identify: Identify) -> None:
-    """Mark all materials; each gets the preview of an asset that shows it with few other materials."""
+def _mark_materials(identify: Identify) -> None:
+    """Mark all materials; each gets the preview of the asset that shows it with the fewest others."""
     objects = [obj for obj in bpy.data.objects if obj.asset_data and obj.type == "MESH"]
     objects.sort(key=lambda obj: len(obj.data.materials))
     for material in filter(owned.ours, bpy.data.materials):
@@ -112,28 +112,28 @@ def _materials(identify: Identify) -> None:
         if made is not None:
             pixels = np.empty(_PICTURE * _PICTURE * 4, np.float32)
             made.preview.image_pixels_float.foreach_get(pixels)
-            _show(material, pixels)
+            _set_preview(material, pixels)
 
 
-def _show(block: bpy.types.ID, pixels: np.ndarray) -> None:
-    """Set a picture as the preview of a data-block."""
+def _set_preview(block: bpy.types.ID, pixels: np.ndarray) -> None:
+    """Set an image as the preview of a data-block."""
     preview = block.preview_ensure()
     preview.image_size = (_PICTURE, _PICTURE)
     preview.image_pixels_float.foreach_set(pixels)
 
 
-def _about(model: models.TreeModel, high: bool) -> str:
+def _describe_model(model: models.TreeModel, high: bool) -> str:
     burns = "; burns when the model time passes its arrival_time" if high and model.state == "living" else ""
-    return f"{_name(model)}, {model.state}{burns}"
+    return f"{_model_name(model)}, {model.state}{burns}"
 
 
-def _name(model: models.TreeModel) -> str:
+def _model_name(model: models.TreeModel) -> str:
     conifers = {"large": "Large Conifer", "medium": "Conifer", "small": "Young Conifer"}
     return conifers.get(model.kind, model.kind.capitalize())
 
 
-def _inputs(group: bpy.types.NodeTree) -> str:
-    """Description of a node group, with its settable inputs."""
+def _describe_group(group: bpy.types.NodeTree) -> str:
+    """Describe a node group and its inputs."""
     names = [
         item.name
         for item in group.interface.items_tree
@@ -151,7 +151,7 @@ def _mark(block: bpy.types.ID, catalogue: str, about: str) -> None:
 
 
 class _Studio:
-    """A scene in which Cycles renders previews of objects before a transparent background."""
+    """A scene in which Cycles renders previews of objects with a transparent background."""
 
     def __init__(self, folder: Path) -> None:
         self._path = folder / "picture.png"
@@ -174,7 +174,7 @@ class _Studio:
             scene.collection.objects.link(obj)
 
     def draw(self, obj: bpy.types.Object) -> None:
-        """Render an object and set the picture as its preview."""
+        """Render an object and set the result as its preview."""
         scene = self._scene
         scene.collection.objects.link(obj)
         corners = np.array(obj.bound_box) * np.array(obj.scale)
@@ -186,7 +186,7 @@ class _Studio:
         picture = bpy.data.images.load(str(self._path))
         pixels = np.empty(_PICTURE * _PICTURE * 4, np.float32)
         picture.pixels.foreach_get(pixels)
-        _show(obj, pixels)
+        _set_preview(obj, pixels)
         bpy.data.images.remove(picture)
         scene.collection.objects.unlink(obj)
 

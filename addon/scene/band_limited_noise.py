@@ -1,4 +1,4 @@
-"""Band-limited noise: octaves smaller than a pixel are left out, as they cost time and are not resolved."""
+"""Band-limited noise: octaves smaller than a pixel are omitted, as they cost time and cannot be resolved."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..blender import nodes
 
 
 class Grain:
-    """Noise at a position, in octaves of `least` pixels or larger; in all octaves without a `pixel`."""
+    """Noise at a position, limited to wavelengths of at least `least` pixels; unlimited without `pixel`."""
 
     def __init__(
         self, tree: nodes.Tree, position: Any, pixel: nodes.Value | None, least: float = 1.0
@@ -19,17 +19,17 @@ class Grain:
         self._octaves = None if pixel is None else -tree.math("LOGARITHM", pixel * least, 2.0)
 
     def coarser(self, least: float) -> Grain:
-        """The same noise at the same position, with other octaves."""
+        """Return the same noise at the same position with a different minimum wavelength."""
         return Grain(self._tree, self._position, self._pixel, least)
 
     def at(self, position: Any) -> Grain:
-        """The same octaves at another position."""
+        """Return the same octaves at another position."""
         other = copy(self)
         other._position = position
         return other
 
     def noise(self, size: float, octaves: float = 2.0, roughness: float = 0.55) -> nodes.Value:
-        """As `Tree.noise`; the octaves that remain keep their amplitudes."""
+        """Add band-limited noise, see `Tree.noise`; the remaining octaves keep their amplitudes."""
         if self._octaves is None:
             return self._tree.noise(self._position, size, octaves, roughness)
         low = -log2(size)

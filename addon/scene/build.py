@@ -31,15 +31,15 @@ PARTS = {
     "terrain": "building the ground",
     "forest": "planting the forest",
     "fire": "lighting the fire",
-    "smoke": "hanging the smoke",
+    "smoke": "building the smoke",
     "light": "setting the sun",
     "cameras": "setting the cameras",
     "labels": "naming the places",
-    "stations": "putting up the stations",
+    "stations": "placing station signs",
 }
-"""Parts that can be built on their own, each with its progress message."""
+"""Parts that can be built separately, each with its progress message."""
 
-_WITH_STAND = {"terrain", "forest", "fire"}  # parts that depend on the positions of single trees
+_WITH_STAND = {"terrain", "forest", "fire"}  # parts that depend on the positions of individual trees
 
 
 def build(
@@ -48,10 +48,10 @@ def build(
     parts: Sequence[str] = tuple(PARTS),
     tell: Callable[[str], None] = lambda _: None,
 ) -> bpy.types.Scene:
-    """Build parts into `scene`, by default the current one; removes the parts' earlier objects first.
+    """Build parts into `scene` (default: the current scene), replacing earlier objects of these parts.
 
-    A scene of the user's own (see `owned.adopt`) keeps its engine, world, colour management, frame range,
-    view layers and compositor.
+    In a user's scene (see `owned.adopt`), engine, world, colour management, frame range, view layers and
+    compositor are not changed.
     """
     scene = scene or bpy.context.scene
     for _ in steps(shot, scene, parts, tell):
@@ -67,8 +67,7 @@ def steps(
 ) -> Iterator[str]:
     """Build parts step by step; each step yields its name before it runs.
 
-    The user may rename the scene or undo an operation between two steps, so each step looks the scene up
-    again.
+    The user may rename the scene or undo an operation between two steps, so each step looks it up again.
 
     Parameters
     ----------
@@ -82,16 +81,16 @@ def steps(
 
     yield "surveying the ground"
     _ = shot.paths
-    curved_air.switch(stage(), shot.local_frame if shot.beyond else None)
+    curved_air.set_frame(stage(), shot.local_frame if shot.beyond else None)
     clock.build(shot, stage())
     temperature.build(shot, stage())
     infrared.build(shot, stage())
     if set(parts) == set(PARTS):
-        clock.frames(shot, stage())
+        clock.set_frame_range(shot, stage())
     if shot.settings.forest.trees and _WITH_STAND & set(parts):
         yield "growing the forest"
         if "terrain" in parts:
-            grown, shape = _grown_and_shaped(shot)
+            grown, shape = _grow_and_shape(shot)
         else:
             grown = stand.grow(shot)
 
@@ -100,7 +99,7 @@ def steps(
             tell(sentence)
 
     builders: dict[str, Callable[[], object]] = {
-        "terrain": lambda: _terrain(shot, stage(), grown, shape, tell),
+        "terrain": lambda: _build_terrain(shot, stage(), grown, shape, tell),
         "forest": lambda: forest.build(shot, stage(), grown),
         "fire": lambda: fire.build(shot, stage(), grown),
         "smoke": lambda: smoke.build(shot.full, stage()),
@@ -115,7 +114,7 @@ def steps(
             builders[part]()
 
 
-def _terrain(
+def _build_terrain(
     shot: Shot,
     stage: owned.Stage,
     grown: stand.Stand | None,
@@ -132,13 +131,12 @@ def _terrain(
         tiles.remove(stage)
 
 
-def _grown_and_shaped(shot: Shot) -> tuple[stand.Stand, ground.Shape]:
-    """Generate the stand and the terrain mesh in parallel threads: each keeps one core busy.
+def _grow_and_shape(shot: Shot) -> tuple[stand.Stand, ground.Shape]:
+    """Generate the stand and the terrain mesh in parallel threads, each of which uses one core.
 
-    Neither calls Blender. The exposure is computed in parallel too, and cached. All results are ready on
-    return.
+    Neither calls Blender. The exposure is computed in parallel and cached. All results are ready on return.
     """
-    shot.visibility.distance([(0.0, 0.0, 0.0)])  # the inputs that they share are computed first
+    shot.visibility.distance([(0.0, 0.0, 0.0)])  # compute their shared inputs first
     with ThreadPoolExecutor(1) as beside:
         shaping = beside.submit(ground.shape, shot)
         metering = beside.submit(exposure.at, shot, np.ones(1))

@@ -1,4 +1,4 @@
-"""Credits of what a collection shows, kept with it, so that a file that is opened again still names them."""
+"""Credits of data shown in a collection, stored with it, so that a reopened file still has them."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ PROPERTY = "firetwin_credits"
 """Property of a collection: credits and services' names as JSON."""
 
 
-def note(collection: bpy.types.Collection, words: Credits) -> None:
-    """Keep the credits of a collection."""
-    if words:
-        collection[PROPERTY] = json.dumps([words.data, words.logo])
+def store(collection: bpy.types.Collection, credits: Credits) -> None:
+    """Store the credits of a collection."""
+    if credits:
+        collection[PROPERTY] = json.dumps([credits.data, credits.logo])
     elif PROPERTY in collection:
         del collection[PROPERTY]
 
 
-def of_scene(stage: Stage) -> Credits:
-    """Credits of a scene, also of one that was opened from a file."""
+def read_scene(stage: Stage) -> Credits:
+    """Read the credits of a scene, including one opened from a file."""
     found = Credits()
     for part in stage.root.children:
         if PROPERTY in part and part.all_objects:

@@ -16,6 +16,6 @@ _LIGHT = 13.0  # radiance of flames at exposure 0
 
 
 def brightness(shot: Shot) -> float:
-    """Radiance of flames: lower in longer exposures, as with a smaller aperture, to limit clipping."""
+    """Return the radiance of flames: lower in longer exposures, which limits clipping (smaller aperture)."""
     stops = exposure.at(shot, np.array([0.5 * (1 + shot.frames.count)]))[0]
     return float(_LIGHT * 2.0 ** (-0.85 * stops))

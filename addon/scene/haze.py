@@ -2,7 +2,8 @@
 
 Radiance from distance d is mixed with the airlight by 1 - exp(-tau) (Koschmieder; uniform light along the
 ray). Extinction falls with height as exp(-z / H), so a ray from z0 to z1 has the optical depth tau = k d
-exp(-z0 / H) (1 - exp(-u)) / u with u = (z1 - z0) / H. It applies to camera rays only and lights nothing.
+exp(-z0 / H) (1 - exp(-u)) / u with u = (z1 - z0) / H. Haze affects camera rays only and does not scatter
+light onto other surfaces.
 """
 
 from __future__ import annotations
@@ -21,9 +22,9 @@ _WHITE = (1.0, 1.0, 1.0, 1.0)
 
 
 def _group(stage: Stage) -> bpy.types.NodeTree:
-    """Create the node group once per scene; `settings` changes its constants.
+    """Create the node group once per scene; `set_amount` changes its constants.
 
-    Its inputs are factors on these constants, so that one material can differ from the scene.
+    Its inputs are factors on these constants, so that a single material can differ from the scene.
     """
     if stage.root.get(_GROUP) is not None:
         return stage.root[_GROUP]
@@ -39,48 +40,50 @@ def _group(stage: Stage) -> bpy.types.NodeTree:
     colour.name = "Colour"
     density = tree.input("Density", 1.0, "Factor on the haze of the scene; 0: none", "Haze")
     tint = tree.input("Tint", _WHITE, "Factor on the colour of the scene's haze", "Haze")
-    depth = way(tree, stage, sky.HAZE_HEIGHT) * (extinction * density)
+    depth = weighted_path_length(tree, stage, sky.HAZE_HEIGHT) * (extinction * density)
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     fraction = (1.0 - (-depth).exp()) * camera
     tree.finish({"Fraction": fraction, "Colour": tree.vector("MULTIPLY", colour, tint)})
     return group
 
 
-def way(tree: nodes.Tree, stage: Stage, height: float) -> nodes.Value:
-    """Path length (m) to the camera, weighted by exp(-z / `height`); in curved air by the height itself."""
+def weighted_path_length(tree: nodes.Tree, stage: Stage, height: float) -> nodes.Value:
+    """Return the path length (m) to the camera, weighted by exp(-z / `height`), flat or curved."""
     if (earth := curved_air.earth(stage)) is not None:
-        return curved_air.way(tree, earth, height)
+        return curved_air.weighted_path_length(tree, earth, height)
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
     geometry = tree.node("ShaderNodeNewGeometry")
     low = tree.separate(tree.pick(geometry, "Position"))[2] / height
     rise = tree.separate(tree.pick(geometry, "Incoming"))[2] * distance / height
-    rise = rise + 2.0e-3 * (tree.math("ABSOLUTE", rise) < 1.0e-3)  # never 0, where the mean below is 1
+    rise = rise + 2.0e-3 * (
+        tree.math("ABSOLUTE", rise) < 1.0e-3
+    )  # avoids division by 0, where the mean below is 1
     return distance * (-low).exp() * ((1.0 - (-rise).exp()) / rise)
 
 
-def settings(stage: Stage, amount: float) -> tuple[bpy.types.NodeTree, str]:
+def set_amount(stage: Stage, amount: float) -> tuple[bpy.types.NodeTree, str]:
     """Set the amount of haze (1: a dry September day).
 
     Returns
     -------
-    The node group, and the data path in it of the airlight's radiance.
+    The node group, and the data path of the airlight's radiance in it.
     """
     group = _group(stage)
     group.nodes["Extinction"].outputs[0].default_value = sky.HAZE * amount
     return group, 'nodes["Colour"].outputs[0].default_value'
 
 
-def state(stage: Stage) -> tuple[tuple[float, ...], float]:
-    """Radiance of the airlight and extinction at height 0 (1/m), at the scene's frame."""
+def current_state(stage: Stage) -> tuple[tuple[float, ...], float]:
+    """Return the airlight's radiance and the extinction at height 0 (1/m), in the scene's current frame."""
     group = stage.evaluated(_group(stage))
     colour = group.nodes["Colour"].outputs[0].default_value
     return tuple(colour[:3]), float(group.nodes["Extinction"].outputs[0].default_value)
 
 
 def fraction(tree: nodes.Tree, stage: Stage) -> tuple[nodes.Value, nodes.Value]:
-    """Fraction of airlight in a pixel (0..1, zero except for camera rays), and the airlight's colour.
+    """Return the fraction of airlight in a pixel (0..1, zero except for camera rays), and its colour.
 
-    The group of `tree` gets inputs for both.
+    Inputs for both are added to the group of `tree`.
     """
     density = tree.input("Haze", 1.0, "Factor on the haze between this and the camera; 0: none", "Air")
     tint = tree.input("Haze Tint", _WHITE, "Factor on the colour of that haze", "Air")
@@ -89,12 +92,12 @@ def fraction(tree: nodes.Tree, stage: Stage) -> tuple[nodes.Value, nodes.Value]:
 
 
 def airlight(tree: nodes.Tree, stage: Stage) -> nodes.Value:
-    """Radiance of the airlight."""
+    """Return the radiance of the airlight."""
     return tree.pick(tree.node("ShaderNodeGroup", node_tree=_group(stage)), "Colour")
 
 
 def before_sky(tree: nodes.Tree, stage: Stage, light: nodes.Value, up: nodes.Value) -> nodes.Value:
-    """The sky's radiance through haze, for rays of slope sine `up`; its texture includes a dry day's haze."""
+    """Attenuate the sky for rays of slope sine `up`; the sky texture already includes a dry day's haze."""
     group = _group(stage)
     more = (group.nodes["Extinction"].outputs[0].default_value - sky.HAZE) * sky.HAZE_HEIGHT
     if more <= 1.0e-3:

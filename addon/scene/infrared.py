@@ -1,19 +1,20 @@
 """Infrared radiance of surfaces, air and smoke over a camera's band, in W m-2 sr-1.
 
-A surface of emissivity e emits e L(T), and reflects (1 - e) of the sky. L is Planck's law integrated over the
-band by Gauss-Legendre quadrature with five wavelengths: its error is 0.3 mK (8 to 14 um) and 0.2 mK (3.4 to
-4.1 um) at most between 180 and 1600 K, in the shaders' float32. Pixels are means of radiance.
+A surface of emissivity e emits e L(T) and reflects (1 - e) of the sky's radiance. L is Planck's law
+integrated over the band by Gauss-Legendre quadrature with five wavelengths: the error in the shaders' float32
+is at most 0.3 mK (8 to 14 um) and 0.2 mK (3.4 to 4.1 um) between 180 and 1600 K. Pixels are means of
+radiance.
 
 Over d km of air with w g/m3 of water vapour the transmittance is exp(-0.03 w d^0.75), and the air adds its
-own emission. For 7 g/m3 that is the transmission of G. J. Tattersall's Thermimage (after FLIR Systems: 0.81
-over 1 km, 0.31 over 10 km) within 0.01. The scale height of vapour is 2 km. The same formula serves the
-middle infrared.
+emission. For 7 g/m3 this agrees within 0.01 with the transmission of G. J. Tattersall's Thermimage (after
+FLIR Systems: 0.81 over 1 km, 0.31 over 10 km). The scale height of vapour is 2 km. The same formula is used
+in the middle infrared.
 
 Smoke is nearly transparent in the infrared: its particles, 0.1 to 0.3 um in diameter (Radke et al. 1990),
 absorb as 1 / wavelength and scatter almost nothing (C. F. Bohren and D. R. Huffman 1983, 5.1). A sixth of the
-extinction in green light is absorption (single-scattering albedo 0.84, Reid et al. 2005). A twentieth of that
-is left at 11 um, a seventh at 3.75 um. Not modelled: ash, whose particles are larger, and cloud water in
-smoke, which hides the fire in the infrared too.
+extinction in green light is absorption (single-scattering albedo 0.84, Reid et al. 2005). A twentieth of this
+absorption remains at 11 um, a seventh at 3.75 um. Not modelled: ash, whose particles are larger, and cloud
+water in smoke, which hides the fire in the infrared too.
 """
 
 from __future__ import annotations
@@ -44,27 +45,29 @@ _FIRST = 2.0 * 6.62607015e-34 * 299792458.0**2 * 1e24  # W m-2 sr-1 um4
 _SECOND = 14387.768775  # um K
 
 
-def emitted(tree: nodes.Tree, shot: Shot, stage: Stage, kelvin: Any, emissivity: Any = 1.0) -> nodes.Value:
-    """Radiance that a surface emits and reflects."""
+def surface_radiance(
+    tree: nodes.Tree, shot: Shot, stage: Stage, kelvin: Any, emissivity: Any = 1.0
+) -> nodes.Value:
+    """Return the radiance that a surface emits and reflects."""
     inputs = {"Kelvin": kelvin, "Emissivity": emissivity}
     return tree.output("ShaderNodeGroup", inputs, "Radiance", node_tree=_group(shot, stage))
 
 
-def through_air(tree: nodes.Tree, shot: Shot, stage: Stage, radiance: Any) -> nodes.Value:
-    """Radiance at the camera from this point: attenuated by air, with the air's own emission."""
+def radiance_at_camera(tree: nodes.Tree, shot: Shot, stage: Stage, radiance: Any) -> nodes.Value:
+    """Return the radiance of this point at the camera: attenuated by air, plus the air's emission."""
     clear = tree.output("ShaderNodeGroup", (), "Clear", node_tree=_group(shot, stage))
-    own = emitted(tree, shot, stage, temperature.air(tree, shot, stage))
+    own = surface_radiance(tree, shot, stage, temperature.air_temperature_node(tree, shot, stage))
     return tree.mix(clear, own, radiance)
 
 
 def smoke(tree: nodes.Tree, shot: Shot, stage: Stage, visible: Any, density: nodes.Value) -> nodes.Value:
-    """`visible`, the shader of smoke with this extinction (1/m) in green light; in data layers its emission.
+    """Return `visible`, a smoke shader of this extinction (1/m) in green light; in data layers its emission.
 
-    In masks it absorbs as in green light, and emits nothing.
+    In masks smoke absorbs as in green light and emits nothing.
     """
     absorbed = density * absorption(BANDS[shot.settings.thermal.band])
     black = tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": absorbed})
-    own = emitted(tree, shot, stage, temperature.air(tree, shot, stage))
+    own = surface_radiance(tree, shot, stage, temperature.air_temperature_node(tree, shot, stage))
     warm = tree.add_shader(black, tree.emission((1.0, 1.0, 1.0), own * absorbed))
     shader = nodes.switch(tree, nodes.THERMAL, visible, warm)
     dims = tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": density})
@@ -72,22 +75,22 @@ def smoke(tree: nodes.Tree, shot: Shot, stage: Stage, visible: Any, density: nod
 
 
 def absorption(band: tuple[float, float]) -> float:
-    """Absorption of smoke in a band (um), as a ratio to its extinction in green light."""
+    """Return the absorption of smoke in a band (um), as a ratio to its extinction in green light."""
     return SOOT * 2.0 * GREEN / sum(band)
 
 
 def build(shot: Shot, stage: Stage) -> None:
     """Set the band and the air of this shot, for existing and later materials."""
-    _fill(_group(shot, stage), shot)
+    _set_constants(_group(shot, stage), shot)
 
 
-def sky(shot: Shot) -> float:
-    """Radiance of the sky, W m-2 sr-1."""
+def sky_radiance(shot: Shot) -> float:
+    """Return the radiance of the sky, W m-2 sr-1."""
     return float(sensor.radiance(SKY, BANDS[shot.settings.thermal.band]))
 
 
 def _group(shot: Shot, stage: Stage) -> bpy.types.NodeTree:
-    """Node group, once per scene: kelvin and emissivity -> radiance; and the transmittance of air."""
+    """Create the node group once per scene: kelvin and emissivity -> radiance; and air transmittance."""
     if stage.root.get(_GROUP) is not None:
         return stage.root[_GROUP]
     group = owned.mark(bpy.data.node_groups.new("Firetwin Infrared", "ShaderNodeTree"))
@@ -100,32 +103,32 @@ def _group(shot: Shot, stage: Stage) -> bpy.types.NodeTree:
     inverse = 1.0 / tree.math("MAXIMUM", tree.pick(entry, "Kelvin"), 100.0)
     own: Any = 0.0
     for index in range(_NODES):
-        weight, exponent = (_value(tree, f"{name} {index}") for name in ("Weight", "Exponent"))
+        weight, exponent = (_value_node(tree, f"{name} {index}") for name in ("Weight", "Exponent"))
         own = own + weight / ((inverse * exponent).exp() - 1.0)
-    radiance = tree.mix(tree.pick(entry, "Emissivity"), _value(tree, "Sky"), own)
-    tree.finish({"Radiance": radiance, "Clear": _clear(tree, stage)})
-    _fill(group, shot)
+    radiance = tree.mix(tree.pick(entry, "Emissivity"), _value_node(tree, "Sky"), own)
+    tree.finish({"Radiance": radiance, "Clear": _air_transmittance(tree, stage)})
+    _set_constants(group, shot)
     return group
 
 
-def _clear(tree: nodes.Tree, stage: Stage) -> nodes.Value:
-    """Transmittance of air between this point and the camera."""
-    path = haze.way(tree, stage, _HALF) * 1.0e-3
-    return (-(path.power(_BEND) * _value(tree, "Dim"))).exp()
+def _air_transmittance(tree: nodes.Tree, stage: Stage) -> nodes.Value:
+    """Return the transmittance of air between this point and the camera."""
+    path = haze.weighted_path_length(tree, stage, _HALF) * 1.0e-3
+    return (-(path.power(_BEND) * _value_node(tree, "Dim"))).exp()
 
 
-def _value(tree: nodes.Tree, name: str) -> nodes.Value:
+def _value_node(tree: nodes.Tree, name: str) -> nodes.Value:
     node = tree.node("ShaderNodeValue")
     node.name = name
     return tree.pick(node)
 
 
-def _fill(group: bpy.types.NodeTree, shot: Shot) -> None:
+def _set_constants(group: bpy.types.NodeTree, shot: Shot) -> None:
     """Set the values that depend on the band and the air."""
     low, high = BANDS[shot.settings.thermal.band]
     places, weights = np.polynomial.legendre.leggauss(_NODES)
     waves = 0.5 * (low + high) + 0.5 * (high - low) * places
-    values = {"Sky": sky(shot), "Dim": _DIM * shot.settings.thermal.vapour}
+    values = {"Sky": sky_radiance(shot), "Dim": _DIM * shot.settings.thermal.vapour}
     for index, (wave, weight) in enumerate(zip(waves, weights, strict=True)):
         values[f"Weight {index}"] = 0.5 * (high - low) * weight * _FIRST / wave**5
         values[f"Exponent {index}"] = _SECOND / wave

@@ -1,17 +1,18 @@
-"""The sky of cameras that leave the atmosphere: it darkens with height, and lies about the Earth's limb.
+"""Sky for cameras that leave the atmosphere: it darkens with height and follows the Earth's limb.
 
 The sky texture shows the sky from sea level, and nothing below the horizontal. With t the optical depth at
-the zenith and m the air along a ray of the camera, in zeniths:
+the zenith and m the air mass along a camera ray, in zeniths:
 
-- an eye below 3 km sees the texture to the share of its air, (1 - exp(-t m)) / (1 - exp(-t m0)), m0 being m
-  of the same ray from sea level;
-- an eye above 15 km sees the airlight of the haze times 1 - exp(-t m), also along rays that fall and pass
-  over the Earth; between, both are mixed.
+- below 3 km, a camera sees the texture times (1 - exp(-t m)) / (1 - exp(-t m0)), where m0 is the air mass of
+  the same ray from sea level;
+- above 15 km, a camera sees the haze's airlight times 1 - exp(-t m), also along rays that descend and pass
+  over the Earth; in between, both are mixed.
 
-This is single scattering in even light (Koschmieder 1924). t is Rayleigh's of the standard atmosphere at 680,
-550 and 440 nm (Bucholtz 1995, Applied Optics 34, 2765), with a scale height of 8 km. m follows Chapman's
-function in C. Schueler's approximation (GPU Pro 3, 2012, "An approximation to the Chapman grazing-incidence
-function"). Rays that are not the camera's see the sky from sea level, as it lights the ground.
+This is single scattering in uniform light (Koschmieder 1924). t is the Rayleigh optical depth of the standard
+atmosphere at 680, 550 and 440 nm (Bucholtz 1995, Applied Optics 34, 2765), with a scale height of 8 km. m is
+the Chapman function in C. Schueler's approximation (GPU Pro 3, 2012, "An approximation to the Chapman
+grazing-incidence function"). Other rays than the camera's see the sky from sea level, since it lights the
+ground.
 """
 
 from __future__ import annotations
@@ -26,58 +27,60 @@ from .curved_air import RADIUS, Earth
 
 _HEIGHT = 8000.0  # m, scale height of air
 _DEPTH = (0.043, 0.097, 0.242)
-_GRAZING = float(np.sqrt(0.5 * np.pi * RADIUS / _HEIGHT))  # zeniths of air along a horizontal ray to space
-_HIGH = 50_000.0  # m; lower eyes have the daylight of the fire's place
-_LOW, _ABOVE = 3_000.0, 15_000.0  # m, heights of eyes between which the sky of the ground goes over
+_GRAZING = float(
+    np.sqrt(0.5 * np.pi * RADIUS / _HEIGHT)
+)  # air mass (zeniths) along a horizontal ray to space
+_HIGH = 50_000.0  # m; cameras below have the daylight at the fire
+_LOW, _ABOVE = 3_000.0, 15_000.0  # m, camera heights between which both skies are mixed
 SUN = "Toward Sun"
 
 
-def behind_air(tree: Tree, here: Earth, light: Value, airlight: Value) -> Value:
-    """Light of the sky in a world's nodes: `light` from sea level, as a camera at any height sees it."""
+def attenuate_sky(tree: Tree, here: Earth, light: Value, airlight: Value) -> Value:
+    """Return the sky's light as a camera at any height sees it; `light` is the sky from sea level."""
     along = tree.output("ShaderNodeTexCoord", name="Generated")
-    place = here.scaled(tree, curved_air.eye(tree))
+    place = here.scaled(tree, curved_air.camera_position(tree))
     away = tree.vector("LENGTH", place, name="Value")
     height = tree.math("MAXIMUM", (away - 1.0) * RADIUS, 0.0)
-    ray = tree.vector("NORMALIZE", here.scaled(tree, along, whole=False))
+    ray = tree.vector("NORMALIZE", here.scaled(tree, along, position=False))
     across = tree.vector("DOT_PRODUCT", place, ray, name="Value")
     sine = across / away
-    own = (height * (-1.0 / _HEIGHT)).exp() * _column(tree.math("ABSOLUTE", sine))
-    usual = _scattered(tree, _column(tree.math("MAXIMUM", sine, 0.0)))
-    below = tree.vector("MULTIPLY", light, tree.vector("DIVIDE", _scattered(tree, own), usual))
-    whole = tree.mix(sine < 0.0, own, _through(tree, away, sine, own))
-    above = tree.vector("MULTIPLY", airlight, _scattered(tree, whole))
-    shown = _mixed(tree, height.smoothstep(_LOW, _ABOVE), below, above)
-    day = _day(tree, here, _lowest(tree, place, ray, across), height)
+    own = (height * (-1.0 / _HEIGHT)).exp() * _air_to_space(tree.math("ABSOLUTE", sine))
+    usual = _scattered_share(tree, _air_to_space(tree.math("MAXIMUM", sine, 0.0)))
+    below = tree.vector("MULTIPLY", light, tree.vector("DIVIDE", _scattered_share(tree, own), usual))
+    whole = tree.mix(sine < 0.0, own, _grazing_air(tree, away, sine, own))
+    above = tree.vector("MULTIPLY", airlight, _scattered_share(tree, whole))
+    shown = _mix(tree, height.smoothstep(_LOW, _ABOVE), below, above)
+    day = _daylight(tree, here, _lowest_point(tree, place, ray, across), height)
     shown = tree.vector("MULTIPLY", shown, tree.combine(day, day, day))
-    return _mixed(tree, tree.output("ShaderNodeLightPath", name="Is Camera Ray"), light, shown)
+    return _mix(tree, tree.output("ShaderNodeLightPath", name="Is Camera Ray"), light, shown)
 
 
-def _column(sine: Value) -> Value:
-    """Air along a ray that rises from sea level to space, in zeniths."""
+def _air_to_space(sine: Value) -> Value:
+    """Return the air mass (zeniths) along a ray that rises from sea level to space."""
     return _GRAZING / (sine * (_GRAZING - 1.0) + 1.0)
 
 
-def _through(tree: Tree, away: Value, sine: Value, own: Value) -> Value:
-    """Air, in zeniths, along a ray that falls to its lowest point over the Earth and rises again."""
+def _grazing_air(tree: Tree, away: Value, sine: Value, own: Value) -> Value:
+    """Return the air mass (zeniths) along a ray that descends to its lowest point and rises again."""
     flat = tree.math("SQRT", tree.math("MAXIMUM", 1.0 - sine * sine, 0.0))
     lowest = tree.math("MAXIMUM", (away * flat - 1.0) * RADIUS, 0.0)
     whole = (lowest * (-1.0 / _HEIGHT)).exp() * (2.0 * _GRAZING)
     return tree.math("MAXIMUM", whole - own, 0.0)
 
 
-def _scattered(tree: Tree, air: Value) -> Value:
-    """Share of even light that so much air (zeniths) scatters: red, green and blue."""
+def _scattered_share(tree: Tree, air: Value) -> Value:
+    """Return the share of uniform light that an air mass (zeniths) scatters: red, green and blue."""
     return tree.combine(*(1.0 - (air * -depth).exp() for depth in _DEPTH))
 
 
-def _lowest(tree: Tree, place: Value, ray: Value, across: Value) -> Value:
-    """Scaled place where a ray is lowest: the eye's, if it rises."""
+def _lowest_point(tree: Tree, place: Value, ray: Value, across: Value) -> Value:
+    """Return the scaled lowest point of a ray: the camera's position, if the ray rises."""
     fallen = tree.math("MINIMUM", across, 0.0)
     return tree.vector("SUBTRACT", place, tree.vector("MULTIPLY", ray, tree.combine(fallen, fallen, fallen)))
 
 
-def _day(tree: Tree, here: Earth, point: Value, height: Value) -> Value:
-    """Daylight at a scaled place; near the ground the texture has it already."""
+def _daylight(tree: Tree, here: Earth, point: Value, height: Value) -> Value:
+    """Return daylight at a scaled position; near the ground the texture already includes it."""
     sun = tree.node("ShaderNodeCombineXYZ")
     sun.name = SUN
     _, up = here.upward(tree, point)
@@ -85,6 +88,6 @@ def _day(tree: Tree, here: Earth, point: Value, height: Value) -> Value:
     return tree.mix((height * (-1.0 / _HIGH)).exp(), day, 1.0)
 
 
-def _mixed(tree: Tree, factor: Value, a: Any, b: Any) -> Value:
-    """Vector: a where factor is 0, b where it is 1."""
+def _mix(tree: Tree, factor: Value, a: Any, b: Any) -> Value:
+    """Mix two vectors: a if factor is 0, b if it is 1."""
     return tree.output("ShaderNodeMix", {0: factor, 1: a, 2: b}, data_type="VECTOR", clamp_factor=True)

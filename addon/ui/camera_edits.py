@@ -16,7 +16,7 @@ def pull(scene: bpy.types.Scene) -> list[str]:
         return told
     before = camera_list.cameras(panel)
     size = tuple(panel.render.resolution)
-    cameras = read_edits.pull(scene, before, size, panel.frames, told.append)
+    cameras = read_edits.update_cameras(scene, before, size, panel.frames, told.append)
     for item, old, new in zip(panel.cameras, before, cameras, strict=True):
         if new != old:
             camera_list.put(item, new)

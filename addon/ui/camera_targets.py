@@ -52,8 +52,8 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
         way = None
         if target == "point":
             matrix = navigation.eye(context)[0]
-            place, turn = read_edits.pose_of(matrix)
-            met = ground_raycast.hit(owned.stage(scene), place, -turn[:, 2])
+            place, turn = read_edits.matrix_pose(matrix)
+            met = ground_raycast.cast_ray(owned.stage(scene), place, -turn[:, 2])
             way = np.array([met if met is not None else place - 2000.0 * turn[:, 2]])
         elif target == "station":
             met = go_to.place(scene, at)

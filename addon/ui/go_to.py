@@ -51,7 +51,7 @@ def place(scene: bpy.types.Scene, text: str) -> Vector | None:
         pair = label.latitude, label.longitude
     if pair:
         east, north, _ = read_edits.built_frame(stage).forward([pair[0]], [pair[1]], [0.0])[0]
-        ground = ground_raycast.up(stage, (east, north))
+        ground = ground_raycast.terrain_height(stage, (east, north))
         return None if ground is None else Vector((east, north, ground))
     wanted = text.strip().lower()
     matches = [obj for obj in scene.objects if wanted and wanted in obj.name.lower()]
@@ -141,7 +141,7 @@ def above(stage: owned.Stage, where: Vector, bearing: float, distance: float) ->
     for tilt in _TILTS:
         turn = Euler((tilt, 0.0, bearing)).to_quaternion()
         eye = where + turn @ Vector((0.0, 0.0, distance))
-        ground = ground_raycast.up(stage, eye)
+        ground = ground_raycast.terrain_height(stage, eye)
         if ground is None or eye.z > ground + _CLEARANCE:
             break
     return turn

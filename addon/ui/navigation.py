@@ -46,13 +46,13 @@ def eye(context: bpy.types.Context) -> tuple[Matrix, float, float]:
 def view(stage: owned.Stage, matrix: Matrix, lens: float, sensor: float) -> View:
     """View from this camera, from which rigs are created."""
     frame = read_edits.built_frame(stage)
-    place, turn = read_edits.pose_of(matrix)
-    met = ground_raycast.hit(stage, place, -turn[:, 2])
+    place, turn = read_edits.matrix_pose(matrix)
+    met = ground_raycast.cast_ray(stage, place, -turn[:, 2])
     flat = Vector((-turn[0, 2], -turn[1, 2], 0.0))
     ahead = Vector(place) + (flat.normalized() if flat.length > 0.0 else flat) * _AHEAD
     aim = np.array(ahead if met is None else met)
     (latitude, to_latitude), (longitude, to_longitude), (height, _) = frame.reverse(np.array([place, aim]))
-    under = ground_raycast.up(stage, place)
+    under = ground_raycast.terrain_height(stage, place)
     return View(
         float(latitude),
         float(longitude),
@@ -172,7 +172,7 @@ class FIRETWIN_OT_camera_key(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene, obj = context.scene, context.scene.camera
         stage, matrix = owned.stage(scene), eye(context)[0]
-        lifted = ground_raycast.lift(stage, matrix.translation, self.clearance)
+        lifted = ground_raycast.clearance_offset(stage, matrix.translation, self.clearance)
         turn = matrix.to_quaternion()
         if obj.rotation_mode == "QUATERNION":
             turn.make_compatible(obj.rotation_quaternion)
@@ -196,7 +196,7 @@ class FIRETWIN_OT_camera_key(bpy.types.Operator):
         frames = stage.scene.firetwin.frames
         size = stage.scene.render.resolution_x, stage.scene.render.resolution_y
         places = read_edits.evaluate_path(stage.scene, obj, frames, size).place
-        short = [ground_raycast.lift(stage, place, self.clearance) for place in places]
+        short = [ground_raycast.clearance_offset(stage, place, self.clearance) for place in places]
         if max(short) > 0.5:
             worst = int(np.argmax(short))
             self.report(

@@ -59,7 +59,9 @@ def test_every_kind_of_camera_can_be_made_from_a_view(panel):
     stage = owned.stage(bpy.context.scene)
     seen = navigation.view(stage, EYE, 30.0, 36.0)
     assert seen.tilt == pytest.approx(90.0 - np.degrees(1.2), abs=0.1)
-    assert seen.above == pytest.approx(2400.0 - ground_raycast.up(stage, EYE.translation), abs=1.0)
+    assert seen.above == pytest.approx(
+        2400.0 - ground_raycast.terrain_height(stage, EYE.translation), abs=1.0
+    )
     for kind, made in rigs.kinds().items():
         assert isinstance(made.from_view(seen), made), kind
 
@@ -87,7 +89,7 @@ def test_keys_are_set_where_the_view_is_and_never_in_the_ground(panel, monkeypat
     scene = bpy.context.scene
     bpy.ops.firetwin.camera_add(kind="poses")
     stage, thing = owned.stage(scene), scene.camera
-    ground = ground_raycast.up(stage, (0.0, 0.0))
+    ground = ground_raycast.terrain_height(stage, (0.0, 0.0))
     low = Matrix.Translation((0.0, 0.0, ground - 50.0)) @ Euler((1.4, 0.0, 0.5)).to_matrix().to_4x4()
     bpy.ops.firetwin.camera_key()
     scene.frame_set(3)
@@ -289,11 +291,11 @@ def test_a_view_at_a_place_is_above_the_terrain(panel, monkeypatch):
 
     def height(turn, distance):
         eye = where + turn @ Vector((0.0, 0.0, distance))
-        return eye.z - ground_raycast.up(stage, eye)
+        return eye.z - ground_raycast.terrain_height(stage, eye)
 
     assert height(go_to.above(stage, where, 0.3, 2000.0), 2000.0) > go_to._CLEARANCE
     flat = go_to.above(stage, where, 0.3, 2000.0)
-    monkeypatch.setattr(ground_raycast, "up", lambda stage, eye: where.z + 1200.0)  # a ridge
+    monkeypatch.setattr(ground_raycast, "terrain_height", lambda stage, eye: where.z + 1200.0)  # a ridge
     steep = go_to.above(stage, where, 0.3, 2000.0)
     assert (steep @ Vector((0, 0, 1))).z > (flat @ Vector((0, 0, 1))).z + 0.1
 

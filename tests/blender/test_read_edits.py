@@ -37,7 +37,7 @@ def drone(film, stage):
 
 def _pull(film, stage, told=None):
     tell = (lambda text: None) if told is None else told.append
-    return read_edits.pull(stage.scene, film.settings.cameras, SIZE, FRAMES, tell)
+    return read_edits.update_cameras(stage.scene, film.settings.cameras, SIZE, FRAMES, tell)
 
 
 def _again(film, found):
@@ -123,7 +123,7 @@ def test_a_lens_alone_leaves_the_way_as_it_is(film, stage, drone):
 def test_the_chip_is_as_wide_as_the_cameras_own_pictures(film, stage, drone):
     tall = replace(film.settings.cameras[0], resolution=(360, 640))
     drone.data.sensor_fit, drone.data.sensor_height = "VERTICAL", 24.0
-    (found,) = read_edits.pull(stage.scene, (tall,), SIZE, FRAMES)
+    (found,) = read_edits.update_cameras(stage.scene, (tall,), SIZE, FRAMES)
     assert found.rig.sensor_width == pytest.approx(24.0 * 360 / 640)
 
 
@@ -168,13 +168,15 @@ def test_what_a_file_cannot_say_is_told(film, stage, drone):
     drone.data.type = "ORTHO"
     told = []
     assert _pull(film, stage, told)[0] == film.settings.cameras[0]
-    assert told == ['camera "drone": a scene file cannot say how a camera of type ortho was changed by hand']
+    assert told == ['camera "drone": edits of a camera of type ortho cannot be saved in a scene file']
 
 
 def test_the_ground_is_met_where_it_is(film, stage, drone, plain_looks):
     ground.build(film, stage, None)
     place = film.ground.point(38.84, -120.55, 100.0)[0]
-    assert ground_raycast.height(stage, [place]) == pytest.approx(100.0, abs=3.0)
-    assert ground_raycast.lift(stage, place - [0.0, 0.0, 95.0], 10.0) == pytest.approx(5.0, abs=3.0)
-    assert ground_raycast.up(stage, (1.0e6, 0.0)) is None
+    assert ground_raycast.height_above_terrain(stage, [place]) == pytest.approx(100.0, abs=3.0)
+    assert ground_raycast.clearance_offset(stage, place - [0.0, 0.0, 95.0], 10.0) == pytest.approx(
+        5.0, abs=3.0
+    )
+    assert ground_raycast.terrain_height(stage, (1.0e6, 0.0)) is None
     assert owned.built(stage.scene)

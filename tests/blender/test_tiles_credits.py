@@ -80,7 +80,7 @@ def test_every_letter_is_at_most_as_wide_as_is_reckoned_with():
 
 def test_a_scene_keeps_its_credits_and_blenders_own_renders_show_them(stage, run):
     part = stage.part("Tiles")
-    scene_credits.note(part, WORDS)
+    scene_credits.store(part, WORDS)
     assert not credits.of_scene(stage)  # no tile is there
     import bpy
 

@@ -58,7 +58,7 @@ def test_a_first_build_stopped_in_the_middle_brings_the_startup_scene_back(panel
     bpy.ops.wm.read_homefile(use_factory_startup=True)
     bpy.context.scene.firetwin.scene_file = str(blend.with_suffix(".toml"))
     before = state()
-    assert stopped_after(7) == "hanging the smoke"
+    assert stopped_after(7) == "building the smoke"
     assert state() == before
     assert set(bpy.context.scene.objects.keys()) == {"Cube", "Light", "Camera"}
 

@@ -78,7 +78,7 @@ def seen(settings, run, stage, scene, tmp_path):
         render=replace(settings.render, resolution=(WIDTH, HEIGHT), passes=("depth",)),
     )
     shot = Shot(settings, run)
-    curved_air.switch(stage, shot.local_frame)
+    curved_air.set_frame(stage, shot.local_frame)
     ground.build(shot, stage, None)
     built = cameras.build(shot, stage)
     layers.build(settings, stage)

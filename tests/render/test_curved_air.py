@@ -66,8 +66,8 @@ def camera_at(scene, eye, toward):
     ],
 )
 def test_haze_is_that_of_the_true_ray(stage, shoot, height, bearing, distance, eye):
-    curved_air.switch(stage, FRAME)
-    group, _ = haze.settings(stage, 1.0)
+    curved_air.set_frame(stage, FRAME)
+    group, _ = haze.set_amount(stage, 1.0)
     group.nodes["Colour"].outputs[0].default_value = (2.0, 0.0, 0.0, 1.0)
     angle = distance / 6.371e6
     sine = math.sin(math.radians(38.8)) * math.cos(angle)
@@ -108,7 +108,7 @@ def noon(settings, run):
 def test_the_sky_darkens_with_height_and_is_that_of_the_ground_below(noon, stage, shoot):
     usual = [sky_at(noon, stage, shoot, 100.0, angle) for angle in (5.0, 40.0, 89.0)]
     stage.scene.world = None
-    curved_air.switch(stage, FRAME)
+    curved_air.set_frame(stage, FRAME)
     for angle, wanted in zip((5.0, 40.0, 89.0), usual, strict=True):
         assert sky_at(noon, stage, shoot, 100.0, angle) == pytest.approx(wanted, rel=0.03)
     heights = (100.0, 5000.0, 10_000.0, 20_000.0, 40_000.0, 100_000.0)
@@ -120,7 +120,7 @@ def test_the_sky_darkens_with_height_and_is_that_of_the_ground_below(noon, stage
 
 def test_the_limb_is_thin_and_blue_at_its_upper_end(noon, stage, shoot):
     """From 200 km the horizon is 14.2 degrees down; 1.5 degrees over it lie 40 km of height."""
-    curved_air.switch(stage, FRAME)
+    curved_air.set_frame(stage, FRAME)
     dip = math.degrees(math.acos(6371.0 / 6571.0))
     low, middle, high = (
         sky_at(noon, stage, shoot, 200_000.0, angle) for angle in (-dip + 0.1, -dip + 0.9, -dip + 4.0)

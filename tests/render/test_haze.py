@@ -8,7 +8,7 @@ from firetwin.shot.light import sky
 
 
 def _red(stage, amount):
-    group, _ = haze.settings(stage, amount)
+    group, _ = haze.set_amount(stage, amount)
     group.nodes["Colour"].outputs[0].default_value = (2.0, 0.0, 0.0, 1.0)
 
 

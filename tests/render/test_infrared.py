@@ -43,7 +43,7 @@ def plates(scene, shot, stage):
 
 
 def own(kelvin, emissivity=1.0):
-    return lambda tree, shot, stage: infrared.emitted(tree, shot, stage, kelvin, emissivity)
+    return lambda tree, shot, stage: infrared.surface_radiance(tree, shot, stage, kelvin, emissivity)
 
 
 @pytest.mark.parametrize("kelvin", [200.0, 300.0, 1000.0, 1500.0])
@@ -61,7 +61,7 @@ def test_a_pixel_half_and_half_is_the_mean_of_radiance(plates, scene, shoot):
 
 def test_what_is_not_black_mirrors_the_sky(plates, scene, shoot, shot):
     plates(own(300.0, 0.9))
-    expected = 0.9 * sensor.radiance(300.0) + 0.1 * infrared.sky(shot)
+    expected = 0.9 * sensor.radiance(300.0) + 0.1 * infrared.sky_radiance(shot)
     assert sensor.radiance(shoot(scene, "thermal")) == pytest.approx(float(expected), rel=1e-4)
 
 
@@ -75,7 +75,10 @@ def test_the_middle_infrared_is_another_band(plates, scene, shoot, settings, run
 
 def test_air_lets_through_what_its_vapour_says(plates, scene, shoot, settings, run, stage):
     wet = Shot(replace(settings, thermal=Thermal(vapour=7.0)), run)
-    far = lambda tree, shot, stage: infrared.through_air(tree, shot, stage, tree.math("ADD", 2000.0, 0.0))  # noqa: E731
+
+    def far(tree, shot, stage):
+        return infrared.radiance_at_camera(tree, shot, stage, tree.math("ADD", 2000.0, 0.0))
+
     plates(far, by=wet)
     scene.camera.location.z = 1000.0
     scene.camera.data.clip_end = 2000.0
@@ -121,8 +124,8 @@ def test_sunlit_ground_is_warmer_than_shaded_and_crowns_are_near_the_air(plates,
     towards = np.array(temperature.sun.direction(*temperature.sun.position(shot.run, shot.frames.first)))
 
     def surface(normal, bare):
-        return lambda tree, shot, stage: infrared.emitted(
-            tree, shot, stage, temperature.ambient(tree, shot, stage, 0.0, tuple(normal), bare)
+        return lambda tree, shot, stage: infrared.surface_radiance(
+            tree, shot, stage, temperature.unburned_temperature(tree, shot, stage, 0.0, tuple(normal), bare)
         )
 
     plates(surface(towards, 1.0), surface(-towards, 1.0), surface(towards, 0.0))
@@ -159,7 +162,7 @@ def test_the_air_changes_with_the_time_of_the_shot(
     np.save(folder / "temperature.npy", field)
     shot = Shot(replace(settings, run=folder), runs.open(folder))
     clock.build(shot, stage)
-    plates(lambda *all: infrared.emitted(*all, temperature.air(*all)), by=shot)
+    plates(lambda *all: infrared.surface_radiance(*all, temperature.air_temperature_node(*all)), by=shot)
     found = []
     for frame in (1, 2, 3):
         scene.frame_set(frame)

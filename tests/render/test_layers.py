@@ -43,7 +43,9 @@ def plain(settings, stage, scene, shot):
     world = scene.world = bpy.data.worlds.new("Firetwin Sky")
     tree = nodes.Tree(compat.node_tree(world))
     seen = tree.output("ShaderNodeBackground", {"Color": (0.4, 0.5, 0.6), "Strength": 1.0})
-    cold = tree.output("ShaderNodeBackground", {"Color": (1.0, 1.0, 1.0), "Strength": infrared.sky(shot)})
+    cold = tree.output(
+        "ShaderNodeBackground", {"Color": (1.0, 1.0, 1.0), "Strength": infrared.sky_radiance(shot)}
+    )
     tree.surface(nodes.switch(tree, nodes.THERMAL, seen, cold))
     data = bpy.data.cameras.new("Firetwin Camera drone")
     data.clip_end, data.lens = 3e5, 28.0
@@ -57,7 +59,7 @@ def plain(settings, stage, scene, shot):
 def _surface(name, kelvin, shot, stage):
     material, tree = nodes.material(f"Firetwin {name}")
     shader = tree.output("ShaderNodeBsdfDiffuse", {"Color": (0.2, 0.3, 0.1)})
-    tree.surface(nodes.thermal_switch(tree, shader, infrared.emitted(tree, shot, stage, kelvin)))
+    tree.surface(nodes.thermal_switch(tree, shader, infrared.surface_radiance(tree, shot, stage, kelvin)))
     return material
 
 

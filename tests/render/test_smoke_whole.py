@@ -78,7 +78,7 @@ def look(settings, run, stage, scene, shoot, tmp_path, monkeypatch):
         shot = Shot(taken, run)
         write(bake.file(shot, 1), *grids)
         smoke.build(shot, stage).data.render.step_size *= step
-        haze.settings(stage, 0.0)
+        haze.set_amount(stage, 0.0)
         engine.apply(taken, scene)
         surroundings(scene, sun)
         if instances:

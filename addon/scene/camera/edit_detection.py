@@ -1,4 +1,4 @@
-"""Edit detection: the state of camera objects when they were built, to find what an artist changed since."""
+"""Edit detection: compares camera objects with their state when built, to find an artist's edits."""
 
 from __future__ import annotations
 
@@ -13,28 +13,28 @@ from ...blender import compat, owned
 
 POSE = ("location", "rotation_quaternion", "rotation_euler", "rotation_axis_angle", "scale")
 LENS = ("lens", "sensor_width", "sensor_height", "ortho_scale")
-_MADE = "firetwin_made"  # property of an object: its state when it was built
+_MADE = "firetwin_made"  # property of an object: its state when built
 
 
-def remember(obj: bpy.types.Object) -> None:
-    """Store the current state of an object, for a later `changed`."""
+def store_state(obj: bpy.types.Object) -> None:
+    """Store the current state of an object, for `changed_parts`."""
     obj[owned.NAME] = obj.name
-    obj[_MADE] = json.dumps(_state(obj))
+    obj[_MADE] = json.dumps(_part_hashes(obj))
 
 
-def changed(obj: bpy.types.Object) -> set[str]:
-    """Which of "name", "pose" and "lens" an artist changed since an object was built."""
+def changed_parts(obj: bpy.types.Object) -> set[str]:
+    """Return which of "name", "pose" and "lens" an artist has changed since an object was built."""
     if _MADE not in obj:
         return set()
-    before, now = json.loads(obj[_MADE]), _state(obj)
+    before, now = json.loads(obj[_MADE]), _part_hashes(obj)
     return {part for part in now if now[part] != before.get(part)}
 
 
-def _state(obj: bpy.types.Object) -> dict[str, str]:
-    """Hash of each part of an object over all frames."""
+def _part_hashes(obj: bpy.types.Object) -> dict[str, str]:
+    """Hash each part of an object over all frames."""
     hangs = [
         obj.parent.name if obj.parent else "",
-        [_constraint(constraint) for constraint in obj.constraints],
+        [_constraint_values(constraint) for constraint in obj.constraints],
     ]
     return {
         "name": obj.name,
@@ -43,13 +43,13 @@ def _state(obj: bpy.types.Object) -> dict[str, str]:
     }
 
 
-def _constraint(each: bpy.types.Constraint) -> list[Any]:
+def _constraint_values(each: bpy.types.Constraint) -> list[Any]:
     target = getattr(each, "target", None)
     return [each.type, each.mute, each.influence, target.name if target else ""]
 
 
 def _values(block: bpy.types.ID, names: Sequence[str]) -> list[Any]:
-    """Values of properties, or their F-curves where they are animated."""
+    """Return values of properties, or the F-curves of animated ones."""
     animated: dict[str, list[Any]] = {}
     for curve in compat.fcurves(block):
         if curve.data_path in names:

@@ -1,4 +1,4 @@
-"""Ground raycast: terrain height below cameras, and the point that they look at, on the built mesh."""
+"""Ground raycast: terrain height below cameras, and the point that they look at, on the terrain mesh."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ from numpy.typing import ArrayLike, NDArray
 from ...blender import owned
 from ...blender.owned import Stage
 
-_SKY = 50_000.0  # m, over any terrain
+_SKY = 50_000.0  # m, above any terrain
 
 
-def up(stage: Stage, place: Sequence[float] | NDArray[np.float64]) -> float | None:
-    """Scene z of the terrain at a place (2 or 3,); None without terrain there."""
+def terrain_height(stage: Stage, place: Sequence[float] | NDArray[np.float64]) -> float | None:
+    """Return the terrain's scene z at a point (2 or 3,); None without terrain there."""
     east, north = float(place[0]), float(place[1])
-    met = hit(stage, (east, north, _SKY), (0.0, 0.0, -1.0))
+    met = cast_ray(stage, (east, north, _SKY), (0.0, 0.0, -1.0))
     return None if met is None else met.z
 
 
-def height(stage: Stage, places: NDArray[np.float64]) -> float:
-    """Least height (m) of points (n, 3) above the terrain, at least 0; 0 without terrain."""
-    heights = [float(place[2]) - z for place in places if (z := up(stage, place)) is not None]
+def height_above_terrain(stage: Stage, places: NDArray[np.float64]) -> float:
+    """Return the least height (m) of points (n, 3) above the terrain, at least 0; 0 without terrain."""
+    heights = [float(place[2]) - z for place in places if (z := terrain_height(stage, place)) is not None]
     return max(min(heights), 0.0) if len(heights) else 0.0
 
 
-def hit(stage: Stage, origin: ArrayLike, direction: ArrayLike) -> Vector | None:
-    """Intersection of a ray in the scene with the terrain; None without one."""
-    ground = next((obj for obj in stage.root.all_objects if _ground(obj)), None)
+def cast_ray(stage: Stage, origin: ArrayLike, direction: ArrayLike) -> Vector | None:
+    """Intersect a ray in the scene with the terrain; None without an intersection."""
+    ground = next((obj for obj in stage.root.all_objects if _is_terrain(obj)), None)
     if ground is None:
         return None
     inverse = ground.matrix_world.inverted()
@@ -43,18 +43,18 @@ def hit(stage: Stage, origin: ArrayLike, direction: ArrayLike) -> Vector | None:
 
     try:
         found, where = meet()
-    # a window may show another view layer, or has not evaluated the scene yet
+    # a window may show another view layer, or may not have evaluated the scene yet
     except (TypeError, RuntimeError):
         layer.update()
         found, where = meet()
     return ground.matrix_world @ where if found else None
 
 
-def lift(stage: Stage, place: Sequence[float] | NDArray[np.float64], clearance: float) -> float:
-    """Upward offset (m) that keeps a point (3,) `clearance` above the terrain."""
-    ground = up(stage, place)
+def clearance_offset(stage: Stage, place: Sequence[float] | NDArray[np.float64], clearance: float) -> float:
+    """Return the upward offset (m) that puts a point (3,) at least `clearance` above the terrain."""
+    ground = terrain_height(stage, place)
     return 0.0 if ground is None else float(max(ground + clearance - np.asarray(place)[2], 0.0))
 
 
-def _ground(obj: bpy.types.Object) -> bool:
+def _is_terrain(obj: bpy.types.Object) -> bool:
     return obj.type == "MESH" and owned.ours(obj) and obj.get(owned.NAME) == f"{owned.ROOT} Ground"

@@ -1,4 +1,4 @@
-"""Read edits: camera objects that an artist changed, back into the settings: pose, lens, name."""
+"""Read edits: writes an artist's changes to camera objects back into the settings: pose, lens, name."""
 
 from __future__ import annotations
 
@@ -22,24 +22,24 @@ from ...shot.settings import Camera
 from . import edit_detection, ground_raycast
 
 _PLACE = "firetwin_place"  # property of the root: latitude and longitude of the scene's origin
-_PIXEL = 0.25  # tolerance in pixels of the fit between poses; at an artist's keyframes it is not zero
-_LEAST = 0.02  # m, tolerance of a camera's position in any case
+_PIXEL = 0.25  # pixels, tolerance of the fit between poses; also applies at an artist's keyframes
+_LEAST = 0.02  # m, minimum tolerance of a camera's position
 _PREFIX = f"{owned.ROOT} Camera "
 
 
-def place(stage: Stage, frame: geo.LocalFrame) -> None:
+def store_origin(stage: Stage, frame: geo.LocalFrame) -> None:
     """Store the geographic position of the scene's origin."""
     stage.root[_PLACE] = [frame.latitude, frame.longitude]
 
 
 def local_frame(stage: Stage) -> geo.LocalFrame | None:
-    """East, north and up of the scene; None before cameras are built."""
+    """Return the scene's local frame (east, north, up); None before cameras are built."""
     where = stage.root.get(_PLACE)
     return None if where is None else geo.LocalFrame(where[0], where[1], 0.0)
 
 
 def built_frame(stage: Stage) -> geo.LocalFrame:
-    """The same, which has to be there.
+    """Return the scene's local frame, which must exist.
 
     Raises
     ------
@@ -48,12 +48,12 @@ def built_frame(stage: Stage) -> geo.LocalFrame:
     """
     frame = local_frame(stage)
     if frame is None:
-        raise Error("the scene has no cameras of a run; build the scene first")
+        raise Error("the scene has no cameras built from a run; build the scene first")
     return frame
 
 
-def rigged(obj: bpy.types.Object) -> bool:
-    """Whether a rig of the artist (parent, constraint, driver) moves an object; its pose then stays."""
+def has_rig(obj: bpy.types.Object) -> bool:
+    """Return whether an artist's rig (parent, constraint, driver) moves an object; the rig is not changed."""
     data = obj.animation_data
     return bool(
         obj.parent
@@ -79,7 +79,7 @@ class EvaluatedPath:
         Frames, from 0, at which the artist set keyframes.
     """
 
-    place: NDArray[np.float64]
+    store_origin: NDArray[np.float64]
     rotation: NDArray[np.float64]
     lens: NDArray[np.float64]
     sensor: float
@@ -94,30 +94,32 @@ def evaluate_path(
     Parameters
     ----------
     size
-        Width and height of its pictures, pixels.
+        Width and height of the camera's images, pixels.
     """
-    place, quaternion = _through_frames(scene, obj, frames) if rigged(obj) else _by_curves(obj, frames)
-    (lens,) = _curves(obj.data, "lens", frames).T
+    place, quaternion = _step_frames(scene, obj, frames) if has_rig(obj) else _evaluate_curves(obj, frames)
+    (lens,) = _evaluate_property(obj.data, "lens", frames).T
     return EvaluatedPath(
-        place, turning.matrices(quaternion), lens, _sensor(obj.data, size), _keyed(obj, frames)
+        place, turning.matrices(quaternion), lens, _sensor_width(obj.data, size), _keyframes(obj, frames)
     )
 
 
-def _by_curves(obj: bpy.types.Object, frames: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Positions (frames, 3) and quaternions (frames, 4) of an object that only its own F-curves move."""
-    place = _curves(obj, "location", frames)
+def _evaluate_curves(obj: bpy.types.Object, frames: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return positions (frames, 3) and quaternions (frames, 4) of an object that only its F-curves move."""
+    place = _evaluate_property(obj, "location", frames)
     if obj.rotation_mode == "QUATERNION":
-        return place, _curves(obj, "rotation_quaternion", frames)
+        return place, _evaluate_property(obj, "rotation_quaternion", frames)
     if obj.rotation_mode == "AXIS_ANGLE":
-        turns = (Quaternion(row[1:], row[0]) for row in _curves(obj, "rotation_axis_angle", frames))
+        turns = (
+            Quaternion(row[1:], row[0]) for row in _evaluate_property(obj, "rotation_axis_angle", frames)
+        )
     else:
-        rows = _curves(obj, "rotation_euler", frames)
+        rows = _evaluate_property(obj, "rotation_euler", frames)
         turns = (Euler(row, obj.rotation_mode).to_quaternion() for row in rows)
     return place, np.array([tuple(turn) for turn in turns], np.float64)
 
 
-def _curves(block: bpy.types.ID, name: str, frames: int) -> NDArray[np.float64]:
-    """A property of a data-block in every frame (frames, channels)."""
+def _evaluate_property(block: bpy.types.ID, name: str, frames: int) -> NDArray[np.float64]:
+    """Evaluate a property of a data-block in every frame (frames, channels)."""
     still = np.atleast_1d(np.array(getattr(block, name), np.float64))
     values = np.repeat(still[None], frames, axis=0)
     for curve in compat.fcurves(block):
@@ -126,30 +128,30 @@ def _curves(block: bpy.types.ID, name: str, frames: int) -> NDArray[np.float64]:
     return values
 
 
-def _through_frames(
+def _step_frames(
     scene: bpy.types.Scene, obj: bpy.types.Object, frames: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Positions (frames, 3) and quaternions (frames, 4) of an object that a rig moves, by stepping frames."""
+    """Step through frames to get positions (frames, 3) and quaternions (frames, 4) of a rigged object."""
     before, layer = (scene.frame_current, scene.frame_subframe), scene.view_layers[0]
     found = []
     try:
         for frame in range(1, frames + 1):
             scene.frame_set(frame)
-            found.append(pose_of(obj.evaluated_get(layer.depsgraph).matrix_world))
+            found.append(matrix_pose(obj.evaluated_get(layer.depsgraph).matrix_world))
     finally:
         scene.frame_set(before[0], subframe=before[1])
     place, turn = (np.array(column) for column in zip(*found, strict=True))
     return place, turning.quaternions(turn)
 
 
-def _keyed(obj: bpy.types.Object, frames: int) -> tuple[int, ...]:
+def _keyframes(obj: bpy.types.Object, frames: int) -> tuple[int, ...]:
     curves = (*compat.fcurves(obj), *compat.fcurves(obj.data))
     keyed = {round(point.co[0]) - 1 for curve in curves for point in curve.keyframe_points}
     return tuple(sorted(frame for frame in keyed if 0 <= frame < frames))
 
 
-def _sensor(data: bpy.types.Camera, size: tuple[int, int]) -> float:
-    """Sensor width (mm) that gives this focal length the same horizontal field of view."""
+def _sensor_width(data: bpy.types.Camera, size: tuple[int, int]) -> float:
+    """Return the sensor width (mm) that, at this focal length, gives the same horizontal field of view."""
     width, height = size
     if data.sensor_fit == "VERTICAL":
         return data.sensor_height * width / height
@@ -158,21 +160,21 @@ def _sensor(data: bpy.types.Camera, size: tuple[int, int]) -> float:
     return data.sensor_width
 
 
-def poses_of(path: EvaluatedPath, frame: geo.LocalFrame, width: int, near: float = 0.0) -> poses.Poses:
-    """Rig of few poses that reproduces the path of a camera object within the tolerance.
+def fit_poses(path: EvaluatedPath, frame: geo.LocalFrame, width: int, near: float = 0.0) -> poses.Poses:
+    """Fit a rig of few poses to the path of a camera object, within the tolerance.
 
     Parameters
     ----------
     width
-        Width of its pictures, pixels.
+        Width of the camera's images, pixels.
     near
-        Distance of the nearest terrain, m, which decides the tolerance.
+        Distance of the nearest terrain, m, which determines the tolerance.
     """
     pixel = path.sensor / path.lens.max() / width
     values = np.hstack(
         [
             path.place / max(_PIXEL * pixel * near, _LEAST),
-            # unit quaternions hold half the angle
+            # half-angles: unit quaternions
             turning.quaternions(path.rotation) / (0.5 * _PIXEL * pixel),
             np.log(path.lens)[:, None] / (_PIXEL * 2.0 / width),
         ]
@@ -180,31 +182,31 @@ def poses_of(path: EvaluatedPath, frame: geo.LocalFrame, width: int, near: float
     still = np.ptp(values, axis=0).max() < 0.1
     kept = np.zeros(1, np.int64) if still else sparse_keys.fit(values, 1.0, path.keyed)
     at = kept / max(len(path.lens) - 1, 1)
-    lens = np.array([_short(each) for each in path.lens[kept]])
+    lens = np.array([_shorten(each) for each in path.lens[kept]])
     keys = poses.keyed(frame, at, path.place[kept], path.rotation[kept], lens)
-    return poses.Poses(_short(path.lens[0]), _short(path.sensor), keys)
+    return poses.Poses(_shorten(path.lens[0]), _shorten(path.sensor), keys)
 
 
-def _short(value: float) -> float:
-    """The shortest decimal number that is the same float32: 17.3, not 17.299999237."""
+def _shorten(value: float) -> float:
+    """Return the shortest decimal number with the same float32 value: 17.3, not 17.299999237."""
     return float(str(np.float32(value)))
 
 
-def pull(
+def update_cameras(
     scene: bpy.types.Scene,
     cameras: Sequence[Camera],
     size: tuple[int, int],
     frames: int,
     tell: Callable[[str], None] = lambda text: None,
 ) -> tuple[Camera, ...]:
-    """The cameras of the settings, updated by an artist's edits of their objects in a scene.
+    """Return the cameras of the settings, updated with an artist's edits of their objects in a scene.
 
     Parameters
     ----------
     size
-        Width and height of pictures of cameras without a resolution of their own.
+        Width and height of images of cameras without a `resolution`.
     frames
-        Frames of the shot.
+        Number of frames of the shot.
     tell
         Receives a message for each edit that settings cannot express.
     """
@@ -215,56 +217,63 @@ def pull(
     frame, taken = local_frame(stage), {camera.name for camera in cameras}
     for i, before in enumerate(cameras):
         obj = stage.camera(before.name)
-        if frame is None or obj is None or obj.type != "CAMERA" or not (what := edit_detection.changed(obj)):
+        if (
+            frame is None
+            or obj is None
+            or obj.type != "CAMERA"
+            or not (changed := edit_detection.changed_parts(obj))
+        ):
             continue
-        name = _name(obj.name, before.name, taken - {before.name}) if "name" in what else before.name
+        name = (
+            _camera_name(obj.name, before.name, taken - {before.name}) if "name" in changed else before.name
+        )
         taken.add(name)
-        edited[i], words = _pulled(stage, obj, replace(edited[i], name=name), what, frames, size)
+        edited[i], message = _update_camera(stage, obj, replace(edited[i], name=name), changed, frames, size)
         owned.mark(obj, f"camera {name}")
-        edited = [_following(each, before.name, name) for each in edited]
-        if words:
-            tell(f'camera "{name}": {words}')
+        edited = [_rename_followed(each, before.name, name) for each in edited]
+        if message:
+            tell(f'camera "{name}": {message}')
         else:
-            edit_detection.remember(obj)
+            edit_detection.store_state(obj)
     return tuple(edited)
 
 
-def _pulled(
+def _update_camera(
     stage: Stage,
     obj: bpy.types.Object,
     before: Camera,
-    what: set[str],
+    changed: set[str],
     frames: int,
     size: tuple[int, int],
 ) -> tuple[Camera, str]:
-    """The camera with its edits, and the edits that settings cannot express."""
+    """Return the camera with its edits, and a message on edits that settings cannot express."""
     data, size = obj.data, before.resolution or size
-    if not what & {"pose", "lens"}:
+    if not changed & {"pose", "lens"}:
         return before, ""
-    if data.type == "ORTHO" and "pose" not in what and hasattr(before.rig, "swath"):
-        return replace(before, rig=replace(before.rig, swath=_short(data.ortho_scale))), ""
+    if data.type == "ORTHO" and "pose" not in changed and hasattr(before.rig, "swath"):
+        return replace(before, rig=replace(before.rig, swath=_shorten(data.ortho_scale))), ""
     if data.type != "PERSP":
-        return before, f"a scene file cannot say how a camera of type {data.type.lower()} was changed by hand"
-    words = "a scene file knows no shift of the lens" if data.shift_x or data.shift_y else ""
+        return before, f"edits of a camera of type {data.type.lower()} cannot be saved in a scene file"
+    message = "lens shift cannot be saved in a scene file" if data.shift_x or data.shift_y else ""
     still = data.animation_data is None and not isinstance(before.rig, poses.Poses)
-    if what & {"pose", "lens"} == {"lens"} and still and isinstance(before.rig, _lens.Lens):
-        lens = {"focal_length": _short(data.lens), "sensor_width": _short(_sensor(data, size))}
-        return replace(before, rig=replace(before.rig, **lens)), words
+    if changed & {"pose", "lens"} == {"lens"} and still and isinstance(before.rig, _lens.Lens):
+        lens = {"focal_length": _shorten(data.lens), "sensor_width": _shorten(_sensor_width(data, size))}
+        return replace(before, rig=replace(before.rig, **lens)), message
     path = evaluate_path(stage.scene, obj, frames, size)
-    near = 0.5 * ground_raycast.height(stage, path.place[:: max(len(path.place) // 50, 1)])
-    rig = poses_of(path, built_frame(stage), size[0], near)
-    return replace(before, rig=rig), words
+    near = 0.5 * ground_raycast.height_above_terrain(stage, path.place[:: max(len(path.place) // 50, 1)])
+    rig = fit_poses(path, built_frame(stage), size[0], near)
+    return replace(before, rig=rig), message
 
 
-def _following(camera: Camera, old: str, new: str) -> Camera:
-    """The camera, with the new name of a renamed camera that it follows."""
+def _rename_followed(camera: Camera, old: str, new: str) -> Camera:
+    """Update the name of a renamed camera that this camera follows."""
     if old == new or getattr(camera.rig, "follows", None) != old:
         return camera
     return replace(camera, rig=replace(camera.rig, follows=new))
 
 
-def _name(text: str, before: str, taken: set[str]) -> str:
-    """Valid camera name from an object's name: letters, digits, - and _; unique among the cameras."""
+def _camera_name(text: str, before: str, taken: set[str]) -> str:
+    """Make a valid, unique camera name from an object's name: letters, digits, - and _."""
     given = re.sub(r"[^A-Za-z0-9_-]+", "-", text.removeprefix(_PREFIX)).strip("-_") or before
     found, number = given, 2
     while found in taken:
@@ -272,7 +281,7 @@ def _name(text: str, before: str, taken: set[str]) -> str:
     return found
 
 
-def pose_of(matrix: Matrix) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Position (3,) and rotation matrix (3, 3) of a Blender matrix, without scale."""
+def matrix_pose(matrix: Matrix) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return position (3,) and rotation matrix (3, 3) of a Blender matrix, without its scale."""
     pose = np.array(matrix, np.float64)
     return pose[:3, 3], pose[:3, :3] / np.linalg.norm(pose[:3, :3], axis=0)

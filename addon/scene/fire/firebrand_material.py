@@ -30,7 +30,9 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     strength = shine * cover * (1.0 - part) * bright
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": (1.0, 1.0, 1.0)})
     glowing = tree.add_shader(tree.emission(colour, strength), clear)
-    warmth = infrared.through_air(tree, shot, stage, infrared.emitted(tree, shot, stage, kelvin))
+    warmth = infrared.radiance_at_camera(
+        tree, shot, stage, infrared.surface_radiance(tree, shot, stage, kelvin)
+    )
     nodes.flames(tree, tree.separate(colour)[0] * strength, cover, warmth)
     warm = tree.mix_shader(cover, clear, tree.emission(warmth, 1.0))
     shader = nodes.switch(tree, nodes.THERMAL, glowing, warm)

@@ -62,8 +62,8 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     gap = tree.output("ShaderNodeBsdfTransparent")  # which hides none of the heat behind it
     depth = tree.attribute("flame_width", "INSTANCER")
     emissivity = flame * (1.0 - (depth * -infrared.FLAME).exp())
-    warmth = infrared.emitted(tree, shot, stage, tree.attribute("kelvin", "INSTANCER"))
-    warmth = infrared.through_air(tree, shot, stage, warmth)
+    warmth = infrared.surface_radiance(tree, shot, stage, tree.attribute("kelvin", "INSTANCER"))
+    warmth = infrared.radiance_at_camera(tree, shot, stage, warmth)
     hot = tree.mix_shader(emissivity, gap, tree.emission(warmth, 1.0))
     nodes.flames(tree, tree.separate(colour)[0] * light * flame, emissivity, warmth)
     shader = nodes.switch(tree, nodes.THERMAL, tree.mix_shader(flame, clear, shader), hot)

@@ -100,7 +100,7 @@ def rock(shot: Shot, stage: Stage) -> bpy.types.Material:
     position = tree.output("ShaderNodeNewGeometry", name="Position")
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
     tint, age = tree.attribute("tint", "INSTANCER"), _age(tree)
-    stone, height = granite.face(tree, position, granite.pixel(tree, shot, distance))
+    stone, height = granite.face(tree, position, granite.pixel_size(tree, shot, distance))
     stone = tree.mix_colour(
         1.0, stone, tree.mix_colour(tint, (0.62, 0.60, 0.56), (1.1, 1.1, 1.1)), "MULTIPLY"
     )
@@ -109,8 +109,8 @@ def rock(shot: Shot, stage: Stage) -> bpy.types.Material:
     normal = tree.output("ShaderNodeBump", {"Strength": 0.8, "Distance": 1.0, "Height": height})
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour, "Roughness": 0.6, "Normal": normal})
     elevation = tree.attribute("elevation", "INSTANCER")
-    ambient = temperature.ambient(tree, shot, stage, elevation, normal, 1.0)
-    warmth = infrared.emitted(tree, shot, stage, ambient, infrared.STONE)
+    ambient = temperature.unburned_temperature(tree, shot, stage, elevation, normal, 1.0)
+    warmth = infrared.surface_radiance(tree, shot, stage, ambient, infrared.STONE)
     _finish(tree, shot, stage, matt, warmth)
     material.cycles.emission_sampling = "NONE"
     return material
@@ -215,7 +215,7 @@ def _leaves(
     burning = tree.add_shader(leaf, tree.emission(flame, flaming * afar * bright))
     warmth = _warmth(tree, shot, stage, normal, age, 0.0)
     hot = flaming.ramp(0.0, 1.0, temperature.FLAME_LOW, temperature.FLAME_HIGH)
-    hot = infrared.emitted(tree, shot, stage, hot)
+    hot = infrared.surface_radiance(tree, shot, stage, hot)
     warmth = tree.mix(flaming.smoothstep(0.0, 0.5), warmth, hot)
     _finish(tree, shot, stage, burning, warmth, alight)
 
@@ -230,9 +230,9 @@ def _warmth(
 ) -> nodes.Value:
     """Infrared radiance of leaves and wood, before the atmosphere; leaves that have `burned` cool at once."""
     elevation = tree.attribute("elevation", "INSTANCER")
-    ambient = temperature.ambient(tree, shot, stage, elevation, normal, 0.0)
-    kelvin = temperature.cooled(tree, ambient, age, burned)
-    return infrared.emitted(tree, shot, stage, kelvin, infrared.NEEDLES)
+    ambient = temperature.unburned_temperature(tree, shot, stage, elevation, normal, 0.0)
+    kelvin = temperature.burned_temperature(tree, ambient, age, burned)
+    return infrared.surface_radiance(tree, shot, stage, kelvin, infrared.NEEDLES)
 
 
 def _finish(
@@ -248,7 +248,7 @@ def _finish(
     Trees have an instance number. An `alight` tree is of the class fire, also between the tongues of its
     flames, which are smaller than pixels from afar. The understorey counts as ground.
     """
-    at_camera = infrared.through_air(tree, shot, stage, warmth)
+    at_camera = infrared.radiance_at_camera(tree, shot, stage, warmth)
     shader = nodes.thermal_switch(tree, haze.apply(tree, shader, stage), at_camera)
     # Not "Fac", the mean of three equal components: it is rounded, and instance numbers need all 24 bits.
     number, _, _ = tree.separate(tree.attribute("number", "INSTANCER", "Vector"))

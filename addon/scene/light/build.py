@@ -1,4 +1,4 @@
-"""Light builder: sun, moon, sky, haze and exposure for the shot's place, date and time."""
+"""Light builder: sun, moon, sky, haze and exposure for the shot's location, date and time."""
 
 from __future__ import annotations
 
@@ -19,70 +19,70 @@ _KEYS = 25  # number of keyframes of the sky
 _SKY = 0.12  # strength of the sky texture; more hides the sunlit side of smoke
 _DUST = 0.3  # parameter of the sky texture; 1 makes it pale and greenish
 _FILL = 0.44  # factor on the sky's mean radiance for ambient light in open places; by eye
-_NEAR = 15.0  # m
-_NIGHT_FILL = 0.06  # least fraction of that mean radiance: eyes and films adapt to the night; by eye
+_NEAR = 15.0  # m, distance of ambient occlusion
+_NIGHT_FILL = 0.06  # minimum of that mean radiance: eyes and films adapt to the night; by eye
 _TRANSFORM, _LOOK = "AgX", "AgX - Medium High Contrast"
-_INSTEAD = ("Filmic", "Standard")  # view transforms without AgX, the better first
+_INSTEAD = ("Filmic", "Standard")  # fallback view transforms if AgX is missing, best first
 
 
 def build(shot: Shot, stage: Stage) -> list[str]:
-    """Build the lamp "Firetwin Sun" and haze; in our own scene also world, colour management and exposure.
+    """Build the lamp "Firetwin Sun" and haze; in Firetwin's scene also world, colour management and exposure.
 
-    All have keyframes over the shot. A world of the user stays, and ours is not built.
+    All have keyframes over the shot. A user's world is not replaced.
 
     Returns
     -------
     list of str
         Warnings for the user.
     """
-    frames, states = moments(shot)
+    frames, states = light_keyframes(shot)
     if stage.own and stage.scene.world is not None and owned.ours(stage.scene.world):
-        stage.scene.world = None  # so that it is removed with our other objects
-    _lamp(stage.part("Light"), frames, states)
-    group, colour = haze.settings(stage, shot.settings.light.haze)
-    key(group, colour, frames, np.array([(*each.haze, 1.0) for each in states]))
+        stage.scene.world = None  # so that it is removed with Firetwin's other objects
+    _build_sun(stage.part("Light"), frames, states)
+    group, colour = haze.set_amount(stage, shot.settings.light.haze)
+    add_keyframes(group, colour, frames, np.array([(*each.haze, 1.0) for each in states]))
     if not stage.own:
         return []
     if stage.scene.world is None:
-        _world(stage, frames, states)
-    _thermal_sky(stage.scene.world, infrared.sky(shot))
-    _expose(stage.scene, frames, exposure.at(shot, frames))
-    return _colours(stage.scene.view_settings)
+        _build_world(stage, frames, states)
+    _set_thermal_sky(stage.scene.world, infrared.sky_radiance(shot))
+    _animate_exposure(stage.scene, frames, exposure.at(shot, frames))
+    return _set_view_transform(stage.scene.view_settings)
 
 
-def moments(shot: Shot) -> tuple[NDArray[np.float64], list[State]]:
-    """Keyframes of light: frames, and the state of the light there."""
+def light_keyframes(shot: Shot) -> tuple[NDArray[np.float64], list[State]]:
+    """Return keyframes of light: frames, and the state of the light at each."""
     moving = shot.frames.count > 1 and shot.frames.last > shot.frames.first
     frames = np.linspace(1.0, shot.frames.count, _KEYS if moving else 1)
     return frames, [state(shot, shot.frames.time(frame)) for frame in frames]
 
 
-def _lamp(collection: bpy.types.Collection, frames: NDArray[np.float64], states: list[State]) -> None:
+def _build_sun(collection: bpy.types.Collection, frames: NDArray[np.float64], states: list[State]) -> None:
     lamp = bpy.data.lights.new("Firetwin Sun", "SUN")
     lamp.angle = np.radians(0.53)
     obj = owned.add(collection, "Sun", lamp)
     obj.rotation_mode = "QUATERNION"
-    key(obj, "rotation_quaternion", frames, np.array([_facing(s.direction) for s in states]))
-    key(lamp, "energy", frames, np.array([s.power for s in states]))
-    key(lamp, "color", frames, np.array([s.colour for s in states]))
+    add_keyframes(obj, "rotation_quaternion", frames, np.array([_lamp_rotation(s.direction) for s in states]))
+    add_keyframes(lamp, "energy", frames, np.array([s.power for s in states]))
+    add_keyframes(lamp, "color", frames, np.array([s.colour for s in states]))
 
 
-def _facing(direction: NDArray[np.float64]) -> tuple[float, ...]:
-    """Quaternion of a lamp whose light comes from `direction`."""
+def _lamp_rotation(direction: NDArray[np.float64]) -> tuple[float, ...]:
+    """Return the quaternion of a lamp whose light comes from `direction`."""
     return tuple(Vector((-direction).tolist()).to_track_quat("-Z", "Y"))
 
 
-def key_sun(tree: bpy.types.NodeTree, frames: NDArray[np.float64], states: list[State]) -> None:
-    """Keyframe the direction to the sun in a tree whose node `space_sky.SUN` holds it."""
+def animate_sun(tree: bpy.types.NodeTree, frames: NDArray[np.float64], states: list[State]) -> None:
+    """Keyframe the direction to the sun in a tree whose node `space_sky.SUN` stores it."""
     height, bearing = np.array([each.sky for each in states]).T
     level = np.cos(height)
     toward = np.sin(bearing) * level, np.cos(bearing) * level, np.sin(height)
     for axis, values in enumerate(toward):
-        key(tree, f'nodes["{space_sky.SUN}"].inputs[{axis}].default_value', frames, values)
+        add_keyframes(tree, f'nodes["{space_sky.SUN}"].inputs[{axis}].default_value', frames, values)
 
 
 def _airglow(tree: nodes.Tree, up: nodes.Value) -> nodes.Value:
-    """Airglow relative to the zenith, for rays of slope sine `up`: a layer 100 km high.
+    """Return airglow relative to the zenith, for rays of slope sine `up`: a layer 100 km high.
 
     Van Rhijn (1921, "On the brightness of the sky at night", Publ. Astr. Lab. Groningen 31), with a mean of
     1.
@@ -91,7 +91,7 @@ def _airglow(tree: nodes.Tree, up: nodes.Value) -> nodes.Value:
     return tree.math("POWER", 1.0 - across, -0.5) * 0.3
 
 
-def _world(stage: Stage, frames: NDArray[np.float64], states: list[State]) -> None:
+def _build_world(stage: Stage, frames: NDArray[np.float64], states: list[State]) -> None:
     """Build the world: sky texture and airglow; a uniform cold sky in thermal view layers."""
     world = stage.scene.world = owned.mark(bpy.data.worlds.new("Firetwin Sky"))
     tree = nodes.Tree(compat.node_tree(world))
@@ -106,30 +106,30 @@ def _world(stage: Stage, frames: NDArray[np.float64], states: list[State]) -> No
     light = haze.before_sky(tree, stage, light, up)
     earth = curved_air.earth(stage)
     if earth is not None:
-        light = space_sky.behind_air(tree, earth, light, haze.airlight(tree, stage))
+        light = space_sky.attenuate_sky(tree, earth, light, haze.airlight(tree, stage))
     background = tree.output("ShaderNodeBackground", {"Color": light, "Strength": 1.0})
     cold = tree.output("ShaderNodeBackground", {"Color": (1.0, 1.0, 1.0), "Strength": 0.0})
     cold.socket.node.name = "Thermal Sky"
     shader = nodes.switch(tree, nodes.THERMAL, background, cold)
     none = tree.output("ShaderNodeBackground", {"Color": (0.0, 1.0, float(masks.SKY)), "Strength": 1.0})
     tree.surface(nodes.switch(tree, nodes.MASKS, shader, none))
-    _fill(world, frames, states)
+    _animate_ambient_light(world, frames, states)
     compat.set_sky(sky, states[0].sky[0], states[0].sky[1], _DUST)
     if earth is not None:
-        key_sun(world.node_tree, frames, states)
+        animate_sun(world.node_tree, frames, states)
     place = f'nodes["{sky.name}"]'
-    key(world.node_tree, f"{place}.sun_elevation", frames, np.array([s.sky[0] for s in states]))
-    key(world.node_tree, f"{place}.sun_rotation", frames, np.unwrap([s.sky[1] for s in states]))
+    add_keyframes(world.node_tree, f"{place}.sun_elevation", frames, np.array([s.sky[0] for s in states]))
+    add_keyframes(world.node_tree, f"{place}.sun_rotation", frames, np.unwrap([s.sky[1] for s in states]))
 
 
-def _fill(world: bpy.types.World, frames: NDArray[np.float64], states: list[State]) -> None:
-    """Ambient light in the shade between trees, for light that crowns and ground reflect to each other.
+def _animate_ambient_light(world: bpy.types.World, frames: NDArray[np.float64], states: list[State]) -> None:
+    """Keyframe ambient light between trees, which stands for light that crowns and ground reflect.
 
-    Cycles adds it as ambient occlusion ("Fast GI"), in proportion to the sky's radiance, with a minimum by
+    Cycles adds it as ambient occlusion ("Fast GI"), in proportion to the sky's radiance, with a minimum at
     night.
     """
     world.light_settings.distance = _NEAR
-    key(
+    add_keyframes(
         world,
         "light_settings.ao_factor",
         frames,
@@ -137,36 +137,38 @@ def _fill(world: bpy.types.World, frames: NDArray[np.float64], states: list[Stat
     )
 
 
-def _thermal_sky(world: bpy.types.World, radiance: float) -> None:
-    """Set the sky's infrared emission in thermal view layers; worlds of the user stay."""
+def _set_thermal_sky(world: bpy.types.World, radiance: float) -> None:
+    """Set the sky's infrared emission in thermal view layers; a user's world is not changed."""
     node = world.node_tree.nodes.get("Thermal Sky") if world.node_tree and owned.ours(world) else None
     if node is not None:
         compat.find_socket(node.inputs, "Strength").default_value = radiance
 
 
-def _expose(scene: bpy.types.Scene, frames: NDArray[np.float64], exposures: NDArray[np.float64]) -> None:
-    """Keyframe the exposure; constant, of the middle of the shot, in a scene that the artist animates."""
+def _animate_exposure(
+    scene: bpy.types.Scene, frames: NDArray[np.float64], exposures: NDArray[np.float64]
+) -> None:
+    """Keyframe the exposure; in a scene that the artist animates, set it to the value at mid-shot."""
     action = scene.animation_data.action if scene.animation_data else None
     if action is not None and not owned.ours(action):
         frames, exposures = frames[:1], exposures[len(exposures) // 2 :][:1]
-    key(scene, "view_settings.exposure", frames, exposures)
+    add_keyframes(scene, "view_settings.exposure", frames, exposures)
 
 
-def _colours(view: bpy.types.ColorManagedViewSettings) -> list[str]:
-    """Set the view transform; returns a warning if Blender lacks the one for the picture."""
-    chosen = next((name for name in (_TRANSFORM, *_INSTEAD) if _set(view, "view_transform", name)), None)
-    if chosen == _TRANSFORM and _set(view, "look", _LOOK):
+def _set_view_transform(view: bpy.types.ColorManagedViewSettings) -> list[str]:
+    """Set the view transform; return a warning if this Blender does not have it."""
+    chosen = next(
+        (name for name in (_TRANSFORM, *_INSTEAD) if _set_choice(view, "view_transform", name)), None
+    )
+    if chosen == _TRANSFORM and _set_choice(view, "look", _LOOK):
         return []
-    _set(view, "look", "None")
+    _set_choice(view, "look", "None")
     instead = view.view_transform if chosen is None else chosen
     missing = _LOOK if chosen == _TRANSFORM else _TRANSFORM
-    return [
-        f'no "{missing}" in this Blender\'s colours: pictures are shown by "{instead}" and look different'
-    ]
+    return [f'this Blender has no "{missing}": pictures use "{instead}" and look different']
 
 
-def _set(obj: bpy.types.bpy_struct, name: str, choice: str) -> bool:
-    """Set a property to one of its choices; False where that choice is missing."""
+def _set_choice(obj: bpy.types.bpy_struct, name: str, choice: str) -> bool:
+    """Set a property to one of its choices; return False if that choice is missing."""
     try:
         setattr(obj, name, choice)
     except TypeError:
@@ -174,7 +176,7 @@ def _set(obj: bpy.types.bpy_struct, name: str, choice: str) -> bool:
     return True
 
 
-def key(obj: bpy.types.ID, data_path: str, frames: NDArray[np.float64], values: NDArray) -> None:
+def add_keyframes(obj: bpy.types.ID, data_path: str, frames: NDArray[np.float64], values: NDArray) -> None:
     """Keyframe a property (or set it, for a single keyframe): values (n,) or (n, channels)."""
     columns = values.reshape(len(frames), -1)
     owner, _, name = data_path.rpartition(".")

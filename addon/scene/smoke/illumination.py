@@ -37,7 +37,7 @@ def visible(stage: Stage) -> volume.Illumination:
     """
     group, tree = _group(stage)
     sun, around, toward = (tree.nodes[name] for name in sunlit.NODES)
-    air, extinction = haze.state(stage)
+    air, extinction = haze.current_state(stage)
     strength = _number(group, "Glow") if "Glow" in group.inputs else 0.0
     glow = [part * strength for part in _colour(group, "Glow Colour")] if strength else 3 * [0.0]
     return volume.Illumination(

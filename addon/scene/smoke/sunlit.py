@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ...blender import nodes
 from ...shot.light.sky import State
 from ...shot.shot import Shot
-from ..light.build import key, moments
+from ..light.build import add_keyframes, light_keyframes
 
 OFTENER = 0.5, 0.3  # weights relative to single scattering, from a ball and a plume against 24 and 32 bounces
 _GROUND = 0.07  # albedo of forest and ash, which light smoke from below (assumed)
@@ -53,15 +53,15 @@ def _spread(tree: nodes.Tree, even: nodes.Value) -> nodes.Value:
 
 def _animate(shot: Shot, tree: bpy.types.NodeTree) -> None:
     """Keyframe the sun's and the sky's light over the shot."""
-    frames, states = moments(shot)
+    frames, states = light_keyframes(shot)
     sun = np.array([s.power * np.array(s.colour) for s in states])
     sky = np.array([_around(s) for s in states])
     opaque = np.ones((len(states), 1))
     for name, colours in ((_SUN, sun), (_SKY, sky)):
-        key(tree, f'nodes["{name}"].outputs[0].default_value', frames, np.hstack([colours, opaque]))
+        add_keyframes(tree, f'nodes["{name}"].outputs[0].default_value', frames, np.hstack([colours, opaque]))
     towards = np.array([s.direction for s in states])
     for axis in range(3):
-        key(tree, f'nodes["{_TOWARDS}"].inputs[{axis}].default_value', frames, towards[:, axis])
+        add_keyframes(tree, f'nodes["{_TOWARDS}"].inputs[{axis}].default_value', frames, towards[:, axis])
 
 
 def _around(state: State) -> NDArray[np.float64]:

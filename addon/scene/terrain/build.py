@@ -30,7 +30,7 @@ def build(shot: Shot, stage: Stage, grown: Stand | None, shaped: Shape | None = 
     terrain's fields (see `fields`); and `solid_view`, its colours in Blender's solid view.
     """
     collection, ground = stage.part("Terrain"), shot.ground
-    credits.note(collection, picture_credits.of_settings(shot.settings))
+    credits.store(collection, picture_credits.of_settings(shot.settings))
     row, column, triangles = without_tiles(shot, *(shaped or shape(shot)))
     latitude, longitude = ground.places(row, column)
     coarse = ground.frame.forward(latitude, longitude, ground.height(row, column))

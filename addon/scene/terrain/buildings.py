@@ -114,16 +114,18 @@ def material(
     grain = tree.noise(tree.pick(geometry, "Position"), 1.3, 3.0).ramp(0.3, 0.7, 0.8, 1.2)
     colour = tree.mix_colour(1.0, colour, tree.combine(grain, grain, grain), "MULTIPLY")
     _, _, up = tree.separate(tree.pick(geometry, "Position"))
-    kelvin = temperature.ambient(tree, shot, stage, up, tree.pick(geometry, "Normal"), 1.0)
+    kelvin = temperature.unburned_temperature(tree, shot, stage, up, tree.pick(geometry, "Normal"), 1.0)
     emissivity = infrared.STONE
     if images:
         with tree.frame("Fire"):
             here = shading_inputs.gather(tree, fields.Fields(tree, dict(images)), shot, whole=False)
             charred = here.burned * _CHARRED
             colour = tree.mix_colour(charred, colour, burn_scar.charred(tree, here))
-            kelvin = temperature.cooled(tree, kelvin, here.age, charred, here.residence)
+            kelvin = temperature.burned_temperature(tree, kelvin, here.age, charred, here.residence)
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
-    warmth = infrared.through_air(tree, shot, stage, infrared.emitted(tree, shot, stage, kelvin, emissivity))
+    warmth = infrared.radiance_at_camera(
+        tree, shot, stage, infrared.surface_radiance(tree, shot, stage, kelvin, emissivity)
+    )
     shader = nodes.thermal_switch(tree, haze.apply(tree, matt, stage), warmth)
     number = tree.attribute("number")
     tree.surface(nodes.mask_switch(tree, shader, float(masks.BUILDING), number))

@@ -37,11 +37,11 @@ def build(shot: Shot, stage: Stage, image: bpy.types.Image | None) -> bpy.types.
     ground = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour, "Roughness": 0.6})
     part, air = haze.fraction(tree, stage)
     lit = tree.mix_shader(part, ground, tree.emission(tree.vector("MULTIPLY", air, tone), 1.0))
-    warm = temperature.ambient(tree, shot, stage, 0.0, tree.pick(geometry, "Normal"), _BARE)
-    own = infrared.emitted(tree, shot, stage, warm, infrared.GROUND)
-    shader = nodes.thermal_switch(tree, lit, infrared.through_air(tree, shot, stage, own))
+    warm = temperature.unburned_temperature(tree, shot, stage, 0.0, tree.pick(geometry, "Normal"), _BARE)
+    own = infrared.surface_radiance(tree, shot, stage, warm, infrared.GROUND)
+    shader = nodes.thermal_switch(tree, lit, infrared.radiance_at_camera(tree, shot, stage, own))
     tree.surface(nodes.mask_switch(tree, shader, float(masks.GROUND)))
-    light.key_sun(tree.node_tree, *light.moments(shot.full))
+    light.animate_sun(tree.node_tree, *light.light_keyframes(shot.full))
     return material
 
 

@@ -25,11 +25,11 @@ def radiance(
     kelvin = surface_temperature(tree, shot, stage, place, rock, lake, normal, bare)
     emissivity = tree.mix(bare, infrared.NEEDLES, tree.mix(place.burned, infrared.GROUND, infrared.CHAR))
     emissivity = tree.mix(lake, tree.mix(rock, emissivity, infrared.STONE), infrared.LAKE)
-    own = infrared.emitted(tree, shot, stage, kelvin, emissivity)
-    own = tree.mix(embers, own, infrared.emitted(tree, shot, stage, temperature.EMBER))
+    own = infrared.surface_radiance(tree, shot, stage, kelvin, emissivity)
+    own = tree.mix(embers, own, infrared.surface_radiance(tree, shot, stage, temperature.EMBER))
     hot = flaming.ramp(0.0, 1.0, temperature.FLAME_LOW, temperature.FLAME_HIGH)
-    own = tree.mix(flaming.smoothstep(0.0, 0.5), own, infrared.emitted(tree, shot, stage, hot))
-    return infrared.through_air(tree, shot, stage, own)
+    own = tree.mix(flaming.smoothstep(0.0, 0.5), own, infrared.surface_radiance(tree, shot, stage, hot))
+    return infrared.radiance_at_camera(tree, shot, stage, own)
 
 
 def bare_fraction(tree: nodes.Tree, place: Place, rock: nodes.Value) -> nodes.Value:
@@ -49,6 +49,8 @@ def surface_temperature(
     bare: nodes.Value,
 ) -> nodes.Value:
     """Kinetic temperature (K) of ground and crowns without flames and embers; `bare` is `bare_fraction`."""
-    ambient = temperature.ambient(tree, shot, stage, place.elevation, normal, bare)
-    kelvin = temperature.cooled(tree, ambient, place.age, place.burned * (1.0 - rock), place.residence)
+    ambient = temperature.unburned_temperature(tree, shot, stage, place.elevation, normal, bare)
+    kelvin = temperature.burned_temperature(
+        tree, ambient, place.age, place.burned * (1.0 - rock), place.residence
+    )
     return tree.mix(lake, kelvin, temperature.WATER)

@@ -33,7 +33,7 @@ def build(shot: Shot, stage: Stage, cut: TileCut, grown: Stand | None) -> None:
     slots, new = _arranged(cut, wanted, kept)
     with reuse.held(kept):
         collection = stage.part(PART)
-        credits.note(collection, cut.words)
+        credits.store(collection, cut.words)
         images = pictures.load(slots, cut.folder, kept.images)
         materials = material.build(shot, stage, images, grown, kept.materials)
         for name in wanted:
