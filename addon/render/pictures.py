@@ -123,7 +123,7 @@ class _Frame:
         self.pictures = {name: Picture(camera, frame, name) for name in passes.known()}
         self.scene.camera = stage.camera(camera)
         self.scene.frame_set(frame)
-        self.words = credits.of_scene(stage)
+        self.words = credits.read_scene(stage)
 
     def render(self, names: list[str]) -> list[Picture]:
         """Write the files of these passes, and of the passes they need, into the temporary folder."""

@@ -81,11 +81,11 @@ def test_every_letter_is_at_most_as_wide_as_is_reckoned_with():
 def test_a_scene_keeps_its_credits_and_blenders_own_renders_show_them(stage, run):
     part = stage.part("Tiles")
     scene_credits.store(part, WORDS)
-    assert not credits.of_scene(stage)  # no tile is there
+    assert not credits.read_scene(stage)  # no tile is there
     import bpy
 
     part.objects.link(bpy.data.objects.new("Tile", bpy.data.meshes.new("Tile")))
-    assert credits.of_scene(stage) == WORDS
+    assert credits.read_scene(stage) == WORDS
     engine.set_metadata(run, stage.scene)
     credits.stamp(stage)
     assert stage.scene.render.use_stamp

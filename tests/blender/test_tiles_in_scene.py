@@ -56,7 +56,7 @@ def test_tiles_stand_in_place_of_the_ground(tiled, stage, shot):
 
 def test_a_scene_names_whom_its_tiles_are_of(tiled, stage):
     tiles_build.build(tiled, stage, tile_cut.of_shot(tiled), None)
-    assert credits.of_scene(stage) == Credits(("Somebody",))
+    assert credits.read_scene(stage) == Credits(("Somebody",))
 
 
 def test_inputs_of_pictures_follow_tiles_and_credits(tiled):

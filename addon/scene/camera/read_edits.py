@@ -79,7 +79,7 @@ class EvaluatedPath:
         Frames, from 0, at which the artist set keyframes.
     """
 
-    store_origin: NDArray[np.float64]
+    place: NDArray[np.float64]
     rotation: NDArray[np.float64]
     lens: NDArray[np.float64]
     sensor: float
