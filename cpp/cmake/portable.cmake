@@ -1,5 +1,5 @@
-# The static libraries of cpp/portable/libraries.sh. The module shows nothing but its entry: with its OpenVDB, TBB or
-# OpenImageIO visible, the ones inside Blender and these would use each other's functions and crash.
+# The static libraries of cpp/portable/libraries.sh. The module exports only its init function: if its OpenVDB, TBB or
+# OpenImageIO were visible, they and Blender's copies would call each other's functions and crash.
 find_package(TBB CONFIG REQUIRED)
 find_package(OpenEXR CONFIG REQUIRED)
 find_package(OpenImageIO CONFIG REQUIRED)
@@ -8,11 +8,11 @@ find_path(OPENVDB_INCLUDE_DIR openvdb/openvdb.h REQUIRED)
 foreach(name openvdb blosc lz4 boost_thread jpeg deflate z)
   find_library(${name}_LIBRARY ${name} REQUIRED)
 endforeach()
-# What a static libtiff needs, which nothing else tells.
+# Dependencies of a static libtiff, which its files do not declare.
 set_property(TARGET TIFF::TIFF APPEND PROPERTY INTERFACE_LINK_LIBRARIES ${jpeg_LIBRARY} ${deflate_LIBRARY} ${z_LIBRARY})
 set_property(TARGET OpenImageIO::OpenImageIO APPEND PROPERTY INTERFACE_LINK_LIBRARIES ${boost_thread_LIBRARY})
 
-# A target of its own and not a file among others, so that what it needs comes after it.
+# A target, not a file, so that its dependencies follow it on the link line.
 add_library(library::openvdb STATIC IMPORTED)
 set_target_properties(library::openvdb PROPERTIES IMPORTED_LOCATION ${openvdb_LIBRARY})
 target_link_libraries(library::openvdb INTERFACE ${blosc_LIBRARY} ${lz4_LIBRARY} ${z_LIBRARY} TBB::tbb)
@@ -23,8 +23,8 @@ target_link_libraries(library::geographiclib INTERFACE ${GeographicLib_LIBRARIES
 target_include_directories(library::openvdb INTERFACE ${OPENVDB_INCLUDE_DIR})
 target_compile_definitions(library::openvdb INTERFACE OPENVDB_STATICLIB)
 target_compile_definitions(library::openimageio INTERFACE OIIO_STATIC_DEFINE)
-# oneTBB's concepts reject what OpenVDB 10 passes to it in C++20.
+# In C++20, oneTBB's concepts reject arguments that OpenVDB 10 passes.
 add_compile_definitions(__TBB_USE_CONSTRAINTS=0)
-# Without -z nodynamic-undefined-weak Blender's allocator would step in for TBB's, which is left out.
+# Without -z nodynamic-undefined-weak Blender's allocator would replace TBB's, which is not linked.
 add_link_options(-Wl,--exclude-libs,ALL -Wl,--version-script,${CMAKE_SOURCE_DIR}/cpp/portable/exports.map
   -Wl,-z,nodynamic-undefined-weak -Wl,--strip-all)

@@ -1,5 +1,4 @@
-# One module for each Python, from headers alone: none of them has to be there to run. Everything but the bindings is
-# compiled once.
+# One module for each Python, of which only the headers are required. Everything but the bindings is compiled once.
 set(FIRETWIN_PYTHONS "" CACHE STRING "Versions of Python to build for, such as 3.11;3.13")
 set(FIRETWIN_PYTHON_HEADERS "" CACHE PATH "Folder with python3.11/usr/include and so on")
 
@@ -8,7 +7,7 @@ foreach(python IN LISTS FIRETWIN_PYTHONS)
   set(module firetwin_core_${digits})
   set(headers "${FIRETWIN_PYTHON_HEADERS}/python${python}/usr/include")
   add_library(${module} MODULE ${binding_sources})
-  # Debian keeps the header that depends on the processor in a folder of its own, below the second of these.
+  # Debian has the processor-dependent header in a separate folder below the second of these.
   target_include_directories(${module} SYSTEM PRIVATE "${headers}/python${python}" "${headers}")
   set_target_properties(${module} PROPERTIES PREFIX "" OUTPUT_NAME firetwin_core
     SUFFIX ".cpython-${digits}-x86_64-linux-gnu.so" LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${python}")

@@ -1,6 +1,6 @@
-# For quick builds on this machine: headers of other projects are precompiled, files that instantiate the same templates are
-# compiled together (unity build), and the bindings are compiled with -O1. The numbers themselves are in the libraries.
-# Wheels are built without all this, and so find a missing #include.
+# Quick builds on this machine: third-party headers are precompiled, files that instantiate the same templates are compiled
+# together (unity build), and the bindings are compiled with -O1, as the libraries do the computing.
+# Wheels are built without this, which reveals missing #includes.
 option(FIRETWIN_QUICK_BUILD "Build quickly: precompiled headers, unity builds, bindings with -O1" OFF)
 
 function(firetwin_quick_build target name)
@@ -8,7 +8,7 @@ function(firetwin_quick_build target name)
     return()
   endif()
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # False alarms: GCC takes a precompiled standard library for our code.
+    # False alarms: GCC does not recognise precompiled standard headers as system headers.
     target_compile_options(${target} PRIVATE -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
   endif()
   set(headers <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <memory> <numbers> <numeric> <optional>

@@ -1,4 +1,4 @@
-# The shared libraries of a Linux distribution. Debian's own CMake files for OpenVDB and OpenImageIO ask for packages that
+# The shared libraries of a Linux distribution. Debian's CMake files for OpenVDB and OpenImageIO require packages that
 # are not needed here (Boost.Iostreams, PyImath, OpenCV).
 find_package(TBB CONFIG REQUIRED)
 find_package(PkgConfig REQUIRED)
@@ -21,9 +21,9 @@ target_include_directories(library::openvdb INTERFACE ${OPENVDB_INCLUDE_DIR})
 target_include_directories(library::openimageio INTERFACE ${OPENIMAGEIO_INCLUDE_DIR})
 target_include_directories(library::geographiclib INTERFACE ${GEOGRAPHICLIB_INCLUDE_DIR})
 
-# OpenVDB's registry of types breaks when its inline statics are hidden or unique to one library:
+# OpenVDB's registry of types breaks if its inline statics are hidden or unique to one library:
 # default visibility and -fno-gnu-unique are both needed (openvdb#1583).
-# -fno-semantic-interposition: functions of default visibility may still be inlined.
+# -fno-semantic-interposition: functions with default visibility can still be inlined.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options(-fno-gnu-unique -fno-semantic-interposition)
 endif()

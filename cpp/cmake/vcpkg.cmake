@@ -12,13 +12,13 @@ target_link_libraries(library::openimageio INTERFACE OpenImageIO::OpenImageIO)
 target_link_libraries(library::geographiclib INTERFACE ${GeographicLib_LIBRARIES})
 add_compile_definitions(__TBB_USE_CONSTRAINTS=0)
 if(APPLE)
-  # What the libraries hold must not meet the OpenVDB, TBB and OpenImageIO inside Blender.
+  # Symbols of these libraries must not clash with the OpenVDB, TBB and OpenImageIO of Blender.
   add_link_options(-Wl,-exported_symbol,_PyInit_firetwin_core -Wl,-dead_strip)
-  # std::jthread is still behind this switch in Apple's standard library.
+  # Apple's standard library still requires this switch for std::jthread.
   add_compile_definitions(_LIBCPP_ENABLE_EXPERIMENTAL)
 endif()
 
-# Each library's licence goes into the wheel beside its code.
+# The wheel contains the licence of each library.
 if(SKBUILD)
   file(GLOB copyrights "${VCPKG_INSTALLED_DIR}/${VCPKG_TARGET_TRIPLET}/share/*/copyright")
   foreach(copyright IN LISTS copyrights)

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Builds the wheels of firetwin_core that run on any x86-64 Linux with glibc 2.28 or newer, for the Pythons inside Blender
-# 4.5 and 5.0 (3.11) and 5.1 and later (3.13), checks them, and leaves them in build/portable/wheels.
-# The first run downloads the libraries (220 MB) and builds them; the next one builds Firetwin only.
-# Needs g++-12, cmake, ninja, make, dpkg-deb, curl, and Python 3 with venv. FIRETWIN_PORTABLE names another folder than
-# build/portable, FIRETWIN_JOBS the number of compilers that run at once.
+# Builds and checks wheels of firetwin_core for any x86-64 Linux with glibc 2.28 or newer, for the Pythons of Blender 4.5 and
+# 5.0 (3.11), and of 5.1 and later (3.13). The wheels go to build/portable/wheels.
+# The first run downloads (220 MB) and builds the libraries; later runs build only Firetwin.
+# Needs g++-12, cmake, ninja, make, dpkg-deb, curl, and Python 3 with venv. FIRETWIN_PORTABLE replaces the
+# folder build/portable; FIRETWIN_JOBS is the number of parallel compilers.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 here=$PWD/cpp/portable
@@ -27,8 +27,8 @@ if [[ $(uname -s -m) != "Linux x86_64" ]]; then
   exit 1
 fi
 
-# Runs a step once, and again when what it depends on has changed.
-once() { # name what-it-depends-on command...
+# Runs a step once, and again if its dependencies changed.
+once() { # name dependencies command...
   local stamp=$portable/stamps/$1 want=$2
   if [[ ! -f $stamp || $(<"$stamp") != "$want" ]]; then
     "${@:3}"
@@ -45,7 +45,7 @@ make_tools() {
 
 compile() {
   local build=$portable/module python
-  # --fresh: the folder may have served another checkout.
+  # --fresh: the folder may be from another checkout.
   cmake --fresh -S . -B "$build" -G Ninja --toolchain "$here/toolchain.cmake" -DCMAKE_BUILD_TYPE=Release \
     -DFIRETWIN_LIBRARIES=portable -DFIRETWIN_VERSION="$version" -DFIRETWIN_PYTHONS="${pythons// /;}" \
     -DFIRETWIN_PYTHON_HEADERS="$portable" -Dpybind11_DIR="$("$portable/tools/bin/python" -m pybind11 --cmakedir)"

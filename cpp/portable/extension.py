@@ -1,7 +1,7 @@
-"""Makes the Blender extension from addon/, data/ and wheels: ``extension.py OUT WHEELS...``.
+"""Make the Blender extension from addon/, data/ and wheels: ``extension.py OUT WHEELS...``.
 
-Blender's own `blender_ext.py` builds and validates the zip; it lies in the `bpy` package of the Python that
-runs this. WHEELS are folders: every wheel in them goes into the zip, and the platform is theirs.
+Blender's `blender_ext.py` builds and validates the zip; it is part of the `bpy` package of the running Python.
+WHEELS are folders: the zip contains all their wheels, which determine its platforms.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ LARGEST = 18_000_000  # bytes
 
 
 def blender_ext() -> Path:
-    """The command that manages extensions, from inside Blender."""
+    """Load Blender's command that manages extensions."""
     spec = importlib.util.find_spec("bpy")
     if spec is None:
         sys.exit("extension: this Python has no Blender module; use .venv/bin/python (examples/setup.sh)")
@@ -28,13 +28,13 @@ def blender_ext() -> Path:
 
 
 def platform_of(wheel: Path) -> str | None:
-    """Blender's name of the system a wheel is for; None for every system."""
+    """Return Blender's name for the platform of a wheel; None for all platforms."""
     tag = wheel.stem.split("-")[-1]
     if tag == "any":
         return None
     for start, end, name in (
         ("manylinux", "x86_64", "linux-x64"),
-        ("linux", "x86_64", "linux-x64"),  # for the machine that built it, as in tests/system/window.sh
+        ("linux", "x86_64", "linux-x64"),  # built on and for this machine, as in tests/system/window.sh
         ("win", "amd64", "windows-x64"),
         ("macosx", "arm64", "macos-arm64"),
     ):
@@ -44,7 +44,7 @@ def platform_of(wheel: Path) -> str | None:
 
 
 def manifest(wheels: list[Path], platforms: list[str], version: str) -> str:
-    """The manifest of addon/ with platforms and wheels filled in."""
+    """Return the manifest of addon/ with platforms and wheels filled in."""
     text = (ROOT / "addon/blender_manifest.toml").read_text(encoding="utf-8")
     if tomllib.loads(text)["version"] != version:
         sys.exit("extension: pyproject.toml and addon/blender_manifest.toml differ in version")
@@ -54,7 +54,7 @@ def manifest(wheels: list[Path], platforms: list[str], version: str) -> str:
 
 
 def stage(folder: Path, wheels: list[Path], text: str) -> None:
-    """Lay out the extension as Blender unpacks it: the add-on without its benchmarks, and data/ in it."""
+    """Copy the extension in Blender's layout: the add-on without its benchmarks, and data/."""
     shutil.rmtree(folder, ignore_errors=True)
     ignore = shutil.ignore_patterns("__pycache__", "*.pyc")
     shutil.copytree(ROOT / "addon", folder, ignore=shutil.ignore_patterns("__pycache__", "*.pyc", "bench"))
@@ -67,7 +67,7 @@ def stage(folder: Path, wheels: list[Path], text: str) -> None:
 
 
 def main(out: Path, folders: list[Path]) -> None:
-    """Stage, build and validate; the last line says what was made."""
+    """Stage, build and validate the extension; print the file's name last."""
     version = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
     wheels = sorted(wheel for folder in folders for wheel in folder.glob("*.whl"))
     platforms = sorted({name for name in map(platform_of, wheels) if name})

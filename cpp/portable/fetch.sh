@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Downloads the files named in sources.txt into the folder given, and checks their SHA-256.
-# They come from the Debian mirrors that apt is set up to use; FIRETWIN_MIRRORS names others (URLs with blanks between).
-# Exit status 77: a file cannot be had here.
+# Downloads the files of sources.txt into a folder, and checks their SHA-256.
+# They come from the Debian mirrors that apt is set up to use; FIRETWIN_MIRRORS lists others (URLs separated by blanks).
+# Exit status 77: a file is not available.
 set -euo pipefail
 folder=${1:?usage: fetch.sh FOLDER}
 here=$(dirname "${BASH_SOURCE[0]}")
@@ -11,7 +11,7 @@ mirrors() {
   if [[ -n ${FIRETWIN_MIRRORS:-} ]]; then
     tr ' ' '\n' <<<"$FIRETWIN_MIRRORS"
   elif command -v apt-get >/dev/null; then
-    # shellcheck disable=SC2016 # apt-get fills it in
+    # shellcheck disable=SC2016 # expanded by apt-get
     apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' | sort -u
   fi
 }
@@ -45,7 +45,7 @@ while read -r name version path sha256; do
   fi
 done <"$here/sources.txt"
 if ((missing)); then
-  echo "fetch: tried: ${urls[*]:-no mirror at all}" >&2
-  echo "fetch: set FIRETWIN_MIRRORS to a mirror that has them, or copy the files into $folder" >&2
+  echo "fetch: tried: ${urls[*]:-no mirror}" >&2
+  echo "fetch: set FIRETWIN_MIRRORS to a mirror with these files, or copy the files into $folder" >&2
   exit 77
 fi

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Builds the libraries that firetwin_core uses: static, lean, in the order of their needs. What is built already and has not
-# changed stays; when one is built again, so is every one after it.
-# usage: libraries.sh PORTABLE, the absolute folder with sources/ and sysroot/; leaves PORTABLE/libraries
+# Builds static, minimal libraries for firetwin_core, in order of their dependencies. Unchanged libraries are not rebuilt;
+# rebuilding one rebuilds all after it.
+# usage: libraries.sh PORTABLE, the absolute folder with sources/ and sysroot/; makes PORTABLE/libraries
 set -euo pipefail
 portable=${1:?usage: libraries.sh PORTABLE}
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -22,7 +22,7 @@ with_cmake() { # source-folder option...
   cmake --install build
 }
 
-# zlib's CMake file does not come with Debian's tarball.
+# Debian's tarball of zlib has no CMake file.
 build_zlib() {
   CC="gcc-12 --sysroot=$portable/sysroot" \
     CFLAGS="-O2 -fPIC -fvisibility=hidden -ffunction-sections -fdata-sections" ./configure --static --prefix="$prefix"
@@ -65,7 +65,7 @@ build_openexr() { with_cmake . -DBUILD_TESTING=OFF -DOPENEXR_BUILD_TOOLS=OFF -DO
 
 build_tbb() { with_cmake . -DTBB_TEST=OFF -DTBBMALLOC_BUILD=OFF -DTBB_STRICT=OFF -DTBB_DISABLE_HWLOC_AUTOMATIC_SEARCH=ON; }
 
-# Headers of all of Boost, and the few files of two libraries that OpenImageIO cannot do without.
+# All headers of Boost, and the few source files of two libraries that OpenImageIO requires.
 build_boost() {
   mkdir -p "$prefix/include"
   local folder
@@ -93,7 +93,7 @@ build_openvdb() {
 
 build_openimageio() {
   sed -i 's/^set (Boost_COMPONENTS thread)/set (Boost_COMPONENTS)/' src/cmake/externalpackages.cmake
-  # Files are read and written, nothing else: image processing and textures are most of the build.
+  # Only reading and writing of files: image processing and textures would be most of the build.
   sed -i -E '/^ +(imagebufalgo_(pixelmath|compare|deep|addsub|muldiv|mad|minmaxchan|orient|xform)|maketexture|printinfo)\.cpp/d;
     s/imagebufalgo_yee.cpp //; /^ +..\/libtexture\/(texturesys|texture3d|environment)\.cpp/d' src/libOpenImageIO/CMakeLists.txt
   local without=() package
@@ -109,8 +109,8 @@ build_openimageio() {
     -DINTERNALIZE_FMT=OFF -DSTOP_ON_WARNING=OFF -DBoost_INCLUDE_DIR="$prefix/include" -DCMAKE_CXX_STANDARD=17
 }
 
-# Only the transforms of float32. AVX2 is used where the processor has it: configure compiles that code alone with it, where
-# FFTW's CMake file would compile all of it so, for processors that have it only.
+# Only float32 transforms, with AVX2 selected at run time: configure compiles only the AVX2 code for AVX2, while FFTW's CMake
+# file would compile all code for it.
 build_fftw3() {
   CC="gcc-12 --sysroot=$portable/sysroot" \
     CFLAGS="-O2 -fPIC -fvisibility=hidden -ffunction-sections -fdata-sections" ./configure --prefix="$prefix" --libdir="$prefix/lib" \
@@ -121,7 +121,7 @@ build_fftw3() {
 
 build_fast-float() { with_cmake . -DFASTFLOAT_TEST=OFF; }
 
-# Headers alone.
+# Header-only.
 build_nlohmann-json() { cp -r include/nlohmann "$prefix/include/"; }
 
 build_meshoptimizer() { with_cmake . -DMESHOPT_BUILD_DEMO=OFF -DMESHOPT_BUILD_GLTFPACK=OFF; }
@@ -140,7 +140,7 @@ unpack() { # archive
   esac
 }
 
-# Each library's licence goes into the wheel beside its code.
+# The wheel contains the licence of each library.
 keep_license() { # name work-folder
   local into=$portable/licenses/$1
   rm -rf "$into"

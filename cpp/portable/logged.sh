@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # To be sourced.
 
-# Runs a function in a shell of its own that stops at the first error, and keeps what it says in a file; when it fails, shows
-# the end of that and leaves the script. Not for conditions: after `if` or before `||` bash would not stop at errors.
+# Runs a function in a subshell that stops at the first error, and writes its output to a log; on failure, prints the end of
+# the log and exits. Not for conditions: after `if` or before `||` bash does not stop at errors.
 logged() { # what log function argument...
   local what=$1 log=$2 status
   set +e
@@ -14,7 +14,7 @@ logged() { # what log function argument...
   set -e
   if ((status)); then
     tail -n 40 "$log" | cut -c 1-400 >&2
-    echo "$what was not built; the whole output is in $log" >&2
+    echo "$what was not built; the complete output is in $log" >&2
     exit 1
   fi
 }

@@ -1,5 +1,5 @@
-/* Stands in for what GCC 12's libstdc++.a and the libraries ask of a newer glibc than 2.28. Everything here is hidden:
- * inside the module it comes before the C library's own, outside it is not seen. */
+/* Replacements for functions of glibc after 2.28 that GCC 12's libstdc++.a and the libraries use. They have hidden visibility:
+ * the module prefers them to the C library's, and no other module sees them. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <pthread.h>
@@ -20,7 +20,7 @@ uint32_t arc4random(void) {
   return value;
 }
 
-/* A moment of another clock, told by the wall clock: for clocks other than CLOCK_REALTIME below. */
+/* Converts a time of another clock to CLOCK_REALTIME. */
 static struct timespec on_wall_clock(clockid_t clock, const struct timespec* moment) {
   struct timespec now, wall;
   clock_gettime(clock, &now);
@@ -36,7 +36,7 @@ static struct timespec on_wall_clock(clockid_t clock, const struct timespec* mom
   return wall;
 }
 
-/* glibc 2.30: what std::timed_mutex and std::condition_variable wait with on the steady clock. */
+/* glibc 2.30: used by std::timed_mutex and std::condition_variable to wait on the steady clock. */
 int pthread_mutex_clocklock(pthread_mutex_t* mutex, clockid_t clock, const struct timespec* moment) {
   struct timespec wall = clock == CLOCK_REALTIME ? *moment : on_wall_clock(clock, moment);
   return pthread_mutex_timedlock(mutex, &wall);

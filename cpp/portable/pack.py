@@ -1,4 +1,4 @@
-"""Packs the installed compiled part into a wheel: ``pack.py STAGE PYTHON VERSION LICENSES OUT``.
+"""Pack the installed compiled module into a wheel: ``pack.py STAGE PYTHON VERSION LICENSES OUT``.
 
 Stands in for the build backend, which would need a Python of each version to run.
 """
@@ -12,11 +12,11 @@ import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-PLATFORM = "manylinux_2_28_x86_64"  # check.sh has auditwheel confirm it
+PLATFORM = "manylinux_2_28_x86_64"  # verified by auditwheel in check.sh
 
 
 def metadata(version: str) -> str:
-    """The METADATA file, from cpp/pyproject.toml."""
+    """Return the METADATA file, from cpp/pyproject.toml."""
     project = tomllib.loads((ROOT / "cpp/pyproject.toml").read_text(encoding="utf-8"))["project"]
     fields = [
         ("Metadata-Version", "2.4"),
@@ -33,7 +33,7 @@ def metadata(version: str) -> str:
 def pack(stage: Path, python: str, version: str, licenses: Path, out: Path) -> None:
     """Write the wheel of `stage` for one Python version to the folder `out`."""
     info = stage / f"firetwin_core-{version}.dist-info"
-    shutil.rmtree(info, ignore_errors=True)  # of a packing before
+    shutil.rmtree(info, ignore_errors=True)  # of a previous run
     shutil.copytree(licenses, info / "licenses" / "libraries")
     shutil.copy(ROOT / "LICENSE", info / "licenses")
     tag = "cp" + python.replace(".", "")

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Unpacks what is only read while compiling: Debian 11's glibc, the headers of the two Pythons, nasm.
+# Unpacks build dependencies: Debian 11's glibc, the headers of both Pythons, nasm.
 # usage: sysroot.sh SOURCES FOLDER, both absolute
 set -euo pipefail
 sources=${1:?usage: sysroot.sh SOURCES FOLDER} folder=${2:?usage: sysroot.sh SOURCES FOLDER}
@@ -16,7 +16,7 @@ unpack() { # folder package...
   done
 }
 
-# Absolute links inside the folder would lead back to this machine.
+# Absolute links inside the folder would point outside of it.
 relative_links() {
   local link
   while read -r link; do

@@ -1,4 +1,4 @@
-# GCC 12 against the glibc of Debian 11 and the libraries of build/portable, never those of this machine.
+# GCC 12 against the glibc of Debian 11 and the libraries of build/portable, not those of this machine.
 if(DEFINED ENV{FIRETWIN_PORTABLE})
   set(portable "$ENV{FIRETWIN_PORTABLE}")
 else()
@@ -19,14 +19,14 @@ set(CMAKE_FIND_USE_PACKAGE_REGISTRY OFF)
 set(CMAKE_FIND_USE_SYSTEM_PACKAGE_REGISTRY OFF)
 set(ENV{PKG_CONFIG_LIBDIR} "${portable}/libraries/lib/pkgconfig")
 
-# One section per function and per variable: the linker leaves out what the module does not use.
+# One section per function and per variable, so that the linker can drop unused ones.
 set(common "-ffunction-sections -fdata-sections -fvisibility=hidden")
 set(CMAKE_C_FLAGS_INIT "${common}")
 set(CMAKE_CXX_FLAGS_INIT "${common} -fvisibility-inlines-hidden -fno-gnu-unique \
 -nostdinc++ -isystem /usr/include/c++/12 -isystem /usr/include/x86_64-linux-gnu/c++/12")
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
-# Without -B and -L GCC would take its start files and libc from this machine. old_glibc.o: see old_glibc.c.
+# Without -B and -L GCC would use the start files and libc of this machine. old_glibc.o: see old_glibc.c.
 set(link "-B${CMAKE_SYSROOT}/usr/lib/x86_64-linux-gnu -L${CMAKE_SYSROOT}/usr/lib/x86_64-linux-gnu \
 -L${CMAKE_SYSROOT}/lib/x86_64-linux-gnu -pthread -static-libstdc++ -Wl,--gc-sections ${portable}/old_glibc.o")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "${link}")

@@ -124,5 +124,5 @@ def test_the_tail_of_a_volume_counts(tmp_path):
     cache.check(path, 108)
     for content, size in ((b"", 108), (cache._MAGIC + bytes(50), 108), (bytes(108), 108)):
         path.write_bytes(content)
-        with pytest.raises(Exception, match="cut off"):
+        with pytest.raises(Exception, match="truncated"):
             cache.check(path, size)
