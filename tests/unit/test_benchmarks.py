@@ -1,12 +1,10 @@
 """Developers' benchmarks: rivals compute the same things, errors are errors, and all of them are listed."""
 
-import argparse
 import importlib.util
 import subprocess
 import sys
 from pathlib import Path
 
-import culling
 import flow_conservation
 import numpy as np
 import particles
@@ -17,7 +15,6 @@ import puff_rise
 import pytest
 from firetwin.bench.harness import ORIGIN, Bench
 from firetwin.bench.timing import Times
-from firetwin.shot.settings import scene_file
 from firetwin_core.geo import LocalFrame
 
 FOLDER = Path(__file__).parents[1] / "benchmarks"
@@ -69,18 +66,6 @@ def test_plots_are_drawn(tmp_path):
     for path in plots.draw(bench.report(), tmp_path):
         assert path.read_bytes().startswith(b"\x89PNG")
     assert len(list(tmp_path.iterdir())) == 2
-
-
-@pytest.mark.parametrize("view", culling.CAMERAS)
-@pytest.mark.parametrize("row", culling.ROWS)
-def test_every_row_of_culling_is_a_scene_file_of_today(tmp_path, row, view):
-    given = argparse.Namespace(run=tmp_path / "run", work=tmp_path, reach=500.0, samples=4)
-    path = tmp_path / "scene.toml"
-    path.write_text(culling.scene_text(culling.ROWS[row], culling.CAMERAS[view], given))
-    found = scene_file.read(path)
-    assert not found.notes  # of former names
-    assert found.render.cull == (not row.startswith("all"))
-    assert (found.cameras[0].kind == "satellite") == (view == "satellite")
 
 
 def test_errors_of_positions_are_errors():
