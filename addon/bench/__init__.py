@@ -1,7 +1,7 @@
 """Benchmarks of ``firetwin bench``: run time and error of the ten steps that users wait for.
 
 A subject is a module: the first line of its docstring describes the comparison, and ``run(bench)`` adds rows
-(`Bench.race` runs the tools in turns) and targets. Those for developers are in ``tests/benchmarks``.
+(`Bench.race` runs the tools in turns) and targets. Benchmarks for developers are in ``tests/benchmarks``.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ SUBJECTS = (
     "interpolation",
     "forest",
     "ground",
-    "skip",
+    "cull",
     "smoke",
     "flow",
     "march",

@@ -1,10 +1,10 @@
-"""Smoke solved as a flow: a steady plume's rise beside theory, finer cells beside coarser, and a step's time.
+"""Smoke as a solved flow: rise of a steady plume against theory, convergence with cell size, and step time.
 
 In a uniform wind U and stable air (s = g / theta dtheta/dz) a plume of the buoyancy flux F settles at
 2.6 (F / (U s))^(1/3) (Briggs 1975, "Plume rise predictions", in Lectures on Air Pollution and Environmental
 Impact Analyses). That holds for a point source. A source of radius R0 at the height h0 has the plume radius
 R0 + beta z, and the same equations give (z + R0 / beta)^3 = rise^3 + (R0 / beta)^3 above h0, beta = 0.6
-(Briggs 1984, "Plume rise and buoyancy effects", in Atmospheric Science and Power Production). R0 is that of
+(Briggs 1984, "Plume rise and buoyancy effects", in Atmospheric Science and Power Production). R0 belongs to
 the source's cross-section to the wind: its width times twice the depth h0 over which heat is released.
 """
 
@@ -38,7 +38,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Plume:
-    """Rise over the theoretical one, height (m) below which 99 % of the smoke is, and mass balance."""
+    """Rise / theoretical rise, height (m) below which 99 % of the smoke is, and mass balance."""
 
     rise: float
     top: float
@@ -46,26 +46,26 @@ class Plume:
 
 
 def run(bench: Bench) -> None:
-    """Measure against theory, between grids, and speed."""
+    """Measure the error against theory, the error between grids, and the speed."""
     with threads(THREADS):
-        promise = "a steady plume rises in stable air and 10 m/s of wind, off Briggs's height by"
-        bench.target(promise, off(bent(FINE).rise), 15, "%", most=True)
+        quantity = "Rise of a steady plume in stable air and 10 m/s of wind, deviation from Briggs"
+        bench.target(quantity, off(bent(FINE).rise), 15, "%", most=True)
         _grids(bench)
     _speed(bench)
 
 
 def _grids(bench: Bench) -> None:
-    """The same plume in coarse and fine cells."""
+    """Compare the same plume in coarse and fine cells."""
     coarse, fine = (bent(spacing, radius=DISC) for spacing in (COARSE, FINE))
     for spacing, plume in ((COARSE, coarse), (FINE, fine)):
         tool = f"{OURS}, cells of {spacing:g} m"
         error = off(plume.rise)
         bench.row("plume of a disc in 10 m/s", tool, None, 1, "plume", error=error, error_unit="% off Briggs")
-    promise = f"top of the plume of a disc in cells of {COARSE:g} m, off that in {FINE:g} m by"
-    bench.target(promise, off(coarse.top / fine.top), 15, "%", most=True)
+    quantity = f"Top of a plume from a disc, cells of {COARSE:g} m against {FINE:g} m, deviation"
+    bench.target(quantity, off(coarse.top / fine.top), 15, "%", most=True)
     worst = max(unbalanced(each.mass) for each in (coarse, fine))
-    promise = "smoke neither in the air nor gone, over what was given off, in both"
-    bench.target(promise, worst, 1e-6, "", most=True)
+    quantity = "Smoke mass balance (airborne + outflow - emission), relative error, both cell sizes"
+    bench.target(quantity, worst, 1e-6, "", most=True)
 
 
 def _speed(bench: Bench) -> None:
@@ -74,11 +74,11 @@ def _speed(bench: Bench) -> None:
     tools = [Runner(OURS, step), Runner(OURS, step, threads=2)]
     times = bench.race(f"step of {rows} x {columns} x {levels} cells", tools, cells, "cell step")
     speed = times[OURS].speed(cells / 1e6)
-    bench.target("steps of a flow are solved, on one thread, at", speed, 1.0, "Mcell/s")
+    bench.target("Solver speed, one thread", speed, 1.0, "Mcell/s")
 
 
 def burning(shape: tuple[int, int, int]) -> flow.Solver:
-    """A flow over a fire that has burned for two minutes, with a shot's vertical levels."""
+    """Create a flow over a fire that has burned for two minutes, with the vertical levels of a shot."""
     k = np.arange(shape[0] + 1)
     levels = 60.0 * k + 0.5 * 210.0 / shape[0] * k * k  # m: 60 deep at the ground, 270 at the top
     theta = [300.0, 300.0 + LAPSE * levels[-1]]
@@ -95,7 +95,7 @@ def burning(shape: tuple[int, int, int]) -> flow.Solver:
 def still_air(
     shape: tuple[int, int], spacing: float, lid: float, depth: float, wind: float, **settings: Any
 ) -> flow.Solver:
-    """Air of one stability, `GRADIENT`, and one eastward wind, m/s, in equal levels of about `depth` m."""
+    """Create air of stability `GRADIENT` and eastward wind, m/s, in equal levels of about `depth` m."""
     levels = np.linspace(0, lid, round(lid / depth) + 1)
     theta = [THETA, THETA + GRADIENT * lid]
     profile = flow.Profile([0.0, lid], theta, [[wind, 0.0]] * 2)
@@ -103,12 +103,12 @@ def still_air(
 
 
 def power_of(flux: float, solver: flow.Solver) -> float:
-    """Heat, W, of a buoyancy flux F (m4/s3, Briggs's: without pi)."""
+    """Return the heat release, W, of a buoyancy flux F (m4/s3; Briggs's, without pi)."""
     return float(flux * np.pi * CP * solver.density[0] * THETA / GRAVITY)
 
 
 def disc(radius: float) -> Array:
-    """Points (n, 2) 25 m apart within `radius` of the origin."""
+    """Return points (n, 2) 25 m apart within `radius` of the origin."""
     grid = np.arange(-radius, radius + 1, 25.0)
     places = np.stack(np.meshgrid(grid, grid), -1).reshape(-1, 2)
     return places[np.hypot(*places.T) <= radius]
@@ -117,9 +117,10 @@ def disc(radius: float) -> Array:
 def bent(
     spacing: float, wind: float = 10.0, rise: float = 1000.0, depth: float = 90.0, radius: float = 0.0
 ) -> Plume:
-    """A bent-over plume of a point, which is a cell wide, or of a disc of `radius` m, against Briggs.
+    """Compare with Briggs a bent-over plume from a point, which is a cell wide, or from a disc of `radius` m.
 
-    `rise` is that of a point source, m. Its height is the mean of the smoke from 2.5 to 4.5 km downwind.
+    `rise` is the rise above a point source, m. The height of the plume is the mean of the smoke from 2.5 to
+    4.5 km downwind.
     """
     shape = (round(4000 / spacing), round(7600 / spacing))
     solver = still_air(shape, spacing, 2400.0, 60.0 * max(1.0, spacing / 100), wind, source_depth=depth)
@@ -139,12 +140,12 @@ def bent(
 
 
 def unbalanced(mass: dict[str, float]) -> float:
-    """Mass balance error: smoke neither in the air nor advected out, over the emitted smoke."""
+    """Return the mass balance error: (airborne + outflow - emission) / emission."""
     return abs((mass["airborne"] + mass["left"]) / mass["emitted"] - 1.0)
 
 
 def burn(solver: flow.Solver, place: Array, flux: float) -> None:
-    """Integrate the plume of a buoyancy flux that is released uniformly at these points."""
+    """Integrate the plume of a buoyancy flux that is released evenly at these points."""
     n = len(place)
     solver.set_sources(place, np.full(n, power_of(flux, solver) / n), np.full(n, 10.0 / n))
     step = STEP * solver.spacing
@@ -152,21 +153,21 @@ def burn(solver: flow.Solver, place: Array, flux: float) -> None:
 
 
 def middles(solver: flow.Solver) -> Array:
-    """Heights (nz,) of the levels' centres, m."""
+    """Return the heights (nz,) of the levels' centres, m."""
     return 0.5 * (solver.levels[1:] + solver.levels[:-1])
 
 
 def by_level(solver: flow.Solver, columns: Any) -> Array:
-    """Smoke (nz,) of each level in some columns, in any unit."""
+    """Sum the smoke of each level (nz,) over some columns, in arbitrary units."""
     return solver.smoke()[:, :, columns].sum((1, 2), dtype=float) * np.diff(solver.levels)
 
 
 def below(solver: flow.Solver, smoke: Array) -> float:
-    """Height below which 99 % of the smoke (nz,) is, m."""
+    """Return the height below which 99 % of the smoke (nz,) is, m."""
     share = np.cumsum(smoke)
     return float(np.interp(0.99, share / share[-1], solver.levels[1:]))
 
 
 def off(ratio: float) -> float:
-    """Deviation from 1, percent."""
+    """Return the deviation from 1, percent."""
     return 100.0 * abs(ratio - 1.0)

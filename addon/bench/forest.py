@@ -1,4 +1,4 @@
-"""Fuel grid -> trees and grass (Algorithm 2); and stands of stems, culled by a drone's view."""
+"""Fuel grid -> trees and grass (Algorithm 2), and stands of stems culled by the view of a drone."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Grid = tuple[NDArray, NDArray, NDArray, NDArray, NDArray]
 
 
 def fuel_grid(side: int) -> Grid:
-    """Canopy and surface fuel (side, side) kg/m2, latitude, longitude, elevation."""
+    """Make canopy and surface fuel (side, side) kg/m2, latitude, longitude and elevation."""
     rng = np.random.default_rng(3)
     shape = (side, side)
     canopy = np.where(rng.random(shape) < TREES, 0.02 + rng.gamma(2, 0.6, shape), 0).astype(np.float32)
@@ -31,7 +31,7 @@ def fuel_grid(side: int) -> Grid:
 
 
 def planted(grid: Grid) -> tuple[forest.Trees, forest.Grass]:
-    """A plant for each cell."""
+    """Plant one tree and one grass clump per cell with fuel."""
     canopy, surface, latitude, longitude, elevation = grid
     frame = LocalFrame(*ORIGIN)
     return (
@@ -41,7 +41,7 @@ def planted(grid: Grid) -> tuple[forest.Trees, forest.Grass]:
 
 
 def drone() -> lod.ViewSet:
-    """Views of a drone that flies 5 km and looks ahead and slightly down."""
+    """Return the views of a drone that flies 5 km and looks ahead and slightly down."""
     camera = np.column_stack([np.linspace(0.0, 5000.0, FRAMES), np.zeros(FRAMES), np.full(FRAMES, 3500.0)])
     down = np.radians(17.0)
     right, up = (0.0, -1.0, 0.0), (np.sin(down), 0.0, np.cos(down))
@@ -51,12 +51,12 @@ def drone() -> lod.ViewSet:
 
 
 def part(grid: Grid, stems: int) -> NDArray[np.float32]:
-    """Fraction of the stems of each cell (fy, fx) to retain for this total."""
+    """Return the fraction of stems to retain in each cell (fy, fx) for this total."""
     return np.full(grid[0].shape, stems / (forest.stems(grid[0]).sum() * CELL), np.float32)
 
 
 def stand(grid: Grid, kept: NDArray, views: lod.ViewSet) -> tuple[forest.Stems, NDArray]:
-    """The stems, and the level of detail of each visible one."""
+    """Grow the stems, and return them with the level of detail of each visible one."""
     canopy, _, latitude, longitude, elevation = grid
     frame = LocalFrame(*ORIGIN)
     stems = forest.stand(canopy, latitude, longitude, elevation, frame, seed=5, retained=kept)
@@ -65,7 +65,7 @@ def stand(grid: Grid, kept: NDArray, views: lod.ViewSet) -> tuple[forest.Stems, 
 
 
 def run(bench: Bench) -> None:
-    """Measure the King Fire's fuel: a plant per cell, then a stand, on one and two threads."""
+    """Measure a fuel grid of the King Fire's size: a plant per cell, then a stand, on one and two threads."""
     grid, views = fuel_grid(SIDE), drone()
     trees, grass = planted(grid)
     plants, call = len(trees) + len(grass), partial(planted, grid)

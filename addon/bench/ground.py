@@ -1,4 +1,4 @@
-"""Terrain mesh of the sample's DEM: vertices and time against vertical error, beside coarser grids."""
+"""Terrain mesh of the sample's DEM: vertices and time against vertical error, compared with coarser grids."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ STEPS = (4, 8)  # step along both axes of the grid's points that are retained
 
 
 def relief() -> NDArray[np.float32]:
-    """Points (720, 720, 3) of the sample's fuel grid, rows to the north, m."""
+    """Return the points (720, 720, 3) of the sample's fuel grid, rows to the north, m."""
     with tempfile.TemporaryDirectory() as name:
         sample.write(Path(name) / "run", 3, "npy")
         run = runs.open(Path(name) / "run")
@@ -32,9 +32,9 @@ def relief() -> NDArray[np.float32]:
 
 
 def off(place: NDArray, mesh: tuple[NDArray, NDArray, NDArray]) -> float:
-    """Largest vertical distance (m) of a mesh from a point of the grid; batched by triangle size.
+    """Return the largest vertical distance (m) of a mesh from a point of the grid, batched by triangle size.
 
-    It is measured in rows and columns, whose lines are slightly curved: the result is 0.2 % more than in
+    Rows and columns, whose lines are slightly curved, are taken as axes: the result is 0.2 % larger than in
     metres.
     """
     row, column = (axis.astype(np.int64) for axis in mesh[:2])
@@ -59,7 +59,7 @@ def off(place: NDArray, mesh: tuple[NDArray, NDArray, NDArray]) -> float:
 
 
 def every(place: NDArray, step: int) -> tuple[int, float]:
-    """A grid of every `step`-th point -> its vertices, and its largest error (m)."""
+    """Return the number of vertices of a grid of every `step`-th point, and its largest error (m)."""
     rows, columns = (np.unique([*range(0, count, step), count - 1]) for count in place.shape[:2])
     number = np.arange(len(rows) * len(columns)).reshape(len(rows), len(columns))
     low, right, top, left = number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]
@@ -83,4 +83,4 @@ def run(bench: Bench) -> None:
     for step in STEPS:
         vertices, error = every(place, step)
         bench.row(f"every {step} points", "grid", None, vertices, "vertex", error=error, error_unit="m")
-    bench.target("the largest error of a mesh is of its setting", worst, 1.002, "times", most=True)
+    bench.target("Largest mesh error / tolerance", worst, 1.002, "", most=True)

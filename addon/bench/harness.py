@@ -25,8 +25,8 @@ ORIGIN = (38.93, -120.55, 0.0)
 class Row:
     """One tool on one case: the time of each repetition (s) for `items` items, its error and its output size.
 
-    `processor` has the CPU time, s, over all cores. `times` and `processor` are empty, and `error` and
-    `bytes` are None, where they are unknown or undefined.
+    `processor` has the CPU time, s, over all cores. Unknown values are empty (`times`, `processor`) or None
+    (`error`, `bytes`).
     """
 
     subject: str
@@ -59,14 +59,14 @@ class Row:
 
 @dataclass(frozen=True)
 class Target:
-    """A target, with the value measured in each repetition, or once where it is deterministic.
+    """A target and its values: one for each repetition, or a single one if it is deterministic.
 
-    `most`: the median may be at most the bound, else at least. A bound that is measured too is that of
-    `rival`.
+    `quantity` names the measured quantity. The median must be at most the bound if `most` is set, else at
+    least. If `rival` is set, the bound was measured with that tool.
     """
 
     subject: str
-    promise: str
+    quantity: str
     values: tuple[float, ...]
     bound: float
     unit: str
@@ -80,13 +80,13 @@ class Target:
 
     @property
     def met(self) -> bool:
-        """Whether the target is met."""
+        """True if the median is within the bound."""
         return self.value <= self.bound if self.most else self.value >= self.bound
 
 
 @dataclass(frozen=True)
 class Report:
-    """All measurements, over this number of runs of every subject."""
+    """All measurements of `runs` runs of every subject."""
 
     machine: dict[str, Any]
     runs: int
@@ -96,7 +96,7 @@ class Report:
     skipped: list[str]
 
     def as_json(self) -> dict[str, Any]:
-        """Plain data."""
+        """Convert to plain data."""
         return {
             "machine": self.machine,
             "runs": self.runs,
@@ -125,12 +125,12 @@ class Bench:
     skipped: list[str] = field(default_factory=list)
 
     def begin(self, subject: str, what: str) -> None:
-        """Begin the next subject; `what` describes its comparison in a sentence."""
+        """Begin the next subject; `what` describes its comparison in one sentence."""
         self.subject = subject
         self.subjects[subject] = what
 
     def time(self, runners: Sequence[Runner]) -> dict[str, Times]:
-        """Time the tools in turns -> the times of each by its label."""
+        """Time the tools in turns, and return the times of each by its label."""
         measured = race(runners, MOST, SECONDS)
         return {runner.label: times for runner, times in zip(runners, measured, strict=True)}
 
@@ -177,7 +177,7 @@ class Bench:
 
     def target(
         self,
-        promise: str,
+        quantity: str,
         values: float | Sequence[float],
         bound: float,
         unit: str,
@@ -185,16 +185,16 @@ class Bench:
         most: bool = False,
         rival: str = "",
     ) -> None:
-        """Add a target and its measured value, or one for each repetition."""
+        """Add a target with its measured value, or with one value for each repetition."""
         several = tuple(map(float, values)) if isinstance(values, Sequence) else (float(values),)
-        target = Target(self.subject, promise, several, float(bound), unit, most, rival)
-        key = self.subject, promise
+        target = Target(self.subject, quantity, several, float(bound), unit, most, rival)
+        key = self.subject, quantity
         if key in self.targets:
             target = replace(target, values=self.targets[key].values + several)
         self.targets[key] = target
 
     def rival(self, name: str) -> ModuleType | None:
-        """Import the package of a competing tool; records a skip where it is missing."""
+        """Import the package of a competing tool; record a skip if it is missing."""
         try:
             return importlib.import_module(name)
         except ImportError as error:
@@ -204,14 +204,14 @@ class Bench:
             return None
 
     def blender(self) -> bool:
-        """Whether Blender's module is installed; records a skip where it is missing."""
+        """Check that Blender's module is installed; record a skip if it is missing."""
         if there := importlib.util.find_spec("bpy") is not None:
             return there
         self.skip("bpy is not installed (pip install 'firetwin[blender]')")
         return False
 
     def flip(self) -> ModuleType | None:
-        """The FLIP metric for pictures that Blender renders, where both are installed."""
+        """Import the FLIP metric for pictures rendered by Blender, if both are installed."""
         return self.rival("flip_evaluator") if self.blender() else None
 
     def skip(self, reason: str) -> None:
@@ -221,7 +221,7 @@ class Bench:
             self.skipped.append(line)
 
     def report(self) -> Report:
-        """All measurements so far."""
+        """Return all measurements so far."""
         return Report(
             self.machine,
             self.runs,

@@ -1,9 +1,9 @@
-"""Heat flux interpolated between model times, against held-out minutes; linear blending beside.
+"""Heat flux interpolated between model times against held-out minutes, compared with linear blending.
 
-Front error: of the cells that the front crosses in a gap, the percentage on its wrong side at the held-out
-minute: its error as a fraction of the distance that it moves. The integral of F^1.5 drives size and colour of
-the flames. Its ripple is the root mean square of its deviation from a linear course between the retained
-minutes, which is visible as a pulse once in a model step. Times are those of consecutive frames.
+Front error: percentage of the cells crossed by the front during a gap that are on its wrong side at the
+held-out minute, that is, the position error as a fraction of the distance moved. The integral of F^1.5 drives
+size and colour of the flames. Its ripple is the root mean square deviation from a linear course between the
+retained minutes; it is visible as one pulse per model step. Times are measured on consecutive frames.
 """
 
 from __future__ import annotations
@@ -35,13 +35,13 @@ Interpolate = Callable[[float], NDArray]
 
 
 def truth(minutes: int) -> NDArray:
-    """Heat flux (minutes + 1, ny, nx) W/m2 of the sample fire."""
+    """Return the heat flux (minutes + 1, ny, nx) W/m2 of the sample fire."""
     wanted = np.arange(FIRST, FIRST + minutes + 1)
     return np.stack([frame[0] for frame in sample.frames_of(stored.load(), wanted)]).astype(np.float32)
 
 
 def write_run(folder: Path, flux: NDArray, seconds: NDArray) -> None:
-    """A run of these minutes, flux (nt, side, side), on flat terrain."""
+    """Write a run of these minutes, flux (nt, side, side), on flat terrain."""
     side = flux.shape[1]
     latitude, longitude = axes(side, MODEL_CELL_SIZE * MODEL_CELLS / side)
     still = np.zeros((side, side), np.float32)
@@ -58,23 +58,23 @@ def write_run(folder: Path, flux: NDArray, seconds: NDArray) -> None:
 
 
 def front_error(found: NDArray, true: NDArray, before: NDArray, after: NDArray) -> float:
-    """Percent of the cells that the front crosses between `before` and `after` that are on its wrong side."""
+    """Return the percentage of cells crossed from `before` to `after` that are on the front's wrong side."""
     crossed = (before == 0) & (after > 0)
     return float(100 * ((found > 0) != (true > 0))[crossed].sum() / max(1, crossed.sum()))
 
 
 def brightness(flux: NDArray) -> float:
-    """Sum of F^1.5."""
+    """Sum F^1.5."""
     return float(np.sum(np.maximum(flux, 0).astype(float) ** 1.5))
 
 
 def departure(found: NDArray, expected: NDArray) -> float:
-    """Root mean square of the relative difference, in percent."""
+    """Return the root mean square of the relative difference, in percent."""
     return 100 * float(np.sqrt(np.mean(np.square(found / expected - 1))))
 
 
 def run(bench: Bench) -> None:
-    """Measure every way to hold out minutes, for both interpolations."""
+    """Measure both interpolations for each pattern of held-out minutes."""
     flux = truth(MINUTES)
     seconds = 60.0 * np.arange(len(flux))
     for case, keeps in CASES.items():
@@ -87,13 +87,13 @@ def run(bench: Bench) -> None:
                 LINEAR: lambda t: linear(model, t),  # noqa: B023
             }
             errors = _errors(bench, case, tools, flux, seconds, kept)
-        for index, name in enumerate(("front error", "F^1.5 ripple")):
+        for index, name in enumerate(("Front error", "F^1.5 ripple")):
             ours, theirs = (errors[tool][index] for tool in (OURS, LINEAR))
             bench.target(f"{name}, {case}", ours, theirs, "%", most=True, rival=LINEAR)
 
 
 def linear(run: runs.Run, time: float) -> NDArray:
-    """Cross-fade of the two model times around `time`."""
+    """Cross-fade the two model times around `time`."""
     i = int(np.clip(np.searchsorted(run.times, time, "right") - 1, 0, len(run.times) - 2))
     w = (time - run.times[i]) / (run.times[i + 1] - run.times[i])
     return (1 - w) * run.heat_flux(i) + w * run.heat_flux(i + 1)
@@ -115,7 +115,7 @@ def _errors(
     seconds: NDArray,
     kept: NDArray,
 ) -> dict[str, tuple[float, float]]:
-    """Front error and ripple (%) of each tool, and a row for each."""
+    """Return front error and ripple (%) of each tool, and add a row for each."""
     removed = _missing(kept)
     bright = _even(flux, kept, removed)
     errors = {}
@@ -131,7 +131,7 @@ def _errors(
         Runner(tool, partial(_next, call, itertools.cycle(seconds[removed])), error=errors[tool][0])
         for tool, call in tools.items()
     ]
-    bench.race(case, runners, flux[0].size, "cell", "% of the front's way")
+    bench.race(case, runners, flux[0].size, "cell", "% of the distance moved")
     return errors
 
 

@@ -1,8 +1,8 @@
-"""Ray marching through smoke beside a quarter of its step, and a frame's passes beside Cycles' own volume.
+"""Ray marching through smoke against a quarter of its step, and a frame's passes against Cycles' volume.
 
 The frame is one time of the sample run with solved smoke: picture, infrared and depth, with all
-post-processing. Its error is the mean FLIP of the picture (Andersson et al. 2020) against one whose smoke
-Cycles marched in a quarter of the step, with many samples and no denoiser. Each is rendered once.
+post-processing. Its error is the mean FLIP of the picture (Andersson et al. 2020) against a reference that
+Cycles renders with a quarter of the step, many samples and no denoiser. Each is rendered once.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ from .timing import Runner, Stopwatch, Times
 SIDE, SIZE = 144, (320, 180)
 STEPS = {OURS: 0.5, "a quarter of the step": 0.125}
 EXACT = "a quarter of the step"
-LIMIT = 0.005  # of the picture's light
+LIMIT = 0.005  # relative
 VOLUME, REFERENCE = "Cycles' volume", "reference"
-FRAME, SAMPLES, MANY = (160, 90), 3, 24  # pixels; samples, and those of the reference
+FRAME, SAMPLES, MANY = (160, 90), 3, 24  # pixels; samples of the frame, and of the reference
 MOMENT = datetime(2014, 9, 17, 23, 12, tzinfo=UTC)
 VIEW = CameraKey(0.0, 38.990, -120.5505, 600.0, "head")  # 2 km off the head of the fire
 MODEL_TIMES = 25  # of the sample; arrival times cover all
@@ -63,10 +63,9 @@ def _march(bench: Bench) -> None:
         for name, length in STEPS.items()
         for threads in ((1, 2) if name == OURS else (2,))
     ]
-    bench.race(f"marching {SIZE[0]} by {SIZE[1]} rays", tools, len(rays[1]), "ray", "of the light")
-    bench.target(
-        "a march off that with a quarter of the step by", errors[OURS], LIMIT, "of the light", most=True
-    )
+    bench.race(f"marching {SIZE[0]} by {SIZE[1]} rays", tools, len(rays[1]), "ray")
+    quantity = "Radiance error of the ray march against a quarter of its step, relative"
+    bench.target(quantity, errors[OURS], LIMIT, "", most=True)
 
 
 def _smoke() -> volume.Bricks:
@@ -77,7 +76,7 @@ def _smoke() -> volume.Bricks:
 
 
 def _rays() -> tuple[NDArray, NDArray, NDArray]:
-    """Rays of a camera that looks down on the smoke."""
+    """Return the rays of a camera that looks down on the smoke."""
     width, height = SIZE
     x, y = np.meshgrid(np.linspace(-0.6, 0.6, width), np.linspace(0.34, -0.34, height))
     local = np.stack([x, np.ones_like(x), y - 0.3], axis=-1).reshape(-1, 3)
@@ -125,9 +124,8 @@ def _frame(bench: Bench) -> None:
             error_unit="FLIP",
             threads=os.cpu_count() or 1,
         )
-    bench.target(
-        "a frame off its reference by", errors[OURS], errors[VOLUME], "FLIP", most=True, rival=VOLUME
-    )
+    quantity = "Image difference, frame against its reference"
+    bench.target(quantity, errors[OURS], errors[VOLUME], "FLIP", most=True, rival=VOLUME)
 
 
 def _picture(folder: Path, name: str) -> str:
@@ -140,7 +138,7 @@ def _picture(folder: Path, name: str) -> str:
 def frames_in_blender(
     folder: str, progress: Progress = silent, tell: MessageCallback = no_message
 ) -> dict[str, list[tuple[float, float]]]:
-    """Render a frame by both methods once, and its reference; returns the times of each."""
+    """Render a frame once by both methods, and its reference; return the times of each."""
     import bpy
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -179,7 +177,7 @@ class _Frame:
         engine.apply(file, self.stage.scene)
 
     def draw(self, name: str, rays: int = 0) -> tuple[float, float]:
-        """Wall-clock and CPU seconds of the frame; with `rays`, of this number of samples and short steps."""
+        """Render and return wall-clock and CPU seconds; `rays` sets a number of samples, with short steps."""
         from ..render import pictures
         from ..render.picture import Picture
         from ..render.sharing import open_session
@@ -199,7 +197,7 @@ class _Frame:
 
 
 def _file(folder: Path, draw: str) -> settings.Settings:
-    """One frame of the sample's solved smoke from a drone."""
+    """Describe one frame of the sample's solved smoke from a drone."""
     return settings.Settings(
         path=folder / "scene.toml",
         run=folder / "sample",

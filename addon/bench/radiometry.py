@@ -1,4 +1,4 @@
-"""Infrared pictures: Planck's integral by a table, and EXR in, PNG out beside NumPy."""
+"""Infrared pictures: table of Planck's integral, and EXR in, PNG out, compared with NumPy."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LOW, HIGH, KNEE = 290.0, 1000.0, 5.0
 
 
 def picture() -> NDArray[np.float32]:
-    """Radiance (h, w) of ground at 280 to 330 K with a hundredth of fire, W m-2 sr-1."""
+    """Make radiance (h, w) of ground at 280 to 330 K, 1 % of it on fire, W m-2 sr-1."""
     random = np.random.default_rng(2)
     kelvin = random.uniform(280.0, 330.0, SHAPE)
     fire = random.random(SHAPE) < 0.01
@@ -28,19 +28,19 @@ def picture() -> NDArray[np.float32]:
 
 
 def with_numpy(radiance: NDArray[np.float32]) -> NDArray[np.float64]:
-    """Temperatures by linear interpolation between 4,096 knots of a table."""
+    """Interpolate temperatures linearly between the 4,096 knots of a table."""
     knots = np.geomspace(150.0, 3000.0, 4096)
     return np.interp(radiance, sensor.radiance(knots, BAND), knots)
 
 
 def ours_on_files(exr: Path, png: Path, table: sensor.PlanckTable) -> None:
-    """EXR radiance in, white-hot PNG out."""
+    """Read EXR radiance and write a palette PNG."""
     kelvin = table.brightness_temperature(sensor.read_image(exr)[..., 0])
     sensor.write_image(png, sensor.colour(kelvin, LOW, HIGH, "ironbow", KNEE))
 
 
 def numpy_on_files(exr: Path, png: Path, stops: NDArray[np.float64]) -> None:
-    """EXR radiance in, white-hot PNG out, with NumPy between the same reader and writer."""
+    """Read EXR radiance and write a palette PNG, with NumPy between the same reader and writer."""
     kelvin = with_numpy(sensor.read_image(exr)[..., 0])
     above = np.clip(kelvin - LOW, 0.0, HIGH - LOW)
     place = np.log1p(above / KNEE) / np.log1p((HIGH - LOW) / KNEE)
@@ -50,7 +50,7 @@ def numpy_on_files(exr: Path, png: Path, stops: NDArray[np.float64]) -> None:
 
 
 def run(bench: Bench) -> None:
-    """Measure the table beside the integral and NumPy, then files."""
+    """Measure the table against the integral and NumPy, then files."""
     radiance = picture()
     exact = sensor.brightness_temperature(radiance, BAND)
     pixels = radiance.size
@@ -59,7 +59,7 @@ def run(bench: Bench) -> None:
     tools += [ours, _runner("NumPy", partial(with_numpy, radiance), exact)]
     bench.race("radiance to kelvin", tools, pixels, "pixel", "mK")
     assert ours.error is not None
-    bench.target("brightness temperature by the table is off by", ours.error, 1.0, "mK", most=True)
+    bench.target("Largest brightness temperature error of the table", ours.error, 1.0, "mK", most=True)
     with tempfile.TemporaryDirectory() as folder:
         exr, png = Path(folder) / "in.exr", Path(folder) / "out.png"
         sensor.write_image(exr, radiance)
@@ -72,6 +72,6 @@ def run(bench: Bench) -> None:
 
 
 def _runner(name: str, work: partial, exact: NDArray[np.float64]) -> Runner:
-    """A runner on two threads, and its largest error, mK."""
+    """Create a runner with its largest error, mK; NumPy runs on one thread, the others on two."""
     error = 1e3 * float(np.abs(work() - exact).max())
     return Runner(name, work, threads=1 if name == "NumPy" else 2, error=error)

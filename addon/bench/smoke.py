@@ -1,7 +1,7 @@
-"""Smoke at one time -> OpenVDB: fields of a box and puffs; time, size of the file and error of its mass.
+"""Smoke at one time -> OpenVDB: fields of a box, and puffs; time, file size and mass error.
 
-Puffs' mass is that of the file, read back with Blender's bundled openvdb module, where it exists. Otherwise
-it is the mass reported by the core before rounding to half precision.
+The mass of puffs is read back from the file with the openvdb module bundled with Blender. Without that module
+it is the mass that the core reports before rounding to half precision.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ MEGAVOXELS = 45.0  # a second
 
 
 def bundled_openvdb(bench: Bench) -> ModuleType | None:
-    """The openvdb module of Blender's Python, which is bundled with `bpy` outside of the path."""
+    """Import the openvdb module of Blender's Python, which `bpy` bundles outside of the path."""
     spec = find_spec("bpy")
     if spec and spec.submodule_search_locations:
         places = Path(next(iter(spec.submodule_search_locations))).glob("*/python/lib/python*/site-packages")
@@ -38,7 +38,7 @@ def bundled_openvdb(bench: Bench) -> ModuleType | None:
 
 
 def ring(side: int) -> NDArray[np.float32]:
-    """Density kg/m3 (side, side, side / 3): a noisy ring of smoke in empty air."""
+    """Make density (side, side, side / 3), kg/m3: a noisy ring of smoke in empty air."""
     rng = np.random.default_rng(6)
     x, y, z = np.mgrid[:side, :side, : side // 3] / side - 0.5
     inside = np.abs(np.hypot(x, y) - 0.3) < 0.15
@@ -46,7 +46,7 @@ def ring(side: int) -> NDArray[np.float32]:
 
 
 def puffs(cells: int) -> volume.Puffs:
-    """Smoke of a front of `cells` fuel cells an hour long."""
+    """Make the smoke of a front that burned `cells` fuel cells in an hour."""
     rng = np.random.default_rng(7)
     arrival = np.sort(rng.uniform(0, 3600, cells))
     place = np.stack([arrival * 2, rng.uniform(-3000, 3000, cells), rng.uniform(800, 1200, cells)], axis=1)
@@ -54,7 +54,7 @@ def puffs(cells: int) -> volume.Puffs:
 
 
 def mass_in(openvdb: ModuleType, path: str, grid: str, unit: float) -> float:
-    """Sum of a grid of the file times the volume of a voxel times `unit`."""
+    """Sum a grid of the file, times the volume of a voxel, times `unit`."""
     density = openvdb.read(path, grid)
     low, high = density.evalActiveVoxelBoundingBox()
     values = np.zeros([b - a + 1 for a, b in zip(low, high, strict=True)], np.float32)
@@ -64,7 +64,7 @@ def mass_in(openvdb: ModuleType, path: str, grid: str, unit: float) -> float:
 
 
 def run(bench: Bench) -> None:
-    """Measure three fields of a box as a solved flow gives them, then puffs at several voxel sizes."""
+    """Measure three fields of a box, as a solved flow has them, then puffs at several voxel sizes."""
     openvdb = bundled_openvdb(bench)
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "smoke.vdb")
@@ -87,9 +87,9 @@ def _box(bench: Bench, path: str, openvdb: ModuleType | None) -> None:
     case = f"{len(fields)} fields of {SIDE} x {SIDE} x {SIDE // 3}"
     times = bench.race(case, tools, frame.voxels, "voxel", "of the mass")
     speed = times[tools[1].label].speed(frame.voxels / 1e6)
-    promise = "several fields of one box are built and written, on two threads, at"
-    bench.target(promise, speed, MEGAVOXELS, "Mvoxel/s")
-    bench.target("mass of a box off by", wrong, 1e-6, "", most=True)
+    quantity = "Build and write rate, several fields of a box, two threads"
+    bench.target(quantity, speed, MEGAVOXELS, "Mvoxel/s")
+    bench.target("Smoke mass of a box, relative error", wrong, 1e-6, "", most=True)
 
 
 def with_openvdb(openvdb: ModuleType, path: str, fields: dict[str, NDArray]) -> None:
@@ -126,7 +126,7 @@ def _voxel_sizes(bench: Bench, path: str, openvdb: ModuleType | None) -> None:
 
 
 def _many(bench: Bench, path: str) -> None:
-    """Measure a whole frame, whose voxels count once."""
+    """Measure a complete frame, whose voxels count once."""
     smoke = puffs(MANY)
     write = partial(volume.write_smoke, path, smoke, FINE)
     frame = write()
@@ -135,5 +135,5 @@ def _many(bench: Bench, path: str) -> None:
     case = f"puffs of {MANY:,} cells at {FINE:g} m"
     times = bench.race(case, tools, frame.active_voxels, "voxel", "of the mass")
     speed = times[tools[1].label].speed(frame.active_voxels / 1e6)
-    bench.target("a frame of puffs is built and written, on two threads, at", speed, MEGAVOXELS, "Mvoxel/s")
-    bench.target("mass of puffs off by", wrong, 1e-6, "", most=True)
+    bench.target("Build and write rate, a frame of puffs, two threads", speed, MEGAVOXELS, "Mvoxel/s")
+    bench.target("Smoke mass of puffs, relative error", wrong, 1e-6, "", most=True)

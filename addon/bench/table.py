@@ -9,7 +9,7 @@ from .timing import LEAST
 
 
 def number(value: float) -> str:
-    """Number with three digits, with an exponent only if needed: ``0.00312``, ``36.5``, ``1.2e-09``."""
+    """Format a number with three digits, with an exponent if needed: ``0.00312``, ``36.5``, ``1.2e-09``."""
     return f"{value:.3g}" if value == 0 or 1e-4 <= abs(value) < 1000 else _large(value)
 
 
@@ -18,7 +18,7 @@ def _large(value: float) -> str:
 
 
 def time(seconds: float | None) -> str:
-    """``1.23 ms``."""
+    """Format seconds: ``1.23 ms``."""
     if seconds is None:
         return ""
     factor, unit = _scale(seconds)
@@ -31,7 +31,7 @@ def _scale(seconds: float) -> tuple[float, str]:
 
 
 def times(row: Row) -> str:
-    """Median and range of the repetitions: ``9.31 ms (9.02 to 11.4)``."""
+    """Format median and range of the repetitions: ``9.31 ms (9.02 to 11.4)``."""
     if row.seconds is None:
         return ""
     factor, unit = _scale(row.seconds)
@@ -39,7 +39,7 @@ def times(row: Row) -> str:
 
 
 def found(target: Target) -> str:
-    """Measured value: ``4.6 x (4.2 to 5.1)``, or ``24 %, linear blending 47 %``."""
+    """Format the measured value: ``4.6 x (4.2 to 5.1)``, or ``24 %, linear blending 47 %``."""
     text = _with_range(target.value, target.values, target.unit)
     return f"{text}, {target.rival} {number(target.bound)} {target.unit}" if target.rival else text
 
@@ -51,37 +51,37 @@ def _with_range(value: float, values: Sequence[float], unit: str) -> str:
 
 
 def size(count: int | None) -> str:
-    """``2.76 MB``."""
+    """Format a number of bytes: ``2.76 MB``."""
     return "" if count is None else f"{number(count / 1e6)} MB"
 
 
 def verdict(target: Target) -> str:
-    """``MET`` or ``MISSED``."""
+    """Return ``MET`` or ``MISSED``."""
     return "MET" if target.met else "MISSED"
 
 
 def bound(target: Target) -> str:
-    """Bound of a target: ``at least 4 x``, ``at most linear blending's``."""
-    what = f"{target.rival}" if target.rival else f"{number(target.bound)} {target.unit}".rstrip()
-    return f"{'at most' if target.most else 'at least'} {what}"
+    """Format the bound of a target: ``at least 4 x``, ``at most linear blending``."""
+    limit = target.rival or f"{number(target.bound)} {target.unit}".rstrip()
+    return f"{'at most' if target.most else 'at least'} {limit}"
 
 
 def _machine(report: Report) -> str:
     machine = report.machine
-    load = "" if machine["load"] is None else f", load {machine['load']} before it began"
+    load = "" if machine["load"] is None else f", load {machine['load']} at the start"
     return f"{machine['processor']}, {machine['cores']} cores{load}"
 
 
 def _method(report: Report) -> str:
     runs = f"in each of {report.runs} runs" if report.runs > 1 else "in one run"
     return (
-        f"Medians of {LEAST} or more repetitions {runs}, in which the tools take turns; in brackets the "
-        "range of all repetitions, then the seconds of all processors together. One thread unless said."
+        f"Medians of {LEAST} or more repetitions {runs}; the tools take turns. In brackets is the range of "
+        "all repetitions, then the CPU time over all cores. One thread unless noted."
     )
 
 
 def page(report: Report) -> str:
-    """The whole report, for a terminal."""
+    """Format the report for a terminal."""
     lines = [_machine(report), _method(report)]
     subject = ""
     for row in report.rows:
@@ -96,27 +96,28 @@ def page(report: Report) -> str:
     lines += ["", "targets"]
     for target in report.targets:
         lines.append(
-            f"  {verdict(target):<7} {target.subject}: {target.promise}: {found(target)} "
-            f"(must be {bound(target)})"
+            f"  {verdict(target):<7} {target.subject}: {target.quantity}: {found(target)} "
+            f"(target: {bound(target)})"
         )
     lines += [""] if report.skipped else []
-    lines += [f"left out: {reason}" for reason in report.skipped]
+    lines += [f"skipped: {reason}" for reason in report.skipped]
     return "\n".join(lines)
 
 
 def markdown(report: Report) -> str:
-    """Two tables: the targets, and run time against error beside competing tools."""
+    """Format two Markdown tables: the targets, and run time and error of all tools."""
     lines = [
-        "| step | what is compared | measured | must be | |",
+        "| step | quantity | measured | target | |",
         "|---|---|--:|--:|---|",
     ]
     for target in report.targets:
         lines.append(
-            f"| {target.subject} | {target.promise} | {found(target)} | {bound(target)} | {verdict(target)} |"
+            f"| {target.subject} | {target.quantity} | {found(target)} | {bound(target)} "
+            f"| {verdict(target)} |"
         )
     lines += [
         "",
-        "| step | case | tool | time | of processors | per item | beside firetwin | size | error |",
+        "| step | case | tool | time | CPU time | per item | time / firetwin's | size | error |",
         "|---|---|---|--:|--:|--:|--:|--:|--:|",
         *_rows(report.rows),
         "",
@@ -124,7 +125,7 @@ def markdown(report: Report) -> str:
         "",
         f"{_method(report)} On {_machine(report)}.",
     ]
-    lines += [f"Left out: {reason}." for reason in report.skipped]
+    lines += [f"Skipped: {reason}." for reason in report.skipped]
     return "\n".join(lines)
 
 
@@ -138,9 +139,9 @@ def _rows(rows: list[Row]) -> Iterator[str]:
         key = row.subject, row.case
         if row.tool.startswith(OURS) and row.seconds:
             ours.setdefault(key, row.seconds)
-        beside = f"{number(row.seconds / ours[key])}x" if key in ours and row.seconds else ""
+        ratio = f"{number(row.seconds / ours[key])}x" if key in ours and row.seconds else ""
         error = f"{number(row.error)} {row.error_unit}" if row.error is not None else ""
         yield (
             f"| {row.subject} | {row.case} | {row.label} | {times(row)} | {time(row.processor_seconds)} "
-            f"| {_each(row)} | {beside} | {size(row.bytes)} | {error} |"
+            f"| {_each(row)} | {ratio} | {size(row.bytes)} | {error} |"
         )

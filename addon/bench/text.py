@@ -1,4 +1,4 @@
-"""A text file of numbers -> float32 array, beside NumPy and pandas, each in its quicker form."""
+"""Text file of numbers -> float32 array, compared with NumPy and pandas, each in its faster form."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ MEGABYTES = 500.0  # a second
 
 
 def grid_text(side: int) -> str:
-    """`side` x `side` heat fluxes as "%.6e"."""
+    """Write `side` x `side` heat fluxes as "%.6e"."""
     stream = io.StringIO()
     np.savetxt(stream, np.random.default_rng(1).lognormal(8, 3, (side, side)), fmt="%.6e")
     return stream.getvalue()
 
 
 def hard_text() -> str:
-    """Decimal numbers close to the midpoint of two float32: double rounding by way of a float64 is wrong."""
+    """Write decimal numbers close to the midpoint of two float32, where rounding by way of float64 fails."""
     rng = np.random.default_rng(8)
     values = rng.lognormal(8, 3, HARD).astype(np.float32)
     with localcontext(prec=60):
@@ -45,7 +45,7 @@ def hard_text() -> str:
 
 
 def wrong_share(text: str, values: NDArray) -> float:
-    """Percent of `values` that are not the float32 nearest to their text, by exact arithmetic."""
+    """Return the percentage of `values` that are not the float32 nearest to their text (exact arithmetic)."""
     words = text.split()
     rounded = np.asarray(values).ravel().astype(np.float32)
     return 100 * sum(_is_wrong(word, value) for word, value in zip(words, rounded, strict=True)) / len(words)
@@ -59,19 +59,19 @@ def _is_wrong(word: str, value: np.float32) -> bool:
 
 
 def run(bench: Bench) -> None:
-    """Measure a grid of the King Fire's fuel; errors are those of numbers that are hard to round."""
+    """Measure speed on a grid of the King Fire's fuel size, and errors on numbers that are hard to round."""
     with tempfile.TemporaryDirectory() as folder:
         hard, grid = Path(folder) / "hard.txt", Path(folder) / "grid.txt"
         hard.write_text(hard_text())
         wrong = {tool.label: wrong_share(hard.read_text(), tool.call()) for tool in tools(bench, hard)}
-        promise = "numbers that are hard to round, not made the nearest float32"
-        bench.target(promise, wrong[OURS], 0, "%", most=True)
+        quantity = "Hard-to-round numbers not read as the nearest float32"
+        bench.target(quantity, wrong[OURS], 0, "%", most=True)
         grid.write_text(grid_text(SIDE))
         race(bench, grid, SIDE, wrong)
 
 
 def tools(bench: Bench, path: Path) -> list[Runner]:
-    """Readers of this file, each in its two forms."""
+    """Return the readers of this file, each in its two forms."""
     cast, direct = RIVALS["numpy.loadtxt"]
     readers = [
         Runner(OURS, lambda: read_grid(path)),
@@ -93,13 +93,13 @@ def race(bench: Bench, path: Path, side: int, wrong: dict[str, float]) -> None:
     case = f"{side} x {side}"
     runners = [Runner(tool.tool, tool.call, error=wrong[tool.label]) for tool in tools(bench, path)]
     times = bench.race(case, runners, side * side, "value", "% of hard numbers wrong")
-    bench.target(f"{case} text is read at", times[OURS].speed(path.stat().st_size / 1e6), MEGABYTES, "MB/s")
+    bench.target(f"Read speed, {case} text", times[OURS].speed(path.stat().st_size / 1e6), MEGABYTES, "MB/s")
     for rival, forms in RIVALS.items():
         if best := _best(times, forms):
-            promise = f"speed of reading {case} text, over {rival}'s in the quicker of its two forms"
-            bench.target(promise, times[OURS].faster_than(best), BOUNDS[rival], "x")
+            quantity = f"Read speed / {rival} in its faster form, {case} text"
+            bench.target(quantity, times[OURS].faster_than(best), BOUNDS[rival], "x")
 
 
 def _best(found: dict[str, Times], forms: tuple[str, ...]) -> Times | None:
-    """The faster of a competing tool's forms."""
+    """Return the times of the faster form of a competing tool."""
     return min((found[form] for form in forms if form in found), key=lambda times: times.median, default=None)

@@ -1,4 +1,4 @@
-"""Reproducible run times: tools run in turns, so that disturbances of the machine affect all alike."""
+"""Reproducible run times: tools run in turns, so that disturbances of the machine affect all equally."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Runner:
 
 
 def label(tool: str, threads: int) -> str:
-    """``NumPy``, or ``firetwin, 2 threads``."""
+    """Return the name in tables: ``NumPy``, or ``firetwin, 2 threads``."""
     return tool + (f", {threads} threads" if threads > 1 else "")
 
 
@@ -56,11 +56,11 @@ class Times:
         return statistics.median(self.seconds)
 
     def speed(self, items: float) -> tuple[float, ...]:
-        """Items per second in each repetition."""
+        """Return the items per second in each repetition."""
         return tuple(items / seconds for seconds in self.seconds)
 
     def faster_than(self, other: Times) -> tuple[float, ...]:
-        """Speed-up over `other` in each round."""
+        """Return the speed-up over `other` in each round."""
         return tuple(b / a for a, b in zip(self.seconds, other.seconds, strict=True))
 
 
@@ -79,12 +79,12 @@ class Stopwatch:
         self._seconds, self._processor = time.perf_counter(), time.process_time()
 
     def read(self) -> Spent:
-        """Time since the start."""
+        """Return the time since the start."""
         return Spent(time.perf_counter() - self._seconds, time.process_time() - self._processor)
 
 
 class threads:  # noqa: N801 - reads as a statement
-    """``with threads(2):`` limits the worker threads of the core."""
+    """Context manager that limits the worker threads of the core: ``with threads(2):``."""
 
     def __init__(self, number: int) -> None:
         self.number = number
@@ -97,7 +97,7 @@ class threads:  # noqa: N801 - reads as a statement
 
 
 def race(runners: Sequence[Runner], most: int, budget: float) -> list[Times]:
-    """Call every runner once to warm up, then all in turn, LEAST to `most` times, as `budget` (s) allows."""
+    """Call every runner once to warm up, then all in turns, LEAST to `most` times, as `budget` (s) allows."""
     often = [_often(runner) for runner in runners]
     measured: list[list[Spent]] = [[] for _ in runners]
     begun = time.perf_counter()
@@ -110,7 +110,7 @@ def race(runners: Sequence[Runner], most: int, budget: float) -> list[Times]:
 
 
 def _often(runner: Runner) -> int:
-    """Number of calls in a sample; the first call has cold caches and does not count."""
+    """Choose the number of calls in a sample; the first call has cold caches and does not count."""
     seconds = _sample(runner, 1).seconds
     if runner.before:
         return 1

@@ -1,10 +1,10 @@
-"""Benchmarks for developers: what is quicker or closer than what, beyond `firetwin bench`.
+"""Benchmarks for developers: speed and error of further steps, in addition to `firetwin bench`.
 
     .venv/bin/python tests/benchmarks                             lists all of them
     .venv/bin/python tests/benchmarks NAME ... [--runs N] [--json | --markdown] [--out DIR]
 
-Prints the tables of subjects; `--out` also draws run time against error and size. The others are studies with
-arguments of their own: `.venv/bin/python tests/benchmarks/NAME.py --help`.
+Prints the tables of subjects; `--out` also draws run time against error and size. The other files are studies
+with their own arguments: `.venv/bin/python tests/benchmarks/NAME.py --help`.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ SUBJECTS = (
 
 
 def main() -> None:
-    """List, or measure and print."""
+    """List the benchmarks, or measure and print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("names", metavar="NAME", nargs="*", choices=[[], *SUBJECTS], help=", ".join(SUBJECTS))
     parser.add_argument("--runs", metavar="N", type=int, default=1, help="repeated measurements (1)")
@@ -40,13 +40,13 @@ def main() -> None:
     form.add_argument("--markdown", action="store_true", help="write Markdown tables")
     options = parser.parse_args()
     if not options.names:
-        print("\n".join(listed()))
+        print("\n".join(list_benchmarks()))
         return
-    print(measured(options))
+    print(measure(options))
 
 
-def listed() -> list[str]:
-    """A line for each subject and each study: its name and the first line of its docstring."""
+def list_benchmarks() -> list[str]:
+    """List each subject and each study by name and the first line of its docstring."""
     scripts = sorted(path.stem for path in HERE.glob("*.py") if "\ndef main(" in path.read_text("utf-8"))
     studies = [name for name in scripts if name != "__main__"]
     return [f"{name:<22}{_summary(name)}" for name in (*SUBJECTS, *(f"{name}.py" for name in studies))]
@@ -57,8 +57,8 @@ def _summary(name: str) -> str:
     return (ast.get_docstring(ast.parse(source)) or "").partition("\n")[0]
 
 
-def measured(options: argparse.Namespace) -> str:
-    """The report of some subjects."""
+def measure(options: argparse.Namespace) -> str:
+    """Measure subjects and format their report."""
     from firetwin.bench import measure_modules, table
     from firetwin.progress import Reporter
 

@@ -1,16 +1,15 @@
-"""What a task of a farm costs beside its frames, against frames per task.
+"""Overhead of a farm task against frames per task.
 
     python tests/benchmarks/farm_chunk.py SAMPLE --work DIR [--runs 3] [--frames 5] [--plot FILE.svg]
 
-SAMPLE is the run of `firetwin sample --format npy`. Tasks of the first frames of the example's drone are run
-as engines run them, the cases in turn: with puffs and with flow at 160 x 90 pixels, and with flow as the
-example is. Flow is solved before, as a bake task does. Two more cases are of a film of 960 frames in 16
-hours, in parts of 24 frames that are built together, and of 480. Seconds are by the clock, medians of all
-runs.
+SAMPLE is the run of `firetwin sample --format npy`. Tasks of the first frames of the example's drone run as
+farm engines run them, the cases in turns: puffs and flow at 160 x 90 pixels, and flow at the example's size.
+The flow is solved before, as by a bake task. Two more cases render a film of 960 frames in 16 hours, built in
+parts of 24 and of 480 frames. Times are wall-clock seconds, medians of all runs.
 
-`start`: until the command is ready. `resolve`: until it knows what to render. `build`: until the first frame
-begins, in a process of its own. `frame`: of those after the first. `overhead`: of a task of one frame, all
-beside this frame. Each is printed with the frames per task that keep overhead below a tenth.
+`start`: until the command is ready. `resolve`: until the missing pictures are known. `build`: until the first
+frame begins, in a separate process. `frame`: each frame after the first. `overhead`: task time minus frame
+times. The last column is the number of frames per task that keeps the overhead below a tenth.
 """
 
 from __future__ import annotations
@@ -44,13 +43,13 @@ LONG = {
     **SMALL,
 }
 PARTS = {f"{chunk} frames built": {**LONG, "chunk": str(chunk)} for chunk in (24, 480)}
-MOST = 0.1  # overhead that is allowed, of a task's seconds
+MOST = 0.1  # largest overhead, fraction of a task's time
 SIZES = (1, 2, 4, 8, 15, 30, 60, 120, 240)
 PHASES = ("start", "resolve", "build", "frame", "overhead")
 
 
 def scene(path: Path, run: Path, changes: dict[str, str]) -> Path:
-    """The example's drone with other values of some keys."""
+    """Write the example with its drone only, and with other values of some keys."""
     text = EXAMPLE.read_text(encoding="utf-8")
     head, drone, *_ = re.split(r"(?m)^\[\[cameras\]\].*\n", text)
     for name, value in {"run": json.dumps(run.as_posix()), **changes}.items():
@@ -61,7 +60,7 @@ def scene(path: Path, run: Path, changes: dict[str, str]) -> Path:
 
 
 def solve(path: Path, cache: Path, frames: int) -> None:
-    """Solve the flow of the frames that tasks will render."""
+    """Solve the flow of the frames that the tasks render."""
     from firetwin.jobs import solve
     from firetwin.progress import Reporter, say
     from firetwin.shot.source import ShotSource
@@ -71,7 +70,7 @@ def solve(path: Path, cache: Path, frames: int) -> None:
 
 
 def task(path: Path, out: Path, cache: Path, frames: int) -> dict[str, float]:
-    """Seconds of the phases of a task that renders the first frames."""
+    """Run a task that renders the first frames, and return the seconds of its phases."""
     shutil.rmtree(out, ignore_errors=True)
     firetwin = [sys.executable, "-m", "firetwin", "farm"]
     plan = [*firetwin, str(path), "--engine", "openjd", "--out", str(out), "--chunk", str(frames)]
@@ -89,9 +88,9 @@ def task(path: Path, out: Path, cache: Path, frames: int) -> dict[str, float]:
         stderr=subprocess.PIPE,
         text=True,
     ) as process:
-        said: list[tuple[float, str]] = []
+        lines: list[tuple[float, str]] = []
         read = [
-            threading.Thread(target=_listen, args=(pipe, said)) for pipe in (process.stdout, process.stderr)
+            threading.Thread(target=_listen, args=(pipe, lines)) for pipe in (process.stdout, process.stderr)
         ]
         for each in read:
             each.start()
@@ -99,10 +98,10 @@ def task(path: Path, out: Path, cache: Path, frames: int) -> dict[str, float]:
             each.join()
     end = time.perf_counter()
     if process.returncode:
-        raise SystemExit("".join(line for _, line in said))
-    said.sort()
-    at = functools.partial(_when, said)
-    done = [when for when, line in said if line.startswith("openjd_progress")][: frames + 1]
+        raise SystemExit("".join(line for _, line in lines))
+    lines.sort()
+    at = functools.partial(_when, lines)
+    done = [when for when, line in lines if line.startswith("openjd_progress")][: frames + 1]
     spans = [after - before for before, after in itertools.pairwise(done[1:])]
     frame = statistics.median(spans) if spans else 0.0
     return {
@@ -114,22 +113,22 @@ def task(path: Path, out: Path, cache: Path, frames: int) -> dict[str, float]:
     }
 
 
-def _listen(pipe: object, said: list[tuple[float, str]]) -> None:
+def _listen(pipe: object, lines: list[tuple[float, str]]) -> None:
     for line in pipe:  # type: ignore[attr-defined]
-        said.append((time.perf_counter(), line))
+        lines.append((time.perf_counter(), line))
 
 
-def _when(said: list[tuple[float, str]], begin: str) -> float:
-    return next(when for when, line in said if line.startswith(begin))
+def _when(lines: list[tuple[float, str]], begin: str) -> float:
+    return next(when for when, line in lines if line.startswith(begin))
 
 
 def enough(overhead: float, frame: float) -> int:
-    """Frames per task from which on overhead is below `MOST`."""
+    """Return the least number of frames per task with an overhead below `MOST`."""
     return int(overhead * (1.0 - MOST) / (MOST * frame)) + 1
 
 
 def plot(found: dict[str, dict[str, float]], path: Path, chosen: int) -> None:
-    """Draw the fraction of a task's seconds that is overhead, against frames per task."""
+    """Draw the overhead fraction against frames per task."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -151,12 +150,12 @@ def plot(found: dict[str, dict[str, float]], path: Path, chosen: int) -> None:
 
 
 def share(row: dict[str, float], size: int) -> float:
-    """Fraction of a task's seconds that is overhead."""
+    """Return the overhead as a fraction of a task's time."""
     return row["overhead"] / (row["overhead"] + size * row["frame"])
 
 
 def main() -> None:
-    """Run tasks of all cases in turn; print medians and the curve."""
+    """Run tasks of all cases in turns; print medians and the curve."""
     from firetwin.farm.plan import CHUNK
 
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)

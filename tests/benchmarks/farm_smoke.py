@@ -1,11 +1,11 @@
-"""Whether the smoke of a farm's frames is better painted by render tasks, or by tasks of its own before.
+"""Smoke of a farm's frames: painted by render tasks, or baked by separate tasks before.
 
     python tests/benchmarks/farm_smoke.py SAMPLE --work DIR [--runs 3] [--frames 3]
 
-SAMPLE is the run of `firetwin sample --format npy`. Of the first frames of the example's drone, whose flow is
-solved before: seconds to paint a frame's smoke in memory, and to write it as VDB; seconds of a frame in a
-render task that paints it (integrated, and drawn by Cycles as a volume), and in one that finds its VDB. Tasks
-are those of farm_chunk.py. Rows of a run follow one another; medians of all runs.
+SAMPLE is the run of `firetwin sample --format npy`. The first frames of the example's drone are rendered,
+with their flow solved before. Prints the seconds to paint a frame's smoke in memory and to write it as VDB,
+and the seconds of a frame in a render task that paints it (integrated, and as a Cycles volume) and in a
+render task that reads its VDB. Tasks run as in farm_chunk.py. Medians of all runs.
 """
 
 from __future__ import annotations
@@ -16,17 +16,17 @@ import statistics
 import subprocess
 import sys
 import tempfile
-import time
 from collections import defaultdict
 from pathlib import Path
 
 import farm_chunk
+from firetwin.bench.timing import Stopwatch
 
 SCENES = {"integrated": {}, "as a volume": {"draw": '"volume"'}}
 
 
 def painted(scene: Path, cache: Path, frames: int) -> dict[str, float]:
-    """Median seconds, and seconds of the processor, of a frame's smoke in memory and as files; and bytes."""
+    """Return median wall-clock and CPU seconds of a frame's smoke in memory and as a file, and its MB."""
     from firetwin.shot.comparison import for_view
     from firetwin.shot.source import ShotSource
     from firetwin.smoke import sources
@@ -34,16 +34,17 @@ def painted(scene: Path, cache: Path, frames: int) -> dict[str, float]:
     source = sources.select(for_view(ShotSource(scene=str(scene), cache=str(cache)).shot(), "drone"))
     found: dict[str, list[float]] = defaultdict(list)
     with tempfile.TemporaryDirectory() as place:
-        for frame in range(1, frames + 2):  # the first one prepares what all share
+        for frame in range(1, frames + 2):  # the first one prepares shared data
             for name in ("paint", "write"):
-                clock, processor = time.perf_counter(), time.process_time()
+                watch = Stopwatch()
                 if name == "paint":
                     source.bricks(frame)
                 else:
                     source.write(Path(place) / f"smoke_{frame:06d}.vdb", frame)
                 if frame > 1:
-                    found[name].append(time.perf_counter() - clock)
-                    found[f"{name}, cpu"].append(time.process_time() - processor)
+                    spent = watch.read()
+                    found[name].append(spent.seconds)
+                    found[f"{name}, cpu"].append(spent.processor)
         size = sum(path.stat().st_size for path in Path(place).rglob("*.vdb")) / (frames + 1)
     return {name: statistics.median(values) for name, values in found.items()} | {"MB": size / 1e6}
 
@@ -72,18 +73,18 @@ def main() -> None:
     runs: dict[str, list[float]] = defaultdict(list)
     for _ in range(given.runs):
         paint = [*sys.argv, "--paint", str(scenes["integrated"])]
-        said = subprocess.run([sys.executable, *paint], check=True, stdout=subprocess.PIPE, text=True).stdout
-        for name, value in json.loads(said.splitlines()[-1]).items():
+        text = subprocess.run([sys.executable, *paint], check=True, stdout=subprocess.PIPE, text=True).stdout
+        for name, value in json.loads(text.splitlines()[-1]).items():
             runs[name].append(value)
         for path in cache.rglob("smoke_*.vdb"):
             path.unlink()
-        for name, what in (
+        for name, smoke in (
             ("integrated", "integrated"),
             ("as a volume", "painted"),
             ("as a volume", "found"),
         ):
             row = farm_chunk.task(scenes[name], work / "out", cache, given.frames)
-            label = name if name == what else f"{name}, {what}"
+            label = name if name == smoke else f"{name}, {smoke}"
             runs[f"frame {label}"].append(row["frame"])
     for name, values in runs.items():
         print(f"{name:32}{statistics.median(values):10.2f}")

@@ -1,10 +1,10 @@
-"""What the solved flow keeps of smoke, its shape and heat; and a plume in calm air beside theory.
+"""Conservation of smoke, shape and heat in the solved flow; and a plume in calm air against theory.
 
-In calm air a plume's top is at 5.0 F^(1/4) s^(-3/8), and it has no more buoyancy at 2.13 / 2.8 of that
+In calm air the top of a plume is at 5.0 F^(1/4) s^(-3/8), and its buoyancy vanishes at 2.13 / 2.8 of that
 (Morton, Taylor and Turner 1956, "Turbulent gravitational convection from maintained and instantaneous
-sources", Proc. R. Soc. A 234; the number is Briggs's, 1969). A wide source without momentum is soon as a
-point's plume (Hunt and Kaye 2001, "Virtual origin correction for lazy turbulent plumes", J. Fluid Mech. 435):
-nothing is allowed for it.
+sources", Proc. R. Soc. A 234; the number is Briggs's, 1969). A wide source without momentum soon behaves as a
+point source (Hunt and Kaye 2001, "Virtual origin correction for lazy turbulent plumes", J. Fluid Mech. 435),
+so it needs no correction.
 """
 
 from __future__ import annotations
@@ -34,29 +34,26 @@ from firetwin_core import flow
 from numpy.typing import NDArray
 
 CELLS = 75.0  # m, of the plume in calm air
-ROOM = np.linspace(0.0, 2000.0, 21), (48, 64), 100.0  # levels, rows and columns, m: for what is kept
+ROOM = np.linspace(0.0, 2000.0, 21), (48, 64), 100.0  # levels, rows and columns, m: for conservation
 
 
 def run(bench: Bench) -> None:
-    """Theory in calm air, then accounts."""
+    """Measure a plume in calm air, then conservation."""
     with threads(THREADS):
         top, layer = calm(CELLS)
-        promise = (
-            f"top of a plume in calm air, cells of {CELLS:g} m, off that of Morton, Taylor and Turner by"
-        )
-        bench.target(promise, off(top), 15, "%", most=True)
-        promise = f"the layer that it spreads into there, cells of {CELLS:g} m, off theirs by"
-        bench.target(promise, off(layer), 25, "%", most=True)
-        _kept(bench)
+        theory = f"calm air, cells of {CELLS:g} m, deviation from Morton, Taylor and Turner"
+        bench.target(f"Plume top in {theory}", off(top), 15, "%", most=True)
+        bench.target(f"Spreading height in {theory}", off(layer), 25, "%", most=True)
+        _measure_conservation(bench)
 
 
 def calm(
     spacing: float, side: float = 3600.0, rise: float = 1500.0, radius: float = 150.0
 ) -> tuple[float, float]:
-    """Top and layer of a plume of a disc in calm air over theory's, which has the top at `rise` m.
+    """Return top and spreading height of a plume from a disc in calm air / theory, with its top at `rise` m.
 
-    The box is `side` m wide. The top is the height below which 99 % of the smoke is, the layer the level with
-    most of it.
+    The box is `side` m wide. The top is the height below which 99 % of the smoke is, the spreading
+    height is the level with most of it.
     """
     n = round(side / spacing)
     solver = still_air(
@@ -70,22 +67,22 @@ def calm(
     return top / rise, layer / (2.13 / 2.8 * rise)
 
 
-def _kept(bench: Bench) -> None:
+def _measure_conservation(bench: Bench) -> None:
     mass, shape, _ = advected()
-    bench.target("mass of smoke that only drifts with the wind changes by", mass, 1e-6, "", most=True)
-    promise = "its shape after 20 cells, a ball of 4 cells' radius, is off by"
-    bench.target(promise, 100 * shape, 8, "% of its mass", most=True)
+    bench.target("Smoke mass under advection alone, relative change", mass, 1e-6, "", most=True)
+    quantity = "Shape error of a ball of 4 cells' radius after 20 cells of advection"
+    bench.target(quantity, 100 * shape, 8, "% of its mass", most=True)
     given, held = warmed()
-    bench.target("heat that the flow was given, off what burned by", given, 1e-6, "", most=True)
-    bench.target("heat that it holds, off what it was given by", held, 1e-4, "", most=True)
-    promise = "smoke in a written moment and gone from the box, off what was given off by"
-    bench.target(promise, written(), 1e-6, "", most=True)
+    bench.target("Heat input against heat released by the fire, relative error", given, 1e-6, "", most=True)
+    bench.target("Heat held against heat input, relative error", held, 1e-4, "", most=True)
+    quantity = "Smoke mass balance (snapshot + outflow - emission), relative error"
+    bench.target(quantity, written(), 1e-6, "", most=True)
 
 
 def advected() -> tuple[float, float, flow.Solver]:
-    """Change of mass, and of shape (sum of differences over sum), of a ball in a steady wind; and the flow.
+    """Return the change of mass and shape (sum of differences / sum) of a ball in steady wind, and the flow.
 
-    A Gaussian of 4 cells' radius, carried 20 cells in 35 steps that are not along the rows.
+    The ball is a Gaussian of 4 cells' radius, advected 20 cells in 35 steps oblique to the rows.
     """
     solver = _room((10.0, 6.0), 0.0)
     state = solver.state()
@@ -100,9 +97,9 @@ def advected() -> tuple[float, float, flow.Solver]:
 
 
 def warmed() -> tuple[float, float]:
-    """What a fire gives off beside what the flow was given, and that beside what neutral air holds of it.
+    """Return the relative errors of heat input against heat release, and of heat held against heat input.
 
-    What warms air of a lower pressure makes more potential temperature of it; that is allowed for.
+    The air is neutral. Heat raises potential temperature more at lower pressure; that is allowed for.
     """
     solver = _room((0.0, 0.0), 0.0, sponge_time=1e9, damping_time=1e9)
     _light(solver, 4e9)
@@ -112,7 +109,7 @@ def warmed() -> tuple[float, float]:
 
 
 def written() -> float:
-    """The smoke that the cells of a written moment hold, and what left, beside what was given off."""
+    """Return the mass balance error of a snapshot: smoke in its cells plus outflow against emission."""
     solver = _room((12.0, 3.0), 0.003, gust_strength=0.6)
     drift = flow.Drift(solver)
     _light(solver, 4e9)

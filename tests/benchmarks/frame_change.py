@@ -1,7 +1,7 @@
 """A frame change in Blender's viewport: the sample's ground, forest, fire and light at their full size.
 
-Processor time of one view layer, as a window shows it; smoke is left out, which is read from files. Beside it
-stands the scene without one of its objects, which tells what that object takes.
+CPU time of one view layer, as in a window, without smoke, which is read from files. Further rows hide one
+object each; the difference is the cost of that object.
 """
 
 from __future__ import annotations
@@ -21,24 +21,24 @@ from firetwin.shot.shot import Shot
 START, END = datetime(2014, 9, 17, 23, 0, tzinfo=UTC), datetime(2014, 9, 17, 23, 24, tzinfo=UTC)
 VIEW = CameraKey(0.0, 38.984, -120.558, 600.0, "head")
 FRAMES = 48
-MODEL_TIMES = 25  # of the sample; fire and forest hang on the fuel's arrival times, which are all there
+MODEL_TIMES = 25  # of the sample; fire and forest depend on the arrival times, which are complete
 LIMIT = 5.0  # ms
 
 
 def run(bench: Bench) -> None:
-    """Build the scene in a process of its own, and change its frame there."""
+    """Build the scene in a separate process, and change its frame there."""
     if not bench.blender():
         return
     with tempfile.TemporaryDirectory() as folder:
         found = worker.run(f"{__name__}:change_in_blender", {"folder": folder, "times": 2 * LEAST})
-    for what, seconds in found.items():
-        bench.row("the sample's scene", what, Times(tuple(seconds)), 1, "frame")
+    for case, seconds in found.items():
+        bench.row("the sample's scene", case, Times(tuple(seconds)), 1, "frame")
     milliseconds = [1e3 * each for each in found[OURS]]
-    bench.target("a frame change in the viewport takes", milliseconds, LIMIT, "ms", most=True)
+    bench.target("Time of a frame change in the viewport", milliseconds, LIMIT, "ms", most=True)
 
 
 def scene_file(folder: Path) -> settings.Settings:
-    """The first half hour of the run up the canyon, from a drone, without smoke."""
+    """Describe the first half hour of the run up the canyon, from a drone, without smoke."""
     return settings.Settings(
         path=folder / "scene.toml",
         run=folder / "sample",
@@ -49,13 +49,13 @@ def scene_file(folder: Path) -> settings.Settings:
     )
 
 
-# What follows runs in the worker process, where Blender is.
+# The following functions run in the worker process, where Blender is.
 
 
 def change_in_blender(
     folder: str, times: int, progress: Progress = silent, tell: MessageCallback = no_message
 ) -> dict[str, list[float]]:
-    """Processor seconds of each frame change: of all, and without each object whose nodes follow time."""
+    """Return the CPU seconds of each frame change, with all objects and without each animated one."""
     import bpy
     from firetwin.data import sample
     from firetwin.scene import build
@@ -66,16 +66,16 @@ def change_in_blender(
     sample.write(file.run, MODEL_TIMES, "npy")
     build.build(Shot(file, runs.open(file.run)), scene)
     found = {OURS: _changes(times)}
-    shown = [thing for thing in scene.objects if thing.modifiers and not thing.hide_viewport]
-    for thing in shown:
-        thing.hide_viewport = True
-        found[f"without {thing.name.removeprefix('Firetwin ')}"] = _changes(times)
-        thing.hide_viewport = False
+    animated = [obj for obj in scene.objects if obj.modifiers and not obj.hide_viewport]
+    for obj in animated:
+        obj.hide_viewport = True
+        found[f"without {obj.name.removeprefix('Firetwin ')}"] = _changes(times)
+        obj.hide_viewport = False
     return found
 
 
 def _changes(times: int) -> list[float]:
-    """Processor seconds of so many frame changes over the whole shot, after one that is not counted."""
+    """Return the CPU seconds of `times` frame changes spread over the shot, after one that is not counted."""
     import bpy
 
     scene, found = bpy.context.scene, []

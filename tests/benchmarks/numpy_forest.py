@@ -1,8 +1,8 @@
-"""Algorithm 2 in vectorised NumPy: what someone would write without firetwin_core.
+"""Algorithm 2 in vectorised NumPy, as one would write it without firetwin_core.
 
-With `keyed` numbers it grows the same forest as firetwin_core: Philox keyed by seed, cell and use. With
-numbers drawn in `one_stream` by numpy.random.Philox it is faster, and grows another forest of the same kind
-in which a changed cell changes every tree after it.
+`keyed` random numbers (Philox keyed by seed, cell and use) give the forest of firetwin_core. Numbers from
+`one_stream` of numpy.random.Philox are faster and give another forest of the same statistics, in which a
+changed cell changes every later tree.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ Draw = Callable[[int, NDArray, int], NDArray]
 
 
 def one_stream(seed: int, cell: NDArray, use: int) -> NDArray[np.float64]:
-    """Four numbers in [0, 1) per cell -> (4, n), from one stream for each use."""
+    """Draw four numbers in [0, 1) per cell (4, n), from one stream for each use."""
     return np.random.Generator(np.random.Philox(key=np.array([seed, use], np.uint64))).random((4, len(cell)))
 
 
 def keyed(seed: int, cell: NDArray, use: int) -> NDArray[np.float64]:
-    """Four numbers in [0, 1) per cell -> (4, n) that depend on seed, cell and use alone (Philox4x64-10)."""
+    """Draw four numbers in [0, 1) per cell (4, n) that depend only on seed, cell and use (Philox4x64-10)."""
     half, low = np.uint64(32), np.uint64(0xFFFFFFFF)
 
     def product(a: int, b: NDArray) -> tuple[NDArray, NDArray]:
@@ -60,11 +60,11 @@ Origin = tuple[float, float, float]
 
 
 def local(latitude: NDArray, longitude: NDArray, height: NDArray, origin: Origin) -> NDArray:
-    """The closed form, vectorised: degrees, degrees, metres (n,) -> (n, 3) metres about `origin`."""
+    """Convert degrees, degrees, metres (n,) to metres (n, 3) about `origin`, by the closed form."""
     e2 = F * (2 - F)
 
     def polar(latitude: Any, height: Any) -> tuple[Any, Any]:
-        """Distance from the axis and height over the equator, m."""
+        """Return the distance from the axis and the height above the equator, m."""
         sine, cosine = np.sin(latitude), np.cos(latitude)
         normal = A / np.sqrt(1 - e2 * sine * sine)
         return (normal + height) * cosine, (normal * (1 - e2) + height) * sine
@@ -86,7 +86,7 @@ def place(
     origin: Origin,
     random: NDArray,
 ) -> NDArray[np.float64]:
-    """Jittered places (n, 3) on the bilinear elevation of an even grid (degrees), metres."""
+    """Return jittered positions (n, 3), m, on the bilinear elevation of a regular grid (degrees)."""
     rows, columns = elevation.shape
     y, x = cell // columns + random[0] - 0.5, cell % columns + random[1] - 0.5
     inner_y, inner_x = np.clip(y, 0, rows - 1), np.clip(x, 0, columns - 1)
@@ -111,7 +111,7 @@ def trees(
     seed: int = 0,
     draw: Draw = keyed,
 ) -> Plants:
-    """Algorithm 2's trees from canopy fuel (fy, fx) kg/m2."""
+    """Plant the trees of Algorithm 2 from canopy fuel (fy, fx) kg/m2."""
     cell = np.flatnonzero(canopy > 0.01)
     fuel = canopy.ravel()[cell].astype(float)
     size_class = (fuel >= 0.8).astype(np.uint8) + (fuel >= 1.6)
@@ -138,7 +138,7 @@ def grass(
     seed: int = 0,
     draw: Draw = keyed,
 ) -> Plants:
-    """Algorithm 2's grass from surface fuel (fy, fx) kg/m2."""
+    """Plant the grass of Algorithm 2 from surface fuel (fy, fx) kg/m2."""
     cell = np.flatnonzero(surface > 0)
     position = place(cell, latitude, longitude, elevation, origin, draw(seed, cell, PLACE))
     position[:, 2] -= 0.70

@@ -1,4 +1,4 @@
-"""A particle with linear drag in a gusting wind, beside explicit Euler, against the exact solution.
+"""A particle with linear drag in a gusting wind and explicit Euler, against the exact solution.
 
 dv/dt = (w(t) - v) / r + a, with w(t) = W sin(o t): the exact velocity and place are in closed form.
 """
@@ -23,12 +23,12 @@ EULER = "explicit Euler (NumPy)"
 
 
 def wind(time: float) -> NDArray:
-    """(3,) m/s."""
+    """Return the wind (3,), m/s."""
     return GUST * np.sin(TURN * time)
 
 
 def exact(time: float) -> NDArray:
-    """Place (3,) m after `time` s from the origin, by variation of constants."""
+    """Return the position (3,), m, after `time` s from the origin, by variation of constants."""
     r, o = RELAXATION, TURN
     pull = np.array([0.0, 0.0, LIFT])
     factor = GUST / (1 + (r * o) ** 2)
@@ -41,7 +41,7 @@ def exact(time: float) -> NDArray:
 
 
 def euler(rate: int, number: int, duration: float = SECONDS) -> NDArray:
-    """`number` equal particles with explicit Euler at `rate` steps a second -> place (3,) of the first."""
+    """Advance `number` equal particles by explicit Euler at `rate` steps/s; return one position (3,)."""
     step = 1.0 / rate
     place, velocity = np.zeros((number, 3)), np.tile(VELOCITY, (number, 1))
     pull = np.array([0.0, 0.0, LIFT])
@@ -52,7 +52,7 @@ def euler(rate: int, number: int, duration: float = SECONDS) -> NDArray:
 
 
 def run(bench: Bench) -> None:
-    """Steps a second against error after SECONDS, for both; times are of one simulated second."""
+    """Measure the error after SECONDS and the time per simulated second, for several rates and both tools."""
     truth = exact(SECONDS)
     errors = {}
     for rate in (24, 60, 240, 2400, PAPER):
@@ -66,17 +66,17 @@ def run(bench: Bench) -> None:
         ]
         bench.race(f"{rate} steps/s", runners, PARTICLES, "particle second", "m")
     bench.target(
-        "error of a particle's place after 10 s at 60 steps/s",
+        "Position error of a particle after 10 s, 60 steps/s",
         errors[OURS, 60] * 1e3,
         errors[EULER, PAPER] * 1e3,
         "mm",
         most=True,
-        rival=f"explicit Euler's at {PAPER:,}",
+        rival=f"explicit Euler at {PAPER:,}",
     )
 
 
 def ours(rate: int, number: int, duration: float = SECONDS) -> NDArray:
-    """`number` equal particles with the core at `rate` steps a second -> place (3,) of the first."""
+    """Advance `number` equal particles by the core at `rate` steps/s; return one position (3,)."""
     step = 1.0 / rate
     place, velocity = np.zeros((number, 3)), np.tile(VELOCITY, (number, 1))
     for i in range(round(duration * rate)):

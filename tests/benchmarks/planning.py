@@ -15,7 +15,7 @@ from firetwin.render.store import Store
 from firetwin.shot.source import ShotSource
 
 CAMERAS, FRAMES = 20, 10_000
-FINISHED = 2000  # frames of every camera and pass that lie there
+FINISHED = 2000  # finished frames of every camera and pass
 MODEL_TIMES = 3  # of the sample, as the run
 LIMIT = 0.5  # s
 CAMERA = """[[cameras]]
@@ -25,7 +25,7 @@ keys = [{{latitude = 38.9, longitude = -120.55, height = 400, target = "fire"}}]
 
 
 def write_scene(folder: Path) -> Path:
-    """The scene file and its run."""
+    """Write the scene file and its run."""
     sample.write(folder / "run", MODEL_TIMES, "npy")
     cameras = "".join(CAMERA.format(i) for i in range(CAMERAS))
     scene = folder / "scene.toml"
@@ -34,7 +34,7 @@ def write_scene(folder: Path) -> Path:
 
 
 def missing(scene: Path, out: Path) -> int:
-    """What `firetwin render --frames 1` does before it starts Blender -> how many pictures are to make."""
+    """Plan as `firetwin render --frames 1` does before it starts Blender; count the missing pictures."""
     shot = ShotSource(scene=str(scene)).shot()
     wanted = plan.pictures(shot, "1")
     made_with = fingerprint.of_pictures(shot, wanted)
@@ -45,7 +45,7 @@ def missing(scene: Path, out: Path) -> int:
 
 
 def finish(scene: Path, out: Path, frames: int) -> int:
-    """Enter pictures of the first frames -> how many; files of one byte stand for those of the first."""
+    """Record pictures of the first frames, and return their number; frame 1 gets files of one byte."""
     shot = ShotSource(scene=str(scene)).shot()
     wanted = plan.pictures(shot, f"1-{frames}")
     made_with = fingerprint.of_pictures(shot, wanted)
@@ -65,11 +65,11 @@ def finish(scene: Path, out: Path, frames: int) -> int:
 
 
 def run(bench: Bench) -> None:
-    """Into an empty folder, and into one where a fifth is finished."""
+    """Plan for an empty folder, and for one in which a fifth is finished."""
     with tempfile.TemporaryDirectory() as name:
         scene, out = write_scene(Path(name)), Path(name) / "out"
         count = finish(scene, out, FINISHED)
         cases = {"nothing finished": Path(name) / "none", f"{count:,} pictures finished": out}
         for case, place in cases.items():
             times = bench.race(case, [Runner(OURS, partial(missing, scene, place))], 1, "plan")[OURS]
-            bench.target(f"planning one frame with {case} takes", times.seconds, LIMIT, "s", most=True)
+            bench.target(f"Time to plan one frame, {case}", times.seconds, LIMIT, "s", most=True)

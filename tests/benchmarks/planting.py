@@ -1,7 +1,7 @@
-"""Fuel grid -> trees and grass (Algorithm 2), beside vectorised NumPy that grows the very same plants.
+"""Fuel grid -> trees and grass (Algorithm 2), compared with vectorised NumPy that grows identical plants.
 
-NumPy's own stream of random numbers is quicker, but with it a changed cell changes every tree after it; it is
-shown without a bound. Then a stand of ten million stems.
+NumPy with a single stream of random numbers is faster, but there a changed cell changes every later tree; it
+is measured without a target. Then a stand of ten million stems.
 """
 
 from __future__ import annotations
@@ -17,18 +17,18 @@ from firetwin_core.geo import LocalFrame
 from numpy_forest import Draw, Plants, grass, keyed, one_stream, trees
 
 SIDES = (144, 720)
-STEMS, LIMIT = 10_000_000, 5.0  # s for so many on two threads
+STEMS, LIMIT = 10_000_000, 5.0  # stems, and s for them on two threads
 RIVALS = {"NumPy": keyed, "NumPy, one stream": one_stream}
 
 
 def rival(grid: Grid, draw: Draw) -> tuple[Plants, Plants]:
-    """Trees and grass in NumPy."""
+    """Plant trees and grass with NumPy."""
     canopy, surface, *place = grid
     return trees(canopy, *place, ORIGIN, 5, draw), grass(surface, *place, ORIGIN, 5, draw)
 
 
 def run(bench: Bench) -> None:
-    """Two grids, on one and two threads."""
+    """Measure two grids, on one and two threads."""
     for side in SIDES:
         grid = fuel_grid(side)
         mine = partial(planted, grid)
@@ -37,11 +37,11 @@ def run(bench: Bench) -> None:
         found = bench.race(f"{side} x {side}", tools, sum(map(len, mine())), "plant")
     for tool, word in ((tools[0], "one thread"), (tools[1], "two threads")):
         faster = found[tool.label].faster_than(found["NumPy"])
-        bench.target(f"speed of planting {side} x {side} cells on {word}, over NumPy's", faster, 10, "x")
+        bench.target(f"Planting speed / NumPy, {side} x {side} cells, {word}", faster, 10, "x")
     masked = _masked(bench, grid)
-    bench.target("time for the trees of 1 % of the cells, of that for all", masked, 3, "%", most=True)
-    promise = "arrays that differ between 1, 2, 4 and 16 threads"
-    bench.target(promise, _differences(grid), 0, "", most=True)
+    bench.target("Time for the trees of 1 % of the cells / time for all", masked, 3, "%", most=True)
+    quantity = "Arrays that differ between 1, 2, 4 and 16 threads"
+    bench.target(quantity, _differences(grid), 0, "", most=True)
     _stand(bench, grid)
 
 
@@ -50,11 +50,11 @@ def _stand(bench: Bench, grid: Grid) -> None:
     stems, runner = len(call()[0]), Runner(OURS, call, threads=2)
     found = bench.race(f"a stand of {STEMS:,} stems", [runner], stems, "stem")
     seconds = [STEMS / speed for speed in found[runner.label].speed(stems)]
-    bench.target("time for 10 million stems on two threads", seconds, LIMIT, "s", most=True)
+    bench.target("Time for 10 million stems, two threads", seconds, LIMIT, "s", most=True)
 
 
 def _masked(bench: Bench, grid: Grid) -> list[float]:
-    """Time for the trees of a square of 1 % of the cells over that for all, %, of each repetition."""
+    """Return the time for the trees of a square of 1 % of the cells, % of the time for all, repeatedly."""
     canopy, _, *place = grid
     frame = LocalFrame(*ORIGIN)
     mask = np.zeros(canopy.shape, bool)
@@ -66,7 +66,7 @@ def _masked(bench: Bench, grid: Grid) -> list[float]:
 
 
 def _differences(grid: Grid) -> int:
-    """How many arrays are not bit for bit those of one thread."""
+    """Count the arrays that are not bit for bit equal to the result of one thread."""
     names = ("cell", "position", "scale", "rotation")
     with threads(1):
         alone = planted(grid)

@@ -32,7 +32,7 @@ def _with_error(rows: Iterable[Row]) -> list[Row]:
 
 
 def _with_size(rows: Iterable[Row]) -> list[Row]:
-    """Rows of cases that are a size, such as "720 x 720"."""
+    """Select rows whose case is a size, such as "720 x 720"."""
     return [row for row in rows if row.seconds and " x " in row.case]
 
 
@@ -61,7 +61,7 @@ def _figure(path: Path, title: str, rows: list[Row], panel: Callable[[Any, list[
 
 
 def _tools(rows: list[Row]) -> Iterable[tuple[str, Any, list[Row]]]:
-    """Tool and its threads, colour, rows in order of size."""
+    """Yield each tool with its threads, colour, and rows in order of size."""
     groups: dict[str, list[Row]] = defaultdict(list)
     for row in rows:
         groups[row.label].append(row)
@@ -71,7 +71,7 @@ def _tools(rows: list[Row]) -> Iterable[tuple[str, Any, list[Row]]]:
 
 
 def _work_precision(axis: Any, rows: list[Row]) -> None:
-    """No error at all is drawn a decade left of the least error there is; a logarithmic axis has no zero."""
+    """Replace zero errors, which a logarithmic axis cannot show, by a tenth of the smallest error."""
     errors = [row.error for row in rows if row.error]
     none = 10.0 ** (math.floor(math.log10(min(errors))) - 1) if errors else 0.1
     least = none if any(not row.error for row in rows) else none * 10
@@ -100,7 +100,7 @@ def _scaling(axis: Any, rows: list[Row]) -> None:
 
 
 def _whole_decades(axis: Any) -> None:
-    """An upright axis with labels at powers of ten alone, and two of them at least."""
+    """Label a vertical axis at powers of ten only, and at two of them at least."""
     low, high = (math.log10(limit) for limit in axis.get_ylim())
     axis.set_ylim(10.0 ** math.floor(low), 10.0 ** math.ceil(high))
     axis.yaxis.set_minor_formatter(lambda *_: "")

@@ -1,4 +1,4 @@
-"""Latitude, longitude, height -> local east-north-up, beside pymap3d and pyproj."""
+"""Latitude, longitude, height -> local east-north-up, compared with pymap3d and pyproj."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Points = tuple[NDArray, NDArray, NDArray]
 
 
 def error(points: Points, enu: NDArray) -> float | None:
-    """Largest error (m) of any component of CHECKED points against 50-digit arithmetic."""
+    """Return the largest error (m) of any component of CHECKED points against 50-digit arithmetic."""
     try:
         from geodesy import enu_exact
     except ImportError:  # of mpmath
@@ -38,7 +38,7 @@ def error(points: Points, enu: NDArray) -> float | None:
 
 
 def rivals(bench: Bench) -> dict[str, Callable[[Points], NDArray]]:
-    """What else takes scattered points."""
+    """Return the other tools for scattered points."""
     tools: dict[str, Callable[[Points], NDArray]] = {}
     if pymap3d := bench.rival("pymap3d"):
         tools["pymap3d"] = lambda p: np.stack(pymap3d.geodetic2enu(*p, *ORIGIN), axis=-1)
@@ -49,7 +49,7 @@ def rivals(bench: Bench) -> dict[str, Callable[[Points], NDArray]]:
 
 
 def run(bench: Bench) -> None:
-    """Grids of growing size; the rivals know no grids and get every point."""
+    """Measure grids of growing size; the other tools have no grids and receive every point."""
     frame = LocalFrame(*ORIGIN)
     others = rivals(bench)
     for side in SIDES:
@@ -78,17 +78,16 @@ def _wrong(points: Points, call: Callable[[], NDArray]) -> float | None:
 
 
 def _targets(bench: Bench, found: dict[str, Times], points: int, wrong: dict[str, float | None]) -> None:
-    for tool, what in ((GRID, "points of a grid"), (SCATTERED, "scattered points")):
+    for tool, points_of in ((GRID, "points of a grid"), (SCATTERED, "scattered points")):
         if (metres := wrong[tool]) is not None:
-            bench.target(
-                f"largest error of {what}, against 50-digit arithmetic", metres * 1e9, 5, "nm", most=True
-            )
+            quantity = f"Largest error against 50-digit arithmetic, {points_of}"
+            bench.target(quantity, metres * 1e9, 5, "nm", most=True)
     each = [seconds / points * 1e9 for seconds in found[GRID].seconds]
-    bench.target("a point of a grid takes", each, 5, "ns", most=True)
+    bench.target("Time per point of a grid", each, 5, "ns", most=True)
     for tool in ("pymap3d", "pyproj"):
         if tool in found:
             bench.target(
-                f"speed of placing a grid's points, over {tool}'s",
+                f"Speed on the points of a grid / {tool}",
                 found[GRID].faster_than(found[tool]),
                 15,
                 "x",

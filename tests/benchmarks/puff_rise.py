@@ -1,4 +1,4 @@
-"""Rise of the puffs of a steady fire in a uniform wind, beside the theory's equation integrated step by step.
+"""Rise of the puffs of a steady fire in a uniform wind, against theory, and theory integrated step by step.
 
 Briggs's bent-over plume (Briggs 1975, "Plume rise predictions", in Lectures on Air Pollution and
 Environmental Impact Analyses) in a wind U with the buoyancy frequency N: its radius is b z, its momentum
@@ -21,36 +21,36 @@ POWERS = (1e8, 1e9, 1e10)  # W
 WIND = np.array([6.0, 8.0])  # m/s east and north, 10 m up
 STABILITY, ENTRAINMENT = 1e-4, 0.6  # 1/s2
 CONVECTIVE, BURN_TIME = 0.7, 1e4  # share of the heat, s
-AGE = 5400.0  # s, by when a plume has settled
+AGE = 5400.0  # s, after which a plume has settled
 EULER_STEPS = (10.0, 1.0, 0.1)  # s
 
 
 def buoyancy(power: float) -> float:
-    """Fb = g c Q / (pi cp rho T) in m4/s3 of a fire of `power` W."""
+    """Return the buoyancy flux Fb = g c Q / (pi cp rho T) of a fire of `power` W, m4/s3."""
     return constants.BUOYANCY_FLUX * CONVECTIVE * power
 
 
 def wind_aloft() -> float:
-    """m/s at 300 m, where the theory takes it, by the power law of 0.1."""
+    """Return the wind speed at 300 m, which the theory needs, by a power law of exponent 0.1, m/s."""
     return float(np.hypot(*WIND)) * 30**0.1
 
 
 def theory(power: float, time: NDArray) -> NDArray:
-    """Rise (n,) m at `time` s, up to the top of the plume."""
+    """Return the rise (n,), m, at `time`, s, up to the top of the plume."""
     turn = np.sqrt(STABILITY) * time
     scale = 3 * buoyancy(power) / (ENTRAINMENT**2 * wind_aloft() * STABILITY)
     return np.cbrt(scale * (1 - np.cos(turn)))
 
 
 def settled(power: float) -> float:
-    """Rise in m in the end."""
+    """Return the final rise, m."""
     return 2.6 * float(np.cbrt(buoyancy(power) / (wind_aloft() * STABILITY)))
 
 
 def column(power: float) -> tuple[NDArray, NDArray]:
-    """Ages (s) and rise (m), by age, of the puffs of a fire that has burned evenly for AGE seconds.
+    """Return ages (s) and rise (m), by age, of the puffs of a fire that has burned evenly for AGE seconds.
 
-    Without the first, which has gathered less than a whole interval of heat.
+    The first puff is left out: it holds the heat of less than a full interval.
     """
     fuel = power * BURN_TIME / constants.HEAT_OF_COMBUSTION
     smoke = volume.puffs(
@@ -72,9 +72,9 @@ def column(power: float) -> tuple[NDArray, NDArray]:
 
 
 def euler(power: float, step: float) -> tuple[float, float]:
-    """Time (s) and rise (m) near the top, by explicit Euler from the theory's values after one step.
+    """Return time (s) and rise (m) near the top, by explicit Euler from the theory's values after one step.
 
-    Not from 0, where the plume has no size and its speed no limit.
+    At time 0 the plume has no size and unlimited speed.
     """
     wind, frequency, number = wind_aloft(), np.sqrt(STABILITY), round(np.pi / np.sqrt(STABILITY) / step)
     momentum = buoyancy(power) / (wind * frequency) * float(np.sin(frequency * step))
@@ -88,7 +88,7 @@ def euler(power: float, step: float) -> tuple[float, float]:
 
 
 def errors(power: float) -> tuple[float, float]:
-    """Percent that our column is off the theory at most up to its top, and when it has settled."""
+    """Return the largest deviation of our column from theory up to its top, and the final one, percent."""
     age, rise = column(power)
     rising = (age > 0) & (age <= np.pi / np.sqrt(STABILITY))
     under_way = np.abs(rise[rising] / theory(power, age[rising]) - 1).max()
@@ -96,7 +96,7 @@ def errors(power: float) -> tuple[float, float]:
 
 
 def run(bench: Bench) -> None:
-    """Fires of three powers: the way up, and the height in the end."""
+    """Measure fires of three powers: the rise under way, and the final rise."""
     under_way, end = 0.0, 0.0
     for power in POWERS:
         way, top = errors(power)
@@ -107,5 +107,5 @@ def run(bench: Bench) -> None:
             error = 100 * abs(rise / float(theory(power, np.array(time))) - 1)
             tools.append(Runner(f"Euler, {step:g} s steps", partial(euler, power, step), error=error))
         bench.race(f"{power / 1e9:g} GW", tools, 1, "plume", "% of the rise")
-    bench.target("rise of a plume under way, off Briggs's equation by", under_way, 10, "%", most=True)
-    bench.target("rise in the end, off 2.6 (Fb / U s)^(1/3) by", end, 1, "%", most=True)
+    bench.target("Rise of a plume under way, largest deviation from Briggs", under_way, 10, "%", most=True)
+    bench.target("Final rise, deviation from 2.6 (Fb / U s)^(1/3)", end, 1, "%", most=True)

@@ -1,14 +1,14 @@
-"""What a shot costs in runs of different sizes, and how well arrival is known from coarse output.
+"""Cost of a shot in runs of different sizes, and error of arrival times from coarse output.
 
     python tests/benchmarks/scale.py SAMPLE [--work DIR] [--minutes 240]
 
-SAMPLE is the run of `firetwin sample`. Made of it, in DIR: `sample`, its minutes from `FIRST` on; `split`,
-the same fire with each cell in 4 x 4; and `large`, round fires on 2000 and on 2880 cells of 30 m a side. Each
-step runs in a process of its own; its memory is the most that it held, less what importing takes. The shot
-lasts `SHOT` s.
+SAMPLE is the run of `firetwin sample`. Runs in DIR: `sample`, its minutes from `FIRST` on; `split`, the same
+fire with each cell split into 4 x 4; and `large`, circular fires on grids of 2000 and 2880 cells of 30 m
+along a side. Each step runs in a separate process; its memory is the peak minus the memory after imports. The
+shot lasts `SHOT` s.
 
-Then the front, from fluxes alone, of the sample each minute and each quarter of an hour: how far it is off
-the sample's own arrival times, in the mean and outwards, and how much too large the burned area is.
+Then the front computed from heat fluxes only, with output each minute and each quarter of an hour: its mean
+and its outward distance from the sample's arrival times, and the error of the burned area.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ SERIES = ("heat_flux", "temperature", "wind_east", "wind_north")
 
 
 def info(folder: Path) -> None:
-    """All that `firetwin info` shows, of a run that nobody has asked."""
+    """Gather everything that `firetwin info` shows, without cached facts."""
     from firetwin.run import fact_cache
 
     (folder / fact_cache.NAME).unlink(missing_ok=True)
@@ -45,14 +45,14 @@ def info(folder: Path) -> None:
 
 
 def info_again(folder: Path) -> None:
-    """The same of one that was asked before, if its files are some seconds old."""
+    """Gather the same again, with cached facts if the files are some seconds old."""
     from firetwin.run import info
 
     info.gather(runs.open(folder), "UTC")
 
 
 def planning(folder: Path) -> None:
-    """What `firetwin render --frames 1` does before it starts Blender, of a run that nobody has asked."""
+    """Plan as `firetwin render --frames 1` does before it starts Blender, without cached hashes."""
     from firetwin.run import content
 
     (folder / content.REMEMBERED).unlink(missing_ok=True)
@@ -60,7 +60,7 @@ def planning(folder: Path) -> None:
 
 
 def planning_again(folder: Path) -> None:
-    """The same of one whose files it knows, if they are some seconds old."""
+    """Plan again, with cached hashes if the files are some seconds old."""
     import planning
 
     with tempfile.TemporaryDirectory() as name:
@@ -70,7 +70,7 @@ def planning_again(folder: Path) -> None:
 
 
 def emission(folder: Path) -> float:
-    """Sources of each moment of the shot; seconds for one, once all is gathered."""
+    """Compute the sources at each time of the shot; return the seconds for one, after the first."""
     fire, times = _fire(folder)
     fire.sources(times[0])
     watch = Stopwatch()
@@ -80,7 +80,7 @@ def emission(folder: Path) -> float:
 
 
 def interpolation(folder: Path) -> float:
-    """The flux at each moment of the shot; seconds for one, once the first is there."""
+    """Interpolate the flux at each time of the shot; return the seconds for one, after the first."""
     fire, times = _fire(folder)
     fire.flux.burning(times[0])
     watch = Stopwatch()
@@ -109,7 +109,7 @@ def _fire(folder: Path) -> tuple:
 
 
 def measure(step: str, folder: Path) -> dict[str, float]:
-    """Seconds, processor seconds and MB of a step in a process of its own, and ms for a moment."""
+    """Run a step in a separate process; return seconds, CPU seconds, MB, and ms per time of the shot."""
     command = [sys.executable, __file__, str(folder), "--step", step]
     return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
 
@@ -121,16 +121,16 @@ def _step(name: str, folder: Path) -> None:
     before, watch = memory.peak(), Stopwatch()
     one = STEPS[name](folder)
     spent, held = watch.read(), memory.peak() - before
-    found = {"seconds": spent.seconds, "of a processor": spent.processor, "MB": held / 2**20}
-    print(json.dumps(found | {"ms a moment": (one or 0.0) * 1000}))
+    found = {"seconds": spent.seconds, "cpu-s": spent.processor, "MB": held / 2**20}
+    print(json.dumps(found | {"ms per time": (one or 0.0) * 1000}))
 
 
 def cut(
     sample: Path, out: Path, minutes: slice, split: int = 1, own: bool = True, series: bool = False
 ) -> Path:
-    """Some of the sample's minutes, each cell in `split` x `split`; with its own arrival times or without.
+    """Write some minutes of the sample, each cell split into `split` x `split`, with arrival times if `own`.
 
-    Split, it has no series but heat flux unless `series`; heights and arrival times are then bilinear.
+    A split run has no series but heat flux, unless `series`; its heights and arrival times are bilinear.
     """
     out.mkdir()
     toml = (sample / "run.toml").read_text().replace("interval_s = 60.0", _interval(minutes))
@@ -148,15 +148,15 @@ def cut(
                 continue
             values = values[minutes]
         if "itude" not in path.stem and split > 1:
-            whole = np.repeat(np.repeat(values, split, -2), split, -1)
+            repeated = np.repeat(np.repeat(values, split, -2), split, -1)
             smooth = "elevation" in path.stem or "arrival" in path.stem
-            values = _between(values, whole, split) if smooth else whole
+            values = _between(values, repeated, split) if smooth else repeated
         np.save(out / path.name, values)
     return out
 
 
-def _between(values: NDArray, whole: NDArray, split: int) -> NDArray:
-    """Bilinear between the cells' middles; where that is not known, the cell's own."""
+def _between(values: NDArray, repeated: NDArray, split: int) -> NDArray:
+    """Interpolate bilinearly between cell centres; take the cell's value if a neighbour is unknown."""
     found = values.astype(np.float64)
     for axis in (0, 1):
         count = values.shape[axis]
@@ -165,7 +165,7 @@ def _between(values: NDArray, whole: NDArray, split: int) -> NDArray:
         high = np.minimum(low + 1, count - 1)
         part = np.expand_dims(at - low, 1 - axis)
         found = found.take(low, axis) * (1.0 - part) + found.take(high, axis) * part
-    return np.where(np.isfinite(found) & np.isfinite(whole), found, whole).astype(values.dtype)
+    return np.where(np.isfinite(found) & np.isfinite(repeated), found, repeated).astype(values.dtype)
 
 
 def _interval(minutes: slice) -> str:
@@ -180,7 +180,7 @@ def _finer(axis: NDArray, split: int) -> NDArray:
 
 
 def large(out: Path, side: int) -> Path:
-    """A round fire on side x side cells, an output each ten minutes, without arrival times of its own."""
+    """Write a circular fire on side x side cells, with output each ten minutes and no arrival times."""
     out.mkdir()
     (out / "run.toml").write_text(
         'start = 2014-09-17T04:45:00Z\ninterval_s = 600.0\nvertical = "orthometric"\n'
@@ -203,10 +203,10 @@ def large(out: Path, side: int) -> Path:
 
 
 def front(sample: Path, found: NDArray, moments: NDArray) -> tuple[float, float, float]:
-    """Metres that a front is off, in the mean and outwards, and % that the last area is too large."""
+    """Return the mean and the outward distance of a front, m, and the error of the last burned area, %."""
     own = np.load(sample / "fuel_arrival_time.npy").astype(np.float64)
     before = own < 0.0  # released its heat before the run began
-    for _ in range(8):  # and what lies within the cells of the model beside it
+    for _ in range(8):  # and its neighbours within the model's cells
         padded = np.pad(before, 1)
         before = padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:] | before
     off, out, more = [], [], 0.0
@@ -223,7 +223,7 @@ def front(sample: Path, found: NDArray, moments: NDArray) -> tuple[float, float,
 
 
 def main() -> None:
-    """Print both tables."""
+    """Measure and print both tables."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("sample", type=Path)
     parser.add_argument("--work", type=Path)
@@ -251,8 +251,8 @@ def main() -> None:
             run = runs.open(folder)
             moments = np.append(np.arange(7620.0, run.times[-1] - 900.0, 1800.0), run.times[-1])
             mean, outwards, area = front(given.sample, np.asarray(run.fuel_arrival_time(), float), moments)
-            off = f"front {mean:.0f} m off, {outwards:+.0f} m out, area {area:+.1f} %"
-            print(f"each {minutes_apart:2} min: {off}")
+            off = f"front error {mean:.0f} m, outward {outwards:+.0f} m, area {area:+.1f} %"
+            print(f"output each {minutes_apart:2} min: {off}")
 
 
 if __name__ == "__main__":

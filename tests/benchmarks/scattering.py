@@ -1,9 +1,9 @@
-"""Light inside smoke: solved once for the frame, or one bounce traced, beside 32 bounces; FLIP and time.
+"""Light inside smoke: solved once per frame, or one bounce traced, against 32 bounces; FLIP and time.
 
-The smoke is a plume in the wind, solved, painted and lit as a shot's, and drawn by Cycles in a process of its
-own. Pictures are compared by the mean FLIP (Andersson et al. 2020, "FLIP: A Difference Evaluator for
-Alternating Images"). Beside it stands what another grain makes: less than that does not show. The reference
-lets light go on forwards, as smoke does, and counts all of the smoke.
+The smoke is a plume in the wind, solved, painted and lit as in a shot, and rendered by Cycles in a separate
+process. Pictures are compared by the mean FLIP (Andersson et al. 2020, "FLIP: A Difference Evaluator for
+Alternating Images"). A row gives the FLIP between two noise seeds: smaller differences do not show. The
+reference scatters forwards, as smoke does, and attenuates light by all of the smoke.
 """
 
 from __future__ import annotations
@@ -36,14 +36,14 @@ VIEW = CameraKey(0.0, PLACE[0] - 0.036, PLACE[1] - 0.01, 900.0, "point", *PLACE,
 LENS = 60.0  # mm; the plume fills half of the picture
 RESOLUTION, SAMPLES = (160, 90), 16
 SPACING, SHAPE, LEVELS, DEPTH, VOXEL = 80.0, (40, 64), 36, 60.0, 40.0  # m, rows and columns, levels; m
-MODEL_TIMES = 25  # of the sample; arrival times are all there
+MODEL_TIMES = 25  # of the sample; arrival times are complete
 WIND, POWER, SMOKE = 6.0, 6e9, 1.2e-9  # m/s, W, kg/J
 FORWARD = 0.6  # anisotropy of smoke, which the material's one bounce stands in for
-REFERENCE, OTHER_GRAIN = "32 bounces", "ours, other grain"
+REFERENCE, OTHER_GRAIN = "32 bounces", "firetwin, other noise seed"
 WAYS = {  # lighting; bounces, part of the smoke that dims light, anisotropy (None: as the material has it)
     OURS: ("solved", 1, None, None),
-    "1 bounce, thinner for light": ("traced", 1, None, None),
-    "1 bounce, all of the smoke": ("traced", 1, 1.0, FORWARD),
+    "1 bounce, reduced attenuation": ("traced", 1, None, None),
+    "1 bounce, full attenuation": ("traced", 1, 1.0, FORWARD),
     REFERENCE: ("traced", 32, 1.0, FORWARD),
     OTHER_GRAIN: ("solved", 1, None, None),
 }
@@ -51,7 +51,7 @@ LIMIT = 0.15  # FLIP, of a picture half of which is smoke
 
 
 def run(bench: Bench) -> None:
-    """Render every way, then compare."""
+    """Render every variant, then compare."""
     flip = bench.flip()
     if flip is None:
         return
@@ -74,16 +74,18 @@ def run(bench: Bench) -> None:
             error_unit="FLIP",
             threads=os.cpu_count() or 1,
         )
-    bench.target("light in smoke, off that of 32 bounces by", errors[OURS], LIMIT, "FLIP", most=True)
+    bench.target(
+        "Image difference against 32 bounces, light in smoke", errors[OURS], LIMIT, "FLIP", most=True
+    )
 
 
 def picture(folder: str, name: str) -> str:
-    """Where the picture called `name` is written."""
+    """Return the path of the picture called `name`."""
     return str(Path(folder) / f"{name.replace(' ', '_').replace(',', '')}.png")
 
 
 def plume() -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Extinction (nx, ny, nz), 1/m, and freshness of a steady fire's smoke after five minutes."""
+    """Solve five minutes of a steady fire's smoke; return extinction (nx, ny, nz), 1/m, and freshness."""
     levels = np.arange(LEVELS + 1) * DEPTH
     theta = [300.0, 300.0 + 0.004 * levels[-1]]
     profile = flow.Profile([0.0, levels[-1]], theta, [[WIND, 0.0], [2 * WIND, 0.0]])
@@ -116,7 +118,7 @@ def plume() -> tuple[NDArray[np.float32], NDArray[np.float32]]:
 
 
 def scene_file(folder: Path) -> settings.Settings:
-    """One frame of the sample from a drone."""
+    """Describe one frame of the sample from a drone."""
     return settings.Settings(
         path=folder / "scene.toml",
         run=folder / "sample",
@@ -129,13 +131,13 @@ def scene_file(folder: Path) -> settings.Settings:
     )
 
 
-# What follows runs in the worker process, where Blender is.
+# The following functions run in the worker process, where Blender is.
 
 
 def render_in_blender(
     folder: str, progress: Progress = silent, tell: MessageCallback = no_message
 ) -> dict[str, float]:
-    """Draw the picture in every way; the time (s) of each."""
+    """Render the picture in every variant; return the time (s) of each."""
     import bpy
 
     bpy.ops.wm.read_factory_settings(use_empty=True)

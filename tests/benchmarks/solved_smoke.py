@@ -1,10 +1,9 @@
-"""What the smoke of a scene costs when it is solved as a flow: time, memory and room on the disk.
+"""Cost of solving the smoke of a scene as a flow: time, memory and disk space.
 
     .venv/bin/python tests/benchmarks/solved_smoke.py examples/king_fire.toml [--frames 3] [--json]
 
-Solves from the flow's beginning to the last of so many first frames (all of them unless said), in a cache of
-its own that is removed, and paints the last one. Prints wall time, the processors' seconds, which say what an
-idle machine would take, how high the smoke stands, and how well its mass adds up.
+Solves the flow up to the last of the first `--frames` frames (default: all) in a temporary cache, and paints
+the last one. Prints wall-clock time, CPU time, the height of the smoke and its mass balance.
 """
 
 from __future__ import annotations
@@ -27,16 +26,16 @@ from firetwin.smoke.flow import Flow
 from firetwin_core import run
 
 
-def timed(work, *arguments) -> tuple[float, float]:
-    """Wall and processors' seconds of a call."""
+def time_call(work, *arguments) -> tuple[float, float]:
+    """Return wall-clock and CPU seconds of a call."""
     watch = Stopwatch()
     work(*arguments)
     spent = watch.read()
     return spent.seconds, spent.processor
 
 
-def measured(scene: Path, frames: int, cache: Path) -> dict[str, float]:
-    """All numbers."""
+def measure(scene: Path, frames: int, cache: Path) -> dict[str, float]:
+    """Solve and paint; return all figures by name."""
     settings = scene_file.read(scene)
     settings = replace(settings, cache=cache, smoke=replace(settings.smoke, method="flow"))
     shot = Shot(settings, run.open(settings.run))
@@ -44,7 +43,7 @@ def measured(scene: Path, frames: int, cache: Path) -> dict[str, float]:
     solved: Flow = source.flow
     last = min(frames or shot.frames.count, shot.frames.count)
     result = {"boxes": float(len(solved.domains))}
-    result["solve_s"], result["solve_processor_s"] = timed(solved.ready, last)
+    result["solve_s"], result["solve_processor_s"] = time_call(solved.ready, last)
     live = solved._integrator
     for name, solver in zip(("box", "nest"), live.solvers, strict=False):
         mass = solver.mass()
@@ -55,11 +54,11 @@ def measured(scene: Path, frames: int, cache: Path) -> dict[str, float]:
             f"{name}_steps": float(solver.steps),
             f"{name}_half_of_the_smoke_below_m": tops[0],
             f"{name}_99_percent_below_m": tops[1],
-            f"{name}_mass_amiss": abs((mass["airborne"] + mass["left"]) / given - 1.0),
+            f"{name}_mass_error": abs((mass["airborne"] + mass["left"]) / given - 1.0),
         }
     result["solve_mb"] = memory.peak() / 2**20
     place = cache / f"smoke_{last:06d}.vdb"
-    result["frame_s"], result["frame_processor_s"] = timed(source.write, place, last)
+    result["frame_s"], result["frame_processor_s"] = time_call(source.write, place, last)
     result["frame_mb"] = sum(path.stat().st_size for path in cache.glob("*.vdb")) / 1e6
     kept = [path.stat().st_size for path in cache.glob("*/moment_*.npz")]
     result["moments_mb_per_frame"] = sum(kept) / 1e6 / last
@@ -80,7 +79,7 @@ def main() -> None:
     firetwin_core.set_threads(options.threads)
     with tempfile.TemporaryDirectory() as cache:
         result = {
-            key: float(value) for key, value in measured(options.scene, options.frames, Path(cache)).items()
+            key: float(value) for key, value in measure(options.scene, options.frames, Path(cache)).items()
         }
     if options.json:
         print(json.dumps(result))

@@ -1,11 +1,11 @@
-"""What a frame of the example costs where the same fire lies on four times as many cells each way.
+"""Cost of a frame of the example when each cell of the run is split into 4 x 4.
 
     python tests/benchmarks/split_run.py SAMPLE --work DIR [--frame 20] [--split 4]
 
-SAMPLE is the run of `firetwin sample --format npy`. Made of some of its minutes, in DIR: `run1`, with its own
-cells, and `run4`, with each in 4 x 4. Then, for both in turn, of the scene of examples/king_fire.toml: the
-flow is solved and the frame's smoke baked, the scene is built, and the drone's frame rendered in all passes.
-Seconds are by the clock and of the processor; memory is the most that a process held.
+SAMPLE is the run of `firetwin sample --format npy`. Two runs are written to DIR from some of its minutes:
+`run1` with its cells, and `run4` with each cell split into 4 x 4. Then, for both in turns, with
+examples/king_fire.toml: the flow is solved and the frame's smoke baked, the scene is built, and the drone's
+frame is rendered in all passes. Prints wall-clock seconds, CPU seconds and the peak memory of the process.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ EXAMPLE = Path(__file__).parents[2] / "examples/king_fire.toml"
 
 
 def scene(run: Path, frame: int) -> Path:
-    """The example with this run, of one frame of the drone."""
+    """Write the example with this run, for one frame of the drone."""
     text = EXAMPLE.read_text(encoding="utf-8")
     text = re.sub(r'(?m)^run = "[^"]*"', f'run = "{run.as_posix()}"', text)
     text = re.sub(r'(?m)^cache = "[^"]*"', f'cache = "{run.name}-cache"', text)
@@ -37,7 +37,7 @@ def scene(run: Path, frame: int) -> Path:
 
 
 def step(*given: object) -> tuple[float, float, float]:
-    """Seconds by the clock, of the processor, and MB, of a command of firetwin."""
+    """Run a firetwin command; return wall-clock seconds, CPU seconds and peak memory, MB."""
     begun = time.perf_counter()
     with subprocess.Popen([sys.executable, "-m", "firetwin", *map(str, given)]) as process:
         _, status, used = os.wait4(process.pid, 0)

@@ -1,9 +1,9 @@
-"""Places: the time of searches among many resources, and the error of arrival times from heat fluxes.
+"""Stations: time of searches among many resources, and error of arrival times from heat fluxes.
 
     .venv/bin/python tests/benchmarks/station_search.py RUN [--resources N]
 
-RUN has arrival times of its own; beside them are those that the same run gives without them, at places drawn
-by chance that the fire reaches in both.
+RUN has `fuel_arrival_time`. Its arrival times are compared with those computed from heat fluxes only, at
+random points that the fire reaches in both.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ import shutil
 import statistics
 import sys
 import tempfile
-import time
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+from firetwin.bench.timing import Stopwatch
 from firetwin.stations import fire_arrival, reading, search, writing
 from firetwin.stations.search import Query
 from firetwin_core import run as runs
@@ -51,7 +51,7 @@ def main() -> None:
 
 
 def time_searches(path: Path, number: int) -> None:
-    """Median times of reading a file and of searches in it."""
+    """Print the median times of reading a file and of searches in it."""
     writing.write(random_stations(1, max(number // 20, 1), number), path)
     seconds, station_file = timed(lambda: reading.read(path))
     print(f"{number:,} resources: read {seconds:.2f} s")
@@ -63,17 +63,17 @@ def time_searches(path: Path, number: int) -> None:
 
 
 def timed(work: Callable, repeats: int = REPEATS) -> tuple[float, object]:
-    """Median seconds, and what is made."""
+    """Return the median seconds of a call, and its result."""
     every = []
     for _ in range(repeats):
-        begin = time.perf_counter()
+        watch = Stopwatch()
         made = work()
-        every.append(time.perf_counter() - begin)
+        every.append(watch.read().seconds)
     return statistics.median(every), made
 
 
 def compare_arrivals(folder: Path, copy: Path) -> None:
-    """Arrival times at places with and without the run's own."""
+    """Print the errors of arrival times from heat fluxes."""
     shutil.copytree(folder, copy, ignore=shutil.ignore_patterns(f"{fire_arrival.OWN}*"))
     own, flux = runs.open(folder), runs.open(copy)
     rng = np.random.default_rng(1)
@@ -87,14 +87,14 @@ def compare_arrivals(folder: Path, copy: Path) -> None:
     wide, narrow = (np.median((each.latest - each.earliest)[both]) / 60.0 for each in (found, true))
     before = true.state == fire_arrival.BEFORE
     print(f"{both.sum():,} places; model output every {np.median(np.diff(own.times)):.0f} s")
-    print(f"  error {np.abs(error).mean():.0f} min in the mean, bias {error.mean():+.1f} min")
+    print(f"  mean absolute error {np.abs(error).mean():.0f} min, bias {error.mean():+.1f} min")
     print(f"  between earliest and latest: {100.0 * within.mean():.0f} %; median width {wide:.0f} min")
-    print(f"  median width with times of its own {narrow:.0f} min")
+    print(f"  median width with fuel_arrival_time {narrow:.0f} min")
     missed = (true.state == fire_arrival.REACHED) & (found.state == fire_arrival.NEVER)
     added = (true.state == fire_arrival.NEVER) & (found.state == fire_arrival.REACHED)
-    print(f"  reached, by fluxes never: {missed.sum():,}; never, by fluxes reached: {added.sum():,}")
+    print(f"  reached, but never by fluxes: {missed.sum():,}; never, but reached by fluxes: {added.sum():,}")
     never = before & (found.state == fire_arrival.NEVER)
-    print(f"  burned before the run: {before.sum():,}, by fluxes never: {never.sum():,}")
+    print(f"  burned before the run: {before.sum():,}, never by fluxes: {never.sum():,}")
 
 
 if __name__ == "__main__":

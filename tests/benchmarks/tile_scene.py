@@ -1,11 +1,11 @@
-"""A set of 3D tiles into the scene: seconds of choosing, fetching, decoding and building, and a second time.
+"""Time to select, fetch, decode and build a set of 3D tiles, first without and then with a cache.
 
     python tests/benchmarks/tile_scene.py [--tiles 300] [--side 40] [--runs 3]
 
 The set has TILES tiles of 2 x SIDE x SIDE triangles with a JPEG picture of 256 pixels each, in a folder.
-Seconds are medians with their range, by the clock and of the processor, with all processes that were started.
-The material is the ground's, and costs the same for any number of tiles.
-`tenth` and `last` are the filling of the tenth and of the last mesh: means over ten tiles there, in ms.
+Times are medians with their range: wall-clock seconds, and CPU seconds including child processes.
+The material is the terrain's, and costs the same for any number of tiles.
+`tenth` and `last` are the times to fill the tenth and the last mesh, ms: means over ten tiles.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ from firetwin.shot.tiles import tile_cut
 
 
 def shot_of(folder: Path, count: int, side: int) -> Shot:
-    """A shot of the sample run that shows every tile of a set in `folder`."""
+    """Make a shot of the sample run that shows every tile of a set in `folder`."""
     sample.write(folder / "run", 3, "npy", lambda *_: None)
     shown = auto_framing.fit_folder(folder / "run", Path("run"), Path("cache")).settings
     shot = Shot(replace(shown, path=folder / "scene.toml", run=folder / "run"), readers.open(folder / "run"))
@@ -48,7 +48,7 @@ def shot_of(folder: Path, count: int, side: int) -> Shot:
 
 
 def seconds(function: Callable[[], Any]) -> tuple[float, float]:
-    """Seconds by the clock, and of the processor with ended children."""
+    """Return wall-clock seconds of a call, and CPU seconds including ended child processes."""
     began, before = time.perf_counter(), _processor()
     function()
     return time.perf_counter() - began, _processor() - before
@@ -59,8 +59,8 @@ def _processor() -> float:
     return sum(each.ru_utime + each.ru_stime for each in used)
 
 
-def measured(folder: Path, count: int, side: int) -> dict[str, Any]:
-    """Seconds of one preparation and building, and of a second time."""
+def measure(folder: Path, count: int, side: int) -> dict[str, Any]:
+    """Measure preparation and build, and both again with the cache."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     shot, filled = shot_of(folder, count, side), []
     _ = shot.visibility, shot.front
@@ -103,12 +103,12 @@ def main() -> None:
     runs = []
     for _ in range(given.runs):
         with tempfile.TemporaryDirectory() as folder:
-            runs.append(measured(Path(folder), given.tiles, given.side))
+            runs.append(measure(Path(folder), given.tiles, given.side))
     result: dict[str, Any] = {"tiles": runs[0]["tiles"]}
     for name in ("first prepare", "first build", "second prepare", "second build"):
-        for what, index in (("clock", 0), ("processor", 1)):
-            result[f"{name}, {what} s"] = _spread([run[name][index] for run in runs])
-    result["material of the first build, processor s"] = _spread([run["material"] for run in runs])
+        for clock, index in (("wall-clock", 0), ("CPU", 1)):
+            result[f"{name}, {clock} s"] = _spread([run[name][index] for run in runs])
+    result["material of the first build, CPU s"] = _spread([run["material"] for run in runs])
     for name in ("tenth", "last"):
         result[f"{name} mesh, ms"] = _spread([run[name] for run in runs])
     print(json.dumps(result, indent=1))

@@ -1,9 +1,8 @@
-"""Culling of a shot -> cost against error: a drone's picture built and rendered, beside the unculled scene.
+"""Culling of a shot, cost against error: a drone's scene built and rendered culled and unculled.
 
-Each is built and rendered in a process of its own, without smoke, with the same trees in reach. Times are CPU
-times. Memory is the process's peak less that of starting Blender. The error is the mean FLIP (Andersson et
-al. 2020) against the unculled picture; beside it stands that of another noise seed.
-`tests/benchmarks/culling.py` measures the same at full size, also for a lookout and a satellite.
+Each scene is built and rendered in a separate process, without smoke, with the same trees in reach. Times are
+CPU times. Memory is the peak of the process minus the memory of a started Blender. The error is the mean FLIP
+(Andersson et al. 2020) against the unculled picture; a row gives the FLIP between two noise seeds.
 """
 
 from __future__ import annotations
@@ -25,9 +24,9 @@ from .timing import Stopwatch, Times
 MOMENT = datetime(2014, 9, 17, 23, 12, tzinfo=UTC)
 VIEW = CameraKey(0.0, 38.977, -120.572, 150.0, "head")
 RESOLUTION, SAMPLES, CLEAN = (160, 90), 4, 128  # settings for timing, and for comparison, with little noise
-REACH = 500.0  # m, drawing distance of trees: the whole forest within more would take over a minute
+REACH = 500.0  # m, draw distance of trees; larger ones take over a minute
 MODEL_TIMES = 3  # of the sample; arrival times cover all
-ALL, GRAIN = "all there is", "all there is, other grain"
+ALL, GRAIN = "unculled", "unculled, other noise seed"
 TIMES, LESS, ERROR = 3.0, 3.0, 0.02  # targets: speed-up, memory ratio, FLIP at most
 
 
@@ -40,7 +39,7 @@ def run(bench: Bench) -> None:
         folder = Path(name)
         sample.write(folder / "run", MODEL_TIMES, "npy")
         results = {
-            tool: worker.run(f"{__name__}:draw", {"folder": name, "skip": tool == OURS, "tool": tool})
+            tool: worker.run(f"{__name__}:draw", {"folder": name, "cull": tool == OURS, "tool": tool})
             for tool in (OURS, ALL)
         }
         error = {
@@ -60,22 +59,22 @@ def run(bench: Bench) -> None:
                 threads=os.cpu_count() or 1,
                 bytes=round(each["bytes"]) or None if step == "render" else None,
             )
-    ours, whole = results[OURS], results[ALL]
-    seconds = [each["build"] + each["render"] for each in (whole, ours)]
-    bench.target("building and drawing takes less than of all there is", seconds[0] / seconds[1], TIMES, "x")
+    ours, unculled = results[OURS], results[ALL]
+    seconds = [each["build"] + each["render"] for each in (unculled, ours)]
+    bench.target("Build and render time, unculled / culled", seconds[0] / seconds[1], TIMES, "x")
     if ours["bytes"]:  # known
-        bench.target("and less memory", whole["bytes"] / ours["bytes"], LESS, "x")
+        bench.target("Memory, unculled / culled", unculled["bytes"] / ours["bytes"], LESS, "x")
     bench.row(f"{size}: render", GRAIN, None, 1, "pixel", error=error[GRAIN], error_unit="FLIP")
-    bench.target("off the picture of all there is by", error[OURS], ERROR, "FLIP", most=True)
+    bench.target("Image difference, culled against unculled", error[OURS], ERROR, "FLIP", most=True)
 
 
 def picture(folder: str, tool: str) -> str:
-    """Path of a tool's picture."""
+    """Return the path of a tool's picture."""
     return str(Path(folder) / f"{tool.replace(' ', '_').replace(',', '')}.png")
 
 
-def scene_file(folder: Path, skip: bool) -> settings.Settings:
-    """Scene file of one frame of the sample from a drone, with or without culling."""
+def scene_file(folder: Path, cull: bool) -> settings.Settings:
+    """Describe one frame of the sample from a drone, with or without culling."""
     return settings.Settings(
         path=folder / "scene.toml",
         run=folder / "run",
@@ -84,7 +83,7 @@ def scene_file(folder: Path, skip: bool) -> settings.Settings:
         forest=sections.Forest(draw_distance=REACH),
         smoke=sections.SmokeSettings(enabled=False),
         cameras=(settings.Camera("drone", Drone(keys=(VIEW,))),),
-        render=settings.Render(resolution=RESOLUTION, samples=SAMPLES, passes=("rgb",), cull=skip),
+        render=settings.Render(resolution=RESOLUTION, samples=SAMPLES, passes=("rgb",), cull=cull),
     )
 
 
@@ -92,16 +91,16 @@ def scene_file(folder: Path, skip: bool) -> settings.Settings:
 
 
 def draw(
-    folder: str, skip: bool, tool: str, progress: Progress = silent, tell: MessageCallback = no_message
+    folder: str, cull: bool, tool: str, progress: Progress = silent, tell: MessageCallback = no_message
 ) -> dict[str, float]:
-    """Build and render a scene -> CPU seconds of both, and bytes; the unculled one also with another seed."""
+    """Build and render a scene, with two seeds if unculled; return CPU seconds of both, and bytes."""
     import bpy
     from firetwin_core import run as runs
 
     from ..jobs import worker_scene
     from ..shot.shot import Shot
 
-    file = scene_file(Path(folder), skip)
+    file = scene_file(Path(folder), cull)
     before, watch = memory.peak(), Stopwatch()
     stage = worker_scene.build_scene(Shot(file, runs.open(file.run)), progress, tell)
     built = watch.read().processor
@@ -114,7 +113,7 @@ def draw(
         "bytes": memory.peak() - before,
     }
     stage.scene.cycles.samples = CLEAN
-    for seed, name in ((0, tool), (1, GRAIN))[: 1 if skip else 2]:
+    for seed, name in ((0, tool), (1, GRAIN))[: 1 if cull else 2]:
         stage.scene.cycles.seed = seed
         stage.scene.render.filepath = picture(folder, name)
         bpy.ops.render.render(write_still=True, scene=stage.scene.name)
