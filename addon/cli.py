@@ -21,7 +21,6 @@ from typing import NoReturn
 from . import rooms
 from .escaped import escaped
 from .stations import arguments as stations
-from .stations.allocation import arguments as allocation
 from .tiles import arguments as tiles
 
 EPILOG = """\
@@ -283,12 +282,11 @@ def _parser() -> argparse.ArgumentParser:
 
         farm.add(command("farm", "plan a film for a render farm", farm.DETAIL), _path, _count)
     tiles.add(command("tiles", "read and make 3D tilesets", tiles.DETAIL), _path, _count)
-    allocation.add(
-        command("allocate", "suggest an allocation of resources (exercise)", allocation.DETAIL),
-        _path,
-        _count,
-        _moment,
-    )
+    if rooms.is_installed("allocation"):
+        from .allocation import arguments as allocation
+
+        summary = "suggest an allocation of resources (exercise)"
+        allocation.add(command("allocate", summary, allocation.DETAIL), _path, _count, _moment)
 
     track = command("track", "write a camera's path as a GPX track", TRACK)
     _scene(track)

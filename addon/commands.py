@@ -262,27 +262,9 @@ def _make_tiles(arguments: argparse.Namespace) -> None:
 
 def allocate(arguments: argparse.Namespace) -> None:
     """Suggest an allocation of resources. Exercise: not operational advice."""
-    from .errors import Error
-    from .jobs import allocate
-    from .run import times
-    from .stations.allocation import page, read
-    from .stations.allocation.problem import Request
+    from .allocation import command
 
-    run = _open(arguments.run)
-    start = arguments.start or times.utc(run, allocate.first_order(run))
-    units, left = read.read(arguments.stations, start)
-    request = Request(
-        arguments.budget,
-        arguments.response,
-        arguments.minutes,
-        arguments.loss_hectare,
-        arguments.escape_loss,
-    )
-    found = allocate.suggest(units, run, request, start, arguments.hours, arguments.divisions)
-    found["left_out"] += left
-    result(json.dumps(found, indent=1) if arguments.json else page.page(found))
-    if found["reasons"]:
-        raise Error("; ".join(found["reasons"]))
+    command.run(arguments, _open)
 
 
 def track(arguments: argparse.Namespace) -> None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-COMMANDS = {"brief": "brief", "farm": "farm"}
+COMMANDS = {"allocate": "allocation", "brief": "brief", "farm": "farm"}
 """Package that each of these commands needs."""
 
 

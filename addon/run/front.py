@@ -1,7 +1,7 @@
 """Fire front of a run at any time: burned state of points, and the front as a contour line.
 
-Both match the scores (see `score.shapes`): the front moves at constant speed between two cell centres, and a
-front that has stopped lies half-way between them.
+Both match the scores (see `arrival_grid.fill_unburned`): the front moves at constant speed between two cell
+centres, and a front that has stopped lies half-way between them.
 """
 
 from __future__ import annotations
@@ -15,8 +15,7 @@ from firetwin_core.terrain import bilinear
 from numpy.typing import ArrayLike, NDArray
 
 from . import areas
-from .score.grid import ScoreGrid
-from .score.shapes import mirrored, wider
+from .arrival_grid import ArrivalGrid, fill_unburned, pad_axis
 
 _FINE = 80.0  # m; a coarser grid is subdivided so that lines follow the terrain
 _CACHED = 4  # runs: those of a comparison
@@ -35,8 +34,8 @@ class Reach:
         Arrival times at these (ny, nx), s; NaN where never, as in the margin.
     """
 
-    def __init__(self, grid: ScoreGrid) -> None:
-        self.latitude, self.longitude = wider(grid.latitude), wider(grid.longitude)
+    def __init__(self, grid: ArrivalGrid) -> None:
+        self.latitude, self.longitude = pad_axis(grid.latitude), pad_axis(grid.longitude)
         self.arrival = np.pad(grid.arrival, 1, constant_values=np.nan)
         self.divided = max(1, int(np.ceil(max(grid.cell) / _FINE)))
 
@@ -57,7 +56,7 @@ class Reach:
     def burned(self, latitude: ArrayLike, longitude: ArrayLike, time: float) -> Array:
         """Burned state of points (degrees) at a model time (s): 1 burned, 0 not, NaN outside of the grid."""
         row, column = self.at(latitude, longitude)
-        since = bilinear(mirrored(self.arrival - time), np.nan_to_num(row), np.nan_to_num(column))
+        since = bilinear(fill_unburned(self.arrival - time), np.nan_to_num(row), np.nan_to_num(column))
         return np.where(np.isfinite(row), since <= 0.0, np.nan)
 
     def line(self, time: float) -> tuple[Array, Array, NDArray[np.int64]]:
@@ -69,7 +68,7 @@ class Reach:
             slice(max(int(found[0]) - 2, 0), int(found[-1]) + 3)
             for found in (np.flatnonzero(burned.any(axis)) for axis in (1, 0))
         )
-        since = mirrored(self.arrival[box] - time)
+        since = fill_unburned(self.arrival[box] - time)
         row, column = (np.linspace(0, count - 1, (count - 1) * self.divided + 1) for count in since.shape)
         if self.divided > 1:
             since = bilinear(since, *np.meshgrid(row, column, indexing="ij"))
@@ -87,7 +86,7 @@ class Reach:
 @functools.lru_cache(maxsize=_CACHED)
 def reach(run: Run) -> Reach:
     """Burned area of a run; those of the last runs are cached."""
-    return Reach(ScoreGrid.of(run))
+    return Reach(ArrivalGrid.from_run(run))
 
 
 def contour(field: Array) -> tuple[Array, Array, NDArray[np.int64]]:

@@ -1,7 +1,7 @@
 """When the fire of a run reaches a place, and between which times it may.
 
 The time is that of the flames and scores: the front moves at constant speed between two cell centres, and one
-that has stopped lies half-way between them (`run.score.shapes.mirrored`).
+that has stopped lies half-way between them (`run.arrival_grid.fill_unburned`).
 """
 
 from __future__ import annotations
@@ -15,9 +15,8 @@ from firetwin_core.terrain import bilinear
 from numpy.typing import ArrayLike, NDArray
 
 from ..run import front, times, zone
+from ..run.arrival_grid import ArrivalGrid, fill_unburned
 from ..run.front import Reach
-from ..run.score.grid import ScoreGrid
-from ..run.score.shapes import mirrored
 from .distance import distance_km
 
 Array = NDArray[np.float64]
@@ -82,11 +81,11 @@ def sample(run: Run, latitude: ArrayLike, longitude: ArrayLike, until: float | N
     until
         Model time, s, after which nothing counts; by default all that the run has.
     """
-    cells = ScoreGrid.of(run)
+    cells = ArrivalGrid.from_run(run)
     grid = _Corners.of(front.reach(run), latitude, longitude)
     last = float(run.times[-1])
     end = max(last, float(np.nanmax(grid.field, initial=last))) if until is None else until
-    since = bilinear(mirrored(grid.field - end), grid.row, grid.column)
+    since = bilinear(fill_unburned(grid.field - end), grid.row, grid.column)
     burned = grid.inside & (since <= 0.0) & np.isfinite(grid.time)
     time = np.where(burned, grid.time, np.nan)
     earliest, latest = grid.earliest, grid.latest
@@ -121,7 +120,7 @@ def clock(run: Run, seconds: float) -> str:
 
 def first_burned(run: Run) -> tuple[float, float] | None:
     """Latitude and longitude of the middle of the fuel cells that burn first; None without a fire."""
-    grid = ScoreGrid.of(run)
+    grid = ArrivalGrid.from_run(run)
     if not np.isfinite(grid.arrival).any():
         return None
     row, column = np.nonzero(grid.arrival == np.nanmin(grid.arrival))
@@ -129,7 +128,7 @@ def first_burned(run: Run) -> tuple[float, float] | None:
 
 
 def _nearest(
-    grid: ScoreGrid, latitude: ArrayLike, longitude: ArrayLike, wanted: NDArray[np.bool_], end: float
+    grid: ArrivalGrid, latitude: ArrayLike, longitude: ArrayLike, wanted: NDArray[np.bool_], end: float
 ) -> tuple[Array, Array]:
     """Distance (n,) to the nearest cell that burns by `end`, km, and its arrival time; of `wanted` places."""
     burned = grid.arrival <= end
@@ -197,7 +196,7 @@ def _of_model(
     """Widen times to those of the model's cells around, and by an interval of the output."""
     order = [slice(None, None, -1 if axis[0] > axis[-1] else 1) for axis in (run.latitude, run.longitude)]
     time = np.asarray(run.arrival_time(), np.float64)[order[0], order[1]]
-    grid = ScoreGrid(run.latitude[order[0]], run.longitude[order[1]], time)
+    grid = ArrivalGrid(run.latitude[order[0]], run.longitude[order[1]], time)
     model = _Corners.of(Reach(grid), latitude, longitude)
     step = float(np.max(np.diff(run.times), initial=0.0))
     return np.minimum(earliest, model.earliest) - step, np.maximum(latest, model.latest) + step

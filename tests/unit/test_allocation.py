@@ -13,15 +13,12 @@ import pytest
 import small_stations
 from fires import LATITUDE, LONGITUDE, axes, round_fire
 from firetwin import cli
-from firetwin.errors import Error, InputError, UsageError
-from firetwin.jobs import allocate
-from firetwin.run import areas, readers
-from firetwin.stations import measures, reading
-from firetwin.stations.allocation import (
+from firetwin.allocation import (
     LIMITS,
     arguments,
     containment,
     divisions,
+    job,
     nearest,
     page,
     read,
@@ -29,9 +26,12 @@ from firetwin.stations.allocation import (
     shortfall,
     ties,
 )
-from firetwin.stations.allocation.model import Options
-from firetwin.stations.allocation.problem import Problem, Request
-from firetwin.stations.allocation.resources import Unit
+from firetwin.allocation.model import Options
+from firetwin.allocation.problem import Problem, Request
+from firetwin.allocation.resources import Unit
+from firetwin.errors import Error, InputError, UsageError
+from firetwin.run import areas, readers
+from firetwin.stations import measures, reading
 from firetwin.stations.records import EXERCISE, Availability, Station
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -270,7 +270,7 @@ UNITS = [
 
 
 def test_a_suggestion_says_what_it_is(round_run):
-    found = allocate.suggest(UNITS, readers.open(round_run), Request(), hours=1)
+    found = job.suggest(UNITS, readers.open(round_run), Request(), hours=1)
     assert found["label"] == EXERCISE
     assert found["status"] == "suggested"
     assert json.loads(json.dumps(found)) == found
@@ -284,7 +284,7 @@ def test_a_suggestion_says_what_it_is(round_run):
     assert text.startswith(f"*** {EXERCISE} ***")
     assert text.endswith(f"*** {EXERCISE} ***")
     assert all(f"- {limit}" in text for limit in LIMITS)
-    assert found == allocate.suggest(UNITS[::-1], readers.open(round_run), Request(), hours=1)
+    assert found == job.suggest(UNITS[::-1], readers.open(round_run), Request(), hours=1)
 
 
 @pytest.mark.parametrize(
@@ -300,13 +300,13 @@ def test_a_suggestion_says_what_it_is(round_run):
 )
 def test_what_the_run_has_not_is_told(round_run, options, words):
     with pytest.raises(UsageError, match=words):
-        allocate.suggest(UNITS, readers.open(round_run), Request(), **options)
+        job.suggest(UNITS, readers.open(round_run), Request(), **options)
 
 
 def test_a_run_without_fire_has_nothing_to_allocate_to(make_run):
     run = readers.open(make_run(heat_flux=np.zeros((3, 4, 5), np.float32)))
     with pytest.raises(InputError, match="has no fire"):
-        allocate.suggest(UNITS, run, Request())
+        job.suggest(UNITS, run, Request())
 
 
 def test_without_scipy_it_says_what_to_install(monkeypatch):

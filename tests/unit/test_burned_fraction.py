@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 from firetwin.run import areas, burned_fraction, info, maps, released
+from firetwin.run.arrival_grid import ArrivalGrid
 from firetwin.run.models.arrival import from_share, held
 from firetwin.run.models.grid import Grid
-from firetwin.run.score import grid as score_grid
 from firetwin.run.score.overlap import Overlap
 from firetwin.shot.fire import fuel
 from firetwin_core import constants
@@ -63,7 +63,7 @@ def test_a_moment_between_two_times(run, time):
 
 
 def test_scores_on_cells_count_shares(run):
-    grid = score_grid.ScoreGrid.of(run)
+    grid = ArrivalGrid.from_run(run)
     seen = np.zeros((FY, FX), bool)
     seen[:4] = True
     found = Overlap.of_cells(grid.burned(120.0), seen, grid.areas)
@@ -80,7 +80,7 @@ def test_rows_from_the_north_are_scored_where_they_are(make_run):
     share = np.zeros((NT, FY, FX), np.float32)
     share[:, 0] = 1.0  # the northernmost
     run = runs.open(make_run(fuel_latitude=fields["fuel_latitude"][::-1].copy(), burned_fraction=share))
-    burned = score_grid.ScoreGrid.of(run).burned(0.0)
+    burned = ArrivalGrid.from_run(run).burned(0.0)
     assert burned[-1].all()
     assert not burned[:-1].any()
 

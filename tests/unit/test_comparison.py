@@ -8,7 +8,7 @@ from firetwin.errors import InputError, UsageError
 from firetwin.imaging import split_screen
 from firetwin.render import fingerprint, plan
 from firetwin.render.finish import difference
-from firetwin.run import front
+from firetwin.run import arrival_grid, front
 from firetwin.run.score import shapes
 from firetwin.shot import comparison, passes
 from firetwin.shot.cameras import path
@@ -194,7 +194,7 @@ def test_a_front_is_the_outline_that_scores_know(seed):
     time = random_fire(seed)
     latitude, longitude = np.arange(30.0), np.arange(40.0)
     shape = shapes.of_front(longitude, latitude, time - 250.0)  # by contourpy
-    y, x, after = front.contour(shapes.mirrored(np.pad(time - 250.0, 1, constant_values=np.nan)))
+    y, x, after = front.contour(arrival_grid.fill_unburned(np.pad(time - 250.0, 1, constant_values=np.nan)))
     y, x = y - 1.0, x - 1.0
     area = 0.5 * np.sum(x * y[after] - x[after] * y)  # burned ground is left, so holes count negative
     assert area == pytest.approx(shape.area, rel=0.02)  # the two join corners in another way

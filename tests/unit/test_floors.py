@@ -23,7 +23,7 @@ NEVER_BPY = (
     *("firetwin.cli", "firetwin.commands", "firetwin.data"),
     *("firetwin.run", "firetwin.stations", "firetwin.tiles"),
     *("firetwin.imaging", "firetwin.shot", "firetwin.smoke"),
-    *("firetwin.jobs", "firetwin.farm", "firetwin.bench", "firetwin.brief"),
+    *("firetwin.jobs", "firetwin.farm", "firetwin.bench", "firetwin.brief", "firetwin.allocation"),
     *(
         f"firetwin.render.{name}"
         for name in (

@@ -214,7 +214,7 @@ def test_arrival_between_perimeters_is_wrong_only_outside_of_their_interval(roun
 def test_what_never_burns_has_a_whole_rim(round_run):
     """Cells that never burn do not take half a cell from the area inside (a fault of masked contours)."""
     run = round_run()
-    grid = ScoreGrid.of(run)
+    grid = ScoreGrid.from_run(run)
     burned = float(grid.areas[~np.isnan(grid.arrival)].sum())
     assert grid.polygon(1e9).area == pytest.approx(burned, rel=5e-3)
 
@@ -242,7 +242,7 @@ def test_rows_from_the_north_and_columns_from_the_east_score_the_same(round_run,
     time = round_fire(latitude, longitude, SPEED, 200.0, 100.0).astype(np.float32)
     rows, columns = slice(None, None, -1 if flip_rows else 1), slice(None, None, -1 if flip_columns else 1)
     plain = ScoreGrid(latitude, longitude, time)
-    turned = ScoreGrid.of(
+    turned = ScoreGrid.from_run(
         round_run(
             fuel_latitude=latitude[rows],
             fuel_longitude=longitude[columns],
@@ -355,7 +355,7 @@ def test_the_report_is_one_page_with_its_pictures_inside(round_run, against):
 def test_maps_show_what_was_hit_missed_and_invented(round_run):
     """One pixel of each: the run's circle and one 500 m to the east of it."""
     run = round_run()
-    grid = ScoreGrid.of(run)
+    grid = ScoreGrid.from_run(run)
     here, there = grid.polygon(1400.0), grid.projection.project(shapely.Polygon(circle(1000.0, 500.0)))
     data = plots.overlap(run, grid, here, there, here.union(there)).partition(",")[2]
     pixels = image.imread(io.BytesIO(base64.b64decode(data)))[..., :3]

@@ -52,7 +52,7 @@ def score(
         Shapely or pyproj is missing.
     """
     shapes.needed()
-    grid = ScoreGrid.of(run)
+    grid = ScoreGrid.from_run(run)
     seen = [
         Seen(perimeter.time, shapes.of_perimeter(perimeter, grid.middle), perimeter.source)
         for perimeter in observations.perimeters
@@ -161,7 +161,7 @@ def _both(polygons: Overlap, cells: Overlap) -> dict[str, Any]:
 
 def _arrival(run: Run, grid: ScoreGrid, seen: Sequence[Seen], other: Run | None) -> dict[str, Any] | None:
     if other is not None:
-        theirs = ScoreGrid.of(other)
+        theirs = ScoreGrid.from_run(other)
         shift = times.seconds(run, times.utc(other, 0.0))
         return arrival.between(
             grid.arrival, arrival.sampled(theirs, grid) + shift, (float(run.times[0]), float(run.times[-1]))
@@ -191,7 +191,7 @@ def _of_run(other: Run, run: Run, moments: Sequence[datetime]) -> list[Seen]:
     spread = [
         low + timedelta(seconds=s) for s in np.linspace(0, (high - low).total_seconds(), SAMPLES + 1)[1:]
     ]
-    theirs = ScoreGrid.of(other)
+    theirs = ScoreGrid.from_run(other)
     return [
         Seen(moment, theirs.degrees(theirs.polygon(times.seconds(other, moment))), other.name)
         for moment in common or spread

@@ -62,7 +62,7 @@ def _statistics(error: NDArray[np.float64]) -> dict[str, Any]:
 
 def sampled(there: ScoreGrid, here: ScoreGrid) -> NDArray[np.float64]:
     """Resample arrival times (s) of one grid to the cells of another by nearest neighbour; NaN outside."""
-    row, column = there.at(here.latitude, here.longitude)
+    row, column = there.cells_at(here.latitude, here.longitude)
     times = there.arrival[np.ix_(np.maximum(row, 0), np.maximum(column, 0))]
     times[row < 0, :] = np.nan
     times[:, column < 0] = np.nan

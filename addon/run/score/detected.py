@@ -16,7 +16,7 @@ from .grid import ScoreGrid
 
 def fates(run: Run, grid: ScoreGrid, detections: Detections) -> NDArray[np.str_]:
     """Use of each detection, one of `used.FATES`."""
-    row, column = grid.at(detections.latitude, detections.longitude)
+    row, column = grid.cells_at(detections.latitude, detections.longitude)
     return used.fates(run, _moments(run, detections), (row >= 0) & (column >= 0))
 
 
@@ -29,7 +29,7 @@ def rows(run: Run, grid: ScoreGrid, detections: Detections) -> list[dict[str, An
     """
     import shapely
 
-    row, column = grid.at(detections.latitude, detections.longitude)
+    row, column = grid.cells_at(detections.latitude, detections.longitude)
     moments = _moments(run, detections)
     covered = fates(run, grid, detections) == used.USED
     result = []

@@ -48,7 +48,7 @@ dt{font-weight:600}dd{margin:0;color:var(--soft)}
 
 def html(run: Run, results: dict[str, Any], seen: Any, other: Run | None = None) -> str:
     """Report of the scores `found` of a run against observations `seen` or against another run."""
-    grid = ScoreGrid.of(run)
+    grid = ScoreGrid.from_run(run)
     name = escape(run.name)
     body = "\n".join(
         part
@@ -122,7 +122,7 @@ def _maps(run: Run, grid: ScoreGrid, results: dict[str, Any], seen: Any, other: 
     yield _key(
         *zip((plots.HITS, plots.FALSE_ALARMS, plots.MISSES), _kinds(run, other), strict=True),
     )
-    theirs = None if other is None else (other, ScoreGrid.of(other))
+    theirs = None if other is None else (other, ScoreGrid.from_run(other))
     pairs = [_pair(run, grid, row, seen, theirs) for row in results["dates"]]
     frame = shapes.collected([shape for pair in pairs for shape in pair])
     yield '<div class="maps">'

@@ -12,12 +12,11 @@ from numpy.typing import NDArray
 
 from ...errors import UsageError
 from .. import areas
+from ..arrival_grid import NEVER, fill_unburned, pad_axis
 from ..observations import Perimeter
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
-
-_NEVER = 1e12  # s
 
 
 def needed() -> None:
@@ -137,33 +136,15 @@ def of_front(
 
     if not (since <= 0.0).any():
         return shapely.Polygon()
-    field = mirrored(np.pad(since, 1, constant_values=np.nan))
-    x, y = (wider(axis) for axis in (longitude, latitude))
+    field = fill_unburned(np.pad(since, 1, constant_values=np.nan))
+    x, y = (pad_axis(axis) for axis in (longitude, latitude))
     front = contourpy.contour_generator(x, y, field, fill_type=contourpy.FillType.OuterOffset)
-    polygons, offsets = cast(tuple[list[NDArray], list[NDArray]], front.filled(-_NEVER, 0.0))
+    polygons, offsets = cast(tuple[list[NDArray], list[NDArray]], front.filled(-NEVER, 0.0))
     outlines = []
     for points, starts in zip(polygons, offsets, strict=True):
         rings = [points[a:b] for a, b in itertools.pairwise(starts)]
         outlines.append(shapely.Polygon(rings[0], [hole for hole in rings[1:] if len(hole) > 3]))
     return clean(shapely.MultiPolygon(outlines))
-
-
-def mirrored(since: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Fill NaN of `since` by the negated mean of burned neighbours, else by never."""
-    burned = np.where(since <= 0.0, since, 0.0)
-    total, count = np.zeros_like(since), np.zeros(since.shape, int)
-    for dy, dx in ((0, 1), (0, -1), (1, 0), (-1, 0)):
-        near = np.roll(burned, (dy, dx), (0, 1))
-        total, count = total - near, count + (near < 0.0)
-    missing = np.isnan(since)
-    filled = np.where(missing, np.where(count > 0, total / np.maximum(count, 1), _NEVER / 2), since)
-    return np.maximum(filled, np.where(missing, 1e-3, -_NEVER / 2))
-
-
-def wider(axis: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Extend cell centres by one at each end."""
-    edges = areas.edges(axis)
-    return np.concatenate([[2 * edges[0] - axis[0]], axis, [2 * edges[-1] - axis[-1]]])
 
 
 def distances(run: BaseGeometry, seen: BaseGeometry, step: float) -> dict[str, float | None]:

@@ -8,9 +8,9 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
-from ...ellipsoid import metres_per_degree
-from ...run import front
-from ...run.score.grid import ScoreGrid
+from ..ellipsoid import metres_per_degree
+from ..run import front
+from ..run.arrival_grid import ArrivalGrid
 
 MOST = 26  # divisions, which letters name
 HOUR = 3600.0  # s
@@ -65,7 +65,7 @@ def divide(run: Run, start: float, hours: int, count: int) -> Divisions:
     count
         Number of divisions, 1 to `MOST`.
     """
-    grid, reach = ScoreGrid.of(run), front.reach(run)
+    grid, reach = ArrivalGrid.from_run(run), front.reach(run)
     centre = _centre(grid, start)
     rows, columns = np.meshgrid(grid.latitude, grid.longitude, indexing="ij")
     cell = sector(*_metres(rows, columns, centre), count)
@@ -81,10 +81,10 @@ def divide(run: Run, start: float, hours: int, count: int) -> Divisions:
 
 def ignition(run: Run) -> float:
     """Model time (s) at which the run's fire begins; infinite without fire."""
-    return _first(ScoreGrid.of(run))
+    return _first(ArrivalGrid.from_run(run))
 
 
-def _first(grid: ScoreGrid) -> float:
+def _first(grid: ArrivalGrid) -> float:
     return float(np.min(grid.arrival, initial=np.inf, where=np.isfinite(grid.arrival)))
 
 
@@ -135,7 +135,7 @@ def _metres(latitude: ArrayLike, longitude: ArrayLike, centre: tuple[float, floa
     return (np.asarray(longitude) - centre[1]) * east, (np.asarray(latitude) - centre[0]) * north
 
 
-def _centre(grid: ScoreGrid, start: float) -> tuple[float, float]:
+def _centre(grid: ArrivalGrid, start: float) -> tuple[float, float]:
     """Centre of the ground that has burned by the order; else of what burns first."""
     weight = np.where(grid.arrival <= max(start, _first(grid)), grid.areas, 0.0)
     if weight.sum() == 0.0:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
 
-from ..records import EXERCISE
+from ..stations.records import EXERCISE
 from . import LIMITS
 
 DETAIL = f"""\

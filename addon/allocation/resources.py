@@ -9,9 +9,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..distance import distance_km
-from ..measures import travel_minutes, unit_cost
-from ..records import AIR
+from ..stations.distance import distance_km
+from ..stations.measures import travel_minutes, unit_cost
+from ..stations.records import AIR
 
 Array = NDArray[np.float64]
 

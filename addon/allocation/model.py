@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import Error
+from ..errors import Error
 from . import ties
 from .problem import Problem
 

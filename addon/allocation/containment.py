@@ -21,7 +21,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import Error
+from ..errors import Error
 from .model import KM, USUAL, Model, Options
 from .problem import SMALLEST, Problem
 

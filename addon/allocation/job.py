@@ -15,16 +15,16 @@ import numpy as np
 from firetwin_core.run import Run
 
 from ..errors import UsageError, input_error
+from ..jobs import worker
 from ..progress import MessageCallback, Progress, no_message, silent
 from ..run import times
-from ..stations.allocation import containment, divisions, nearest, shortfall, suggestion
-from ..stations.allocation.containment import Answer
-from ..stations.allocation.divisions import HOUR
-from ..stations.allocation.model import USUAL, Options
-from ..stations.allocation.nearest import Nearest
-from ..stations.allocation.problem import Problem, Request, state
-from ..stations.allocation.resources import Unit, usable
-from . import worker
+from . import containment, divisions, nearest, shortfall, suggestion
+from .containment import Answer
+from .divisions import HOUR
+from .model import USUAL, Options
+from .nearest import Nearest
+from .problem import Problem, Request, state
+from .resources import Unit, usable
 
 HOURS = 12
 """Hours after the order, if the run is long enough."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 from datetime import datetime
 from pathlib import Path
 
-from ...errors import input_error
-from .. import measures, reading
-from ..records import Resource
-from ..station_file import StationFile
+from ..errors import input_error
+from ..stations import measures, reading
+from ..stations.records import Resource
+from ..stations.station_file import StationFile
 from .resources import Unit
 
 _MOST = 10_000  # units of one row

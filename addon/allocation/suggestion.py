@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..records import AIR, DETOUR, EXERCISE
+from ..stations.records import AIR, DETOUR, EXERCISE
 from . import LIMITS, containment
 from .containment import Answer
 from .divisions import Divisions

@@ -1,0 +1,41 @@
+"""The command `firetwin allocate`. Exercise: not operational advice."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+from firetwin_core.run import Run
+
+from ..errors import Error
+from ..progress import result
+from ..run import times
+from . import job, page, read
+from .problem import Request
+
+
+def run(arguments: argparse.Namespace, open_run: Callable[[Path], Run]) -> None:
+    """Print the suggested allocation.
+
+    Raises
+    ------
+    Error
+        There is no allocation; the message gives the reasons.
+    """
+    run = open_run(arguments.run)
+    start = arguments.start or times.utc(run, job.first_order(run))
+    units, left_out = read.read(arguments.stations, start)
+    request = Request(
+        arguments.budget,
+        arguments.response,
+        arguments.minutes,
+        arguments.loss_hectare,
+        arguments.escape_loss,
+    )
+    found = job.suggest(units, run, request, start, arguments.hours, arguments.divisions)
+    found["left_out"] += left_out
+    result(json.dumps(found, indent=1) if arguments.json else page.page(found))
+    if found["reasons"]:
+        raise Error("; ".join(found["reasons"]))
