@@ -256,3 +256,14 @@ def test_words_of_options():
     assert _length("40 mi") == pytest.approx(64.37, abs=0.01)
     assert _length("500m") == 0.5
     assert parse_types("1-3,VLAT") == ("1", "2", "3", "vlat")
+
+
+def test_the_former_names_of_the_command_and_of_an_option_are_read_with_a_note(tmp_path, capsys):
+    path = tmp_path / "stations.gpkg"
+    writing.write(random_stations(1), path)
+    status, printed, note = firetwin(capsys, "places", "info", path)
+    assert status == 0
+    assert printed == firetwin(capsys, "stations", "info", path)[1]
+    assert "`firetwin places` is now `firetwin stations`" in note
+    brief = ("brief", tmp_path / "none", "--out", tmp_path / "a.html", f"--places={path}")
+    assert "`--places` is now `--stations`" in firetwin(capsys, *brief)[2]
