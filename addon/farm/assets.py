@@ -7,9 +7,8 @@ from pathlib import Path
 
 from ..errors import input_error
 from ..run import content
-from ..shot.fire import observed
 from ..shot.shot import Shot
-from ..shot.surface import orthophoto
+from ..shot.surface import observed, orthophoto
 
 
 def needed(shot: Shot) -> list[Path]:

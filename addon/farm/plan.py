@@ -197,7 +197,7 @@ def _renders(shot: Shot, settings: Settings, groups: list[set[str]], size: int) 
     for group in groups:
         cameras = [camera for camera in settings.cameras if camera.name in group]
         listed = sorted({frame for camera in cameras for frame in shot.frames_of(camera)})
-        built = max(frames.chunk(settings, camera) for camera in cameras)
+        built = max(settings.chunk_size(camera) for camera in cameras)
         for part in chunks(listed, size, built):
             yield Task("render", tuple(camera.name for camera in cameras), frame_list.write(part))
 

@@ -72,7 +72,7 @@ def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Messa
     from . import worker_scene
 
     shot = ShotSource(**choice).shot()
-    for text in (*shot.warnings(), *camera_warnings.mono_vr(shot.settings)):
+    for text in (*shot.warnings(), *camera_warnings.mono_vr(shot.settings.cameras)):
         tell(text)
     if shot.settings.smoke.enabled:
         bake.bake(shot, progress)

@@ -61,7 +61,7 @@ def _made_from(shot: Shot, camera: str, name: str, pictures: list[list[Any]]) ->
             frames.last,
             frames.count,
             time.zone,
-            scene_runs.of_view(shot, camera).synthetic,
+            shot.run_of(camera).synthetic,
         ],
     }
 

@@ -14,13 +14,11 @@ import firetwin_core
 from ..progress import Progress, silent
 from ..run import content
 from ..run.content import fingerprint
-from ..shot import comparison, frames, passes, picture_credits, schema
-from ..shot.cameras import mount
-from ..shot.fire import observed
-from ..shot.settings import Camera, Settings, code_fingerprint
+from ..shot import comparison, passes, picture_credits, schema
+from ..shot.settings import Camera, Settings, code_fingerprint, mount
 from ..shot.shot import Shot
 from ..shot.stations import labels, station_signs
-from ..shot.surface import globe_picture, land_use, orthophoto
+from ..shot.surface import globe_picture, land_use, observed, orthophoto
 from ..shot.tiles import tile_cut
 from ..smoke import sources
 from . import finish
@@ -80,7 +78,7 @@ def _built(settings: Settings, camera: Camera) -> Settings:
     Therefore the pictures of a film in chunks depend on the frames at which chunks begin. A film of one chunk
     does not depend on the maximum chunk length.
     """
-    chunk = frames.chunk(settings, camera)
+    chunk = settings.chunk_size(camera)
     return replace(settings, render=replace(settings.render, chunk=chunk))
 
 

@@ -15,8 +15,9 @@ from ..errors import writing
 from ..imaging.credits import Credits
 from ..progress import MessageCallback, Progress, no_message, silent
 from ..shot import passes
-from ..shot.cameras import mount, pixel_rays
+from ..shot.cameras import pixel_rays
 from ..shot.cameras.path import compass
+from ..shot.settings import mount
 from ..shot.shot import Shot
 from ..smoke.prefetch import Smoke
 from . import credits, engine, integrated, layers, manifest, plan, png, spherical, verify

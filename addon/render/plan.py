@@ -8,11 +8,10 @@ from collections.abc import Collection
 from ..errors import UsageError
 from ..run.content import fingerprint
 from ..shot import passes
-from ..shot.cameras import mount
 from ..shot.runs import scene_runs
 from ..shot.schema import frame_list
 from ..shot.schema.did_you_mean import suggestion
-from ..shot.settings import Camera
+from ..shot.settings import Camera, mount
 from ..shot.shot import Shot
 from .fingerprint import Fingerprints
 from .picture import Picture

@@ -15,7 +15,6 @@ from ..imaging.credits import Credits
 from ..progress import Progress, silent
 from ..run import times
 from ..shot import passes
-from ..shot.runs import scene_runs
 from ..shot.shot import Shot
 from . import engine, films, manifest, picture, spherical, verify
 from .picture import Picture
@@ -49,7 +48,7 @@ def _film(shot: Shot, session: RenderSession, camera: str, name: str, made_from:
             frames = [frame for frame, _ in made_from["frames"]]
             size = passes.known()[name].size(shot.resolution(shot.camera(camera)))
             _settings(shot, size, scene, made, len(frames))
-            engine.set_metadata(scene_runs.of_view(shot, camera), scene)
+            engine.set_metadata(shot.run_of(camera), scene)
             mine = session.made_with[camera, name]
             _strips(shot, scene, out, camera, name, frames, manifest.credits_of(mine))
             with writing(path):
@@ -112,7 +111,7 @@ def _strips(
         label = times.text(shot.utc(number), shot.settings.time.zone)
         for eye, up in enumerate(low):
             _text(editor, label, position, 1, 2 + eye, size, (left, up), "LEFT")
-    if scene_runs.of_view(shot, camera).synthetic and passes.known()[name].captions:
+    if shot.run_of(camera).synthetic and passes.known()[name].captions:
         for eye, up in enumerate(low):
             place = right, up - 0.03 * around
             _text(editor, "synthetic sample run", 1, len(numbers), 4 + eye, size / 1.5, place, "RIGHT")

@@ -10,13 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..run import times
-from .schema import frame_list
 
 if TYPE_CHECKING:
     from firetwin_core.run import Run
 
     from .sections import Time
-    from .settings import Camera, Settings
 
 
 @dataclass(frozen=True)
@@ -31,6 +29,11 @@ class Frames:
     def step(self) -> float:
         """Model seconds per frame."""
         return (self.last - self.first) / max(self.count - 1, 1)
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """Model times of the first and the last frame, s."""
+        return self.first, self.last
 
     @property
     def middle(self) -> float:
@@ -64,10 +67,3 @@ def parts(listed: list[int], chunk: int) -> dict[int, list[int]]:
 def part_of(frame: int, chunk: int) -> int:
     """Chunk number of a frame."""
     return (frame - 1) // chunk if chunk else 0
-
-
-def chunk(settings: Settings, camera: Camera) -> int:
-    """Chunk size of a camera: `render.chunk`, or 0 if all its frames are built together."""
-    asked = settings.render.chunk
-    listed = frame_list.parse(camera.frames, settings.time.frames)
-    return asked if part_of(listed[0], asked) != part_of(listed[-1], asked) else 0

@@ -16,7 +16,6 @@ from .tiles import tile_cut
 
 if TYPE_CHECKING:
     from .settings import Settings
-    from .settings.protocols import ShotView
     from .shot import Shot
     from .tiles.tile_cut import TileCut
 
@@ -36,7 +35,7 @@ def of_cuts(settings: Settings, cuts: Iterable[TileCut]) -> Credits:
     return functools.reduce(Credits.joined, (cut.words for cut in cuts), of_settings(settings))
 
 
-def of_shot(shot: ShotView) -> Credits:
+def of_shot(shot: Shot) -> Credits:
     """Those of a shot; of its tiles where they were prepared."""
     cut = tile_cut.prepared(shot)
     return of_cuts(shot.settings, [cut] if cut else [])

@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 
 from ..errors import UsageError
 from ..progress import Progress, silent
-from ..run import content, times, zone
+from ..run import burning, content, times, zone
 from ..run.frame import local_frame
 from . import frames
 from .cameras import camera_warnings, path
 from .cameras.path import SENSOR, Path
 from .cameras.visibility import Visibility
-from .fire import air_temperature, burning, flame_depth, smoke_scale
+from .fire import air_temperature, flame_depth, smoke_scale
 from .fire.fire import Fire
 from .fire.fuel import DETAIL
 from .fire.smoke_scale import Scale
@@ -28,8 +28,8 @@ from .frames import Frames
 from .runs import scene_runs
 from .schema import frame_list
 from .sections import SMOKE_METHODS
-from .settings import Camera, Settings
-from .settings.protocols import CameraSettings
+from .sections.camera import CameraSettings
+from .settings import Camera, Settings, tile_heights_file
 from .terrain import elevation
 from .terrain.elevation import Elevation
 from .terrain.terrain import Terrain
@@ -67,7 +67,7 @@ class Shot:
         self.settings, self.run, self.cameras, self.full = settings, run, settings.cameras, self
         self.frames: Frames = frames.resolve(settings.time, run)
         self._filmed: dict[str, NDArray[np.int64]] = {}
-        self.relief: Elevation = elevation.resolve(settings, run)
+        self.relief: Elevation = elevation.resolve(settings, run, tile_heights_file.location(settings, run))
 
     def input_hashes(self, leave_out: Collection[str] = (), progress: Progress = silent) -> dict[str, str]:
         """SHA-256 of each input: the run's fields except `leave_out`, elevation model, tilesets of files."""
@@ -188,6 +188,10 @@ class Shot:
             self._filmed[listed] = np.array(self.frames_of(path.camera)) - 1
         return self._filmed[listed]
 
+    def run_of(self, view: str) -> Run:
+        """Run of a view: the first run, or the comparison run that ``camera@run`` names."""
+        return self.others.get(view.partition("@")[2], self.run)
+
     def utc(self, frame: float) -> datetime:
         """UTC time of a frame."""
         return times.utc(self.run, self.frames.time(frame))
@@ -220,7 +224,7 @@ class Shot:
     @cached_property
     def front_scale(self) -> float:
         """Pattern size of flaming front and burn scar relative to a crown fire's, at most 1."""
-        return flame_depth.scale(self.full)
+        return flame_depth.scale(self.full.front, *self.full.frames.span)
 
     @cached_property
     def ground(self) -> Terrain:
@@ -252,7 +256,7 @@ class Shot:
 
     def warnings(self) -> list[str]:
         """Warnings about the scene file and the camera paths."""
-        return [*self.settings.notes, *camera_warnings.ridges(self)]
+        return [*self.settings.notes, *camera_warnings.ridges(self.paths, self.ground)]
 
     @property
     def perspective_paths(self) -> list[Path]:

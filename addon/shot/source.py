@@ -74,8 +74,8 @@ class ShotSource:
         """
         from ..errors import UsageError
         from ..run import readers
-        from . import comparison
-        from .runs import run_checks, scene_runs
+        from . import comparison, run_checks
+        from .runs import scene_runs
         from .shot import Shot
 
         settings = self.settings()

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from .. import files
 from ..errors import writing
 from ..progress import Progress
-from ..run import sun
-from ..shot.fire import burning
+from ..run import burning, sun
 from ..shot.fire.smoke_scale import FINER, Scale
 from ..shot.shot import Shot
 from . import atmosphere, cache, domains, snapshots

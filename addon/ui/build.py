@@ -139,7 +139,7 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     if moving is not None:
         landmarks.store(owned.scene(uid).firetwin, moving)
     yield from solve.price(uid)
-    for text in (*shot.warnings(), *camera_warnings.mono_vr(shot.settings), *told):
+    for text in (*shot.warnings(), *camera_warnings.mono_vr(shot.settings.cameras), *told):
         yield Message(text, "WARNING")
     what = f"{shot.frames.count} frames" if part == ALL else f"the {part}"
     return f"Built {what} of {shot.run.name}" + (f"; {words}" if words else "")

@@ -5,9 +5,9 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
+from firetwin.run import burning
 from firetwin.scene.fire import build as fire
 from firetwin.scene.fire import firebrands, flames
-from firetwin.shot.fire import burning
 from firetwin.shot.sections import FireSettings
 from firetwin.shot.shot import Shot
 from near_fire import FRAMES, moved

@@ -10,9 +10,8 @@ from firetwin.errors import InputError
 from firetwin.imaging.credits import Credits
 from firetwin.scene import build
 from firetwin.scene.terrain import globe, material
-from firetwin.shot import picture_credits
+from firetwin.shot import picture_credits, run_checks
 from firetwin.shot.cameras.rigs.globe import Globe
-from firetwin.shot.runs import run_checks
 from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core.terrain import bilinear

@@ -8,8 +8,8 @@ import pytest
 from firetwin.blender import owned
 from firetwin.scene.fire import build as fire
 from firetwin.scene.fire import observed as ribbons
-from firetwin.shot.fire import observed
 from firetwin.shot.shot import Shot
+from firetwin.shot.surface import observed
 
 
 @pytest.fixture

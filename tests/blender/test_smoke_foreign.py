@@ -11,8 +11,8 @@ import pytest
 bpy = pytest.importorskip("bpy")
 
 from firetwin.run import readers  # noqa: E402
+from firetwin.shot import run_checks  # noqa: E402
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone  # noqa: E402
-from firetwin.shot.runs import run_checks  # noqa: E402
 from firetwin.shot.shot import Shot  # noqa: E402
 from firetwin.smoke import bake, domains, flow_frames, snapshots, sources  # noqa: E402
 from firetwin.smoke.flow import Flow  # noqa: E402

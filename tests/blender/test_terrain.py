@@ -4,10 +4,9 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from firetwin.run import frame
+from firetwin.run import burning, frame
 from firetwin.scene.terrain import build as ground_build
 from firetwin.scene.terrain import fields
-from firetwin.shot.fire import burning
 from firetwin.shot.fire.fire import Fire
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs

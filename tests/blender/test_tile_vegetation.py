@@ -9,8 +9,8 @@ from firetwin.errors import InputError
 from firetwin.jobs.tiles import selection
 from firetwin.scene.tiles import flatten, skirt
 from firetwin.shot.cameras import flight
+from firetwin.shot.settings import tile_heights_file
 from firetwin.shot.shot import Shot
-from firetwin.shot.terrain import tile_heights
 from firetwin.shot.tiles import tile_cut, tile_terms, tile_vegetation
 from firetwin.tiles import decoded
 from firetwin.tiles.policies import Policy
@@ -38,7 +38,7 @@ def seen(shot, tmp_path, decoded_here):
             return first
         settings = replace(settings, terrain=replace(terrain, stand=stand))
         heights = tile_cut.location(first).with_suffix(tile_cut.HEIGHTS)
-        tile_heights.location(settings, shot.run).write_bytes(heights.read_bytes())
+        tile_heights_file.location(settings, shot.run).write_bytes(heights.read_bytes())
         second = Shot(settings, shot.run)
         selection.make(second)
         return second

@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 import whole_run
 from firetwin.run import readers, sun, zone
-from firetwin.shot import auto_framing
+from firetwin.shot import auto_framing, run_checks
 from firetwin.shot.auto_framing import candidates, front, overview, straight_plume, visible_share, window
 from firetwin.shot.fire import emissions
-from firetwin.shot.runs import run_checks
 from firetwin.shot.sections import Time
 from firetwin.shot.settings import scene_file
 from firetwin.shot.shot import Shot

@@ -13,10 +13,10 @@ from firetwin.run.score import shapes
 from firetwin.shot import comparison, passes
 from firetwin.shot.cameras import path
 from firetwin.shot.cameras.rigs.drone import Drone
-from firetwin.shot.fire import fronts
 from firetwin.shot.runs import scene_runs
 from firetwin.shot.settings import Camera
 from firetwin.shot.source import ShotSource
+from firetwin.shot.surface import fronts
 from small_run import RUN_TOML, small_fields, write_field
 
 FIRST = (slice(2, 6), slice(2, 8))  # fuel cells that burn

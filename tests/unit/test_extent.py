@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from firetwin.shot.fire import extent
+from firetwin.run import extent
 
 
 def test_the_largest_of_several_fires_counts():

@@ -50,7 +50,7 @@ def shot_of(make_run, cell, load, canopy=0.0, flank=1.0):
 )
 def test_flames_are_as_deep_as_the_front_is_fast_whatever_the_cells(make_run, cell, load, canopy, stands):
     shot = shot_of(make_run, cell, load, canopy)
-    assert flame_depth.head(shot) == pytest.approx(PACE * stands, rel=0.02)
+    assert flame_depth.head(shot.front, *shot.frames.span) == pytest.approx(PACE * stands, rel=0.02)
 
 
 def test_flanks_are_thinner_than_the_head(make_run):

@@ -4,8 +4,7 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
-from firetwin.run import blocks
-from firetwin.shot.fire import burning
+from firetwin.run import blocks, burning
 from firetwin.shot.fire import fuel as fuels
 from firetwin_core import InputError
 from firetwin_core import run as runs

@@ -138,8 +138,8 @@ def test_classes_by_name(tmp_path, stem, properties, kind):
 
 def test_heat_is_drawn_by_class_until_the_next_flight(make_run, tmp_path):
     from firetwin.run import maps, readers
-    from firetwin.shot.fire import observed
     from firetwin.shot.source import ShotSource
+    from firetwin.shot.surface import observed
 
     run = make_run()
     corners = [[-120.595, 38.903], [-120.590, 38.903], [-120.590, 38.907], [-120.595, 38.903]]

@@ -15,7 +15,6 @@ from firetwin.render.picture import Picture
 from firetwin.render.store import Store, describe
 from firetwin.run import info
 from firetwin.shot import passes
-from firetwin.shot.cameras import mount
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.cameras.rigs.lookout import Lookout, LookoutKey
 from firetwin.shot.cameras.rigs.minimap import Minimap
@@ -23,7 +22,7 @@ from firetwin.shot.cameras.rigs.mounted import Mounted
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.passes import masks
 from firetwin.shot.sections import TerrainSettings, Time
-from firetwin.shot.settings import Camera, Render, Settings, scene_file
+from firetwin.shot.settings import Camera, Render, Settings, mount, scene_file
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from firetwin_core import sensor

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from firetwin.errors import InputError
 from firetwin.run import maps, observations, readers
-from firetwin.shot.fire import observed
 from firetwin.shot.source import ShotSource
+from firetwin.shot.surface import observed
 from matplotlib.colors import to_hex
 
 RING = [[-120.595, 38.903], [-120.590, 38.903], [-120.590, 38.907], [-120.595, 38.907], [-120.595, 38.903]]

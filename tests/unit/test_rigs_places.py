@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from firetwin.errors import InputError
 from firetwin.render import fingerprint
+from firetwin.shot import run_checks
 from firetwin.shot.cameras import path, targets
 from firetwin.shot.cameras.rigs._key import CameraKey
 from firetwin.shot.cameras.rigs.chase import Chase
@@ -14,7 +15,6 @@ from firetwin.shot.cameras.rigs.drone import Drone
 from firetwin.shot.cameras.rigs.lookout import Lookout, LookoutKey
 from firetwin.shot.cameras.rigs.minimap import Minimap
 from firetwin.shot.cameras.rigs.satellite import ORBIT, Satellite
-from firetwin.shot.runs import run_checks
 from firetwin.shot.sections import Forest, TerrainSettings, Time
 from firetwin.shot.settings import Camera, Settings, scene_file
 from firetwin.shot.shot import Shot

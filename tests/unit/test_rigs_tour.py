@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 import sample_evening
 from firetwin.errors import InputError
+from firetwin.shot import run_checks
 from firetwin.shot.cameras import flight, path, targets
 from firetwin.shot.cameras.rigs.tour import Stop, Tour, shares
-from firetwin.shot.runs import run_checks
 from firetwin.shot.settings import Camera, scene_file
 from hypothesis import HealthCheck, given
 from hypothesis import settings as hypothesis

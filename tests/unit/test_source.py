@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from firetwin.shot.runs import run_checks
+from firetwin.shot import run_checks
 from firetwin.shot.source import ShotSource
 from firetwin_core import InputError
 from small_run import FX, FY, small_fields

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from firetwin.shot.fire import burning
+from firetwin.run import burning
 from firetwin.shot.sections import SMOKE_METHODS, SmokeSettings, Time
 from firetwin.shot.settings import Settings
 from firetwin.shot.shot import Shot

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from firetwin import cli
 from firetwin.errors import InputError
+from firetwin.shot import run_checks
 from firetwin.shot.cameras import track
 from firetwin.shot.cameras.rigs.drone import Drone
-from firetwin.shot.runs import run_checks
 from firetwin.shot.sections import Forest, TerrainSettings, Time
 from firetwin.shot.settings import Camera, Settings, code_fingerprint, scene_file
 from firetwin.shot.shot import Shot

@@ -17,6 +17,7 @@ from typing import Any
 from ...errors import Error, InputError
 from ...progress import MessageCallback, Progress, count, no_message, share, silent
 from ...shot import comparison, picture_credits
+from ...shot.settings import tile_heights_file
 from ...shot.shot import Shot
 from ...shot.source import ShotSource
 from ...shot.surface import land_use
@@ -119,7 +120,7 @@ def in_process(
     if shot.settings.terrain.stand == "tiles":
         terrain = replace(shot.settings.terrain, stand="elevation")
         first = Shot(replace(shot.settings, terrain=terrain), shot.run)
-        heights = tile_heights.location(shot.settings, shot.run)
+        heights = tile_heights_file.location(shot.settings, shot.run)
         if not (_kept(first, keep) and heights.exists()):
             make(first, progress, how, wanted)
             found = tile_cut.location(first).with_suffix(tile_cut.HEIGHTS)

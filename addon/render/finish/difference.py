@@ -13,8 +13,8 @@ from ...run import times
 from ...run.front import reach
 from ...shot import comparison, picture_credits
 from ...shot.cameras import pixel_rays
-from ...shot.fire import fronts
 from ...shot.shot import Shot
+from ...shot.surface import fronts
 from . import Files
 
 BOTH = "#f0a03c"

@@ -11,8 +11,9 @@ from firetwin_core import sensor
 from ...imaging.sheet import Sheet
 from ...run import info, times
 from ...shot import passes, picture_credits
-from ...shot.cameras import mount, pixel_rays
+from ...shot.cameras import pixel_rays
 from ...shot.cameras.path import Path
+from ...shot.settings import mount
 from ...shot.shot import Shot
 from . import Files, _map, pose, thermal
 

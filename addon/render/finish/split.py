@@ -9,9 +9,9 @@ from firetwin_core import sensor
 from ...imaging import split_screen
 from ...run import info, times
 from ...shot import comparison, picture_credits
-from ...shot.fire import fronts
 from ...shot.passes import view_of
 from ...shot.shot import Shot
+from ...shot.surface import fronts
 from . import Files
 
 

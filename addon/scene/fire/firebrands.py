@@ -13,7 +13,7 @@ import numpy as np
 from firetwin_core import constants, geo, particles
 from numpy.typing import NDArray
 
-from ...shot.fire import burning
+from ...run import burning
 from ...shot.shot import Shot
 from ...shot.terrain import noise
 from ...shot.terrain.terrain import Terrain

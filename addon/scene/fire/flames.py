@@ -13,8 +13,8 @@ from firetwin_core import constants, flux, lod
 from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
+from ...run import burning
 from ...shot.cameras.path import Path
-from ...shot.fire import burning
 from ...shot.shot import Shot
 from ...shot.terrain import noise
 from ..forest import fire_effects

@@ -8,8 +8,8 @@ from firetwin_core.run import Run
 
 from ...blender import nodes, owned
 from ...blender.owned import Stage
-from ...shot.fire import fronts
 from ...shot.shot import Shot
+from ...shot.surface import fronts
 from .. import clock, glow, haze
 from . import observed
 

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from ...blender import nodes, owned
 from ...blender.owned import Stage
-from ...shot.fire import observed
-from ...shot.fire.observed import DrapedLine
 from ...shot.shot import Shot
+from ...shot.surface import observed
+from ...shot.surface.observed import DrapedLine
 from .. import glow, haze
 
 _FRESH, _FADED = (0.02, 0.55, 1.0), (0.10, 0.22, 0.45)  # no flame and no ground is blue

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from ...blender import owned
 from ...blender.owned import Stage
 from ...shot import picture_credits
+from ...shot.cameras import mesh_tolerance
 from ...shot.shot import Shot
-from ...shot.terrain import mesh_tolerance
 from ...shot.tiles import tile_cut
 from .. import credits
 from ..forest.stand import Stand

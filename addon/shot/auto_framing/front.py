@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..fire import burning, extent
+from ...run import burning, extent
 from ..shot import Shot
 from ..terrain.terrain import NEVER, UNKNOWN, Terrain, box
 from . import straight_plume

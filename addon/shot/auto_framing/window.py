@@ -9,8 +9,7 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
-from ...run import areas, times, zone
-from ..fire import extent
+from ...run import areas, extent, times, zone
 from ..sections import Time
 
 FRAMES, FPS = 48, 12  # four seconds, as in the example

@@ -14,7 +14,7 @@ from ..terrain.terrain import Terrain
 if TYPE_CHECKING:
     from firetwin_core import geo
 
-    from ..settings.protocols import CameraSettings
+    from ..sections.camera import CameraSettings
 
 SENSOR = 36.0  # mm, sensor width of a full-frame camera
 UP = np.array([0.0, 0.0, 1.0])

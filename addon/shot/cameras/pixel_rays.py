@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 from . import panorama
 
 if TYPE_CHECKING:
-    from ..settings.protocols import ShotView
+    from ..shot import Shot
     from .path import Path
 
 SKY = 1.0e9  # m; larger depths are sky
 
 
-def path_of(shot: ShotView, camera: str) -> Path:
+def path_of(shot: Shot, camera: str) -> Path:
     """Path of a camera, by name."""
     return next(view for view in shot.paths if view.camera.name == camera)
 

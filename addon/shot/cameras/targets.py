@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..fire import extent
+from ...run import extent
 from ..terrain.terrain import NEVER, UNKNOWN, Terrain, box
 
 Array = NDArray[np.float64]

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from firetwin_core import geo
     from firetwin_core.run import Run
 
-    from ..settings.protocols import Frames
+    from ..frames import Frames
 
 _READERS = {".gpx": track_xml.gpx, ".kml": track_xml.kml, ".csv": track_csv.points}
 MOMENTS = {"own": "UTC", "start": "from frame 1 on", "shot": "over all frames"}

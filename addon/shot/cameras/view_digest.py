@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from ..settings.protocols import ShotView
+    from ..shot import Shot
 
 
-def of_views(shot: ShotView, *words: str) -> str:
+def of_views(shot: Shot, *words: str) -> str:
     """16 hexadecimal digits of the full shot's paths and filmed frames, its place, and these words."""
     shot = shot.full
     digest = hashlib.sha256("".join(words).encode() + repr(shot.ground.frame.latitude).encode())

@@ -9,12 +9,12 @@ from firetwin_core import lod
 from numpy.typing import ArrayLike, NDArray
 
 from ...run import sun
-from ..terrain import mesh_tolerance
 from ..terrain.terrain import Terrain
+from . import mesh_tolerance
 from .path import Path
 
 if TYPE_CHECKING:
-    from ..settings.protocols import ShotView
+    from ..shot import Shot
 
 
 _HALF_SPACE = 1.0e9  # tangent of 90 degrees, half the angle of a hemisphere
@@ -30,7 +30,7 @@ class Visibility:
         Culling is off: everything counts as visible, at distance 0.
     """
 
-    def __init__(self, shot: ShotView) -> None:
+    def __init__(self, shot: Shot) -> None:
         self.shot, self.unculled = shot, not shot.settings.render.cull
         self._known: dict[tuple[int, ...], lod.ViewSet] = {}
         self._ground: lod.Occluder | None = None
@@ -177,7 +177,7 @@ def _joined(parts: list[NDArray], shape: tuple[int, ...]) -> NDArray:
     return np.concatenate(parts) if parts else np.empty((0, *shape))
 
 
-def _occluder(shot: ShotView) -> tuple[lod.Occluder, float]:
+def _occluder(shot: Shot) -> tuple[lod.Occluder, float]:
     """Terrain occluder of the run's area, and the lowest scene z of all terrain.
 
     The occluder lies below the terrain by the mesh tolerance: a ray that enters the drawn ground still counts
@@ -191,7 +191,7 @@ def _occluder(shot: ShotView) -> tuple[lod.Occluder, float]:
     return lod.Occluder(floor), lowest
 
 
-def _distance(shot: ShotView, place: NDArray[np.float64]) -> NDArray[np.float64]:
+def _distance(shot: Shot, place: NDArray[np.float64]) -> NDArray[np.float64]:
     """Smallest distance (ny, nx) from points (ny, nx, 3) to perspective cameras, m."""
     views = [(path, shot.filmed(path)) for path in shot.perspective_paths]
     position = _joined([path.position[frames] for path, frames in views], (3,))

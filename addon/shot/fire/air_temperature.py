@@ -14,7 +14,7 @@ from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
 from ...run import sun
-from ..settings.protocols import Frames
+from ..frames import Frames
 from . import emissions
 
 # s, time for which the front heats the ground under timber

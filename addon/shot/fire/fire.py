@@ -19,10 +19,10 @@ from firetwin_core import flux
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from ...run import areas
+from ...run import areas, burning
 from ...run.frame import local_frame
 from ..terrain.elevation import Elevation
-from . import burning, emissions, heat_release
+from . import emissions, heat_release
 from .fuel import BURN_OUT_CANOPY, DETAIL, Fuel, gather
 from .heat_release import Array, Sources
 

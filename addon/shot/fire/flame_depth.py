@@ -17,7 +17,6 @@ from ...run import fuel_category
 from . import emissions
 
 if TYPE_CHECKING:
-    from ..settings.protocols import ShotView
     from ..terrain.terrain import Terrain
 
 _FULL_DEPTH = 60.0  # m, flame depth of a crown fire, at which patterns have their full size
@@ -71,17 +70,16 @@ class FrontFields:
         return emissions.column("ash")[self.kind]
 
 
-def head(shot: ShotView) -> float:
-    """Flame depth at the head of the front in a shot, m; 0 without fire."""
-    ground, front = shot.bare_ground, shot.front
-    passed = (ground.burned >= 0.5) & (ground.arrival <= shot.frames.last)
-    passed &= ground.arrival >= shot.frames.first - _BEFORE
+def head(front: FrontFields, first: float, last: float) -> float:
+    """Flame depth at the head of the front between two model times (s), m; 0 without fire."""
+    ground = front.ground
+    passed = (ground.burned >= 0.5) & (ground.arrival <= last) & (ground.arrival >= first - _BEFORE)
     if not passed.any():
         return 0.0
     return float(np.percentile((front.speed * front.residence)[passed], _HEAD_PERCENTILE))
 
 
-def scale(shot: ShotView) -> float:
+def scale(front: FrontFields, first: float, last: float) -> float:
     """Pattern size of flaming front and burn scar relative to a crown fire's, at most 1."""
-    deep = head(shot)
+    deep = head(front, first, last)
     return float(np.clip(deep / _FULL_DEPTH, _LEAST_SCALE, 1.0)) if deep else 1.0

@@ -10,10 +10,10 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from ...run import blocks, burned_fraction, fuel_category
+from ...run import blocks, burned_fraction, burning, fuel_category
 from ...run.frame import local_frame
 from ..terrain.elevation import Elevation
-from . import burning, emissions
+from . import emissions
 
 BURN_OUT_CANOPY = emissions.KINDS[emissions.CROWN].burn_out[0]  # s, foliage and twigs (assumed)
 _BURN_OUTS = 14.0  # burn-out times after which the rest, e^-14, is neglected

@@ -13,8 +13,8 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
+from ...run import burning
 from ..sections import SmokeSettings
-from . import burning
 
 REFERENCE = 200.0  # m
 FINER = 3  # nest cells along a cell of the outer domain

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
-    from ..settings.protocols import CameraSettings
+    from ..sections.camera import CameraSettings
 
 
 @dataclass(frozen=True, kw_only=True)

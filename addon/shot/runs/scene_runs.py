@@ -12,7 +12,6 @@ from ...run import readers, times
 from .. import frames, passes
 from ..schema import scene_text
 from ..settings import Settings
-from ..settings.protocols import ShotView
 from ..terrain import elevation
 
 
@@ -21,11 +20,6 @@ def views(settings: Settings) -> list[str]:
     names = [camera.name for camera in settings.cameras]
     labels = [run.name for run in settings.runs]
     return names + [passes.view_of(name, label) for label in labels for name in names]
-
-
-def of_view(shot: ShotView, view: str) -> Run:
-    """Run of a view."""
-    return shot.others.get(view.partition("@")[2], shot.run)
 
 
 def open_others(settings: Settings) -> dict[str, Run]:

@@ -34,7 +34,8 @@ from firetwin_core.run import Run
 from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
-from ..fire import air_temperature, burning
+from ...run import burning
+from ..fire import air_temperature
 from ..fire.fire import Fire
 from .grid import Array, EvenGrid, FixedGrid, ImagerGrid, pixel_areas
 

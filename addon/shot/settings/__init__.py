@@ -10,6 +10,7 @@ from typing import Any
 
 from .. import passes
 from ..cameras import rigs
+from ..frames import part_of
 from ..schema import Where, fields, frame_list, key, kind_of, one_of
 from ..schema.bounds import file_name, twice
 from ..schema.did_you_mean import suggestion
@@ -155,6 +156,12 @@ class Settings(SceneSettings):
         (), "another run, filmed by the same cameras at the same times; at most 3"
     )
     cameras: tuple[Camera, ...] = key((), "a camera and what it records", affects=("camera",))
+
+    def chunk_size(self, camera: Camera) -> int:
+        """Chunk size of a camera: `render.chunk`, or 0 if all its frames are built together."""
+        size = self.render.chunk
+        listed = frame_list.parse(camera.frames, self.time.frames)
+        return size if part_of(listed[0], size) != part_of(listed[-1], size) else 0
 
     def validate(self) -> tuple[Where, str] | None:
         """Check that camera names are unique, and that their frames exist."""

@@ -22,7 +22,7 @@ from ..schema import scene_text
 from ..settings import Settings
 
 if TYPE_CHECKING:
-    from ..settings.protocols import ShotView
+    from ..shot import Shot
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,7 @@ def inputs(settings: Settings) -> dict[str, str]:
     return {"photo url": secret.split(url)[0]} if url else {}
 
 
-def location(shot: ShotView) -> Path:
+def location(shot: Shot) -> Path:
     """File of a shot's drape; it follows all that the drape depends on, except the server's pictures."""
     terrain, run = shot.settings.terrain, shot.run
     words = (
@@ -141,7 +141,7 @@ def _area(low: list[float], high: list[float], **others: Any) -> DrapeArea:
     return DrapeArea((float(west), float(south)), (float(east), float(north)), **others)
 
 
-def of_shot(shot: ShotView) -> Drape:
+def of_shot(shot: Shot) -> Drape:
     """The drape of a shot with `terrain.photo_url`.
 
     Raises

@@ -13,7 +13,7 @@ from ..terrain.raster import Array
 from .photo_areas import areas_of
 
 if TYPE_CHECKING:
-    from ..settings.protocols import ShotView
+    from ..shot import Shot
 
 _RADII = (16.0, 4.0, 1.0, 0.25)  # of areas near the cameras, in units of `terrain.near_radius`
 _LATTICE = 64  # cells along an area in which its distance from cameras is measured
@@ -49,7 +49,7 @@ class PlannedArea:
     limited: str
 
 
-def plan(shot: ShotView, bounds: Bounds, levels: tuple[int, int], side: int) -> list[PlannedArea]:
+def plan(shot: Shot, bounds: Bounds, levels: tuple[int, int], side: int) -> list[PlannedArea]:
     """Areas of a shot with their tiles: the whole first, finer ones nearer to the cameras after it.
 
     A texel is at most one pixel of the nearest view, unless the server's finest level or `terrain.photo_size`
@@ -75,7 +75,7 @@ def plan(shot: ShotView, bounds: Bounds, levels: tuple[int, int], side: int) -> 
     return planned
 
 
-def pixel_at_nearest_view(shot: ShotView, low: Array, high: Array) -> float:
+def pixel_at_nearest_view(shot: Shot, low: Array, high: Array) -> float:
     """Smallest size of a pixel (m) on ground that a view sees in an area; infinite if none does.
 
     The ground's cells count as near as their bounding spheres, so the size errs to the small side.
@@ -104,7 +104,7 @@ def pixel_at_nearest_view(shot: ShotView, low: Array, high: Array) -> float:
 
 
 def _planned(
-    shot: ShotView, low: Array, high: Array, levels: tuple[int, int], side: int, bounds: Bounds
+    shot: Shot, low: Array, high: Array, levels: tuple[int, int], side: int, bounds: Bounds
 ) -> PlannedArea:
     south, west, north, east = _degrees(shot, low, high)
     south, north = max(south, bounds[1]), min(north, bounds[3])
@@ -123,7 +123,7 @@ def _planned(
     return PlannedArea(low, high, patch, mercator.texel(nearest, level, side), wanted, limited)
 
 
-def _degrees(shot: ShotView, low: Array, high: Array) -> tuple[float, float, float, float]:
+def _degrees(shot: Shot, low: Array, high: Array) -> tuple[float, float, float, float]:
     """South, west, north and east of an area, from points all over it; longitudes may pass 180 degrees."""
     axes = (np.linspace(low[k], high[k], _EDGE) for k in (0, 1))
     latitude, longitude = shot.ground.geodetic(*(v.ravel() for v in np.meshgrid(*axes)))

@@ -10,12 +10,12 @@ from ...run.buildings import Building, Footprints
 from . import land_use
 
 if TYPE_CHECKING:
-    from ..settings.protocols import ShotView
+    from ..shot import Shot
 
-_KNOWN: WeakKeyDictionary[ShotView, Footprints] = WeakKeyDictionary()
+_KNOWN: WeakKeyDictionary[Shot, Footprints] = WeakKeyDictionary()
 
 
-def collect(shot: ShotView) -> Footprints:
+def collect(shot: Shot) -> Footprints:
     """Footprints of a shot's buildings, m east and north in the scene; `number` is that in its files."""
     if shot not in _KNOWN:
         known = land_use.read_map(shot)
@@ -24,12 +24,12 @@ def collect(shot: ShotView) -> Footprints:
     return _KNOWN[shot]
 
 
-def standing(shot: ShotView) -> list[Building]:
+def standing(shot: Shot) -> list[Building]:
     """A shot's buildings on its ground; heights are z in the scene, m."""
     return buildings.stand(collect(shot).outlines, lambda place: shot.ground.up(*place.T))
 
 
-def said(shot: ShotView) -> str:
+def said(shot: Shot) -> str:
     """What was assumed, mended or left out of the footprints, in words; empty if nothing was."""
     found = collect(shot)
     return found.said() if found.assumed or found.mended or found.refused else ""

@@ -28,7 +28,7 @@ from ..terrain.raster import extent, overlap, said
 from .orthophoto import OrthophotoImage
 
 if TYPE_CHECKING:
-    from ..settings.protocols import ShotView
+    from ..shot import Shot
 
 LAYERS = ("soft", "hard", "water")
 """Layers from bottom to top: burnable land, unburnable land, water. Each becomes a picture."""
@@ -158,8 +158,8 @@ class Map:
     known: tuple[Array, Array] | None
 
 
-_MAPS: WeakKeyDictionary[ShotView, Map | None] = WeakKeyDictionary()
-_PICTURES: WeakKeyDictionary[ShotView, dict[str, list[OrthophotoImage]]] = WeakKeyDictionary()
+_MAPS: WeakKeyDictionary[Shot, Map | None] = WeakKeyDictionary()
+_PICTURES: WeakKeyDictionary[Shot, dict[str, list[OrthophotoImage]]] = WeakKeyDictionary()
 
 
 def kind_of(properties: Mapping[str, Any]) -> str | None:
@@ -203,7 +203,7 @@ def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
     return {name: content.of_file(path, settings.cache, progress) for name, path in named.items() if path}
 
 
-def read_map(shot: ShotView) -> Map | None:
+def read_map(shot: Shot) -> Map | None:
     """Land use and footprints of a shot; None if there are none."""
     settings = shot.settings
     if settings.terrain.land_use is None and settings.terrain.buildings is None:
@@ -213,7 +213,7 @@ def read_map(shot: ShotView) -> Map | None:
     return _MAPS[shot]
 
 
-def pictures(shot: ShotView) -> dict[str, list[OrthophotoImage]]:
+def pictures(shot: Shot) -> dict[str, list[OrthophotoImage]]:
     """Pictures of each map layer: the whole map, and finer ones near the cameras."""
     known = read_map(shot)
     if known is None:
@@ -229,7 +229,7 @@ def pictures(shot: ShotView) -> dict[str, list[OrthophotoImage]]:
     return _PICTURES[shot]
 
 
-def mapped(shot: ShotView, place: Array) -> NDArray[np.bool_]:
+def mapped(shot: Shot, place: Array) -> NDArray[np.bool_]:
     """Whether points (n, 2) in the scene, m, lie within the land use's extent; nothing is invented there."""
     known = read_map(shot)
     if known is None or known.known is None:
@@ -238,7 +238,7 @@ def mapped(shot: ShotView, place: Array) -> NDArray[np.bool_]:
     return np.all((place[:, :2] > low - _BEYOND) & (place[:, :2] < high + _BEYOND), axis=1)
 
 
-def keeps_out(shot: ShotView, place: Array) -> NDArray[np.bool_]:
+def keeps_out(shot: Shot, place: Array) -> NDArray[np.bool_]:
     """Plant exclusion mask of points (n, 2 or 3) in the scene, m: water, roads, fields and buildings."""
     out = np.zeros(len(place), bool)
     for layer, drawn in pictures(shot).items():
@@ -251,7 +251,7 @@ def keeps_out(shot: ShotView, place: Array) -> NDArray[np.bool_]:
     return out
 
 
-def buildings(shot: ShotView) -> list[Rings]:
+def buildings(shot: Shot) -> list[Rings]:
     """Outlines of the map's buildings, each as rings (n, 2) in scene metres."""
     known = read_map(shot)
     return (
@@ -306,7 +306,7 @@ def _rings(feature_of_kind: tuple[str, Feature]) -> list[feature.Ring]:
     return [*(polygon[0] for polygon in item.polygons), *item.lines]
 
 
-def _placed(shot: ShotView, mapped: list[tuple[str, Feature]], footprints: list[tuple[str, Feature]]) -> Map:
+def _placed(shot: Shot, mapped: list[tuple[str, Feature]], footprints: list[tuple[str, Feature]]) -> Map:
     def scene(ring: Array) -> Array:
         return shot.bare_ground.point(ring[:, 1], ring[:, 0])[:, :2]
 
@@ -339,7 +339,7 @@ def _extent(features: list[MappedFeature]) -> tuple[Array, Array]:
     return every.min(axis=0), every.max(axis=0)
 
 
-def _frames(shot: ShotView, known: Map) -> list[tuple[Array, Array]]:
+def _frames(shot: Shot, known: Map) -> list[tuple[Array, Array]]:
     """Corners of the pictures to draw: the whole map, and areas near cameras."""
     ground = shot.ground
     low, high = known.low - _BEYOND, known.high + _BEYOND
@@ -353,7 +353,7 @@ def _frames(shot: ShotView, known: Map) -> list[tuple[Array, Array]]:
     return frames
 
 
-def _drawn(shot: ShotView, known: Map, layer: str, low: Array, high: Array) -> OrthophotoImage:
+def _drawn(shot: Shot, known: Map, layer: str, low: Array, high: Array) -> OrthophotoImage:
     """Rasterize one layer of the map."""
     size = np.clip(np.ceil((high - low) / _FINEST), 2, _LARGEST).astype(int)
     pixel = (high - low) / size

@@ -31,7 +31,7 @@ from .photo_areas import areas_of, size_of
 from .photo_source import PhotoSource, Pixels, between_pixels, rgba, thinned
 
 if TYPE_CHECKING:
-    from ..settings.protocols import ShotView
+    from ..shot import Shot
 
 _STRIP = 256  # rows that are resampled at once
 _LATTICE = 128.0  # m between reprojected points; bilinear between, within 0.2 m in the sample run
@@ -94,7 +94,7 @@ def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
     return hashes | {"photo extent": str(settings.terrain.photo_extent)}
 
 
-def pictures(shot: ShotView) -> list[OrthophotoImage]:
+def pictures(shot: Shot) -> list[OrthophotoImage]:
     """The whole photo as one picture, and a finer one near the cameras if the photo has the resolution."""
     if not photographed(shot.settings):
         return []
@@ -113,13 +113,13 @@ def photographed(settings: Settings) -> bool:
     return bool(settings.terrain.photo or settings.terrain.photo_url)
 
 
-def _pixel(shot: ShotView) -> float:
+def _pixel(shot: Shot) -> float:
     """Half of the smallest pixel (m) on the ground, at 200 m from perspective cameras."""
     sizes = [view.pixel * (200.0 if view.perspective else 1.0) for view in shot.paths]
     return 0.5 * min(sizes, default=1.0)
 
 
-def _picture(shot: ShotView, source: PhotoSource, low: Array, high: Array, step: float) -> OrthophotoImage:
+def _picture(shot: Shot, source: PhotoSource, low: Array, high: Array, step: float) -> OrthophotoImage:
     """Resample an area in strips, at `step` (m) or the coarser step that `photo_size` allows."""
     size = size_of(low, high, step, shot.settings.terrain.photo_size)
     pixels = np.zeros((size[1], size[0], 4), np.uint8)
@@ -140,7 +140,7 @@ def _picture(shot: ShotView, source: PhotoSource, low: Array, high: Array, step:
 class _Places:
     """Latitude and longitude at scene coordinates, bilinear on a lattice of exact points."""
 
-    def __init__(self, shot: ShotView, low: Array, high: Array) -> None:
+    def __init__(self, shot: Shot, low: Array, high: Array) -> None:
         counts = np.ceil((high - low) / _LATTICE).astype(int) + 1
         self.low, self.step = low, (high - low) / np.maximum(counts - 1, 1)
         counts = np.maximum(counts, 2)
@@ -154,7 +154,7 @@ class _Places:
         return [bilinear(field, row[:, None], column) for field in self.fields]
 
 
-def source_of(shot: ShotView) -> PhotoSource:
+def source_of(shot: Shot) -> PhotoSource:
     """The orthophoto of a shot that has one."""
     return DrapePhoto(drape.of_shot(shot)) if shot.settings.terrain.photo_url else _file(shot.settings)
 

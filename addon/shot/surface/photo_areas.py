@@ -12,11 +12,11 @@ from ...run import areas
 from ..terrain.raster import Array
 
 if TYPE_CHECKING:
-    from ..settings.protocols import ShotView
+    from ..shot import Shot
 
 
 def areas_of(
-    shot: ShotView,
+    shot: Shot,
     bounds: tuple[float, float, float, float],
     step: float,
     factors: Sequence[float] = (1.0,),
@@ -49,7 +49,7 @@ def areas_of(
     return found
 
 
-def _whole(shot: ShotView, bounds: tuple[float, float, float, float]) -> tuple[Array, Array]:
+def _whole(shot: Shot, bounds: tuple[float, float, float, float]) -> tuple[Array, Array]:
     """Corners (2,) of the ground within bounds, m."""
     fields = shot.ground.fields
     rows, columns = (np.array([axis[0], axis[-1]]) for axis in (fields.latitude, fields.longitude))

@@ -7,6 +7,7 @@ the run's heights over `_BLEND` metres. Beside 3-D Tiles the ground blends into 
 from __future__ import annotations
 
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 from firetwin_core.run import Run
@@ -14,7 +15,7 @@ from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...run import areas
-from ..settings import Settings
+from ..sections import SceneSettings
 from . import rim, tile_heights
 from .raster import Array, GeoTiff, extent, said
 from .tile_heights import TileHeights
@@ -133,8 +134,13 @@ class Elevation:
         return bilinear(heights, row[:, None], column).astype(np.float32)
 
 
-def resolve(settings: Settings, run: Run) -> Elevation:
-    """Elevation for a scene.
+def resolve(settings: SceneSettings, run: Run, tiles: Path | None = None) -> Elevation:
+    """Resolve the elevation of a scene.
+
+    Parameters
+    ----------
+    tiles
+        File of the heights of the scene's tiles.
 
     Raises
     ------
@@ -142,10 +148,8 @@ def resolve(settings: Settings, run: Run) -> Elevation:
         The elevation model cannot be used.
     """
     model = GeoTiff(settings, "elevation") if settings.terrain.elevation else None
-    if settings.terrain.stand == "tiles":
-        path = tile_heights.location(settings, run)
-        if path.is_file():  # else the tiles are still to be chosen
-            return Elevation(run, _Stacked(tile_heights.read(path, run), model))
+    if settings.terrain.stand == "tiles" and tiles and tiles.is_file():  # else tiles are not selected yet
+        return Elevation(run, _Stacked(tile_heights.read(tiles, run), model))
     return Elevation(run, model)
 
 
@@ -171,7 +175,7 @@ class _Stacked:
         return np.where(np.isfinite(found), found, self.model.on_grid(latitude, longitude) * unit(self.model))
 
 
-def check(settings: Settings, run: Run) -> None:
+def check(settings: SceneSettings, run: Run) -> None:
     """Validate an elevation model: file type, overlap with the run, and unit of its heights.
 
     Raises

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from ...errors import Error, InputError, input_error
 from ...run import areas
 from ..schema import scene_text
-from ..settings import Settings
+from ..sections import SceneSettings
 
 _MEMORY = 64  # MB
 _SAMPLES, _SAMPLE_SIZE = 6, 8  # samples along each side, and their size in pixels
@@ -32,7 +32,7 @@ Array = NDArray[np.float64]
 Bounds = tuple[float, float, float, float]
 
 
-def library(settings: Settings, name: str) -> ModuleType:
+def library(settings: SceneSettings, name: str) -> ModuleType:
     """Import rasterio, which the key `name` of [terrain] needs.
 
     Raises
@@ -66,7 +66,7 @@ class GeoTiff:
         rasterio is missing, or the file is no GeoTIFF or has no georeference.
     """
 
-    def __init__(self, settings: Settings, name: str) -> None:
+    def __init__(self, settings: SceneSettings, name: str) -> None:
         self.rasterio = library(settings, name)
         self.key = settings.path, ("terrain", name)
         self.path: Path = getattr(settings.terrain, name)

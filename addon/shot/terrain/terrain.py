@@ -11,10 +11,9 @@ from firetwin_core.run import Run
 from firetwin_core.terrain import bilinear
 from numpy.typing import ArrayLike, NDArray
 
-from ...run import areas, fuel_category
+from ...run import areas, burning, fuel_category
 from ...run.frame import local_frame
-from ..fire import burning
-from ..settings import Settings
+from ..sections import SceneSettings
 from . import apron, dem_patch, noise
 from .elevation import Elevation
 
@@ -58,7 +57,9 @@ class Terrain:
         Approximate distance (m) between this surface and the bilinear terrain.
     """
 
-    def __init__(self, settings: Settings, run: Run, arrival: Array, relief: Elevation | None = None) -> None:
+    def __init__(
+        self, settings: SceneSettings, run: Run, arrival: Array, relief: Elevation | None = None
+    ) -> None:
         self._relief = relief or Elevation(run)
         self.frame = local_frame(run)
         latitude, longitude = run.fuel_latitude, run.fuel_longitude

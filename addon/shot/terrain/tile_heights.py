@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import zipfile
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass
@@ -23,7 +22,6 @@ from . import rasterize
 
 if TYPE_CHECKING:
     from ...tiles.decoded import Decoded
-    from ..settings import Settings
 
 Array = NDArray[np.float64]
 Known = Callable[[Array, Array], Array]
@@ -200,15 +198,6 @@ def _sampled(known: Known, low: Array, step: float, shape: tuple[int, int]) -> N
     sampled = known(east.ravel(), north.ravel()).reshape(east.shape)
     row, column = (np.arange(count) / _THINNED for count in shape)
     return bilinear(sampled, row[:, None], column).astype(np.float32)
-
-
-def location(settings: Settings, run: Run) -> Path:
-    """File of the heights of a scene's tiles, which follows what they were chosen by."""
-    frame = local_frame(run)
-    mapped = str(settings.terrain.land_use)
-    parts = settings.tiles, settings.cameras, settings.time, settings.render.resolution, mapped
-    digest = hashlib.sha256(repr((*parts, frame.latitude, frame.longitude)).encode())
-    return settings.cache / "tiles" / f"heights-{digest.hexdigest()[:16]}.npz"
 
 
 def write(path: Path, surface: Surface) -> None:

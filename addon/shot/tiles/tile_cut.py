@@ -14,20 +14,19 @@ from ... import files
 from ...errors import input_error
 from ...imaging.credits import Credits
 from .. import comparison, passes
-from ..cameras import mount
 from ..cameras.view_digest import of_views
+from ..settings import mount
 from ..terrain import tile_heights
 from ..terrain.tile_heights import TileHeights
 
 if TYPE_CHECKING:
-    from ..settings.protocols import ShotView
     from ..shot import Shot
 
 
 Finder = Callable[[str], "TileCut | None"]
 HEIGHTS = ".npz"
 """End of the file of a cut's heights (see `terrain.tile_heights`), which else has the cut's name."""
-_HEIGHTS: WeakKeyDictionary[ShotView, TileHeights] = WeakKeyDictionary()
+_HEIGHTS: WeakKeyDictionary[Shot, TileHeights] = WeakKeyDictionary()
 
 
 @dataclass(frozen=True)
@@ -107,13 +106,13 @@ def read(path: Path) -> TileCut:
         raise input_error(path, f"is no list of chosen tiles ({error}); delete it") from None
 
 
-def location(shot: ShotView) -> Path:
+def location(shot: Shot) -> Path:
     """File of a shot's cut; it follows all that the choice depends on, except the tilesets themselves."""
     settings = shot.full.settings
     return settings.cache / "tiles" / f"{of_views(shot, '2', repr(settings.tiles))}.json"
 
 
-def prepared(shot: ShotView) -> TileCut | None:
+def prepared(shot: Shot) -> TileCut | None:
     """The cut of a shot; None where it has no tiles, or they were not prepared yet."""
     if not shot.settings.tiles.sources:
         return None
@@ -121,7 +120,7 @@ def prepared(shot: ShotView) -> TileCut | None:
     return read(path) if path.is_file() else None
 
 
-def of_shot(shot: ShotView) -> TileCut | None:
+def of_shot(shot: Shot) -> TileCut | None:
     """The cut of a shot; None where it has no tiles.
 
     Raises
@@ -155,7 +154,7 @@ def of_pass(shot: Shot, view: str, name: str, find: Finder) -> list[TileCut]:
     return [cut for each in views if (cut := find(each)) is not None]
 
 
-def heights(shot: ShotView) -> TileHeights | None:
+def heights(shot: Shot) -> TileHeights | None:
     """Heights of a shot's tiles; None where it has none, or they were not prepared."""
     if shot not in _HEIGHTS and shot.settings.tiles.sources:
         path = location(shot).with_suffix(HEIGHTS)

@@ -12,7 +12,7 @@ from ..terrain.terrain import widened
 from . import tile_cut
 
 if TYPE_CHECKING:
-    from ..settings.protocols import ShotView
+    from ..shot import Shot
     from ..terrain.tile_heights import TileHeights
 
 OURS, BURNED = "ours", "ours where it burns"
@@ -21,10 +21,10 @@ AROUND = 100.0
 """m around the burned area that counts to it."""
 
 Array = NDArray[np.float64]
-_BURNED: WeakKeyDictionary[ShotView, NDArray[np.bool_]] = WeakKeyDictionary()
+_BURNED: WeakKeyDictionary[Shot, NDArray[np.bool_]] = WeakKeyDictionary()
 
 
-def are_ours(shot: ShotView, position: Array) -> NDArray[np.bool_]:
+def are_ours(shot: Shot, position: Array) -> NDArray[np.bool_]:
     """Whether trees at places (n, 2 or 3), scene metres, are the scene's where tiles show growth."""
     trees = shot.settings.tiles.trees
     if trees != BURNED:
@@ -34,7 +34,7 @@ def are_ours(shot: ShotView, position: Array) -> NDArray[np.bool_]:
     return _burned(shot)[np.round(row).astype(int), np.round(column).astype(int)]
 
 
-def may_stand(shot: ShotView, position: Array, tiles: TileHeights | None = None) -> NDArray[np.bool_]:
+def may_stand(shot: Shot, position: Array, tiles: TileHeights | None = None) -> NDArray[np.bool_]:
     """Whether plants of the scene may stand at places (n, 2 or 3), m: not in the tiles' forest or buildings.
 
     Parameters
@@ -52,7 +52,7 @@ def may_stand(shot: ShotView, position: Array, tiles: TileHeights | None = None)
     return may
 
 
-def _burned(shot: ShotView) -> NDArray[np.bool_]:
+def _burned(shot: Shot) -> NDArray[np.bool_]:
     """Burned area of the run with its margin, on the terrain grid."""
     if shot not in _BURNED:
         reach = int(np.ceil(AROUND / min(shot.ground.cell)))

@@ -8,8 +8,7 @@ from typing import Any
 
 from firetwin_core import constants, volume
 
-from ...run import sun
-from ...shot.fire import burning
+from ...run import burning, sun
 from ...shot.fire.fire import Cells
 from .. import stability
 from ._single import SingleVolume

@@ -18,8 +18,10 @@ if TYPE_CHECKING:
 
     from firetwin_core.run import Run
 
+    from ...frames import Frames
     from ...schema import Where
-    from ...settings.protocols import CameraSettings, Frames, ShotView
+    from ...sections.camera import CameraSettings
+    from ...shot import Shot
     from ._view import View
 
     Place = tuple[Where, float, float]
@@ -70,7 +72,7 @@ class Rig:
         """Check it against the run: place in its table, and message after the camera's name; or None."""
         return None
 
-    def path(self, camera: CameraSettings, shot: ShotView, ground: Any) -> Any:
+    def path(self, camera: CameraSettings, shot: Shot, ground: Any) -> Any:
         """Path of the camera through the shot (`path.Path`) over this `terrain.Terrain`."""
         raise NotImplementedError
 

@@ -14,7 +14,8 @@ from ..path import Path
 from ._lens import Lens
 
 if TYPE_CHECKING:
-    from ...settings.protocols import CameraSettings, ShotView
+    from ...sections.camera import CameraSettings
+    from ...shot import Shot
     from ...terrain.terrain import Terrain
     from ._view import View
 
@@ -37,7 +38,7 @@ class Chase(Lens):
         """Same distance and height above ground as the eye has from the centre of the view."""
         return cls(**view.lens, distance=max(view.away, 1.0), height=view.above)
 
-    def path(self, camera: CameraSettings, shot: ShotView, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
         """Path at an offset from the head, which is smoothed over a fifth of the shot, looking at it."""
         target = targets.follow("head", ground, shot.frames.times, self.target_height)
         away = targets.smoothed(flight.heading(target)) + np.radians(self.side)

@@ -20,7 +20,9 @@ from ._lens import Lens
 if TYPE_CHECKING:
     from firetwin_core.run import Run
 
-    from ...settings.protocols import CameraSettings, Frames, ShotView
+    from ...frames import Frames
+    from ...sections.camera import CameraSettings
+    from ...shot import Shot
     from ...terrain.terrain import Terrain
     from . import Place
     from ._view import View
@@ -87,7 +89,7 @@ class Drone(Lens):
         missed = read(self.track).missed(run, frames)
         return (("track",), f"follows {self.track.name}, which {missed}") if missed else None
 
-    def path(self, camera: CameraSettings, shot: ShotView, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
         """Smooth path between keys or along its track, above the hills between, with its look-at points."""
         count = shot.frames.count
         moments = np.linspace(0.0, 1.0, count)
@@ -125,7 +127,7 @@ class Drone(Lens):
         keys: list[CameraKey],
         position: Array,
         moments: Array,
-        shot: ShotView,
+        shot: Shot,
         ground: Terrain,
         moving: dict[tuple[str, float], Array],
     ) -> Array:
@@ -141,14 +143,14 @@ def _waypoints(keys: list[CameraKey]) -> Waypoints:
     return Waypoints(at, latitude, longitude, height, np.array([pose.above == "ground" for pose in keys]))
 
 
-def _moving(keys: list[CameraKey], shot: ShotView, ground: Terrain) -> dict[tuple[str, float], Array]:
+def _moving(keys: list[CameraKey], shot: Shot, ground: Terrain) -> dict[tuple[str, float], Array]:
     """Positions (frames, 3) of moving targets, by name and height above ground."""
     wanted = {(each.target, each.target_height) for each in keys if each.target in targets.MOVING}
     return {each: targets.follow(each[0], ground, shot.frames.times, each[1]) for each in wanted}
 
 
 def _aim(
-    at: CameraKey, position: Array, shot: ShotView, ground: Terrain, moving: dict[tuple[str, float], Array]
+    at: CameraKey, position: Array, shot: Shot, ground: Terrain, moving: dict[tuple[str, float], Array]
 ) -> Array:
     """Look-at points (frames, 3) of a key."""
     if at.target == "ahead":

@@ -20,7 +20,9 @@ from .tour import HEAD, Stop, Tour
 if TYPE_CHECKING:
     from firetwin_core.run import Run
 
-    from ...settings.protocols import CameraSettings, Frames, ShotView
+    from ...frames import Frames
+    from ...sections.camera import CameraSettings
+    from ...shot import Shot
     from ...terrain.terrain import Terrain
     from . import Place
     from ._view import View
@@ -129,7 +131,7 @@ class Globe(Lens):
             return ("begin_longitude",), reason
         return None
 
-    def path(self, camera: CameraSettings, shot: ShotView, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
         """Flight from above the beginning to the last view, which is that of a tour's only stop."""
         frame, part = ground.frame, self.parts(shot.frames.count)
         begin = self._begin(frame.latitude, frame.longitude)

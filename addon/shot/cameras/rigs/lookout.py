@@ -15,7 +15,8 @@ from ._key import rising
 from ._lens import Lens
 
 if TYPE_CHECKING:
-    from ...settings.protocols import CameraSettings, ShotView
+    from ...sections.camera import CameraSettings
+    from ...shot import Shot
     from ...terrain.terrain import Terrain
     from . import Place
     from ._view import View
@@ -62,7 +63,7 @@ class Lookout(Lens):
         """Position of the mast."""
         return [(("latitude",), self.latitude, self.longitude)]
 
-    def path(self, camera: CameraSettings, shot: ShotView, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
         """Fixed position; bearings count from north and tilts from the horizon at the mast."""
         count = shot.frames.count
         keys = self.keys or (LookoutKey(),)

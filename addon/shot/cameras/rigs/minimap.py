@@ -15,7 +15,8 @@ from . import Rig
 from .satellite import down
 
 if TYPE_CHECKING:
-    from ...settings.protocols import CameraSettings, ShotView
+    from ...sections.camera import CameraSettings
+    from ...shot import Shot
     from ...terrain.terrain import Terrain
     from ._view import View
 
@@ -37,7 +38,7 @@ class Minimap(Rig):
         candidates = (camera for camera in cameras if not hasattr(camera.rig, "follows"))
         return next((candidate for candidate in candidates if self.follows in ("", candidate.name)), None)
 
-    def path(self, camera: CameraSettings, shot: ShotView, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
         """Path above the followed camera in every frame; above the run's centre without one."""
         leader = self.followed(shot.cameras)
         east, north = np.zeros((2, shot.frames.count))

@@ -13,7 +13,8 @@ from . import Rig
 from ._lens import FOCAL_LENGTH, Lens
 
 if TYPE_CHECKING:
-    from ...settings.protocols import CameraSettings, ShotView
+    from ...sections.camera import CameraSettings
+    from ...shot import Shot
     from ...terrain.terrain import Terrain
 
 
@@ -39,7 +40,7 @@ class Mounted(Rig):
         candidates = (camera for camera in cameras if isinstance(camera.rig, Lens))
         return next((candidate for candidate in candidates if candidate.name == self.follows), None)
 
-    def path(self, camera: CameraSettings, shot: ShotView, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
         """Path of the followed camera with its own lens."""
         leader = self.followed(shot.cameras)
         assert leader  # the settings see to it

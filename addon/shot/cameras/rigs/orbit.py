@@ -14,7 +14,8 @@ from ..path import Path
 from ._lens import FOCAL_LENGTH, Lens
 
 if TYPE_CHECKING:
-    from ...settings.protocols import CameraSettings, ShotView
+    from ...sections.camera import CameraSettings
+    from ...shot import Shot
     from ...terrain.terrain import Terrain
     from . import Place
     from ._view import View
@@ -71,7 +72,7 @@ class Orbit(Lens):
             return []
         return [(("latitude",), self.latitude, self.longitude)]
 
-    def path(self, camera: CameraSettings, shot: ShotView, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
         """Circular path at its speed, raised smoothly above hills."""
         middle = ground.frame
         point = ground.point(

@@ -18,7 +18,8 @@ from ._lens import FOCAL_LENGTH, Lens
 if TYPE_CHECKING:
     from firetwin_core import geo
 
-    from ...settings.protocols import CameraSettings, ShotView
+    from ...sections.camera import CameraSettings
+    from ...shot import Shot
     from ...terrain.terrain import Terrain
     from . import Place
     from ._view import View
@@ -66,7 +67,7 @@ class Poses(Lens):
         """Positions of its poses."""
         return [(("keys", i, "latitude"), at.latitude, at.longitude) for i, at in enumerate(self.keys)]
 
-    def path(self, camera: CameraSettings, shot: ShotView, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
         """Cubic interpolation of positions, quaternions and logarithms of focal lengths between poses."""
         keys, frame = self.keys, ground.frame
         columns = ((pose.latitude, pose.longitude, pose.height) for pose in keys)

@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     from firetwin_core import geo
     from firetwin_core.run import Run
 
-    from ...settings.protocols import CameraSettings, Frames, ShotView
+    from ...frames import Frames
+    from ...sections.camera import CameraSettings
+    from ...shot import Shot
     from ...terrain.terrain import Terrain
     from . import Place
     from ._view import View
@@ -77,7 +79,7 @@ class Satellite(Rig):
         )
         return ("geostationary",), reason
 
-    def path(self, camera: CameraSettings, shot: ShotView, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
         """Fixed path."""
         first = self.keys[0] if self.keys else ground.frame
         place = np.repeat(ground.point(first.latitude, first.longitude), shot.frames.count, axis=0)
@@ -102,14 +104,14 @@ def _over_horizon(place: Array, eye: Array, frame: geo.LocalFrame) -> float:
     return float(np.degrees(np.arcsin(way @ path.compass(frame, place)[2])))
 
 
-def down(camera: CameraSettings, shot: ShotView, place: Array, swath: float) -> Path:
+def down(camera: CameraSettings, shot: Shot, place: Array, swath: float) -> Path:
     """Path above ground points (frames, 3), looking straight down with north up."""
     position = place + np.array([0.0, 0.0, HEIGHT])
     rotation = np.repeat(np.eye(3)[None], len(place), axis=0)
     return Path(camera, position, rotation, place, half(camera, shot, swath), perspective=False)
 
 
-def half(camera: CameraSettings, shot: ShotView, swath: float) -> tuple[float, float]:
+def half(camera: CameraSettings, shot: Shot, swath: float) -> tuple[float, float]:
     """Half the width and height (m) of a picture of this swath."""
     width, height = shot.resolution(camera)
     return 0.5 * swath, 0.5 * swath * height / width

@@ -20,7 +20,9 @@ from ._lens import Lens
 if TYPE_CHECKING:
     from firetwin_core.run import Run
 
-    from ...settings.protocols import CameraSettings, Frames, ShotView
+    from ...frames import Frames
+    from ...sections.camera import CameraSettings
+    from ...shot import Shot
     from ...terrain.terrain import Terrain
     from . import Place
     from ._view import View
@@ -127,7 +129,7 @@ class Tour(Lens):
             return ("stops",), reason
         return None
 
-    def path(self, camera: CameraSettings, shot: ShotView, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
         """Eased flight from stop to stop, raised smoothly above hills and ridges, looking at the places."""
         share = shares(self.stops, shot.frames.count)
         place = self._tracks(shot, ground)
@@ -153,7 +155,7 @@ class Tour(Lens):
         places = labels.read(self.places) if self.places else labels.known(run)
         return {label.name.casefold(): label for label in places}
 
-    def _tracks(self, shot: ShotView, ground: Terrain) -> Array:
+    def _tracks(self, shot: Shot, ground: Terrain) -> Array:
         """Points on the ground (stops, frames, 3) of the places in every frame; only the head moves."""
         known, times = self._known(shot.run), shot.frames.times
         tracks = []

@@ -20,7 +20,9 @@ from .drone import Drone
 if TYPE_CHECKING:
     from firetwin_core.run import Run
 
-    from ...settings.protocols import CameraSettings, Frames, ShotView
+    from ...frames import Frames
+    from ...sections.camera import CameraSettings
+    from ...shot import Shot
     from ...terrain.terrain import Terrain
     from . import Place
 
@@ -67,7 +69,7 @@ class Vr(Rig):
         """Check that a track with recorded times overlaps the shot."""
         return self._drone().validate_against(run, frames)
 
-    def path(self, camera: CameraSettings, shot: ShotView, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
         """Path of a drone with these keys, with a level horizon; a target below its feet counts as north."""
         flown = self._drone().path(camera, shot, ground)
         latitude, longitude, height = ground.frame.reverse(flown.position)

@@ -14,14 +14,14 @@ from numpy.typing import NDArray
 from ...run import sun
 
 if TYPE_CHECKING:
-    from ..settings.protocols import ShotView
+    from ..shot import Shot
 
 _LOWEST = 1.0  # degrees; lower suns cast no shadows, as in `lod.visible_mask`
 _TURN = 2.0  # degrees; suns closer together are merged, as blocks are widened on all sides
 
 
 def with_shade(
-    shot: ShotView, centre: NDArray[np.float64], rise: NDArray[np.float64], seen: NDArray[np.bool_]
+    shot: Shot, centre: NDArray[np.float64], rise: NDArray[np.float64], seen: NDArray[np.bool_]
 ) -> NDArray[np.bool_]:
     """Visible blocks (ny, nx) and the blocks that cast a shadow on one of them under any of the suns.
 
@@ -67,7 +67,7 @@ def _reaches(
     return shades
 
 
-def _suns(shot: ShotView) -> list[tuple[float, float]]:
+def _suns(shot: Shot) -> list[tuple[float, float]]:
     """Azimuth and elevation (degrees) of the shadow-casting lights over the filmed frames, `_TURN` apart."""
     frames = np.unique(np.concatenate([shot.filmed(path) for path in shot.paths]))
     suns: list[tuple[float, float]] = []

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from . import shadow_casters
 
 if TYPE_CHECKING:
-    from ..settings.protocols import ShotView
+    from ..shot import Shot
 
 UNSEEN = 50.0  # m, vertical error of ground that is neither visible nor casts visible shadows
 _BLOCK = 150.0  # m, size of the blocks that are tested
@@ -42,7 +42,7 @@ class Accuracy:
     fine: NDArray[np.uint8]
 
 
-def wanted(shot: ShotView) -> Accuracy:
+def wanted(shot: Shot) -> Accuracy:
     """Accuracy for `terrain.error`, which is in pixels of the camera with the finest view."""
     ground = shot.ground
     place = _places(shot)
@@ -58,7 +58,7 @@ def wanted(shot: ShotView) -> Accuracy:
     return Accuracy(place, _at_points(tolerance[: rows - 1, : columns - 1]), _within_limit(fine))
 
 
-def _places(shot: ShotView) -> NDArray[np.float32]:
+def _places(shot: Shot) -> NDArray[np.float32]:
     """Terrain grid points (ny, nx, 3), m; within 8 mm at the apron's end."""
     fields, frame = shot.ground.fields, shot.ground.frame
     place = np.empty((*fields.elevation.shape, 3), np.float32)
@@ -99,7 +99,7 @@ def _blocks(
     )
 
 
-def most(shot: ShotView, distance: NDArray[np.float64]) -> NDArray[np.float64]:
+def most(shot: Shot, distance: NDArray[np.float64]) -> NDArray[np.float64]:
     """Vertical error bound (m) of visible ground by its distance (m) from the nearest camera."""
     angle, pixel = _views(shot)
     near = np.zeros(distance.shape) if angle is None else _clipped(angle * np.maximum(distance, _NEAREST))
@@ -111,7 +111,7 @@ def _clipped(error: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.clip(error, _LEAST_ERROR, UNSEEN)
 
 
-def _views(shot: ShotView) -> tuple[float | None, float | None]:
+def _views(shot: Shot) -> tuple[float | None, float | None]:
     """Error bounds: of perspective cameras, m per m of distance; of orthographic cameras, m."""
     error = shot.settings.terrain.error
     angle, pixel = (error * size if np.isfinite(size) else None for size in shot.pixel)
@@ -119,7 +119,7 @@ def _views(shot: ShotView) -> tuple[float | None, float | None]:
 
 
 def _tolerance(
-    shot: ShotView, centre: NDArray, radius: NDArray, rise: NDArray, shape: tuple[int, int]
+    shot: Shot, centre: NDArray, radius: NDArray, rise: NDArray, shape: tuple[int, int]
 ) -> tuple[NDArray, NDArray]:
     """Vertical error bound (n,) of blocks, m, and distance of the cameras that see them; infinite if none."""
     tolerance, distance = np.full(len(centre), UNSEEN), np.full(len(centre), np.inf)
@@ -144,7 +144,7 @@ def _tolerance(
     return tolerance, distance
 
 
-def _subdivisions(shot: ShotView, tolerance: NDArray, distance: NDArray) -> NDArray[np.int64]:
+def _subdivisions(shot: Shot, tolerance: NDArray, distance: NDArray) -> NDArray[np.int64]:
     """Number of subdivisions of blocks where the surface is finer than its grid, from the error bounds."""
     ground = shot.ground
     finest = min(_FINEST, max(ground.cell) / ground.patch.parts) if ground.patch else _FINEST

@@ -6,8 +6,8 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
-from ...run import areas
-from ...run.frame import local_frame
+from . import areas
+from .frame import local_frame
 
 BURN_TIME = 600.0  # s, burn-out time of a cell's fuel
 CROSSING = (60.0, 3600.0)  # s

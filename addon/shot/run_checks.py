@@ -5,14 +5,13 @@ from __future__ import annotations
 import numpy as np
 from firetwin_core.run import Run
 
-from ...run import areas, labels, times
-from .. import frames
-from ..fire import observed
-from ..schema import scene_text
-from ..settings import Settings
-from ..stations import station_signs
-from ..surface import globe_picture, land_use, orthophoto
-from ..terrain import elevation
+from ..run import areas, labels, times
+from . import frames
+from .schema import scene_text
+from .settings import Settings
+from .stations import station_signs
+from .surface import globe_picture, land_use, observed, orthophoto
+from .terrain import elevation
 
 
 def check(settings: Settings, run: Run) -> None:

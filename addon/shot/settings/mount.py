@@ -11,11 +11,11 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from .. import passes
-from .rigs.minimap import Minimap
-from .rigs.mounted import Mounted
+from ..cameras.rigs.minimap import Minimap
+from ..cameras.rigs.mounted import Mounted
 
 if TYPE_CHECKING:
-    from ..settings import Camera, Settings
+    from . import Camera, Settings
 
 MAP = "map"
 
