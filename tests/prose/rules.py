@@ -60,11 +60,11 @@ RULES = (
     ),
     _rule(
         "where for if",
-        r"\bwhere (?:it|there|that|this|they|one|none|nothing|no|a|an|the|its) "
-        r"(?:\w+ )?(?:is|are|was|were|has|have|had|can|cannot|would|may|does)\b",
+        r"\bwhere (?:it|there|that|this|they|one|none|nothing|no \w+) "
+        r"(?:is|are|was|were|has|have|had|can|cannot|would|may|does|exists?)\b",
         "if for a condition, where for a place, when for a time",
         "Zero where there is no wind.",
-        "Zero if the run has no wind. The folder where films are written is checked.",
+        "Zero if the run has no wind. Trees are drawn where the run has canopy fuel.",
     ),
     _rule(
         "vague or dated word",

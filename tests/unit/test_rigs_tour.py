@@ -153,8 +153,8 @@ SCENE = (
 @pytest.mark.parametrize(
     ("stop", "frames", "line", "words"),
     [
-        ('place = "Polock Pines"', 4, 7, 'no known place; did you mean "Pollock Pines"?'),
-        ('place = "Atlantis"', 4, 7, "no known place; it knows head, ignition, "),
+        ('place = "Polock Pines"', 4, 7, 'an unknown place; did you mean "Pollock Pines"?'),
+        ('place = "Atlantis"', 4, 7, "an unknown place; it knows head, ignition, "),
         ('place = "head"\n[[cameras.stops]]\nplace = "head"', 1, 6, "has 2 stops in 1 frames"),
         ("latitude = 12.0\nlongitude = 3.0", 4, 7, "km from the middle of the run"),
     ],

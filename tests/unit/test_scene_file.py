@@ -232,7 +232,7 @@ def test_the_text_of_settings_holds_every_key_and_explains_it_once():
 def test_comments_stand_in_a_column_and_name_the_default(load):
     lines = scene_file.text(load('run = "x"\n[time]\nfps = 12')).splitlines()
     assert lines[0] == 'run = "x"        # run folder, such as `firetwin sample` writes (default "sample")'
-    assert lines[1] == 'cache = "cache"  # folder of smoke volumes, kept and reused'
+    assert lines[1] == 'cache = "cache"  # folder of smoke volumes, for reuse'
     assert "fps = 12                        # frames per second of the films (default 24)" in lines
     assert (
         'zone = ""                       # time zone of the clock in the films; empty: the run\'s zone'

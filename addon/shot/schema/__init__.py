@@ -2,7 +2,7 @@
 
 A field that a file may hold is made by `key`, or by `one_of` if it has several variants. A field of another
 dataclass is a section. A field of tuples of one is a list of tables. Other fields, such as the path of the
-file itself, are no keys.
+file itself, are not keys.
 """
 
 from __future__ import annotations
@@ -42,9 +42,9 @@ class Key:
     check
         Function that returns a further error, as words that follow the key's name, or None.
     affects
-        Aspects of a product that the key affects; None: those of its section, or the name of its section.
+        Aspects of a product that the key affects; None: the aspects of its section, or its name.
     variants
-        Dataclasses that may stand in this place, by name. Their keys lie flat beside `tag`.
+        Dataclasses that are allowed here, by name. Their keys are in the same table as `tag`.
     tag, default_kind
         Key that selects the variant, and the default variant.
     """
@@ -67,7 +67,7 @@ class Key:
         return dict(names) if isinstance(names, Mapping) else dict.fromkeys(names, "")
 
     def all_variants(self) -> Mapping[str, type]:
-        """The variants by name; none where no variants may stand."""
+        """Return the variants by name; none for a key without variants."""
         return self.variants() if self.variants else {}
 
     def described(self) -> str:
@@ -137,7 +137,7 @@ def key(
 
 
 def one_of(variants: Callable[[], Mapping[str, type]], help: str, *, tag: str, default_kind: str) -> Any:
-    """Make the field of one of several dataclasses, with keys that lie flat beside the key `tag`."""
+    """Make the field of one of several dataclasses, with keys in the same table as the key `tag`."""
     known = Key(
         help, choices=lambda: tuple(variants()), variants=variants, tag=tag, default_kind=default_kind
     )
@@ -170,7 +170,7 @@ class Field(NamedTuple):
 
     @property
     def tables(self) -> bool:
-        """Whether it is a list of tables."""
+        """True if it is a list of tables."""
         return self.table is not None and self.table is not self.type
 
 

@@ -48,9 +48,9 @@ class Time:
     """Model times that the frames show. Frames are spread evenly from `start` to `end`."""
 
     start: datetime | None = key(
-        None, "model time of the first frame, with its zone; if left out, the run's first time"
+        None, "model time of the first frame, with its zone; default: the first time of the run"
     )
-    end: datetime | None = key(None, "model time of the last frame; if left out, the run's last time")
+    end: datetime | None = key(None, "model time of the last frame; default: the last time of the run")
     frames: int = key(48, "number of frames, spread evenly from start to end", at_least=1, at_most=100_000)
     fps: int = key(24, "frames per second of the films", at_least=1, at_most=240, affects=("film",))
     zone: str = key(
@@ -84,7 +84,7 @@ class TerrainSettings:
     )
     elevation: Path | None = key(
         None,
-        "digital elevation model, a GeoTIFF in any projection; overrides the run's heights where it has data",
+        "digital elevation model, a GeoTIFF in any projection; overrides heights of the run",
         affects=(),
     )
     photo: Path | None = key(
@@ -108,7 +108,7 @@ class TerrainSettings:
     photo_level: int = key(
         19, "finest level of tiles that the server of photo_url has", at_least=0, at_most=30
     )
-    photo_credit: str = key("", "who is to be named for the orthophoto; needed with photo_url")
+    photo_credit: str = key("", "credit of the orthophoto; needed with photo_url")
     photo_size: int = key(
         3072,
         "longest side of a picture of the orthophoto in the scene",
@@ -134,7 +134,7 @@ class TerrainSettings:
     )
     globe: Path | None = key(
         None,
-        "the whole Earth for cameras in space, an equirectangular picture; if left out, one colour",
+        "picture of the Earth for cameras in space, equirectangular; default: one colour",
         affects=(),
     )
     globe_credit: str = key("", "credit of that picture, which pictures show", affects=())
@@ -147,7 +147,7 @@ class TerrainSettings:
     )
 
     def validate(self) -> tuple[Where, str] | None:
-        """Check that there is one orthophoto, and a credit for that of a server."""
+        """Check that there is one orthophoto, and a credit for the orthophoto of a server."""
         if self.photo_url and self.photo:
             return ("photo_url",), "terrain.photo_url and terrain.photo are both there; leave one out"
         if self.photo_url and not self.photo_credit.strip():
@@ -186,7 +186,7 @@ class TileSettings:
     )
     max_size: int = key(
         2000,
-        "limit on what is fetched for a shot",
+        "limit on the content fetched for a shot",
         unit="MB",
         at_least=1,
         at_most=1_000_000,
@@ -197,7 +197,7 @@ class TileSettings:
     )
     geoid: float | None = key(
         None,
-        "height of the geoid above the WGS84 ellipsoid; if left out, that of EGM96 by a grid of this machine",
+        "height of the geoid above the WGS84 ellipsoid; default: EGM96, by a grid of this machine",
         unit="m",
         at_least=-200,
         at_most=200,
@@ -223,21 +223,21 @@ class Forest:
     )
     greenness: float | None = key(
         None,
-        "greenness of grass; 0: cured, 1: green; if left out, by date and hemisphere",
+        "greenness of grass; 0: cured, 1: green; default: by date and hemisphere",
         at_least=0,
         at_most=1,
         affects=("terrain", "forest"),
     )
     shrub_cover: float | None = key(
         None,
-        "smallest share of open land under shrubs, except in sierra_conifer; if left out, by fuel and biome",
+        "smallest share of open land under shrubs, except in sierra_conifer; default: by fuel and biome",
         at_least=0,
         at_most=1,
         affects=("terrain", "forest"),
     )
     tree_cover: float | None = key(
         None,
-        "share of open land under single trees, except in sierra_conifer; if left out, by biome",
+        "share of open land under single trees, except in sierra_conifer; default: by biome",
         at_least=0,
         at_most=1,
         affects=("terrain", "forest"),
@@ -333,7 +333,7 @@ class SmokeSettings:
     )
     spin_up: float | None = key(
         None,
-        "spin-up of a flow before the first frame; if left out, by the fire's size: 1800 for 15 km",
+        "spin-up of a flow before the first frame; default: by the size of the fire, 1800 for 15 km",
         unit="s",
         at_least=0,
         at_most=172_800,
@@ -390,7 +390,7 @@ class Light:
     haze: float = key(1.0, "strength of haze; 0: none, 1: a dry September day", at_least=0, at_most=100)
     exposure: float | None = key(
         None,
-        "exposure; if left out, exposure metering per camera: about 0.5 by day, up to 4 by night",
+        "exposure; default: exposure metering per camera: about 0.5 by day, up to 4 by night",
         unit="stops",
         at_least=-20,
         at_most=20,
@@ -410,7 +410,7 @@ class LabelSettings:
     enabled: bool = key(False, "draw the labels")
     file: Path | None = key(
         None,
-        "places to label: GeoJSON, or CSV with name, latitude, longitude; if left out, the fire's own",
+        "places to label: GeoJSON, or CSV with name, latitude, longitude; default: places of the fire",
         affects=(),
     )
     size: float = key(0.035, "letter height", unit="heights of the picture", at_least=0.001, at_most=0.5)
@@ -505,7 +505,7 @@ class SceneSettings:
     path: Path = Path("scene.toml")  # the file itself; relative paths in it start at its folder
     notes: tuple[str, ...] = field(default=(), compare=False)  # warnings of its reader
     run: Path = key(Path("sample"), "run folder, such as `firetwin sample` writes", affects=())
-    cache: Path = key(Path("cache"), "folder of smoke volumes, kept and reused", affects=())
+    cache: Path = key(Path("cache"), "folder of smoke volumes, for reuse", affects=())
     seed: int = key(
         1,
         "random seed of trees, flames and puffs; the fire stays the same",

@@ -36,12 +36,12 @@ class Camera:
     name: str = key("drone", "name of the camera, its folder and its files", check=file_name, affects=())
     rig: Any = one_of(rigs.kinds, "kind of camera", tag="kind", default_kind=rigs.USUAL)
     passes: tuple[str, ...] = key(
-        (), 'passes, such as ["rgb"]; empty: those of [render]', choices=passes.helps, affects=("passes",)
+        (), 'passes, such as ["rgb"]; empty: as in [render]', choices=passes.helps, affects=("passes",)
     )
     frames: str = key("", 'frames, such as "24" or "1-48:4"; empty: all')
     resolution: tuple[int, int] | None = key(
         None,
-        "picture width and height, both even; if left out, those of [render]",
+        "picture width and height, both even; default: as in [render]",
         unit="pixels",
         at_least=16,
         at_most=16384,
@@ -130,7 +130,7 @@ class Render:
     )
     thermal_low: float | None = key(
         None,
-        "lower end of the thermal palette; if left out, the frame's coldest ground",
+        "lower end of the thermal palette; default: the coldest ground of the frame",
         unit="K",
         above=0,
         at_most=10_000,
@@ -155,7 +155,7 @@ class Settings(SceneSettings):
     runs: tuple[OtherRun, ...] = key(
         (), "another run, filmed by the same cameras at the same times; at most 3"
     )
-    cameras: tuple[Camera, ...] = key((), "a camera and what it records", affects=("camera",))
+    cameras: tuple[Camera, ...] = key((), "a camera and its passes", affects=("camera",))
 
     def chunk_size(self, camera: Camera) -> int:
         """Chunk size of a camera: `render.chunk`, or 0 if all its frames are built together."""
@@ -186,7 +186,7 @@ class Settings(SceneSettings):
             reason = f'a second run is named "{names[i]}"; names must differ, not by capitals alone'
             return ("runs", i, "name"), reason
         if len(names) > MOST_RUNS:
-            reason = f"runs has {len(names)} tables; beside the first run at most {MOST_RUNS}"
+            reason = f"runs has {len(names)} tables; use at most {MOST_RUNS}, in addition to the first run"
             return ("runs", MOST_RUNS), reason
         for where, listed in (
             (("render", "passes"), self.render.passes),

@@ -56,9 +56,9 @@ def save(whole: Settings) -> None:
 
 
 def updated(there: str, whole: Settings) -> str:
-    """Scene file `there` with the settings `whole`; only lines of changed keys differ.
+    """Update the scene file `there` to the settings `whole`; only lines of changed keys differ.
 
-    A text that is no scene file, or whose layout cannot be kept, is replaced by `scene_file.text`.
+    A text that is not a scene file, or whose layout cannot be preserved, is replaced by `scene_file.text`.
     """
     fresh = text(whole)
     try:
@@ -71,15 +71,15 @@ def updated(there: str, whole: Settings) -> str:
 
 
 def _values(there: str, whole: Settings) -> Values:
-    """Values of all keys as `text` writes them, including those that the text leaves at their defaults."""
+    """Return the values of all keys as `text` writes them, defaults included."""
     return tomllib.loads(text(parse(there, whole.path)))
 
 
 def _with_current_names(there: str) -> str:
-    """The text with the present names of sections and keys that have former ones."""
+    """Replace former names of sections and keys in a text by the present names."""
     for former, now in FORMER.items():
         there = re.sub(rf"(?m)^(\s*\[\s*){former}(?=\s*[\].])", rf"\g<1>{now}", there)
-    tomllib.loads(there)  # positions are those of a valid text
+    tomllib.loads(there)  # only a valid text has positions
     lines, positions = there.split("\n"), places(there)
     for (section, former), now in FORMER_KEYS.items():
         line, column = positions.get((section, former), (1, 1))
@@ -114,7 +114,7 @@ def _blocks(there: str) -> Iterator[Block]:
 
 
 def _with_section(blocks: list[Block], name: str, was: Values, now: Values) -> list[Block]:
-    """Insert the header of a changed section that the text lacks, in the order of the schema."""
+    """Insert the missing header of a changed section, in the order of the schema."""
     if was.get(name) == now[name] or any(block.path[:1] == (name,) for block in blocks):
         return blocks
     if name in tomllib.loads(blocks[0].body):  # inline table or dotted keys

@@ -24,9 +24,9 @@ _SAMPLES = {  # examples for keys without a value
 
 
 def text(settings: Settings) -> str:
-    """Scene file that reads back as these settings: all keys, each with its help at first occurrence.
+    """Write a scene file that reads back as these settings: all keys, each with its help at first occurrence.
 
-    Times are in the zone of `settings.time`, paths relative to the settings' own folder where they are in it.
+    Times are in the zone of `settings.time`, paths relative to the folder of the settings if they are in it.
     """
     blocks = _Writer(settings).table(settings, (), [])
     return "\n".join(_aligned(block) for block in blocks)
@@ -89,7 +89,7 @@ class _Writer:
                 yield from self.table(each, inner, [head])
 
     def shown(self, section: tuple[str, ...], part: Field, value: Any) -> bool:
-        """Whether a key is written: in a short file if it is asked for or differs from its default."""
+        """Return True if a key is written: in a short file if it is requested or differs from its default."""
         if part.table or self.asked is None or part.key.variants:
             return not part.table
         if ".".join((*section, part.name)) in self.asked:
@@ -146,7 +146,7 @@ def quoted(text: str) -> str:
 
 
 def _flat(table: Any) -> Iterator[tuple[Field, Any]]:
-    """Keys of a dataclass with their values; those of a variant follow the key that selects it."""
+    """Keys of a dataclass with their values; keys of a variant follow the key that selects it."""
     for part in fields(table.__class__):
         value = getattr(table, part.name)
         yield part, value

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from . import Place
     from ._view import View
 
-_CLEARANCE = 0.35  # fraction of the requested height above ground that is kept over hills between keys
+_CLEARANCE = 0.35  # minimum height over hills between keys / requested height above ground
 
 
 @dataclass(frozen=True)

@@ -42,14 +42,14 @@ class Globe(Lens):
     beyond: ClassVar[bool] = True
     begin_latitude: float | None = key(
         None,
-        "latitude of the start; if left out, that of the run's middle",
+        "latitude of the start; default: the centre of the run",
         unit="degrees north",
         at_least=-90,
         at_most=90,
     )
     begin_longitude: float | None = key(
         None,
-        "longitude of the start; west is negative; if left out, 15 degrees west of the run",
+        "longitude of the start; west is negative; default: 15 degrees west of the run",
         unit="degrees east",
         at_least=-180,
         at_most=180,
@@ -69,25 +69,25 @@ class Globe(Lens):
         2000.0, "camera height at the end above the terrain or the place, whichever is higher", **HEIGHT
     )
     bearing: float | None = key(
-        None, "bearing of the camera from the place at the end; if left out, its side of the start", **ANGLE
+        None, "bearing of the camera from the place at the end; default: its side of the start", **ANGLE
     )
     target_height: float = key(0.0, "target height above the terrain", **AIM)
     hold: float = key(
         1.0, "time at the start; all times are scaled to fill the film", unit="s", at_least=0, at_most=1e6
     )
-    travel: float = key(8.0, "time of the flight, scaled likewise", unit="s", at_least=0.01, at_most=1e6)
-    stay: float = key(2.0, "time at the end, scaled likewise", unit="s", at_least=0, at_most=1e6)
+    travel: float = key(8.0, "time of the flight, scaled with the film", unit="s", at_least=0.01, at_most=1e6)
+    stay: float = key(2.0, "time at the end, scaled with the film", unit="s", at_least=0, at_most=1e6)
     clearance: float = key(50.0, "minimum height above the terrain, also between frames", **CLEARANCE)
     over_ridges: bool = key(True, "at the end, rise until no ridge hides the place")
     places: File | None = key(  # noqa: RUF009
         None,
-        "named places: GeoJSON, or CSV with name, latitude, longitude; if left out, the fire's own",
+        "named places: GeoJSON, or CSV with name, latitude, longitude; default: places of the fire",
         affects=(),
     )
 
     @classmethod
     def from_view(cls, view: View) -> Globe:
-        """A flight that ends where the eye is."""
+        """Flight that ends at the eye."""
         latitude, longitude = view.aim
         return cls(
             **view.lens,
@@ -109,11 +109,11 @@ class Globe(Lens):
         return None
 
     def coordinates(self) -> list[Place]:
-        """Where it ends, unless that has a name."""
+        """Position of its end, unless the end has a name."""
         return [(where[2:], north, east) for where, north, east in self._end().coordinates()]
 
     def coordinates_in(self, run: Run) -> list[Place]:
-        """Where it ends, by name."""
+        """Position of its end, by name."""
         return [(where[2:], north, east) for where, north, east in self._end().coordinates_in(run)]
 
     def input_files(self) -> list[File]:
@@ -132,7 +132,7 @@ class Globe(Lens):
         return None
 
     def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
-        """Flight from above the beginning to the last view, which is that of a tour's only stop."""
+        """Flight from above the beginning to the last view, the view of a tour with one stop."""
         frame, part = ground.frame, self.parts(shot.frames.count)
         begin = self._begin(frame.latitude, frame.longitude)
         back = float(inverse(frame.latitude, frame.longitude, *begin)[1])
@@ -229,8 +229,8 @@ def _axes(ground: Terrain, latitude: Array, longitude: Array) -> Array:
 def _views(ground: Terrain, position: Array, end: Path, part: Array, course: Array) -> Array:
     """Rotations (frames, 3, 3): from the nadir to the place, with a level horizon all the way.
 
-    Heading and angle below the horizon are those of the place's vertical at each point. The heading turns by
-    the shorter way from the great circle's to the last one while the place is all but below the camera.
+    Heading and angle below the horizon refer to the vertical of the place at each point. The heading turns
+    the shorter way from the great circle to its last value while the place is almost below the camera.
     """
     latitude, longitude, _ = ground.frame.reverse(position)
     axes = _axes(ground, latitude, longitude)

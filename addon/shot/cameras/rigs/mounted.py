@@ -22,14 +22,14 @@ if TYPE_CHECKING:
 class Mounted(Rig):
     """Second sensor on another camera's mount, with the same position and direction.
 
-    Without a focal length its field of view is that camera's; pixels then agree if resolutions do.
+    Without a focal length it has the field of view of that camera; pixels then agree if resolutions do.
     """
 
     follows: str = key("", "name of the perspective camera that carries it")
     focal_length: float | None = key(
-        None, "focal length of its own lens; if left out, that camera's", **FOCAL_LENGTH
+        None, "focal length of a separate lens; default: the lens of that camera", **FOCAL_LENGTH
     )
-    sensor_width: float = key(SENSOR, "width of its own sensor, used with its own focal length", **WIDTH)
+    sensor_width: float = key(SENSOR, "width of a separate sensor, used with focal_length", **WIDTH)
 
     def validate(self) -> tuple[Where, str] | None:
         """Check that it has a mount."""
@@ -50,7 +50,7 @@ class Mounted(Rig):
         return replace(way, camera=camera, half=half, hidden=None)  # the followed camera warns of ridges
 
     def through(self, way: Path) -> Path:
-        """Path of the mount's camera with its own lens; with one of its own, pictures are square."""
+        """Path of the mount's camera with this lens; a separate lens has square pictures."""
         if self.focal_length is None:
             return way
         own = 0.5 * self.sensor_width / self.focal_length

@@ -28,14 +28,14 @@ class Orbit(Lens):
     focal_length: float = key(35.0, "focal length", **FOCAL_LENGTH)
     latitude: float | None = key(
         None,
-        "latitude of the point; if left out, the middle of the run",
+        "latitude of the point; default: the middle of the run",
         unit="degrees north",
         at_least=-90,
         at_most=90,
     )
     longitude: float | None = key(
         None,
-        "longitude of the point; west is negative; if left out, the middle of the run",
+        "longitude of the point; west is negative; default: the middle of the run",
         unit="degrees east",
         at_least=-180,
         at_most=180,

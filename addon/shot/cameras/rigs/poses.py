@@ -42,7 +42,7 @@ class Pose:
         0.0, "angle below the horizon; negative is up", unit="degrees", at_least=-90, at_most=90
     )
     roll: float = key(0.0, "roll to the right", **ANGLE)
-    lens: float | None = key(None, "focal length; if left out, the camera's", **FOCAL_LENGTH)
+    lens: float | None = key(None, "focal length; default: the lens of the camera", **FOCAL_LENGTH)
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,7 @@ def keyed(
     Parameters
     ----------
     lens
-        If all are equal, the camera's focal length replaces those of the poses.
+        If all are equal, the camera's focal length replaces the lenses of the poses.
     """
     latitude, longitude, height = frame.reverse(place)
     several = bool(np.ptp(lens) > 0.0)

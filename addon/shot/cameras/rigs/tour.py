@@ -48,14 +48,14 @@ class Stop:
         2.0, "time at the place; all times are scaled to fill the film", unit="s", at_least=0, at_most=1e6
     )
     travel: float = key(
-        4.0, "time of the flight to the next place, scaled likewise", unit="s", at_least=0.01, at_most=1e6
+        4.0, "time of flight to the next place, scaled with the film", unit="s", at_least=0.01, at_most=1e6
     )
     distance: float = key(1500.0, "horizontal distance from the place", **LENGTH)
     height: float = key(
         500.0, "camera height above the terrain or above the place, whichever is higher", **HEIGHT
     )
     bearing: float | None = key(
-        None, "bearing of the camera from the place; if left out, on the side of the stop before", **ANGLE
+        None, "bearing of the camera from the place; default: the side of the previous stop", **ANGLE
     )
     target_height: float = key(0.0, "target height above the terrain", **AIM)
 
@@ -68,14 +68,14 @@ class Tour(Lens):
     over_ridges: bool = key(True, "rise until no ridge hides the place")
     places: File | None = key(  # noqa: RUF009
         None,
-        "named places: GeoJSON, or CSV with name, latitude, longitude; if left out, the fire's own",
+        "named places: GeoJSON, or CSV with name, latitude, longitude; default: places of the fire",
         affects=(),
     )
     stops: tuple[Stop, ...] = key((), "place that is visited")
 
     @classmethod
     def from_view(cls, view: View) -> Tour:
-        """A stop at the centre of the view, with the eye where it is."""
+        """Stop at the centre of the view, with the camera at the eye."""
         latitude, longitude = view.aim
         stop = Stop(
             latitude=latitude,
@@ -117,15 +117,15 @@ class Tour(Lens):
         return [(("stops", i, "place"), label.latitude, label.longitude) for i, label in named if label]
 
     def validate_against(self, run: Run, frames: Frames) -> tuple[Where, str] | None:
-        """Check that names are known, and that each stop has a frame of its own."""
+        """Check that names are known, and that each stop has a separate frame."""
         known = self._known(run)
         for i, stop in enumerate(self.stops):
             if stop.place and stop.place.casefold() not in (*known, *_FIRE):
                 names = [*_FIRE, *(label.name for label in known.values())]
                 hint = suggestion(stop.place, names) or f"; it knows {', '.join(names)}"
-                return ("stops", i, "place"), f'stops at "{stop.place}", which is no known place{hint}'
+                return ("stops", i, "place"), f'stops at "{stop.place}", an unknown place{hint}'
         if len(self.stops) > frames.count:
-            reason = f"has {len(self.stops)} stops in {frames.count} frames; each needs one of its own"
+            reason = f"has {len(self.stops)} stops in {frames.count} frames; use at least one frame per stop"
             return ("stops",), reason
         return None
 
