@@ -50,7 +50,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     if room == "farm":
         from .farm import arguments as farm
 
-        words, options = farm.normal(words)
+        words, options = farm.split_options(words)
     arguments = _parser().parse_args(words)
     arguments.options = options
     if isinstance(sys.stdout, io.TextIOWrapper):

@@ -1,4 +1,4 @@
-"""The command line of `firetwin farm`; nothing heavy is imported here."""
+"""Command line of `firetwin farm`, without imports that take time."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ VERBS = ("plan", "status", "resume", "cancel", "task", "assemble")
 _PLAN = VERBS[0]
 
 DETAIL = """\
-Plans the film as stages of tasks (bake, render, assemble), writes DIR/farm, and prints the command that
-submits it, or submits it. What follows `--` goes to the engine's own command.
+Divides the film into tasks in three stages (bake, render, assemble), writes the job to DIR/farm and prints
+the command that submits it; --submit runs that command. Options after `--` go to the engine's command.
 
   firetwin farm SCENE.toml --engine slurm --out DIR --submit -- --partition=gpu --time=4:00:00
-  firetwin farm status DIR     tasks and pictures that are done, running, failed and waiting; time left
-  firetwin farm resume DIR     reads all pictures and submits the tasks of those that are missing
-  firetwin farm cancel DIR     cancels what was submitted
+  firetwin farm status DIR     tasks and pictures that are done, running, failed or waiting; time left
+  firetwin farm resume DIR     check all pictures and submit the tasks of missing or damaged ones
+  firetwin farm cancel DIR     cancel the submitted tasks
 
-Engines run `firetwin farm task DIR N` and `firetwin farm assemble DIR`. Exit status: 0 done, 1 failed (of
-assemble: pictures are missing), 2 wrong input, 75 no device or disk now, 143 ended by SIGTERM."""
+Engines run `firetwin farm task DIR N` and `firetwin farm assemble DIR`. Exit status: 0 done, 1 failed
+(assemble: pictures are missing), 2 invalid input, 75 no device or disk space now, 143 ended by SIGTERM."""
 
 
-def normal(argv: list[str]) -> tuple[list[str], list[str]]:
-    """A command line of ours with the verb written out, and what follows `--`."""
+def split_options(argv: list[str]) -> tuple[list[str], list[str]]:
+    """Split a command line at `--`, and insert the verb `plan` if no verb is given."""
     if argv[:1] != ["farm"]:
         return argv, []
     at = argv.index("--") if "--" in argv else len(argv)
@@ -35,7 +35,7 @@ def normal(argv: list[str]) -> tuple[list[str], list[str]]:
 
 
 def _engines() -> list[str]:
-    """Names of all engines; none is loaded."""
+    """List the engines by file name, without loading them."""
     return sorted(path.stem for path in _ENGINES.glob("[a-z]*.py"))
 
 
@@ -45,7 +45,7 @@ def add(parser: argparse.ArgumentParser, path: Callable[[str], Path], count: Cal
     Parameters
     ----------
     path, count
-        Types of arguments.
+        Argument types: convert text to a path, and to a positive integer.
     """
     verbs = parser.add_subparsers(dest="verb", metavar="SCENE|VERB", required=True)
 
@@ -54,7 +54,7 @@ def add(parser: argparse.ArgumentParser, path: Callable[[str], Path], count: Cal
         found.add_argument("--debug", action="store_true", help="show a traceback when something fails")
         return found
 
-    plan = verb(_PLAN, "plan a film and write the engine's job (the verb may be left out)")
+    plan = verb(_PLAN, "plan a film and write the engine's job (the default verb)")
     plan.add_argument("scene", metavar="SCENE|RUN", type=path, help="scene file, or run folder")
     plan.add_argument("--engine", choices=_engines(), required=True, help="engine that runs the tasks")
     plan.add_argument(
@@ -64,15 +64,15 @@ def add(parser: argparse.ArgumentParser, path: Callable[[str], Path], count: Cal
         "--chunk",
         metavar="N",
         type=count,
-        help="frames per task at most (30)",
+        help="maximum frames per task (30)",
     )
     plan.add_argument("--submit", action="store_true", help="submit the job")
     for name, summary in (
-        ("status", "print the progress of a job, from its files alone"),
+        ("status", "print the progress of a job, read from its files"),
         ("resume", "submit the tasks whose pictures are missing or damaged"),
-        ("cancel", "cancel what was submitted"),
-        ("task", "run tasks of a job, as engines do"),
-        ("assemble", "check and enter all pictures, and make films and manifest"),
+        ("cancel", "cancel the submitted tasks"),
+        ("task", "run tasks of a job; engines call this"),
+        ("assemble", "check all pictures, then write films and manifest"),
     ):
         found = verb(name, summary)
         found.add_argument("out", metavar="DIR", type=path, help="folder of the film")
@@ -80,7 +80,7 @@ def add(parser: argparse.ArgumentParser, path: Callable[[str], Path], count: Cal
             found.add_argument("--json", action="store_true", help="write JSON")
         if name in ("task", "assemble"):
             found.add_argument(
-                "--scene", metavar="FILE", type=path, help="scene file here (where it was planned)"
+                "--scene", metavar="FILE", type=path, help="scene file on this machine (path at planning)"
             )
         if name == "task":
-            found.add_argument("numbers", metavar="N", help="numbers of tasks, such as 7 or 3-5")
+            found.add_argument("numbers", metavar="N", help="task numbers, such as 7 or 3-5")

@@ -1,4 +1,4 @@
-"""The last stage of a job: every picture is checked and entered, and the films are made."""
+"""Last stage of a job: check every picture, enter it in the store, and make the films."""
 
 from __future__ import annotations
 
@@ -21,91 +21,93 @@ from .entries import Entry
 from .plan import Job
 from .private import verified_entries
 
-NOT_MADE, DAMAGED, OTHER = "not rendered", "not what was rendered", "of other settings"
+NOT_MADE, DAMAGED, OTHER = "not rendered", "damaged or replaced", "rendered with other settings"
 
 
 def run(
     out: Path, scene: str = "", progress: Progress = silent, tell: MessageCallback = no_message
 ) -> dict[Picture, str]:
-    """Enter all pictures that are whole in the store; where none is missing, make films and manifest.
+    """Enter all intact pictures in the store; make films and manifest if the film is complete.
 
     Returns
     -------
-    Why each missing picture is missing. Films are made once none is.
+    Missing pictures, each with the reason.
     """
     job = plan.read(out)
-    choice = task.source(job, out, scene)
+    choice = task.job_source(job, out, scene)
     shot = choice.shot()
     made_with = fingerprints(job, shot, progress)
-    whole, lost = check(job, out, made_with)
+    intact, missing = check_pictures(job, out, made_with)
     with Store(out, create=True) as store:
-        enter(store, whole, made_with)
+        add_to_store(store, intact, made_with)
         dataset.write(store)
         store.export()
-    if not lost:
+    if not missing:
         render.run(choice, render.RenderRequest(out, resume=True), progress, tell, shot=shot)
-    return lost
+    return missing
 
 
 def fingerprints(job: Job, shot: Shot, progress: Progress = silent) -> Fingerprints:
-    """Those of all of a job's pictures."""
+    """Compute the settings that determine each picture of a job."""
     one = [Picture(view, 1, name) for view, names in job.passes.items() for name in names]
     return fingerprint.of_pictures(shot, one, progress)
 
 
-def check(job: Job, out: Path, made_with: Fingerprints) -> tuple[list[list[Entry]], dict[Picture, str]]:
-    """Read every file of the film.
+def check_pictures(
+    job: Job, out: Path, made_with: Fingerprints
+) -> tuple[list[list[Entry]], dict[Picture, str]]:
+    """Compare every file of the film with its entries.
 
     Returns
     -------
-    The entries of each whole picture, and why each other one is missing.
+    The entries of each intact picture, and the missing pictures with their reasons.
     """
     known = entries.by_path(entries.attempts(out))
     every = (entry for made in known.values() for entry in made)
     verified = {entry.path: entry for entry in verified_entries(every, out, made_with)}
     keys = {pair: content.fingerprint(values) for pair, values in made_with.items()}
-    whole: list[list[Entry]] = []
-    lost: dict[Picture, str] = {}
+    intact: list[list[Entry]] = []
+    missing: dict[Picture, str] = {}
     for picture in (each for part in job.tasks for each in job.pictures(part)):
         paths = picture.files()
         if lacking := [path for path in paths if path not in verified]:
-            lost[picture] = _why(known.get(lacking[0], []), out, keys[picture.camera, picture.name])
+            missing[picture] = _why(known.get(lacking[0], []), out, keys[picture.camera, picture.name])
         else:
-            whole.append([verified[path] for path in paths])
-    return whole, lost
+            intact.append([verified[path] for path in paths])
+    return intact, missing
 
 
 def _why(found: list[Entry], out: Path, key: str) -> str:
-    """Why a file is missing that has these entries."""
-    ours = [each for each in found if each.fingerprint == key]
-    if not ours:
+    """Give the reason why a file with these entries is missing."""
+    current = [each for each in found if each.fingerprint == key]
+    if not current:
         return OTHER if found else NOT_MADE
-    return DAMAGED if (out / ours[0].path).exists() else NOT_MADE
+    return DAMAGED if (out / current[0].path).exists() else NOT_MADE
 
 
-def enter(store: Store, whole: Iterable[list[Entry]], made_with: Fingerprints) -> None:
-    """Enter pictures in a store that does not have them yet."""
+def add_to_store(store: Store, intact: Iterable[list[Entry]], made_with: Fingerprints) -> None:
+    """Add pictures to a store, except those that it has already."""
     new: dict[tuple[str, str], dict[str, dict[str, Any]]] = defaultdict(dict)
-    for made in whole:
+    for made in intact:
         if not store.is_intact(made[0].fingerprint, [each.path for each in made]):
             pair = made[0].camera, made[0].name
-            new[pair] |= {each.path: each.plain() | manifest.credit_entry(made_with[pair]) for each in made}
+            new[pair] |= {each.path: each.as_row() | manifest.credit_entry(made_with[pair]) for each in made}
     for pair, found in new.items():
         store.add(made_with[pair], found)
 
 
-def described(lost: dict[Picture, str]) -> Iterator[str]:
-    """A line per camera, pass and reason: ``drone rgb 3,7-9: not rendered``."""
+def format_missing(missing: dict[Picture, str]) -> Iterator[str]:
+    """Yield a line per camera, pass and reason: ``drone rgb 3,7-9: not rendered``."""
     frames: dict[tuple[str, str, str], list[int]] = defaultdict(list)
-    for picture, why in lost.items():
+    for picture, why in missing.items():
         frames[picture.camera, picture.name, why].append(picture.frame)
     for (camera, name, why), listed in frames.items():
         yield f"{camera} {name} {frame_list.write(sorted(listed))}: {why}"
 
 
-def tasks_of(job: Job, lost: Iterable[Picture]) -> list[int]:
-    """Numbers of the tasks that make these pictures."""
-    wanted = {(each.camera.partition("@")[0], each.frame) for each in lost}
+def tasks_of_pictures(job: Job, missing: Iterable[Picture]) -> list[int]:
+    """List the numbers of the tasks that render these pictures."""
+    wanted = {(each.camera.partition("@")[0], each.frame) for each in missing}
     return [
         number
         for number in job.numbers("render")

@@ -1,4 +1,4 @@
-"""Files that a job's tasks read: what has to be on every machine. Needs no Blender."""
+"""Files that the tasks of a job read, and that every machine needs. Runs without Blender."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from ..shot.shot import Shot
 from ..shot.surface import observed, orthophoto
 
 
-def needed(shot: Shot) -> list[Path]:
-    """The scene file and all that it names: absolute paths, each once, in order.
+def list_assets(shot: Shot) -> list[Path]:
+    """List the scene file and all files that it names: absolute paths, sorted, without duplicates.
 
     Raises
     ------
     InputError
-        One is missing.
+        A file is missing.
     """
     settings = shot.settings
     found = [settings.path]
@@ -42,24 +42,26 @@ def needed(shot: Shot) -> list[Path]:
     every = sorted({path.absolute() for path in found})
     for path in every:
         if not path.is_file():
-            raise input_error(path, "is missing, and tasks of the farm would need it")
+            raise input_error(
+                path, "is missing, but the farm's tasks need it; restore it, or change the scene file"
+            )
     return every
 
 
 def _with_parts(path: Path) -> list[Path]:
-    """A file with those that belong to it: a shapefile has several."""
-    beside = path.parent.glob(f"{glob.escape(path.stem)}.*") if path.suffix.lower() == ".shp" else ()
-    return [path, *beside]
+    """List a file and its companions: a shapefile consists of several files."""
+    companions = path.parent.glob(f"{glob.escape(path.stem)}.*") if path.suffix.lower() == ".shp" else ()
+    return [path, *companions]
 
 
 def _tileset(path: Path) -> list[Path]:
-    """Files of a tileset of this machine: an archive, or all of a folder; none of a server's."""
+    """List the files of a local tileset: an archive, or all files of a folder; none for a tile server."""
     folder = path.parent if path.suffix.lower() == ".json" else path
     if folder.is_dir():
         return [each for each in folder.rglob("*") if each.is_file()]
     return [path] if path.is_file() else []
 
 
-def elsewhere(paths: list[Path], folder: Path) -> list[Path]:
-    """Those of the files that are not in a folder: every machine must find them at the same path."""
+def outside_of(paths: list[Path], folder: Path) -> list[Path]:
+    """List the files outside a folder, which every machine must find at the same path."""
     return [path for path in paths if not path.is_relative_to(folder)]

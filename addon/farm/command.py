@@ -1,4 +1,4 @@
-"""What each verb of `firetwin farm` does."""
+"""Verbs of `firetwin farm`."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from ..shot.source import ShotSource
 from . import assemble, plan, status, submission, task
 from .submission import Submission
 
-_MAX_TASK_NUMBER = 10**9 - 1  # tasks, far more than there are
+_MAX_TASK_NUMBER = 10**9 - 1  # far above any real number of tasks
 
 
 def run(arguments: argparse.Namespace, choice: Callable[[argparse.Namespace], ShotSource]) -> int | None:
-    """Do it; the exit status.
+    """Run the requested verb; returns the exit status.
 
     Parameters
     ----------
     choice
-        Gives the scene of a command line.
+        Function that finds the scene of a command line.
     """
     if arguments.verb == "plan":
         run_plan(arguments, choice(arguments))
@@ -41,9 +41,9 @@ def run(arguments: argparse.Namespace, choice: Callable[[argparse.Namespace], Sh
 
 
 def run_plan(arguments: argparse.Namespace, choice: ShotSource) -> None:
-    """Plan a film; print the command that submits it, or submit it."""
+    """Plan a film; print the command that submits it, or run that command."""
     scene, out = Path(choice.scene).absolute(), arguments.out.absolute()
-    job = plan.make(choice.shot(), scene, arguments.chunk or plan.CHUNK)
+    job = plan.make_job(choice.shot(), scene, arguments.chunk or plan.CHUNK)
     plan.write(job, out)
     for line in submission.describe(job, out):
         say(line)
@@ -57,26 +57,26 @@ def run_plan(arguments: argparse.Namespace, choice: ShotSource) -> None:
 def run_status(arguments: argparse.Namespace) -> None:
     """Print the progress of a job."""
     found = status.gather(arguments.out)
-    result(json.dumps(found.plain(), indent=1) if arguments.json else status.page(found))
+    result(json.dumps(found.as_json(), indent=1) if arguments.json else status.format_text(found))
 
 
 def run_resume(arguments: argparse.Namespace) -> None:
-    """Submit the tasks of missing pictures, by the engine and with the options of before."""
+    """Submit the tasks of missing pictures with the previous engine and options."""
     out = arguments.out.absolute()
-    lost, numbers = submission.missing(out, Reporter())
-    before = submission.last(out)
-    say(f"{count(len(lost), 'picture')} missing: {count(len(numbers), 'task')} to submit")
+    missing, numbers = submission.find_missing(out, Reporter())
+    before = submission.last_submission(out)
+    say(f"{count(len(missing), 'picture')} missing: {count(len(numbers), 'task')} to submit")
     options = tuple(arguments.options) or before.options
     _submit(submission.prepare(out, Submission(before.engine, options), numbers))
 
 
 def run_cancel(arguments: argparse.Namespace) -> int:
-    """Cancel what was submitted."""
-    return _call(submission.cancellation(arguments.out.absolute()))
+    """Cancel the submitted tasks."""
+    return _call(submission.cancel_command(arguments.out.absolute()))
 
 
 def run_task(arguments: argparse.Namespace) -> int:
-    """Run tasks; the exit status says whether to try again."""
+    """Run tasks; the exit status shows whether a retry is worthwhile."""
 
     def work() -> None:
         try:
@@ -89,25 +89,25 @@ def run_task(arguments: argparse.Namespace) -> int:
 
 
 def run_assemble(arguments: argparse.Namespace) -> int:
-    """Enter all pictures and make the films; name what is missing."""
-    out, lost = arguments.out.absolute(), {}
-    status = _status(arguments, lambda: lost.update(assemble.run(out, _scene(arguments), Reporter(), say)))
-    for line in assemble.described(lost):
+    """Enter all pictures and make the films; list missing pictures."""
+    out, missing = arguments.out.absolute(), {}
+    status = _status(arguments, lambda: missing.update(assemble.run(out, _scene(arguments), Reporter(), say)))
+    for line in assemble.format_missing(missing):
         result(line)
-    if lost:
-        say(f"{count(len(lost), 'picture')} missing; firetwin farm resume {shlex.quote(str(out))} makes them")
-    return status or (1 if lost else 0)
+    if missing:
+        say(f"{count(len(missing), 'picture')} missing; run: firetwin farm resume {shlex.quote(str(out))}")
+    return status or (1 if missing else 0)
 
 
 def _status(arguments: argparse.Namespace, work: Callable[[], None]) -> int:
-    """Do what an engine runs; the exit status that tells the engine what to do next."""
+    """Run the work of an engine's command; returns the exit status for the engine."""
     try:
         work()
     except (Error, UsageError, OSError) as error:
         if arguments.debug:
             raise
         say(" ".join(str(error).split()))
-        return task.status_of(error)
+        return task.exit_status(error)
     return 0
 
 
@@ -116,14 +116,14 @@ def _scene(arguments: argparse.Namespace) -> str:
 
 
 def _submit(command: list[str]) -> None:
-    """Run the command that submits."""
+    """Run the submit command."""
     if status := _call(command):
         raise Error(f"{shlex.join(command)} ended with exit status {status}")
 
 
 def _call(command: list[str]) -> int:
-    """Run an engine's own command; what it prints is shown."""
+    """Run an engine's command and show its output; returns its exit status."""
     try:
         return subprocess.run(command).returncode
     except FileNotFoundError:
-        raise submission.absent(command) from None
+        raise submission.not_installed_error(command) from None

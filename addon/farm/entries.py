@@ -1,8 +1,8 @@
-"""What tasks have made: each attempt at a task appends to a file of its own. Needs no Blender.
+"""Log of finished files: each attempt at a task appends to a separate log. Runs without Blender.
 
-``farm/entries/00012-0123456789ab.jsonl`` has one line per finished file, [path, bytes, sha256, fingerprint,
-camera, pass, frame, time], between one line of how the attempt began and one of how it ended. Nobody else
-writes to it. A line that is cut off counts for nothing.
+``farm/entries/00012-0123456789ab.jsonl`` starts with a line on the start of the attempt, has one line per
+finished file, [path, bytes, sha256, fingerprint, camera, pass, frame, time], and ends with a line on the end
+of the attempt. No other process writes to it. Incomplete lines are ignored.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 from .. import leases
 from ..errors import writing
 from ..run.content import sha256
-from .plan import place
+from .plan import job_dir
 
 FOLDER = "entries"
 HEARTBEAT = 30.0  # s between two heartbeats of an attempt
@@ -36,9 +36,9 @@ class Entry(NamedTuple):
     path
         Relative to the output folder.
     fingerprint
-        Of the settings that it was made with.
+        Hash of the settings that determine the picture.
     name
-        Of the pass.
+        Name of the pass.
     time
         UTC of the frame, ISO 8601.
     """
@@ -52,16 +52,16 @@ class Entry(NamedTuple):
     frame: int
     time: str
 
-    def whole(self, out: Path) -> bool:
-        """Whether the file is there and has this content."""
+    def is_intact(self, out: Path) -> bool:
+        """Whether the file exists with this content."""
         try:
             path = out / self.path
             return path.stat().st_size == self.bytes and sha256(path) == self.sha256
         except OSError:
             return False
 
-    def plain(self) -> dict[str, Any]:
-        """As a store has it."""
+    def as_row(self) -> dict[str, Any]:
+        """Convert to a row of a store."""
         found = self._asdict()
         del found["path"], found["fingerprint"]
         found["pass"] = found.pop("name")
@@ -70,20 +70,20 @@ class Entry(NamedTuple):
 
 @dataclass
 class Attempt:
-    """One run of a task's command, as its file tells.
+    """One run of a task's command, read from its log.
 
     Attributes
     ----------
     number
-        Of the task.
+        Number of the task.
     began, last
-        When it began and when its last heartbeat was, s since 1970.
+        Time of its start and of its last heartbeat, s since 1970.
     ended
-        Its exit status; None: it runs, or was killed.
-    said
-        Why it failed.
+        Exit status; None while it runs, or if it was killed.
+    message
+        Error message of a failed attempt.
     text
-        Its lines that are whole.
+        Complete lines of the log.
     """
 
     number: int
@@ -92,21 +92,21 @@ class Attempt:
     began: float = 0.0
     host: str = ""
     ended: int | None = None
-    said: str = ""
+    message: str = ""
 
     @property
     def entries(self) -> list[Entry]:
-        """What it finished."""
+        """Finished files."""
         return [Entry(*line) for line in _lines(self.text) if isinstance(line, list)]
 
     @functools.cached_property
     def paths(self) -> set[str]:
-        """Paths of these entries. Quick: names of cameras and passes need no escapes."""
+        """Paths of the entries, without JSON parsing: names of cameras and passes need no escapes."""
         return {line[: line.index('"')] for line in self.text.split('\n["')[1:]}
 
 
 class Log:
-    """An attempt's own file while it runs."""
+    """Log of a running attempt."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -115,28 +115,28 @@ class Log:
             self._file = path.open("a", encoding="utf-8")
 
     def write(self, *lines: Any) -> None:
-        """Append lines, and have them on the disk."""
+        """Append lines and flush them to the disk."""
         with writing(self.path):
             self._file.writelines(json.dumps(line, separators=(",", ":")) + "\n" for line in lines)
             self._file.flush()
             os.fsync(self._file.fileno())
 
     def heartbeat(self) -> None:
-        """Set the file's time of change."""
+        """Update the modification time of the log."""
         os.utime(self.path)
 
-    def end(self, status: int, said: str = "") -> None:
-        """Write how the attempt ended."""
-        self.write({"ended": status, "said": said, "at": time.time()})
+    def end(self, status: int, message: str = "") -> None:
+        """Write the exit status of the attempt."""
+        self.write({"ended": status, "message": message, "at": time.time()})
 
     def close(self) -> None:
-        """Let go of the file."""
+        """Close the file."""
         self._file.close()
 
 
 @contextmanager
 def attempt(out: Path, number: int) -> Iterator[Log]:
-    """Begin an attempt at a task."""
+    """Start an attempt at a task, with a heartbeat until it ends."""
     log = Log(_folder(out) / f"{number:05d}-{leases.new_owner()}.jsonl")
     try:
         log.write({"began": time.time(), "host": socket.gethostname()})
@@ -147,13 +147,13 @@ def attempt(out: Path, number: int) -> Iterator[Log]:
 
 
 def attempts(out: Path, number: int | None = None) -> list[Attempt]:
-    """All attempts, or those at one task, in the order in which they began."""
+    """Read all attempts, or the attempts at one task, sorted by their start."""
     paths = _folder(out).glob("*.jsonl" if number is None else f"{number:05d}-*.jsonl")
     return sorted((_read(path) for path in paths), key=lambda each: each.began)
 
 
 def by_path(found: list[Attempt]) -> dict[str, list[Entry]]:
-    """Every entry of each file: attempts that ran at once may have made it twice."""
+    """Group entries by file: simultaneous attempts may both have rendered it."""
     known: dict[str, list[Entry]] = defaultdict(list)
     for each in found:
         for entry in each.entries:
@@ -169,16 +169,16 @@ def _read(path: Path) -> Attempt:
     if isinstance(first, dict) and "began" in first:
         made.began, made.host = first["began"], first["host"]
     if isinstance(last, dict) and "ended" in last:
-        made.ended, made.said, made.last = last["ended"], last["said"], last["at"]
+        made.ended, made.message, made.last = last["ended"], last["message"], last["at"]
     return made
 
 
 def _lines(text: str) -> list[Any]:
-    """Values of the lines of a text."""
+    """Parse the lines of a text."""
     lines = text.split("\n")[:-1]
     try:
         return list(json.loads(f"[{','.join(lines)}]"))
-    except ValueError:  # a machine that fell over may leave anything
+    except ValueError:  # a crashed machine may leave any bytes
         return [value for line in lines if (value := _value(line)) is not None]
 
 
@@ -190,4 +190,4 @@ def _value(line: str) -> Any:
 
 
 def _folder(out: Path) -> Path:
-    return place(out) / FOLDER
+    return job_dir(out) / FOLDER

@@ -1,4 +1,4 @@
-"""The stages and tasks of a job, and the pictures that each task makes. Needs no Blender."""
+"""Stages and tasks of a job, and the pictures of each task. Runs without Blender."""
 
 from __future__ import annotations
 
@@ -26,22 +26,22 @@ from . import assets
 
 FOLDER, FILE, CACHE = "farm", "job.json", "cache"
 CHUNK = 30
-"""Frames per task at most; `docs/pipelines.md` has what tasks cost beside their frames."""
+"""Maximum frames per task; `docs/how/farm.md` has the measured overhead of a task."""
 _FORMAT = 1
 
 
 @dataclass(frozen=True)
 class Task:
-    """One command of an engine.
+    """One command that an engine runs.
 
     Attributes
     ----------
     stage
         "bake" or "render".
     cameras
-        To render, with their views of all runs; of a bake the one view whose flow is solved.
+        Cameras to render, with their views of all runs; for a bake, the one view whose flow is solved.
     frames
-        List of frames; a camera that films fewer of them renders those.
+        List of frames; each camera renders those that it films.
     """
 
     stage: str
@@ -51,57 +51,57 @@ class Task:
 
 @dataclass(frozen=True)
 class Job:
-    """What a farm shall make; tasks are numbered from 1 in their order.
+    """Film divided into tasks, which are numbered from 1.
 
     Attributes
     ----------
     scene, scene_sha256
         Scene file (absolute) and its content.
     versions
-        Of Firetwin and Blender.
+        Versions of Firetwin and Blender.
     count
-        Frames of the shot.
-    filmed
-        List of frames, by camera.
+        Number of frames of the shot.
+    camera_frames
+        List of frames by camera.
     passes
-        By view (camera, or camera@run).
+        Passes by view (camera, or camera@run).
     tasks
-        Those of the bake come first.
+        Bake tasks, then render tasks.
     assets
-        Files that tasks read (absolute).
+        Files that tasks read (absolute paths).
     """
 
     scene: str
     scene_sha256: str
     versions: dict[str, str]
     count: int
-    filmed: dict[str, str]
+    camera_frames: dict[str, str]
     passes: dict[str, tuple[str, ...]]
     tasks: tuple[Task, ...]
     assets: tuple[str, ...]
 
     def numbers(self, stage: str) -> list[int]:
-        """Numbers of the tasks of a stage."""
+        """List the numbers of the tasks of a stage."""
         return [number for number, task in enumerate(self.tasks, start=1) if task.stage == stage]
 
     def task(self, number: int) -> Task:
-        """The task of a number."""
+        """Return the task with this number."""
         return self.tasks[number - 1]
 
     def frames(self, task: Task, camera: str) -> list[int]:
-        """Frames that a camera renders in a task."""
+        """List the frames that a camera renders in a task."""
         asked = frame_list.parse(task.frames, self.count)
-        if not self.filmed[camera].strip():
+        if not self.camera_frames[camera].strip():
             return asked
-        own = set(frame_list.parse(self.filmed[camera], self.count))
+        own = set(frame_list.parse(self.camera_frames[camera], self.count))
         return [frame for frame in asked if frame in own]
 
     def views(self, camera: str) -> list[str]:
-        """Views of a camera: of the first run, then of the others."""
+        """List the views of a camera: first run, then the others."""
         return [view for view in self.passes if view.partition("@")[0] == camera]
 
     def pictures(self, task: Task) -> Iterator[Picture]:
-        """Pictures that a task makes."""
+        """Yield the pictures of a task."""
         if task.stage != "render":
             return
         for camera in task.cameras:
@@ -110,32 +110,32 @@ class Job:
                 yield from (Picture(view, frame, name) for frame in listed for name in self.passes[view])
 
 
-def make(shot: Shot, scene: Path, size: int = CHUNK) -> Job:
+def make_job(shot: Shot, scene: Path, size: int = CHUNK) -> Job:
     """Plan a film.
 
     Parameters
     ----------
     scene
-        Its scene file.
+        Scene file of the film.
     size
-        Frames per task at most.
+        Maximum frames per task.
 
     Raises
     ------
     UsageError
         There is nothing to render.
     InputError
-        An asset is missing, or a policy of tiles does not allow a copy for other machines.
+        An asset is missing, or the terms of a tile service forbid copies for other machines.
     """
     settings = shot.settings
-    filmed, passes, linked = {}, {}, []
+    camera_frames, passes, linked = {}, {}, []
     if not settings.cameras:
         raise UsageError(f"{settings.path} has no [[cameras]], so there is nothing to render")
     tile_terms.check(settings, [("pack", "the farm, whose machines share one copy")])
     for camera in settings.cameras:
         first = frame_list.write(shot.frames_of(camera)[:1])
         found = pictures.pictures(shot, first, camera.name)
-        filmed[camera.name] = camera.frames
+        camera_frames[camera.name] = camera.frames
         linked.append({each.camera.partition("@")[0] for each in found} | {camera.name})
         own = [each for each in found if each.camera.partition("@")[0] == camera.name]
         for view in dict.fromkeys(each.camera for each in own):
@@ -146,25 +146,26 @@ def make(shot: Shot, scene: Path, size: int = CHUNK) -> Job:
         scene_sha256=sha256(scene),
         versions=fingerprint.versions(),
         count=shot.frames.count,
-        filmed=filmed,
+        camera_frames=camera_frames,
         passes=passes,
         tasks=tuple(tasks),
-        assets=tuple(map(str, assets.needed(shot))),
+        assets=tuple(map(str, assets.list_assets(shot))),
     )
 
 
-def chunks(listed: list[int], size: int, built: int) -> list[list[int]]:
-    """Frames of each task.
+def split_frames(listed: list[int], size: int, built: int) -> list[list[int]]:
+    """Distribute frames over tasks.
 
     Parameters
     ----------
     listed
         Frames, ascending.
     size
-        Frames per task at most.
+        Maximum frames per task.
     built
-        Frames that are built together; 0: all are. A task has whole parts of them, or frames of one part,
-        which it then builds whole, so that its pictures do not depend on `size`.
+        Number of frames that are built together (a build chunk); 0 builds all together. A task has complete
+        build chunks, or some frames of a single one. In the latter case it still builds the complete chunk,
+        so that its pictures do not depend on `size`.
     """
     found: list[list[int]] = []
     split = True
@@ -178,14 +179,14 @@ def chunks(listed: list[int], size: int, built: int) -> list[list[int]]:
 
 
 def _evenly(listed: list[int], size: int) -> Iterator[list[int]]:
-    """As few parts of at most `size` frames as there can be, equally long but for one frame."""
+    """Split into as few parts of at most `size` frames as possible; their lengths differ by at most one."""
     count = -(-len(listed) // size)
     ends = [len(listed) * k // count for k in range(count + 1)]
     return (listed[i:j] for i, j in itertools.pairwise(ends))
 
 
 def _groups(linked: Iterable[set[str]]) -> list[set[str]]:
-    """Cameras whose pictures are made from one another's, together; every camera once."""
+    """Group cameras whose pictures depend on one another; each camera is in one group."""
     found: list[set[str]] = []
     for names in linked:
         joined = set(names).union(*(group for group in found if group & names))
@@ -198,12 +199,12 @@ def _renders(shot: Shot, settings: Settings, groups: list[set[str]], size: int) 
         cameras = [camera for camera in settings.cameras if camera.name in group]
         listed = sorted({frame for camera in cameras for frame in shot.frames_of(camera)})
         built = max(settings.chunk_size(camera) for camera in cameras)
-        for part in chunks(listed, size, built):
+        for part in split_frames(listed, size, built):
             yield Task("render", tuple(camera.name for camera in cameras), frame_list.write(part))
 
 
 def _bakes(shot: Shot) -> Iterator[Task]:
-    """One for every flow; a view needs none whose flow is part of that of another view."""
+    """Yield one task per smoke flow; a view whose flow is contained in the flow of another view has none."""
     settings = shot.settings
     if not settings.smoke.enabled:
         return
@@ -221,8 +222,8 @@ def _bakes(shot: Shot) -> Iterator[Task]:
             yield Task("bake", (view,), frame_list.write(sorted(solved[view])))
 
 
-def place(out: Path) -> Path:
-    """Folder of a job's own files in its output folder."""
+def job_dir(out: Path) -> Path:
+    """Return the folder of the job's files in its output folder."""
     return out / FOLDER
 
 
@@ -232,11 +233,13 @@ def write(job: Job, out: Path) -> None:
     Raises
     ------
     InputError
-        The folder has another job, or cannot be written.
+        The folder has a different job, or cannot be written.
     """
-    path = place(out) / FILE
+    path = job_dir(out) / FILE
     if path.exists() and read(out) != job:
-        raise input_error(path, "is another job, or of a changed scene file; choose another output folder")
+        raise input_error(
+            path, "describes a different job, or the scene file has changed; choose another output folder"
+        )
     text = json.dumps({"format": _FORMAT} | asdict(job), separators=(",", ":")) + "\n"
     files.write_text(path, text)
 
@@ -247,9 +250,9 @@ def read(out: Path) -> Job:
     Raises
     ------
     InputError
-        There is none, or it is damaged.
+        The folder has no job, or its file is damaged.
     """
-    path = place(out) / FILE
+    path = job_dir(out) / FILE
     try:
         found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
         if found.pop("format") != _FORMAT:
@@ -258,7 +261,11 @@ def read(out: Path) -> Job:
         passes = {view: tuple(names) for view, names in found["passes"].items()}
         return Job(**(found | {"tasks": tuple(tasks), "passes": passes, "assets": tuple(found["assets"])}))
     except FileNotFoundError:
-        reason = "no farm job here; firetwin farm SCENE.toml --engine NAME --out DIR writes one"
+        reason = (
+            "no farm job in this folder; write one with: firetwin farm SCENE.toml --engine NAME --out DIR"
+        )
         raise input_error(path, reason) from None
     except (OSError, ValueError, TypeError, LookupError, AttributeError) as error:
-        raise input_error(path, f"is no farm job of this version of Firetwin ({error})") from None
+        raise input_error(
+            path, f"not a farm job of this version of Firetwin ({error}); plan it again"
+        ) from None

@@ -1,4 +1,4 @@
-"""Progress of a job, from its files alone: no engine is asked, and no picture is read."""
+"""Progress of a job, read from its files: engines are not queried, and pictures are not opened."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ PATIENCE = 10.0 * entries.HEARTBEAT  # s without a heartbeat, after which an att
 
 @dataclass(frozen=True)
 class Status:
-    """Numbers of tasks and pictures.
+    """Counts of tasks and pictures.
 
     Attributes
     ----------
     done, running, failed, waiting
-        Tasks: all of it is there; an attempt goes on; the last attempt failed or was lost; none began or the
-        last ended well and its pictures have gone since.
+        Numbers of tasks. Done: all its files exist. Running: an attempt has a recent heartbeat. Failed: the
+        last attempt failed, or its heartbeat stopped. Waiting: not started, or finished but files are gone.
     pictures, finished
-        Pictures of the film, and those that are there.
+        Number of pictures of the film, and of existing ones.
     seconds_left
-        At the mean time of a file so far, for as many tasks at once as run now (none: one). None where none
-        is finished yet.
+        Estimate from the mean time per file and the number of running tasks (at least one). None if no file
+        is finished.
     errors
-        What failed tasks said, by number.
+        Error messages of failed tasks by task number.
     """
 
     tasks: int
@@ -46,18 +46,18 @@ class Status:
     seconds_left: float | None
     errors: dict[int, str]
 
-    def plain(self) -> dict[str, Any]:
-        """As JSON carries it."""
+    def as_json(self) -> dict[str, Any]:
+        """Convert to plain data for JSON."""
         return asdict(self)
 
 
 def gather(out: Path, now: float | None = None) -> Status:
-    """Look at the files of a job.
+    """Read the files of a job.
 
     Parameters
     ----------
     now
-        s since 1970.
+        Time, s since 1970 (now).
     """
     now = time.time() if now is None else now
     job = plan.read(out)
@@ -65,7 +65,7 @@ def gather(out: Path, now: float | None = None) -> Status:
     for each in entries.attempts(out):
         tried[each.number].append(each)
     file_s = _file_seconds([each for found in tried.values() for each in found])
-    there = _Folders(out)
+    there = _FolderListings(out)
     groups: dict[str, list[int]] = {"done": [], "running": [], "failed": [], "waiting": []}
     wanted = finished = files_left = 0
     errors = {}
@@ -76,7 +76,7 @@ def gather(out: Path, now: float | None = None) -> Status:
         groups[state].append(number)
         if state == "failed":
             last = tried[number][-1]
-            errors[number] = last.said or f"no heartbeat any more, on {last.host}"
+            errors[number] = last.message or f"heartbeat stopped on {last.host}"
     left = None if file_s is None else file_s * files_left / max(len(groups["running"]), 1)
     return Status(
         len(job.tasks), **groups, pictures=wanted, finished=finished, seconds_left=left, errors=errors
@@ -84,7 +84,7 @@ def gather(out: Path, now: float | None = None) -> Status:
 
 
 def rows(status: Status) -> list[tuple[str, str]]:
-    """Labels, and what stands beside them."""
+    """List the rows of the summary: label and text."""
     parts = [f"{len(getattr(status, name))} {name}" for name in ("done", "running", "failed", "waiting")]
     found = [
         ("tasks", f"{', '.join(parts)}, of {status.tasks}"),
@@ -97,24 +97,24 @@ def rows(status: Status) -> list[tuple[str, str]]:
 
 
 def failures(status: Status) -> list[str]:
-    """A sentence for each failed task."""
-    return [f"task {number} failed: {said}" for number, said in status.errors.items()]
+    """Describe each failed task in a sentence."""
+    return [f"task {number} failed: {message}" for number, message in status.errors.items()]
 
 
-def page(status: Status) -> str:
-    """For people."""
+def format_text(status: Status) -> str:
+    """Format the summary as text."""
     return "\n".join([*(f"{label:<10}{text}" for label, text in rows(status)), *failures(status)])
 
 
-class _Folders:
-    """Paths of the files in folders of pictures, each folder listed once."""
+class _FolderListings:
+    """Paths of the files in folders of pictures; each folder is read once."""
 
     def __init__(self, out: Path) -> None:
         self.out = out
         self._paths: dict[str, set[str]] = {}
 
     def paths(self, folder: str) -> set[str]:
-        """Paths of its files, relative to the output folder."""
+        """List the files of a folder, relative to the output folder."""
         if folder not in self._paths:
             try:
                 self._paths[folder] = set(map(f"{folder}/".__add__, os.listdir(self.out / folder)))
@@ -123,8 +123,8 @@ class _Folders:
         return self._paths[folder]
 
 
-def _made(job: Job, number: int, tried: list[Attempt], there: _Folders) -> tuple[int, int, int]:
-    """Pictures of a task that are there and entered, all that it has, and the files of those that lack."""
+def _made(job: Job, number: int, tried: list[Attempt], there: _FolderListings) -> tuple[int, int, int]:
+    """Count the finished pictures of a task, all its pictures, and the files of missing pictures."""
     task, entered = job.task(number), set[str]().union(*(each.paths for each in tried))
     made = every = lacking = 0
     if task.stage != "render":
@@ -146,7 +146,7 @@ def _made(job: Job, number: int, tried: list[Attempt], there: _Folders) -> tuple
 
 
 def _files(view: str, name: str, listed: list[int]) -> list[list[str]]:
-    """Paths of a view's frames in a pass, a list for each kind of file."""
+    """List the paths of the frames of a view in a pass: one list per file type."""
     found = []
     for end in passes.known()[name].files:
         head, _, tail = passes.file_of(view, name, 0, end).rpartition("000000")
@@ -166,7 +166,7 @@ def _state(job: Job, number: int, tried: list[Attempt], lacking: int, now: float
 
 
 def _file_seconds(tried: list[Attempt]) -> float | None:
-    """Mean seconds of a file, with what its task took to start."""
+    """Compute the mean time per file, s, including the start-up of tasks."""
     worked = [each for each in tried if each.paths]
     files = sum(len(each.paths) for each in worked)
     return sum(max(each.last - each.began, 0.0) for each in worked) / files if files else None

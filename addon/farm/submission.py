@@ -1,4 +1,4 @@
-"""What is handed to an engine: a whole job, or the tasks of what is missing; for command line and window."""
+"""Submission of a job, or of the tasks of missing pictures, to an engine; for command line and panel."""
 
 from __future__ import annotations
 
@@ -21,120 +21,123 @@ from .engines import Batch, known
 from .plan import Job
 
 _FILE, _LOG = "submitted.json", "submitted.log"
-_TICK, _LOOK = 0.2, 5.0  # s between two looks at the engine's command, and at the job's files
+_TICK, _LOOK = 0.2, 5.0  # s between polls of the engine's command, and of the job's files
 
 
 @dataclass(frozen=True)
 class Submission:
-    """The engine of a job, and its own options as the user wrote them."""
+    """Engine of a job, with the user's options for it."""
 
     engine: str
     options: tuple[str, ...] = ()
 
 
 def describe(job: Job, out: Path) -> Iterator[str]:
-    """Sentences on a job: what it makes, and the files that must be found under the same path elsewhere."""
+    """Describe a job: number of tasks and pictures, and files that need the same path on all machines."""
     pictures = sum(1 for each in job.tasks for _ in job.pictures(each))
     bakes, renders = (len(job.numbers(stage)) for stage in ("bake", "render"))
     tasks = f"{count(bakes, 'bake task')}, {count(renders, 'render task')}"
     yield f"{tasks}, {count(pictures, 'picture')} in {out}"
-    away = assets.elsewhere([Path(each) for each in job.assets], Path(job.scene).parent)
+    away = assets.outside_of([Path(each) for each in job.assets], Path(job.scene).parent)
     if away:
         files = count(len(away), "file")
-        yield f"{files} outside of the scene's folder, such as {away[0]}: keep these paths"
+        yield f"{files} outside the scene's folder, such as {away[0]}; all machines need the same paths"
 
 
 def prepare(out: Path, chosen: Submission, numbers: Iterable[int] | None = None) -> list[str]:
-    """Write the engine's text of tasks (None: of all), and remember engine and options.
+    """Write the engine's files for tasks (None: all tasks), and store engine and options.
 
     Returns
     -------
-    The command that submits it.
+    The command that submits them.
     """
     job = plan.read(out)
     wanted = range(1, len(job.tasks) + 1) if numbers is None else sorted(numbers)
     command = known()[chosen.engine]().write(Batch(job, out, tuple(wanted), chosen.options))
-    files.write_text(plan.place(out) / _FILE, json.dumps(asdict(chosen)) + "\n")
+    files.write_text(plan.job_dir(out) / _FILE, json.dumps(asdict(chosen)) + "\n")
     return command
 
 
-def last(out: Path) -> Submission:
-    """Engine and options of the last time."""
-    found = json.loads((plan.place(out) / _FILE).read_text(encoding="utf-8"))
+def last_submission(out: Path) -> Submission:
+    """Read engine and options of the last submission."""
+    found = json.loads((plan.job_dir(out) / _FILE).read_text(encoding="utf-8"))
     return Submission(found["engine"], tuple(found["options"]))
 
 
-def missing(out: Path, progress: Progress = silent) -> tuple[dict[Picture, str], list[int]]:
-    """Pictures that are missing or damaged, each with the reason, and the numbers of tasks that make them."""
+def find_missing(out: Path, progress: Progress = silent) -> tuple[dict[Picture, str], list[int]]:
+    """Find missing and damaged pictures, each with the reason, and the numbers of their tasks."""
     job = plan.read(out)
-    shot = task.source(job, out).shot()
-    _, lost = assemble.check(job, out, assemble.fingerprints(job, shot, progress))
+    shot = task.job_source(job, out).shot()
+    _, missing = assemble.check_pictures(job, out, assemble.fingerprints(job, shot, progress))
     solved = {*status.gather(out).done}
-    renders = assemble.tasks_of(job, lost)
+    renders = assemble.tasks_of_pictures(job, missing)
     bakes = [number for number in job.numbers("bake") if renders and number not in solved]
-    return lost, [*bakes, *renders]
+    return missing, [*bakes, *renders]
 
 
-def cancellation(out: Path) -> list[str]:
-    """The command that cancels what was submitted.
+def cancel_command(out: Path) -> list[str]:
+    """Return the command that cancels the submitted tasks.
 
     Raises
     ------
     InputError
-        There is no job.
+        The folder has no job.
     UsageError
-        The engine is told otherwise to do so; says how.
+        The engine has no such command; the message explains how to cancel.
     """
     plan.read(out)
-    return known()[last(out).engine]().cancel(out)
+    return known()[last_submission(out).engine]().cancel(out)
 
 
-def absent(command: list[str]) -> UsageError:
-    """The error where an engine's command is not installed."""
-    return UsageError(f"{command[0]} is not installed here; on a machine that has it: {shlex.join(command)}")
+def not_installed_error(command: list[str]) -> UsageError:
+    """Create the error for an engine whose command is not installed."""
+    return UsageError(
+        f"{command[0]} is not installed here; on a machine that has it, run: {shlex.join(command)}"
+    )
 
 
-def call(
+def run_command(
     command: list[str],
     out: Path,
     progress: Progress = silent,
     tell: MessageCallback = no_message,
     stop: Stop | None = None,
 ) -> None:
-    """Run an engine's own command to its end from the window; what it prints goes into a file of the job.
+    """Run an engine's command from the panel until it ends, with its output in a file of the job.
 
-    `tell` gets its last line. An engine that runs the tasks itself is followed by the files of the job.
+    `tell` receives the last line of the output. If the engine runs the tasks within this command, `progress`
+    follows the files of the job.
 
     Raises
     ------
     StoppedError
-        `stop` was used: the command was told to end by SIGTERM, and has ended.
+        `stop` was requested: the command received SIGTERM and has ended.
     Error
-        It failed; has its last line.
+        The command failed; the message has the last line of its output.
     """
-    log = plan.place(out) / _LOG
+    log = plan.job_dir(out) / _LOG
     with log.open("w+", encoding="utf-8", errors="replace") as written:
         try:
             child = subprocess.Popen(
                 command, stdin=subprocess.DEVNULL, stdout=written, stderr=subprocess.STDOUT
             )
         except FileNotFoundError:
-            raise absent(command) from None
+            raise not_installed_error(command) from None
         asked = _wait(child, out, progress, stop)
-    said = [line for line in log.read_text("utf-8", "replace").splitlines() if line.strip()]
+    lines = [line for line in log.read_text("utf-8", "replace").splitlines() if line.strip()]
     if asked:
         raise StoppedError
     if child.returncode:
-        words = f": {said[-1].strip()}" if said else ""
+        words = f": {lines[-1].strip()}" if lines else ""
         raise Error(
-            f"{shlex.join(command)} ended with exit status {child.returncode}{words} (all of it is in {log})"
+            f"{shlex.join(command)} ended with exit status {child.returncode}{words} (full output: {log})"
         )
-    if said:
-        tell(said[-1].strip())
+    if lines:
+        tell(lines[-1].strip())
 
 
 def _wait(child: subprocess.Popen[bytes], out: Path, progress: Progress, stop: Stop | None) -> bool:
-    """Wait for an engine's command; whether it was told to end."""
+    """Wait for an engine's command; returns whether it received SIGTERM."""
     asked, looked = False, time.monotonic()
     while child.poll() is None:
         if stop is not None and stop.asked and not asked:
@@ -142,7 +145,7 @@ def _wait(child: subprocess.Popen[bytes], out: Path, progress: Progress, stop: S
             asked = True
         if time.monotonic() - looked > _LOOK:
             looked = time.monotonic()
-            with contextlib.suppress(Error, OSError):  # files of a shared folder may be away for a time
+            with contextlib.suppress(Error, OSError):  # a shared folder may be unreachable for a while
                 found = status.gather(out)
                 progress(found.finished, found.pictures, "rendering")
         time.sleep(_TICK)

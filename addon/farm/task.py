@@ -1,4 +1,4 @@
-"""One task of a job, as an engine runs it: it may run twice, be stopped and be started again."""
+"""Tasks as engines run them: a task can run twice, and can be stopped and restarted."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ from .entries import Log
 from .plan import Job, Task
 from .private import PrivateFolder, verified_entries
 
-WRONG, AGAIN, TERMINATED = 2, 75, 128 + signal.SIGTERM
-"""Exit status: the input is wrong; try again (EX_TEMPFAIL: device or disk); ended by SIGTERM."""
+EXIT_INPUT, EXIT_RETRY, EXIT_TERMINATED = 2, 75, 128 + signal.SIGTERM
+"""Exit status: invalid input; retry (EX_TEMPFAIL: device or disk); ended by SIGTERM."""
 
 
 def run(out: Path, numbers: list[int], scene: str = "") -> None:
@@ -32,49 +32,53 @@ def run(out: Path, numbers: list[int], scene: str = "") -> None:
     Parameters
     ----------
     scene
-        Where the scene file is on this machine; empty: where it was planned.
+        Path of the scene file on this machine; empty for the path at planning.
 
     Raises
     ------
     SystemExit
-        143: the process was told to end. What was finished is kept.
+        143: the process received SIGTERM. Finished pictures are published.
     """
     with _terminable():
         job = plan.read(out)
         if wrong := [number for number in numbers if not 1 <= number <= len(job.tasks)]:
-            raise UsageError(f"there is no task {wrong[0]}; the job in {out} has 1 to {len(job.tasks)}")
-        choice = source(job, out, scene)
+            raise UsageError(
+                f"task {wrong[0]} does not exist; the job in {out} has tasks 1 to {len(job.tasks)}"
+            )
+        choice = job_source(job, out, scene)
         for done, number in enumerate(numbers):
             with entries.attempt(out, number) as log:
                 progress = _openjd_progress(done, len(numbers))
                 _logged(log, functools.partial(_task, job, choice, out, number, log, progress))
 
 
-def source(job: Job, out: Path, scene: str = "") -> ShotSource:
-    """The scene of a job, with the job's own smoke cache.
+def job_source(job: Job, out: Path, scene: str = "") -> ShotSource:
+    """Find the scene of a job, with the smoke cache of the job.
 
     Raises
     ------
     UsageError
-        This is another version of Firetwin or Blender, or the scene file has changed.
+        Firetwin or Blender has another version than at planning, or the scene file has changed.
     """
     here = fingerprint.versions()
     if here != job.versions:
         planned = _describe_versions(job.versions)
-        raise UsageError(f"this is {_describe_versions(here)}, and the job is of {planned}; use those here")
+        raise UsageError(
+            f"this is {_describe_versions(here)}, but the job needs {planned}; install those here"
+        )
     path = Path(scene or job.scene)
     if path.is_file() and sha256(path) != job.scene_sha256:
         raise UsageError(f"{path} has changed since the job was planned; plan it again with another --out")
-    return ShotSource(scene=str(path), cache=str(plan.place(out.absolute()) / plan.CACHE))
+    return ShotSource(scene=str(path), cache=str(plan.job_dir(out.absolute()) / plan.CACHE))
 
 
-def status_of(error: BaseException) -> int:
-    """Exit status for what ended a task."""
+def exit_status(error: BaseException) -> int:
+    """Return the exit status for the exception that ended a task."""
     if isinstance(error, SystemExit):
         return int(error.code or 0)
     if is_worth_another_try(error):
-        return AGAIN
-    return WRONG if isinstance(error, UsageError | InputError) else 1
+        return EXIT_RETRY
+    return EXIT_INPUT if isinstance(error, UsageError | InputError) else 1
 
 
 def _describe_versions(versions: dict[str, str]) -> str:
@@ -83,11 +87,11 @@ def _describe_versions(versions: dict[str, str]) -> str:
 
 @contextmanager
 def _terminable() -> Iterator[None]:
-    """Let SIGTERM unwind, so that what is finished is published and what is not is dropped."""
+    """Turn SIGTERM into an exception, so that finished pictures are published and partial ones removed."""
 
     def end(*_: object) -> None:
-        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # once is enough
-        sys.exit(TERMINATED)
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # ignore repeated signals
+        sys.exit(EXIT_TERMINATED)
 
     before = signal.signal(signal.SIGTERM, end)
     try:
@@ -100,7 +104,7 @@ def _logged(log: Log, work: Callable[[], None]) -> None:
     try:
         work()
     except BaseException as error:
-        log.end(status_of(error), " ".join(str(error).split()))
+        log.end(exit_status(error), " ".join(str(error).split()))
         raise
     log.end(0)
 
@@ -117,18 +121,18 @@ def _task(job: Job, choice: ShotSource, out: Path, number: int, log: Log, progre
 
 
 def _bake(job: Job, choice: ShotSource, task: Task, progress: Progress) -> None:
-    """Solve the flow of a view; where it was stopped it goes on."""
+    """Solve the flow of a view; an interrupted solution continues."""
     (view,) = task.cameras
     frames = frame_list.parse(task.frames, job.count)
     about = {"choice": choice.plain(), "view": view, "frames": frames}
     try:
         worker.run(f"{solve.__name__}:in_process", about, progress, tell=say, blender=False)
     except worker.EndedError as error:
-        raise Error(f"the bake {error}; if memory ran out, larger voxels need less") from None
+        raise Error(f"the bake {error}; if memory ran out, choose larger voxels") from None
 
 
 def _render(job: Job, choice: ShotSource, out: Path, number: int, log: Log, progress: Progress) -> None:
-    """Render what of a task's pictures is not whole, into a folder of its own."""
+    """Render the missing pictures of a task in a private folder, and publish them."""
     task, shot = job.task(number), choice.shot()
     pictures = list(job.pictures(task))
     render.prepare_tiles(choice, pictures, render.RenderRequest(out, resume=True), tell=say)
@@ -154,14 +158,14 @@ def _render(job: Job, choice: ShotSource, out: Path, number: int, log: Log, prog
 
 
 def _openjd_progress(done: int, of: int) -> Progress:
-    """Progress of a task that is one of several, in lines that engines read."""
+    """Create a callback that prints the progress over several tasks in the form of Open Job Description."""
     last = ""
 
-    def told(here: int, total: int, what: str = "", note: str = "") -> None:
+    def report(here: int, total: int, what: str = "", note: str = "") -> None:
         nonlocal last
         line = f"openjd_progress: {100.0 * (done + min(here / max(total, 1), 1.0)) / of:.1f}"
         if line != last:
             print(line, flush=True)
         last = line
 
-    return told
+    return report

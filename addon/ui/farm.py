@@ -1,4 +1,4 @@
-"""Farm operators and panel: the film as a job of a render farm, as `firetwin farm` makes it."""
+"""Operators and panel of farm jobs, with the functions of `firetwin farm`."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ from .job import InThread, Message, Steps
 from .text import labelled, paragraph
 from .working import Working
 
-NOT_SAVED = "Save the .blend file first: the job's scene file lies beside it"
+NOT_SAVED = "Save the .blend file first; the scene file of the job is written next to it"
 NO_OUTPUT = "Choose an output folder for the farm first"
-NO_JOB = "has no farm job; Write job writes one"
+NO_JOB = "has no farm job; write one with Write job"
 
 
 def _items() -> tuple[tuple[str, str, str, str, int], ...]:
-    """Every engine; its number in the .blend file stays the same when others are added."""
+    """List the engines; the number of each in .blend files does not change when others are added."""
     texts = {name: engine.help.partition(":") for name, engine in engines.known().items()}
     return tuple(
         (name, label, keys.sentence(words.strip()), "NONE", zlib.crc32(name.encode()) >> 1)
@@ -42,7 +42,7 @@ def _out(panel: bpy.types.PropertyGroup) -> Path:
 
 
 def _options(panel: bpy.types.PropertyGroup) -> tuple[str, ...]:
-    """The engine's own options.
+    """Split the options of the engine.
 
     Raises
     ------
@@ -76,8 +76,8 @@ def _writable(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool
 
 
 def _present(out: Path) -> None:
-    """Check that a folder has a job, and say it as the panel does."""
-    if not (plan.place(out) / plan.FILE).is_file():
+    """Check that a folder has a job; the message names the panel's button."""
+    if not (plan.job_dir(out) / plan.FILE).is_file():
         raise Error(f"{out} {NO_JOB}")
 
 
@@ -90,8 +90,8 @@ def _write(
     tell: MessageCallback,
     stop: Stop,
 ) -> list[str]:
-    """Plan and write a job in a thread; the command that submits it."""
-    found = plan.make(ShotSource(str(scene)).shot(), scene, size)
+    """Plan and write a job in a thread; returns the command that submits it."""
+    found = plan.make_job(ShotSource(str(scene)).shot(), scene, size)
     if stop.asked:
         raise StoppedError
     plan.write(found, out)
@@ -107,24 +107,24 @@ def _missing(
     tell: MessageCallback,
     stop: Stop,
 ) -> list[str]:
-    """Look for missing pictures in a thread; the command that submits their tasks."""
+    """Find missing pictures in a thread; returns the command that submits their tasks."""
 
     def followed(done: int, total: int, what: str = "", note: str = "") -> None:
         if stop.asked:
             raise StoppedError
         progress(done, total, what, note)
 
-    lost, numbers = submission.missing(out, followed)
+    missing, numbers = submission.find_missing(out, followed)
     if stop.asked:
         raise StoppedError
-    tell(f"{count(len(lost), 'picture')} missing: {count(len(numbers), 'task')} to submit")
-    before = submission.last(out)
+    tell(f"{count(len(missing), 'picture')} missing: {count(len(numbers), 'task')} to submit")
+    before = submission.last_submission(out)
     chosen = Submission(before.engine, options(before.engine) or before.options)
     return submission.prepare(out, chosen, numbers)
 
 
 def _written(context: bpy.types.Context) -> Generator[InThread | Message, Any, list[str]]:
-    """Write the panel's scene file beside the .blend file, and the job of it; returns the command."""
+    """Write the scene file next to the .blend file, and its job; returns the submit command."""
     panel = context.scene.firetwin
     for text in camera_edits.pull(context.scene):
         yield Message(text, "WARNING")
@@ -142,7 +142,7 @@ def _written(context: bpy.types.Context) -> Generator[InThread | Message, Any, l
 
 
 def _submitted(command: list[str], out: Path, last: str) -> Steps:
-    """Run an engine's command, then look at the job."""
+    """Run an engine's command, then read the status of the job."""
     yield InThread("submitting", functools.partial(submission.call, command, out))
     yield InThread("reading the status", lambda **_: farm_watch.read(out))
     farm_watch.start(out)
@@ -248,11 +248,11 @@ class FIRETWIN_OT_farm_resume(_OfJob, bpy.types.Operator):
         _present(out)
         work = functools.partial(_missing, out, lambda before: own if before == engine else ())
         command = yield InThread("reading the pictures", work)
-        return (yield from _submitted(command, out, f"Submitted what is missing in {out}"))
+        return (yield from _submitted(command, out, f"Submitted the tasks of missing pictures in {out}"))
 
 
 class FIRETWIN_OT_farm_cancel(_OfJob, bpy.types.Operator):
-    """Cancel what was submitted of the job; finished pictures are kept"""
+    """Cancel the submitted tasks of the job. Finished pictures are kept"""
 
     bl_idname = "firetwin.farm_cancel"
     bl_label = "Cancel job"
@@ -262,13 +262,13 @@ class FIRETWIN_OT_farm_cancel(_OfJob, bpy.types.Operator):
         """Wait for the engine's command."""
         out = _out(context.scene.firetwin)
         _present(out)
-        command = submission.cancellation(out)
+        command = submission.cancel_command(out)
         yield InThread("cancelling", functools.partial(submission.call, command, out))
-        return f"Cancelled the job of {out}; Resume goes on with it"
+        return f"Cancelled the job of {out}; Resume continues it"
 
 
 class FIRETWIN_PT_farm(bpy.types.Panel):
-    """The film as a job of a render farm, as `firetwin farm` makes it: all cameras, all frames"""
+    """Film of all cameras and frames as a render farm job"""
 
     bl_idname = "FIRETWIN_PT_farm"
     bl_label = "On a farm"
@@ -304,7 +304,7 @@ class FIRETWIN_PT_farm(bpy.types.Panel):
 
 
 def _draw_status(context: bpy.types.Context, layout: bpy.types.UILayout, found: Status | str | None) -> None:
-    """What was read last of the job: tasks, pictures, time left, and what failed."""
+    """Draw the last status of the job: tasks, pictures, time left and errors."""
     if found is None:
         return
     box = layout.box().column(align=True)

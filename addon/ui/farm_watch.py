@@ -11,8 +11,8 @@ from ..farm import status
 from ..farm.status import Status
 from . import job, working
 
-_PERIOD = 10.0  # s between two readings
-_SHORT = 0.5  # s between two looks at the thread
+_PERIOD = 10.0  # s between readings
+_SHORT = 0.5  # s between checks of the thread
 
 _known: dict[Path, Status | str] = {}
 _thread: threading.Thread | None = None
@@ -20,7 +20,7 @@ _out: Path | None = None
 
 
 def known(out: Path) -> Status | str | None:
-    """Status of the job of a folder when it was last read, or what is wrong with it; None: not read yet."""
+    """Return the last status of the job in a folder, or an error message; None before the first reading."""
     return _known.get(out)
 
 
@@ -30,14 +30,14 @@ def read(out: Path) -> Status:
     Raises
     ------
     InputError
-        There is none, or it is damaged.
+        The folder has no job, or its file is damaged.
     """
     found = _known[out] = status.gather(out)
     return found
 
 
 def start(out: Path) -> None:
-    """Read the status of a job again and again, until its tasks are done or another file is opened."""
+    """Read the status of a job periodically, until its tasks are done or another file is opened."""
     global _out
     _out = out
     if not bpy.app.background and not bpy.app.timers.is_registered(_tick):
@@ -45,7 +45,7 @@ def start(out: Path) -> None:
 
 
 def forget() -> None:
-    """End the watch; nothing is known any more."""
+    """Stop reading, and clear all known states."""
     global _out
     _out = None
     if bpy.app.timers.is_registered(_tick):
@@ -54,7 +54,7 @@ def forget() -> None:
 
 
 def unfinished(found: Status | str | None) -> bool:
-    """Whether tasks are left of which something may be heard."""
+    """Whether tasks are running or waiting."""
     return isinstance(found, Status) and bool(found.running or found.waiting)
 
 

@@ -89,7 +89,7 @@ def test_what_is_submitted_is_followed_resumed_and_cancelled(panel, tmp_path, sl
     panel.farm_options, panel.render.chunk, panel.farm_chunk = "--partition=gpu --comment='two words'", 1, 1
     assert bpy.ops.firetwin.farm_submit() == {"FINISHED"}
     assert any(text.startswith("submitted Slurm jobs 71") for text in told(farm.FIRETWIN_OT_farm_submit))
-    assert submission.last(farm._out(panel)).options == ("--partition=gpu", "--comment=two words")
+    assert submission.last_submission(farm._out(panel)).options == ("--partition=gpu", "--comment=two words")
     tasks = len(plan.read(farm._out(panel)).tasks)
     assert slurm().count("sbatch") == 2  # render and assemble
     assert farm_watch.known(farm._out(panel)).waiting == list(range(1, tasks + 1))
@@ -99,8 +99,8 @@ def test_what_is_submitted_is_followed_resumed_and_cancelled(panel, tmp_path, sl
     )
     panel.farm_engine, panel.farm_options = "openjd", "--other"  # not of the engine of before
     assert bpy.ops.firetwin.farm_resume() == {"FINISHED"}
-    assert submission.last(farm._out(panel)).engine == "slurm"
-    assert submission.last(farm._out(panel)).options == ("--partition=gpu", "--comment=two words")
+    assert submission.last_submission(farm._out(panel)).engine == "slurm"
+    assert submission.last_submission(farm._out(panel)).options == ("--partition=gpu", "--comment=two words")
     assert any(
         text.endswith(f"missing: {tasks} tasks to submit") for text in told(farm.FIRETWIN_OT_farm_resume)
     )
@@ -110,7 +110,7 @@ def test_what_is_submitted_is_followed_resumed_and_cancelled(panel, tmp_path, sl
 
 @pytest.mark.parametrize("name", ["farm_status", "farm_resume", "farm_cancel"])
 def test_a_folder_without_a_job_is_told(panel, name):
-    with pytest.raises(RuntimeError, match="has no farm job; Write job writes one"):
+    with pytest.raises(RuntimeError, match="has no farm job; write one with Write job"):
         getattr(bpy.ops.firetwin, name)()
 
 
@@ -123,9 +123,9 @@ def test_what_fails_is_a_report(panel, monkeypatch, tmp_path):
         bpy.ops.firetwin.farm_submit()
     panel.farm_engine = "openjd"
     monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(RuntimeError, match="openjd is not installed here; on a machine that has it"):
+    with pytest.raises(RuntimeError, match="openjd is not installed here; on a machine that has it, run"):
         bpy.ops.firetwin.farm_submit()
-    with pytest.raises(RuntimeError, match="ends its tasks by Ctrl-C or SIGTERM"):
+    with pytest.raises(RuntimeError, match="stop openjd run with Ctrl-C or SIGTERM"):
         bpy.ops.firetwin.farm_cancel()
 
 
@@ -202,6 +202,6 @@ def test_the_watch_follows_a_job_until_it_is_done(panel, monkeypatch):
     assert farm_watch.known(out).waiting
     (out / "farm/job.json").write_text("{")
     assert looked() is None
-    assert "is no farm job of this version" in farm_watch.known(out)
+    assert "not a farm job of this version" in farm_watch.known(out)
     farm_watch.forget()
     assert farm_watch.known(out) is None

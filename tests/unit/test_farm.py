@@ -10,7 +10,7 @@ from firetwin import cli
 from firetwin.errors import Error, InputError, TryAgainError, UsageError, full_disk_error, input_error
 from firetwin.farm import arguments, assemble, assets, entries, plan, status, task
 from firetwin.farm.engines import Batch, deadline, known, openjd
-from firetwin.farm.engines.slurm import arrays
+from firetwin.farm.engines.slurm import split_arrays
 from firetwin.farm.entries import Entry
 from firetwin.farm.plan import Job, Task
 from firetwin.farm.private import PrivateFolder, verified_entries
@@ -35,11 +35,11 @@ keys = [{{latitude = 38.904, longitude = -120.592, height = 300, target = "fire"
 """
 
 
-def job(tasks, filmed=None, passes=("rgb",), count=100, **more):
-    filmed = filmed or {"drone": ""}
-    every = {name: tuple(passes) for name in filmed}
+def job(tasks, camera_frames=None, passes=("rgb",), count=100, **more):
+    camera_frames = camera_frames or {"drone": ""}
+    every = {name: tuple(passes) for name in camera_frames}
     about = {"scene": "/scene.toml", "scene_sha256": "", "versions": VERSIONS, "assets": ()} | more
-    return Job(count=count, filmed=filmed, passes=every, tasks=tuple(tasks), **about)
+    return Job(count=count, camera_frames=camera_frames, passes=every, tasks=tuple(tasks), **about)
 
 
 @pytest.fixture
@@ -63,7 +63,7 @@ def make_shot(make_run, tmp_path):
 @given(st.integers(1, 20), st.sets(st.integers(2, 20), max_size=6), st.integers(1, 6))
 def test_chunks_have_every_frame_once_and_build_as_little_as_can_be(built, count, left_out, size):
     listed = sorted({*range(1, count + 1)} - left_out)
-    found = plan.chunks(listed, size, built)
+    found = plan.split_frames(listed, size, built)
     assert [frame for part in found for frame in part] == listed
     assert max(map(len, found)) <= size
     parts = [sorted({part_of(frame, built) for frame in part}) for part in found]
@@ -78,7 +78,7 @@ def test_chunks_have_every_frame_once_and_build_as_little_as_can_be(built, count
 
 def test_tasks_are_cameras_by_chunks_and_pictures_each_once(make_shot):
     shot = make_shot(10, {"drone": "", "other": "2-9:2"}, chunk=3, more='passes = ["rgb", "depth"]')
-    made = plan.make(shot, shot.settings.path, 4)
+    made = plan.make_job(shot, shot.settings.path, 4)
     assert [(each.cameras, each.frames) for each in made.tasks] == [
         (("drone",), "1-3"),
         (("drone",), "4-6"),
@@ -94,7 +94,7 @@ def test_cameras_that_give_each_other_pictures_share_tasks(make_shot):
     shot = make_shot(3, more='passes = ["rgb"]')
     text = shot.settings.path.read_text()
     shot.settings.path.write_text(text + 'passes = ["fused"]\n' + mounted)
-    made = plan.make(Shot(scene_file.read(shot.settings.path), shot.run), shot.settings.path)
+    made = plan.make_job(Shot(scene_file.read(shot.settings.path), shot.run), shot.settings.path)
     assert [each.cameras for each in made.tasks] == [("drone", "sensor")]
 
 
@@ -102,14 +102,14 @@ def test_a_flow_is_solved_once_for_all_cameras_that_share_it(make_shot, monkeypa
     cameras = {"drone": "", "other": "1"}
     for smoke, bakes in (('method = "flow"', 1), ('method = "puffs"', 0), ("enabled = false", 0)):
         shot = make_shot(2, cameras, smoke=smoke)
-        made = plan.make(shot, shot.settings.path)
+        made = plan.make_job(shot, shot.settings.path)
         assert len(made.numbers("bake")) == bakes
         assert made.numbers("render") == [bakes + 1, bakes + 2]
     flows = {"wide": {"whole"}, "near": {"whole", "nest"}, "far": {"whole", "another"}, "late": {"whole"}}
     monkeypatch.setattr(FlowSource, "solutions", lambda self: flows[self.shot.settings.cameras[0].name])
     listed = {"wide": "1-2", "near": "3", "far": "5", "late": "6"}
     shot = make_shot(6, listed, smoke='method = "flow"')
-    bakes = [each for each in plan.make(shot, shot.settings.path).tasks if each.stage == "bake"]
+    bakes = [each for each in plan.make_job(shot, shot.settings.path).tasks if each.stage == "bake"]
     assert [(*each.cameras, each.frames) for each in bakes] == [("near", "1-3,6"), ("far", "5")]
 
 
@@ -124,7 +124,7 @@ def test_a_long_film_of_many_cameras_is_planned_in_few_steps(make_shot):
 
     sys.setprofile(count)
     try:
-        made = plan.make(shot, shot.settings.path)
+        made = plan.make_job(shot, shot.settings.path)
     finally:
         sys.setprofile(None)
     assert calls < 2_000_000  # most of them for the cameras' paths
@@ -142,7 +142,7 @@ def test_a_long_film_of_many_cameras_is_planned_in_few_steps(make_shot):
 
 def test_a_bundle_lists_every_asset_and_bakes_before_it_renders(make_shot, tmp_path):
     shot = make_shot(4, {"drone": "", "other": ""}, chunk=2, smoke='method = "flow"')
-    made, out = plan.make(shot, shot.settings.path, 2), tmp_path / "out"
+    made, out = plan.make_job(shot, shot.settings.path, 2), tmp_path / "out"
     batch = Batch(made, out, tuple(range(1, len(made.tasks) + 1)))
     steps = [each["name"] for each in openjd.template(batch)["steps"]]
     assert steps == ["Bake", "Render", "Assemble"]
@@ -157,13 +157,13 @@ def test_what_is_needed_is_listed_and_must_be_there(make_shot, tmp_path):
     shot = make_shot(more='\n[fire]\nobserved = "seen.shp"\n')
     fields = {path.absolute() for path in (tmp_path / "run").iterdir() if path.name[0] != "."}
     with pytest.raises(InputError, match=r"seen\.shp: is missing"):
-        assets.needed(shot)
+        assets.list_assets(shot)
     parts = [tmp_path / f"seen.{end}" for end in ("shp", "dbf", "shx")]
     for part in parts:
         part.touch()
-    assert set(assets.needed(shot)) == fields | {shot.settings.path, *parts}
-    assert assets.elsewhere(parts, tmp_path) == []
-    assert assets.elsewhere(parts, tmp_path / "run") == parts
+    assert set(assets.list_assets(shot)) == fields | {shot.settings.path, *parts}
+    assert assets.outside_of(parts, tmp_path) == []
+    assert assets.outside_of(parts, tmp_path / "run") == parts
 
 
 def test_tilesets_of_this_machine_are_needed_too(make_shot, tmp_path):
@@ -172,7 +172,7 @@ def test_tilesets_of_this_machine_are_needed_too(make_shot, tmp_path):
         (tmp_path / name).touch()
     places = ["set", "other/tileset.json", "city.3tz", "https://tiles.example/tileset.json"]
     shot = make_shot(more=f"\n[tiles]\nsources = {places}\n")
-    names = {path.relative_to(tmp_path).as_posix() for path in assets.needed(shot)}
+    names = {path.relative_to(tmp_path).as_posix() for path in assets.list_assets(shot)}
     assert {"set/tileset.json", "set/1/a.glb", "other/tileset.json", "other/b.glb", "city.3tz"} < names
     assert not any("example" in name for name in names)
 
@@ -183,7 +183,7 @@ def test_files_of_stations_are_needed_where_stations_are_on(make_shot, tmp_path)
     for path in wanted:
         path.touch()
     for enabled in ("true", "false"):
-        needed = set(assets.needed(make_shot(more=f"\n[stations]\nenabled = {enabled}\n{names}")))
+        needed = set(assets.list_assets(make_shot(more=f"\n[stations]\nenabled = {enabled}\n{names}")))
         assert needed & wanted == (wanted if enabled == "true" else set())
 
 
@@ -191,7 +191,7 @@ def test_another_job_is_not_overwritten(tmp_path):
     first = job([Task("render", ("drone",), "1-3")])
     plan.write(first, tmp_path)
     plan.write(first, tmp_path)
-    with pytest.raises(InputError, match="another job"):
+    with pytest.raises(InputError, match="a different job"):
         plan.write(replace(first, count=7), tmp_path)
     assert plan.read(tmp_path) == first
     (tmp_path / "farm" / "job.json").write_text("{}")
@@ -252,23 +252,23 @@ def test_assemble_names_what_is_missing_and_refuses_what_is_damaged(film):
     render(out, made_with, 1, [1, 2])
     render(out, made_with | {("drone", "rgb"): {"settings": "others"}}, 2, [3])
     (out / Picture("drone", 2, "rgb").files()[0]).write_bytes(b"pictUre 2")
-    whole, lost = assemble.check(made, out, made_with)
+    whole, lost = assemble.check_pictures(made, out, made_with)
     assert [found[0].frame for found in whole] == [1]
-    assert list(assemble.described(lost)) == [
+    assert list(assemble.format_missing(lost)) == [
         f"drone rgb 2: {assemble.DAMAGED}",
         f"drone rgb 3: {assemble.OTHER}",
         f"drone rgb 4: {assemble.NOT_MADE}",
     ]
-    assert assemble.tasks_of(made, lost) == [1, 2]
-    assert assemble.tasks_of(made, [Picture("drone", 4, "rgb")]) == [2]
+    assert assemble.tasks_of_pictures(made, lost) == [1, 2]
+    assert assemble.tasks_of_pictures(made, [Picture("drone", 4, "rgb")]) == [2]
     render(out, made_with, 1, [2])
     render(out, made_with, 2, [3, 4])
-    whole, lost = assemble.check(made, out, made_with)
+    whole, lost = assemble.check_pictures(made, out, made_with)
     assert lost == {}
     with Store(out, create=True) as store:
-        assemble.enter(store, whole, made_with)
+        assemble.add_to_store(store, whole, made_with)
         number = store.latest_number()
-        assemble.enter(store, whole, made_with)
+        assemble.add_to_store(store, whole, made_with)
         assert store.latest_number() == number  # twice is once
         key = content.fingerprint(made_with["drone", "rgb"])
         assert sorted(store.pictures("drone", "rgb", key, ".png")) == [1, 2, 3, 4]
@@ -293,7 +293,7 @@ def test_of_attempts_at_once_either_file_counts(film):
     out, made_with = film
     render(out, made_with, 1, [1], content_of=b"other bytes %d")
     render(out, made_with, 1, [1])
-    assert len(assemble.check(plan.read(out), out, made_with)[0]) == 1
+    assert len(assemble.check_pictures(plan.read(out), out, made_with)[0]) == 1
     known = [each for found in entries.attempts(out, 1) for each in found.entries]
     assert len(verified_entries(known, out, made_with)) == len(Picture("drone", 1, "rgb").files())
 
@@ -320,10 +320,10 @@ def test_a_task_publishes_what_it_made_and_keeps_what_was_whole(film, tmp_path_f
         private.publish()
     assert [each.path for each in entries.attempts(out, 1)[-1].entries] == list(paths)
     assert (out / paths[0]).read_bytes() == b"new"
-    assert len(assemble.check(plan.read(out), out, made_with)[0]) == 2
+    assert len(assemble.check_pictures(plan.read(out), out, made_with)[0]) == 2
 
 
-def test_status_is_told_by_files_alone(film):
+def test_status_is_read_from_files(film):
     out, made_with = film
     assert status.gather(out).waiting == [1, 2]
     assert status.gather(out).seconds_left is None
@@ -332,13 +332,13 @@ def test_status_is_told_by_files_alone(film):
     assert (found.running, found.waiting, found.finished, found.pictures) == ([1], [2], 1, 4)
     late = status.gather(out, now=found_time(out) + 2 * status.PATIENCE)
     assert late.failed == [1]
-    assert "no heartbeat" in late.errors[1]
+    assert "heartbeat stopped" in late.errors[1]
     render(out, made_with, 1, [2])
     render(out, made_with, 2, [3], ended=75)
     found = status.gather(out)
     assert (found.done, found.failed, found.errors) == ([1], [2], {2: "no luck"})
-    assert "task 2 failed: no luck" in status.page(found)
-    json.dumps(found.plain())
+    assert "task 2 failed: no luck" in status.format_text(found)
+    json.dumps(found.as_json())
     (out / Picture("drone", 1, "rgb").files()[0]).unlink()
     assert status.gather(out).waiting == [1]
 
@@ -348,32 +348,32 @@ def found_time(out):
 
 
 def test_the_exit_status_says_whether_to_try_again():
-    assert task.status_of(UsageError("no such task")) == 2
-    assert task.status_of(input_error("scene.toml", "wrong", line=1, column=1)) == 2
-    assert task.status_of(full_disk_error("x")) == 75
-    assert task.status_of(OSError(28, "No space left on device")) == 75
-    assert task.status_of(TryAgainError("no GPU")) == 75
-    assert task.status_of(Error("Blender stopped")) == 1
-    assert task.status_of(SystemExit(143)) == 143
+    assert task.exit_status(UsageError("no such task")) == 2
+    assert task.exit_status(input_error("scene.toml", "wrong", line=1, column=1)) == 2
+    assert task.exit_status(full_disk_error("x")) == 75
+    assert task.exit_status(OSError(28, "No space left on device")) == 75
+    assert task.exit_status(TryAgainError("no GPU")) == 75
+    assert task.exit_status(Error("Blender stopped")) == 1
+    assert task.exit_status(SystemExit(143)) == 143
 
 
 def test_a_task_refuses_other_versions_and_a_changed_scene(tmp_path):
     scene = tmp_path / "scene.toml"
     scene.write_text("")
     here = job([], scene=str(scene), scene_sha256=content.sha256(scene), versions=fingerprint.versions())
-    choice = task.source(here, tmp_path)
+    choice = task.job_source(here, tmp_path)
     assert choice.cache == str(tmp_path / "farm" / "cache")
     with pytest.raises(UsageError, match="Firetwin 0 with Blender"):
-        task.source(replace(here, versions=VERSIONS), tmp_path)
+        task.job_source(replace(here, versions=VERSIONS), tmp_path)
     scene.write_text("seed = 2")
     with pytest.raises(UsageError, match="has changed"):
-        task.source(here, tmp_path)
+        task.job_source(here, tmp_path)
 
 
 @given(st.sets(st.integers(1, 5000), min_size=1), st.integers(1, 1001))
 def test_arrays_have_every_task_once_and_small_indices(numbers, most):
     found = []
-    for base, listed in arrays(sorted(numbers), most):
+    for base, listed in split_arrays(sorted(numbers), most):
         indices = [n for part in listed.split(",") for n in _span(part)]
         assert 0 <= min(indices) <= max(indices) < most
         found += [base + index for index in indices]
@@ -412,9 +412,9 @@ def test_every_verb_has_help(verb, capsys):
 
 
 def test_the_command_line_takes_a_scene_or_a_verb():
-    assert arguments.normal(["render", "x", "--"]) == (["render", "x", "--"], [])
+    assert arguments.split_options(["render", "x", "--"]) == (["render", "x", "--"], [])
     line = ["farm", "scene.toml", "--engine", "slurm", "--", "--mem=1G", "-p", "x"]
-    assert arguments.normal(line) == (["farm", "plan", *line[1:4]], ["--mem=1G", "-p", "x"])
-    assert arguments.normal(["farm", "status", "out"]) == (["farm", "status", "out"], [])
+    assert arguments.split_options(line) == (["farm", "plan", *line[1:4]], ["--mem=1G", "-p", "x"])
+    assert arguments.split_options(["farm", "status", "out"]) == (["farm", "status", "out"], [])
     assert set(arguments._engines()) == set(known())
     assert all(engine.name == name for name, engine in known().items())

@@ -48,9 +48,9 @@ def asked(tmp_path, monkeypatch):
 def test_inside_of_blender_its_executable_runs_tasks(monkeypatch):
     blender = SimpleNamespace(app=SimpleNamespace(binary_path=""))  # as a module
     monkeypatch.setitem(sys.modules, "bpy", blender)
-    assert _engine.find_command() == [sys.executable, "-m", "firetwin"]
+    assert _engine.firetwin_command() == [sys.executable, "-m", "firetwin"]
     blender.app.binary_path = "/opt/blender"
-    program, *options, last = _engine.find_command()
+    program, *options, last = _engine.firetwin_command()
     assert (program, options[-1], last) == ("/opt/blender", "--command", "firetwin")
 
 
@@ -87,7 +87,7 @@ def test_pbs_has_an_array_for_each_stage_and_holds_the_first(tmp_path, asked):
 
 def test_pbs_submits_what_is_missing_and_splits_at_its_limit(tmp_path, asked, monkeypatch):
     calls = asked("{}[].server", "qsub", "qrls")
-    monkeypatch.setattr(pbs, "find_largest", lambda: 2)
+    monkeypatch.setattr(pbs, "max_array_size", lambda: 2)
     subprocess.run(write("pbs", batch(tmp_path, (3, 5, 6)))[1], check=True)
     common = ["-r", "y", "-j", "oe"]
     assert [each[1:] for each in calls()] == [
@@ -116,7 +116,7 @@ def pbs_script(tmp_path, monkeypatch):
         f"#!{sys.executable}\nimport sys\nprint(sys.argv[1:])\nsys.exit(75 if '5' in sys.argv else 1)\n"
     )
     program.chmod(0o755)
-    monkeypatch.setattr(pbs, "find_command", lambda: [str(program)])
+    monkeypatch.setattr(pbs, "firetwin_command", lambda: [str(program)])
 
     def start(pause, index):
         monkeypatch.setattr(pbs, "_PAUSE", pause)
@@ -164,7 +164,7 @@ def test_opencue_has_the_stages_as_layers(tmp_path):
     whole = batch(tmp_path, (*BAKES, 3, 5))
     folder, command = write("opencue", whole)
     assert command == ["python3", str(folder / "launch.py")]
-    found = opencue.find_layers(whole)
+    found = opencue.list_layers(whole)
     assert repr(found) in (folder / "launch.py").read_text()
     tasks = [*FARM, "task", str(whole.out), "#IFRAME#"]
     assert [(name, shlex.split(text), frames) for name, text, frames in found] == [

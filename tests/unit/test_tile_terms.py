@@ -129,7 +129,7 @@ def test_each_job_asks(scene, run_folder_of_sample, tmp_path):
     _refused(lambda: build.run(choice, tmp_path / "x.blend"), "the .blend file")
     from firetwin.farm import plan
 
-    _refused(lambda: plan.make(choice.shot(), scene()), "the farm")
+    _refused(lambda: plan.make_job(choice.shot(), scene()), "the farm")
     stood = ShotSource(scene=str(scene(more='terrain = { stand = "tiles" }')), run=str(run_folder_of_sample))
     shot = choice.shot()
     shot.settings = stood.settings()

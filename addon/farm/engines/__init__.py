@@ -1,6 +1,6 @@
-"""Engines: each module of this folder is one, unless its name begins with "_".
+"""Engines, one per module of this folder; modules whose names begin with "_" are helpers.
 
-It defines `ENGINE`, a class of `Engine` whose name is the module's.
+Each module defines `ENGINE`, a subclass of `Engine` with the name of the module.
 """
 
 from __future__ import annotations
@@ -16,6 +16,6 @@ __all__ = ["Batch", "Engine", "known"]
 
 @functools.cache
 def known() -> dict[str, type[Engine]]:
-    """Every engine by its name."""
+    """Return all engines by name."""
     names = sorted(module.name for module in pkgutil.iter_modules(__path__) if module.name[0] != "_")
     return {name: importlib.import_module(f"{__name__}.{name}").ENGINE for name in names}

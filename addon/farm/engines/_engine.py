@@ -1,4 +1,4 @@
-"""What an engine is, and what all engines share."""
+"""Base class of engines, and the command that their tasks run."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from ..plan import Job, place
+from ..plan import Job, job_dir
 
 
 @dataclass(frozen=True)
 class Batch:
-    """What is to be submitted of a job: all of it, or what is missing.
+    """Tasks of a job to submit: all, or those with missing pictures.
 
     Attributes
     ----------
     out
         Output folder, absolute.
     numbers
-        Of the tasks, ascending.
+        Task numbers, ascending.
     options
-        The engine's own, as the user wrote them.
+        Options of the engine's command, as the user wrote them.
     """
 
     job: Job
@@ -31,20 +31,20 @@ class Batch:
     options: tuple[str, ...] = ()
 
     def stage(self, name: str) -> list[int]:
-        """Its tasks of a stage."""
+        """List its tasks of a stage."""
         wanted = set(self.numbers)
         return [number for number in self.job.numbers(name) if number in wanted]
 
 
 class Engine(ABC):
-    """Turns a job into an engine's own text.
+    """Translator of a job into the files of an engine.
 
     Attributes
     ----------
     name
-        Of its module, and of its folder beside the job.
+        Name of its module, and of its folder next to the job.
     help
-        One line.
+        Description in one line.
     """
 
     name: ClassVar[str]
@@ -52,27 +52,27 @@ class Engine(ABC):
 
     @abstractmethod
     def write(self, batch: Batch) -> list[str]:
-        """Write the engine's text of a batch; the command that submits it."""
+        """Write the engine's files for a batch; returns the command that submits it."""
 
     @abstractmethod
     def cancel(self, out: Path) -> list[str]:
-        """The command that cancels what was submitted.
+        """Return the command that cancels the submitted tasks.
 
         Raises
         ------
         UsageError
-            This engine is told otherwise to do so; says how.
+            The engine has no such command; the message explains how to cancel.
         """
 
     def folder(self, out: Path) -> Path:
-        """Folder of its text."""
-        return place(out) / self.name
+        """Return the folder of the engine's files."""
+        return job_dir(out) / self.name
 
 
-def find_command() -> list[str]:
-    """The command that runs this Firetwin: by Python, or by Blender's executable if it runs there.
+def firetwin_command() -> list[str]:
+    """Return the command that runs this Firetwin: Python, or Blender's executable for the extension.
 
-    In Blender's executable Firetwin is an extension, a module of which no Python outside knows.
+    An extension can only be imported by Blender's own Python.
     """
     blender = sys.modules["bpy"].app.binary_path if "bpy" in sys.modules else ""
     if blender:

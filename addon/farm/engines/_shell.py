@@ -1,4 +1,4 @@
-"""Text of shell scripts that engines share."""
+"""Shell functions that the scripts of several engines share."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ forward() {{
   [ -z "$child" ] || kill -TERM "$child" 2>/dev/null
 }}
 trap forward TERM
-run() {{ # runs a command, which gets SIGTERM as well; its exit status
+run() {{ # runs a command and forwards SIGTERM to it; returns its exit status
   local status
   "$@" &
   child=$!
   wait "$child"
   status=$?
-  while kill -0 "$child" 2>/dev/null; do # a signal ends wait, not the child
+  while kill -0 "$child" 2>/dev/null; do # a signal interrupts wait, not the child
     wait "$child"
     status=$?
   done
@@ -24,4 +24,4 @@ run() {{ # runs a command, which gets SIGTERM as well; its exit status
   return "$status"
 }}
 """
-"""To be filled by `str.format`: nothing but its braces."""
+"""Template for `str.format`, which only unescapes the braces."""

@@ -1,4 +1,4 @@
-"""AWS Deadline Cloud: a job bundle, which is an Open Job Description template and the files it needs."""
+"""AWS Deadline Cloud: a job bundle, that is an Open Job Description template with the files it needs."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from pathlib import Path
 from ... import files
 from ...errors import UsageError
 from .. import entries
-from ..plan import CACHE, FILE, place
+from ..plan import CACHE, FILE, job_dir
 from . import openjd
-from ._engine import Batch, Engine, find_command
+from ._engine import Batch, Engine, firetwin_command
 
 _TRIES = 3
 
 
 class Deadline(Engine):
-    """A bundle of template, parameter values and asset references for `deadline bundle submit`."""
+    """Bundle of template, parameter values and asset references for `deadline bundle submit`."""
 
     name = "deadline"
     help = "AWS Deadline Cloud: a job bundle"
@@ -24,7 +24,7 @@ class Deadline(Engine):
     def write(self, batch: Batch) -> list[str]:
         """Write the bundle."""
         folder = self.folder(batch.out)
-        program = "python" if find_command()[1] == "-m" else "blender"  # those of the workers
+        program = "python" if firetwin_command()[1] == "-m" else "blender"  # on the PATH of the workers
         values = openjd.paths(batch) | {"Program": program, "deadline:maxRetriesPerTask": _TRIES}
         texts = {
             "template.json": openjd.template(batch),
@@ -38,23 +38,25 @@ class Deadline(Engine):
         return ["deadline", "bundle", "submit", *batch.options, str(folder)]
 
     def cancel(self, out: Path) -> list[str]:
-        """Deadline Cloud knows the job by the number that it gave it."""
-        raise UsageError(f"{out}: deadline job cancel --job-id ID cancels it; the submission printed the ID")
+        """Refuse: Deadline Cloud needs the job ID that its submission printed."""
+        raise UsageError(
+            f"{out}: cancel it with deadline job cancel --job-id ID; the submission printed the ID"
+        )
 
 
 def _references(batch: Batch) -> dict[str, object]:
-    """Files that travel to the workers, and the folder that comes back."""
-    job = [str(place(batch.out) / FILE)]
+    """List the files that are uploaded to the workers, and the folder that is downloaded."""
+    job = [str(job_dir(batch.out) / FILE)]
     return {
-        "inputs": {"filenames": [*batch.job.assets, *job], "directories": _made_before(batch)},
+        "inputs": {"filenames": [*batch.job.assets, *job], "directories": _earlier_output(batch)},
         "outputs": {"directories": [str(batch.out)]},
         "referencedPaths": [],
     }
 
 
-def _made_before(batch: Batch) -> list[str]:
-    """Folders of entries, flows and pictures that there are: what is submitted again goes on from them."""
-    own, out = place(batch.out), batch.out
+def _earlier_output(batch: Batch) -> list[str]:
+    """List existing folders of entries, flows and pictures, from which a resubmitted job continues."""
+    own, out = job_dir(batch.out), batch.out
     folders = [own / entries.FOLDER, own / CACHE, *(out / view for view in batch.job.passes)]
     return [str(folder) for folder in folders if folder.is_dir()]
 

@@ -1,4 +1,4 @@
-"""Flamenco 3: a job type, which compiles a job to tasks on the Manager, and its settings."""
+"""Flamenco 3: a job type, which the Manager compiles to tasks, and the settings of the job."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from pathlib import Path
 from ... import files
 from ...errors import UsageError
 from ...shot.schema import frame_list
-from ._engine import Batch, Engine, find_command
+from ._engine import Batch, Engine, firetwin_command
 
 MANAGER = "http://localhost:8080"
 
 JOB_TYPE = """\
-// Flamenco job type of all Firetwin films: belongs into the folder "scripts" beside flamenco-manager.
+// Flamenco job type of all Firetwin films: copy it into the folder "scripts" next to flamenco-manager.
 const JOB_TYPE = {
   label: "Firetwin film",
   settings: [
     { key: "command", type: "string", required: true, description: "Command of Firetwin, a JSON list" },
     { key: "out", type: "string", required: true, description: "Folder of the film" },
-    { key: "bakes", type: "string", default: "", description: "Numbers of the tasks that solve smoke" },
-    { key: "renders", type: "string", default: "", description: "Numbers of the tasks that render" },
+    { key: "bakes", type: "string", default: "", description: "Numbers of the smoke tasks" },
+    { key: "renders", type: "string", default: "", description: "Numbers of the render tasks" },
   ],
 };
 
@@ -57,7 +57,7 @@ cd {folder}
 manager=${{1:-{manager}}}
 call() {{ curl -fsS "${{@:2}}" "$manager/api/v3/jobs$1"; }}
 if ! call /type/firetwin -o job_type.json "${{@:2}}"; then
-  echo "$manager: no job type of Firetwin there; copy $PWD/firetwin.js into the Manager's folder scripts" >&2
+  echo "$manager: no Firetwin job type; copy $PWD/firetwin.js into the Manager's folder scripts" >&2
   exit 1
 fi
 call "" -H 'Content-Type: application/json' --data @job.json -o submitted.json "${{@:2}}"
@@ -68,10 +68,10 @@ echo "submitted Flamenco job $id"
 
 
 class Flamenco(Engine):
-    """A job type that is the same for all films, and the numbers of the tasks as its settings."""
+    """One job type for all films; its settings have the task numbers."""
 
     name = "flamenco"
-    help = "Flamenco 3: a job type, and curl to its Manager"
+    help = "Flamenco 3: a job type, submitted with curl"
 
     def write(self, batch: Batch) -> list[str]:
         """Write the job type, the job and a script that submits it."""
@@ -83,24 +83,24 @@ class Flamenco(Engine):
         return ["bash", str(folder / "submit.sh"), *batch.options]
 
     def cancel(self, out: Path) -> list[str]:
-        """Cancel the job that was submitted last."""
+        """Return the request that cancels the last submitted job."""
         jobs = self.folder(out) / "jobs.txt"
         if not jobs.exists():
-            raise UsageError(f"{out}: nothing was submitted to Flamenco from here")
+            raise UsageError(f"{out}: no job was submitted to Flamenco from this folder")
         asked = json.dumps({"status": "cancel-requested", "reason": "firetwin farm cancel"})
         address = f"{jobs.read_text('utf-8').strip()}/setstatus"
         return ["curl", "-fsS", "-H", "Content-Type: application/json", "--data", asked, address]
 
 
 def _job(batch: Batch) -> dict[str, object]:
-    """A job as the Manager's API takes it."""
+    """Describe the job for the API of the Manager."""
     return {
         "name": f"Firetwin {Path(batch.job.scene).stem}",
         "type": "firetwin",
         "priority": 50,
         "submitter_platform": platform.system().lower(),
         "settings": {
-            "command": json.dumps(find_command()),
+            "command": json.dumps(firetwin_command()),
             "out": str(batch.out),
             "bakes": frame_list.write(batch.stage("bake")),
             "renders": frame_list.write(batch.stage("render")),

@@ -1,4 +1,4 @@
-"""HTCondor: a DAG with a node for each task, whose final node assembles whatever became of the others."""
+"""HTCondor: a DAG with a node per task and a final node, which assembles even if tasks have failed."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from pathlib import Path
 
 from ... import files
 from ...errors import UsageError
-from ._engine import Batch, Engine, find_command
+from ._engine import Batch, Engine, firetwin_command
 
-_TRIES = 3  # how often a task is put into the queue again that has no device or disk
+_TRIES = 3  # requeues of a task that has no device or disk space
 _GRACE = 60  # s from SIGTERM to SIGKILL
 
 _DESCRIPTION = """\
@@ -36,7 +36,7 @@ retry_until = ExitCode =!= 75
 
 _SUBMIT = """\
 #!/bin/bash
-# Submits the job; options of condor_submit_dag that follow are for the DAG.
+# Submits the job; arguments are options of condor_submit_dag.
 set -euo pipefail
 cd {folder}
 condor_submit_dag -force {options} "$@" film.dag | tee submitted.txt
@@ -45,7 +45,7 @@ grep -o 'submitted to cluster [0-9]*' submitted.txt | grep -o '[0-9]*$' >jobs.tx
 
 
 class HTCondor(Engine):
-    """Bake before render by PARENT and CHILD, and a FINAL node."""
+    """PARENT and CHILD order bake before render; a FINAL node assembles."""
 
     name = "htcondor"
     help = "HTCondor: condor_submit_dag with a node for each task"
@@ -56,10 +56,10 @@ class HTCondor(Engine):
         Raises
         ------
         UsageError
-            The output folder has a name that HTCondor takes for a macro.
+            The name of the output folder contains a macro of HTCondor.
         """
         if "$(" in str(batch.out):
-            raise UsageError(f"{batch.out}: HTCondor takes $( for a macro; choose another --out")
+            raise UsageError(f"{batch.out}: HTCondor would expand $( as a macro; choose another --out")
         folder = self.folder(batch.out)
         (folder / "log").mkdir(parents=True, exist_ok=True)
         lines = [each for each in batch.options if "=" in each and not each.startswith("-")]
@@ -74,17 +74,17 @@ class HTCondor(Engine):
         return ["bash", str(folder / "submit.sh")]
 
     def cancel(self, out: Path) -> list[str]:
-        """Remove the DAG that was submitted last, and so its nodes."""
+        """Return the command that removes the last submitted DAG with its nodes."""
         jobs = self.folder(out) / "jobs.txt"
         found = jobs.read_text("utf-8").split() if jobs.exists() else []
         if not found:
-            raise UsageError(f"{out}: nothing was submitted to HTCondor from here")
+            raise UsageError(f"{out}: no job was submitted to HTCondor from this folder")
         return ["condor_rm", *found]
 
 
 def _describe(name: str, last: list[str], more: Iterable[str]) -> str:
-    """The description of nodes."""
-    program, *first = find_command()
+    """Write the submit description of nodes."""
+    program, *first = firetwin_command()
     macros = {"$(number)"}
     arguments = " ".join(each if each in macros else quote_argument(each) for each in [*first, "farm", *last])
     return _DESCRIPTION.format(
@@ -97,13 +97,13 @@ def _describe(name: str, last: list[str], more: Iterable[str]) -> str:
 
 
 def quote_argument(text: str) -> str:
-    """An argument as HTCondor's double-quoted lists have it."""
+    """Quote an argument for HTCondor's double-quoted argument lists."""
     text = text.replace('"', '""').replace("'", "''").replace("$", "$(DOLLAR)")
     return f"'{text}'"
 
 
 def _write_dag(batch: Batch) -> str:
-    """A node t1, t2, ... for each task, and the edges from bakes to renders."""
+    """Write a node t1, t2, ... per task, and the edges from bakes to renders."""
     stages = {stage: batch.stage(stage) for stage in ("bake", "render")}
     lines = []
     for stage, numbers in stages.items():

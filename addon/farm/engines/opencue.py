@@ -1,4 +1,4 @@
-"""OpenCue: a script for pyoutline, whose layers are the stages and whose frames are the tasks."""
+"""OpenCue: a pyoutline script with the stages as layers and the tasks as frames."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from pathlib import Path
 from ... import files
 from ...errors import UsageError
 from ...shot.schema import frame_list
-from ._engine import Batch, Engine, find_command
+from ._engine import Batch, Engine, firetwin_command
 
 _SCRIPT = """\
-# Launches the film on OpenCue by pyoutline: python launch.py [NAME=VALUE ...]
-# Names are those of layers (cores, memory, gpus, tags, ...) or of a job (show, shot, server, priority, ...).
+# Launches the film on OpenCue with pyoutline: python launch.py [NAME=VALUE ...]
+# NAME is an option of layers (cores, memory, gpus, tags, ...) or of the job (show, shot, server, ...).
 import os
 import sys
 
@@ -23,12 +23,12 @@ from outline.depend import DependType
 from outline.modules.shell import Shell
 
 NAME = {name!r}
-LAYERS = {layers!r}  # name, command, numbers of its tasks as frames
+LAYERS = {layers!r}  # name, command, task numbers as frames
 OF_LAYERS = {of_layers!r}
 
 
 def build(options):
-    \"\"\"The launcher of the job.\"\"\"
+    \"\"\"Create the launcher of the job.\"\"\"
     given = dict(option.split("=", 1) for option in options)
     for_layers = {{key: given.pop(key) for key in OF_LAYERS if key in given}}
     if "gpus" in for_layers:
@@ -54,35 +54,35 @@ _OF_LAYERS = ("cores", "gpu_memory", "gpus", "memory", "service", "tags", "timeo
 
 
 class OpenCue(Engine):
-    """Layers bake, render and assemble, each after those before it."""
+    """Layers bake, render and assemble, each dependent on the previous ones."""
 
     name = "opencue"
-    help = "OpenCue: a job by pyoutline"
+    help = "OpenCue: a pyoutline job"
 
     def write(self, batch: Batch) -> list[str]:
         """Write the script."""
         path = self.folder(batch.out) / "launch.py"
-        about = {"name": _find_name(batch), "layers": find_layers(batch), "of_layers": _OF_LAYERS}
+        about = {"name": _job_name(batch), "layers": list_layers(batch), "of_layers": _OF_LAYERS}
         files.write_text(path, _SCRIPT.format(**about))
         return ["python3", str(path), *batch.options]
 
     def cancel(self, out: Path) -> list[str]:
-        """Kill the job that was launched last."""
+        """Return the command that kills the last launched job."""
         jobs = self.folder(out) / "jobs.txt"
         if not jobs.exists():
-            raise UsageError(f"{out}: nothing was launched on OpenCue from here")
+            raise UsageError(f"{out}: no job was launched on OpenCue from this folder")
         return ["cueadmin", "-force", "-kill", *jobs.read_text("utf-8").split()]
 
 
-def _find_name(batch: Batch) -> str:
-    """A name that OpenCue takes."""
+def _job_name(batch: Batch) -> str:
+    """Make a job name that OpenCue accepts."""
     return re.sub(r"[^a-z0-9_]+", "_", f"firetwin_{Path(batch.job.scene).stem}".lower())
 
 
-def find_layers(batch: Batch) -> list[tuple[str, str, str]]:
-    """Name, command and frames of each layer; a worker's shell reads the command."""
+def list_layers(batch: Batch) -> list[tuple[str, str, str]]:
+    """List name, command and frames of each layer; the command is quoted for a worker's shell."""
     out = shlex.quote(str(batch.out))
-    farm = f"{shlex.join(find_command())} farm"
+    farm = f"{shlex.join(firetwin_command())} farm"
     layers = [
         (stage, f"{farm} task {out} #IFRAME#", frame_list.write(numbers))
         for stage in ("bake", "render")

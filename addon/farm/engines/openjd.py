@@ -1,4 +1,4 @@
-"""Open Job Description: a job template, which `openjd run` runs on one machine."""
+"""Open Job Description: a job template, which `openjd run` executes on one machine."""
 
 from __future__ import annotations
 
@@ -9,40 +9,42 @@ from typing import Any
 from ... import files
 from ...errors import UsageError
 from ...shot.schema import frame_list
-from ..plan import FILE, place
-from ._engine import Batch, Engine, find_command
+from ..plan import FILE, job_dir
+from ._engine import Batch, Engine, firetwin_command
 
-_GRACE = 60  # s from the notice to a task until it is ended for certain
-_CHUNK_SECONDS = 600  # an engine that may, gives tasks one after the other to a command for so long
+_GRACE = 60  # s from SIGTERM to SIGKILL
+_CHUNK_SECONDS = 600  # target run time of a command that runs several tasks
 
 
 class OpenJD(Engine):
-    """Steps bake, render and assemble; an engine may run several tasks with one command."""
+    """Steps bake, render and assemble; an engine can run several tasks with one command."""
 
     name = "openjd"
     help = "Open Job Description: openjd run"
 
     def write(self, batch: Batch) -> list[str]:
-        """Write the template and the values of its parameters."""
+        """Write the template and its parameter values."""
         folder = self.folder(batch.out)
         path, values = folder / "template.json", folder / "parameters.json"
         files.write_text(path, json.dumps(template(batch), indent=1) + "\n")
-        files.write_text(values, json.dumps(paths(batch) | {"Program": find_command()[0]}, indent=1) + "\n")
+        files.write_text(
+            values, json.dumps(paths(batch) | {"Program": firetwin_command()[0]}, indent=1) + "\n"
+        )
         return ["openjd", "run", str(path), "--job-param", f"file://{values}", *batch.options]
 
     def cancel(self, out: Path) -> list[str]:
-        """There is nothing to tell: `openjd run` runs while one waits for it."""
-        raise UsageError(f"{out}: openjd run ends its tasks by Ctrl-C or SIGTERM")
+        """Refuse: `openjd run` runs in the foreground."""
+        raise UsageError(f"{out}: stop openjd run with Ctrl-C or SIGTERM, which ends its tasks")
 
 
 def paths(batch: Batch) -> dict[str, str]:
-    """Values of the parameters that are paths: an engine maps them to those of another machine."""
-    return {"Out": str(batch.out), "Job": str(place(batch.out) / FILE), "Scene": batch.job.scene}
+    """Return the path parameters, which an engine maps to the paths of each machine."""
+    return {"Out": str(batch.out), "Job": str(job_dir(batch.out) / FILE), "Scene": batch.job.scene}
 
 
 def template(batch: Batch) -> dict[str, Any]:
-    """A job template of specification jobtemplate-2023-09 with TASK_CHUNKING."""
-    _, *arguments = find_command()
+    """Build a job template of specification jobtemplate-2023-09 with TASK_CHUNKING."""
+    _, *arguments = firetwin_command()
     steps: list[dict[str, Any]] = []
     for stage in ("bake", "render"):
         if numbers := batch.stage(stage):
@@ -69,7 +71,7 @@ def _path(name: str, kind: str, flow: str) -> dict[str, str]:
 
 
 def _step(name: str, command: list[str], last: list[str], before: list[str]) -> dict[str, Any]:
-    """A step that runs a command of ours; the scene file is where the engine has mapped it to."""
+    """Build a step that runs a Firetwin command on the mapped path of the scene file."""
     action = {
         "command": "{{Param.Program}}",
         "args": [*command, "--scene", "{{Param.Scene}}", "{{Param.Out}}", *last],

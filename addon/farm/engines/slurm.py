@@ -1,4 +1,4 @@
-"""Slurm: a job array for each stage, with dependencies. Options are those that 22.05 and later know."""
+"""Slurm: a job array per stage, with dependencies. Needs Slurm 22.05 or later."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from ... import files
 from ...errors import UsageError
 from ...shot.schema import frame_list
 from . import _shell
-from ._engine import Batch, Engine, find_command
+from ._engine import Batch, Engine, firetwin_command
 
-LARGEST = 1001  # Slurm's own MaxArraySize: indices are below it
-_WARNING = 120  # s before the time limit at which a task is told to end
-_TRIES = 3  # how often a task is put into the queue again
+DEFAULT_MAX_ARRAY_SIZE = 1001  # default MaxArraySize of Slurm: indices are below it
+_WARNING = 120  # s before the time limit, when a task receives SIGTERM
+_TRIES = 3  # requeues of a task
 
 _TASK = (
     """\
@@ -27,7 +27,7 @@ _TASK = (
     + """\
 run {command} farm task {out} $(($1 + ${{SLURM_ARRAY_TASK_ID:-0}}))
 status=$?
-# 75: no device or disk now; 143: the time limit is near. A task that was cancelled is not RUNNING any more.
+# 75: no device or disk space; 143: the time limit is near. A cancelled task is no longer RUNNING.
 if [[ $status = 75 || $status = 143 ]] && [ "${{SLURM_RESTART_COUNT:-0}}" -lt {tries} ] &&
   [ "$(squeue -h -j "$SLURM_JOB_ID" -o %T)" = RUNNING ]; then
   scontrol requeue "$SLURM_JOB_ID"
@@ -43,7 +43,7 @@ exec {command} farm assemble {out}
 
 _SUBMIT = """\
 #!/bin/bash
-# Submits the job; options of sbatch that follow are for all of it.
+# Submits the job; arguments are options of sbatch for all its parts.
 set -euo pipefail
 shopt -s inherit_errexit
 options=({options} "$@")
@@ -58,7 +58,7 @@ submit() {{ # submit DEPENDENCY ARGUMENTS...: prints the number of the Slurm job
   echo "$number"
 }}
 array=(--output={logs}/%x-%A_%a.out)
-defaults=(--signal=B:TERM@{warning}) # of tasks; options given above win
+defaults=(--signal=B:TERM@{warning}) # for tasks; the options above override them
 bake= render=
 {lines}
 defaults=()
@@ -69,7 +69,7 @@ echo "submitted Slurm jobs $(tr '\\n' ' ' <"$ids")"
 
 
 class Slurm(Engine):
-    """Arrays of at most `MaxArraySize` tasks: bake, then render, then assemble whatever became of those."""
+    """Arrays of at most `MaxArraySize` tasks: bake, render, then assemble even if tasks have failed."""
 
     name = "slurm"
     help = "Slurm: sbatch with job arrays"
@@ -81,7 +81,11 @@ class Slurm(Engine):
         names = {
             name: shlex.quote(str(folder / name)) for name in ("task.sh", "assemble.sh", "jobs.txt", "log")
         }
-        about = {"command": shlex.join(find_command()), "out": shlex.quote(str(batch.out)), "tries": _TRIES}
+        about = {
+            "command": shlex.join(firetwin_command()),
+            "out": shlex.quote(str(batch.out)),
+            "tries": _TRIES,
+        }
         files.write_text(folder / "task.sh", _TASK.format(name="task.sh", **about))
         files.write_text(folder / "assemble.sh", _ASSEMBLE.format(**about))
         submit = _SUBMIT.format(
@@ -89,45 +93,45 @@ class Slurm(Engine):
             ids=names["jobs.txt"],
             logs=names["log"],
             warning=_WARNING,
-            lines="\n".join(_lines(batch, names["task.sh"], largest())),
+            lines="\n".join(_submit_lines(batch, names["task.sh"], max_array_size())),
             assemble=names["assemble.sh"],
         )
         files.write_text(folder / "submit.sh", submit)
         return ["bash", str(folder / "submit.sh")]
 
     def cancel(self, out: Path) -> list[str]:
-        """Cancel all jobs that were submitted last."""
+        """Return the command that cancels the last submitted jobs."""
         ids = self.folder(out) / "jobs.txt"
         found = ids.read_text("utf-8").split() if ids.exists() else []
         if not found:
-            raise UsageError(f"{out}: nothing was submitted to Slurm from here")
+            raise UsageError(f"{out}: no job was submitted to Slurm from this folder")
         return ["scancel", *found]
 
 
-def arrays(numbers: list[int], most: int) -> list[tuple[int, str]]:
-    """Bases and lists of indices, as --array takes them, of task numbers; indices are below `most`."""
+def split_arrays(numbers: list[int], most: int) -> list[tuple[int, str]]:
+    """Split task numbers into arrays: base number, and list of indices below `most` for --array."""
     parts = defaultdict(list)
     for number in numbers:
         parts[number // most * most].append(number)
     return [(base, frame_list.write(number - base for number in part)) for base, part in parts.items()]
 
 
-def largest() -> int:
-    """How many tasks an array may have here."""
+def max_array_size() -> int:
+    """Find the limit of array indices (MaxArraySize) on this cluster."""
     try:
         shown = subprocess.run(["scontrol", "show", "config"], capture_output=True, text=True, timeout=30)
     except (OSError, subprocess.SubprocessError):
-        return LARGEST
+        return DEFAULT_MAX_ARRAY_SIZE
     found = re.search(r"^MaxArraySize\s*=\s*(\d+)", shown.stdout, re.MULTILINE)
-    return max(int(found[1]), 1) if found else LARGEST
+    return max(int(found[1]), 1) if found else DEFAULT_MAX_ARRAY_SIZE
 
 
-def _lines(batch: Batch, script: str, most: int) -> list[str]:
-    """Lines that submit the arrays of each stage, and gather their numbers."""
+def _submit_lines(batch: Batch, script: str, most: int) -> list[str]:
+    """Write the lines that submit the arrays of each stage and collect their job numbers."""
     lines = []
     for stage, after in (("bake", ""), ("render", "${bake:+afterok$bake}")):
         wait = f'"{after}" --kill-on-invalid-dep=yes' if after else '""'
-        for base, listed in arrays(batch.stage(stage), most):
+        for base, listed in split_arrays(batch.stage(stage), most):
             call = (
                 f'submit {wait} "${{array[@]}}" --job-name=firetwin-{stage} --array={listed} {script} {base}'
             )

@@ -62,7 +62,7 @@ def test_a_task_with_wrong_input_runs_once_and_the_final_node_still_runs(condor,
     subprocess.run(shlex.split(command), env=condor.environment, check=True)
     condor.wait()
     log = out / "farm" / "htcondor" / "log"
-    assert (log / "render-99.out").read_text().count("there is no task 99") == 1
+    assert (log / "render-99.out").read_text().count("task 99 does not exist") == 1
     assert "not rendered" in (log / "assemble.out").read_text()
 
 
@@ -81,7 +81,7 @@ def test_a_task_without_a_device_is_tried_again(condor):
     condor.wait()
     log = (folder / "log" / "nodes.log").read_text()
     assert log.count("Job executing on host") == 1 + 4 + 1  # no render after a bake that failed
-    assert "no farm job here" in (folder / "log" / "assemble.out").read_text()
+    assert "no farm job in this folder" in (folder / "log" / "assemble.out").read_text()
 
 
 def test_a_removed_task_is_told_to_end_and_the_final_node_runs(condor):

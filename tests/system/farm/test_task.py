@@ -25,7 +25,7 @@ def test_a_task_that_runs_again_makes_nothing_that_is_whole(film, tasks, tmp_pat
     (out / OTHER_3[0]).unlink()
     (out / OTHER_3[1]).write_bytes(b"damaged")
     said = firetwin("farm", "assemble", out, status=1)
-    assert said.splitlines() == ["other rgb 3: not what was rendered", "other depth 3: not rendered"]
+    assert said.splitlines() == ["other rgb 3: damaged or replaced", "other depth 3: not rendered"]
     firetwin("farm", "task", out, 4)
     assert sorted(rendered(out)[-3:]) == sorted(
         path for path in pictures(film[1]) if "other_" in path and "3." in path
