@@ -195,7 +195,7 @@ def test_another_job_is_not_overwritten(tmp_path):
         plan.write(replace(first, count=7), tmp_path)
     assert plan.read(tmp_path) == first
     (tmp_path / "farm" / "job.json").write_text("{}")
-    with pytest.raises(InputError, match="no farm job"):
+    with pytest.raises(InputError, match="not a farm job"):
         plan.read(tmp_path)
     with pytest.raises(InputError, match="firetwin farm SCENE"):
         plan.read(tmp_path / "nothing")
