@@ -22,10 +22,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import Error
+from . import symmetry
 from .model import KM, USUAL, Model, Options
 from .problem import SMALLEST, Problem
 
 Array = NDArray[np.float64]
+Whole = NDArray[np.int64]
 
 _SHORT = 0.01  # m of line, the solver's tolerance
 
@@ -68,8 +70,9 @@ def solve(problem: Problem, options: Options = USUAL) -> Answer | None:
     values, bound, in_time = model.run(model.objective(), options)
     if values is None:
         return None
-    division, hour = model.read(values)
-    answer = valued(problem, division, hour)
+    counts, _ = model.read(values)
+    division = symmetry.assign(model.classes, _without_spare(problem, model.classes, counts))
+    answer = valued(problem, division, _first_hour(problem, built(problem, division)))
     return replace(answer, bound=min(bound, answer.cost + answer.loss), in_time=in_time)
 
 
@@ -79,6 +82,43 @@ def shortest_line(problem: Problem, options: Options = USUAL) -> tuple[Array, ND
     values, _, _ = model.run(model.lacking(), options)
     assert values is not None
     return KM * values[model.slack], model.read(values)[1]
+
+
+def _without_spare(problem: Problem, classes: list[Whole], counts: Whole) -> Whole:
+    """Remove resources that the answer does not need, the most expensive class and the last division first.
+
+    Their cost is within the solver's gap, or 0.
+    """
+    first = np.array([members[0] for members in classes], np.int64)
+    line, in_time = problem.line[first], problem.in_time[first]
+    wanted = [(problem.of(kind)[first], number) for kind, number in problem.request.response.items()]
+
+    def needed(counts: Whole) -> bool:
+        sent = [(counts * in_time)[of_kind].sum() for of_kind, _ in wanted]
+        short = any(there < number for there, (_, number) in zip(sent, wanted, strict=True))
+        return short or bool((_first_hour(problem, np.einsum("ck,ckt->kt", counts, line)) != hour).any())
+
+    hour = _first_hour(problem, np.einsum("ck,ckt->kt", counts, line))
+    for c in sorted(
+        np.flatnonzero(counts.any(axis=1)), key=lambda c: (problem.cost[first[c]], c), reverse=True
+    ):
+        for k in reversed(range(counts.shape[1])):
+            while counts[c, k]:
+                fewer = counts.copy()
+                fewer[c, k] -= 1
+                if needed(fewer):
+                    break
+                counts = fewer
+    return counts
+
+
+def _first_hour(problem: Problem, line: Array) -> Whole:
+    """Return the first hour (k,) at which the line (k, t), m, is as long as the front; -1: escapes.
+
+    No later hour is better: the loss of a division rises from hour to hour.
+    """
+    held = line >= problem.perimeter - _SHORT  # False for NaN
+    return np.where(held.any(axis=1), held.argmax(axis=1), -1)
 
 
 def valued(problem: Problem, division: NDArray[np.int64], hour: NDArray[np.int64]) -> Answer:
@@ -105,13 +145,8 @@ def check(problem: Problem, answer: Answer) -> None:
     Error
         It is no answer.
     """
-    line = built(problem, answer.division)
-    for k in np.flatnonzero(answer.hour >= 0):
-        short = problem.perimeter[k, answer.hour[k]] - line[k, answer.hour[k]]
-        if not short <= _SHORT:
-            raise Error(
-                f"the solver's answer is {short:.3f} m of line short in a division; please report this"
-            )
+    if problem.request.escape is None and (answer.hour < 0).any():
+        raise Error("the solver's answer leaves a division uncontained; please report this")
     budget = problem.request.budget
     if budget is not None and answer.cost > budget + SMALLEST:
         raise Error(f"the solver's answer costs {answer.cost:.2f}, over the budget; please report this")

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import Error
-from . import ties
+from . import symmetry
 from .problem import Problem
 
 if TYPE_CHECKING:
@@ -60,14 +60,13 @@ def scipy() -> ModuleType:
 
 
 class Model:
-    """Rows and bounds over x (c, k), y (k, t + 1) with "escapes" last, and perhaps missing line (k,), km.
+    """Rows and bounds over x (c, k), y (k, t + 1) with "escapes" last, and optionally missing line (k,), km.
 
-    x counts resources of a class that are `ties.alike`. That has the same answers as a binary for each of
-    them, and none that differ only by who of them goes where; the lowest ids go, to the first divisions.
+    x counts the resources of a class (`symmetry`) that are sent to a division.
     """
 
     def __init__(self, problem: Problem, slack: bool = False) -> None:
-        self.problem, self.classes = problem, ties.alike(problem)
+        self.problem, self.classes = problem, symmetry.interchangeable(problem)
         self.first = np.array([members[0] for members in self.classes], np.int64)
         self.k, self.t = problem.perimeter.shape
         end = len(self.classes) * self.k
@@ -82,11 +81,10 @@ class Model:
         self._build()
 
     def objective(self) -> Array:
-        """Costs and losses with what breaks ties."""
-        to_send, to_hold = ties.ranks(self.problem)
+        """Return the weights of costs and losses."""
         weight = np.zeros(self.count)
-        weight[self.x] = (self.problem.cost[:, None] + to_send)[self.first]
-        weight[self.y[:, :-1]] = np.nan_to_num(self.problem.loss + to_hold)
+        weight[self.x] = self.problem.cost[self.first][:, None]
+        weight[self.y[:, :-1]] = np.nan_to_num(self.problem.loss)
         weight[self.y[:, -1]] = self.problem.escape
         return weight
 
@@ -122,13 +120,9 @@ class Model:
         return result.x, float(result.mip_dual_bound), not over
 
     def read(self, values: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Division (n,) and hour (k,) of values, -1 for none."""
-        division = np.full(len(self.problem.ids), -1)
-        for members, counts in zip(self.classes, np.round(values[self.x]).astype(int), strict=True):
-            sent = np.repeat(np.arange(self.k), counts)
-            division[members[: len(sent)]] = sent
+        """Return counts by class and division (c, k), and the hour of containment (k,), -1: escapes."""
         hour = np.argmax(values[self.y], axis=1)
-        return division, np.where(hour == self.t, -1, hour)
+        return np.round(values[self.x]).astype(np.int64), np.where(hour == self.t, -1, hour)
 
     def _most(self) -> Array:
         """Upper bounds: 0 for what cannot be, or what cannot help."""

@@ -16,6 +16,7 @@ from ..errors import UsageError, input_error
 from ..progress import count, result, say
 from ..run import labels, times, zone
 from . import exercise, ignition, importers, merging, page, reading, search, station_search, writing
+from .query import Query
 from .records import EXERCISE
 
 
@@ -105,8 +106,8 @@ def find_resources(arguments: argparse.Namespace, fire: OpenFire) -> int:
     if arguments.ahead:
         answer = answer.ahead(arguments.clearance)
     result(json.dumps(answer.plain(), indent=1, ensure_ascii=False) if arguments.json else answer.page())
-    if answer.found.shortfall:
-        say(f"no set: {answer.found.shortfall}")
+    if answer.shortfall:
+        say(f"no set: {answer.shortfall}")
         return 1
     return 0
 
@@ -156,8 +157,8 @@ def _near(arguments: argparse.Namespace, fire: Fire | None) -> tuple[float, floa
     return found
 
 
-def _query(arguments: argparse.Namespace, near: tuple[float, float] | None) -> search.Query:
-    return search.Query(
+def _query(arguments: argparse.Namespace, near: tuple[float, float] | None) -> Query:
+    return Query(
         near=near,
         within_km=arguments.within,
         minutes=arguments.minutes,

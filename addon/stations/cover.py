@@ -46,20 +46,20 @@ def cheapest(cost: Whole, gain: Whole, need: int) -> Whole | None:
         return None
     factor = len(items) + 1  # of two sets of one cost the one of fewer items
     if float(cost[items].sum()) * factor > _MOST:
-        return _picked(items, cost[items], gains, need)
-    return _picked(items, cost[items] * factor + 1, gains, need)
+        return _solve_scaled(items, cost[items], gains, need)
+    return _solve_scaled(items, cost[items] * factor + 1, gains, need)
 
 
-def _picked(items: Whole, prices: Whole, gains: Whole, need: int) -> Whole:
-    kept, bound = _needed(prices, gains, need)
+def _solve_scaled(items: Whole, prices: Whole, gains: Whole, need: int) -> Whole:
+    kept, bound = _reduce(prices, gains, need)
     chosen = _solve(prices[kept], gains[kept], need, bound)
     return np.sort(items[kept[chosen]])
 
 
-def _needed(prices: Whole, gains: Whole, need: int) -> tuple[Whole, int]:
+def _reduce(prices: Whole, gains: Whole, need: int) -> tuple[Whole, int]:
     """Items that a cheapest set may hold, by ascending price of a gain, and the price of some set."""
     order = np.lexsort((np.arange(len(prices)), -gains, prices / gains))
-    order = order[_first_alike(prices[order], gains[order], need)]
+    order = order[_first_equal(prices[order], gains[order], need)]
     p, g = prices[order], gains[order]
     last = int(np.searchsorted(np.cumsum(g), need))
     bound = _greedy(p, g, need, last)
@@ -70,7 +70,7 @@ def _needed(prices: Whole, gains: Whole, need: int) -> tuple[Whole, int]:
     return order[relaxed + extra <= bound * (1.0 + 1e-12) + 1e-6], bound
 
 
-def _first_alike(prices: Whole, gains: Whole, need: int) -> NDArray[np.bool_]:
+def _first_equal(prices: Whole, gains: Whole, need: int) -> NDArray[np.bool_]:
     """Of alike items, which lie side by side, no more than are enough by themselves."""
     new = np.concatenate([[True], (np.diff(prices) != 0) | (np.diff(gains) != 0)])
     starts = np.flatnonzero(new)
@@ -92,11 +92,11 @@ def _solve(prices: Whole, gains: Whole, need: int, bound: int) -> Whole:
     sums, spent = (np.concatenate([zero, np.cumsum(each)]) for each in (gains, prices))
     limit, best = bound + 1, zero[:0]
     for item, (price, gain) in enumerate(zip(prices, gains, strict=True)):
-        states = _grown(steps[-1], int(price), int(gain), need)
+        states = _extend(steps[-1], int(price), int(gain), need)
         for enough in np.flatnonzero(states.gain >= need):  # one at most, as others cost more
             if states.cost[enough] < limit:
                 limit = int(states.cost[enough])
-                best = np.append(_traced(steps, int(states.before[enough])), item)
+                best = np.append(_backtrack(steps, int(states.before[enough])), item)
         lacking, done = need - states.gain, sums[item + 1]
         least = np.interp(lacking + done, sums[item + 1 :], spent[item + 1 :]) - spent[item + 1]
         keep = (lacking > 0) & (lacking <= sums[-1] - done)
@@ -107,7 +107,7 @@ def _solve(prices: Whole, gains: Whole, need: int, bound: int) -> Whole:
     return best
 
 
-def _grown(states: _States, price: int, gain: int, need: int) -> _States:
+def _extend(states: _States, price: int, gain: int, need: int) -> _States:
     """States without and with one more item; of equal ones that without comes first."""
     cost = np.concatenate([states.cost, states.cost + price])
     sums = np.minimum(np.concatenate([states.gain, states.gain + gain]), need)
@@ -119,7 +119,7 @@ def _grown(states: _States, price: int, gain: int, need: int) -> _States:
     return _States(cost[keep], sums[keep], before[keep], taken[keep])
 
 
-def _traced(steps: list[_States], state: int) -> Whole:
+def _backtrack(steps: list[_States], state: int) -> Whole:
     """Items of a state of the last step."""
     found = []
     for item in range(len(steps) - 1, 0, -1):

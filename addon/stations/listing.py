@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 
 from . import search, station_search
 from .describe import count_types
+from .query import Query
 from .records import EXERCISE, Resource, Station
-from .search import Query
 from .station_file import StationFile
 
 _TYPES = 6  # types of resources that are named of one station

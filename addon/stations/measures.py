@@ -4,17 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from datetime import datetime
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .distance import covers, distance_km
+from .query import Query
 from .records import AIR, DETOUR
 from .station_file import StationFile
-
-if TYPE_CHECKING:
-    from .search import Query
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

@@ -16,6 +16,7 @@ from ..escaped import escaped
 from ..progress import count
 from ..run import times
 from . import fire_arrival, search, station_search
+from .query import Query
 from .records import EXERCISE, Source
 from .station_file import StationFile
 
@@ -25,9 +26,14 @@ class Answer:
     """Answer of a search, with the fire of a run where one is named."""
 
     station_file: StationFile
-    query: search.Query
+    query: Query
     found: search.Found | station_search.Found
     run: Run | None = None
+
+    @property
+    def shortfall(self) -> str:
+        """Reason why no set delivers enough; empty if there is a set, and for stations."""
+        return self.found.shortfall if isinstance(self.found, search.Found) else ""
 
     @property
     def matches(self) -> Sequence[search.Match | station_search.StationMatch]:
@@ -107,7 +113,7 @@ class Answer:
             "assumptions": self.assumptions(),
             "sources": [asdict(source) for source in self.sources],
             "left_out": self.found.left_out,
-            "shortfall": self.found.shortfall,
+            "shortfall": self.shortfall,
             "matches": [
                 asdict(each) | ({"fire": self._fire(k)} if self.run else {})
                 for k, each in enumerate(self.matches)

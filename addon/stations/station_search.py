@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .distance import distance_km
+from .query import Query
 from .records import Station
-from .search import Query
 from .station_file import StationFile
 
 
@@ -26,7 +26,6 @@ class Found:
 
     matches: list[StationMatch]
     left_out: dict[str, int] = field(default_factory=dict)
-    shortfall: str = ""
 
 
 def survey(station_file: StationFile, query: Query) -> Found:

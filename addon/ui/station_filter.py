@@ -11,8 +11,8 @@ import bpy
 from ..errors import Error
 from ..run import times
 from ..stations import arguments
+from ..stations.query import Query
 from ..stations.records import MODES
-from ..stations.search import Query
 from . import keys, station_data, station_sync, time
 from .station_data import Loaded
 
@@ -78,12 +78,6 @@ class FIRETWIN_PG_stationfilter(bpy.types.PropertyGroup):
 def shown_time(panel: bpy.types.PropertyGroup) -> datetime | None:
     """Time of the current frame, UTC; None before a build."""
     return time.shown_time(panel) if panel.first_time else None
-
-
-def follows_time(panel: bpy.types.PropertyGroup) -> bool:
-    """Whether the list depends on the time that is shown."""
-    chosen = panel.station_filter
-    return bool(panel.first_time) and (chosen.available or chosen.near == HEAD)
 
 
 def query(panel: bpy.types.PropertyGroup, loaded: Loaded) -> Query:

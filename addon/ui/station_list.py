@@ -14,8 +14,8 @@ from ..errors import Error
 from ..progress import count
 from ..stations import fire_arrival, listing
 from ..stations.listing import Row
+from ..stations.query import Query
 from ..stations.records import Station
-from ..stations.search import Query
 from . import station_data, station_filter
 from .station_data import Key, Loaded
 

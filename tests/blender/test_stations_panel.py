@@ -9,7 +9,7 @@ import pytest
 from exercise_stations import BASE, BEYOND, NEAR
 from firetwin.scene.stations.handles import STATION
 from firetwin.stations import describe, search
-from firetwin.stations.search import Query
+from firetwin.stations.query import Query
 from firetwin.ui import (
     station_data,
     station_list,

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from exercise_stations import STATION_FILE
 from firetwin.stations import ignition, letters, listing, picture, search
+from firetwin.stations.query import Query
 from firetwin.stations.records import EXERCISE
-from firetwin.stations.search import Query
 from firetwin.stations.station_file import StationFile
 from random_stations import CENTRE, NOON, random_stations
 

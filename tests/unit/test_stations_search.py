@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from firetwin.stations import cover, measures, search
 from firetwin.stations.distance import covers, distance_km
+from firetwin.stations.query import Query
 from firetwin.stations.records import Area, Availability, Resource, Source, Station
-from firetwin.stations.search import Query
 from firetwin.stations.station_file import StationFile
 from firetwin.stations.types import standard_types
 from random_stations import CENTRE, NOON, random_stations
