@@ -78,7 +78,7 @@ def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Messa
         bake.bake(shot, progress)
     worker_scene.build_scene(shot, progress, tell)
     viewport.prepare_file()
-    smoke.relative(Path(out))
+    smoke.make_paths_relative(Path(out))
     save(Path(out), relative_remap=False)
 
 

@@ -52,7 +52,7 @@ class Eye:
         marched = np.zeros((*at.shape, 4), np.float32)
         marched[..., 3] = not self.smoke
         if self.smoke:
-            light, ends = illumination.visible(self.stage), at.reshape(-1, 3)
+            light, ends = illumination.visible_light(self.stage), at.reshape(-1, 3)
             for place in _PLACES:
                 found = volume.march(self.smoke, *_lines(self._through(at=place)), ends, light, _STEP)
                 marched += found.reshape(marched.shape) / np.float32(len(_PLACES))
@@ -69,7 +69,7 @@ class Eye:
         )
         if not self.smoke:
             return bare
-        air = illumination.warm(self.shot, self.stage, frame)
+        air = illumination.infrared_arguments(self.shot, self.stage, frame)
         marched = volume.march_infrared(self.smoke, *_lines(self.rays), self.distance.ravel(), **air)
         light, through = np.moveaxis(marched.reshape(*self.shape, 2), -1, 0)
         return bare * through + light
@@ -79,7 +79,7 @@ class Eye:
         if not self.smoke:
             return np.ones(self.shape, np.float32)
         depth = volume.optical_depth(self.smoke, *_lines(self.rays), self.distance.ravel(), step=_STEP)
-        return np.exp(-depth * illumination.thickness(self.stage)).reshape(self.shape)
+        return np.exp(-depth * illumination.extinction_factor(self.stage)).reshape(self.shape)
 
     def hidden_by_near_smoke(self, near: float) -> float:
         """Estimate the share of the picture, 0 to 1, that is hidden by smoke nearer than `near` m."""
@@ -89,7 +89,7 @@ class Eye:
         directions = rays.directions[every].reshape(-1, 3)
         origins = rays.origins if rays.origins.ndim == 1 else rays.origins[every].reshape(-1, 3)
         depth = volume.optical_depth(self.smoke, origins, directions, np.full(len(directions), near), _STEP)
-        return float((depth * illumination.thickness(self.stage) > _HIDES).mean())
+        return float((depth * illumination.extinction_factor(self.stage) > _HIDES).mean())
 
     @functools.cached_property
     def distance(self) -> Array:

@@ -60,7 +60,7 @@ def build(shot: Shot, identify: Identify, progress: Progress = silent) -> int:
     infrared.build(shot, stage)
     trees = library.tree_models(shot, stage)
     forest.node_group(shot, "Firetwin Trees", trees)
-    fire.node_group(shot, fire.cards(shot, stage))
+    fire.node_group(shot, fire.build_cards(shot, stage))
     firebrand_material.build(shot, stage)
     for look, name in ((puff_material, "Puffs"), (flow_material, "Flow")):
         material = look.build(shot, stage)

@@ -60,7 +60,9 @@ def radiance_at_camera(tree: nodes.Tree, shot: Shot, stage: Stage, radiance: Any
     return tree.mix(clear, own, radiance)
 
 
-def smoke(tree: nodes.Tree, shot: Shot, stage: Stage, visible: Any, density: nodes.Value) -> nodes.Value:
+def select_smoke_shader(
+    tree: nodes.Tree, shot: Shot, stage: Stage, visible: Any, density: nodes.Value
+) -> nodes.Value:
     """Return `visible`, a smoke shader of this extinction (1/m) in green light; in data layers its emission.
 
     In masks smoke absorbs as in green light and emits nothing.

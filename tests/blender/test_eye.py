@@ -15,7 +15,7 @@ SHAPE = 64, 96
 @pytest.fixture
 def looking(monkeypatch):
     """An eye at a place (m) that looks along x; smoke of 0.1 /m fills 400 m from the origin on, y below 0."""
-    monkeypatch.setattr(illumination, "thickness", lambda stage: 1.0)
+    monkeypatch.setattr(illumination, "extinction_factor", lambda stage: 1.0)
     density = np.full((40, 40, 40), 0.1, np.float32)
     ones = np.ones_like(density)
     smoke = [volume.Bricks(density, ones, ones, ones, None, voxel_size=10.0, origin=(0.0, -390.0, -200.0))]

@@ -16,7 +16,7 @@ from firetwin_core import run as runs
 
 @pytest.fixture
 def points(shot):
-    return flames.front(shot)
+    return flames.front_flames(shot)
 
 
 def placed(scene, frame):
@@ -37,13 +37,13 @@ def test_flame_lengths_are_those_of_the_formulas():
 
 def test_low_flames_leave_gaps_and_tall_ones_none(shot):
     place = np.stack([np.linspace(0.0, 4000.0, 4000), np.zeros(4000), np.zeros(4000)], axis=-1)
-    assert flames._unbroken(place, np.full(4000, 10.0), shot).all()
-    kept = [flames._unbroken(place, np.full(4000, length), shot).mean() for length in (0.4, 2.0, 4.0)]
+    assert flames._outside_gaps(place, np.full(4000, 10.0), shot).all()
+    kept = [flames._outside_gaps(place, np.full(4000, length), shot).mean() for length in (0.4, 2.0, 4.0)]
     assert 0.3 < kept[0] < kept[1] < kept[2] < 1.0
 
 
 def test_flames_lean_more_in_more_wind():
-    angles = [float(flames.tilt(wind, np.array(10.0))) for wind in (0.0, 3.0, 30.0)]
+    angles = [float(flames.flame_tilt(wind, np.array(10.0))) for wind in (0.0, 3.0, 30.0)]
     assert angles[0] == 0.0
     assert angles[1] == pytest.approx(np.arctan(1.22 * 3.0 / np.sqrt(98.0665)))
     assert angles[2] <= np.pi / 3
@@ -72,8 +72,8 @@ def test_flames_line_the_visible_front_without_large_gaps(points, shot):
 
 
 def test_no_frame_has_more_flames_than_the_budget(shot, settings, run):
-    full = flames.front(shot)
-    few = flames.front(Shot(replace(settings, fire=replace(settings.fire, budget=30)), run))
+    full = flames.front_flames(shot)
+    few = flames.front_flames(Shot(replace(settings, fire=replace(settings.fire, budget=30)), run))
     times = shot.frames.times
     counts = [len(few.lit(time)) for time in times]
     assert max(counts) <= 30 < max(len(full.lit(time)) for time in times)
@@ -91,7 +91,7 @@ def without_skipping(settings):
 
 
 def test_flames_in_sight_are_those_that_stand_there_without_skipping(shot, settings, run):
-    some, whole = flames.front(shot), flames.front(Shot(without_skipping(settings), run))
+    some, whole = flames.front_flames(shot), flames.front_flames(Shot(without_skipping(settings), run))
     seen = shot.visibility.visible_mask(whole.position, whole.length)
     assert np.sum(seen & (shot.visibility.distance(whole.position) > 2500.0)) > 100
     assert len(some.seed) < len(whole.seed)
@@ -110,9 +110,9 @@ def test_a_front_of_fewer_flames_is_as_bright(shot, monkeypatch):
         far = shot.visibility.distance(lit.position) > 2500.0
         return np.sum(far), np.sum((lit.width * lit.length)[far])
 
-    many = light(flames.front(shot))
+    many = light(flames.front_flames(shot))
     monkeypatch.setattr(flames, "_FINE", 0)
-    few = light(flames.front(shot))
+    few = light(flames.front_flames(shot))
     assert 50 < few[0] < 0.7 * many[0]
     assert few[1] == pytest.approx(many[1], rel=0.15)
 
@@ -133,7 +133,7 @@ def test_scrubbing_moves_the_flames(shot, stage, scene, plain_looks):
 
 
 def test_cells_are_algorithm_1(shot, settings, run):
-    found = flames.cells(Shot(replace(settings, fire=FireSettings(emitters="cells")), run))
+    found = flames.cell_flames(Shot(replace(settings, fire=FireSettings(emitters="cells")), run))
     low, high = run.flux_range()
     position = shot.local_frame.forward_grid(
         run.latitude, run.longitude, np.asarray(run.elevation, np.float64)
@@ -168,7 +168,7 @@ def quarters(run_folder, tmp_path):
 def test_flames_smoke_and_flux_agree_on_the_front(settings, quarters):
     """Within a cell of the model, 370 m, in the middle of intervals and in the last one."""
     shot = Shot(settings, quarters)
-    points = flames.front(shot)
+    points = flames.front_flames(shot)
 
     def radius(position):  # in cells of the model
         latitude, longitude, _ = shot.local_frame.reverse(position)
@@ -196,7 +196,7 @@ def test_flames_smoke_and_flux_agree_on_the_front(settings, quarters):
 
 def test_flames_of_a_part_are_those_of_the_whole_that_burn_in_its_frames(settings, run):
     shot = Shot(without_skipping(settings), run)  # what is out of sight too
-    whole, part = flames.front(shot), flames.front(shot.for_frames([2]))
+    whole, part = flames.front_flames(shot), flames.front_flames(shot.for_frames([2]))
     burning = whole.take(whole.lit(float(shot.frames.times[1])))
     assert 0 < len(part.position) < len(whole.position)
     assert np.array_equal(part.position, burning.position)

@@ -14,7 +14,7 @@ from near_fire import FRAMES, moved
 
 
 def flown(shot):
-    return firebrands.fly(shot, flames.front(shot))
+    return firebrands.fly(shot, flames.front_flames(shot))
 
 
 def drawn(scene, frame, subframe=0.0):
@@ -55,7 +55,7 @@ def test_pieces_fly_over_the_ground_and_move_with_the_wind(close, run, monkeypat
 def test_their_number_follows_the_intensity(close, run):
     """Twice the heat throws up twice as many."""
     many = Shot(replace(close, fire=replace(close.fire, firebrands=100_000)), run)
-    points = flames.front(many)
+    points = flames.front_flames(many)
     counts = [
         len(firebrands.fly(many, replace(points, intensity=factor * points.intensity)).life)
         for factor in (0.5, 1.0)
@@ -123,7 +123,7 @@ def test_frames_far_apart_show_the_pieces_of_their_own_moment(settings, run, sta
     place, _, _ = drawn(scene, 2)
     assert len(place) > 50
     assert len(drawn(scene, 2, 0.5)[0]) == 0
-    points = flames.front(shot)
+    points = flames.front_flames(shot)
     lit = points.position[points.lit(float(shot.frames.times[1]))]
     gap = np.linalg.norm(place[:, None] - lit[None], axis=-1).min(axis=1)
     assert np.median(gap) < 120.0

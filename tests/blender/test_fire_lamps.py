@@ -32,7 +32,7 @@ def lit():
 
 def test_lamps_stand_for_all_heat_near_the_cameras(near, run):
     shot = Shot(near, run)
-    ground, found = shot.ground, lamps.place(shot)
+    ground, found = shot.ground, lamps.place_lamps(shot)
     model = Fire(run, -np.inf, np.inf)
     luminous = [model.sources(float(time)).luminous().power.sum() for time in found.time]
     assert 2 < len(found.radius) <= 48
@@ -44,7 +44,7 @@ def test_lamps_stand_for_all_heat_near_the_cameras(near, run):
 
 def test_no_more_lamps_than_allowed_and_the_same_again(near, run):
     few = replace(near, light=Light(lamps=5))
-    first, again = (lamps.place(Shot(few, run)) for _ in range(2))
+    first, again = (lamps.place_lamps(Shot(few, run)) for _ in range(2))
     assert len(first.radius) == 5
     assert np.array_equal(first.position, again.position)
     assert np.array_equal(first.heat, again.heat)
@@ -118,7 +118,7 @@ def test_none_are_made_where_no_camera_is_near_the_fire(settings, run, stage, su
     sun_at(-20.0)
     shot = built(from_height(settings, 10_000.0), run, stage)
     assert not lit()
-    found = lamps.place(shot)
+    found = lamps.place_lamps(shot)
     assert found.position.shape == (0, 3)
     assert found.heat.shape == (len(found.time), 0)
 

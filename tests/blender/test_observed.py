@@ -46,6 +46,6 @@ def test_a_ribbon_as_wide_as_it_should_be_with_its_times(seen):
 
 def test_a_square_band_by_hand():
     points = np.array([[0.0, 0, 5], [10, 0, 5], [10, 10, 5], [0, 10, 5]])
-    band = ribbons.ribbon(points, np.sqrt(8.0))
+    band = ribbons.closed_ribbon(points, np.sqrt(8.0))
     np.testing.assert_allclose((band[:4] + band[4:]) / 2, points, atol=1e-6)
     assert abs(band[0] - band[4]).max() == pytest.approx(2.0, rel=1e-6)

@@ -278,7 +278,7 @@ def test_a_file_moved_together_with_its_smoke_keeps_it(smoky, run, stage, tmp_pa
     shot = Shot(replace(smoky, cache=here / "cache"), run)
     bake.bake(shot)
     smoke.build(shot, stage)
-    smoke.relative(blend)
+    smoke.make_paths_relative(blend)
     bpy.ops.wm.save_as_mainfile(filepath=str(blend), relative_remap=False)
     bpy.ops.wm.read_factory_settings(use_empty=True)
     there.parent.mkdir()
@@ -302,9 +302,9 @@ def test_paths_that_are_not_ours_or_on_another_drive_stay(shot, stage, tmp_path,
 
     with monkeypatch.context() as patched:
         patched.setattr(smoke.os.path, "relpath", no_way)
-        smoke.relative(tmp_path / "scene.blend")
+        smoke.make_paths_relative(tmp_path / "scene.blend")
     assert volume.filepath == absolute
-    smoke.relative(tmp_path / "scene.blend")
+    smoke.make_paths_relative(tmp_path / "scene.blend")
     assert volume.filepath == f"//cache/{bake.folder(shot).name}/smoke_000001.vdb"
     assert theirs.filepath == absolute
 

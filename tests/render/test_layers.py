@@ -38,7 +38,7 @@ def plain(settings, stage, scene, shot):
     parts["Smoke"].objects.link(smoke)
     material, tree = nodes.material("Firetwin Smoke")
     black = tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": 1.0})
-    tree.volume(infrared.smoke(tree, shot, stage, black, tree.math("ADD", 1.0, 0.0)))
+    tree.volume(infrared.select_smoke_shader(tree, shot, stage, black, tree.math("ADD", 1.0, 0.0)))
     smoke.data.materials.append(material)
     world = scene.world = bpy.data.worlds.new("Firetwin Sky")
     tree = nodes.Tree(compat.node_tree(world))

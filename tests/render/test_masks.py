@@ -64,7 +64,7 @@ def _smoke(shot, stage):
     box.scale = (100.0, 200.0, 10.0)
     material, tree = nodes.material("Firetwin Smoke")
     dark = tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": 0.1})
-    tree.volume(infrared.smoke(tree, shot, stage, dark, tree.math("ADD", 0.1, 0.0)))
+    tree.volume(infrared.select_smoke_shader(tree, shot, stage, dark, tree.math("ADD", 0.1, 0.0)))
     box.data.materials.append(material)
     owned.mark(box)
 

@@ -65,7 +65,7 @@ def test_what_pictures_are_made_of_is_the_same_to_the_millisecond(both):
     near, far = (Shot(settings, run) for run in both)
     assert np.float32(far.frames.first) == pytest.approx(np.float32(near.frames.first), abs=MILLISECOND)
     assert np.float32(far.frames.last) == pytest.approx(np.float32(near.frames.last), abs=MILLISECOND)
-    points = [flames.front(shot) for shot in (near, far)]
+    points = [flames.front_flames(shot) for shot in (near, far)]
     assert len(points[0].arrival_time) > 100
     for field in fields(flames.Points):
         one, other = (getattr(each, field.name).astype(np.float32) for each in points)

@@ -20,7 +20,7 @@ _NAMES = {"length": "flame_length", "width": "flame_width"}
 
 
 def build(shot: Shot, stage: Stage, grown: Stand | None = None) -> bpy.types.Object | None:
-    """Build "Firetwin Flames", "Firetwin Firebrands" and the lamps, where flames are on, and front lines.
+    """Build "Firetwin Flames", "Firetwin Firebrands" and the lamps (if flames are on), and front lines.
 
     The points carry the attributes of `flames.Points` (`length` as `flame_length`, `width` as `flame_width`).
     """
@@ -29,12 +29,16 @@ def build(shot: Shot, stage: Stage, grown: Stand | None = None) -> bpy.types.Obj
     fronts.build(shot, stage, collection)
     if not shot.settings.fire.flames:
         return None
-    points = flames.cells(shot) if shot.settings.fire.emitters == "cells" else flames.front(shot, grown)
+    points = (
+        flames.cell_flames(shot)
+        if shot.settings.fire.emitters == "cells"
+        else flames.front_flames(shot, grown)
+    )
     obj = owned.add(collection, "Flames", _mesh(points))
     modifier = obj.modifiers.new("Firetwin Flames", "NODES")
-    modifier.node_group = node_group(shot, cards(shot, stage))
+    modifier.node_group = node_group(shot, build_cards(shot, stage))
     obj.color = SHOWN
-    _light_only(obj)
+    _show_to_camera_only(obj)
     firebrand_nodes.build(shot, stage, points, collection)
     lamp_objects.build(shot, collection)
     return obj
@@ -53,29 +57,29 @@ def _mesh(points: flames.Points) -> bpy.types.Mesh:
     return mesh
 
 
-def _light_only(obj: bpy.types.Object) -> None:
-    """Restrict flames to camera rays: they cast no shadow and do not appear in other light paths."""
+def _show_to_camera_only(obj: bpy.types.Object) -> None:
+    """Make flames visible to camera rays only, so that they cast no shadow and light nothing."""
     obj.visible_shadow = obj.visible_diffuse = obj.visible_volume_scatter = False
     obj.lightgroup = nodes.FIRE
 
 
-def cards(shot: Shot, stage: Stage) -> bpy.types.Collection:
-    """Billboards one metre high and wide on z = 0: flat, curved and crossed ones; linked to no scene."""
+def build_cards(shot: Shot, stage: Stage) -> bpy.types.Collection:
+    """Create billboards one metre high and wide on z = 0: flat, curved and crossed; linked to no scene."""
     collection, flame = owned.library("Flame Cards"), material.build(shot, stage)
     for index in range(CARDS):
         mesh = bpy.data.meshes.new(f"Firetwin Flame Card {index}")
-        vertices, faces, cards = _card(index)
+        vertices, faces, cards = _card_geometry(index)
         mesh.from_pydata(vertices, [], faces)
         mesh.attributes.new("card", "FLOAT_VECTOR", "POINT").data.foreach_set("vector", np.ravel(cards))
         mesh.materials.append(flame)
         obj = owned.add(collection, f"Flame Card {index}", mesh)
         obj.color = SHOWN
-        _light_only(obj)
+        _show_to_camera_only(obj)
     return collection
 
 
-def _card(index: int) -> tuple[list, list, list]:
-    """Vertices, faces and card coordinates of one billboard."""
+def _card_geometry(index: int) -> tuple[list, list, list]:
+    """Return vertices, faces and card coordinates of a billboard."""
     sheets = [(0.0, 0.0)] if index == 0 else [(0.0, 0.25)] if index == 1 else [(0.0, -0.25)]
     if index == 3:
         sheets = [(-0.5, 0.0), (0.7, 0.1)]  # rotation about the vertical, curvature
@@ -102,7 +106,7 @@ def _card(index: int) -> tuple[list, list, list]:
 
 
 def node_group(shot: Shot, shapes: bpy.types.Collection) -> bpy.types.NodeTree:
-    """Geometry nodes: flaming points -> billboards that face the camera, lean downwind, grow and decay."""
+    """Build geometry nodes: flaming points -> billboards that face the camera, tilt, grow and decay."""
     tree, entry = nodes.geometry("Firetwin Flames")
 
     def named(name: str) -> nodes.Value:
@@ -119,7 +123,7 @@ def node_group(shot: Shot, shapes: bpy.types.Collection) -> bpy.types.NodeTree:
     yaw = tree.math("ARCTAN2", north, east) + (np.pi / 2.0) + (seed - 0.5) * 0.9
     facing = tree.output("FunctionNodeEulerToRotation", {"Euler": tree.combine(0.0, 0.0, yaw)})
     east_wind, north_wind = shot.wind
-    leaning = tree.input("Lean", 1.0, "Factor on how far the wind bends flames", "Shape")
+    leaning = tree.input("Lean", 1.0, "Factor on how far the wind tilts flames", "Shape")
     axis = (-north_wind, east_wind, 0.0) if np.hypot(east_wind, north_wind) > 0.0 else (1.0, 0.0, 0.0)
     lean = tree.output("FunctionNodeAxisAngleToRotation", {"Axis": axis, "Angle": named("tilt") * leaning})
     turned = tree.output(

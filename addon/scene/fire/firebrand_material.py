@@ -11,19 +11,19 @@ from ...shot.shot import Shot
 from .. import glow, haze, infrared
 
 _COOL, _HOT = (1.0, 0.10, 0.008), (1.0, 0.42, 0.10)
-_LIGHT = 40.0  # radiance over that of flames; chosen by eye, as in a long exposure
+_LIGHT = 40.0  # radiance relative to flames; chosen by eye, as in a long exposure
 COLD, FRESH = 900.0, 1300.0  # K
 
 
 def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     """Build "Firetwin Firebrand", whose instances carry `kelvin`, `shine` (0..1) and `cover`.
 
-    `cover` is the firebrand's area over that of the drawn streak, 0..1.
+    `cover` is the firebrand's area as a fraction 0..1 of the drawn streak's area.
     """
     material, tree = nodes.material("Firetwin Firebrand")
     kelvin, shine, cover = (tree.attribute(name, "INSTANCER") for name in ("kelvin", "shine", "cover"))
-    cool = tree.input("Cool Colour", _COOL, "Of a piece about to go out", "Colour")
-    fresh = tree.input("Hot Colour", _HOT, "Of a piece just torn off", "Colour")
+    cool = tree.input("Cool Colour", _COOL, "Colour of a piece that is about to go out", "Colour")
+    fresh = tree.input("Hot Colour", _HOT, "Colour of a piece just torn off", "Colour")
     bright = tree.input("Brightness", _LIGHT * glow.brightness(shot), "Radiance of a fresh piece", "Light")
     part, _air = haze.fraction(tree, stage)
     colour = tree.mix_colour(kelvin.ramp(COLD, FRESH), cool, fresh)

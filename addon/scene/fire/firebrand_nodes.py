@@ -11,17 +11,17 @@ from ...shot.shot import Shot
 from . import firebrand_material, firebrands, flames
 
 _SHUTTER = 0.1  # s, exposure time of a streak
-_PIXELS = 0.8  # least width of a streak in pixels; narrower ones are dimmer instead
+_PIXELS = 0.8  # minimum width of a streak in pixels; narrower streaks are dimmed instead
 _FAR = 2.0 * firebrands.REACH
 """m from the camera beyond which no streak is drawn: a firebrand there adds less than 0.1 K to a pixel. In a
-satellite's picture hundreds of wide streaks would overlap, more transparent surfaces than Cycles traces:
-black pixels."""
+satellite image hundreds of wide streaks would overlap, more transparent surfaces than Cycles traces, which
+gives black pixels."""
 
 
 def build(
     shot: Shot, stage: Stage, points: flames.Points, collection: bpy.types.Collection
 ) -> bpy.types.Object | None:
-    """Build "Firetwin Firebrands" from the result of `firebrands.fly`; nothing without a camera close by.
+    """Build "Firetwin Firebrands" from the result of `firebrands.fly`; None without a camera nearby.
 
     Vertex i k + j is point j of the trajectory of firebrand i. All have the float attributes `start`,
     `birth`, `life` (s after the first frame, s) and `size` (m).
@@ -40,11 +40,11 @@ def build(
     obj = owned.add(collection, "Firebrands", mesh)
     modifier = obj.modifiers.new("Firetwin Firebrands", "NODES")
     modifier.node_group = _node_group(shot, stage, flights, shot.pixel[0])
-    _camera_rays_only(obj)
+    _show_to_camera_only(obj)
     return obj
 
 
-def _camera_rays_only(obj: bpy.types.Object) -> None:
+def _show_to_camera_only(obj: bpy.types.Object) -> None:
     """Make streaks visible to camera rays only."""
     obj.visible_shadow = obj.visible_diffuse = obj.visible_glossy = False
     obj.visible_volume_scatter = False
@@ -52,7 +52,7 @@ def _camera_rays_only(obj: bpy.types.Object) -> None:
 
 
 def _node_group(shot: Shot, stage: Stage, found: firebrands.Flights, pixel: float) -> bpy.types.NodeTree:
-    """Geometry nodes: trajectory points -> a streak per live firebrand, at least `pixel` (radians) wide."""
+    """Build geometry nodes: trajectory points -> a streak per live firebrand, at least `pixel` rad wide."""
     count, each = found.place.shape[:2]
     tree, entry = nodes.geometry("Firetwin Firebrands")
     paths = tree.pick(entry, "Geometry")
@@ -66,7 +66,7 @@ def _node_group(shot: Shot, stage: Stage, found: firebrands.Flights, pixel: floa
         value = tree.output("GeometryNodeInputNamedAttribute", {"Name": name}, data_type="FLOAT")
         return sampled(value, index)
 
-    # Times count from the first frame: seconds since the run began would exceed float precision.
+    # Times count from the first frame: seconds since the start of the run would exceed float precision.
     time = (tree.output("GeometryNodeInputSceneTime", name="Frame") - 1.0) * shot.frames.step
     after = (time - named("start")) / found.step
     part = (time - named("birth")) / named("life")
@@ -74,7 +74,7 @@ def _node_group(shot: Shot, stage: Stage, found: firebrands.Flights, pixel: floa
     position = tree.output("GeometryNodeInputPosition")
     before, behind = (sampled(position, index + low + k, "FLOAT_VECTOR") for k in (0.0, 1.0))
     way = tree.vector("SUBTRACT", behind, before)
-    place = tree.vector("ADD", before, _scaled(tree, way, (after - low).clamp()))
+    place = tree.vector("ADD", before, _scale_vector(tree, way, (after - low).clamp()))
     pieces = tree.output("GeometryNodePoints", {"Count": count, "Position": place, "Radius": 0.0})
     camera = tree.output("GeometryNodeInputActiveCamera")
     eye = tree.output("GeometryNodeObjectInfo", {"Object": camera}, "Location", transform_space="ORIGINAL")
@@ -83,7 +83,7 @@ def _node_group(shot: Shot, stage: Stage, found: firebrands.Flights, pixel: floa
     for out in (part < 0.0, part > 1.0, after < 0.0, after > each - 1.0):
         dead = tree.math("MAXIMUM", dead, out)
     larger = tree.input("Size", 1.0, "Factor on the size of the pieces", "Size")
-    shutter = tree.input("Shutter", _SHUTTER, "Time (s) of a piece's way that a streak shows", "Size")
+    shutter = tree.input("Shutter", _SHUTTER, "Exposure time (s) of a streak", "Size")
     size = named("size") * larger
     width = tree.math("MAXIMUM", size, distance * (_PIXELS * pixel))
     length = width + tree.vector("LENGTH", way, name="Value") * (shutter / found.step)
@@ -112,7 +112,9 @@ def _node_group(shot: Shot, stage: Stage, found: firebrands.Flights, pixel: floa
         "GeometryNodeInstanceOnPoints",
         {
             "Points": alive,
-            "Instance": tree.output("GeometryNodeObjectInfo", {"Object": _streak(shot, stage)}, "Geometry"),
+            "Instance": tree.output(
+                "GeometryNodeObjectInfo", {"Object": _streak_object(shot, stage)}, "Geometry"
+            ),
             "Rotation": stored("turn", "QUATERNION"),
             "Scale": stored("stretch", "FLOAT_VECTOR"),
         },
@@ -121,14 +123,14 @@ def _node_group(shot: Shot, stage: Stage, found: firebrands.Flights, pixel: floa
     return tree.node_tree
 
 
-def _scaled(tree: nodes.Tree, vector: nodes.Value, by: nodes.Value) -> nodes.Value:
+def _scale_vector(tree: nodes.Tree, vector: nodes.Value, by: nodes.Value) -> nodes.Value:
     inputs: dict[str | int, nodes.Value] = {0: vector, "Scale": by}
     node = tree.node("ShaderNodeVectorMath", inputs, operation="SCALE")
     return tree.pick(node)
 
 
-def _streak(shot: Shot, stage: Stage) -> bpy.types.Object:
-    """An octahedron one metre wide and long, linked to no scene."""
+def _streak_object(shot: Shot, stage: Stage) -> bpy.types.Object:
+    """Create an octahedron one metre wide and long, linked to no scene."""
     name = "Firetwin Firebrand Streak"
     mesh = owned.mark(bpy.data.meshes.new(name))
     ends = [(0.0, 0.0, -0.5), (0.0, 0.0, 0.5)]
@@ -138,5 +140,5 @@ def _streak(shot: Shot, stage: Stage) -> bpy.types.Object:
     mesh.materials.append(firebrand_material.build(shot, stage))
     obj = owned.mark(bpy.data.objects.new(name, mesh))
     obj.color = 1.0, 0.42, 0.10, 1.0  # in the solid view
-    _camera_rays_only(obj)
+    _show_to_camera_only(obj)
     return obj

@@ -1,7 +1,8 @@
-"""Firebrands: glowing pieces lofted by the plume and carried by the wind, which fall and cool.
+"""Firebrands: glowing pieces lofted by the plume and carried by the wind until they fall and cool.
 
 The core's integrator computes each trajectory; the mesh stores it as points at equal time steps. Geometry
-nodes draw a streak between the two points round the current time, so no other animation data are needed.
+nodes draw a streak between the two points before and after the current time, so no other animation data are
+needed.
 """
 
 from __future__ import annotations
@@ -25,8 +26,8 @@ _LIFE = (2.0, 16.0)  # s, life of a glowing piece
 _MEAN_LIFE = 7.0  # s
 _SIZE, _SIZES, _SIZE_RANGE = 0.04, 0.5, (0.01, 0.12)  # m, deviation of the logarithm, m (bark and twigs)
 _FALL = (1.0, 4.0)  # m/s, terminal velocity of the smallest and largest (assumed)
-_STEP = 0.5  # s between the points of a trajectory
-_MOMENT = 0.4  # s; part of a trajectory that is stored when frames are further apart than lives
+_STEP = 0.5  # s between points of a trajectory
+_MOMENT = 0.4  # s; part of a trajectory that is stored if frames are further apart than lifetimes
 _PLUME = 90.0, 6.0  # m of height and s in which the updraft falls to 1/e: pieces fall out of the plume
 _AIR = constants.AIR_DENSITY * constants.SPECIFIC_HEAT * constants.AIR_TEMPERATURE  # J/m3
 
@@ -35,14 +36,14 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Flights:
-    """Trajectories of the shot's firebrands, n of them, with k points each.
+    """Trajectories of the shot's n firebrands, with k points each.
 
     Attributes
     ----------
     place
-        (n, k, 3) scene metres.
+        (n, k, 3) m, in the scene.
     start
-        (n,) time of the first point, s after the first frame; the others follow `step` s apart.
+        (n,) time of the first point, s after the first frame; points are `step` s apart.
     birth, life
         (n,) s after the first frame; s.
     size
@@ -59,14 +60,14 @@ class Flights:
     step: float
 
     def alive(self, time: float) -> NDArray[np.int64]:
-        """Firebrands in the air or glowing on the ground `time` s after the first frame."""
+        """Return firebrands in the air, or glowing on the ground, `time` s after the first frame."""
         age = time - self.birth
         return np.flatnonzero((age >= 0.0) & (age < self.life))
 
 
 @dataclass(frozen=True)
 class Launches:
-    """n firebrands at launch: time (s), place (n, 3), life (s), size (m), updraft (m/s), key."""
+    """State of n firebrands at launch: time (s), place (n, 3), life (s), size (m), updraft (m/s), key."""
 
     time: Array
     place: Array
@@ -74,26 +75,26 @@ class Launches:
     size: Array
     updraft: Array
     key: NDArray[np.int64]
-    rank: Array  # those with the lowest are retained
+    rank: Array  # the lowest are retained
 
     def take(self, chosen: NDArray) -> Launches:
-        """A subset."""
+        """Return a subset."""
         return Launches(*(getattr(self, field.name)[chosen] for field in fields(self)))
 
 
 def updraft(intensity: Array) -> Array:
-    """Updraft (m/s) over a line fire of `intensity` kW/m: (g I / (rho cp T))^(1/3).
+    """Return the updraft (m/s) over a line fire of `intensity` kW/m: (g I / (rho cp T))^(1/3).
 
     It does not depend on height (Yokoi 1960; Lee and Emmons 1961, J. Fluid Mech. 11, 353). On the axis of the
-    plume it is about twice that (assumed).
+    plume it is about twice as strong (assumed).
     """
     return np.cbrt(constants.GRAVITY * np.asarray(intensity, np.float64) * 1000.0 / _AIR)
 
 
 def fly(shot: Shot, points: flames.Points) -> Flights | None:
-    """Launch, integrate and thin out the firebrands of flames near the cameras; None without any.
+    """Launch, integrate and thin out the firebrands of flames near the cameras; None without firebrands.
 
-    No frame has more than `fire.firebrands`; the nearest are retained.
+    No frame has more than `fire.firebrands`; the nearest to a camera are retained.
     """
     most_shown = shot.settings.fire.firebrands
     if not shot.perspective_paths or most_shown == 0 or len(points.seed) == 0:
@@ -106,17 +107,17 @@ def fly(shot: Shot, points: flames.Points) -> Flights | None:
     rate *= min(1.3 * most_shown / max(most, 1.0), 1.0)
     lapse = shot.frames.step > _LIFE[1] or len(times) == 1
     spans = [(t - _LIFE[1], t) for t in times] if lapse else [(times[0] - _LIFE[1], times[-1])]
-    floor = _floor(shot.ground, points.position[rate > 0.0])
+    floor = _landing_terrain(shot.ground, points.position[rate > 0.0])
     winds = burning.wind_at(
         shot.run, np.array([0.5 * (begin + end) for begin, end in spans]), shot.fire.surroundings
     )
     parts = []
     for number, span in enumerate(spans):
-        launched = _launched(shot.settings.seed + 7919 * number, points, rate, distance, span)
-        launched = _fewer(launched, times[number : number + 1] if lapse else times, most_shown)
+        launched = _launch(shot.settings.seed + 7919 * number, points, rate, distance, span)
+        launched = _thin_out(launched, times[number : number + 1] if lapse else times, most_shown)
         if len(launched.time):
-            path = _paths(launched, winds[number], floor)
-            parts.append(_flights(launched, path, zero, span[1] if lapse else None))
+            path = _integrate_paths(launched, winds[number], floor)
+            parts.append(_store_flights(launched, path, zero, span[1] if lapse else None))
     if not parts:
         return None
     return Flights(
@@ -129,10 +130,10 @@ def fly(shot: Shot, points: flames.Points) -> Flights | None:
     )
 
 
-def _launched(
+def _launch(
     seed: int, points: flames.Points, rate: Array, distance: Array, span: tuple[float, float]
 ) -> Launches:
-    """Firebrands launched within `span` (s), uniformly over the time that their flame burns in it."""
+    """Launch firebrands within `span` (s), uniformly over the part of it in which their flame burns."""
     begin = np.maximum(points.arrival_time, span[0])
     during = np.maximum(np.minimum(points.arrival_time + points.residence, span[1]) - begin, 0.0)
     index = np.arange(len(rate))
@@ -164,8 +165,8 @@ def _launched(
     )
 
 
-def _fewer(launched: Launches, times: Array, most: int) -> Launches:
-    """Firebrands alive at one of `times`, thinned so that at most `most` are alive at any of these."""
+def _thin_out(launched: Launches, times: Array, most: int) -> Launches:
+    """Select firebrands alive at one of `times`, thinned so that at most `most` are alive at any of these."""
     shown = np.zeros(len(launched.time), bool)
     limit = np.inf
     for time in times:
@@ -177,15 +178,15 @@ def _fewer(launched: Launches, times: Array, most: int) -> Launches:
     return launched.take(np.flatnonzero(shown & (launched.rank < limit)))
 
 
-def _paths(launched: Launches, wind: Array, floor: geo.HeightField) -> NDArray[np.float32]:
-    """Positions (n, k, 3) along trajectories, _STEP apart from launch on."""
+def _integrate_paths(launched: Launches, wind: Array, floor: geo.HeightField) -> NDArray[np.float32]:
+    """Integrate trajectories; positions (n, k, 3), _STEP apart from launch on."""
     count = int(np.ceil(_LIFE[1] / _STEP)) + 1
     n = len(launched.time)
     path = np.empty((n, count, 3), np.float32)
     fall = np.interp(np.log(launched.size), np.log(_SIZE_RANGE), _FALL)
     position, landed = launched.place.copy(), np.zeros(n, bool)
     base = launched.place[:, 2].copy()
-    air = _air(launched, wind, base)
+    air = _air_velocity(launched, wind, base)
     velocity = air(position, 0.0)
     for step in range(count):
         path[:, step] = position
@@ -203,8 +204,8 @@ def _paths(launched: Launches, wind: Array, floor: geo.HeightField) -> NDArray[n
     return path
 
 
-def _air(launched: Launches, wind: Array, base: Array) -> Callable[[Array, float], Array]:
-    """Velocity function of the air (n, 3) at positions (n, 3) and an age (s).
+def _air_velocity(launched: Launches, wind: Array, base: Array) -> Callable[[Array, float], Array]:
+    """Return the velocity function of the air (n, 3) at positions (n, 3) and an age (s).
 
     The wind grows with height as h^(1/7) and carries eddies of two to seven seconds, of a quarter of the
     updraft and a seventh of the wind (assumed). The updraft decays as pieces leave the plume.
@@ -233,8 +234,10 @@ def _air(launched: Launches, wind: Array, base: Array) -> Callable[[Array, float
     return velocity
 
 
-def _flights(launched: Launches, path: NDArray[np.float32], zero: float, moment: float | None) -> Flights:
-    """Complete trajectories, or only their part round a model time (s)."""
+def _store_flights(
+    launched: Launches, path: NDArray[np.float32], zero: float, moment: float | None
+) -> Flights:
+    """Return the complete trajectories, or only their part around a model time (s)."""
     birth = launched.time - zero
     if moment is None:
         return Flights(path, birth, birth, launched.life, launched.size, _STEP)
@@ -256,8 +259,8 @@ def _flights(launched: Launches, path: NDArray[np.float32], zero: float, moment:
     )
 
 
-def _floor(ground: Terrain, position: Array) -> geo.HeightField:
-    """The terrain round the flames, where firebrands land."""
+def _landing_terrain(ground: Terrain, position: Array) -> geo.HeightField:
+    """Return the terrain around the flames, on which firebrands land."""
     if len(position) == 0:
         position = np.zeros((1, 3))
     x, y = (np.linspace(position[:, k].min() - 400.0, position[:, k].max() + 400.0, 120) for k in (0, 1))

@@ -1,7 +1,7 @@
 """Flames: position, flame length and tilt of points along the fire front, without Blender.
 
-The front is the isoline where the arrival time (fuel grid, bilinear between cells) equals the model time. A
-point flames while the front passes it, so at any time the flaming points form a thin line.
+The front is the isoline on which the arrival time (fuel grid, bilinear between cells) equals the model time.
+A point flames while the front passes it, so at any time the flaming points form a thin line.
 """
 
 from __future__ import annotations
@@ -20,27 +20,27 @@ from ...shot.terrain import noise
 from ..forest import fire_effects
 from ..forest.stand import Stand
 
-SIGHT = 12_000.0  # m; fronts farther away are only the ground's glowing edge
+SIGHT = 12_000.0  # m; more distant fronts are drawn only as the ground's glowing edge
 _SPACING = ((2500.0, 8.0), (5000.0, 12.0), (SIGHT, 24.0))
-"""m from the camera -> m between points of a front whose flames are at least as long as `_TALL`."""
+"""Spacing (m) between points of a front with flames of at least `_TALL`, by distance (m) from the camera."""
 _TALL = 12.0  # m
-_FINEST = 0.25  # ratio to these spacings, where flames are low
-_FINE = 400_000  # points, in the nearest cells, with the closest spacing at any distance; more are slow
+_FINEST = 0.25  # factor on these spacings for low flames
+_FINE = 400_000  # points in the nearest cells that have the closest spacing at any distance; more are slow
 _LINE = 1.5  # rows of points: a point flames while the front moves on by this many spacings
 _LEADING = 1.0 / 3.0  # fraction of the residence time at full height, s
 _LONGEST = 900.0  # s
-_BROKEN = (0.5, 6.0)  # m, flame lengths of a front with most gaps and with none
-_GAPS = 0.5  # fraction of the front that is gaps where flames are lowest
-_BURST, _FLARES = 160.0, 1.6  # m, in a crown fire; log deviation of lengths, low flames (by eye)
-_EVEN = (5.0, 12.0)  # m, flame lengths between which they become uniform
-_GAP = 25.0  # m, of a gap and of the distance between two, in a crown fire
+_BROKEN = (0.5, 6.0)  # m, flame lengths at which a front has most gaps, and none
+_GAPS = 0.5  # fraction of gaps in a front with the lowest flames
+_BURST, _FLARES = 160.0, 1.6  # m, in a crown fire; log deviation of the lengths of low flames (by eye)
+_EVEN = (5.0, 12.0)  # m, flame lengths between which lengths become uniform
+_GAP = 25.0  # m, size of gaps and distance between them, in a crown fire
 _SIZES = 0.45  # standard deviation of the logarithm of flame lengths
 _LENGTHS = (0.3, 75.0)  # m
-_CROWNS = 0.1  # kg/m2 of canopy fuel from which a front is a crown fire (assumed)
+_CROWNS = 0.1  # kg/m2, minimum canopy fuel of a crown fire (assumed)
 _KELVIN = (1000.0, 1500.0)  # flames (Frankman et al. 2008)
 _TORCH_SIGHT = 2500.0  # m
-_TORCHES = 0.8  # fraction of the burning crowns that torch where the canopy is dense
-_AROUND = 250.0  # m round a cell that its flames and firebrands reach
+_TORCHES = 0.8  # fraction of the burning crowns that torch in a dense canopy
+_AROUND = 250.0  # m around a cell that its flames and firebrands reach
 _CELL_FLAME = 40.0  # m; flame of a cell's emitter at scale 100
 
 Array = NDArray[np.float64]
@@ -48,16 +48,16 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Points:
-    """Flames of the whole shot, n of them; one is lit while 0 <= t - arrival_time < residence.
+    """Flames of the shot, n of them; a flame is lit while 0 <= t - arrival_time < residence.
 
     Attributes
     ----------
     position
-        (n, 3) scene metres, on the ground.
+        (n, 3) m in the scene, on the ground.
     arrival_time, residence
         (n,) s.
     intensity
-        (n,) fireline intensity, kW/m; in the mode "cells" the heat flux of the cell times its width.
+        (n,) fireline intensity, kW/m; in the mode "cells", the heat flux of the cell times its width.
     length, width
         (n,) flame length and width, m.
     tilt
@@ -79,45 +79,45 @@ class Points:
     seed: Array
 
     def take(self, chosen: NDArray) -> Points:
-        """A subset of the points."""
+        """Return a subset of the points."""
         return Points(*(getattr(self, field.name)[chosen] for field in fields(self)))
 
     def lit(self, time: float) -> NDArray[np.int64]:
-        """Indices of the flames that are lit at `time`."""
+        """Return the indices of flames that are lit at `time`."""
         age = time - self.arrival_time
         return np.flatnonzero((age >= 0.0) & (age < self.residence))
 
 
 def flame_length(intensity: Array, formula: str = "thomas", crowns: NDArray[np.bool_] | bool = True) -> Array:
-    """Flame length (m) from fireline intensity (kW/m).
+    """Return flame length (m) from fireline intensity (kW/m).
 
     "thomas": 0.0266 I^(2/3) (Thomas 1963); "byram": 0.0775 I^0.46 (Byram 1959), too short for crown fire;
-    "auto": the first where there are `crowns`, the second elsewhere.
+    "auto": Thomas for `crowns`, Byram elsewhere.
     """
     intensity = np.maximum(np.asarray(intensity, np.float64), 0.0)
     tall, low = 0.0266 * intensity ** (2.0 / 3.0), 0.0775 * intensity**0.46
     return np.where(crowns, tall, low) if formula == "auto" else tall if formula == "thomas" else low
 
 
-def tilt(wind: float, length: Array) -> Array:
-    """Flame tilt from the vertical (radians): tan A = 1.22 U / sqrt(g L) (Albini 1981), at most 60."""
+def flame_tilt(wind: float, length: Array) -> Array:
+    """Return flame tilt from the vertical (radians): tan A = 1.22 U / sqrt(g L), at most 60 (Albini 1981)."""
     return np.minimum(
         np.arctan(1.22 * wind / np.sqrt(constants.GRAVITY * np.maximum(length, 0.1))), np.pi / 3.0
     )
 
 
-def kelvin(intensity: Array) -> Array:
-    """Flame temperature from 1000 K at 1 MW/m to 1500 K at 100 MW/m, by the logarithm (assumed)."""
+def flame_temperature(intensity: Array) -> Array:
+    """Return flame temperature: 1000 K at 1 MW/m to 1500 K at 100 MW/m, linear in the logarithm (assumed)."""
     place = np.log10(np.maximum(intensity, 1.0) / 1.0e3) / 2.0
     return _KELVIN[0] + (_KELVIN[1] - _KELVIN[0]) * np.clip(place, 0.0, 1.0)
 
 
-def front(shot: Shot, grown: Stand | None = None) -> Points:
-    """Flames along the front at every time of the shot; at most `fire.budget` of them are lit at once.
+def front_flames(shot: Shot, grown: Stand | None = None) -> Points:
+    """Create the flames along the front at every time of the shot, at most `fire.budget` lit at once.
 
     Fireline intensity is H w R (Byram 1959), with the cell's fuel w and the rate of spread R from the
-    gradient of the arrival time. With a stand its torching crowns are added. Flames farther apart are wider
-    in proportion, so that the front's radiance stays the same.
+    gradient of the arrival time. With a stand, its torching crowns are added. Flames are wider in proportion
+    to their spacing, so that the front's radiance stays the same.
     """
     settings, ground, near = shot.settings, shot.ground, shot.perspective_paths
     first, last = shot.built_times[[0, -1]]
@@ -129,7 +129,7 @@ def front(shot: Shot, grown: Stand | None = None) -> Points:
     )
     speed = ground.spread(row, column)
     stands = shot.front.residence[np.rint(row).astype(np.int64), np.rint(column).astype(np.int64)]
-    residence = _residence(spacing, speed, stands)
+    residence = _point_residence(spacing, speed, stands)
     random = np.array([noise.uniform(key[:, 0], key[:, 1], settings.seed + 500 + use) for use in range(3)])
     fuel = bilinear(ground.fields.canopy_fuel + ground.fields.surface_fuel, row, column)
     lit = (arrival + residence > first) & (fuel > 0.05)
@@ -142,11 +142,11 @@ def front(shot: Shot, grown: Stand | None = None) -> Points:
     uneven = np.exp(_SIZES * noise.normal(random[0], random[1]))
     crowns = bilinear(ground.fields.canopy_fuel, row, column) > _CROWNS
     even = flame_length(intensity, settings.fire.flame_length, crowns)
-    length = np.clip(even * uneven * _bursts(place, even, shot), *_LENGTHS)
+    length = np.clip(even * uneven * _flare_factor(place, even, shot), *_LENGTHS)
     thin = lod.LevelTable().multiplier(distance) if len(distance) else np.ones(0)
     wind = float(np.hypot(*shot.wind))
-    finest = _spaced(ground.cell, _SPACING[0][1] * _closeness(shot))[1]
-    fewer = (spacing / finest) ** 2 * _residence(finest, speed, stands) / (residence * thin)
+    finest = _point_spacing(ground.cell, _SPACING[0][1] * _relative_spacing(shot))[1]
+    fewer = (spacing / finest) ** 2 * _point_residence(finest, speed, stands) / (residence * thin)
     points = Points(
         place,
         arrival,
@@ -154,26 +154,26 @@ def front(shot: Shot, grown: Stand | None = None) -> Points:
         intensity,
         length,
         np.clip(0.45 * length, 0.6 * finest, 1.6 * finest) * fewer,
-        tilt(wind, length),
-        kelvin(intensity),
+        flame_tilt(wind, length),
+        flame_temperature(intensity),
         random[2],
     )
-    points = points.take(np.flatnonzero((random[0] * 0.999 < thin) & _unbroken(place, even, shot)))
+    points = points.take(np.flatnonzero((random[0] * 0.999 < thin) & _outside_gaps(place, even, shot)))
     if grown is not None and settings.fire.torches:
-        points = _joined([points, torches(shot, grown)])
-    return _within_budget(points, shot, near)
+        points = _concatenate([points, torching_crowns(shot, grown)])
+    return _limit_to_budget(points, shot, near)
 
 
-def _residence(spacing: Array | float, speed: Array, stands: Array) -> Array:
-    """Residence (s) of points at a spacing (m) where the front has a rate of spread `speed` (m/s).
+def _point_residence(spacing: Array | float, speed: Array, stands: Array) -> Array:
+    """Return the residence (s) of points at a spacing (m) in a front with rate of spread `speed` (m/s).
 
-    It is the time at full height, a part of the residence time (s) over a spot (`stands`).
+    It is the time at full height, a fraction of the flames' residence time (s) at a point (`stands`).
     """
     return np.clip(_LINE * spacing / speed, _LEADING * stands, _LONGEST)
 
 
-def _closeness(shot: Shot) -> float:
-    """Point spacing in a shot over that of a crown fire's front: proportional to flame length."""
+def _relative_spacing(shot: Shot) -> float:
+    """Return point spacing relative to a crown fire's front: proportional to flame length."""
     ground, front = shot.bare_ground, shot.front
     passed = (ground.burned >= 0.5) & (np.abs(ground.arrival - shot.full.frames.middle) < _LONGEST + 900.0)
     if not passed.any():
@@ -184,26 +184,26 @@ def _closeness(shot: Shot) -> float:
     return float(np.clip(np.percentile(length, 90.0) / _TALL, _FINEST, 1.0))
 
 
-def _bursts(place: Array, length: Array, shot: Shot) -> Array:
-    """Factor (n,) on low flames (m) at points (n, 3): patches flare up or creep."""
+def _flare_factor(place: Array, length: Array, shot: Shot) -> Array:
+    """Return a factor (n,) on low flames (m) at points (n, 3): patches flare up or creep."""
     size = _BURST * max(shot.front_scale, 0.3)
     wave = noise.fractal(place[:, 0], place[:, 1], size, 3, shot.settings.seed + 530)
     return np.exp(_FLARES * wave * (1.0 - noise.smoothstep(*_EVEN, length)))
 
 
-def _unbroken(place: Array, length: Array, shot: Shot) -> NDArray[np.bool_]:
-    """Mask (n,) of points (n, 3) outside of gaps: low flames (m) leave gaps in a front."""
+def _outside_gaps(place: Array, length: Array, shot: Shot) -> NDArray[np.bool_]:
+    """Return a mask (n,) of points (n, 3) that are not in gaps: fronts with low flames (m) have gaps."""
     size = _GAP * max(shot.front_scale, 0.3)
     broken = noise.fractal(place[:, 0], place[:, 1], size, 2, shot.settings.seed + 520)  # 0.4 deviate
     gaps = _GAPS * (1.0 - noise.smoothstep(*_BROKEN, length))
     return (gaps <= 0.0) | (0.5 + 0.8 * broken > gaps)
 
 
-def torches(shot: Shot, grown: Stand) -> Points:
-    """Torching crowns of the stand when the front reaches them: tall, thin and short-lived flames.
+def torching_crowns(shot: Shot, grown: Stand) -> Points:
+    """Create flames of torching crowns when the front reaches them: tall, thin and short-lived.
 
     The fraction of burning crowns (`fire_effects`) that torch grows with canopy density. They flame for half
-    a minute to a minute and up to twice the tree's height (assumed).
+    a minute to a minute, up to twice the tree's height (assumed).
     """
     ground, (first, last) = shot.ground, shot.built_times[[0, -1]]
     near = np.flatnonzero((grown.distance < _TORCH_SIGHT) & (grown.height > 6.0))
@@ -230,16 +230,16 @@ def torches(shot: Shot, grown: Stand) -> Points:
         intensity,
         length,
         0.45 * height,
-        tilt(float(np.hypot(*shot.wind)), 2.0 * length),
-        kelvin(intensity),
+        flame_tilt(float(np.hypot(*shot.wind)), 2.0 * length),
+        flame_temperature(intensity),
         seed[chosen],
     )
 
 
-def cells(shot: Shot) -> Points:
-    """Algorithm 1's emitters (`flux.emitters`) of every frame, each lit during its own frame only.
+def cell_flames(shot: Shot) -> Points:
+    """Create flames from Algorithm 1's emitters (`flux.emitters`), each lit during its frame only.
 
-    An emitter is drawn as a flame of 40 m at scale 100 (assumed: the paper gives scales, no sizes).
+    An emitter is drawn as a flame of 40 m at scale 100 (assumed: the paper gives scales, not sizes).
     """
     run = shot.run
     position = shot.local_frame.forward_grid(run.latitude, run.longitude, np.nan_to_num(shot.relief.coarse))
@@ -252,7 +252,7 @@ def cells(shot: Shot) -> Points:
         count = len(emitters.cell)
         length = emitters.scale / 100.0 * _CELL_FLAME
         intensity = emitters.flux.astype(np.float64) * width / 1000.0
-        seed = (emitters.cell * 0.6180339887498949) % 1.0  # of the cell: the same in every frame
+        seed = (emitters.cell * 0.6180339887498949) % 1.0  # by cell: the same in every frame
         parts.append(
             Points(
                 emitters.position,
@@ -262,22 +262,23 @@ def cells(shot: Shot) -> Points:
                 length,
                 length * 0.8,
                 np.zeros(count),
-                kelvin(intensity),
+                flame_temperature(intensity),
                 seed,
             )
         )
-    return _within_budget(_joined(parts), shot, shot.paths)
+    return _limit_to_budget(_concatenate(parts), shot, shot.paths)
 
 
-def _joined(parts: list[Points]) -> Points:
+def _concatenate(parts: list[Points]) -> Points:
     return Points(*(np.concatenate([getattr(p, field.name) for p in parts]) for field in fields(Points)))
 
 
 def _candidates(shot: Shot) -> tuple[Array, Array, Array, Array, NDArray[np.int64]]:
-    """Rows, columns and spacing (m) of jittered points in the cells that the front crosses in the shot.
+    """Return rows, columns and spacing (m) of jittered points in cells that the front crosses in the shot.
 
-    Also returns the distance (n,), m, that decides their spacing, and integers (n, 2) that seed a point's
-    random choices: its cell and its number in it. So a point does not depend on what else is visible.
+    Also returns the distance (n,), m, from which their spacing follows, and integers (n, 2) that seed a
+    point's random choices: its cell and its number in it. A point therefore does not depend on what else is
+    visible.
     """
     ground, near, (first, last) = shot.ground, shot.perspective_paths, shot.built_times[[0, -1]]
     arrival = ground.arrival
@@ -287,14 +288,14 @@ def _candidates(shot: Shot) -> tuple[Array, Array, Array, Array, NDArray[np.int6
         return empty, empty, empty, empty, np.empty((0, 2), np.int64)
     centre = ground.point(*ground.places(cells_lit[:, 0].astype(float), cells_lit[:, 1].astype(float)))
     visible = shot.visibility.visible_mask(centre, max(ground.cell) + _AROUND, reach=SIGHT)
-    cells_lit, distance = cells_lit[visible], _drawn_for(shot, centre[visible])
+    cells_lit, distance = cells_lit[visible], _spacing_distance(shot, centre[visible])
     parts = []
-    before, close = 0.0, _closeness(shot)
+    before, close = 0.0, _relative_spacing(shot)
     for limit, wanted in _SPACING:
         inside = (distance >= before) & (distance < limit)
         chosen = cells_lit[inside]
         before = limit
-        count, spacing = _spaced(ground.cell, wanted * close)
+        count, spacing = _point_spacing(ground.cell, wanted * close)
         number = np.arange(count * count)
         cell = (chosen @ (ground.shape[1], 1))[:, None]
 
@@ -302,7 +303,7 @@ def _candidates(shot: Shot) -> tuple[Array, Array, Array, Array, NDArray[np.int6
             seed = shot.settings.seed + 510 + use
             return np.stack([noise.uniform(cell, part, seed + axis) for axis in (0, 1)])
 
-        # One shift per cell and one per point: no rows of flames.
+        # One shift per cell and one per point prevent rows of flames.
         at = (np.indices((count, count)).reshape(2, 1, -1) + random(number[:1], 0)) / count
         at = at + (random(number, 2) - 0.5) / count - 0.5
         parts.append(
@@ -319,24 +320,24 @@ def _candidates(shot: Shot) -> tuple[Array, Array, Array, Array, NDArray[np.int6
     return np.clip(row, 0.0, rows - 1.0), np.clip(column, 0.0, columns - 1.0), spacing, drawn, key
 
 
-def _spaced(cell: tuple[float, float], wanted: float) -> tuple[int, float]:
-    """Number of points along a cell's side, and their spacing (m), for a wanted spacing (m)."""
+def _point_spacing(cell: tuple[float, float], wanted: float) -> tuple[int, float]:
+    """Return the number of points along a cell's side, and their spacing (m), for a requested spacing (m)."""
     count = max(round(max(cell) / wanted), 1)
     return count, max(cell) / count
 
 
-def _drawn_for(shot: Shot, centre: Array) -> Array:
-    """Distance (n,), m, for the spacing of flames in cells (n, 3): 0 in the nearest, up to `_FINE` points.
+def _spacing_distance(shot: Shot, centre: Array) -> Array:
+    """Return the distance (n,), m, for the spacing in cells (n, 3): 0 in the nearest, up to `_FINE` points.
 
-    So visible flames are mostly the same in each chunk of a film and whatever else is built.
+    Visible flames are then mostly independent of the chunk of the film and of what else is built.
     """
     distance = shot.visibility.lod_distance(centre)
-    count, _ = _spaced(shot.ground.cell, _SPACING[0][1] * _closeness(shot))
+    count, _ = _point_spacing(shot.ground.cell, _SPACING[0][1] * _relative_spacing(shot))
     distance[np.argsort(distance, kind="stable")[: _FINE // count**2]] = 0.0
     return distance
 
 
-def _within_budget(points: Points, shot: Shot, views: list[Path]) -> Points:
+def _limit_to_budget(points: Points, shot: Shot, views: list[Path]) -> Points:
     """Drop the farthest flames until no frame lights more than `fire.budget`, unless culling is off."""
     if shot.visibility.unculled:
         return points

@@ -1,4 +1,4 @@
-"""Fire fronts of comparison runs in the scene: glowing flat ribbons on the ground, one for each time."""
+"""Fire fronts of comparison runs in the scene: glowing flat ribbons on the ground, one per model time."""
 
 from __future__ import annotations
 
@@ -17,8 +17,7 @@ from . import observed
 def build(shot: Shot, stage: Stage, collection: bpy.types.Collection) -> None:
     """Build "Firetwin Front NAME" for each of the shot's comparison runs, if the settings ask for it.
 
-    Corners carry `seen_start` and `seen_end`, model times in s; geometry nodes retain the ribbon of the
-    current time.
+    Corners carry `seen_start` and `seen_end`, model times in s; geometry nodes select the current ribbon.
     """
     if not shot.settings.fire.fronts:
         return
@@ -26,8 +25,8 @@ def build(shot: Shot, stage: Stage, collection: bpy.types.Collection) -> None:
     for name, run in shot.full.other_runs().items():
         obj = owned.add(collection, f"Front {name}", _mesh(shot, name, run))
         obj.data.materials.append(_material(shot, stage, name, colours[name]))
-        obj.modifiers.new("Firetwin Front", "NODES").node_group = _at_current_time(shot, name)
-        observed.camera_rays_only(obj)
+        obj.modifiers.new("Firetwin Front", "NODES").node_group = _select_current(shot, name)
+        observed.show_to_camera_only(obj)
 
 
 def _mesh(shot: Shot, name: str, run: Run) -> bpy.types.Mesh:
@@ -35,7 +34,9 @@ def _mesh(shot: Shot, name: str, run: Run) -> bpy.types.Mesh:
     count = len(front_lines.points)
     before = np.empty(count, np.int64)
     before[front_lines.after] = np.arange(count)
-    corners = observed.band(front_lines.points, before, front_lines.after, shot.settings.fire.observed_width)
+    corners = observed.ribbon_corners(
+        front_lines.points, before, front_lines.after, shot.settings.fire.observed_width
+    )
     here = np.arange(count)
     faces = np.column_stack([here, front_lines.after, front_lines.after + count, here + count]).astype(
         np.int32
@@ -54,8 +55,8 @@ def _mesh(shot: Shot, name: str, run: Run) -> bpy.types.Mesh:
     return mesh
 
 
-def _at_current_time(shot: Shot, name: str) -> bpy.types.NodeTree:
-    """Geometry nodes: ribbons of all times -> that of the current time."""
+def _select_current(shot: Shot, name: str) -> bpy.types.NodeTree:
+    """Build geometry nodes: ribbons of all times -> the ribbon of the current time."""
     tree, entry = nodes.geometry(f"Firetwin Front {name}")
     time = clock.geometry_time(tree, shot)
     start, end = (

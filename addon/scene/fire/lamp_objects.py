@@ -1,4 +1,4 @@
-"""Lamps in the scene: point lights with keyframed energies, which stand for the heat released."""
+"""Lamps in the scene: point lights with keyframed energies, which represent the heat released."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from ...blender import compat, owned
 from ...shot.shot import Shot
 from . import lamps
 
-COLOUR = (1.0, 0.32, 0.07)  # light of flames of 1300 K as AgX shows it
+COLOUR = (1.0, 0.32, 0.07)  # light of flames of 1300 K as displayed by AgX
 
 
 def build(shot: Shot, parent: bpy.types.Collection) -> list[bpy.types.Object]:
-    """Build "Firetwin Lamp 00" and so on in the collection "Firetwin Lamps"; none by day."""
+    """Build "Firetwin Lamp 00" and so on in the collection "Firetwin Lamps"; an empty list by day."""
     collection = owned.child(parent, "Lamps")
     first, last = shot.frames.first, shot.frames.last
     if shot.settings.light.lamps == 0 or np.all(lamps.darkness(shot, np.linspace(first, last, 9)) == 0.0):
         return []
-    placed = lamps.place(shot)
+    placed = lamps.place_lamps(shot)
     strength = lamps.LIGHT * lamps.darkness(shot, placed.time)
     frames = 1.0 + (placed.time - first) / (shot.frames.step or 1.0)
     made = []

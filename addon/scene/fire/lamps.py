@@ -1,7 +1,7 @@
-"""Lamp positions for the light of flames on ground and trees: a few dozen for the whole shot.
+"""Lamp positions for the light of flames on ground and trees: a few dozen for the entire shot.
 
 Lamps are static; F-curves change their energies with the heat released near them. They do not light smoke,
-which gets its light from the emission in its volume.
+which is lit by the emission in its volume.
 """
 
 from __future__ import annotations
@@ -16,15 +16,15 @@ from ...shot.fire import heat_release
 from ...shot.light import exposure
 from ...shot.shot import Shot
 
-LIGHT = 6.0e-4  # W of light per luminous W of heat by night; chosen by eye
+LIGHT = 6.0e-4  # W of light per luminous W of heat at night; chosen by eye
 _REACH = 9000.0  # m from a camera; light on ground farther away is not visible
-_NEAR = 150.0  # m; below this distance from the camera lamps do not get closer to each other
-_KEYS = 13  # greatest number of keyframes in the shot
+_NEAR = 150.0  # m from the camera; nearer lamps are not spaced more closely
+_KEYS = 13  # maximum number of keyframes in the shot
 _BLOCK = 120.0  # m; heat within this distance belongs to one lamp
 _ROUNDS = 12
 _HEIGHTS, _RADII, _SHARED = (12.0, 60.0), (6.0, 60.0), 25.0  # m
-_LOWEST = 3.0  # m, height of lamps, where a fire is small
-# Lengths except `_REACH` and `_LOWEST` are those for a fire of 15 km.
+_LOWEST = 3.0  # m, height of the lamps of a small fire
+# Lengths except `_REACH` and `_LOWEST` are for a fire of 15 km.
 
 Array = NDArray[np.float64]
 
@@ -42,7 +42,7 @@ class Lamps:
     radius
         (n,) m.
     heat
-        (k, n) W that each lamp stands for: their sum is the luminous heat near the cameras.
+        (k, n) W that each lamp represents; the sum is the luminous heat near the cameras.
     """
 
     time: Array
@@ -52,22 +52,24 @@ class Lamps:
 
 
 def darkness(shot: Shot, times: Array) -> Array:
-    """Darkness at model times (n,), s: 0 by day to 1 by night, with a smooth start."""
+    """Return darkness at model times (n,), s: 0 by day to 1 at night, with a smooth start."""
     return exposure.darkness(shot, times) ** 2
 
 
-def place(shot: Shot) -> Lamps:
+def place_lamps(shot: Shot) -> Lamps:
     """Cluster the luminous heat of all times near the cameras by weighted k-means (Lloyd 1982).
 
-    The weight of heat falls with its distance from a camera, so lamps are dense where their positions are
-    visible. Heat is shared between the lamps near it, so that a passing front fades from one to the next.
-    Without heat near a camera there are no lamps.
+    Heat is weighted by its distance from a camera, so lamps are dense where their positions are visible. Heat
+    is shared between nearby lamps, so that a passing front fades from one to the next. Without heat near a
+    camera the result is empty.
     """
-    times, near = moments(shot), shot.perspective_paths
+    times, near = keyframe_times(shot), shot.perspective_paths
     none = Lamps(times, np.empty((0, 3)), np.empty(0), np.empty((len(times), 0)))
     if not near:
         return none
-    parts = [_around(shot.fire.sources(float(t)).luminous(), near, shot.scale.length(_BLOCK)) for t in times]
+    parts = [
+        _merge_sources(shot.fire.sources(float(t)).luminous(), near, shot.scale.length(_BLOCK)) for t in times
+    ]
     position = np.concatenate([part.position for part in parts])
     power = np.concatenate([part.power for part in parts])
     moment = np.repeat(np.arange(len(times)), [len(part.power) for part in parts])
@@ -82,8 +84,8 @@ def place(shot: Shot) -> Lamps:
     merged = np.full(len(weight), -1)
     spots = heat_release.Sources(position, weight, weight, 0.0 * weight, merged, merged)
     whole = heat_release.lights(spots, size(_BLOCK), 1_000_000)
-    centre = _centres(whole.position, whole.power, shot.settings.light.lamps, shot.settings.seed)
-    gap = _gaps(position, centre)
+    centre = _choose_centres(whole.position, whole.power, shot.settings.light.lamps, shot.settings.seed)
+    gap = _squared_distances(position, centre)
     share = 1.0 / (gap + size(_SHARED) ** 2) ** 3
     share /= share.sum(axis=1, keepdims=True)
     total = np.zeros((len(times), len(centre)))
@@ -98,8 +100,8 @@ def place(shot: Shot) -> Lamps:
     return Lamps(times, np.column_stack([centre[:, :2], up]), np.clip(0.4 * spread, small, large), total)
 
 
-def _around(sources: heat_release.Sources, near: list[Path], block: float) -> heat_release.Sources:
-    """Heat sources near the cameras, merged within blocks."""
+def _merge_sources(sources: heat_release.Sources, near: list[Path], block: float) -> heat_release.Sources:
+    """Merge heat sources near the cameras within blocks."""
     kept = np.zeros(len(sources.power), bool)
     for view in near:
         low, high = view.position[:, :2].min(0) - _REACH, view.position[:, :2].max(0) + _REACH
@@ -107,8 +109,8 @@ def _around(sources: heat_release.Sources, near: list[Path], block: float) -> he
     return heat_release.lights(sources.take(np.flatnonzero(kept)), block, len(kept) * 4 + 1)
 
 
-def moments(shot: Shot) -> Array:
-    """Model times of the lamps' keyframes: model times of the run, and both ends."""
+def keyframe_times(shot: Shot) -> Array:
+    """Return the model times of the lamps' keyframes: model times of the run, and both ends."""
     first, last, times = shot.frames.first, shot.frames.last, shot.run.times
     inside = times[(times > first) & (times < last)]
     if len(inside) > _KEYS - 2:
@@ -116,20 +118,20 @@ def moments(shot: Shot) -> Array:
     return np.unique(np.concatenate([[first], inside, [last]]))
 
 
-def _centres(position: Array, weight: Array, count: int, seed: int) -> Array:
-    """At most `count` initial centres (n, 3) of weighted points: k-means++ (Arthur, Vassilvitskii 2007)."""
+def _choose_centres(position: Array, weight: Array, count: int, seed: int) -> Array:
+    """Choose at most `count` centres (n, 3) of weighted points: k-means++ (Arthur, Vassilvitskii 2007)."""
     random = np.random.default_rng(seed)
     centre = position[[int(np.argmax(weight))]]
-    nearest = _gaps(position, centre)[:, 0]
+    nearest = _squared_distances(position, centre)[:, 0]
     while len(centre) < count:
         chance = np.cumsum(weight * nearest)
         if not chance[-1] > 0.0:
             break
         chosen = min(int(np.searchsorted(chance, random.random() * chance[-1])), len(position) - 1)
         centre = np.concatenate([centre, position[[chosen]]])
-        nearest = np.minimum(nearest, _gaps(position, centre[-1:])[:, 0])
+        nearest = np.minimum(nearest, _squared_distances(position, centre[-1:])[:, 0])
     for _ in range(_ROUNDS):
-        member = np.argmin(_gaps(position, centre), axis=1)
+        member = np.argmin(_squared_distances(position, centre), axis=1)
         total = np.bincount(member, weight, len(centre))
         some = total > 0.0
         for axis in range(3):
@@ -138,6 +140,6 @@ def _centres(position: Array, weight: Array, count: int, seed: int) -> Array:
     return centre
 
 
-def _gaps(position: Array, centre: Array) -> Array:
-    """Squared horizontal distances (n, m), m2."""
+def _squared_distances(position: Array, centre: Array) -> Array:
+    """Return squared horizontal distances (n, m), m2."""
     return (position[:, None, 0] - centre[None, :, 0]) ** 2 + (position[:, None, 1] - centre[None, :, 1]) ** 2

@@ -11,13 +11,13 @@ from ...shot.shot import Shot
 from .. import glow, haze, infrared
 
 _RIM, _BODY, _CORE = (1.0, 0.12, 0.008), (1.0, 0.34, 0.04), (1.0, 0.55, 0.15)
-_DIMMED = 0.2  # factor on the emission at the nearer of the distances `glow.CLOSE`
+_DIMMED = 0.2  # factor on the emission at the shorter distance of `glow.CLOSE`
 _FULL = 0.5, (1.5, 10.0)  # factor on the emission of low flames, which are thin; lengths, m
 _RISE = 9.0  # m/s, rise velocity of the pattern
 
 
 def build(shot: Shot, stage: Stage) -> bpy.types.Material:
-    """Build "Firetwin Flame" for the billboards of `fire`; the attribute `card` runs over -1..1 and 0..1."""
+    """Build "Firetwin Flame" for the billboards of `fire`; the attribute `card` spans -1..1 and 0..1."""
     material, tree = nodes.material("Firetwin Flame", (1.00, 0.25, 0.02))
     rim, middle, core = (
         tree.input(f"{name} Colour", colour, help, "Colour")
@@ -59,7 +59,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     light = strength * (1.0 - part)
     shader = tree.add_shader(tree.emission(colour, light), clear)
     flame = shape > 0.12
-    gap = tree.output("ShaderNodeBsdfTransparent")  # which hides none of the heat behind it
+    gap = tree.output("ShaderNodeBsdfTransparent")  # does not hide the heat behind it
     depth = tree.attribute("flame_width", "INSTANCER")
     emissivity = flame * (1.0 - (depth * -infrared.FLAME).exp())
     warmth = infrared.surface_radiance(tree, shot, stage, tree.attribute("kelvin", "INSTANCER"))

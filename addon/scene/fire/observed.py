@@ -13,19 +13,19 @@ from ...shot.surface import observed
 from ...shot.surface.observed import DrapedLine
 from .. import glow, haze
 
-_FRESH, _FADED = (0.02, 0.55, 1.0), (0.10, 0.22, 0.45)  # no flame and no ground is blue
+_FRESH, _FADED = (0.02, 0.55, 1.0), (0.10, 0.22, 0.45)  # blue occurs neither in flames nor on the ground
 _HEAT = {
     "intense": (1.0, 0.02, 0.65),
     "scattered": (0.42, 0.08, 1.0),
     "isolated": (0.75, 0.95, 1.0),
     "possible": (0.25, 0.40, 0.60),
 }  # nor magenta, violet or white
-LIGHT = 0.14  # radiance over that of flames
-_DIM = 0.3  # fraction of it that is left when the next perimeter appears
+LIGHT = 0.14  # radiance relative to flames
+_DIM = 0.3  # remaining fraction when the next perimeter appears
 
 
 def build(shot: Shot, stage: Stage, collection: bpy.types.Collection) -> bpy.types.Object | None:
-    """Build "Firetwin Observed" where the settings name a file; it lights nothing and casts no shadow.
+    """Build "Firetwin Observed" if the settings name a file; it emits no light and casts no shadow.
 
     Its corners carry `seen_start`, `seen_fades` and `seen_end`, model times in s, and `seen_colour`.
     """
@@ -34,17 +34,17 @@ def build(shot: Shot, stage: Stage, collection: bpy.types.Collection) -> bpy.typ
         return None
     obj = owned.add(collection, "Observed", _mesh(lines, shot.settings.fire.observed_width))
     obj.data.materials.append(_material(shot, stage))
-    camera_rays_only(obj)
+    show_to_camera_only(obj)
     return obj
 
 
-def camera_rays_only(obj: bpy.types.Object) -> None:
+def show_to_camera_only(obj: bpy.types.Object) -> None:
     """Make lines visible to camera rays only."""
     obj.visible_shadow = obj.visible_diffuse = obj.visible_glossy = obj.visible_volume_scatter = False
 
 
 def _mesh(lines: list[DrapedLine], width: float) -> bpy.types.Mesh:
-    ribbons = [ribbon(line.points, width) for line in lines]
+    ribbons = [closed_ribbon(line.points, width) for line in lines]
     starts = np.cumsum([0, *(len(each) for each in ribbons)])
     faces = [_faces(len(line.points)) + at for line, at in zip(lines, starts[:-1], strict=True)]
     corners = np.concatenate(faces)
@@ -62,16 +62,16 @@ def _mesh(lines: list[DrapedLine], width: float) -> bpy.types.Mesh:
     return mesh
 
 
-def ribbon(points: NDArray[np.float64], width: float) -> NDArray[np.float32]:
-    """Corners (2 n, 3) of a flat ribbon along a closed line (n, 3): its left ones, then its right ones."""
+def closed_ribbon(points: NDArray[np.float64], width: float) -> NDArray[np.float32]:
+    """Return corners (2 n, 3) of a flat ribbon along a closed line (n, 3): left corners, then right ones."""
     here = np.arange(len(points))
-    return band(points, np.roll(here, 1), np.roll(here, -1), width)
+    return ribbon_corners(points, np.roll(here, 1), np.roll(here, -1), width)
 
 
-def band(
+def ribbon_corners(
     points: NDArray[np.float64], before: NDArray[np.int64], after: NDArray[np.int64], width: float
 ) -> NDArray[np.float32]:
-    """Ribbon corners for points (n, 3) on closed lines, given the points before and after each (n,)."""
+    """Return ribbon corners at points (n, 3) of closed lines, given the points before and after each (n,)."""
     along = (points[after] - points[before])[:, :2]
     length = np.maximum(np.hypot(*along.T), 1e-6)
     aside = np.column_stack([-along[:, 1], along[:, 0], np.zeros(len(along))]) / length[:, None]

@@ -13,14 +13,14 @@ from ...shot.shot import Shot
 from ...smoke import bake, flow_frames, sources, view
 from . import flow_material, layers, material
 
-_MAX_STEPS = 8192  # Cycles lengthens the steps of rays that would need more; 1024 of them are 12 km
+_MAX_STEPS = 8192  # Cycles lengthens the steps of rays that need more; 1024 steps are 12 km
 
 
 def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
-    """Build "Firetwin Smoke", which reads the files of `bake.bake`; nothing where smoke is off.
+    """Build "Firetwin Smoke", which reads the files of `bake.bake`; None if smoke is off.
 
     The step size along rays is set in metres. The default is the voxel size. Longer steps would not only blur
-    smoke but lose it.
+    smoke but miss parts of it.
     """
     collection = stage.part("Smoke")
     if not shot.settings.smoke.enabled:
@@ -28,14 +28,14 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
     source, place = sources.select(shot), bake.folder(shot)
     drawn = source.layers()
     if stage.own:
-        _march(stage.scene.cycles)
-        _slices(stage.scene.eevee, *view.span(shot))
+        _set_cycles_steps(stage.scene.cycles)
+        _set_eevee_slices(stage.scene.eevee, *view.span(shot))
     layers.build(collection, len(drawn))
     look = (flow_material if source.illuminated else material).build(shot, stage)
-    return [_hang(shot, stage, collection, each, place, look) for each in drawn][-1]
+    return [_add_volume(shot, stage, collection, each, place, look) for each in drawn][-1]
 
 
-def _hang(
+def _add_volume(
     shot: Shot,
     stage: Stage,
     collection: bpy.types.Collection,
@@ -43,7 +43,7 @@ def _hang(
     place: Path,
     look: bpy.types.Material,
 ) -> bpy.types.Object:
-    """Volume object of a layer, whose files lie in the folder `place`."""
+    """Add the volume object of a layer, whose files are in the folder `place`."""
     name = "Smoke" if layer.name == "smoke" else f"{layer.name.title()} Smoke"
     volume = bpy.data.volumes.new(f"Firetwin {name}")
     volume.filepath = str(layer.file(place, 1))
@@ -63,32 +63,32 @@ def _hang(
     return obj
 
 
-def relative(blend: Path) -> None:
-    """Make our volumes' paths relative to the folder where the .blend file is about to be saved.
+def make_paths_relative(blend: Path) -> None:
+    """Make paths of Firetwin's volumes relative to the folder in which the .blend file will be saved.
 
-    So smoke stays linked when both are moved together. Paths on another drive stay absolute. Blender must not
-    remap the paths again: save with ``relative_remap=False``.
+    Smoke then stays linked when both are moved together. Paths on another drive stay absolute. Blender must
+    not remap the paths again: save with ``relative_remap=False``.
     """
     for volume in bpy.data.volumes:
         if owned.ours(volume):
-            volume.filepath = _beside(blend, bpy.path.abspath(volume.filepath))
+            volume.filepath = _relative_path(blend, bpy.path.abspath(volume.filepath))
 
 
-def _beside(blend: Path, path: str) -> str:
+def _relative_path(blend: Path, path: str) -> str:
     try:
         return "//" + Path(os.path.relpath(path, blend.absolute().parent)).as_posix()
     except ValueError:  # no relative path leads to another drive
         return path
 
 
-def _march(cycles: bpy.types.PropertyGroup) -> None:
+def _set_cycles_steps(cycles: bpy.types.PropertyGroup) -> None:
     cycles.volume_step_rate = 1.0
     cycles.volume_max_steps = _MAX_STEPS
 
 
-def _slices(eevee: bpy.types.SceneEEVEE, near: float, far: float) -> None:
+def _set_eevee_slices(eevee: bpy.types.SceneEEVEE, near: float, far: float) -> None:
     """Set EEVEE's volume slices to the depth range of smoke, with shadows."""
-    eevee.use_volume_custom_range = True  # at its own 100 m, distant smoke is missing
+    eevee.use_volume_custom_range = True  # its default of 100 m omits distant smoke
     eevee.volumetric_start, eevee.volumetric_end = near, far
     eevee.volumetric_sample_distribution = 0.5
     eevee.use_volumetric_shadows = True

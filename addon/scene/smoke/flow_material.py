@@ -2,9 +2,9 @@
 
 Smoke scatters light mostly forwards, so it attenuates about as much as thinner smoke with more isotropic
 scattering (Joseph, Wiscombe and Weinman 1976, "The delta-Eddington approximation for radiative flux
-transfer"). So one bounce replaces many: for a ball of optical depth 16 in the sun its error is 11 to 16 % of
-the light against 24 bounces. One bounce of nearly isotropic scattering has 13 to 54 %. Camera rays, which
-decide outlines, use the full extinction.
+transfer"). A single bounce therefore replaces many: for a ball of optical depth 16 in the sun its error is 11
+to 16 % of the light against 24 bounces. One bounce of nearly isotropic scattering has an error of 13 to 54 %.
+Camera rays, which determine outlines, use the full extinction.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ from . import material, sunlit
 _PALE, _FRESH = (
     (0.80, 0.77, 0.73),
     (0.44, 0.36, 0.29),
-)  # albedo: of a grass fire; of a crown fire's soot and char
-_OLD = np.array([1.005, 1.0, 0.995])  # albedo of aged haze and cloud, over its value in green light
+)  # albedo of smoke from a grass fire, and from a crown fire's soot and char
+_OLD = np.array([1.005, 1.0, 0.995])  # albedo of aged haze and cloud, relative to green light
 _MIDDLE = (0.86, 0.83, 0.79)  # factor on light that reaches smoke through other smoke
 FORWARD = 0.6  # anisotropy of smoke (Reid et al. 2005: 0.5 to 0.65 in green light)
-# anisotropy that is left after forward-scattered light counts as not scattered
+# anisotropy that remains after forward-scattered light is counted as unscattered
 _ANISOTROPY = FORWARD / (1.0 + FORWARD)
-_HIDDEN = 30.0  # factor of extinction in hidden smoke, where camera rays, which go on to 1e-6, can end
-_LIGHT = 0.5  # fraction of extinction for light rays: 0.7 by theory, less for the bounces left out
+_HIDDEN = 30.0  # factor on extinction in hidden smoke, so that camera rays, which go on to 1e-6, can end
+_LIGHT = 0.5  # fraction of extinction for light rays: 0.7 by theory, less because bounces are omitted
 
 
 @dataclass(frozen=True)
@@ -48,20 +48,22 @@ class _Smoke:
 def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     """Build "Firetwin Smoke"."""
     made, tree = nodes.material("Firetwin Smoke")
-    young = material.between(_PALE, _FRESH, shot.fire.smoke.dark)
+    young = material.mix_colours(_PALE, _FRESH, shot.fire.smoke.dark)
     fresh = tree.input("Fresh Colour", young, "Albedo of fresh smoke: dark with soot, or pale", "Colour")
     old = tree.input(
         "Old Colour", tuple(_OLD * shot.fire.smoke.white), "Albedo of aged haze and cloud", "Colour"
     )
     thick = tree.input("Density", 1.0, "Factor on how thick smoke is", "Density")
-    even = tree.input("Anisotropy", _ANISOTROPY, "How much light goes on forwards", "Light", -0.99, 0.99)
+    even = tree.input("Anisotropy", _ANISOTROPY, "How much light is scattered forwards", "Light", -0.99, 0.99)
     density = tree.attribute("density") * thick
     albedo = tree.mix_colour(tree.attribute("fresh"), old, fresh)
-    thinner = density * tree.input("Light Density", _LIGHT, "Part of the smoke that dims light", "Light")
-    extinction = density * (1.0 + tree.attribute("hidden") * _hiding(tree, thick))
-    lit = _solved if shot.settings.smoke.lighting == "solved" else _traced
+    thinner = density * tree.input(
+        "Light Density", _LIGHT, "Fraction of the smoke that attenuates light rays", "Light"
+    )
+    extinction = density * (1.0 + tree.attribute("hidden") * _hidden_factor(tree, thick))
+    lit = _solved_light if shot.settings.smoke.lighting == "solved" else _traced_light
     visible = lit(tree, shot, stage, _Smoke(extinction, thinner, albedo, even))
-    shader = infrared.smoke(tree, shot, stage, visible, density)
+    shader = infrared.select_smoke_shader(tree, shot, stage, visible, density)
     # A mix by 0 or 1 evaluates one side only, and more than half of all steps are outside of smoke.
     clear = tree.output("ShaderNodeVolumeAbsorption", {"Density": 0.0})
     tree.volume(tree.mix_shader(density > 0.5 * flow_frames.min_extinction(shot.scale), clear, shader))
@@ -70,52 +72,54 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     return made
 
 
-def _solved(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.Value:
-    """Smoke as emission: radiance from the light in its grids."""
+def _solved_light(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.Value:
+    """Shade smoke as emission: radiance from the light in its grids."""
     part, air = haze.fraction(tree, stage)
-    light = sunlit.source(tree, shot, smoke.albedo, smoke.even)
+    light = sunlit.source_function(tree, shot, smoke.albedo, smoke.even)
     if glow := _glow(tree, shot, smoke.density):
         light = tree.vector("ADD", light, tree.vector("SCALE", *glow))
     emission = tree.add_shader(
-        _black(tree, smoke.density), tree.emission(tree.mix_colour(part, light, air), smoke.density)
+        _absorb(tree, smoke.density), tree.emission(tree.mix_colour(part, light, air), smoke.density)
     )
-    # Reflections in lakes count too. Other rays gather 0.02/255 of the example's picture from emission.
+    # Reflections in lakes count as well. Other rays gather 0.02/255 of the example's picture from emission.
     path = tree.node("ShaderNodeLightPath")
     looks = tree.math("MAXIMUM", *(tree.pick(path, name) for name in ("Is Camera Ray", "Is Glossy Ray")))
-    return tree.mix_shader(looks, _black(tree, smoke.thinner), emission)
+    return tree.mix_shader(looks, _absorb(tree, smoke.thinner), emission)
 
 
-def _traced(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.Value:
-    """Smoke whose scattering Cycles traces."""
-    middle = tree.input("Inner Colour", _MIDDLE, "Albedo for light by way of other smoke", "Colour")
+def _traced_light(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.Value:
+    """Shade smoke whose scattering Cycles traces."""
+    middle = tree.input(
+        "Inner Colour", _MIDDLE, "Albedo for light that arrives through other smoke", "Colour"
+    )
     part, air = haze.fraction(tree, stage)
     light = tree.emission(air, part * smoke.density)
     if glow := _glow(tree, shot, smoke.density):
         shine, bright = glow
         light = tree.add_shader(light, tree.emission(shine, bright * (1.0 - part) * smoke.density))
     scattered = tree.mix_colour(part, smoke.albedo, (0.0, 0.0, 0.0))
-    detailed = tree.add_shader(material.smoke(tree, smoke.density, scattered, smoke.even), light)
-    # Most steps belong to light rays through the smoke; one grid is enough for them.
+    detailed = tree.add_shader(material.smoke_shader(tree, smoke.density, scattered, smoke.even), light)
+    # Most steps are on light rays through the smoke, for which a single grid is enough.
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
-    return tree.mix_shader(camera, material.smoke(tree, smoke.thinner, middle, smoke.even), detailed)
+    return tree.mix_shader(camera, material.smoke_shader(tree, smoke.thinner, middle, smoke.even), detailed)
 
 
-def _hiding(tree: nodes.Tree, thick: nodes.Value) -> nodes.Value:
-    """Factor on the extinction of hidden smoke; 0 where smoke is drawn thinner than it is, and hides less."""
+def _hidden_factor(tree: nodes.Tree, thick: nodes.Value) -> nodes.Value:
+    """Return a factor on the extinction of hidden smoke; 0 if smoke is drawn thinner than it is."""
     factor = tree.input(
-        "Hidden Density", _HIDDEN, "Times that smoke no camera sees counts besides", "Density"
+        "Hidden Density", _HIDDEN, "Factor on the density of smoke that no camera sees", "Density"
     )
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     return factor * camera * (thick > 0.99)
 
 
-def _black(tree: nodes.Tree, density: nodes.Value) -> nodes.Value:
+def _absorb(tree: nodes.Tree, density: nodes.Value) -> nodes.Value:
     return tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": density})
 
 
 def _glow(tree: nodes.Tree, shot: Shot, density: nodes.Value) -> tuple[nodes.Value, nodes.Value] | None:
-    """Colour and strength of the flames' light in smoke, where it is dark enough to be visible."""
+    """Return colour and strength of the flames' light in smoke, if it is dark enough to be visible."""
     if exposure.darkness(shot, shot.frames.middle) <= 0.0:
         return None
     shine, bright = material.glow_inputs(tree, shot)
-    return shine, tree.attribute("glow") * bright * material.glowing(density)
+    return shine, tree.attribute("glow") * bright * material.scattered_flame_light(density)

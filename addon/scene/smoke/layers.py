@@ -1,11 +1,11 @@
-"""Volume stack of Cycles: enough entries for smoke in many layers.
+"""Volume stack of Cycles: enough entries for many layers of smoke.
 
-Cycles marches between the faces of a hull of boxes, 8 voxels wide, round the grids. Before it traces a camera
-ray it traces straight up from the camera and stores 2 (2 + n) of the faces it meets, in no order. The lowest
-of those decides whether the camera is in the smoke. n is the number of volumes that overlap another, and at
-least 1. With more layers, a camera in thin smoke can be taken to be outside. Then every ray loses its smoke
-up to the next box: a hole with straight edges. Volumes that overlap each other, underground, raise n to the
-maximum: 64 faces.
+Cycles marches between the faces of a hull of boxes, 8 voxels wide, around the grids. Before it traces a
+camera ray it traces straight up from the camera and stores 2 (2 + n) of the faces it meets, in no particular
+order. The lowest of those decides whether the camera is in the smoke. n is the number of volumes that overlap
+another, and at least 1. With more layers, a camera in thin smoke can be taken to be outside. Every ray then
+misses its smoke up to the next box: a hole with straight edges. Volumes that overlap each other, underground,
+raise n to the maximum: 64 faces.
 
 Source: `integrator_volume_stack_init` and `Scene::get_volume_stack_size` of Cycles 4.5 to 5.2.
 """
@@ -16,14 +16,14 @@ import bpy
 
 from ...blender import nodes, owned
 
-_COUNT = 29  # with one volume of smoke, the end mark and the world's volume, the 32 of Cycles
+_COUNT = 29  # plus one volume of smoke, the end marker and the world's volume: Cycles' maximum of 32
 _DEPTH = -5000.0  # m
 
 
 def build(collection: bpy.types.Collection, smokes: int = 1) -> None:
-    """Build "Firetwin Smoke Layers": instances of one empty volume at one place.
+    """Build "Firetwin Smoke Layers": instances of a single empty volume at the same position.
 
-    Together with the volumes of smoke they fill Cycles' maximum.
+    Together with the smoke volumes they fill Cycles' maximum.
     """
     material, tree = nodes.material("Firetwin Smoke Layers")
     tree.volume(tree.output("ShaderNodeVolumeAbsorption", {"Density": 0.0}))

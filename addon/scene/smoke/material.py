@@ -1,6 +1,6 @@
 """Material of puff smoke: sharp cauliflower edges with detail below the voxel size, lit by sun and flames.
 
-The grids are those of `firetwin_core.volume.write_smoke`. The outline is the clipped distance field plus
+The grids are written by `firetwin_core.volume.write_smoke`. The outline is the clipped distance field plus
 billow noise, through a narrow step. Extinction comes from the smoke's mass.
 """
 
@@ -19,18 +19,18 @@ from ...smoke import view
 from .. import haze, infrared
 
 EXTINCTION_PER_DILUTION = 0.04  # 1/m: 4 m2/g (fresh biomass smoke, Reid et al. 2005) times 10 mg/m3
-OPACITY = 5.0, 16.0  # factors on it, for ash near the ground and for cloud water aloft; chosen by eye
-_CLOUD = (700.0, 2600.0)  # m above the ground between which cloud water condenses in it
-# single scattering has about 0.6; few bounces of a much lower value brighten thick smoke as many do
+OPACITY = 5.0, 16.0  # factors for ash near the ground and for cloud water aloft; chosen by eye
+_CLOUD = (700.0, 2600.0)  # m above the ground between which cloud water condenses
+# single scattering has about 0.6; few bounces with a much lower value brighten thick smoke as many bounces do
 ANISOTROPY = 0.1
-_EDGE = (0.46, 0.55)  # of the clipped distance: 54 m from transparent to full extinction
+_EDGE = (0.46, 0.55)  # clipped distance: 54 m from transparent to full extinction
 _AMPLITUDE = 0.5  # amplitude of the noise in the distance, 1 = 600 m
 _MEAN_BILLOW = 0.4
-_ALOFT = 1.55  # wind at the height of smoke over that at 10 m: (h / 10 m)^0.1 at 800 m
+_ALOFT = 1.55  # wind at the height of smoke relative to 10 m: (h / 10 m)^0.1 at 800 m
 _CLIMB = 1.0  # m/s
-_VEIL = (0.002, 0.005)  # dilution between which thin smoke fades; volumes end at the lower one
-_PALE, _LOW = (0.84, 0.81, 0.77), (0.62, 0.53, 0.44)  # albedo near the ground: of a grass and of a crown fire
-_HIGH = np.array([1.005, 1.0, 0.995])  # albedo aloft, over its value in green light
+_VEIL = (0.002, 0.005)  # dilutions between which thin smoke fades; volumes end at the lower value
+_PALE, _LOW = (0.84, 0.81, 0.77), (0.62, 0.53, 0.44)  # albedo near the ground: grass fire, crown fire
+_HIGH = np.array([1.005, 1.0, 0.995])  # albedo aloft, relative to green light
 _MIDDLE = (0.86, 0.83, 0.79)  # factor on light that reaches smoke through other smoke
 
 
@@ -39,14 +39,14 @@ Colour = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class NoiseAdvection:
-    """Advection of the noise: wind 10 m over the ground (m/s), and the elevation of that ground (m)."""
+    """Advection of the noise: wind 10 m above the ground (m/s), and the elevation of that ground (m)."""
 
     wind: tuple[float, float]
     ground: float
 
 
-def flow(shot: Shot) -> NoiseAdvection:
-    """Wind in the middle of the shot, and the mean elevation of the burning ground."""
+def noise_advection(shot: Shot) -> NoiseAdvection:
+    """Return the wind at mid-shot, and the mean elevation of the burning ground."""
     cells = shot.fire.cells(shot.frames.first - 3600.0, shot.frames.last)
     height = float(np.mean(cells.position[:, 2])) if len(cells.arrival) else 1000.0
     return NoiseAdvection(shot.wind, height)
@@ -54,16 +54,18 @@ def flow(shot: Shot) -> NoiseAdvection:
 
 def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     """Build "Firetwin Smoke"."""
-    drawn, carried = view.resolution(shot), flow(shot)
+    drawn, carried = view.resolution(shot), noise_advection(shot)
     material, tree = nodes.material("Firetwin Smoke")
     position = tree.output("ShaderNodeNewGeometry", name="Position")
     made_of = shot.fire.smoke
-    low = between(_PALE, _LOW, made_of.dark)
+    low = mix_colours(_PALE, _LOW, made_of.dark)
     fresh = tree.input("Fresh Colour", low, "Albedo of smoke near the ground", "Colour")
     old = tree.input("Old Colour", tuple(_HIGH * made_of.white), "Albedo of smoke far up", "Colour")
-    middle = tree.input("Inner Colour", _MIDDLE, "Albedo for light by way of other smoke", "Colour")
+    middle = tree.input(
+        "Inner Colour", _MIDDLE, "Albedo for light that arrives through other smoke", "Colour"
+    )
     thick = tree.input("Density", 1.0, "Factor on how thick smoke is", "Density")
-    even = tree.input("Anisotropy", ANISOTROPY, "How much light goes on forwards", "Light", -1.0, 1.0)
+    even = tree.input("Anisotropy", ANISOTROPY, "How much light is scattered forwards", "Light", -1.0, 1.0)
     above = tree.separate(position)[2] - carried.ground
     opacity = above.ramp(*_CLOUD, *OPACITY) * (thick * (made_of.opacity / made_of.dilution))
     full = _extinction(tree.attribute("dilution"), opacity, drawn.extinction)
@@ -79,63 +81,65 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     glow = tree.attribute("glow") * (1.0 - part) * bright
 
     def shaded(density: nodes.Value) -> nodes.Value:
-        lit = glow * glowing(density) * density
+        lit = glow * scattered_flame_light(density) * density
         light = tree.add_shader(tree.emission(air, part * density), tree.emission(shine, lit))
-        return tree.add_shader(smoke(tree, density, scattered, even), light)
+        return tree.add_shader(smoke_shader(tree, density, scattered, even), light)
 
     # A mix by 0 or 1 evaluates one side only: deep inside, noise has no effect and is not evaluated.
     deep = depth > _EDGE[1] + _AMPLITUDE * _MEAN_BILLOW
     detailed = tree.mix_shader(deep, shaded(density), shaded(full))
-    # Most steps belong to light rays through the smoke. They need no detail: one grid is enough.
-    plain = smoke(tree, _extinction(tree.attribute("shade"), opacity, drawn.extinction), middle, even)
+    # Most steps are on light rays through the smoke, which need no detail: a single grid is enough.
+    plain = smoke_shader(tree, _extinction(tree.attribute("shade"), opacity, drawn.extinction), middle, even)
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
-    tree.volume(infrared.smoke(tree, shot, stage, tree.mix_shader(camera, plain, detailed), density))
+    tree.volume(
+        infrared.select_smoke_shader(tree, shot, stage, tree.mix_shader(camera, plain, detailed), density)
+    )
     material.cycles.volume_sampling = "DISTANCE"
     material.cycles.emission_sampling = "NONE"
     return material
 
 
-def between(pale: Colour, dark: Colour, part: float) -> Colour:
-    """Linear interpolation of two colours."""
+def mix_colours(pale: Colour, dark: Colour, part: float) -> Colour:
+    """Interpolate two colours linearly."""
     return tuple((1.0 - part) * np.array(pale) + part * np.array(dark))
 
 
 def glow_light(shot: Shot) -> float:
-    """Light of the flames on smoke in the middle of the shot."""
+    """Return the light of the flames on smoke at mid-shot."""
     return sky.glow(float(exposure.darkness(shot, shot.frames.middle)))
 
 
 def _extinction(dilution: nodes.Value, opacity: nodes.Value, most: float) -> nodes.Value:
-    """Extinction (1/m) of smoke, saturating at `most`, where thick smoke is opaque already."""
+    """Return the extinction (1/m) of smoke, saturating at `most`, where thick smoke is already opaque."""
     thickness = dilution * dilution.smoothstep(*_VEIL) * opacity * (EXTINCTION_PER_DILUTION / most)
     return (1.0 - (-thickness).exp()) * most
 
 
 def glow_inputs(tree: nodes.Tree, shot: Shot) -> tuple[nodes.Value, nodes.Value]:
-    """Colour and strength of the flames' light on smoke."""
-    colour = tree.input("Glow Colour", tuple(sky.GLOW), "Of the flames' light on smoke", "Light")
+    """Add inputs for colour and strength of the flames' light on smoke."""
+    colour = tree.input("Glow Colour", tuple(sky.GLOW), "Colour of the flames' light on smoke", "Light")
     return colour, tree.input("Glow", glow_light(shot), "Brightness of the flames' light on smoke", "Light")
 
 
-def glowing(density: nodes.Value) -> nodes.Value:
-    """Fraction of flame light that smoke of this extinction (1/m) scatters; exposure metering uses it too."""
+def scattered_flame_light(density: nodes.Value) -> nodes.Value:
+    """Return the fraction of flame light that smoke of this extinction (1/m) scatters (also for metering)."""
     return density.ramp(*sky.THICK, sky.THIN, 1.0)
 
 
-def smoke(
+def smoke_shader(
     tree: nodes.Tree, density: nodes.Value, albedo: nodes.Value, anisotropy: nodes.Value
 ) -> nodes.Value:
-    """Scattering and absorption coefficients that give the extinction `density` (1/m) and the `albedo`."""
+    """Set scattering and absorption coefficients that give the extinction `density` (1/m) and `albedo`."""
     inputs = {"Color": albedo, "Density": density}
     scatter = tree.output("ShaderNodeVolumeScatter", inputs | {"Anisotropy": anisotropy})
     return tree.add_shader(scatter, tree.output("ShaderNodeVolumeAbsorption", inputs))
 
 
 def _billow(tree: nodes.Tree, position: nodes.Value, carried: NoiseAdvection, size: float) -> nodes.Value:
-    """Billow noise, about 0..1 with mean 0.4, that is advected with the smoke.
+    """Return billow noise, about 0..1 with mean 0.4, that is advected with the smoke.
 
-    It moves with the wind some hundred metres up. Between there and the top of the smoke the wind of the
-    puffs changes by an eighth.
+    It moves with the wind some hundred metres above the ground. Between there and the top of the smoke the
+    wind of the puffs changes by an eighth.
     """
     shift = [speed * _ALOFT for speed in carried.wind]
     time = nodes.model_time(tree)

@@ -1,8 +1,9 @@
-"""Shadow of ray-marched smoke: a surface over the ground that is visible to shadow rays only.
+"""Shadow of ray-marched smoke: a surface above the ground that is visible to shadow rays only.
 
-Its transmittance is that of the smoke over it: along the sun's direction for rays to the sun, and for others
-the mean of five directions, each for a fifth of the sky. Objects taller than it (`_OVER`) get no shadow of
-smoke. Smoke at its sides is ignored: next to a column the ground is a little too bright.
+Its transmittance is computed through the smoke above it: along the sun's direction for rays to the sun, and
+for others the mean of five directions, each for a fifth of the sky. Objects taller than this surface
+(`_OVER`) get no smoke shadow. Smoke beyond its sides is ignored: next to a column the ground is a little too
+bright.
 """
 
 from __future__ import annotations
@@ -23,13 +24,13 @@ from ...smoke.domains import Box
 from . import illumination
 
 NAME = "Smoke Shadow"
-_OVER = 45.0  # m over the ground, as tall as all but the tallest trees
-_TREES = 12.0  # m, where the fire is small
+_OVER = 45.0  # m above the ground, taller than all but the tallest trees
+_TREES = 12.0  # m, for a small fire
 _MESH = 3  # texels along a side of the mesh
-_TEXEL, _TEXELS = 40.0, 1200  # m at the least; along a side at the most
+_TEXEL, _TEXELS = 40.0, 1200  # m, minimum; maximum number along a side
 _SUN_EVERY, _SKY_EVERY = 2, 8  # texels between points whose transmittance is computed
-_MARGIN, _TOP = (2000.0, 20_000.0), 0.64  # m round the smoke; range of shadows over the box's height
-_SUN_CONE = np.radians(0.6)  # the sun's disc has 0.27
+_MARGIN, _TOP = (2000.0, 20_000.0), 0.64  # m around the smoke; range of shadows relative to the box's height
+_SUN_CONE = np.radians(0.6)  # the sun's disc has a radius of 0.27 degrees
 _RING = 0.4  # sine of the mean elevation of the lower four fifths of the sky
 _STEP = 2.0  # voxels
 _ENDLESS = np.float32(1.0e9)  # m
@@ -44,9 +45,9 @@ class Shadow:
     Attributes
     ----------
     image
-        Red: transmittance of sunlight, green: of skylight.
+        Red: transmittance of sunlight; green: of skylight.
     places
-        (rows, columns, 3) m, of the image's texels.
+        (rows, columns, 3) m, positions of the image's texels.
     """
 
     image: bpy.types.Image
@@ -54,14 +55,14 @@ class Shadow:
     places: Array
 
     def cast(self, stage: Stage, layers: Sequence[volume.Bricks]) -> None:
-        """Update the shadow to that of these layers, with the sun of the scene's frame."""
-        toward = illumination.toward_sun(stage)
-        part = illumination.shading(stage)
-        direct = _through(layers, self.places[::_SUN_EVERY, ::_SUN_EVERY], [toward], part)
-        around = _through(layers, self.places[::_SKY_EVERY, ::_SKY_EVERY], _ways(), part)
+        """Update the shadow to these layers, with the sun of the scene's current frame."""
+        toward = illumination.sun_direction(stage)
+        part = illumination.light_ray_factor(stage)
+        direct = _mean_transmittance(layers, self.places[::_SUN_EVERY, ::_SUN_EVERY], [toward], part)
+        around = _mean_transmittance(layers, self.places[::_SKY_EVERY, ::_SKY_EVERY], _sky_directions(), part)
         pixels = np.ones((*self.places.shape[:2], 4), np.float32)
-        pixels[..., 0] = _repeated(direct, _SUN_EVERY, pixels.shape)
-        pixels[..., 1] = _repeated(around, _SKY_EVERY, pixels.shape)
+        pixels[..., 0] = _interpolate_texels(direct, _SUN_EVERY, pixels.shape)
+        pixels[..., 1] = _interpolate_texels(around, _SKY_EVERY, pixels.shape)
         self.image.pixels.foreach_set(pixels.ravel())
         self.image.update()
         (group,) = (node for node in self.material.node_tree.nodes if node.type == "GROUP")
@@ -71,7 +72,7 @@ class Shadow:
 
 def build(shot: Shot, stage: Stage, boxes: Sequence[Box]) -> Shadow:
     """Build "Firetwin Smoke Shadow" over all ground that smoke in these boxes can shade."""
-    low, high = _extent(shot, boxes)
+    low, high = _shaded_extent(shot, boxes)
     length = shot.scale.length
     texel = max(length(_TEXEL), float(max(high - low)) / _TEXELS)
     x, y = (np.arange(a + 0.5 * texel, b, texel) for a, b in zip(low, high, strict=True))
@@ -90,8 +91,8 @@ def build(shot: Shot, stage: Stage, boxes: Sequence[Box]) -> Shadow:
     return Shadow(image, material, places)
 
 
-def _extent(shot: Shot, boxes: Sequence[Box]) -> tuple[Array, Array]:
-    """Corners (x, y), m, of the ground that the smoke can shade."""
+def _shaded_extent(shot: Shot, boxes: Sequence[Box]) -> tuple[Array, Array]:
+    """Return corners (x, y), m, of the ground that the smoke can shade."""
     heights = [sun.position(shot.run, float(shot.frames.times[k]))[1] for k in (0, -1)]
     steep = np.tan(np.radians(max(min(heights), 1.0)))
     top = _TOP * max(box.levels[-1] for box in boxes)
@@ -100,10 +101,10 @@ def _extent(shot: Shot, boxes: Sequence[Box]) -> tuple[Array, Array]:
     return corners[:, 0].min(axis=0) - margin, corners[:, 1].max(axis=0) + margin
 
 
-def _through(
+def _mean_transmittance(
     layers: Sequence[volume.Bricks], places: Array, ways: Sequence[Sequence[float]], part: float
 ) -> NDArray[np.float32]:
-    """Mean transmittance over directions, to points (rows, columns, 3)."""
+    """Return the mean transmittance over directions, to points (rows, columns, 3)."""
     flat = places.reshape(-1, 3)
     end = np.full(len(flat), _ENDLESS)
     total = np.zeros(len(flat), np.float32)
@@ -113,14 +114,16 @@ def _through(
     return (total / len(ways)).reshape(places.shape[:2])
 
 
-def _ways() -> list[tuple[float, float, float]]:
-    """Unit vectors to the centres of five equal solid angles of the sky."""
+def _sky_directions() -> list[tuple[float, float, float]]:
+    """Return unit vectors to the centres of five equal solid angles of the sky."""
     flat = float(np.sqrt(1.0 - _RING**2))
     return [(0.0, 0.0, 1.0), *((flat * c, flat * s, _RING) for c, s in ((1, 0), (-1, 0), (0, 1), (0, -1)))]
 
 
-def _repeated(values: NDArray[np.float32], times: int, shape: tuple[int, ...]) -> NDArray[np.float32]:
-    """Values for every texel, linear between the computed ones."""
+def _interpolate_texels(
+    values: NDArray[np.float32], times: int, shape: tuple[int, ...]
+) -> NDArray[np.float32]:
+    """Interpolate values linearly for every texel between the computed ones."""
     rows, columns = (np.arange(count) / times for count in shape[:2])
     low, right = (
         np.minimum(at.astype(int), count - 1) for at, count in zip((rows, columns), values.shape, strict=True)
@@ -149,7 +152,7 @@ def _mesh(places: Array, material: bpy.types.Material) -> bpy.types.Mesh:
 
 
 def _material(image: bpy.types.Image, low: Array, size: Array) -> bpy.types.Material:
-    """Transparent material, darkened by the image over the ground from its corner `low` on."""
+    """Create a transparent material, darkened by the image over the ground from its corner `low` on."""
     material, tree = nodes.material(f"Firetwin {NAME}")
     geometry = tree.node("ShaderNodeNewGeometry")
     place = tree.vector("SUBTRACT", tree.pick(geometry, "Position"), (*low, 0.0))

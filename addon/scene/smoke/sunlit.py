@@ -3,7 +3,7 @@
 Single-scattered sunlight follows the phase function of L. G. Henyey and J. L. Greenstein (1941, "Diffuse
 radiation in the galaxy"). Multiple scattering is isotropic, with reduced extinction and a factor of albedo
 per order, after M. Wrenninge, C. Kulla and V. Lundqvist (2013, "Oz: The Great and Volumetric"): a half and a
-quarter of the optical depth count.
+quarter of the optical depth are used.
 """
 
 from __future__ import annotations
@@ -18,19 +18,19 @@ from ...shot.shot import Shot
 from ..light.build import add_keyframes, light_keyframes
 
 OFTENER = 0.5, 0.3  # weights relative to single scattering, from a ball and a plume against 24 and 32 bounces
-_GROUND = 0.07  # albedo of forest and ash, which light smoke from below (assumed)
+_GROUND = 0.07  # albedo of forest and ash, which reflect light onto smoke from below (assumed)
 NODES = _SUN, _SKY, _TOWARDS = "Sunlight", "Skylight", "Towards the Sun"
 
 
-def source(tree: nodes.Tree, shot: Shot, albedo: nodes.Value, even: nodes.Value) -> nodes.Value:
-    """Source function: radiance that smoke adds per optical depth along the camera ray."""
+def source_function(tree: nodes.Tree, shot: Shot, albedo: nodes.Value, even: nodes.Value) -> nodes.Value:
+    """Return the source function: radiance that smoke adds per optical depth along the camera ray."""
     sun, sky = (tree.attribute(name) for name in ("sun", "sky"))
     thinner = sun * sun
     brighter = tree.input("Sunlight", 1.0, "Factor on sunlight that smoke scatters", "Light")
     around = tree.input(
         "Skylight", 1.0, "Factor on light of the sky and the ground that smoke scatters", "Light"
     )
-    once = thinner * thinner * _spread(tree, even)
+    once = thinner * thinner * _phase_function(tree, even)
     light = tree.vector("MULTIPLY_ADD", albedo, sun * OFTENER[1], thinner * OFTENER[0])
     light = tree.vector("MULTIPLY_ADD", albedo, light, once)
     sunlight = tree.vector("SCALE", tree.node("ShaderNodeRGB", name=_SUN), brighter / (4.0 * np.pi))
@@ -41,8 +41,8 @@ def source(tree: nodes.Tree, shot: Shot, albedo: nodes.Value, even: nodes.Value)
     return light
 
 
-def _spread(tree: nodes.Tree, even: nodes.Value) -> nodes.Value:
-    """Phase function for light from the sun to the camera, 1 for isotropic scattering."""
+def _phase_function(tree: nodes.Tree, even: nodes.Value) -> nodes.Value:
+    """Return the phase function for light from the sun to the camera, 1 for isotropic scattering."""
     towards = tree.node("ShaderNodeCombineXYZ", name=_TOWARDS)
     cosine = tree.vector(
         "DOT_PRODUCT", towards, tree.output("ShaderNodeNewGeometry", name="Incoming"), name="Value"
@@ -55,7 +55,7 @@ def _animate(shot: Shot, tree: bpy.types.NodeTree) -> None:
     """Keyframe the sun's and the sky's light over the shot."""
     frames, states = light_keyframes(shot)
     sun = np.array([s.power * np.array(s.colour) for s in states])
-    sky = np.array([_around(s) for s in states])
+    sky = np.array([_mean_over_sphere(s) for s in states])
     opaque = np.ones((len(states), 1))
     for name, colours in ((_SUN, sun), (_SKY, sky)):
         add_keyframes(tree, f'nodes["{name}"].outputs[0].default_value', frames, np.hstack([colours, opaque]))
@@ -64,7 +64,7 @@ def _animate(shot: Shot, tree: bpy.types.NodeTree) -> None:
         add_keyframes(tree, f'nodes["{_TOWARDS}"].inputs[{axis}].default_value', frames, towards[:, axis])
 
 
-def _around(state: State) -> NDArray[np.float64]:
-    """Mean radiance over the sphere, half of it the sky's and half the ground's."""
+def _mean_over_sphere(state: State) -> NDArray[np.float64]:
+    """Return the mean radiance over the sphere: half sky, half ground."""
     sun = state.power * np.array(state.colour) * max(state.direction[2], 0.0) / np.pi
     return 0.5 * (state.around + _GROUND * (sun + state.sky_mean))
