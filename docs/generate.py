@@ -34,7 +34,7 @@ NAMES = {
 }
 
 
-def table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
+def format_table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
     """Format a Markdown table."""
     lines = [head, tuple("---" for _ in head), *rows]
     return (
@@ -43,7 +43,7 @@ def table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
     )
 
 
-def value(part: Field) -> str:
+def format_default(part: Field) -> str:
     """Format the default of a key as a scene file writes it."""
     if part.table:
         return "none"
@@ -55,7 +55,7 @@ def value(part: Field) -> str:
     return f"`{found}`".replace("'", '"') if not isinstance(found, str) else f'`"{found}"`'
 
 
-def kind(part: Field) -> str:
+def format_type(part: Field) -> str:
     """Format type, unit and bounds of a key."""
     if part.table:
         return "list of tables" if part.tables else "table"
@@ -70,40 +70,43 @@ def kind(part: Field) -> str:
     return ", ".join(each for each in (name, key.unit, " ".join(bounds)) if each)
 
 
-def meaning(key: Key, listed: bool = True) -> str:
+def format_meaning(key: Key, listed: bool = True) -> str:
     """Format the help of a key and its choices."""
     names = key.names() if listed else {}
     choices = [f'`"{name}"`' + (f" {text}" if text else "") for name, text in names.items()]
     return key.help + (": " + "; ".join(choices) if choices else "")
 
 
-def keys(found: list[Field]) -> str:
+def format_keys(found: list[Field]) -> str:
     """Format a table of keys; choices that are passes have a separate page."""
-    rows = (
-        (f"`{p.name}`", value(p), kind(p), meaning(p.key, listed=p.key.choices is not passes.helps))
-        for p in found
-    )
-    out = table(("key", "default", "value", "meaning"), rows)
-    inner = [f"\nEach table of `{p.name}`:\n\n{keys(list(fields(p.table)))}" for p in found if p.table]
+    rows = []
+    for part in found:
+        is_listed = part.key.choices is not passes.helps
+        meaning = format_meaning(part.key, is_listed)
+        rows.append((f"`{part.name}`", format_default(part), format_type(part), meaning))
+    out = format_table(("key", "default", "value", "meaning"), rows)
+    inner = [f"\nEach table of `{p.name}`:\n\n{format_keys(list(fields(p.table)))}" for p in found if p.table]
     return out + "".join(inner)
 
 
-def columns(block: str) -> str:
+def convert_columns(block: str) -> str:
     """Convert a table of reStructuredText, with columns under its rulers, to Markdown."""
     ruler, head, _, *rows, _ = block.splitlines()
     starts = [found.start() for found in re.finditer("=+", ruler)]
     cells = [tuple(line[a:b].strip() for a, b in pairwise([*starts, None])) for line in (head, *rows)]
-    return table(cells[0], iter(cells[1:]))
+    return format_table(cells[0], iter(cells[1:]))
 
 
-def prose(text: str | None, module: str = "") -> str:
+def convert_docstring(text: str | None) -> str:
     """Convert a docstring to Markdown: tables, single backticks, and no references to modules."""
-    blocks = [block for block in re.split(r"\n\n+", inspect.cleandoc(text or ""))]
-    blocks = [columns(block) if block.startswith("===") else block.replace("``", "`") for block in blocks]
+    blocks = re.split(r"\n\n+", inspect.cleandoc(text or ""))
+    blocks = [
+        convert_columns(block) if block.startswith("===") else block.replace("``", "`") for block in blocks
+    ]
     return "\n\n".join(re.sub(r"\s*\((?:see `[\w.]+`|`[a-z_]+\.[\w.]+`)\)", "", block) for block in blocks)
 
 
-def settings() -> str:
+def describe_settings() -> str:
     """Describe every section of a scene file with its keys."""
     sections = [part for part in fields(Settings) if part.table]
     own = [part for part in fields(Settings) if not part.table]
@@ -112,15 +115,15 @@ def settings() -> str:
         "# Settings\n",
         SETTINGS,
         "## At the top\n",
-        keys(own),
+        format_keys(own),
     ]
     for part in sections:
         name = f"[[{part.name}]]" if part.tables else f"[{part.name}]"
         inner = [each for each in fields(part.table) if not each.key.variants]
         out += [
             f"## `{name}`\n",
-            f"{sentence(inspect.cleandoc(part.table.__doc__ or part.key.help))}\n",
-            keys(inner),
+            f"{complete_sentence(inspect.cleandoc(part.table.__doc__ or part.key.help))}\n",
+            format_keys(inner),
         ]
         if part.table is Camera:
             out.append(
@@ -129,13 +132,13 @@ def settings() -> str:
     return "\n".join(out)
 
 
-def sentence(text: str) -> str:
+def complete_sentence(text: str) -> str:
     """Complete a sentence with a capital and a full stop."""
     text = text.strip()
     return text[:1].upper() + text[1:] + ("" if text.endswith(".") else ".")
 
 
-def pass_section(each: passes.Pass) -> str:
+def describe_pass(each: passes.Pass) -> str:
     """Describe a pass."""
     files = [passes.file_of("CAMERA", each.name, 1, suffix) for suffix in each.files]
     facts = [f"Files: {', '.join(f'`{file}`' for file in files)}"]
@@ -148,14 +151,14 @@ def pass_section(each: passes.Pass) -> str:
     facts += ["Written as a film, too"] if each.film else []
     facts += ["Not for panoramas"] if each.single_view else []
     facts += ["Compares the runs of `[[runs]]`"] if isinstance(each, passes.ComparisonPass) else []
-    text = prose(sys.modules[f"{passes.__name__}.{each.name}"].__doc__)
+    text = convert_docstring(sys.modules[f"{passes.__name__}.{each.name}"].__doc__)
     return f"### {each.name}\n\n{text}\n\n" + "\n".join(f"- {fact}." for fact in facts) + "\n"
 
 
-def rig_section(name: str, rig: type) -> str:
+def describe_rig(name: str, rig: type) -> str:
     """Describe a kind of camera."""
-    texts = (prose(sys.modules[rig.__module__].__doc__), prose(rig.__doc__), keys(list(fields(rig))))
-    return "\n\n".join((f"### {name}", *texts))
+    texts = [convert_docstring(text) for text in (sys.modules[rig.__module__].__doc__, rig.__doc__)]
+    return "\n\n".join((f"### {name}", *texts, format_keys(list(fields(rig)))))
 
 
 SETTINGS = """\
@@ -213,7 +216,7 @@ complete run from space, in true colour and both bands. `examples/film.sh vr` wr
 """
 
 
-def passes_and_cameras() -> str:
+def describe_passes_and_cameras() -> str:
     """Describe every pass and every kind of camera."""
     known, kinds = passes.known(), rigs.kinds()
     return "\n".join(
@@ -222,16 +225,16 @@ def passes_and_cameras() -> str:
             "# Passes and cameras\n",
             "## Passes\n",
             PASSES,
-            table(("pass", "content"), ((f"[`{n}`](#{n})", p.help) for n, p in known.items())),
-            *(pass_section(each) for each in known.values()),
+            format_table(("pass", "content"), ((f"[`{n}`](#{n})", p.help) for n, p in known.items())),
+            *(describe_pass(each) for each in known.values()),
             "## Cameras\n",
             CAMERAS,
-            *(rig_section(name, rig) for name, rig in kinds.items()),
+            *(describe_rig(name, rig) for name, rig in kinds.items()),
         ]
     )
 
 
-def summary(module: Path) -> str:
+def read_summary(module: Path) -> str:
     """Return the first line of the docstring of a package or module, without its full stop."""
     path = module / "__init__.py" if module.is_dir() else module.with_suffix(".py")
     text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8")))
@@ -240,7 +243,7 @@ def summary(module: Path) -> str:
     return text.splitlines()[0].rstrip(".").replace("``", "`")
 
 
-def layers() -> str:
+def format_layers() -> str:
     """Format the layers of the contracts in pyproject.toml, from the highest down, with what each has."""
     configuration = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     out = []
@@ -252,25 +255,25 @@ def layers() -> str:
                 for name in re.findall(r"\w+", names):
                     module = folder / name if name != "data" else ROOT / "data"
                     path = module.relative_to(ROOT).as_posix() + ("/" if module.is_dir() else ".py")
-                    rows.append((str(level), f"`{path}`", summary(module)))
-            out.append(table(("layer", "module", "content"), rows))
+                    rows.append((str(level), f"`{path}`", read_summary(module)))
+            out.append(format_table(("layer", "module", "content"), rows))
     return "\n".join(out)
 
 
-def contributing() -> str:
+def update_contributing() -> str:
     """Return CONTRIBUTING.md with the table of layers between its marks."""
     text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     before, start, rest = text.partition("<!-- layers: made by docs/generate.py -->\n")
     _, end, after = rest.partition("\n<!-- end of layers -->")
     if not end:
         raise ValueError("CONTRIBUTING.md has no marks for the table of layers")
-    return before + start + "\n" + layers() + end + after
+    return before + start + "\n" + format_layers() + end + after
 
 
 PAGES: dict[str, Any] = {
-    "settings.md": settings,
-    "passes_and_cameras.md": passes_and_cameras,
-    "../CONTRIBUTING.md": contributing,
+    "settings.md": describe_settings,
+    "passes_and_cameras.md": describe_passes_and_cameras,
+    "../CONTRIBUTING.md": update_contributing,
 }
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the film and the small pictures of README.md from renders of the synthetic sample run, into this folder.
-# The film took 26 minutes on two cores that other work shared; run again, it renders only what is missing.
+# The film took 26 minutes on two cores that other work shared; a second run renders only missing files.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
