@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+import functools
+from collections.abc import Callable, Collection
 from dataclasses import replace
 from datetime import datetime
 from functools import cached_property
+from typing import Any, TypeVar
 
 import numpy as np
 from firetwin_core import geo
@@ -40,6 +42,21 @@ _SPIN_UP = 1800.0  # s, spin-up of a fire 15 km across
 _NO_FIRE_DISTANCE = 20_000.0  # m, fire distance of a shot without cameras or without fire
 
 
+Value = TypeVar("Value")
+
+
+def cached_on_shot(compute: Callable[[Shot], Value]) -> Callable[[Shot], Value]:
+    """Decorate a function of a shot alone: it is called once for each shot, which caches the result."""
+
+    @functools.wraps(compute)
+    def cached(shot: Shot) -> Value:
+        if compute not in shot.cached:
+            shot.cached[compute] = compute(shot)
+        return shot.cached[compute]
+
+    return cached
+
+
 class Shot:
     """A scene file resolved with its run.
 
@@ -59,6 +76,8 @@ class Shot:
         All cameras of the scene file. A filmed camera may follow one that is not filmed.
     full
         The full shot of which this is a subset; else itself.
+    cached
+        Results of `cached_on_shot`, by function.
     """
 
     def __init__(self, settings: Settings, run: Run) -> None:
@@ -66,6 +85,7 @@ class Shot:
             settings = replace(settings, time=replace(settings.time, zone=zone.time_zone(run)))
         self.settings, self.run, self.cameras, self.full = settings, run, settings.cameras, self
         self.frames: Frames = frames.resolve(settings.time, run)
+        self.cached: dict[Callable[[Shot], Any], Any] = {}
         self._filmed: dict[str, NDArray[np.int64]] = {}
         self.relief: Elevation = elevation.resolve(settings, run, tile_heights_file.location(settings, run))
 

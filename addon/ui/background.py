@@ -192,7 +192,7 @@ class FIRETWIN_PT_queue(bpy.types.Panel):
 
         layout.operator(FIRETWIN_OT_render_background.bl_idname, icon="RENDER_ANIMATION")
         built = owned.ours(context.scene) and context.scene.firetwin.first_time
-        on = bool(built) and shown.writes(context.scene)
+        on = bool(built) and shown.has_outputs(context.scene)
         row = layout.row()
         row.operator(FIRETWIN_OT_f12_files.bl_idname, icon="OUTPUT", depress=on).on = not on
         for index, item in enumerate(queue.items):

@@ -13,7 +13,7 @@ from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...run import fuel_category
-from ...shot.shot import Shot
+from ...shot.shot import Shot, cached_on_shot
 from ...shot.surface import land_use
 from ...shot.terrain import noise
 from ...shot.terrain.terrain import Terrain
@@ -29,18 +29,12 @@ _AMONG_GRASS = 0.30  # shrub cover of Scott and Burgan's GS, grass and shrub
 Array = NDArray[np.float64]
 
 
-_SHRUBS: WeakKeyDictionary[Shot, Array] = WeakKeyDictionary()
 _HOLLOWS: WeakKeyDictionary[Terrain, Array] = WeakKeyDictionary()
 
 
+@cached_on_shot
 def shrubs(shot: Shot) -> Array:
     """Shrub cover 0..1 of open land: from the fuel category, else from the fuel load."""
-    if shot not in _SHRUBS:
-        _SHRUBS[shot] = _shrubs(shot)
-    return _SHRUBS[shot]
-
-
-def _shrubs(shot: Shot) -> Array:
     here = biomes.choose(shot)
     share = _by_load(shot.ground, here)
     if shot.run.has(fuel_category.FIELD):

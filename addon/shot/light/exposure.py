@@ -8,7 +8,6 @@ that nights stay dark. It is limited so that flame-lit smoke is not overexposed.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +15,7 @@ from numpy.typing import NDArray
 from ...run import sun
 from ..cameras import targets
 from ..cameras.path import Path
-from ..shot import Shot
+from ..shot import Shot, cached_on_shot
 from ..terrain import noise
 from . import exposure_meter, sky
 
@@ -42,15 +41,12 @@ class _Metered:
     darkness: Array
 
 
-_known: WeakKeyDictionary[Shot, _Metered] = WeakKeyDictionary()
-
-
 def at(shot: Shot, frames: NDArray) -> Array:
     """Exposure in stops (n,) at frames (n,) from 1: of the first camera, or the scene file's own if set."""
     given = shot.settings.light.exposure
     if given is not None:
         return np.full(np.shape(frames), float(given))
-    metered = _metered(shot)
+    metered = _metered(shot.full)
     return np.interp(frames, metered.frame, metered.stops)
 
 
@@ -59,21 +55,14 @@ def darkness(shot: Shot, times: NDArray | float) -> Array:
 
     0 by day, when sunlight outshines flames, to 1 by night; low under smoke by day.
     """
-    metered = _metered(shot)
+    metered = _metered(shot.full)
     return np.interp(times, shot.frames.first + (metered.frame - 1.0) * shot.frames.step, metered.darkness)
 
 
+@cached_on_shot
 def _metered(shot: Shot) -> _Metered:
-    shot = shot.full
-    if shot not in _known:
-        count = min(shot.frames.count, _KEYS)
-        frames = np.unique(np.linspace(1, shot.frames.count, count).round())
-        _known[shot] = _smooth(shot, frames)
-    return _known[shot]
-
-
-def _smooth(shot: Shot, frames: Array) -> _Metered:
-    """Meter frames (k,) and smooth the result over time."""
+    """Meter up to `_KEYS` frames of a full shot, and smooth the result over time."""
+    frames = np.unique(np.linspace(1, shot.frames.count, min(shot.frames.count, _KEYS)).round())
     if not shot.paths:
         clear = [exposure_meter.clear(sky.state(shot, shot.frames.time(frame))) for frame in frames]
         stops = np.array([_stops(each, np.zeros(2)) for each in clear])

@@ -2,26 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-from weakref import WeakKeyDictionary
-
 from ...run import buildings
 from ...run.buildings import Building, Footprints
+from ..shot import Shot, cached_on_shot
 from . import land_use
 
-if TYPE_CHECKING:
-    from ..shot import Shot
 
-_KNOWN: WeakKeyDictionary[Shot, Footprints] = WeakKeyDictionary()
-
-
+@cached_on_shot
 def collect(shot: Shot) -> Footprints:
     """Footprints of a shot's buildings, m east and north in the scene; `number` is that in its files."""
-    if shot not in _KNOWN:
-        known = land_use.read_map(shot)
-        houses = [each for each in known.features if each.kind == "building"] if known else []
-        _KNOWN[shot] = buildings.collect((each.polygons, each.height) for each in houses)
-    return _KNOWN[shot]
+    known = land_use.read_map(shot)
+    houses = [each for each in known.features if each.kind == "building"] if known else []
+    return buildings.collect((each.polygons, each.height) for each in houses)
 
 
 def standing(shot: Shot) -> list[Building]:

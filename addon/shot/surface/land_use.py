@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
-from weakref import WeakKeyDictionary
+from typing import Any
 
 import numpy as np
 from firetwin_core.run import Run
@@ -23,12 +22,10 @@ from ...run.buildings import height_of, polygons
 from ...run.observations import Feature, feature, features
 from ..schema import scene_text
 from ..settings import Settings
+from ..shot import Shot, cached_on_shot
 from ..terrain import noise, rasterize
 from ..terrain.raster import extent, overlap, said
 from .orthophoto import OrthophotoImage
-
-if TYPE_CHECKING:
-    from ..shot import Shot
 
 LAYERS = ("soft", "hard", "water")
 """Layers from bottom to top: burnable land, unburnable land, water. Each becomes a picture."""
@@ -158,10 +155,6 @@ class Map:
     known: tuple[Array, Array] | None
 
 
-_MAPS: WeakKeyDictionary[Shot, Map | None] = WeakKeyDictionary()
-_PICTURES: WeakKeyDictionary[Shot, dict[str, list[OrthophotoImage]]] = WeakKeyDictionary()
-
-
 def kind_of(properties: Mapping[str, Any]) -> str | None:
     """Kind of a feature (of `KINDS`) by its tags; None if it has none of them."""
     words = {str(key).lower(): str(value).lower() for key, value in properties.items() if value is not None}
@@ -203,30 +196,26 @@ def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
     return {name: content.of_file(path, settings.cache, progress) for name, path in named.items() if path}
 
 
+@cached_on_shot
 def read_map(shot: Shot) -> Map | None:
     """Land use and footprints of a shot; None if there are none."""
     settings = shot.settings
     if settings.terrain.land_use is None and settings.terrain.buildings is None:
         return None
-    if shot not in _MAPS:
-        _MAPS[shot] = _placed(shot, _read(settings), _footprints(settings))
-    return _MAPS[shot]
+    return _placed(shot, _read(settings), _footprints(settings))
 
 
+@cached_on_shot
 def pictures(shot: Shot) -> dict[str, list[OrthophotoImage]]:
     """Pictures of each map layer: the whole map, and finer ones near the cameras."""
     known = read_map(shot)
     if known is None:
         return {}
-    if shot not in _PICTURES:
-        frames = _frames(shot, known)
-        layers = [
-            layer for layer in LAYERS if any(KINDS[feature.kind].layer == layer for feature in known.features)
-        ]
-        _PICTURES[shot] = {
-            layer: [_drawn(shot, known, layer, *frame) for frame in frames] for layer in layers
-        }
-    return _PICTURES[shot]
+    frames = _frames(shot, known)
+    layers = [
+        layer for layer in LAYERS if any(KINDS[feature.kind].layer == layer for feature in known.features)
+    ]
+    return {layer: [_drawn(shot, known, layer, *frame) for frame in frames] for layer in layers}
 
 
 def mapped(shot: Shot, place: Array) -> NDArray[np.bool_]:

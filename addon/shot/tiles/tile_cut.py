@@ -7,8 +7,7 @@ import json
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
-from weakref import WeakKeyDictionary
+from typing import Any
 
 from ... import files
 from ...errors import input_error
@@ -16,17 +15,13 @@ from ...imaging.credits import Credits
 from .. import comparison, passes
 from ..cameras.view_digest import of_views
 from ..settings import mount
+from ..shot import Shot, cached_on_shot
 from ..terrain import tile_heights
 from ..terrain.tile_heights import TileHeights
-
-if TYPE_CHECKING:
-    from ..shot import Shot
-
 
 Finder = Callable[[str], "TileCut | None"]
 HEIGHTS = ".npz"
 """End of the file of a cut's heights (see `terrain.tile_heights`), which else has the cut's name."""
-_HEIGHTS: WeakKeyDictionary[Shot, TileHeights] = WeakKeyDictionary()
 
 
 @dataclass(frozen=True)
@@ -106,6 +101,7 @@ def read(path: Path) -> TileCut:
         raise input_error(path, f"is no list of chosen tiles ({error}); delete it") from None
 
 
+@cached_on_shot
 def location(shot: Shot) -> Path:
     """File of a shot's cut; it follows all that the choice depends on, except the tilesets themselves."""
     settings = shot.full.settings
@@ -156,9 +152,11 @@ def of_pass(shot: Shot, view: str, name: str, find: Finder) -> list[TileCut]:
 
 def heights(shot: Shot) -> TileHeights | None:
     """Heights of a shot's tiles; None where it has none, or they were not prepared."""
-    if shot not in _HEIGHTS and shot.settings.tiles.sources:
-        path = location(shot).with_suffix(HEIGHTS)
-        if not path.is_file():
-            return None
-        _HEIGHTS[shot] = tile_heights.read(path, shot.run)
-    return _HEIGHTS.get(shot)
+    if not shot.settings.tiles.sources or not location(shot).with_suffix(HEIGHTS).is_file():
+        return None
+    return _read_heights(shot)
+
+
+@cached_on_shot
+def _read_heights(shot: Shot) -> TileHeights:
+    return tile_heights.read(location(shot).with_suffix(HEIGHTS), shot.run)

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
-from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..shot import Shot, cached_on_shot
 from ..terrain.terrain import widened
 from . import tile_cut
 
 if TYPE_CHECKING:
-    from ..shot import Shot
     from ..terrain.tile_heights import TileHeights
 
 OURS, BURNED = "ours", "ours where it burns"
@@ -21,7 +20,6 @@ AROUND = 100.0
 """m around the burned area that counts to it."""
 
 Array = NDArray[np.float64]
-_BURNED: WeakKeyDictionary[Shot, NDArray[np.bool_]] = WeakKeyDictionary()
 
 
 def are_ours(shot: Shot, position: Array) -> NDArray[np.bool_]:
@@ -52,9 +50,8 @@ def may_stand(shot: Shot, position: Array, tiles: TileHeights | None = None) -> 
     return may
 
 
+@cached_on_shot
 def _burned(shot: Shot) -> NDArray[np.bool_]:
     """Burned area of the run with its margin, on the terrain grid."""
-    if shot not in _BURNED:
-        reach = int(np.ceil(AROUND / min(shot.ground.cell)))
-        _BURNED[shot] = widened(shot.ground.burned > 0.0, reach)
-    return _BURNED[shot]
+    reach = int(np.ceil(AROUND / min(shot.ground.cell)))
+    return widened(shot.ground.burned > 0.0, reach)
