@@ -19,6 +19,7 @@ from typing import Any, get_args
 from firetwin.shot import passes
 from firetwin.shot.cameras import rigs
 from firetwin.shot.schema import Field, Key, fields, plain
+from firetwin.shot.schema.frame_list import FrameList
 from firetwin.shot.settings import Camera, Settings
 
 FOLDER = Path(__file__).parent
@@ -29,6 +30,7 @@ NAMES = {
     int: "integer",
     float: "number",
     str: "text",
+    FrameList: "frame list",
     Path: "path",
     datetime: "time",
 }

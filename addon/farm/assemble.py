@@ -14,7 +14,7 @@ from ..render.fingerprint import Fingerprints
 from ..render.picture import Picture
 from ..render.store import Store
 from ..run import content
-from ..shot.schema import frame_list
+from ..shot.schema.frame_list import FrameList
 from ..shot.shot import Shot
 from . import entries, plan, task
 from .entries import Entry
@@ -102,7 +102,7 @@ def format_missing(missing: dict[Picture, str]) -> Iterator[str]:
     for picture, why in missing.items():
         frames[picture.camera, picture.name, why].append(picture.frame)
     for (camera, name, why), listed in frames.items():
-        yield f"{camera} {name} {frame_list.write(sorted(listed))}: {why}"
+        yield f"{camera} {name} {FrameList.of(sorted(listed))}: {why}"
 
 
 def tasks_of_pictures(job: Job, missing: Iterable[Picture]) -> list[int]:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from ..errors import Error, UsageError
 from ..progress import Reporter, count, result, say
-from ..shot.schema import frame_list
+from ..shot.schema.frame_list import FrameList
 from ..shot.source import ShotSource
 from . import assemble, plan, status, submission, task
 from .submission import Submission
@@ -80,7 +80,7 @@ def run_task(arguments: argparse.Namespace) -> int:
 
     def work() -> None:
         try:
-            numbers = frame_list.parse(arguments.numbers, _MAX_TASK_NUMBER)
+            numbers = FrameList(arguments.numbers).frames(_MAX_TASK_NUMBER)
         except ValueError as error:
             raise UsageError(f"tasks: {error}") from None
         task.run(arguments.out.absolute(), numbers, _scene(arguments))

@@ -15,7 +15,7 @@ from ..jobs import render, solve, worker
 from ..progress import Progress, say
 from ..render import fingerprint
 from ..run.content import sha256
-from ..shot.schema import frame_list
+from ..shot.schema.frame_list import FrameList
 from ..shot.source import ShotSource
 from . import entries, plan
 from .entries import Log
@@ -123,7 +123,7 @@ def _task(job: Job, choice: ShotSource, out: Path, number: int, log: Log, progre
 def _bake(job: Job, choice: ShotSource, task: Task, progress: Progress) -> None:
     """Solve the flow of a view; an interrupted solution continues."""
     (view,) = task.cameras
-    frames = frame_list.parse(task.frames, job.count)
+    frames = FrameList(task.frames).frames(job.count)
     about = {"choice": choice.plain(), "view": view, "frames": frames}
     try:
         worker.run(f"{solve.__name__}:in_process", about, progress, tell=say, blender=False)

@@ -9,8 +9,8 @@ from ..errors import UsageError
 from ..run.content import fingerprint
 from ..shot import passes
 from ..shot.runs import scene_runs
-from ..shot.schema import frame_list
 from ..shot.schema.did_you_mean import suggestion
+from ..shot.schema.frame_list import FrameList
 from ..shot.settings import Camera, mount
 from ..shot.shot import Shot
 from .fingerprint import Fingerprints
@@ -47,7 +47,7 @@ def pictures(
     if frames is not None and not frames.strip():
         raise UsageError("--frames: is empty; give frames, such as 1-10, or omit --frames for all frames")
     try:
-        wanted = frame_list.parse(frames or "", shot.frames.count)
+        wanted = FrameList(frames or "").frames(shot.frames.count)
     except ValueError as error:
         raise UsageError(f"--frames: {error}") from None
     chosen_cameras = (camera,) if isinstance(camera, str) else camera
@@ -154,7 +154,7 @@ def missing(store: Store, wanted: list[Picture], made_with: Fingerprints, after:
 
 def _frames(shot: Shot, camera: Camera, asked: list[int]) -> list[int]:
     """Return the requested frames that a camera films."""
-    if not camera.frames.strip():
+    if FrameList(camera.frames).has_all():
         return asked
     own = set(shot.frames_of(camera))
     return [frame for frame in asked if frame in own]

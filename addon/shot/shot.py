@@ -28,7 +28,7 @@ from .fire.fuel import DETAIL
 from .fire.smoke_scale import Scale
 from .frames import Frames
 from .runs import scene_runs
-from .schema import frame_list
+from .schema.frame_list import FrameList
 from .sections import SMOKE_METHODS
 from .sections.camera import CameraSettings
 from .settings import Camera, Settings, tile_heights_file
@@ -163,7 +163,7 @@ class Shot:
         Paths, smoke and light are those of the full shot. Terrain, plants and flames cover these frames only.
         """
         (camera,) = self.settings.cameras
-        camera = replace(camera, frames=",".join(map(str, listed)))
+        camera = replace(camera, frames=FrameList(",".join(map(str, listed))))
         shot = self._with_settings(replace(self.settings, cameras=(camera,)))
         shot.full, shot.paths = self, [replace(self.paths[0], camera=camera)]
         return shot
@@ -199,7 +199,7 @@ class Shot:
 
     def frames_of(self, camera: CameraSettings) -> list[int]:
         """Frames that a camera films, ascending, from 1."""
-        return frame_list.parse(camera.frames, self.frames.count)
+        return FrameList(camera.frames).frames(self.frames.count)
 
     def filmed(self, path: Path) -> NDArray[np.int64]:
         """Frames that a path's camera films, counted from 0, as indices into the path's arrays."""

@@ -18,6 +18,7 @@ import numpy as np
 
 from ..errors import Error
 from ..shot.schema import Field, Key, fields, plain
+from ..shot.schema.frame_list import FrameList
 
 Items = tuple[tuple[str, str, str], ...]
 
@@ -253,7 +254,7 @@ def _plain(part: Field) -> tuple[Any, dict[str, Any]]:
     if kind is Path:
         subtype = "FILE_PATH" if part.default is None else "DIR_PATH"
         return bpy.props.StringProperty, {"default": default or "", "subtype": subtype, "options": _RELATIVE}
-    if kind in (str, datetime) or (inner and inner[-1] is Ellipsis):
+    if kind in (str, FrameList, datetime) or (inner and inner[-1] is Ellipsis):
         return bpy.props.StringProperty, {"default": default or ""}
     low, high = _bounds(part)
     options = {name: at for name, at in (("min", low), ("max", high), ("default", default)) if at is not None}

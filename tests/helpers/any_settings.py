@@ -5,6 +5,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from firetwin.shot import schema
+from firetwin.shot.schema.frame_list import FrameList
 from hypothesis import strategies as st
 
 ZONES = ["America/Los_Angeles", "UTC", "Asia/Kathmandu"]
@@ -43,6 +44,7 @@ def any_value(part):
     simple = {
         bool: st.booleans(),
         str: st.sampled_from(list(key.names()) or [""]),
+        FrameList: st.just(FrameList()),
         Path: FOLDERS.map(lambda folder: Path("/scenes") / folder),
         datetime: st.datetimes(timezones=st.just(UTC)),
         int: st.integers(-(2**63) if key.at_least is None else key.at_least, key.at_most or 2**63 - 1),

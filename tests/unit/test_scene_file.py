@@ -12,8 +12,9 @@ from any_settings import any_table
 from firetwin.errors import InputError
 from firetwin.shot import schema
 from firetwin.shot.cameras.rigs import kinds
-from firetwin.shot.schema import frame_list, scene_text
+from firetwin.shot.schema import scene_text
 from firetwin.shot.schema import toml_positions as places
+from firetwin.shot.schema.frame_list import FrameList
 from firetwin.shot.sections import TerrainSettings, Time
 from firetwin.shot.settings import Camera, OtherRun, Settings, scene_file
 from hypothesis import given, settings
@@ -130,7 +131,7 @@ MISTAKES = [
     ('"two"', '"../two"', 19, 1, ["letters, digits"]),
     ('"1,4-6"', '"1,4-60"', 21, 1, ['"4-60"', "1-10"]),
     ('"1,4-6"', '"4 to 6"', 21, 1, ['"4 to 6"', "1-48:4"]),
-    ('"1,4-6"', '"6-4"', 21, 1, ["cameras.frames", '"6-4" runs backwards', "4-6"]),
+    ('"1,4-6"', '"6-4"', 21, 1, ["cameras.frames", '"6-4" is descending', "4-6"]),
     ('"satellite"', '"drone"', 18, 3, ['"two"', "[[cameras.keys]]"]),
     ('"satellite"', '"satelite"', 20, 1, ["cameras.kind", 'did you mean "satellite"?']),
     ('"satellite"', "3", 20, 1, ["cameras.kind", "text in quotes"]),
@@ -350,32 +351,32 @@ def test_places_of_keys_in_every_kind_of_toml():
 
 
 def test_lists_of_frames():
-    assert frame_list.parse("", 3) == [1, 2, 3]
-    assert frame_list.parse(" 3, 5-6,1-9:4 ", 9) == [1, 3, 5, 6, 9]
-    assert frame_list.write([1, 2, 3, 7, 9, 10]) == "1-3,7,9-10"
+    assert FrameList("").frames(3) == [1, 2, 3]
+    assert FrameList(" 3, 5-6,1-9:4 ").frames(9) == [1, 3, 5, 6, 9]
+    assert FrameList.of([1, 2, 3, 7, 9, 10]) == "1-3,7,9-10"
     for text in ("0", "4-2", "1-4:0", "x", "1,", "5", "9" * 5000):
         with pytest.raises(ValueError, match=r"frame"):
-            frame_list.parse(text, 4)
+            FrameList(text).frames(4)
 
 
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("5-2", ['"5-2" runs backwards', "low to high: 2-5"]),
-        ("9-1:4", ["low to high: 1-9:4"]),
+        ("5-2", ['"5-2" is descending', "ascending order: 2-5"]),
+        ("9-1:4", ["ascending order: 1-9:4"]),
         ("1-4:0", ["step of 0", "1-4:1"]),
         ("11-20", ['"11-20" is outside of 1-12']),
     ],
 )
 def test_lists_of_frames_that_cannot_be_say_what_to_write(text, words):
     with pytest.raises(ValueError, match=r"frame") as caught:
-        frame_list.parse(text, 12)
+        FrameList(text).frames(12)
     assert all(word in str(caught.value) for word in words)
 
 
 @given(st.sets(st.integers(1, 30)))
 def test_lists_of_frames_come_back(frames):
-    assert frame_list.parse(frame_list.write(sorted(frames)), 30) == (sorted(frames) or list(range(1, 31)))
+    assert FrameList(FrameList.of(sorted(frames))).frames(30) == (sorted(frames) or list(range(1, 31)))
 
 
 def test_former_names_of_sections_are_read_and_noted(tmp_path):

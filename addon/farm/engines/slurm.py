@@ -10,7 +10,7 @@ from pathlib import Path
 
 from ... import files
 from ...errors import UsageError
-from ...shot.schema import frame_list
+from ...shot.schema.frame_list import FrameList
 from . import _shell
 from ._engine import Batch, Engine, firetwin_command
 
@@ -113,7 +113,7 @@ def split_arrays(numbers: list[int], most: int) -> list[tuple[int, str]]:
     parts = defaultdict(list)
     for number in numbers:
         parts[number // most * most].append(number)
-    return [(base, frame_list.write(number - base for number in part)) for base, part in parts.items()]
+    return [(base, FrameList.of(number - base for number in part)) for base, part in parts.items()]
 
 
 def max_array_size() -> int:

@@ -8,12 +8,14 @@ from pathlib import Path
 from typing import Any
 
 from . import Field, Key, fields, plain, summary
+from .frame_list import FrameList
 
 _TYPES = {
     bool: {"type": "boolean"},
     int: {"type": "integer"},
     float: {"type": "number"},
     str: {"type": "string"},
+    FrameList: {"type": "string"},
     Path: {"type": "string"},
     datetime: {"type": "string", "format": "date-time"},
 }

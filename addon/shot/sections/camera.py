@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any, Protocol
 
+from ..schema.frame_list import FrameList
+
 
 class CameraSettings(Protocol):
     """Table of a camera as its passes and its rig see it; `settings.Camera` is one."""
@@ -13,8 +15,8 @@ class CameraSettings(Protocol):
         """Name of the camera."""
 
     @property
-    def frames(self) -> str:
-        """Frames that it films, such as "1-10"; empty: all."""
+    def frames(self) -> FrameList:
+        """Frames that it films."""
 
     @property
     def passes(self) -> tuple[str, ...]:

@@ -11,9 +11,10 @@ from typing import Any
 from .. import passes
 from ..cameras import rigs
 from ..frames import part_of
-from ..schema import Where, fields, frame_list, key, kind_of, one_of
+from ..schema import Where, fields, key, kind_of, one_of
 from ..schema.bounds import file_name, twice
 from ..schema.did_you_mean import suggestion
+from ..schema.frame_list import FrameList
 from ..sections import LARGEST_SEED, SceneSettings
 
 MOST_RUNS = 3  # comparison runs, in addition to the first run
@@ -38,7 +39,7 @@ class Camera:
     passes: tuple[str, ...] = key(
         (), 'passes, such as ["rgb"]; empty: as in [render]', choices=passes.helps, affects=("passes",)
     )
-    frames: str = key("", 'frames, such as "24" or "1-48:4"; empty: all')
+    frames: FrameList = key(FrameList(), 'frames, such as "24" or "1-48:4"; empty: all')
     resolution: tuple[int, int] | None = key(
         None,
         "picture width and height, both even; default: as in [render]",
@@ -160,7 +161,7 @@ class Settings(SceneSettings):
     def chunk_size(self, camera: Camera) -> int:
         """Chunk size of a camera: `render.chunk`, or 0 if all its frames are built together."""
         size = self.render.chunk
-        listed = frame_list.parse(camera.frames, self.time.frames)
+        listed = FrameList(camera.frames).frames(self.time.frames)
         return size if part_of(listed[0], size) != part_of(listed[-1], size) else 0
 
     def validate(self) -> tuple[Where, str] | None:
@@ -173,7 +174,7 @@ class Settings(SceneSettings):
             return ("cameras", i, "name"), reason
         for i, camera in enumerate(self.cameras):
             try:
-                frame_list.parse(camera.frames, self.time.frames)
+                FrameList(camera.frames).frames(self.time.frames)
             except ValueError as error:
                 return ("cameras", i, "frames"), f"cameras.frames: {error}"
         return self._unknown_followed() or self._impossible() or self._alone()

@@ -16,6 +16,7 @@ from ...errors import InputError, input_error
 from ..schema import Field, Key, Where, either, fields, items, validate
 from ..schema.did_you_mean import suggestion
 from ..schema.former import FORMER, FORMER_KEYS
+from ..schema.frame_list import FrameList
 from ..schema.scene_text import SceneText, load
 from . import Settings
 from .toml_writer import text
@@ -156,6 +157,8 @@ class _Reader(SceneText):
             if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
                 raise self.error(where, f"{_dotted(where)} must be a number, not {_shown(value)}")
             return float(value)
+        if kind is FrameList:
+            return FrameList(self.expect(str, value, where))
         return self.expect(kind, value, where)
 
     def name(self, value: Any, where: Where) -> str:
