@@ -17,7 +17,7 @@ from ..render.picture import Picture
 from ..run.content import sha256
 from ..shot import comparison, frames
 from ..shot.runs import scene_runs
-from ..shot.schema import frame_list
+from ..shot.schema.frame_list import FrameList
 from ..shot.settings import Settings
 from ..shot.shot import Shot
 from ..shot.tiles import tile_terms
@@ -75,7 +75,7 @@ class Job:
     scene_sha256: str
     versions: dict[str, str]
     count: int
-    camera_frames: dict[str, str]
+    camera_frames: Mapping[str, str]
     passes: dict[str, tuple[str, ...]]
     tasks: tuple[Task, ...]
     assets: tuple[str, ...]
@@ -90,10 +90,10 @@ class Job:
 
     def frames(self, task: Task, camera: str) -> list[int]:
         """List the frames that a camera renders in a task."""
-        asked = frame_list.parse(task.frames, self.count)
-        if not self.camera_frames[camera].strip():
+        asked = FrameList(task.frames).frames(self.count)
+        if FrameList(self.camera_frames[camera]).has_all():
             return asked
-        own = set(frame_list.parse(self.camera_frames[camera], self.count))
+        own = set(FrameList(self.camera_frames[camera]).frames(self.count))
         return [frame for frame in asked if frame in own]
 
     def views(self, camera: str) -> list[str]:
@@ -133,7 +133,7 @@ def make_job(shot: Shot, scene: Path, size: int = CHUNK) -> Job:
         raise UsageError(f"{settings.path} has no [[cameras]], so there is nothing to render")
     tile_terms.check(settings, [("pack", "the farm, whose machines share one copy")])
     for camera in settings.cameras:
-        first = frame_list.write(shot.frames_of(camera)[:1])
+        first = FrameList.of(shot.frames_of(camera)[:1])
         found = pictures.pictures(shot, first, camera.name)
         camera_frames[camera.name] = camera.frames
         linked.append({each.camera.partition("@")[0] for each in found} | {camera.name})
@@ -200,7 +200,7 @@ def _renders(shot: Shot, settings: Settings, groups: list[set[str]], size: int) 
         listed = sorted({frame for camera in cameras for frame in shot.frames_of(camera)})
         built = max(settings.chunk_size(camera) for camera in cameras)
         for part in split_frames(listed, size, built):
-            yield Task("render", tuple(camera.name for camera in cameras), frame_list.write(part))
+            yield Task("render", tuple(camera.name for camera in cameras), FrameList.of(part))
 
 
 def _bakes(shot: Shot) -> Iterator[Task]:
@@ -219,7 +219,7 @@ def _bakes(shot: Shot) -> Iterator[Task]:
         solved.setdefault(host, set()).update(listed)
     for view in needed:
         if view in solved:
-            yield Task("bake", (view,), frame_list.write(sorted(solved[view])))
+            yield Task("bake", (view,), FrameList.of(sorted(solved[view])))
 
 
 def job_dir(out: Path) -> Path:

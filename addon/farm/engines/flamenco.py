@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ... import files
 from ...errors import UsageError
-from ...shot.schema import frame_list
+from ...shot.schema.frame_list import FrameList
 from ._engine import Batch, Engine, firetwin_command
 
 MANAGER = "http://localhost:8080"
@@ -102,8 +102,8 @@ def _job(batch: Batch) -> dict[str, object]:
         "settings": {
             "command": json.dumps(firetwin_command()),
             "out": str(batch.out),
-            "bakes": frame_list.write(batch.stage("bake")),
-            "renders": frame_list.write(batch.stage("render")),
+            "bakes": FrameList.of(batch.stage("bake")),
+            "renders": FrameList.of(batch.stage("render")),
         },
     }
 

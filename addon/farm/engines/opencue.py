@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ... import files
 from ...errors import UsageError
-from ...shot.schema import frame_list
+from ...shot.schema.frame_list import FrameList
 from ._engine import Batch, Engine, firetwin_command
 
 _SCRIPT = """\
@@ -84,7 +84,7 @@ def list_layers(batch: Batch) -> list[tuple[str, str, str]]:
     out = shlex.quote(str(batch.out))
     farm = f"{shlex.join(firetwin_command())} farm"
     layers = [
-        (stage, f"{farm} task {out} #IFRAME#", frame_list.write(numbers))
+        (stage, f"{farm} task {out} #IFRAME#", FrameList.of(numbers))
         for stage in ("bake", "render")
         if (numbers := batch.stage(stage))
     ]

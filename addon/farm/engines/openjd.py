@@ -8,7 +8,7 @@ from typing import Any
 
 from ... import files
 from ...errors import UsageError
-from ...shot.schema import frame_list
+from ...shot.schema.frame_list import FrameList
 from ..plan import FILE, job_dir
 from ._engine import Batch, Engine, firetwin_command
 
@@ -87,7 +87,7 @@ def _space(numbers: list[int]) -> dict[str, Any]:
         "targetRuntimeSeconds": _CHUNK_SECONDS,
         "rangeConstraint": "CONTIGUOUS",
     }
-    tasks = {"name": "Tasks", "type": "CHUNK[INT]", "range": frame_list.write(numbers), "chunks": chunks}
+    tasks = {"name": "Tasks", "type": "CHUNK[INT]", "range": FrameList.of(numbers), "chunks": chunks}
     return {"taskParameterDefinitions": [tasks]}
 
 
