@@ -1,4 +1,4 @@
-"""SQLite files that processes on several machines write at the same time."""
+"""SQLite files to which processes on several machines write at the same time."""
 
 from __future__ import annotations
 
@@ -11,27 +11,27 @@ from typing import Any
 
 from .errors import disk_is_full, input_error, writing
 
-_WAIT = 60.0  # s for another process that writes
+_WAIT = 60.0  # s of waiting for another writer
 _FORMAT = 1
-BROKEN = "is not {} of Firetwin; move it away, or render to another folder"
+BROKEN = "is not {} of Firetwin; move it away, or choose another output folder"
 
 
 class Database:
-    """One file; each thread has one of its own.
+    """Connection to one SQLite file; each thread needs a separate connection.
 
     Parameters
     ----------
     tables
-        SQL that makes them.
+        SQL commands that create the tables.
     create
-        Make the file where there is none; otherwise an empty one in memory stands in for it.
+        Create a missing file. If False, an empty database in memory replaces a missing file.
     journal
-        Of a new file. ``WAL`` is quicker, but for processes of one machine alone.
+        Journal mode of a new file. ``WAL`` is faster, but requires that all processes run on one machine.
 
     Raises
     ------
     InputError
-        The file is something else, or the disk is full.
+        The file is not such a database, or the disk is full.
     """
 
     def __init__(self, path: Path, tables: str, create: bool, journal: str = "DELETE") -> None:
@@ -40,7 +40,7 @@ class Database:
         if create:
             with writing(path):
                 path.parent.mkdir(parents=True, exist_ok=True)
-        with self._told():
+        with self._convert_errors():
             place = path if there or create else ":memory:"
             self._data = sqlite3.connect(place, timeout=_WAIT, isolation_level=None)
         try:
@@ -49,17 +49,17 @@ class Database:
             self._data.close()
             raise
 
-    def again(self) -> Database:
-        """The same file for another thread."""
+    def reopen(self) -> Database:
+        """Open the same file for another thread."""
         return Database(self.path, "", create=False)
 
     def close(self) -> None:
-        """Let go of the file."""
+        """Close the file."""
         self._data.close()
 
     @contextlib.contextmanager
     def change(self) -> Iterator[None]:
-        """What is done within happens as a whole or not at all."""
+        """Group commands into one transaction, which is rolled back on an exception."""
         self.do("BEGIN IMMEDIATE")
         try:
             yield
@@ -70,18 +70,18 @@ class Database:
             raise
 
     def do(self, command: str, *values: Any) -> None:
-        """Run a command; one by itself is a change."""
-        with self._told():
+        """Run a command; outside `change` it is a transaction."""
+        with self._convert_errors():
             self._data.execute(command, values)
 
     def one(self, command: str, *values: Any) -> tuple[Any, ...] | None:
-        """First row of what a query finds."""
-        with self._told():
+        """Return the first row of a query, or None."""
+        with self._convert_errors():
             return self._data.execute(command, values).fetchone()
 
     def all(self, command: str, *values: Any) -> list[tuple[Any, ...]]:
-        """Every row of what a query finds."""
-        with self._told():
+        """Return all rows of a query."""
+        with self._convert_errors():
             return self._data.execute(command, values).fetchall()
 
     def _prepare(self, tables: str, journal: str) -> None:
@@ -100,15 +100,15 @@ class Database:
         return number
 
     @contextlib.contextmanager
-    def _told(self) -> Iterator[None]:
-        """Errors of SQLite in the words of ours."""
+    def _convert_errors(self) -> Iterator[None]:
+        """Convert errors of SQLite to errors that name the file and a remedy."""
         try:
             yield
         except sqlite3.OperationalError as error:
             if disk_is_full(error):
                 with writing(self.path):
                     raise OSError(errno.ENOSPC, str(error)) from error
-            reason = f"cannot be used ({error}); choose a folder that can be written and, if shared, locked"
+            reason = f"cannot be used ({error}); choose a writable folder, and if shared, one with file locks"
             raise input_error(self.path, reason) from error
         except sqlite3.DatabaseError as error:
             raise input_error(self.path, BROKEN.format("a store")) from error

@@ -10,7 +10,10 @@ A, E2 = constants.SEMI_MAJOR_AXIS, constants.ECCENTRICITY_SQUARED
 
 
 def metres_per_degree(latitude: float) -> tuple[float, float]:
-    """Metres per degree of latitude and longitude: radii of curvature (Snyder 1987, eqs. 4-18 and 4-20)."""
+    """Compute metres per degree of latitude and longitude from the radii of curvature.
+
+    Snyder 1987, eqs. 4-18 and 4-20.
+    """
     sine = np.sin(np.radians(latitude))
     w = np.sqrt(1.0 - E2 * sine * sine)
     degree = np.pi / 180.0
@@ -18,7 +21,7 @@ def metres_per_degree(latitude: float) -> tuple[float, float]:
 
 
 def enu_axes(latitude: NDArray[np.float64], longitude: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n, 3, 3) directions of east, north and up as rows, at places in radians."""
+    """Compute east, north and up as rows (n, 3, 3), at latitudes and longitudes in radians."""
     sp, cp, sl, cl = np.sin(latitude), np.cos(latitude), np.sin(longitude), np.cos(longitude)
     zero = np.zeros_like(sp)
     rows = [[-sl, cl, zero], [-sp * cl, -sp * sl, cp], [cp * cl, cp * sl, sp]]
@@ -28,7 +31,7 @@ def enu_axes(latitude: NDArray[np.float64], longitude: NDArray[np.float64]) -> N
 def ecef(
     latitude: NDArray[np.float64], longitude: NDArray[np.float64], height: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Earth-centred places (n, 3), m, of latitudes and longitudes in radians and heights above WGS84, m."""
+    """Convert latitudes, longitudes (radians) and heights above WGS84 (m) to Earth-centred positions (n, 3), m."""
     sine, cosine = np.sin(latitude), np.cos(latitude)
     normal = A / np.sqrt(1.0 - E2 * sine * sine)
     across = (normal + height) * cosine

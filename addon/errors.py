@@ -21,26 +21,28 @@ __all__ = [
     "UnavailableError",
     "UsageError",
     "disk_is_full",
+    "from_plain",
     "full_disk_error",
     "input_error",
+    "is_nearly_full",
     "is_worth_another_try",
-    "no_room",
     "plain",
-    "restored",
     "writing",
 ]
 
-FULL = "the disk is full; free some room or choose another place, then run it again: what is finished is kept"
-_LITTLE = 1 << 22  # bytes
+FULL = (
+    "the disk is full; free some space or choose another folder, then run it again: finished files are kept"
+)
+_LITTLE = 1 << 22  # bytes, below which a disk counts as full
 _NO_ROOM = (errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC))
 
 
 class TryAgainError(Error):
-    """This machine cannot do now what is asked for; the same may succeed later or elsewhere."""
+    """Temporary or local failure: the same command may succeed later or on another machine."""
 
 
 class UnavailableError(InputError, TryAgainError):
-    """The same, with the place of what asks for it: a file, line and column."""
+    """Temporary or local failure of a request at a known file, line and column."""
 
 
 class FullDiskError(UnavailableError):
@@ -68,25 +70,25 @@ def input_error(
 
 
 def full_disk_error(path: str | PathLike[str]) -> InputError:
-    """FullDiskError of a file."""
+    """Create the FullDiskError for a file."""
     return input_error(path, FULL, kind=FullDiskError)
 
 
 def plain(error: Error) -> dict[str, Any]:
-    """An error as JSON carries it to another process; `restored` is the reverse."""
+    """Convert an error to plain data for another process; `from_plain` is the reverse."""
     kind = next(name for each in type(error).__mro__ if (name := each.__name__) in _KINDS)
     if isinstance(error, InputError):
         return {"kind": kind, "place": [error.path, error.line, error.column, error.reason]}
     return {"kind": kind, "text": " ".join(str(error).split())}
 
 
-def restored(found: dict[str, Any], more: str = "") -> Error:
-    """An error of another process.
+def from_plain(found: dict[str, Any], more: str = "") -> Error:
+    """Recreate an error of another process.
 
     Parameters
     ----------
     more
-        To append to the message of an error without a place.
+        Text to append to the message of an error without a file.
     """
     kind = _KINDS[found["kind"]]
     if "place" in found:
@@ -102,33 +104,33 @@ _KINDS: dict[str, Any] = {
 
 @contextmanager
 def writing(path: str | PathLike[str]) -> Iterator[None]:
-    """Convert errors while `path` is written to messages that name it and the remedy.
+    """Convert errors during the writing of `path` to messages that name the file and a remedy.
 
     Raises
     ------
     InputError
         Replaces an OSError.
     FullDiskError
-        Replaces those of a full disk, also the core's own.
+        Replaces an error due to a full disk, including errors of the core.
     """
     try:
         yield
     except OSError as error:
         if disk_is_full(error):
             raise full_disk_error(path) from error
-        reason = f"cannot be written ({_words(error)}); choose another place"
+        reason = f"cannot be written ({_reason(error)}); choose another folder"
         raise input_error(path, reason) from error
     except FullDiskError:
         raise
     except Error as error:
-        silent = "cannot be written" in str(error) and no_room(Path(path))
+        silent = "cannot be written" in str(error) and is_nearly_full(Path(path))
         if silent or disk_is_full(error):
             raise full_disk_error(path) from error
         raise
 
 
 def disk_is_full(error: BaseException) -> bool:
-    """Whether an error of Python, NumPy, the core or SQLite means that the disk is full."""
+    """Check whether an error of Python, NumPy, the core or SQLite is due to a full disk."""
     if isinstance(error, FullDiskError):
         return True
     if isinstance(error, OSError) and error.errno is not None:
@@ -138,20 +140,20 @@ def disk_is_full(error: BaseException) -> bool:
 
 
 def is_worth_another_try(error: BaseException) -> bool:
-    """Whether the same may succeed later or on another machine."""
+    """Check whether a repetition may succeed later or on another machine."""
     full = isinstance(error, OSError) and error.errno in _NO_ROOM
     return full or isinstance(error, TryAgainError)
 
 
-def no_room(path: Path) -> bool:
-    """Whether the disk of a written file is almost full, which Blender does not always report."""
+def is_nearly_full(path: Path) -> bool:
+    """Check whether the disk of a written file is almost full, which Blender does not always report."""
     try:
         return shutil.disk_usage(path.parent).free < _LITTLE
     except OSError:
         return False
 
 
-def _words(error: OSError) -> str:
+def _reason(error: OSError) -> str:
     return error.strerror or " ".join(str(error).split())
 
 

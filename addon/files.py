@@ -12,13 +12,13 @@ from .errors import writing
 
 
 def publish(part: Path, path: Path, durable: bool = True) -> None:
-    """Rename a finished temporary file into place, after its content has reached the disk (fsync).
+    """Rename a finished temporary file to its final path, after its content has reached the disk (fsync).
 
     Parameters
     ----------
     durable
-        Wait for the disk. Without, a file of a cache may be empty or cut off after a power cut, so that its
-        length is to be checked.
+        Wait for the disk. If False, a file can be empty or truncated after a power failure; readers of such
+        cache files must check the length.
 
     Raises
     ------
@@ -30,14 +30,14 @@ def publish(part: Path, path: Path, durable: bool = True) -> None:
         if not durable:
             part.replace(path)
             return
-        with part.open("r+b") as file:  # Windows flushes no file through a read-only handle
+        with part.open("r+b") as file:  # Windows cannot flush through a read-only handle
             os.fsync(file.fileno())
         part.replace(path)
         _sync_folder(path.parent)
 
 
 def part_of(path: Path) -> Path:
-    """Temporary name for `path`: in the same folder, with the same extension, unique to this call."""
+    """Return a unique temporary name in the folder of `path`, with the same extension."""
     return path.with_name(f".{path.stem}.{uuid.uuid4().hex[:12]}.part{path.suffix}")
 
 
@@ -60,8 +60,8 @@ def write(path: Path, put: Callable[[Path], object], durable: bool = True) -> No
             part.unlink(missing_ok=True)
 
 
-def keep(path: Path, data: bytes) -> None:
-    """Write a file of a cache that is named by its content, unless it is there."""
+def write_cached(path: Path, data: bytes) -> None:
+    """Write a cache file that is named by its content, unless it exists."""
     with contextlib.suppress(OSError):
         if path.stat().st_size == len(data):
             return

@@ -1,6 +1,6 @@
 """Geodesics on the WGS84 ellipsoid (Vincenty 1975, Survey Review 23 (176), 88-93; within 0.1 mm).
 
-Points nearly opposite on the Earth (more than about 179.4 degrees apart) are beyond its inverse formula.
+The inverse formula does not converge for nearly antipodal points (more than about 179.4 degrees apart).
 """
 
 from __future__ import annotations
@@ -14,18 +14,18 @@ Array = NDArray[np.float64]
 
 _F = 1.0 - np.sqrt(1.0 - E2)
 _B = A * (1.0 - _F)
-_ROUNDS, _SAME = 100, 1e-13  # repetitions at most, and radians that count as no change
+_ROUNDS, _SAME = 100, 1e-13  # maximum iterations, and convergence tolerance, radians
 
 
 def inverse(
     latitude: ArrayLike, longitude: ArrayLike, to_latitude: ArrayLike, to_longitude: ArrayLike
 ) -> tuple[Array, Array, Array]:
-    """Geodesics (n,) from points to points, all in degrees.
+    """Compute geodesics (n,) between points, in degrees.
 
     Returns
     -------
-    Lengths, m, and azimuths at their first and last points, degrees clockwise from north; NaN between points
-    that are nearly opposite. A geodesic without length goes north.
+    Lengths, m, and azimuths at the first and last points, degrees clockwise from north; NaN for nearly
+    antipodal points. The azimuth of a geodesic of zero length is 0.
     """
     u1, u2 = (_reduced(each) for each in np.broadcast_arrays(latitude, to_latitude))
     away = np.radians(np.asarray(to_longitude, float) - np.asarray(longitude, float))
@@ -54,11 +54,11 @@ def inverse(
 def direct(
     latitude: ArrayLike, longitude: ArrayLike, azimuth: ArrayLike, length: ArrayLike
 ) -> tuple[Array, Array, Array]:
-    """Ends (n,) of geodesics from points (degrees) along azimuths (degrees) over lengths (m).
+    """Compute end points (n,) of geodesics from points (degrees), azimuths (degrees) and lengths (m).
 
     Returns
     -------
-    Latitude, longitude and azimuth at the end, degrees; the longitude is within a turn of the first one's.
+    Latitude, longitude and azimuth at the end, degrees; longitudes are within 360 degrees of the start.
     """
     latitude, longitude, azimuth, length = (
         np.asarray(each, float) for each in np.broadcast_arrays(latitude, longitude, azimuth, length)
@@ -87,13 +87,13 @@ def direct(
 
 
 def _reduced(latitude: ArrayLike) -> Array:
-    """Reduced latitudes, radians."""
+    """Compute reduced latitudes, radians."""
     latitude = np.radians(np.asarray(latitude, float))
     return np.arctan2((1.0 - _F) * np.sin(latitude), np.cos(latitude))
 
 
 def _series(square: Array) -> tuple[Array, Array]:
-    """A and B of eqs. 3 and 4 by the square of the cosine of the azimuth at the equator."""
+    """Compute A and B of eqs. 3 and 4 from the squared cosine of the azimuth at the equator."""
     u = square * (A * A - _B * _B) / (_B * _B)
     return (
         1.0 + u / 16384.0 * (4096.0 + u * (-768.0 + u * (320.0 - 175.0 * u))),
@@ -102,7 +102,7 @@ def _series(square: Array) -> tuple[Array, Array]:
 
 
 def _arc(square: Array, sine: Array, cosine: Array, middle: Array) -> Array:
-    """Correction of an arc, radians (eq. 6)."""
+    """Compute the correction of an arc, radians (eq. 6)."""
     b = _series(square)[1]
     inner = cosine * (-1.0 + 2.0 * middle**2)
     outer = b / 6.0 * middle * (-3.0 + 4.0 * sine**2) * (-3.0 + 4.0 * middle**2)
@@ -112,7 +112,7 @@ def _arc(square: Array, sine: Array, cosine: Array, middle: Array) -> Array:
 def _longitude(
     at_equator: Array, square: Array, sigma: Array, sine: Array, cosine: Array, middle: Array
 ) -> Array:
-    """Difference of the longitude on the sphere from that on the ellipsoid, radians (eqs. 10 and 11)."""
+    """Compute the longitude difference, sphere minus ellipsoid, radians (eqs. 10 and 11)."""
     c = _F / 16.0 * square * (4.0 + _F * (4.0 - 3.0 * square))
     series = sigma + c * sine * (middle + c * cosine * (-1.0 + 2.0 * middle**2))
     return (1.0 - c) * _F * at_equator * series

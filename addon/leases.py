@@ -1,13 +1,13 @@
 """Leases: mutual exclusion and work sharing between processes, on one or several machines.
 
-`lock` is a lock for one piece of work at a time. It is SQLite's lock of an empty database, which all systems
-support and which ends with the process in any case.
+`lock` gives one process at a time exclusive access. It uses SQLite's lock of an empty database, which all
+systems support and release when the process ends.
 
-`Leases` are leases on pieces of work, for processes of several machines, in a database in the shared folder.
-An owner sends heartbeats. Without one for `PATIENCE` seconds its leases expire. Heartbeats are counters
-without dates, as clocks differ; the waiting process measures the seconds.
+`Leases` divide pieces of work among processes on several machines, by a database in the shared folder. An
+owner sends heartbeats; its leases expire after `PATIENCE` seconds without one. Clocks of machines differ, so
+heartbeats are counters without dates, and the waiting process measures the time.
 
-`heartbeats` calls a function from a thread, periodically.
+`heartbeats` calls a function periodically from a thread.
 """
 
 from __future__ import annotations
@@ -37,27 +37,27 @@ _PART = ".part-"
 
 
 @contextlib.contextmanager
-def heartbeats(every: float, give: Callable[[], None]) -> Iterator[None]:
-    """Call `give` from a thread every so many seconds; a failed call is repeated at the next one."""
-    over = threading.Event()
+def heartbeats(every: float, send: Callable[[], None]) -> Iterator[None]:
+    """Call `send` from a thread every `every` seconds; failures are ignored until the next call."""
+    ended = threading.Event()
 
-    def live() -> None:
-        while not over.wait(every):
+    def repeat() -> None:
+        while not ended.wait(every):
             with contextlib.suppress(Error, OSError):
-                give()
+                send()
 
-    thread = threading.Thread(target=live, daemon=True)
+    thread = threading.Thread(target=repeat, daemon=True)
     thread.start()
     try:
         yield
     finally:
-        over.set()
+        ended.set()
         thread.join()
 
 
 @contextlib.contextmanager
 def lock(path: Path, done: Callable[[], bool], wait: Callable[[], None]) -> Iterator[bool]:
-    """Lock the file `path`; False, without the lock, if the work is done while another process has it.
+    """Lock the file `path`; yields False, without the lock, if another process completes the work meanwhile.
 
     On a file system without locks all processes proceed: the work is done twice with the same result.
 
@@ -83,7 +83,7 @@ def lock(path: Path, done: Callable[[], bool], wait: Callable[[], None]) -> Iter
 
 
 def _lock(database: sqlite3.Connection) -> bool:
-    """Whether the lock of a database was acquired."""
+    """Try to lock a database; returns whether the lock was acquired."""
     try:
         database.execute("BEGIN EXCLUSIVE")
     except sqlite3.Error as error:
@@ -120,25 +120,25 @@ class Leases:
         with self.data.change():
             self.data.do("INSERT OR IGNORE INTO owners VALUES (?, 0)", self.owner)
             self.data.do("INSERT OR IGNORE INTO claims VALUES (?, ?)", name, self.owner)
-        return self.held(name)
+        return self.is_held(name)
 
-    def held(self, name: str) -> bool:
-        """Whether the lease is still ours; it may have expired while the machine slept."""
+    def is_held(self, name: str) -> bool:
+        """Check whether this process still has the lease, which can expire while the machine sleeps."""
         return self.data.one("SELECT owner FROM claims WHERE name = ?", name) == (self.owner,)
 
-    def give(self, name: str) -> None:
+    def release(self, name: str) -> None:
         """Release a lease."""
         self.data.do("DELETE FROM claims WHERE name = ? AND owner = ?", name, self.owner)
 
     def of_others(self) -> set[str]:
-        """Leases of other owners, after expired ones are removed."""
+        """Return the leases of other owners, after removing expired ones."""
         self._expire()
         rows = self.data.all("SELECT name FROM claims WHERE owner != ?", self.owner)
         return {name for (name,) in rows}
 
     @contextlib.contextmanager
     def part_folder(self) -> Iterator[Path]:
-        """Temporary folder within the shared folder, so that files can be renamed into place."""
+        """Create a temporary folder in the shared folder, from which files can be renamed to their paths."""
         part = self.data.path.parent / f"{_PART}{self.owner}"
         with writing(part):
             part.mkdir(exist_ok=True)
@@ -157,12 +157,12 @@ class Leases:
                 leave(self.data, owner, beat)
 
     def _send_heartbeat(self) -> None:
-        with contextlib.closing(self.data.again()) as data:
+        with contextlib.closing(self.data.reopen()) as data:
             _beat(data, self.owner)
 
 
 def new_owner() -> str:
-    """Unique owner name of this process."""
+    """Create a unique owner name."""
     return uuid.uuid4().hex[:12]
 
 

@@ -1,4 +1,4 @@
-"""Process memory: peak use, and return of freed memory to the system."""
+"""Process memory: peak use, and release of freed memory to the system."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from collections.abc import Callable
 
 _ARENAS = "MALLOC_ARENA_MAX"
 _MOST = "1"
-"""Arenas of a process. By default glibc makes up to eight for each processor; each keeps its freed memory.
+"""Number of malloc arenas of a process. glibc creates up to eight per processor; each retains freed memory.
 
-Two arenas take 0.17 GB more than one for the example's film.
+Two arenas need 0.17 GB more than one for the example's film.
 """
 
 
 def few_arenas() -> dict[str, str]:
-    """Environment variables for a process with many threads; the user's own take precedence.
+    """Return environment variables that limit arenas, unless the user has set the variable.
 
-    Empty unless the C library is glibc, which alone has this setting.
+    Empty unless the C library is glibc, the only one with this setting.
     """
     return {_ARENAS: _MOST} if _glibc() and _ARENAS not in os.environ else {}
 
@@ -31,7 +31,7 @@ def _glibc() -> bool:
         return False
 
 
-def give_back() -> None:
+def release_freed() -> None:
     """Return freed memory to the system between large tasks; does nothing without glibc."""
     trim = _trim()
     if trim is not None:
@@ -44,7 +44,7 @@ def _trim() -> Callable[[int], int] | None:
 
 
 def peak() -> int:
-    """Peak memory of this process, bytes; 0 if the system does not report it."""
+    """Return the peak memory of this process, bytes; 0 if the system does not report it."""
     with contextlib.suppress(OSError), open("/proc/self/status", encoding="ascii") as file:
         return next((1024 * int(line.split()[1]) for line in file if line.startswith("VmHWM")), 0)
     return 0

@@ -1,4 +1,4 @@
-"""Progress on stderr: a bar on a terminal, else plain lines with the remaining time."""
+"""Progress on stderr: a bar on a terminal, otherwise plain lines with the remaining time."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from tqdm import tqdm
 
 Progress = Callable[..., None]
-"""Called as ``progress(done, total, "what is done", "a note")`` during work; the texts are optional."""
+"""Called as ``progress(done, total, "name of the work", "a note")``; the texts are optional."""
 
 READING = "reading the scene file and its run"
 
@@ -36,7 +36,7 @@ def result(text: object) -> None:
 
 @contextlib.contextmanager
 def notify_if_slow(text: str, seconds: float = 1.0) -> Iterator[None]:
-    """Print what is under way once it takes longer than `seconds`; nothing if it ends or fails earlier."""
+    """Print `text` if the block takes longer than `seconds`."""
     timer = threading.Timer(seconds, say, [text])
     timer.daemon = True
     timer.start()
@@ -47,11 +47,11 @@ def notify_if_slow(text: str, seconds: float = 1.0) -> Iterator[None]:
 
 
 def silent(done: int, total: int, what: str = "", note: str = "") -> None:
-    """Progress callback without output."""
+    """Ignore progress."""
 
 
 def share(progress: Progress, before: int, of: int, work: str) -> Progress:
-    """Progress of some of `of` parts of a work, `before` of which are done; other work is passed through."""
+    """Create a callback for a part of `work`: `before` of `of` steps are done; other work is passed on."""
 
     def counted(here: int, total: int, what: str = "", note: str = "") -> None:
         progress(*((before + here, of) if what == work else (here, total)), what, note)
@@ -60,7 +60,7 @@ def share(progress: Progress, before: int, of: int, work: str) -> Progress:
 
 
 class Reporter:
-    """Progress display; a new name of the work ends one bar and begins another."""
+    """Progress display; each new name of the work starts a new bar."""
 
     def __init__(self, what: str = "working") -> None:
         self.what = what
@@ -74,7 +74,7 @@ class Reporter:
         self.shown.update(done, total, note)
 
     def close(self) -> None:
-        """Keep the last bar as it is."""
+        """End the last bar at its present state."""
         if isinstance(self.shown, _Bar):
             self.shown.close()
         self.shown = None
@@ -92,7 +92,7 @@ class _Bar:
             count = "{n_fmt}/{total_fmt} [{elapsed}, {remaining} left{postfix}]"
             shape = "{desc}: {percentage:3.0f}%|{bar}| " + count
             self.bar = tqdm(total=total, desc=self.what, initial=done, bar_format=shape, dynamic_ncols=True)
-        self.bar.set_postfix_str(note, refresh=False)  # tqdm puts a comma before it
+        self.bar.set_postfix_str(note, refresh=False)  # tqdm prefixes a comma
         self.bar.update(done - self.bar.n)
         if done >= total:
             self.bar.close()
@@ -127,7 +127,7 @@ class _Lines:
 
 
 def no_message(text: str) -> None:
-    """Message callback without output."""
+    """Ignore a message."""
 
 
 def count(number: int, noun: str) -> str:

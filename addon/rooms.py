@@ -1,6 +1,6 @@
-"""Rooms of the top floor: packages that an installation can leave out.
+"""Rooms of the top floor: packages that an installation can omit.
 
-Each serves one kind of user. Its own command and panel alone import it, after `is_installed`.
+Each room serves one kind of user. Only its command and its panel import it, after a check with `is_installed`.
 """
 
 from __future__ import annotations
@@ -8,9 +8,9 @@ from __future__ import annotations
 from pathlib import Path
 
 COMMANDS = {"allocate": "allocation", "brief": "brief", "farm": "farm"}
-"""Package that each of these commands needs."""
+"""Package of each command that needs a room."""
 
 
 def is_installed(package: str) -> bool:
-    """Whether this installation has a room of the top floor."""
+    """Check whether this installation has a package of the top floor."""
     return (Path(__file__).parent / package / "__init__.py").is_file()

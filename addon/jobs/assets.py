@@ -75,7 +75,7 @@ def run(
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise input_error(out, f"cannot be made ({error.strerror}); choose another place") from None
+        raise input_error(out, f"cannot be made ({error.strerror}); choose another folder") from None
     with notify_if_slow(READING):
         choice.shot()
     task = {"choice": choice.plain(), "out": str(out / BLEND)}

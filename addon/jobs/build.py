@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 
 from .. import files
-from ..errors import disk_is_full, full_disk_error, input_error, no_room
+from ..errors import disk_is_full, full_disk_error, input_error, is_nearly_full
 from ..progress import READING, MessageCallback, Progress, no_message, notify_if_slow, silent
 from ..shot.cameras import camera_warnings
 from ..shot.source import ShotSource
@@ -58,7 +58,7 @@ def _writable(out: Path) -> None:
         part.touch()
         part.unlink()
     except OSError as error:
-        reason = f"cannot be written ({error.strerror}); choose another place"
+        reason = f"cannot be written ({error.strerror}); choose another folder"
         raise input_error(out, reason) from None
     if out.exists() and not os.access(out, os.W_OK):
         raise input_error(out, "is write-protected; choose another name")
@@ -103,7 +103,7 @@ def save(out: Path, **how: bool) -> None:
         bpy.ops.wm.save_as_mainfile(filepath=str(part), compress=True, **how)
         files.publish(part, out)
     except RuntimeError as error:
-        if disk_is_full(error) or no_room(out):
+        if disk_is_full(error) or is_nearly_full(out):
             raise full_disk_error(out) from None
         reason = f"cannot be written: {' '.join(str(error).split())}"
         raise input_error(out, reason) from None

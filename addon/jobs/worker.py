@@ -131,13 +131,13 @@ def run(
     if stop is not None and stop.asked:
         forget()
         raise StoppedError
-    from ..errors import Error, restored
+    from ..errors import Error, from_plain
 
     found, log_at = answer.get("error"), f" (the log of Blender is {log.name})" if blender else ""
     if found and ("place" in found or not blender):
         forget()
     if found:
-        raise restored(found, log_at)
+        raise from_plain(found, log_at)
     if not blender:
         forget()
         if watch.over:

@@ -64,7 +64,7 @@ def render(
             progress(queue.done, queue.total, "rendering", note)
             if finished := _frame(shot, stage, session, part, queue, ready, renderer):
                 made, note = made + 1, _preview(finished)
-            memory.give_back()
+            memory.release_freed()
         progress(queue.done, queue.total, "rendering", note)
     for text in renderer.warnings() if renderer else ():
         tell(text)
@@ -85,7 +85,7 @@ def _frame(
     The memory of the frame is freed on return.
     """
     smoke = ready(queue.frame, queue.ahead)
-    memory.give_back()
+    memory.release_freed()
     try:
         frame = _Frame(shot, stage, session, part, queue.camera, queue.frame)
         frame.draw = renderer.frame_renderer(smoke or (), part) if renderer else frame.draw_layers

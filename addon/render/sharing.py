@@ -193,7 +193,7 @@ class FrameQueue:
 
     def holds_lease(self) -> bool:
         """Return whether this render still holds the current frame's lease; it expires without heartbeats."""
-        return self.leases.held(_name(self.camera, self.frame))
+        return self.leases.is_held(_name(self.camera, self.frame))
 
     def end(self) -> None:
         """Release the leases of frames that were not finished."""
@@ -213,12 +213,12 @@ class FrameQueue:
                             f"taking over {frame[0]} frame {frame[1]}, left unfinished by another render"
                         )
                     return frame, [picture.name for picture in missing]
-                self.leases.give(_name(*frame))
+                self.leases.release(_name(*frame))
         return None
 
     def _release(self) -> None:
         if self.camera:
-            self.leases.give(_name(self.camera, self.frame))
+            self.leases.release(_name(self.camera, self.frame))
         self.camera = ""
 
 

@@ -47,7 +47,7 @@ def render(
             layers.black_materials(scene, names),
         ):
             bpy.ops.render.render(write_still=True, scene=scene.name)
-        memory.give_back()
+        memory.release_freed()
     finally:
         cycles.min_transparent_bounces = chance
     ends = {-1: "_L", 1: "_R"} if scene.render.use_multiview else {0: ""}

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from firetwin_core import sensor
 
-from ..errors import Error, full_disk_error, input_error, no_room
+from ..errors import Error, full_disk_error, input_error, is_nearly_full
 
 _PNG_END = b"\0\0\0\0IEND\xaeB`\x82"
 
@@ -72,6 +72,6 @@ def _end(path: Path, count: int) -> bytes:
 
 
 def _damaged(path: Path, reason: str) -> Exception:
-    if no_room(path):
+    if is_nearly_full(path):
         return full_disk_error(path)
     return input_error(path, f"{reason}: Blender wrote a damaged file; render it again")

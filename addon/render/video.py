@@ -34,7 +34,7 @@ def make(shot: Shot, session: RenderSession, progress: Progress = silent) -> Non
                 _film(shot, session, *film)
             any(films.missing(shot, session.store, this))  # records in the store that the film is up to date
         finally:
-            session.leases.give(path)
+            session.leases.release(path)
         progress(done, len(wanted), "filming")
 
 

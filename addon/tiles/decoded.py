@@ -289,5 +289,5 @@ def _store(image: tiles.Image, folder: Path, resources: dict[str, bytes]) -> str
     if not data or image.kind not in _ENDS:
         return ""
     path = folder / f"{hashlib.sha256(data).hexdigest()[:32]}{_ENDS[image.kind]}"
-    files.keep(path, data)
+    files.write_cached(path, data)
     return path.name

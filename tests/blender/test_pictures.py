@@ -43,7 +43,7 @@ def film(shot, stage, tmp_path, monkeypatch):
     monkeypatch.setattr(pictures, "_Frame", Frame)
     monkeypatch.setattr(pictures, "publish", lambda *_: None)
     monkeypatch.setattr(integrated, "applies", lambda *_: False)
-    monkeypatch.setattr(memory, "give_back", lambda: events.append("give back"))
+    monkeypatch.setattr(memory, "release_freed", lambda: events.append("give back"))
 
     def make(count):
         wanted = [Picture("drone", frame, name) for frame in range(1, count + 1) for name in PASSES]

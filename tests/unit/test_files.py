@@ -26,7 +26,7 @@ from firetwin.errors import (
     UnavailableError,
     disk_is_full,
     is_worth_another_try,
-    no_room,
+    is_nearly_full,
     writing,
 )
 from firetwin.jobs import worker
@@ -64,10 +64,10 @@ def _fill(folder):
 def test_a_full_disk_is_named_and_leaves_nothing(tiny):
     _fill(tiny)
     path = tiny / "map.png"
-    with pytest.raises(InputError, match=r"map\.png: the disk is full; free some room"):
+    with pytest.raises(InputError, match=r"map\.png: the disk is full; free some space"):
         files.write(path, lambda part: part.write_bytes(bytes(9999)))
     assert [each.name for each in tiny.iterdir()] == ["filler"]
-    assert no_room(path)
+    assert is_nearly_full(path)
 
 
 def test_a_full_disk_under_the_core(tiny):
@@ -164,7 +164,7 @@ def test_a_full_disk_under_the_sample(tiny, form):
 
 
 def test_errors_of_writing_say_what_to_do(tmp_path):
-    reason = r"a: cannot be written \(Permission denied\); choose another place"
+    reason = r"a: cannot be written \(Permission denied\); choose another folder"
     with pytest.raises(InputError, match=reason), writing("a"):
         raise PermissionError(errno.EACCES, "Permission denied")
     with pytest.raises(InputError) as caught, writing("a"):

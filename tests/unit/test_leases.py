@@ -116,9 +116,9 @@ def test_what_one_claims_another_cannot(tmp_path):
             assert not b.take("frame 1")
             assert b.take("frame 2")
             assert a.of_others() == {"frame 2"}
-            a.give("frame 1")
+            a.release("frame 1")
             assert b.take("frame 1")
-            assert not a.held("frame 1")
+            assert not a.is_held("frame 1")
         assert a.of_others() == set()
         assert a.take("frame 2")
 
@@ -137,7 +137,7 @@ def test_the_claims_of_who_gives_no_sign_of_life_are_taken_over(tmp_path, monkey
             while me.of_others() != {"frame 1"} and time.monotonic() < end:
                 time.sleep(0.05)
             assert me.take("frame 2")
-            assert not dead.held("frame 2")
+            assert not dead.is_held("frame 2")
             assert not list(tmp_path.glob(".part-dead"))
 
 
@@ -173,7 +173,7 @@ class Sharing(RuleBasedStateMachine):
 
     @rule(owner=owners, name=names)
     def give(self, owner, name):
-        self.claims[owner].give(name)
+        self.claims[owner].release(name)
         if self.held.get(name) == owner:
             del self.held[name]
 
@@ -194,7 +194,7 @@ class Sharing(RuleBasedStateMachine):
         for owner, claims in self.claims.items():
             assert claims.of_others() == {name for name, each in self.held.items() if each != owner}
             for name in ("frame 1", "frame 2"):
-                assert claims.held(name) == (self.held.get(name) == owner)
+                assert claims.is_held(name) == (self.held.get(name) == owner)
 
     def teardown(self):
         for claims in self.claims.values():

@@ -20,7 +20,7 @@ def rss():
 held = [numpy.ones(12_000) for _ in range(2000)]  # 96 kB each, which glibc takes from its heap
 held = held[1::2]
 full = rss()
-memory.give_back()
+memory.release_freed()
 print(full - rss())
 """
 PEAK = """
@@ -62,7 +62,7 @@ def test_other_systems_have_nothing_to_bound_and_no_way_to_give_back(monkeypatch
     monkeypatch.setattr(os, "confstr", confstr, raising=False)
     memory._trim.cache_clear()
     assert memory.few_arenas() == {}
-    memory.give_back()
+    memory.release_freed()
     monkeypatch.delattr(os, "confstr")
     assert memory.few_arenas() == {}
     memory._trim.cache_clear()

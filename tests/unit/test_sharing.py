@@ -139,7 +139,7 @@ def test_the_queue_counts_frames_that_others_finished_and_not_those_that_they_le
                 make(mine, Picture(queue.camera, queue.frame, "rgb"))
             assert (done, queue.done, queue.total) == ([0, 1], 2, 3)
         make(other, WANTED[1])
-        other.leases.give("drone 000002")
+        other.leases.release("drone 000002")
         with mine.queue(WANTED) as queue:
             assert not queue.step()
             assert queue.done == 3

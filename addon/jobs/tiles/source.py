@@ -194,7 +194,7 @@ class TileSource:
 
     def _stored(self, data: bytes) -> str:
         path = self.folder / "content" / hashlib.sha256(data).hexdigest()
-        files.keep(path, data)
+        files.write_cached(path, data)
         return str(path)
 
     def _content(self, content: int) -> Content:
