@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets up, writes the sample run and renders example scenes with their films into out/NAME, as in
-# `film.sh satellite vr`; run again, it renders only what is missing or no longer matches.
+# `film.sh satellite vr`; a second run renders only missing and outdated files.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # From a fresh checkout to a film of the King Fire: sets up, writes the sample run, draws its maps and renders
-# king_fire.toml. Takes 12 minutes on two cores the first time; run again, it does only what is missing. With --still it ends
+# king_fire.toml. The first run takes 12 minutes on two cores; a second run renders only missing files. With --still it ends
 # after the first picture of the drone.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -24,9 +24,9 @@ here=$PWD/$out
 say() { echo "king_fire: $*" >&2; }
 
 if [[ $still == true ]]; then
-  say "rendering the first picture of king_fire.toml; what is finished already is kept"
+  say "rendering the first picture of king_fire.toml, unless it is finished"
   "$firetwin" render king_fire.toml --out "$out/film" --frames 1 --camera drone --resume >/dev/null
-  say "the first picture, and its depth and temperatures beside it; without --still the film is rendered"
+  say "the first picture; its depth and temperatures are in the same folder. Without --still the film is rendered"
   echo "$here/film/drone/rgb/drone_rgb_000001.png"
   exit
 fi
@@ -36,11 +36,11 @@ cat "$out/info.txt" >&2
 if [[ ! -f $out/maps/intensity.png || $out/sample/run.toml -nt $out/maps/intensity.png ]]; then
   "$firetwin" maps "$out/sample" --out "$out/maps" >/dev/null
 fi
-say "rendering king_fire.toml; what is finished already is kept"
+say "rendering the missing pictures of king_fire.toml"
 "$firetwin" render king_fire.toml --out "$out/film" --resume
 if [[ ! -f $out/king_fire.blend || king_fire.toml -nt $out/king_fire.blend ]]; then
-  say "the film is done: $here/film/drone/drone_rgb.mp4"
-  say "writing its scene as a .blend file; the smoke of all its frames is written for that, which takes minutes"
+  say "the film is finished: $here/film/drone/drone_rgb.mp4"
+  say "writing the scene as a .blend file, with the smoke of all frames, which takes minutes"
   "$firetwin" build king_fire.toml -o "$out/king_fire.blend" >/dev/null
 fi
 

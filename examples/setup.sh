@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes this checkout ready to run: system packages, a virtual environment in .venv, and a build of Firetwin.
-# Safe to run again: what is already there is left alone, and an unchanged checkout takes about a second.
+# Safe to run again: installed packages and finished builds stay, and an unchanged checkout takes about a second.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -47,9 +47,9 @@ missing_packages() { # package...
 
 install_packages() { # package...
   if ! command -v apt-get >/dev/null; then
-    say "this system has no apt-get; what is needed has these names on Debian, and other names here:"
+    say "this system has no apt-get; install these packages, which have these names on Debian:"
     say "  $*"
-    say "going on: the build tells what it misses"
+    say "continuing; the build reports missing packages"
     return
   fi
   local missing as_root=()
@@ -59,7 +59,7 @@ install_packages() { # package...
   fi
   if ((EUID != 0)); then
     if ! command -v sudo >/dev/null; then
-      say "please have these packages installed, then run this again: ${missing[*]}"
+      say "root or sudo is needed to install packages; install these and run this again: ${missing[*]}"
       exit 1
     fi
     as_root=(sudo)
@@ -70,7 +70,7 @@ install_packages() { # package...
   if ! { "${as_root[@]}" apt-get update -q &&
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
     tail -n 20 "$log" >&2
-    say "apt-get failed; its whole output is in $log"
+    say "apt-get failed; see $log"
     exit 1
   fi
   rm -f "$log"
@@ -85,12 +85,12 @@ find_python() {
       return
     fi
   done
-  say "Python 3.11 or 3.13 with its venv module is needed, because Blender's Python module exists for these two"
+  say "install Python 3.11 or 3.13 with its venv module; Blender's Python module exists only for these two"
   exit 1
 }
 
 
-# Changes whenever pip has something to install. addon/ and data/ are used where they lie, and C++ is ninja's to watch.
+# Changes if pip has to install packages. addon/ and data/ are used in place, and ninja checks C++.
 fingerprint() {
   {
     echo "$PWD $extras"
@@ -102,14 +102,14 @@ make_venv() {
   if [[ ! -x .venv/bin/python ]]; then
     local python
     python=$(find_python)
-    say "making .venv with $("$python" --version)"
+    say "creating .venv with $("$python" --version)"
     "$python" -m venv .venv
-    rm -rf build/setup # may be of another Python
+    rm -rf build/setup # may belong to another Python
   fi
   "${pip[@]}" "scikit-build-core==1.1.2" "pybind11==3.1.0"
 }
 
-# With uv, which takes a fifth of pip's processor time; with pip where uv cannot be installed or does not reach the packages.
+# With uv, which takes a fifth of pip's processor time; with pip if uv cannot be installed or cannot reach the packages.
 install_python_packages() {
   say "installing Blender's Python module and the other Python packages (about 350 MB the first time)"
   local options=(--quiet --no-build-isolation --config-settings=wheel.cmake=false ".[$extras]")
@@ -127,7 +127,7 @@ compile() {
   cmake --build build/setup
 }
 
-# This checkout's addon/ is the package `firetwin`, and its data/ lies in it.
+# addon/ of this checkout is the package `firetwin`, and data/ is a part of it.
 use_in_place() { # site-packages
   echo "import _firetwin_checkout" >"$1/firetwin_checkout.pth"
   cat >"$1/_firetwin_checkout.py" <<PYTHON
@@ -159,7 +159,7 @@ quietly() { # name command...
   shift
   if ! "$@" >"$log" 2>&1; then
     tail -n 30 "$log" >&2
-    say "failed; the whole output is in $log"
+    say "failed; see $log"
     return 1
   fi
 }

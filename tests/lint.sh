@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# Who may import whom, by the contracts in pyproject.toml: of the package as it is installed, with data/ in it.
+# Checks the import contracts in pyproject.toml, on the package as it is installed, with data/ in it.
 check_floors() {
   local staged status=0
   staged=$(mktemp -d)
@@ -34,7 +34,7 @@ if ((${#python[@]})); then
   .venv/bin/ruff format --check "${python[@]}"
   .venv/bin/ruff check "${python[@]}"
   check_floors
-  .venv/bin/mypy --no-error-summary # type hints, of the whole package
+  .venv/bin/mypy --no-error-summary # type hints of the package
 fi
 if ((${#cpp[@]})); then
   printf '%s\0' "${cpp[@]}" | xargs -0 -n 40 -P "$(nproc)" .venv/bin/clang-format --dry-run --Werror

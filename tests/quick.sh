@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Tests what the changes of the working tree touch: lint of changed files, C++ compiled, and the nearest tests (tests/touched.py).
+# Checks the changes of the working tree: lints changed files, compiles C++ and runs the nearest tests (tests/touched.py).
 #
-#   tests/quick.sh             changes since the last commit, files that git does not know yet included
+#   tests/quick.sh             changes since the last commit, untracked files included
 #   tests/quick.sh REVISION    changes since this revision
 #
-# At most a minute of tests; tests/run.sh runs them all.
+# At most a minute of tests; tests/run.sh runs all tests.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Sets up, then runs what a change has to pass: format and lint, the documentation, tests/unit, tests/blender, and a
-# frame of each pass.
+# Sets up, then runs the checks that every change must pass: format and lint, the documentation, tests/unit,
+# tests/blender, and a frame of each pass.
 # On 2 cores it takes about 5 minutes on a fresh machine and 3 afterwards.
 #
-#   tests/run.sh          that
-#   tests/run.sh --all    then everything else too (tests/slow.sh), within 40 minutes in all
+#   tests/run.sh          these checks
+#   tests/run.sh --all    these, then all others (tests/slow.sh), within 40 minutes in total
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

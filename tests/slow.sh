@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs what tests/run.sh leaves out, slowest last, and says what it left out because the time was over.
-# Libraries and Debian folders are kept in $FIRETWIN_CACHE (~/.cache/firetwin): with them, more fits the next time.
+# Runs the tests that tests/run.sh does not run, slowest last, and lists those that did not fit into the time.
+# Libraries and Debian folders are cached in $FIRETWIN_CACHE (~/.cache/firetwin), so that more tests fit the next time.
 #
 #   tests/slow.sh            as much as fits into 35 minutes
 #   tests/slow.sh SECONDS    as much as fits into so many seconds
@@ -13,7 +13,7 @@ export FIRETWIN_PORTABLE=$cache/portable FIRETWIN_DEBIAN=$cache/debian
 mkdir -p "$cache"
 result=0 summary=()
 
-# Runs a command that needs about so many minutes, unless they are no longer there.
+# Runs a command that needs about this many minutes, if that much time is left.
 slow() { # minutes command...
   local needs=$(($1 * 60)) left=$((limit - SECONDS)) from=$SECONDS status=0
   shift

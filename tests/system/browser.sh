@@ -3,10 +3,10 @@
 #
 #   tests/system/browser.sh X.html ...
 #
-# The browser is kept in build/debian/browser, or in $FIRETWIN_DEBIAN/browser (tests/system/in_debian.sh), and installed
-# there at first (about 4 minutes). Of each page build/shared/browser has a picture, X.png, and X.dom, what the
-# browser made of it. Exit status 1: a picture in a page did not load, or the page asks for something from
-# elsewhere; 77: there is no such browser.
+# The browser is in build/debian/browser, or in $FIRETWIN_DEBIAN/browser (tests/system/in_debian.sh); the first call
+# installs it there (about 4 minutes). build/shared/browser has a picture of each page, X.png, and its document, X.dom.
+# Exit status 1: a picture in a page did not load, or the page requests a file from elsewhere; 77: there is no such
+# browser.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 folder=${FIRETWIN_DEBIAN:-build/debian}/browser
@@ -15,7 +15,7 @@ out=build/shared/browser
 rm -rf "$out"
 mkdir -p "$out"
 for page in "$@"; do
-  # A line at the end of the page that says how wide its pictures came out, and what it fetched.
+  # A line at the end of the page with the widths of its pictures and the addresses that it fetched.
   {
     cat "$page"
     # shellcheck disable=SC2016

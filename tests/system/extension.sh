@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Makes the Blender extension, build/extension/firetwin-VERSION.zip, and installs, uses and removes it in Blender.
+# Builds the Blender extension, build/extension/firetwin-VERSION.zip, and installs, uses and removes it in Blender.
 #
 #   tests/system/extension.sh                 build the wheels of the core, the zip, and try it
 #   tests/system/extension.sh --zip           build the wheels of the core and the zip
 #   tests/system/extension.sh --try ZIP       only try this zip
 #
-# FIRETWIN_WHEELS names one more folder whose wheels go into the zip, such as that of the core for another Python.
+# FIRETWIN_WHEELS names an additional folder of wheels for the zip, such as the core for another Python.
 # For FIRETWIN_BLENDERS and Blender 5.2 see tests/system/wheels.sh.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -32,7 +32,7 @@ try() { # python
   mkdir -p build/extension
   if ! "$1" tests/system/package/install.py "$zip" >"$log" 2>&1; then
     tail -n 30 "$log" >&2
-    echo "extension: FAILED: $1; the whole output is in $log" >&2
+    echo "extension: FAILED: $1; see $log" >&2
     exit 1
   fi
   grep -E '^(Blender|STATUS|firetwin_core|astral|tomlkit|tqdm|uninstalled)' "$log"

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Runs the README's two commands in fresh Debian folders, as someone does who has just got this checkout.
+# Runs the two commands of the README in fresh Debian folders, as a new user does.
 #
 #   tests/system/fresh.sh                       in Debian 12 and 13: an hour or more
 #   tests/system/fresh.sh trixie                in this release only
 #   tests/system/fresh.sh trixie tests/run.sh   this command only
 #
-# A folder is removed when all went well. Exit status 77: such folders cannot be made here.
+# A folder is removed if all commands passed. Exit status 77: such folders cannot be made here.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -30,5 +30,5 @@ for suite in "${suites[@]}"; do
     ls -l "$folder"/firetwin/examples/out/film/drone/*.mp4
   fi
   rm -rf --one-file-system "$folder"
-  echo "fresh: $suite: all commands ran through" >&2
+  echo "fresh: $suite: all commands passed" >&2
 done

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Runs a command in the checkout's copy inside a Debian of another release, kept in a folder.
+# Runs a command in a copy of the checkout inside a folder with another Debian release.
 #
 #   tests/system/in_debian.sh trixie build/debian/trixie tests/run.sh
 #
-# The folder is made by debootstrap when it is not there (about 2 minutes). Each call brings the copy in
-# FOLDER/firetwin up to date, what was built there stays; build/shared is the same folder inside and outside.
-# Mirror, proxies, certificates and pip's configuration are this machine's. Exit status 77, after a line that
-# says why: this machine cannot do it. Otherwise the command's.
+# debootstrap makes the folder if it does not exist (about 2 minutes). Each call updates the copy in FOLDER/firetwin;
+# builds in it stay. build/shared is the same folder inside and outside. Mirror, proxies, certificates and pip's
+# configuration come from this machine. The exit status is the status of the command, or 77, after a line with the
+# reason, if this machine cannot do it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -26,7 +26,7 @@ cannot() {
 command -v unshare >/dev/null || cannot "unshare is missing (Debian: apt-get install util-linux)"
 unshare --mount true 2>/dev/null || cannot "this machine does not let root mount anything"
 
-# The mirror this machine uses, where it is a Debian; else debootstrap's own.
+# The mirror of this machine if it is a Debian; else the default of debootstrap.
 mirror() {
   if grep -qs '^ID=debian$' /etc/os-release && command -v apt-get >/dev/null; then
     # shellcheck disable=SC2016
@@ -45,12 +45,12 @@ make_folder() {
     tail -n 5 "$log" >&2
     cannot "debootstrap failed (no network?); its output is in $log"
   fi
-  # Downloaded packages are of no use later.
+  # Downloaded packages are not needed later.
   rm -f "$part"/var/cache/apt/archives/*.deb
   mv "$part" "$folder"
 }
 
-# How this machine reaches the network.
+# Network configuration of this machine.
 configure() {
   local file
   for file in /etc/resolv.conf /etc/hosts /etc/pip.conf /etc/ssl/certs/ca-certificates.crt; do
@@ -71,12 +71,12 @@ configure() {
   done
 }
 
-# Files keep their times, so that only what changed is built again.
+# Files keep their times, so that only changed files are built again.
 copy_checkout() {
   local copy=$folder/firetwin
   mkdir -p "$copy"
   find "$copy" -mindepth 1 -maxdepth 1 ! -name .venv ! -name build ! -name examples -exec rm -rf {} +
-  # What the example has made stays too.
+  # Files of the example stay too.
   if [[ -d $copy/examples ]]; then
     find "$copy/examples" -mindepth 1 -maxdepth 1 ! -name out -exec rm -rf {} +
   fi
@@ -84,7 +84,7 @@ copy_checkout() {
     tar -xf - -C "$copy"
 }
 
-# One at a time: another command in this folder is waited for.
+# One at a time: wait for another command in this folder.
 mkdir -p "$(dirname "$folder")"
 exec 9>"$folder.lock"
 flock 9
@@ -100,7 +100,7 @@ while read -r name; do
   environment+=("$name=${!name}")
 done < <(compgen -e | grep -iE '^((https?|ftp|no|all)_proxy|PIP_(INDEX_URL|EXTRA_INDEX_URL|TRUSTED_HOST|CERT|PROXY|DEFAULT_TIMEOUT)|SSL_CERT_FILE|REQUESTS_CA_BUNDLE)$')
 
-# The mounts are seen by this one process and end with it.
+# Only this process has the mounts; they end with it.
 # shellcheck disable=SC2016
 exec unshare --mount --propagation private bash -c '
   set -euo pipefail

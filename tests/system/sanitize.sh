@@ -9,7 +9,7 @@ build=build/sanitize
 cmake --preset asan -B "$build" -DPython_EXECUTABLE="$(realpath --no-symlinks "$python")" >/dev/null
 cmake --build "$build" -j 2 >&2
 
-# The package as it is installed, with the sanitized module beside it.
+# The package as it is installed, and the sanitized module.
 package=$build/package
 rm -rf "$package"
 mkdir -p "$package"
@@ -18,11 +18,11 @@ cp -r data "$package/firetwin/data"
 cp "$build"/firetwin_core*.so "$package"
 
 libraries="$(g++ -print-file-name=libasan.so) $(g++ -print-file-name=libubsan.so) $(g++ -print-file-name=libstdc++.so.6)"
-# Leaks are not looked for: Python itself leaves plenty behind when it ends.
+# Leaks are not checked: Python leaves many when it ends.
 export ASAN_OPTIONS=detect_leaks=0:abort_on_error=1:strict_string_checks=1:detect_stack_use_after_return=1
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 export PYTHONMALLOC=malloc PYTHONPATH=$package LD_PRELOAD=$libraries
-# Tests that measure memory would measure what the sanitizer holds back.
+# Tests that measure memory would measure the memory of the sanitizer.
 dense=tests/unit/test_volume_dense.py
 exec "$python" -m pytest tests/unit -q -n "$(nproc)" --dist worksteal -o longest_s=600 -p no:cacheprovider "$@" \
   --deselect "$dense::test_memory_does_not_grow_with_the_grid" \

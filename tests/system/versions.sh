@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# Runs tests/blender and tests/render in every Blender that Firetwin supports, and compares the pictures they make.
+# Runs tests/blender and tests/render in every Blender that Firetwin supports, and compares their pictures.
 #
 #   tests/system/versions.sh                    tests in Blender 4.5, 5.0 and 5.2
-#   tests/system/versions.sh --picture          the example's drone frame by each of them, compared by FLIP
-#   tests/system/versions.sh --files 4.5 5.2    a scene saved by each of them, opened and used by the others, and back
+#   tests/system/versions.sh --picture          the drone frame of the example in each version, compared by FLIP
+#   tests/system/versions.sh --files 4.5 5.2    a scene saved by each version, opened and used by the others, and back
 #   tests/system/versions.sh 5.2                this version only
 #   tests/system/versions.sh 5.2 -- -k smoke    arguments for pytest
 #
-# Blender as a Python module needs Python 3.11 up to 5.0, and 3.13 from 5.1. The version whose Python this
-# machine lacks runs in a folder with the Debian that has it (tests/system/in_debian.sh), kept in build/debian, or in
-# $FIRETWIN_DEBIAN. Where that cannot be made, the version is skipped, and the last lines say so.
+# Blender as a Python module needs Python 3.11 up to 5.0, and 3.13 from 5.1. A version without its Python on this
+# machine runs in a folder with a Debian that has it (tests/system/in_debian.sh), in build/debian or $FIRETWIN_DEBIAN.
+# If the folder cannot be made, the version is skipped, and the last lines report it.
 # Exit status 1: a test or a comparison failed; 77: nothing failed and something was skipped.
 set -euo pipefail
 shopt -s inherit_errexit
@@ -33,7 +33,7 @@ while (($#)); do
     --picture) picture=true ;;
     --files) files=save ;;
     --open) files=open ;; # after --files has saved them
-    --here) here=true ;; # run these versions with this machine's Python: what is called inside a folder
+    --here) here=true ;; # run these versions with this machine's Python; used inside a folder
     --)
       shift
       break
@@ -96,7 +96,7 @@ has_python() {
   return 1
 }
 
-# The run that the pictures show is the same for all; it takes its name when it is complete.
+# The pictures show the same run; it gets its name when it is complete.
 sample() {
   if [[ ! -d $shared/sample ]]; then
     examples/setup.sh --with-tests
@@ -133,7 +133,7 @@ if [[ $files == save ]]; then
   sample
   rm -rf "$shared/files"
   options=(--files)
-  # Twice: what a version has opened and saved again is opened by those before it.
+  # Twice: earlier versions also open files that a later version has saved.
   versions=("${versions[@]}" open "${versions[@]}" "${versions[0]}")
 fi
 passed=() failed=() skipped=()
@@ -161,7 +161,7 @@ fi
 
 say "passed: ${passed[*]:-none}; failed: ${failed[*]:-none}; skipped: ${skipped[*]:-none}"
 for version in "${skipped[@]}"; do
-  say "Blender $version needs Python ${python[$version]}; why there is no folder with it is said above"
+  say "Blender $version needs Python ${python[$version]}; the reason why there is no folder with it is above"
 done
 if ((${#failed[@]})); then
   exit 1

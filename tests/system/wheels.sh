@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Builds the portable wheels of the core and tries each one beside Blender: imported before it, after it, and with Blender's
-# own libraries loaded first. Prints how fast the core is inside Blender and outside.
+# Builds the portable wheels of the core and tries each with Blender: imported before it, after it, and with Blender's
+# libraries loaded first. Prints the speed of the core inside and outside of Blender.
 #
 #   tests/system/wheels.sh                    build, check, try with the Blender of .venv and of build/versions/bpy-5.0
 #   tests/system/wheels.sh --try FOLDER       only try the wheels in this folder
 #
-# FIRETWIN_BLENDERS names other Pythons with Blender's module, with blanks between. Blender 5.2 needs Python 3.13: where this
-# machine's is another, its turn is in the Debian folder that tests/system/versions.sh makes, and is skipped without it.
+# FIRETWIN_BLENDERS names other Pythons with Blender's module, separated by blanks. Blender 5.2 needs Python 3.13: on a
+# machine with another Python it runs in the Debian folder of tests/system/versions.sh, and is skipped without it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 # shellcheck source=tests/system/package/blenders.sh
