@@ -50,7 +50,7 @@ def run(
 def fingerprints(job: Job, shot: Shot, progress: Progress = silent) -> Fingerprints:
     """Compute the settings that determine each picture of a job."""
     one = [Picture(view, 1, name) for view, names in job.passes.items() for name in names]
-    return fingerprint.of_pictures(shot, one, progress)
+    return fingerprint.compute(shot, one, progress)
 
 
 def check_pictures(

@@ -136,7 +136,7 @@ def _render(job: Job, choice: ShotSource, out: Path, number: int, log: Log, prog
     task, shot = job.task(number), choice.shot()
     pictures = list(job.pictures(task))
     render.prepare_tiles(choice, pictures, render.RenderRequest(out, resume=True), tell=say)
-    made_with = fingerprint.of_pictures(shot, pictures)
+    made_with = fingerprint.compute(shot, pictures)
     known = [entry for each in entries.attempts(out, number) for entry in each.entries]
     with tempfile.TemporaryDirectory(prefix="firetwin-farm-", ignore_cleanup_errors=True) as place:
         private = PrivateFolder(Path(place), out, log)

@@ -94,7 +94,7 @@ def run(
         shot = shot or choice.shot()
         wanted = plan.pictures(shot, *asked.selection())
     prepare_tiles(choice, wanted, asked, progress, tell, stop)  # fingerprints have what is chosen
-    made_with = fingerprint.of_pictures(shot, wanted, progress)
+    made_with = fingerprint.compute(shot, wanted, progress)
     with Store(out) as store:
         undone = plan.missing(store, wanted, made_with)
         finished = len(wanted) - len(undone)
@@ -244,7 +244,7 @@ def in_blender(
     if todo:
         _check_device(shot)
     frames, expected = frames_of(todo), 0
-    made_with = fingerprint.of_pairs(shot, {(camera, name) for camera, name in filmed}, progress)
+    made_with = fingerprint.compute_pairs(shot, {(camera, name) for camera, name in filmed}, progress)
     everything, after = plan.pictures(shot, *selection), 0 if resume else begun
     with sharing.open_session(Path(out), made_with, owner, after, begun, everything) as session:
         over = 0

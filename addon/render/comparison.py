@@ -49,7 +49,7 @@ def _finish(shot: Shot, session: RenderSession, part: Path, picture: Picture) ->
     mine = {Path(name).suffix[1:]: part / Path(name).name for name in picture.files()}
     with writing(mine[comparing.files[0]]):
         finisher(picture.name)(mine, needed, shot, picture.camera, picture.frame)
-    words = manifest.credits_of(session.made_with[picture.camera, picture.name])
+    words = manifest.read_credits(session.made_with[picture.camera, picture.name])
     credits.burn(mine["png"], words, f"Firetwin: {shot.run.name}")
 
 

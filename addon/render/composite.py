@@ -61,7 +61,7 @@ class Surfaces:
 
 def taps(surfaces: Surfaces) -> Array:
     """Return sample distances of smoke (h, w, 3), m: near surface, far surface and flames."""
-    near, far = _around(surfaces.distance, np.minimum), _around(surfaces.distance, np.maximum)
+    near, far = _neighbourhood(surfaces.distance, np.minimum), _neighbourhood(surfaces.distance, np.maximum)
     return np.stack([near, far, surfaces.fire_distance], axis=-1)
 
 
@@ -75,10 +75,10 @@ def compose(surfaces: Surfaces, distances: Array, marched: Array) -> Array:
     marched
         (h, w, 3, 4) at these distances, as `firetwin_core.volume.march` returns it.
     """
-    share = _share(surfaces, distances)[..., None]
+    share = _coverage(surfaces, distances)[..., None]
     smoke, through = marched[..., :3], marched[..., 3:]
     near, far, flames = (through[:, :, k] for k in range(3))
-    fire = _fire(surfaces)
+    fire = _flame_light(surfaces)
     solid = surfaces.colour - fire
     behind = solid * (share * near + (1.0 - share) * far)
     edge = np.abs(near - far)[..., 0] > _EDGE
@@ -109,20 +109,20 @@ def infrared_radiance(surface: Array, flames: Array, warmth: Array, sky: float) 
     return warmth / np.maximum(emissivity, 1.0) + np.clip(1.0 - emissivity, 0.0, 1.0) * behind
 
 
-def _share(surfaces: Surfaces, distances: Array) -> Array:
+def _coverage(surfaces: Surfaces, distances: Array) -> Array:
     """Estimate the coverage (h, w), 0 to 1, of each pixel by its near surface."""
     near, far = (1000.0 / np.hypot(distances[..., k], surfaces.aside) for k in (0, 1))
     apart = near - far
     share = np.clip((surfaces.nearness - far) / np.where(apart > 0.0, apart, 1.0), 0.0, 1.0)
     sure = surfaces.rays / (surfaces.rays + _SURE)
-    share = sure * share + (1.0 - sure) * _nearer(surfaces.distance, distances)
+    share = sure * share + (1.0 - sure) * _near_share(surfaces.distance, distances)
     # Materials of an artist do not write distance: only the depth of the centre ray is known.
     unknown = (surfaces.solid < 0.5) & (surfaces.distance < SKY)
     share = np.where(unknown, surfaces.distance <= distances[..., 0] * (1.0 + _SAME_DEPTH), share)
     return np.where(apart > 1.0e-3 * near, share, 1.0)
 
 
-def _nearer(distance: Array, distances: Array) -> Array:
+def _near_share(distance: Array, distances: Array) -> Array:
     """Compute the share (h, w) of each 3 x 3 neighbourhood at its near tap's depth, centre-weighted."""
     middle = np.sqrt(distances[..., 0] * np.minimum(distances[..., 1], 1.0e10))
     padded = np.pad(distance, 1, mode="edge")
@@ -135,21 +135,21 @@ def _nearer(distance: Array, distances: Array) -> Array:
     return total
 
 
-def _fire(surfaces: Surfaces) -> Array:
+def _flame_light(surfaces: Surfaces) -> Array:
     """Estimate the flame light (h, w, 3) in the denoised colour, with shares blurred as denoisers do."""
-    part = blurred(surfaces.fire) / np.maximum(blurred(surfaces.noisy), 1.0e-6)
+    part = blur(surfaces.fire) / np.maximum(blur(surfaces.noisy), 1.0e-6)
     alight = (surfaces.fire_distance > 0.0)[..., None]
     return np.where(alight, surfaces.colour * np.clip(part, 0.0, 1.0), 0.0)
 
 
-def blurred(values: Array) -> Array:
+def blur(values: Array) -> Array:
     """Compute the centre-weighted mean (h, w, c) of each 3 x 3 neighbourhood."""
     padded = np.pad(values, ((1, 1), (1, 1), (0, 0)), mode="edge")
     rows = 0.25 * padded[:-2] + 0.5 * padded[1:-1] + 0.25 * padded[2:]
     return 0.25 * rows[:, :-2] + 0.5 * rows[:, 1:-1] + 0.25 * rows[:, 2:]
 
 
-def _around(values: Array, pick: np.ufunc) -> Array:
+def _neighbourhood(values: Array, pick: np.ufunc) -> Array:
     """Compute the minimum or maximum of each 3 x 3 neighbourhood."""
     padded = np.pad(values, 1, mode="edge")
     rows = pick(pick(padded[:-2], padded[1:-1]), padded[2:])
@@ -167,7 +167,7 @@ def _without_edges(colour: Array, near: Array, edge: NDArray[np.bool_]) -> Array
     if len(rows) == 0:
         return cleaned
     height, width = edge.shape
-    darkest = np.stack([_around(colour[..., channel], np.minimum) for channel in range(3)], axis=-1)
+    darkest = np.stack([_neighbourhood(colour[..., channel], np.minimum) for channel in range(3)], axis=-1)
     total, weight = np.zeros((len(rows), 3), np.float32), np.zeros(len(rows), np.float32)
     here = near[rows, columns]
     for down in range(-_REACH, _REACH + 1):

@@ -45,7 +45,7 @@ def burn(path: Path, words: Credits, note: str, around: bool = False) -> None:
     for block in credits.blocks(words, width, height, around):
         rows = slice(block.top, block.top + block.height)
         columns = slice(block.left, block.left + block.width)
-        picture[rows, columns] = _STRIP + (1.0 - _STRIP) * _drawn(block)[..., None]
+        picture[rows, columns] = _STRIP + (1.0 - _STRIP) * _rasterize(block)[..., None]
     sensor.write_image(path, picture, {"Note": note})
 
 
@@ -60,12 +60,12 @@ def stamp(stage: owned.Stage) -> None:
 
 
 @functools.lru_cache(maxsize=8)
-def _drawn(block: Block) -> NDArray[np.float32]:
+def _rasterize(block: Block) -> NDArray[np.float32]:
     """Draw a block's text in Blender's typeface, which covers most scripts, as opacity (h, w), 0..1."""
     import blf
     import imbuf
 
-    face, image = _face(), imbuf.new((block.width, block.height))
+    face, image = _load_typeface(), imbuf.new((block.width, block.height))
     rows = max(len(block.at_left), len(block.at_right))
     edge, line = 0.5 * block.size, (block.height - 0.5 * block.size) / rows
     blf.color(face, 1.0, 1.0, 1.0, 1.0)
@@ -88,7 +88,7 @@ def _drawn(block: Block) -> NDArray[np.float32]:
 
 
 @functools.cache
-def _face() -> int:
+def _load_typeface() -> int:
     """Load Blender's typeface with its fallbacks, and return its number."""
     import blf
 

@@ -38,10 +38,10 @@ def write(store: Store) -> None:
         index = {"camera_model": "OPENCV", "classes": dict(enumerate(masks.NAMES)), "frames": listed}
         text = json.dumps(index, indent=1) + "\n"
         path = store.out / camera / NAME
-        files.write(path, functools.partial(_put, text))
+        files.write(path, functools.partial(_write_text, text))
 
 
-def _put(text: str, part: Path) -> None:
+def _write_text(text: str, part: Path) -> None:
     part.write_text(text, encoding="utf-8")
 
 

@@ -94,12 +94,12 @@ class Eye:
     @functools.cached_property
     def distance(self) -> Array:
         """Distances (h, w), m, of the surfaces at pixel centres."""
-        return self.rays.of_depth(self.channels["Depth"][..., 0])
+        return self.rays.from_depth(self.channels["Depth"][..., 0])
 
     def _surfaces(self) -> composite.Surfaces:
         channels = self.channels
         colour, surface = channels["Combined"], channels[nodes.SURFACE]
-        red, way, _ = np.moveaxis(composite.blurred(channels[nodes.FLAMES]), -1, 0)
+        red, way, _ = np.moveaxis(composite.blur(channels[nodes.FLAMES]), -1, 0)
         far = np.where(red > 1.0e-4, way / np.maximum(red, 1.0e-9), 0.0)
         return composite.Surfaces(
             colour=colour,
@@ -109,7 +109,7 @@ class Eye:
             nearness=surface[..., 0],
             aside=self.rays.aside,
             solid=surface[..., 1],
-            fire_distance=self.rays.of_distance(far),
+            fire_distance=self.rays.from_distance(far),
             rays=self.stage.scene.cycles.samples,
         )
 

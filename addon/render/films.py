@@ -38,7 +38,7 @@ def missing(shot: Shot, store: Store, made_with: Fingerprints) -> Iterator[Film]
                 continue
             frames = set(shot.frames_of(shot.camera(camera)))
             hashes = store.pictures(camera, name, key, ".png")
-            made_from = _made_from(
+            made_from = _film_inputs(
                 shot, camera, name, [[frame, hashes[frame]] for frame in hashes if frame in frames]
             )
             if len(made_from["frames"]) > 1 and not store.is_intact(fingerprint(made_from), [path]):
@@ -48,7 +48,7 @@ def missing(shot: Shot, store: Store, made_with: Fingerprints) -> Iterator[Film]
                     store.write_note(path, state)
 
 
-def _made_from(shot: Shot, camera: str, name: str, pictures: list[list[Any]]) -> dict[str, Any]:
+def _film_inputs(shot: Shot, camera: str, name: str, pictures: list[list[Any]]) -> dict[str, Any]:
     """Collect the inputs of a film: its pictures (frame, hash), its frame rate and its captions."""
     time, frames = shot.settings.time, shot.frames
     return {
@@ -79,5 +79,5 @@ def _state(shot: Shot, store: Store, camera: str, name: str, key: str) -> str:
             stamps.append([])
     frames = shot.camera(camera).frames
     return fingerprint(
-        {"film": _made_from(shot, camera, name, []), "key": key, "of": frames, "stamps": stamps}
+        {"film": _film_inputs(shot, camera, name, []), "key": key, "of": frames, "stamps": stamps}
     )

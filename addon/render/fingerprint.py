@@ -38,7 +38,7 @@ _RENDERING = (
 )
 
 
-def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) -> dict[str, Any]:
+def collect_inputs(settings: Settings, run: dict[str, str], camera: str, name: str) -> dict[str, Any]:
     """Collect the inputs of a camera's frames in one pass, including settings of the camera that it follows.
 
     Parameters
@@ -62,7 +62,9 @@ def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) 
     } | ({"leader": schema.select(settings, {"camera"}, leader.name)} if leader else {})
     taken = mount.taken(settings, settings.cameras, camera, passes.known()[name])
     others = {need: pair for need, pair in taken.items() if pair[0] != camera}
-    given = {need: [*pair, fingerprint(of_picture(settings, run, *pair))] for need, pair in others.items()}
+    given = {
+        need: [*pair, fingerprint(collect_inputs(settings, run, *pair))] for need, pair in others.items()
+    }
     return made_with | ({"given": given} if given else {})
 
 
@@ -106,14 +108,14 @@ def versions() -> dict[str, str]:
     return {"firetwin": firetwin_core.__version__, "blender": blender}
 
 
-def of_pictures(shot: Shot, pictures: list[Picture], progress: Progress = silent) -> Fingerprints:
+def compute(shot: Shot, pictures: list[Picture], progress: Progress = silent) -> Fingerprints:
     """Compute the fingerprints of each (camera, pass) of the pictures, and of the passes that they need."""
     asked = {(p.camera, p.name) for p in pictures}
     needed = {(camera, need) for camera, name in asked for need in passes.known()[name].made_from}
-    return of_pairs(shot, asked | needed, progress)
+    return compute_pairs(shot, asked | needed, progress)
 
 
-def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silent) -> Fingerprints:
+def compute_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silent) -> Fingerprints:
     """Compute the fingerprints of each (camera, pass); fields of the runs without a cached hash are read."""
     more = (
         orthophoto.inputs(shot.settings, progress)
@@ -130,7 +132,7 @@ def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silen
     made_with, find = {}, tile_cut.finder(shot)
     for view, name in sorted(pairs):
         label = view.partition("@")[2]
-        made_with[view, name] = of_picture(shots[label].settings, runs[label], view, name)
+        made_with[view, name] = collect_inputs(shots[label].settings, runs[label], view, name)
         made_with[view, name] |= _other_runs(shots[label], name, progress) | _tiles(shot, view, name, find)
     return made_with
 

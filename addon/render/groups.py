@@ -58,7 +58,7 @@ def thermal_blend_group() -> bpy.types.NodeTree:
     high = tree.input("High", 330.0, "K at the white end of the gradient", "Scale")
     strength = tree.input("Strength", 1.0, "Factor on the gradient", "Scale", least=None)
     heat = tree.colours((kelvin - low) / (high - low), sensor.palette("paper"))
-    sum_ = tree.vector("ADD", _clamped(tree, image), _times(tree, heat, strength))
+    sum_ = tree.vector("ADD", _clamped(tree, image), _multiply(tree, heat, strength))
     tree.finish({"Image": _clamped(tree, sum_)})
     return tree.node_tree
 
@@ -79,7 +79,7 @@ def thermal_camera_group() -> bpy.types.NodeTree:
     closes = "K above the cold end from which the palette is logarithmic"
     knee = tree.input("Knee", thermal.KNEE, closes, "Temperatures", 0.01)
     palette = tree.input("Palette", 1, listed, "Look", 1, len(names))
-    kelvin = _kelvin(tree, radiance)
+    kelvin = _inverse_temperature(tree, radiance)
     above = tree.math("MINIMUM", tree.math("MAXIMUM", kelvin, low), high) - low
     place = _log(tree, above / knee + 1.0) / _log(tree, (high - low) / knee + 1.0)
     shown: Any = _BLACK
@@ -113,7 +113,7 @@ def eye_dome_group() -> bpy.types.NodeTree:
             "MINIMUM", near - there, 0.0
         )  # the first input determines the picture's offset
     shade = (total * strength * 0.125).exp()
-    tree.finish({"Image": _times(tree, image, shade), "Shade": shade})
+    tree.finish({"Image": _multiply(tree, image, shade), "Shade": shade})
     return tree.node_tree
 
 
@@ -130,7 +130,7 @@ def overlay_group() -> bpy.types.NodeTree:
     opacity = tree.input("Opacity", overlay.OPACITY, "Full opacity of the overlay", "Where", most=1.0)
     part = ((kelvin - start) / (full - start)).clamp() * opacity
     change = tree.vector("SUBTRACT", spots, image)
-    tree.finish({"Image": tree.vector("ADD", image, _times(tree, change, part))})
+    tree.finish({"Image": tree.vector("ADD", image, _multiply(tree, change, part))})
     return tree.node_tree
 
 
@@ -148,14 +148,14 @@ def set_band(group: bpy.types.NodeTree, band: tuple[float, float]) -> None:
         group.nodes[name].outputs[0].default_value = float(value)
 
 
-def _kelvin(tree: Tree, radiance: Value) -> Value:
+def _inverse_temperature(tree: Tree, radiance: Value) -> Value:
     """Evaluate 1 / temperature by Horner's rule in log radiance; `set_band` sets the coefficients."""
-    held = tree.math("MAXIMUM", radiance, _named(tree, "Least"))
-    held = tree.math("MINIMUM", held, _named(tree, "Most"))
-    x = _log(tree, held) * _named(tree, "Scale") + _named(tree, "Shift")
-    inverse = _named(tree, f"Power {_DEGREE}")
+    held = tree.math("MAXIMUM", radiance, _coefficient(tree, "Least"))
+    held = tree.math("MINIMUM", held, _coefficient(tree, "Most"))
+    x = _log(tree, held) * _coefficient(tree, "Scale") + _coefficient(tree, "Shift")
+    inverse = _coefficient(tree, f"Power {_DEGREE}")
     for power in reversed(range(_DEGREE)):
-        inverse = inverse * x + _named(tree, f"Power {power}")
+        inverse = inverse * x + _coefficient(tree, f"Power {power}")
     return 1.0 / inverse
 
 
@@ -163,7 +163,7 @@ def _temperature(tree: Tree) -> Value:
     return tree.input("Kelvin", 300.0, "Temperature of each pixel, K", least=None)
 
 
-def _named(tree: Tree, name: str) -> Value:
+def _coefficient(tree: Tree, name: str) -> Value:
     node = tree.node("ShaderNodeValue")
     node.name = node.label = name
     return tree.pick(node)
@@ -173,7 +173,7 @@ def _log(tree: Tree, value: Any) -> Value:
     return tree.math("LOGARITHM", value, np.e)
 
 
-def _times(tree: Tree, colour: Any, number: Any) -> Value:
+def _multiply(tree: Tree, colour: Any, number: Any) -> Value:
     """Multiply a colour by a number."""
     return tree.output("ShaderNodeVectorMath", {"Vector": colour, "Scale": number}, operation="SCALE")
 

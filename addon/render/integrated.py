@@ -152,7 +152,7 @@ def applies(shot: Shot, scene: bpy.types.Scene) -> bool:
 def _prepare(scene: bpy.types.Scene) -> None:
     """Set up view layers, AOVs and light groups for the integrated renderer."""
     for name in MARCHED_PASSES:
-        layer = layers.of_pass(scene, name)
+        layer = layers.find_layer(scene, name)
         layer.use_pass_z = True
         layer.pass_alpha_threshold = 1.0  # flames are transparent emitters
         if name != "depth":
@@ -162,9 +162,9 @@ def _prepare(scene: bpy.types.Scene) -> None:
                 if aov not in known:
                     made = layer.aovs.add()
                     made.name, made.type = aov, kind
-    masks = layers.of_pass(scene, "masks")
+    masks = layers.find_layer(scene, "masks")
     masks.use_pass_z = True
-    groups = layers.of_pass(scene, "rgb").lightgroups
+    groups = layers.find_layer(scene, "rgb").lightgroups
     if nodes.FIRE not in {group.name for group in groups}:
         groups.add(name=nodes.FIRE)
 
@@ -189,7 +189,7 @@ def _image_node(scene: bpy.types.Scene) -> bpy.types.Image:
     node = next((each for each in tree.nodes if owned.ours(each, _PICTURE)), None)
     if node is None:
         node = owned.mark(tree.nodes.new("CompositorNodeImage"), _PICTURE)
-        shown = layers.of_pass(scene, "rgb").name
+        shown = layers.find_layer(scene, "rgb").name
         for link in list(tree.links):
             source = link.from_node
             if (

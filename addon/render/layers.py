@@ -98,7 +98,7 @@ def repair(scene: bpy.types.Scene) -> None:
             owned.mark(link.to_node)
 
 
-def of_pass(scene: bpy.types.Scene, name: str) -> bpy.types.ViewLayer:
+def find_layer(scene: bpy.types.Scene, name: str) -> bpy.types.ViewLayer:
     """Return the view layer of a pass."""
     return next(layer for layer in scene.view_layers if owned.ours(layer, f"pass {name}"))
 
@@ -233,7 +233,7 @@ def _record(scene: bpy.types.Scene, tree: bpy.types.NodeTree, each: RenderedPass
     """Link a pass's view layer to its EXR output and to the composite output."""
     source = tree.nodes.new(SOURCE)
     source.scene = scene
-    source.layer = of_pass(scene, each.name).name
+    source.layer = find_layer(scene, each.name).name
     image = source.outputs[each.socket]
     if has_still(each):
         image = compat.bloom(tree, image, Threshold=2.0, Maximum=20.0, Strength=0.25)

@@ -46,7 +46,7 @@ def write(out: Path, settings: dict[str, Any], entries: dict[str, Any]) -> None:
     files.write_text(out / NAME, text)
 
 
-def credits_of(made_with: dict[str, Any]) -> Credits:
+def read_credits(made_with: dict[str, Any]) -> Credits:
     """Return the credits of a picture from the inputs of its fingerprint."""
     found = made_with.get("credits", {})
     return Credits(tuple(found.get("data", ())), tuple(found.get("logo", ())))
@@ -60,7 +60,7 @@ def credit_entry(made_with: dict[str, Any], words: Credits | None = None) -> dic
     words
         Further credits.
     """
-    named = credits_of(made_with).joined(words or Credits())
+    named = read_credits(made_with).joined(words or Credits())
     missing = made_with.get("tiles", {}).get("missing", [])
     found = {"credits": list(named.data), "services": list(named.logo), "missing_tiles": missing}
     return {name: values for name, values in found.items() if values}

@@ -160,7 +160,7 @@ class _Frame:
     def _credit(self, drawn: passes.Pass) -> None:
         """Draw the credits of tiles into a pass's picture."""
         if drawn.film:
-            own = manifest.credits_of(self.session.made_with.get((self.camera, drawn.name), {}))
+            own = manifest.read_credits(self.session.made_with.get((self.camera, drawn.name), {}))
             path = self.part / Path(self.pictures[drawn.name].file("png")).name
             around = self.shot.camera(self.camera).rig.around
             credits.burn(path, own.joined(self.words), self.scene.render.stamp_note_text, around)

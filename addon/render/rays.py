@@ -35,13 +35,13 @@ class Rays:
     aside: Array
     slant: Array | None
 
-    def of_depth(self, depth: NDArray[np.float32]) -> NDArray[np.float32]:
+    def from_depth(self, depth: NDArray[np.float32]) -> NDArray[np.float32]:
         """Convert Cycles' depths, m, to distances (h, w) along the rays."""
         if self.slant is None:
-            return self.of_distance(depth)
+            return self.from_distance(depth)
         return (depth * self.slant).astype(np.float32)
 
-    def of_distance(self, distance: NDArray[np.float32]) -> NDArray[np.float32]:
+    def from_distance(self, distance: NDArray[np.float32]) -> NDArray[np.float32]:
         """Convert distances from the camera, m, to distances (h, w) along the rays."""
         square = distance.astype(np.float64) ** 2 - self.aside**2
         return np.sqrt(np.maximum(square, 0.0)).astype(np.float32)

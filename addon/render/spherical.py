@@ -88,16 +88,16 @@ def _copy(film: BinaryIO, made: BinaryIO, count: int) -> None:
 
 def _moov(box: bytes, end: int) -> bytes:
     """Add our boxes to a `moov`, which ends at `end` in the file."""
-    body = _edited(b"moov", box[8:], end, 0)
-    if _OURS not in body:
+    body = _edit(b"moov", box[8:], end, 0)
+    if _VR_BOXES not in body:
         raise Error("no H.264 track")
-    return _box(b"moov", _edited(b"moov", box[8:], end, len(body) + 8 - len(box)))
+    return _box(b"moov", _edit(b"moov", box[8:], end, len(body) + 8 - len(box)))
 
 
-def _edited(kind: bytes, body: bytes, end: int, growth: int) -> bytes:
+def _edit(kind: bytes, body: bytes, end: int, growth: int) -> bytes:
     """Add our boxes to a box's body; offsets of chunks from `end` on grow by `growth` bytes."""
     if kind in _CONTAINERS:
-        return b"".join(_box(k, _edited(k, b, end, growth)) for k, b in _boxes(body))
+        return b"".join(_box(k, _edit(k, b, end, growth)) for k, b in _boxes(body))
     if kind == b"stsd":
         return body[:8] + b"".join(_box(k, _entry(b) if k == b"avc1" else b) for k, b in _boxes(body[8:]))
     if kind in (b"stco", b"co64"):
@@ -110,7 +110,7 @@ def _edited(kind: bytes, body: bytes, end: int, growth: int) -> bytes:
 def _entry(body: bytes) -> bytes:
     """Add our boxes to an `avc1`, after its `avcC` and before its optional boxes."""
     inside = [(k, b) for k, b in _boxes(body[_ENTRY:]) if k not in (b"st3d", b"sv3d")]
-    return body[:_ENTRY] + b"".join(_box(k, b) + _OURS * (k == b"avcC") for k, b in inside)
+    return body[:_ENTRY] + b"".join(_box(k, b) + _VR_BOXES * (k == b"avcC") for k, b in inside)
 
 
 def _boxes(body: bytes) -> Iterator[tuple[bytes, bytes]]:
@@ -126,7 +126,7 @@ def _box(kind: bytes, body: bytes) -> bytes:
     return struct.pack(">I4s", 8 + len(body), kind) + body
 
 
-_OURS = _box(b"st3d", struct.pack(">IB", 0, 1)) + _box(  # 1: top-bottom
+_VR_BOXES = _box(b"st3d", struct.pack(">IB", 0, 1)) + _box(  # 1: top-bottom
     b"sv3d",
     _box(b"svhd", struct.pack(">I", 0) + b"Firetwin\0")
     + _box(

@@ -61,9 +61,9 @@ def _read(path: Path, names: Collection[str]) -> dict[str, Channels]:
         layer, name, *_, part = channel.split(".")
         channels[layer].setdefault(name, []).append((part, values))
     path.unlink()
-    return {layer: {name: _stacked(each) for name, each in all_.items()} for layer, all_ in channels.items()}
+    return {layer: {name: _stack(each) for name, each in all_.items()} for layer, all_ in channels.items()}
 
 
-def _stacked(parts: list[tuple[str, NDArray[np.float32]]]) -> NDArray[np.float32]:
+def _stack(parts: list[tuple[str, NDArray[np.float32]]]) -> NDArray[np.float32]:
     ordered = sorted(parts, key=lambda pair: _ORDER.index(pair[0]))
     return np.stack([values for _, values in ordered[:3]], axis=-1)

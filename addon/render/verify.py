@@ -27,18 +27,18 @@ def picture(path: Path, size: tuple[int, int]) -> None:
         height, width = sensor.read_image(path).shape[:2]
         complete = path.suffix != ".png" or _end(path, len(_PNG_END)) == _PNG_END
     except (Error, OSError) as error:
-        raise _damaged(path, getattr(error, "reason", str(error))) from None
+        raise _damage_error(path, getattr(error, "reason", str(error))) from None
     if not complete:
-        raise _damaged(path, "is cut off")
+        raise _damage_error(path, "is cut off")
     if (width, height) != tuple(size):
-        raise _damaged(path, f"has {width} x {height} pixels instead of {size[0]} x {size[1]}")
+        raise _damage_error(path, f"has {width} x {height} pixels instead of {size[0]} x {size[1]}")
 
 
 def _text(path: Path) -> None:
     try:
         json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        raise _damaged(path, f"is not JSON: {error}") from None
+        raise _damage_error(path, f"is not JSON: {error}") from None
 
 
 def film(path: Path) -> None:
@@ -60,9 +60,9 @@ def film(path: Path) -> None:
                 kinds.add(kind)
                 place += max(length, 8)
     except (OSError, struct.error):
-        raise _damaged(path, "is missing or cut off") from None
+        raise _damage_error(path, "is missing or cut off") from None
     if place != whole or not {b"ftyp", b"moov", b"mdat"} <= kinds:
-        raise _damaged(path, "is cut off")
+        raise _damage_error(path, "is cut off")
 
 
 def _end(path: Path, count: int) -> bytes:
@@ -71,7 +71,7 @@ def _end(path: Path, count: int) -> bytes:
         return file.read()
 
 
-def _damaged(path: Path, reason: str) -> Exception:
+def _damage_error(path: Path, reason: str) -> Exception:
     if is_nearly_full(path):
         return full_disk_error(path)
     return input_error(path, f"{reason}: Blender wrote a damaged file; render it again")

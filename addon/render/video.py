@@ -50,7 +50,7 @@ def _film(shot: Shot, session: RenderSession, camera: str, name: str, made_from:
             _settings(shot, size, scene, made, len(frames))
             engine.set_metadata(shot.run_of(camera), scene)
             mine = session.made_with[camera, name]
-            _strips(shot, scene, out, camera, name, frames, manifest.credits_of(mine))
+            _strips(shot, scene, out, camera, name, frames, manifest.read_credits(mine))
             with writing(path):
                 bpy.ops.render.render(animation=True, scene=scene.name)
             if shot.camera(camera).rig.around:

@@ -37,7 +37,7 @@ def missing(scene: Path, out: Path) -> int:
     """Plan as `firetwin render --frames 1` does before it starts Blender; count the missing pictures."""
     shot = ShotSource(scene=str(scene)).shot()
     wanted = plan.pictures(shot, "1")
-    made_with = fingerprint.of_pictures(shot, wanted)
+    made_with = fingerprint.compute(shot, wanted)
     with Store(out) as store:
         pictures = plan.missing(store, wanted, made_with)
         any(films.missing(shot, store, made_with))
@@ -48,7 +48,7 @@ def finish(scene: Path, out: Path, frames: int) -> int:
     """Record pictures of the first frames, and return their number; frame 1 gets files of one byte."""
     shot = ShotSource(scene=str(scene)).shot()
     wanted = plan.pictures(shot, f"1-{frames}")
-    made_with = fingerprint.of_pictures(shot, wanted)
+    made_with = fingerprint.compute(shot, wanted)
     for picture in wanted:
         for path in picture.files() if picture.frame == 1 else ():
             (out / path).parent.mkdir(parents=True, exist_ok=True)

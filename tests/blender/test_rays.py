@@ -59,7 +59,7 @@ def test_a_ray_leads_to_the_point_that_its_depth_tells_of(settings, run, name):
     depth = (away + random.uniform(-2000.0, 2000.0, size[::-1]) + 5000.0 * (away == 0.0)).astype(np.float32)
     eyes, origins, directions = rays_of(stage.scene, size, name == "vr")
     halves = np.split(depth, len(eyes))
-    distance = np.concatenate([each.of_depth(half) for each, half in zip(eyes, halves, strict=True)])
+    distance = np.concatenate([each.from_depth(half) for each, half in zip(eyes, halves, strict=True)])
     found = origins + directions * distance[..., None]
     expected = pixel_rays.points(pixel_rays.path_of(shot, "one"), 2, depth)
     off = np.linalg.norm(found - expected, axis=-1)
@@ -73,7 +73,7 @@ def test_the_sky_is_behind_all_smoke(settings, run):
     build.build(shot, stage.scene, parts=("cameras",))
     stage.scene.camera = stage.camera("drone")
     found = rays.pixel_rays(stage.scene.camera, stage.scene, 9, 16, 0)
-    assert found.of_depth(np.full((9, 16), 1.0e10, np.float32)).min() > 1.0e9
+    assert found.from_depth(np.full((9, 16), 1.0e10, np.float32)).min() > 1.0e9
 
 
 def test_a_camera_is_where_its_own_scene_has_it(settings, run):

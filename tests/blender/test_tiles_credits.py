@@ -72,7 +72,7 @@ def test_both_eyes_of_a_panorama_have_them(tmp_path):
 def test_every_letter_is_at_most_as_wide_as_is_reckoned_with():
     import blf
 
-    face = credits._face()
+    face = credits._load_typeface()
     blf.size(face, 20)
     for text in ("Maxar Technologies; CNES / Airbus", "ABCDEFGHIJKLMNOPQRSTUVWXYZ", "0123456789", "日本地図"):
         assert blf.dimensions(face, text)[0] <= layout.length(text, 20) * 1.02

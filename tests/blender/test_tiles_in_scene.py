@@ -63,15 +63,15 @@ def test_inputs_of_pictures_follow_tiles_and_credits(tiled):
     """A picture that was made with other tiles, or other credits, is not the same."""
     (camera,) = [each.name for each in tiled.cameras]
     pairs = {(camera, "rgb"), (camera, "masks")}
-    before = fingerprint.of_pairs(tiled, pairs)
+    before = fingerprint.compute_pairs(tiled, pairs)
     cut = tile_cut.of_shot(tiled.for_camera(camera))
     assert before[camera, "rgb"]["credits"]["data"] == ["Somebody"]
     for change in ({"credits": ("Another",)}, {"logo": ("A Service",)}, {"tiles": cut.tiles[1:]}):
         tile_cut.write(replace(cut, **change), tile_cut.location(tiled.for_camera(camera)))
-        after = fingerprint.of_pairs(tiled, pairs)
+        after = fingerprint.compute_pairs(tiled, pairs)
         assert all(after[pair] != before[pair] for pair in pairs)
     (cut.folder / f"{cut.name}.json").unlink()
-    assert "tiles" not in fingerprint.of_pairs(tiled, pairs)[camera, "rgb"]
+    assert "tiles" not in fingerprint.compute_pairs(tiled, pairs)[camera, "rgb"]
 
 
 def test_sidecars_name_credits_and_missing_tiles(tiled, tmp_path):

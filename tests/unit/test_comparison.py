@@ -161,9 +161,9 @@ def test_another_run_makes_other_pictures_of_its_own_and_of_what_shows_it(scene)
     pairs = {("drone", "rgb"), ("drone@wide", "rgb"), ("drone", "split"), ("drone", "difference")}
 
     def changed(edit):
-        before = fingerprint.of_pairs(ShotSource(scene=str(scene)).shot(), pairs)
+        before = fingerprint.compute_pairs(ShotSource(scene=str(scene)).shot(), pairs)
         edit()
-        after = fingerprint.of_pairs(ShotSource(scene=str(scene)).shot(), pairs)
+        after = fingerprint.compute_pairs(ShotSource(scene=str(scene)).shot(), pairs)
         return pairs - {pair for pair in pairs if before[pair] == after[pair]}
 
     def burn(name):

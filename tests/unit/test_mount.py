@@ -96,7 +96,7 @@ def test_a_mounted_sensor_is_made_again_when_its_mount_moves():
     two = Camera("two", Mounted("drone"))
 
     def made_with(drone):
-        return fingerprint.of_picture(Settings(cameras=(drone, two)), {}, "two", "rgb")
+        return fingerprint.collect_inputs(Settings(cameras=(drone, two)), {}, "two", "rgb")
 
     moved = replace(DRONE, rig=replace(DRONE.rig, bank=0.0))
     assert made_with(DRONE) == made_with(DRONE)
@@ -202,7 +202,7 @@ def test_heading_pitch_and_roll_are_those_of_the_camera(shot):
 def test_a_sidecar_is_made_again_when_passes_change_and_pictures_are_not():
     def made_with(name, *names):
         render = Render(passes=names)
-        return fingerprint.of_picture(Settings(cameras=(DRONE,), render=render), {}, "drone", name)
+        return fingerprint.collect_inputs(Settings(cameras=(DRONE,), render=render), {}, "drone", name)
 
     assert made_with("pose", "rgb", "pose") != made_with("pose", "rgb", "masks", "pose")
     assert made_with("rgb", "rgb", "pose") == made_with("rgb", "rgb", "masks", "pose")
@@ -415,7 +415,7 @@ def test_a_fused_view_asks_its_mount_for_what_its_camera_does_not_record(shot):
 
 def test_a_fused_view_is_made_again_when_a_sensor_of_its_mount_changes():
     def made_with(*cameras):
-        return fingerprint.of_picture(Settings(cameras=cameras), {}, "drone", "fused")
+        return fingerprint.collect_inputs(Settings(cameras=cameras), {}, "drone", "fused")
 
     other = replace(MOUNT[2], rig=replace(MOUNT[2].rig, focal_length=10.0))
     unused = replace(MOUNT[3], rig=replace(MOUNT[3].rig, focal_length=10.0))

@@ -116,7 +116,7 @@ def test_a_minimap_is_made_again_when_the_camera_it_follows_moves(run):
     moved = replace(KEYS[1], longitude=-120.588)
 
     def made_with(*cameras):
-        return fingerprint.of_picture(Settings(cameras=cameras), {}, "map", "rgb")
+        return fingerprint.collect_inputs(Settings(cameras=cameras), {}, "map", "rgb")
 
     first = made_with(Camera("scout", Drone(keys=KEYS)), over)
     assert first == made_with(Camera("scout", Drone(keys=KEYS)), over, Camera("other", Satellite()))

@@ -223,7 +223,7 @@ def test_the_manifest_is_written_when_there_is_something_new(finished):
 
 def test_a_picture_depends_on_the_settings_that_it_shows():
     def key(changed, name, run="0"):
-        made = fingerprint.of_picture(changed, {"heat_flux.npy": run}, "drone", name)
+        made = fingerprint.collect_inputs(changed, {"heat_flux.npy": run}, "drone", name)
         return content.fingerprint(made)
 
     def changes(**parts):
@@ -265,7 +265,7 @@ def test_a_longer_chunk_spoils_nothing_that_is_built_at_once(listed, chunk, same
             cameras=(replace(CAMERAS[0], frames=listed), CAMERAS[1]),
             render=s.Render(chunk=chunk),
         )
-        return fingerprint.of_picture(changed, {}, "drone", "rgb")
+        return fingerprint.collect_inputs(changed, {}, "drone", "rgb")
 
     assert (key(chunk) == key(480)) is same
 
@@ -273,7 +273,7 @@ def test_a_longer_chunk_spoils_nothing_that_is_built_at_once(listed, chunk, same
 def test_a_picture_depends_on_its_own_camera_and_no_other():
     def keys(cameras):
         changed = replace(SETTINGS, cameras=cameras)
-        return [fingerprint.of_picture(changed, {}, name, "rgb") for name in ("drone", "satellite")]
+        return [fingerprint.collect_inputs(changed, {}, name, "rgb") for name in ("drone", "satellite")]
 
     moved = replace(CAMERAS[1], rig=Satellite(swath=9.0))
     before, after = keys(CAMERAS), keys((CAMERAS[0], moved))
@@ -378,7 +378,7 @@ def test_a_changed_source_changes_what_it_makes_and_no_more(tmp_path, monkeypatc
 
     def keys():
         code_fingerprint._hash.cache_clear()
-        made = {n: fingerprint.of_picture(SETTINGS, {}, "drone", n) for n in passes.known()}
+        made = {n: fingerprint.collect_inputs(SETTINGS, {}, "drone", n) for n in passes.known()}
         return {name: content.fingerprint(each) for name, each in made.items()}
 
     def changed(name):

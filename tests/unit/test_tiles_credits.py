@@ -85,7 +85,7 @@ def test_an_entry_of_the_manifest_names_credits_and_what_is_missing():
         "tiles": {"chosen": "1", "missing": ["c.glb"]},
         "credits": {"data": ["A"], "logo": ["B"]},
     }
-    assert manifest.credits_of(made_with) == Credits(("A",), ("B",))
+    assert manifest.read_credits(made_with) == Credits(("A",), ("B",))
     assert manifest.credit_entry(made_with, Credits(("A", "D"))) == {
         "credits": ["A", "D"],
         "services": ["B"],

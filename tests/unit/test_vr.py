@@ -72,7 +72,7 @@ def test_it_flies_as_a_drone_with_its_keys_does(run):
 
 def test_its_files_hang_on_the_code_of_the_drone_too(run):
     shot = shot_of(run, Camera("vr", Vr(keys=(KEY,))), Camera("drone", Drone(keys=(KEY,))))
-    made = {c: fingerprint.of_picture(shot.settings, {}, c, "rgb")["sources"] for c in ("vr", "drone")}
+    made = {c: fingerprint.collect_inputs(shot.settings, {}, c, "rgb")["sources"] for c in ("vr", "drone")}
     assert {"shot/cameras/rigs/vr.py", "shot/cameras/rigs/drone.py"} <= set(made["vr"])
     assert "shot/cameras/rigs/vr.py" not in made["drone"]
 
