@@ -14,7 +14,7 @@ INFLOW_CORE = 500.0  # m
 
 
 def warming(flux: NDArray, wind_speed: NDArray) -> NDArray[np.float64]:
-    """Rise of temperature (K) of the lowest 50 m of air over a heat flux (W/m2), cell by cell.
+    """Compute the temperature rise (K) of the lowest 50 m of air over a heat flux (W/m2), cell by cell.
 
     Balance of heating and flushing of a box of one cell by the wind and by convection, whose speed is
     Deardorff's (1970) w* = (g / T F / (rho cp) h)^(1/3).
@@ -27,8 +27,8 @@ def warming(flux: NDArray, wind_speed: NDArray) -> NDArray[np.float64]:
 class Inflow:
     """Wind drawn towards fire: each cell is a sink of air, felt within some 3 km.
 
-    The volume drawn in per metre of height is that of the convection over the cell, w* times its width; its
-    inward speed falls as 1 / (2 pi r) like any plane sink, softened within 500 m and damped beyond 3 km.
+    The volume drawn in per metre of height is the volume of the convection over the cell, w* times its width;
+    its inward speed falls as 1 / (2 pi r) like any plane sink, softened within 500 m and damped beyond 3 km.
     """
 
     def __init__(self) -> None:

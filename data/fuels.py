@@ -1,7 +1,7 @@
-"""Surface and canopy fuel of the King Fire country, from height, aspect, wetness and patchiness.
+"""Surface and canopy fuel around the King Fire, from height, aspect, wetness and patchiness.
 
-Blue oak and grass on the low foothills, mixed conifer in the middle, red fir and granite high. Made up, but
-of the right kind and amount: as many cells carry canopy and surface fuel as in the published King Fire scene
+Blue oak and grass on the low foothills, mixed conifer in the middle, red fir and granite high. Invented, but
+of the right kind and amount: as many cells have canopy and surface fuel as in the published King Fire scene
 (363,632 trees and 419,048 grass clumps on 518,400 cells).
 """
 
@@ -23,7 +23,7 @@ BARE_ROAD_SHARE = 0.7  # of a main road's cells
 
 @dataclass(frozen=True)
 class Fuels:
-    """Fuel loads (fy, fx) in kg/m2 of dry matter, 0 where there is none, and slope (rise/run) and aspect.
+    """Fuel loads (fy, fx) in kg/m2 of dry matter, 0 in bare cells, and slope (rise/run) and aspect.
 
     Aspect is the downhill direction in degrees clockwise from north.
     """

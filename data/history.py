@@ -1,4 +1,4 @@
-"""What is publicly known about a fire, read from the TOML file named after it in this folder."""
+"""Public facts about a fire, read from its TOML file in this folder."""
 
 import tomllib
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ SQUARE_METRES_PER_ACRE = 4046.8564224  # international acre
 
 
 class Acreage(NamedTuple):
-    """A reported burned area: when (UTC), how many acres, who said so, and what was assumed."""
+    """A reported burned area: time (UTC), acres, source and assumptions."""
 
     time: datetime
     acres: float
@@ -53,7 +53,7 @@ class Reservoir:
 
 @dataclass(frozen=True)
 class Event:
-    """A fire and its country. Rivers run from mouth to head as [(latitude, longitude, height m), ...]."""
+    """A fire and its area. Rivers run from mouth to head as [(latitude, longitude, height m), ...]."""
 
     name: str
     zone: str
@@ -66,17 +66,17 @@ class Event:
 
 
 def events() -> list[str]:
-    """Names of the fires that `load` knows."""
+    """Return the names of the fires that `load` reads."""
     return sorted(path.stem for path in Path(__file__).parent.glob("*.toml"))
 
 
 def load(event: str = "king_fire") -> Event:
-    """Read `<event>.toml` beside this file.
+    """Read `<event>.toml` of this folder.
 
     Raises
     ------
     firetwin_core.InputError
-        No such event, or the file is malformed.
+        No such fire, or the file is malformed.
     """
     path = Path(__file__).parent / f"{event}.toml"
     if event not in events():

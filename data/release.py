@@ -1,9 +1,9 @@
-"""Heat from burning fuel: how much, and when it comes out.
+"""Heat release of burning fuel over time.
 
-A cell of size d is crossed by the front in d / R, R being its speed; each spot of it starts to burn as the
+The front crosses a cell of size d in d / R, R being its speed; each point of the cell starts to burn as the
 front passes and its heat release decays exponentially (the form used by WRF-SFIRE for the weight of ground
-fuel, Mandel et al. 2011, doi 10.5194/gmd-4-591-2011). The share released since the front came in is known in
-closed form, so heat summed over output times is exact however short they are.
+fuel, Mandel et al. 2011, doi 10.5194/gmd-4-591-2011). The share released since the front arrived has a
+closed form, so heat summed over output times is exact for any interval.
 """
 
 from dataclasses import dataclass
@@ -16,10 +16,10 @@ from .grid import FUEL_CELL_SIZE, FUEL_CELLS, MODEL_CELLS, REFINEMENT
 from .stored import Sample
 
 CANOPY_SHARE = np.array([0.0, 0.5, 0.95])  # of canopy fuel consumed by surface, passive and active crown fire
-BURN_OUT_SURFACE = (120.0, 300.0)  # s: grass, and what each kg/m2 adds (timber litter and wood burn for long)
+BURN_OUT_SURFACE = (120.0, 300.0)  # s: grass, and addition per kg/m2 (timber litter and wood burn longer)
 BURN_OUT_CANOPY = 90.0  # s
 CROSSING = (60.0, 3600.0)  # s, limits on the time that the front takes to cross a cell
-OVER = 14.0  # burn-out times after which what is left, e^-14, is not worth a look
+OVER = 14.0  # burn-out times after which the remainder, e^-14, is neglected
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Burns:
     burn_out: NDArray[np.float64]
 
     def released(self, time: float, which: NDArray | slice = slice(None)) -> NDArray[np.float64]:
-        """Share of each burn's heat released by `time` (s after the start), 0 to 1."""
+        """Return the share of each burn's heat released by `time` (s after the start), 0 to 1."""
         since = np.maximum(time - self.arrival[which], 0)
         crossing, burn_out = self.crossing[which], self.burn_out[which]
         lit = np.minimum(since, crossing)
@@ -48,7 +48,7 @@ class Burns:
 
 
 def burns(sample: Sample) -> Burns:
-    """All burning cells of the sample, in order of arrival."""
+    """Find all burning cells of the sample, in order of arrival."""
     burned = np.isfinite(sample.arrival) & (sample.surface + sample.canopy > 0)
     row, column = np.nonzero(burned)
     cell = row // REFINEMENT * MODEL_CELLS + column // REFINEMENT
@@ -74,7 +74,7 @@ def burns(sample: Sample) -> Burns:
 
 
 def crossing_time(arrival: NDArray) -> NDArray[np.float64]:
-    """Seconds that the front takes to cross each cell: cell size times the gradient of arrival time."""
+    """Return the crossing time of the front in each cell, s: cell size times the gradient of arrival time."""
     steps = []
     for axis in (0, 1):
         ahead = np.diff(arrival, axis=axis)
@@ -83,13 +83,13 @@ def crossing_time(arrival: NDArray) -> NDArray[np.float64]:
         after = np.pad(ahead, padding, constant_values=np.nan)
         padding[axis] = (1, 0)
         before = np.pad(ahead, padding, constant_values=np.nan)
-        # The smaller of the two one-sided differences: a jump to another fire's arrival is no slow front.
+        # The smaller one-sided difference: a jump to the arrival of another fire is not a slow front.
         steps.append(np.nan_to_num(np.fmin(np.abs(after), np.abs(before))))
     return np.hypot(*steps)
 
 
 class Released:
-    """Heat released between successive times, on the model grid; times must not go back."""
+    """Heat released between successive times, on the model grid; times must ascend."""
 
     def __init__(self, parts: Burns) -> None:
         self.parts = parts
@@ -100,7 +100,7 @@ class Released:
         self.time = -np.inf
 
     def until(self, time: float) -> NDArray[np.float64]:
-        """Joules (ny, nx) released since the last call's time; the first call only sets the time."""
+        """Return joules (ny, nx) released since the last call; the first call only sets the time."""
         parts = self.parts
         first = np.isneginf(self.time)
         came = np.searchsorted(parts.arrival, time, side="right")
@@ -117,6 +117,6 @@ class Released:
 
 
 def consumed_fuel(sample: Sample) -> NDArray[np.float64]:
-    """Fuel (fy, fx) in kg/m2 that each burned cell loses in the end, 0 where none burns."""
+    """Return the fuel (fy, fx) that burns in each cell in total, kg/m2; 0 in unburned cells."""
     share = CANOPY_SHARE[sample.crown] * sample.canopy
     return np.where(np.isfinite(sample.arrival), sample.surface + share, 0.0).reshape(FUEL_CELLS, FUEL_CELLS)

@@ -38,7 +38,7 @@ def write(
     Parameters
     ----------
     out
-        Made if missing; an earlier sample run is replaced, anything else is refused.
+        Created if missing; an earlier sample run is replaced, other content is rejected.
     frames
         Number of output times, spread evenly over the run's 1,858 minutes; all of them if None.
     format
@@ -46,7 +46,7 @@ def write(
     progress
         Called with the number of output times done and their total.
     pace
-        How fast the fire is beside the sample's own, from the start on: a made-up what-if to compare with.
+        Speed of the fire / speed in the sample, from the start on: an invented what-if for comparisons.
 
     Raises
     ------
@@ -56,7 +56,7 @@ def write(
     out = Path(out)
     _refuse_strangers(out)
     if format not in FORMATS:
-        raise input_error(out, f"no format is called {format!r}; choose {' or '.join(FORMATS)}")
+        raise input_error(out, f"unknown format {format!r}; choose {' or '.join(FORMATS)}")
     minutes = _minutes(out, frames)
     with writing(out):
         _write(out, minutes, format, progress, pace)
@@ -117,12 +117,12 @@ def _minutes(out: Path, frames: int | None) -> NDArray[np.int64]:
     if frames is None:
         return np.arange(total)
     if not 1 <= frames <= total:
-        raise input_error(out, f"{frames} frames asked for; the sample run has 1 to {total}")
+        raise input_error(out, f"{frames} frames requested; the sample run has 1 to {total}")
     return np.unique(np.rint(np.linspace(0, stored.MINUTES, frames)).astype(int))
 
 
 def _refuse_strangers(out: Path) -> None:
-    """Leave alone what is not a sample run."""
+    """Reject a folder that is not a sample run."""
     if not out.exists() or (out.is_dir() and not any(out.iterdir())):
         return
     try:
@@ -151,9 +151,9 @@ def _static(sample: stored.Sample) -> dict[str, NDArray]:
 
 
 def at_pace(sample: stored.Sample, pace: float) -> stored.Sample:
-    """The sample with every rate of spread multiplied by `pace`; what burned before the start stays.
+    """Multiply every rate of spread of the sample by `pace`; the area burned before the start stays.
 
-    That would be the same fire in weather that does not change; here it is an invention.
+    In constant weather that would be the same fire; here it is invented.
     """
     if pace == 1.0:
         return sample

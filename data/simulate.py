@@ -2,10 +2,10 @@
 
 Needs the optional extra "simulate". Rothermel surface spread, Cruz crown fire, spotting and a level set on
 the fuel grid, from the perimeter of 16 September 2014 21:45 PDT for 1,857 minutes. Terrain, fuels and weather
-are made up (terrain.py, fuels.py, weather.py). Spread rates are multiplied by factors per period so that
+are invented (terrain.py, fuels.py, weather.py). Spread rates are multiplied by factors per period so that
 burned areas follow the reported ones (data/king_fire.toml), and by a corridor that leads the run of 17
-September up the Rubicon canyon; both stand in for what such a model lacks, chiefly the fire's own wind and
-the crews' work. `--tune` finds the factors again.
+September up the Rubicon canyon; both replace processes outside of the model, chiefly the fire-induced wind
+and the work of crews. `--tune` finds the factors again.
 """
 
 import argparse
@@ -27,7 +27,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(
         prog="python -m firetwin.data.simulate", description=__doc__.split("\n")[0]
     )
-    parser.add_argument("--out", type=Path, default=stored.PATH, help="where the result goes")
+    parser.add_argument("--out", type=Path, default=stored.PATH, help="file of the result")
     parser.add_argument(
         "--tune", action="store_true", help="search the factors on spread rate, then print them"
     )
@@ -62,7 +62,7 @@ def main() -> int:
 
 
 def reported_acres(event: history.Event) -> dict[float, float]:
-    """Minutes after the start -> reported acres, for the reports within the run."""
+    """Return minutes after the start -> reported acres, for the reports within the run."""
     result = {}
     for report in event.acreages:
         minute = (report.time - stored.START).total_seconds() / 60
@@ -72,7 +72,7 @@ def reported_acres(event: history.Event) -> dict[float, float]:
 
 
 def acres_at(minute: float, targets: dict[float, float]) -> float:
-    """Acres to aim at: reported, with the shape of the day between reports (slow morning, steady night)."""
+    """Return the target acres: reported, with the shape of the day in between (slow morning, steady night)."""
     aims = dict(targets) | {915.0: 20300.0, 1335.0: 31000.0, 1857.0: 71600.0}
     times = sorted(aims)
     return float(np.interp(minute, times, [aims[time] for time in times]))

@@ -36,7 +36,7 @@ SPOTTING = {
 
 
 class Fire:
-    """What pyretechnics needs to know of land, fuel and weather."""
+    """Land, fuel and weather for pyretechnics."""
 
     def __init__(self, event: Event, land: Terrain, fuel: Fuels, channel: Channel) -> None:
         self.event = event
@@ -72,7 +72,7 @@ class Fire:
         )
 
     def grow_initial(self, acres: float) -> FireSpread:
-        """A fire of `acres` grown from the ignition point, all its arrival times negative.
+        """Grow a fire of `acres` from the ignition point, with negative arrival times.
 
         The shape is simulated in the first night's light wind; times are then stretched so that the area
         follows the reports since the ignition.
@@ -136,7 +136,7 @@ class Fire:
         return factors
 
     def run(self, before: FireSpread, factors: Sequence[tuple[float, float]]) -> FireSpread:
-        """The fire `before` and its spread to the end of the last period."""
+        """Spread the fire `before` to the end of the last period."""
         state, start, spots = self._begin(before), 0.0, {}
         for number, (end, factor) in enumerate(factors):
             done = self._simulate(state, start, end - start, factor, spots, number, lead_at(end))
@@ -148,7 +148,7 @@ class Fire:
 
 
 def _result(state: SpreadState, arrival: NDArray) -> FireSpread:
-    """What the state says of the cells that have a time of arrival."""
+    """Read the state of cells with an arrival time."""
     matrices = state.get_full_matrices(["fireline_intensity", "fire_type"])
     burned = np.isfinite(arrival)
     intensity = np.where(burned, matrices["fireline_intensity"], 0).astype(np.float32)
@@ -157,7 +157,7 @@ def _result(state: SpreadState, arrival: NDArray) -> FireSpread:
 
 
 def lead_at(end: float) -> float:
-    """How much faster fire goes along the corridor in the period that ends at minute `end`."""
+    """Return the acceleration along the corridor in the period that ends at minute `end`."""
     return LEAD.get(end, 0.0)
 
 

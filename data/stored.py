@@ -1,8 +1,8 @@
-"""The sample's compact store, `sample.npz`: everything that expanding the run needs, in a few megabytes.
+"""The sample's compact store, `sample.npz`: all data that expanding the run needs, in a few megabytes.
 
 Heights are whole decimetres, fuel loads whole grams per square metre, arrival times whole seconds after the
-start (NEVER: never burned), intensities whole tens of kW/m. All of it is synthetic; `note` in the file says
-so.
+start (NEVER: never burned), intensities whole tens of kW/m. All of it is synthetic; `note` in the file
+says so.
 """
 
 from __future__ import annotations

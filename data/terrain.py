@@ -1,8 +1,8 @@
-"""Terrain of the King Fire country: public spot heights and river lines, with natural relief between them.
+"""Terrain around the King Fire: public spot heights and river lines, with natural relief between them.
 
 Rivers and lakes have their given heights. Between them the land rises as streams would have cut it
 (drainage.py), up to an old, gently rolling upland surface through the spot heights: the west slope of the
-Sierra Nevada. A last smooth correction, none at rivers and lakes, brings the spot heights home.
+Sierra Nevada. A last smooth correction, 0 at rivers and lakes, restores the spot heights.
 """
 
 from dataclasses import dataclass
@@ -27,12 +27,12 @@ STEEPEST = 0.65  # canyon walls, 33 degrees
 BEND = 200.0  # m, standard deviation of the bends given to sketched rivers
 UPLAND_DEPTH = 260.0  # m below the upland surface over which slopes ease
 DRY = ("town", "summit", "ridge")  # kinds of places on the upland
-UPLAND_SLOPE = 0.32  # what is left of them on it
+UPLAND_SLOPE = 0.32  # fraction of the slopes that remains on it
 
 
 @dataclass(frozen=True)
 class Terrain:
-    """Heights and water on the fuel grid and what it was fitted to.
+    """Heights and water on the fuel grid, with the data of the fit.
 
     Attributes
     ----------
@@ -113,7 +113,7 @@ def _river_cells(event: Event, seed: int) -> dict[str, tuple[NDArray, NDArray, N
 
 
 def _without_loops(path: list[tuple[int, int, float]]) -> list[tuple[int, int, float]]:
-    """The path with every detour that comes back to a cell cut out."""
+    """Remove loops from a path."""
     result: list[tuple[int, int, float]] = []
     place: dict[tuple[int, int], int] = {}
     for step in path:
@@ -129,7 +129,7 @@ def _without_loops(path: list[tuple[int, int, float]]) -> list[tuple[int, int, f
 
 
 def _joined(path: list[tuple[int, int, float]], taken: dict) -> list[tuple[int, int, float]]:
-    """The path from where it last touches earlier rivers, or led to the nearest of them within 2 km."""
+    """Cut a path at its last contact with earlier rivers, or lead it to the nearest within 2 km."""
     for i in range(len(path) - 1, -1, -1):
         if path[i][:2] in taken:
             level = taken[path[i][:2]]
@@ -153,7 +153,7 @@ def _joined(path: list[tuple[int, int, float]], taken: dict) -> list[tuple[int, 
 
 
 def _bends(places: list[Place], seed: int) -> list[NDArray]:
-    """How far rivers and lakes are moved north and east to wind (m), none at the spot heights on them."""
+    """Return offsets of rivers and lakes to the north and east (m), 0 at spot heights on them."""
     bend = [BEND * fractal((CELLS, CELLS), seed + 10 + axis, 55, 12, 1.2) for axis in (0, 1)]
     row, column = np.indices((CELLS, CELLS))
     for place in places:
@@ -227,7 +227,7 @@ def _spread(points: NDArray, values: NDArray, **options: object) -> NDArray[np.f
 
 
 def _upland(places: list[Place], fixed: NDArray, seed: int) -> NDArray[np.float64]:
-    """The old land surface above the canyons (m): a thin plate through ridges, summits and towns, rolling."""
+    """Compute the old surface above the canyons (m): a thin plate through ridges, summits and towns."""
     points, heights = _spots(places, DRY)
     surface = _spread(points, heights + 50.0, kernel="thin_plate_spline", smoothing=2.0)
     high = np.clip((surface - 1500) / 1000, 0, 1)
@@ -250,7 +250,7 @@ def _weather(height: NDArray, fixed: NDArray, upland: NDArray, seed: int) -> NDA
 
 
 def _nearest(fixed: NDArray) -> NDArray[np.float64]:
-    """Height of the nearest fixed cell: no land beside a river lies below it."""
+    """Return the height of the nearest fixed cell, a lower bound for land next to rivers."""
     row, column = distance_transform_edt(np.isnan(fixed), return_distances=False, return_indices=True)
     return fixed[row, column] * (distance_transform_edt(np.isnan(fixed)) <= 2)
 

@@ -1,4 +1,4 @@
-"""Weather of the sample run: a made-up dry day of south-west wind, and what canyons do to it.
+"""Weather of the sample run: an invented dry day of south-west wind, and the effect of canyons on it.
 
 Times are seconds since the run's start, 16 September 2014 21:45 PDT. NumPy only: the expansion of the sample
 uses it.
@@ -35,7 +35,7 @@ LAPSE_RATE = 0.0065  # K/m, the standard atmosphere's
 
 
 class Channel(NamedTuple):
-    """What the land does to the wind, on the model grid (ny, nx).
+    """Effect of the land on the wind, on the model grid (ny, nx).
 
     `east`, `north`: unit vector along the valley. `along`: 0 in the open to 1 in a canyon that turns the
     wind. `exposure`: factor on speed, above 1 on ridges and below in sheltered places.
@@ -75,7 +75,7 @@ def dead_fuel_moisture(time: ArrayLike) -> NDArray[np.float64]:
 
 
 def channelled(east: float, north: float, channel: Channel) -> tuple[NDArray, NDArray]:
-    """Wind over the land: canyons turn it along their axis and quicken it when it blows up or down them."""
+    """Compute the wind over the land: canyons turn it along their axis and accelerate it along the axis."""
     speed = np.hypot(east, north)
     forward = east * channel.east + north * channel.north
     fit = np.abs(forward) / max(speed, 1e-9)

@@ -69,10 +69,10 @@ RULES = (
     _rule(
         "vague or dated word",
         r"(?<!\w)(?:things?|alike|lacks?(?! of)|lacked|lacking|anew|beside|in vain|likewise|thereof|wholly"
-        r"|(?:is|are|was|were|stays?) whole)\b(?!-)",
+        r"|(?:is|are|was|were|stays?) whole(?=[.,;:)]|$| (?:and|or|if|once)\b))(?![\w-])",
         "the noun; equal; miss, have no; again; next to, compared with; complete, intact",
         "The file lies beside the run and is whole.",
-        "A whole number, nothing else, next to the run; for lack of memory.",
+        "Heights are whole decimetres, nothing else, next to the run; for lack of memory.",
     ),
     _rule(
         "its own, by itself",
