@@ -72,7 +72,7 @@ def reported_acres(event: history.Event) -> dict[float, float]:
 
 
 def acres_at(minute: float, targets: dict[float, float]) -> float:
-    """Return the target acres: reported, with the shape of the day in between (slow morning, steady night)."""
+    """Return the target acres: reported, with the shape of the day between (slow morning, steady night)."""
     aims = dict(targets) | {915.0: 20300.0, 1335.0: 31000.0, 1857.0: 71600.0}
     times = sorted(aims)
     return float(np.interp(minute, times, [aims[time] for time in times]))

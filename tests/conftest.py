@@ -1,4 +1,4 @@
-"""What holds in every room: a test is marked by its folder, and those of unit and blender are quick."""
+"""Rules of all rooms: the folder of a test marks it, and tests of unit and blender are quick."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ import hypothesis
 import pytest
 
 ROOMS = ("unit", "blender", "render", "system")
-"""Folders of tests, by what they need; see README.md."""
+"""Folders of tests, by their needs; see CONTRIBUTING.md."""
 
-hypothesis.settings.register_profile("firetwin", deadline=None)  # how fast a machine is, is no test
+hypothesis.settings.register_profile("firetwin", deadline=None)  # machines differ in speed
 hypothesis.settings.register_profile("quick", deadline=None, max_examples=10)
 hypothesis.settings.load_profile("firetwin")
 
 SECONDS = Path(__file__).parents[1] / "build/tests/seconds.json"
-"""What each test file took when all of it ran last, for tests/touched.py."""
+"""Times of the last complete runs of test files, for tests/touched.py."""
 _seconds: dict[str, float] = defaultdict(float)
 _processor = pytest.StashKey[float]()
 
@@ -48,7 +48,7 @@ def pytest_runtest_call(item):
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item, call):
-    """Fail a test of unit or blender that takes too long; what it shares with others is not counted.
+    """Fail a test of unit or blender that takes too long; shared fixtures do not count.
 
     Too long is 10 s of processor time, which other work on the machine hardly changes, or 60 s of wall
     time.
@@ -68,7 +68,7 @@ def pytest_runtest_logreport(report):
 
 
 def pytest_sessionfinish(session):
-    """Keep what files took, unless single tests were chosen or this is one of several processes."""
+    """Save the times of files, unless single tests were chosen or this is one of several processes."""
     options = session.config.option
     chosen = options.keyword or options.markexpr or any("::" in each for each in session.config.args)
     if chosen or hasattr(session.config, "workerinput"):

@@ -1,9 +1,9 @@
-"""Test files that changed files touch, nearest first: ``touched.py FILE...``; tests/quick.sh runs them.
+"""Tests near changed files, nearest first: ``touched.py FILE...``; tests/quick.sh runs them.
 
-Near is, in this order: a changed test; a test that bears the name of the changed module; one that imports it,
-itself or by a helper; one that bears the name of its folder, or imports a module that imports it. Of C++ the
-module is that of the folder's bindings, and a header's users count as changed. What would take more than a
-minute on two processors, by the times of the last run of each file, is left out, and their number said.
+The order is: changed tests; tests with the name of a changed module; tests that import it, directly or by a
+helper; tests with the name of its folder, and tests that import a module that imports it. The module of a C++
+file is the binding of its folder, and users of a header count as changed. Tests that would take more than a
+minute in total on two processors, by the last times of each file, are omitted, and their number is printed.
 """
 
 from __future__ import annotations
@@ -19,25 +19,25 @@ ROOT = Path(__file__).parents[1]
 ROOMS = ("unit", "blender", "render")
 PACKAGES = {"addon": ("firetwin",), "data": ("firetwin", "data")}
 SECONDS = ROOT / "build/tests/seconds.json"
-"""Of each test file, written by tests/conftest.py."""
-MOST = 70.0  # seconds of tests, which two workers run in little more than half of that
+"""Times of test files, written by tests/conftest.py."""
+MOST = 70.0  # seconds of tests; two workers need a little more than half of that
 UNKNOWN = 5.0  # seconds of a file that has never run
 
 
 def tests() -> list[Path]:
-    """Every test file of the rooms that tests/quick.sh knows."""
+    """Find all test files of the rooms of tests/quick.sh."""
     return [path for room in ROOMS for path in sorted((ROOT / "tests" / room).glob("test_*.py"))]
 
 
 def module(path: Path) -> tuple[str, ...]:
-    """Parts of the full name of a Python module of the package; none for other files."""
+    """Split the full name of a Python module of the package; empty for other files."""
     folder, *rest = path.relative_to(ROOT).with_suffix("").parts
     return (*PACKAGES[folder], *(part for part in rest if part != "__init__")) if folder in PACKAGES else ()
 
 
 @functools.cache
 def imports(path: Path) -> frozenset[str]:
-    """Full names of what a file imports, modules and their members alike, with that of the tests' helpers."""
+    """Find the full names of modules and members that a file imports, directly or by a test helper."""
     found = set()
     package = module(path) if path.name == "__init__.py" else module(path)[:-1]
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
@@ -55,7 +55,7 @@ def imports(path: Path) -> frozenset[str]:
 
 @functools.cache
 def names(path: Path) -> frozenset[str]:
-    """What tests import a changed file by."""
+    """Find the names by which tests import a changed file."""
     if module(path):
         return frozenset({".".join(module(path))})
     if path.suffix not in (".cpp", ".hpp"):
@@ -71,21 +71,21 @@ def names(path: Path) -> frozenset[str]:
 
 
 def binding(path: Path) -> set[str]:
-    """Full name of the bindings of a C++ file's folder; those of everything for what all bindings share."""
+    """Name the binding of a C++ file's folder; the complete module for files that all bindings share."""
     folder = path.stem.split("_")[0] if path.parent.name == "bindings" else path.parent.name
     return {f"firetwin_core.{folder}" if (ROOT / "cpp" / folder).is_dir() else "firetwin_core"}
 
 
 @functools.cache
 def users(path: Path) -> frozenset[str]:
-    """Full names of the package's modules that import this one."""
+    """Find the full names of the package's modules that import a file."""
     mine = names(path)
     every = [each for folder in PACKAGES for each in (ROOT / folder).rglob("*.py")]
     return frozenset(".".join(module(each)) for each in every if imports(each) & mine)
 
 
 def distance(test: Path, changed: Path) -> int | None:
-    """How near a test is to a changed file, 0 the nearest; None: it is not."""
+    """Return the distance of a test from a changed file, 0 for the nearest; None if it is not near."""
     if changed == test:
         return 0
     if changed.parent == ROOT / "tests/helpers":
@@ -105,7 +105,7 @@ def distance(test: Path, changed: Path) -> int | None:
 
 
 def nearest(changed: list[Path]) -> Iterator[Path]:
-    """Each test that is near any of these files, nearest first, quick before slow, as many as are quick."""
+    """Yield tests near these files, nearest first, quick before slow, as many as fit into the time."""
     known = json.loads(SECONDS.read_text()) if SECONDS.exists() else {}
     near = []
     for test in tests():
@@ -120,7 +120,7 @@ def nearest(changed: list[Path]) -> Iterator[Path]:
         else:
             yield test
     if left:
-        print(f"quick: {left} more files of tests are near; tests/run.sh runs them", file=sys.stderr)
+        print(f"quick: {left} more test files are near; tests/run.sh runs them", file=sys.stderr)
 
 
 if __name__ == "__main__":

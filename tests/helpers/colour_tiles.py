@@ -29,7 +29,7 @@ def tile(level, column, row, side=256):
 
 
 class Tiles(dict):
-    """Answers of a server: tiles at /.../LEVEL/COLUMN/ROW.png, made as they are asked for.
+    """Answers of a server: tiles at /.../LEVEL/COLUMN/ROW.png, made on request.
 
     Attributes
     ----------

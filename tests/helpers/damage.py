@@ -1,4 +1,4 @@
-"""Fuzzing of fire models' files: damaged files, each converted in a process of its own to a run or an error.
+"""Fuzzing of fire models' files: damaged files, each converted in a separate process to a run or an error.
 
 ``python damage.py KIND FOLDER COUNT SEED`` writes a line of JSON for each. An error must be one readable
 line.

@@ -80,7 +80,7 @@ def start(*arguments: object, environment: dict[str, str] | None = None) -> subp
 
 
 def firetwin(*arguments: object, environment: dict[str, str] | None = None, status: int = 0) -> str:
-    """Run the command; what it prints."""
+    """Run the command and return its output."""
     process = start(*arguments, environment=environment)
     said, errors = process.communicate(timeout=900)
     assert process.returncode == status, f"{process.returncode}: {said}{errors}"

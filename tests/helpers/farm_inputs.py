@@ -1,4 +1,4 @@
-"""A scene that names a file of every kind of input, all beside it, and files that it does not name."""
+"""A scene that names a file of every kind of input, all in its folder, and files that it does not name."""
 
 from __future__ import annotations
 

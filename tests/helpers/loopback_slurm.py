@@ -74,7 +74,7 @@ def unpacked() -> Path:
 
 
 def unpack_pbs() -> None:
-    """Have Slurm's own qsub, qdel and their like beside its commands, as `unpacked`."""
+    """Add qsub, qdel and others of Slurm to its commands, as in `unpacked`."""
     if not (unpacked() / "usr/bin/qsub").exists():
         _unpack(unpacked(), PBS_PACKAGES)
 
@@ -161,7 +161,7 @@ class Slurm:
         return self.folder / f"disk-{node}"
 
     def _kill_tasks(self, node: str) -> None:
-        """Kill the tasks of a node: what is in a session with a script from the node's folder."""
+        """Kill the tasks of a node: sessions with a script from the node's folder."""
         scripts = f"{self.folder}/spool-{node}/".encode()
         sessions = {session for _, session, command in _processes() if scripts in command}
         for pid, session, _ in _processes():
@@ -170,7 +170,7 @@ class Slurm:
                     os.kill(pid, signal.SIGKILL)
 
     def call(self, *command: str, check: bool = True) -> str:
-        """What one of Slurm's commands prints."""
+        """Run a command of Slurm and return its output."""
         done = subprocess.run(
             command, env=self.environment, capture_output=True, text=True, timeout=60, check=check
         )

@@ -12,7 +12,7 @@ class Reply:
     Attributes
     ----------
     length
-        Content-Length, if not that of the body.
+        Content-Length, if not the length of the body.
     """
 
     def __init__(self, status=200, body=b"", headers=None, length=None):

@@ -18,8 +18,8 @@ def wrf(
 ):  # fmt: skip
     """wrfout files: staggering, subgrid, unused border, grid rotated by `turn` degrees.
 
-    `came` gives the arrival time (s) at a point (m). TIGN_G is that of a cell's centre, or if `touched` of
-    the first contact. FIRE_AREA is the burned fraction of the cell.
+    `came` gives the arrival time (s) at a point (m). TIGN_G is the time at the centre of a cell, or
+    if `touched` at first contact. FIRE_AREA is the burned fraction of the cell.
     """
     rng = np.random.default_rng(seed)
     NY, NX = shape  # noqa: N806
@@ -192,7 +192,7 @@ def forefire(path, arrival, *, lx=3000.0, ly=1000.0, west=0.0, south=0.0, year=2
 
 
 def landscape(path, fuel, altitude, *, size, box, wind=None, **domain):
-    """ForeFire's data file: netCDF-3, (NT, NZ, NY, NX) layers with dimensions of their own."""
+    """ForeFire's data file: netCDF-3, (NT, NZ, NY, NX) layers with separate dimensions."""
     with netCDF4.Dataset(path, "w", format="NETCDF3_CLASSIC") as f:
         layers = [("fuel", "f", fuel), ("altitude", "n", altitude)]
         layers += zip(("windU", "windV"), "uv", wind or (), strict=False)

@@ -30,7 +30,7 @@ def moved(settings, **place):
 
 @pytest.fixture
 def sun_at(monkeypatch):
-    """Set the sun's elevation (degrees) for lamps and light alike."""
+    """Set the sun's elevation (degrees) for both lamps and light."""
 
     def place(height):
         monkeypatch.setattr(sun, "position", lambda run, time: (200.0, height))

@@ -150,7 +150,7 @@ class Condor:
         self._place.cleanup()
 
     def call(self, *command: str) -> str:
-        """What one of HTCondor's commands prints."""
+        """Run a command of HTCondor and return its output."""
         done = subprocess.run(command, env=self.environment, cwd=self.folder, capture_output=True, text=True)
         assert done.returncode == 0, done.stdout + done.stderr
         return done.stdout

@@ -14,7 +14,7 @@ STEP = 2.0  # m between vertices
 
 @dataclass(frozen=True)
 class Scene:
-    """What the surface shows, at points (ny, nx) from south-west, scene metres."""
+    """Surface at points (ny, nx) from south-west, scene metres."""
 
     east: NDArray
     north: NDArray

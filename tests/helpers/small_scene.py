@@ -170,13 +170,13 @@ def scene(factory):
 
 @pytest.fixture
 def stage(scene):
-    """The scene, adopted as one of our own."""
+    """The scene, marked as Firetwin's."""
     return owned.adopt(scene)
 
 
 @pytest.fixture(scope="session")
 def built_file(factory, run_folder, run, tmp_path_factory):
-    """The small shot built into a scene of our own, with its view layers, as a file."""
+    """The small shot built into a scene of Firetwin, with its view layers, as a file."""
     folder = tmp_path_factory.mktemp("built")
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     stage, settings = owned.adopt(bpy.context.scene), _settings(run_folder, folder)

@@ -14,7 +14,7 @@ HIFLD_COLUMNS = (
 
 
 def hifld_row(**values):
-    """A row of HIFLD; what is not given is as HIFLD writes it for none."""
+    """A row of HIFLD; other values are as HIFLD writes missing values."""
     row = dict.fromkeys(HIFLD_COLUMNS, "NOT AVAILABLE") | {
         "X": "-120.5", "Y": "38.9", "ID": "10700001", "TELEPHONE": "530-555-0101", "STATE": "CA",
         "EMERGTITLE": "CHIEF A. PERSON", "EMERGPHONE": "(530) 555-0102", "GEODATE": "2010/03/22",

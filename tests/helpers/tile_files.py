@@ -34,7 +34,7 @@ class Gltf:
         return self.add("bufferViews", {"buffer": 0, "byteOffset": offset, "byteLength": len(data), **more})
 
     def accessor(self, array, normalized=False, view=None, **more):
-        """An accessor of rows; without a view of its own it gets one."""
+        """Add an accessor of rows, with a new view if none is given."""
         array = np.asarray(array)
         width = 1 if array.ndim == 1 else array.shape[1]
         made = {
@@ -163,6 +163,6 @@ def wavy(count, seed=5):
 
 
 def to_z_up(points):
-    """glTF's axes to those of 3-D Tiles."""
+    """Convert the axes of glTF to the axes of 3-D Tiles."""
     points = np.asarray(points, float)
     return np.stack([points[:, 0], -points[:, 2], points[:, 1]], 1)

@@ -55,7 +55,7 @@ def _tile(east: float, north: float, up: float, uri: str) -> dict:
 
 
 def piece(number: int, side: int) -> bytes:
-    """A glb of a wavy square with a picture of its own."""
+    """A glb of a wavy square with a separate picture."""
     step = np.linspace(0.0, PIECE, side + 1, dtype=np.float32)
     x, y = (v.ravel() for v in np.meshgrid(step, step))
     z = 5.0 * np.sin(0.1 * x + number) * np.cos(0.07 * y)

@@ -22,7 +22,7 @@ def names(loader, choice):
 
 
 def random_views(rng, count):
-    """Positions, rotations, halves, whether parallel, and pixels of views; neighbours are alike."""
+    """Positions, rotations, halves, whether parallel, and pixels of views; neighbours are similar."""
     position = rng.normal(0, 30, 3) + np.cumsum(rng.normal(0, 2, (count, 3)), axis=0)
     turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
     turn[:, 0] *= np.linalg.det(turn)
@@ -56,10 +56,10 @@ def planes(half, parallel):
 
 
 def outside(place, normal, offset):
-    """Distance of a place, in a view's axes, from what the view shows."""
+    """Distance of a place, in a view's axes, from the view volume."""
     if offset.any():
         return np.linalg.norm(np.minimum([(place @ normal.T + offset)[k : k + 2].min() for k in (1, 3)], 0))
-    # Moreau: what is left of a projection on a cone lies in the cone of its outward normals.
+    # Moreau: the remainder of a projection on a cone is in the cone of its outward normals.
     outward = -normal.T
     return np.linalg.norm(outward @ nnls(outward, place)[0])
 
@@ -67,8 +67,8 @@ def outside(place, normal, offset):
 def errors(volumes, error, views):
     """Largest errors (n,) over views, as if each view saw the least and the most that it may.
 
-    The least: spheres that reach into what the view shows. The most: spheres that reach over each of its
-    planes, which some beside its edges do.
+    The least: spheres that reach into the view volume. The most: spheres that reach over each of its planes,
+    as some outside of its edges do.
     """
     centre, axis, half, extra = volumes
     radius = np.linalg.norm(half, axis=1) + extra

@@ -1,4 +1,4 @@
-"""A shot on tiles of its own ground, prepared within the process of a test."""
+"""A shot on tiles made of its ground, prepared within the process of a test."""
 
 import re
 from dataclasses import asdict, replace
@@ -37,7 +37,7 @@ def decoded_here(monkeypatch):
 
 @pytest.fixture
 def tiled(shot, tmp_path, decoded_here):
-    """A shot on tiles of its own ground in `tmp_path`/set, prepared within this process."""
+    """A shot on tiles made of its ground in `tmp_path`/set, prepared within this process."""
     make.run(shot, make.TilesRequest(tmp_path / "set", credit="Somebody", geoid=-24.9))
     known = replace(shot.settings.tiles, sources=(str(tmp_path / "set"),), error=2.0, geoid=-24.9)
     found = shot._with_settings(replace(shot.settings, tiles=known, cache=tmp_path / "cache"))

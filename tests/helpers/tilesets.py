@@ -10,11 +10,11 @@ from firetwin.tiles.sources._source import MOST_BYTES, Source, missing, unpack
 from firetwin.tiles.sources.local import relative
 
 GLB = b"glTF" + struct.pack("<II", 2, 12)
-"""Something that begins as a glTF does and has the length that it says."""
+"""Bytes with the header of a glTF and its length."""
 
 
 class Memory(Source):
-    """Files by their names; counts what is read."""
+    """Files by their names; counts reads."""
 
     def __init__(self, files, root="tileset.json"):
         self.files, self.root, self.reads = files, root, []
@@ -39,7 +39,7 @@ def box(x=0.0, y=0.0, z=0.0, half=1.0):
 
 
 def tile(error=0.0, uri=None, children=(), volume=None, **more):
-    """A tile, with a content where it has a URI."""
+    """A tile, with a content if it has a URI."""
     made = {"boundingVolume": volume or box(), "geometricError": error, **more}
     if uri is not None:
         made["content"] = {"uri": uri}

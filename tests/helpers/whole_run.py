@@ -37,7 +37,7 @@ def write(
     fires
         Ignitions: m east and north of the centre, and time, s.
     speed
-        Rate of spread of the head, m/s; that of the rear is a fifth of it in wind.
+        Rate of spread of the head, m/s; the rear has a fifth of it in wind.
     height
         Terrain elevation: a function of metres east and north; default: sea level.
     arrival

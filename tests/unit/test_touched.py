@@ -57,7 +57,7 @@ def test_what_takes_too_long_is_left_out_and_said(monkeypatch, tmp_path, capsys)
     monkeypatch.setattr(touched, "MOST", 11.0)
     changed = ROOT / "addon/smoke/domains.py"
     assert len(list(touched.nearest([changed]))) == 2  # of 5 s, which nobody has measured
-    assert "more files of tests are near" in capsys.readouterr().err
+    assert "more test files are near" in capsys.readouterr().err
     test = ROOT / "tests/unit/test_geo.py"
     monkeypatch.setattr(touched, "MOST", 0.0)
     assert list(touched.nearest([test])) == [test]  # changed itself: always
