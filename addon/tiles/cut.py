@@ -76,7 +76,7 @@ class Choice:
         What was asked for, pixels; less than `error` where the budget does not suffice.
     fits
         Whether the budget suffices at all.
-    stands
+    stand_ins
         Tiles that stand in for broken ones below them.
     missing
         Why contents or children of tiles cannot be had, by tile.
@@ -89,7 +89,7 @@ class Choice:
     fits: bool
     bytes: int
     triangles: int
-    stands: NDArray[np.int64]
+    stand_ins: NDArray[np.int64]
     missing: Mapping[int, str]
 
     def sentence(self) -> str:
@@ -117,7 +117,7 @@ class _Measured:
     margin: float
     shadows: bool
     error: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
-    shut: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, bool))
+    outside_request_volume: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, bool))
 
     def extend(self) -> None:
         """Measure the tiles that are new."""
@@ -127,17 +127,17 @@ class _Measured:
         new = np.arange(known, tree.size)
         volumes = self.placed(tree.volumes.taken(new))
         self.error = np.concatenate([self.error, self.seen(volumes, tree.error[known:])])
-        shut = np.zeros(len(new), bool)
+        outside = np.zeros(len(new), bool)
         asking = [tile for tile in sorted(tree.request) if tile >= known]
         if asking:
             request = self.placed(Volumes.joined([tree.request[tile] for tile in asking]))
-            inside = tiles.holds_any(*_arrays(request), self.views.eyes)
-            shut[np.array(asking) - known] = ~inside
-        self.shut = np.concatenate([self.shut, shut])
+            inside = tiles.contains_any(*_arrays(request), self.views.eyes)
+            outside[np.array(asking) - known] = ~inside
+        self.outside_request_volume = np.concatenate([self.outside_request_volume, outside])
 
     def placed(self, volumes: Volumes) -> Volumes:
         """Volumes in the scene."""
-        return volumes.moved(self.matrix[None], np.zeros(len(volumes.round), np.int64))
+        return volumes.moved(self.matrix[None], np.zeros(len(volumes.padding), np.int64))
 
     def seen(self, volumes: Volumes, error: NDArray[np.float64]) -> NDArray[np.float64]:
         """Screen-space errors of volumes in the scene, pixels; -1: no view sees them."""
@@ -155,7 +155,7 @@ class _Measured:
             centre, eyes = (
                 each @ earth[:3, :3].T + earth[:3, 3] for each in (volumes.centre, self.views.eyes)
             )
-            radius = np.linalg.norm(volumes.half, axis=1) + volumes.round
+            radius = np.linalg.norm(volumes.half, axis=1) + volumes.padding
             errors[horizon.hidden(centre, radius, eyes)] = -1.0
         return errors
 
@@ -207,7 +207,9 @@ def choose(
     while True:
         measured.extend()
         tree = loader.tree
-        flags = tree.flags() | np.where(measured.shut, np.uint8(tiles.SHUT), np.uint8(0))
+        flags = tree.flags() | np.where(
+            measured.outside_request_volume, np.uint8(tiles.OUTSIDE_REQUEST_VOLUME), np.uint8(0)
+        )
         cut = tiles.select(tree.parent, flags, measured.error, *sizes.arrays(), error, *limits)
         if len(cut.expand):
             loader.expand(cut.expand)
@@ -217,7 +219,7 @@ def choose(
             continue
         if not fetch or not sizes.check(contents):
             return Choice(
-                *(cut.tiles, contents, cut.error, error, cut.fits, cut.bytes, cut.triangles, cut.stands),
+                *(cut.tiles, contents, cut.error, error, cut.fits, cut.bytes, cut.triangles, cut.stand_ins),
                 dict(sorted(tree.broken.items())),
             )
 
@@ -284,4 +286,4 @@ _Four = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDA
 
 
 def _arrays(volumes: Volumes) -> _Four:
-    return volumes.centre, volumes.axis, volumes.half, volumes.round
+    return volumes.centre, volumes.axis, volumes.half, volumes.padding

@@ -41,8 +41,8 @@ def gather(loader: Loader, most: int | None) -> dict[str, Any]:
     volumes, level = tree.volumes, tree.level
     filled = np.unique(tree.content[models, 0])
     corners = volumes.corners()
-    low = (corners.min(axis=1) - volumes.round[:, None]).min(axis=0)
-    high = (corners.max(axis=1) + volumes.round[:, None]).max(axis=0)
+    low = (corners.min(axis=1) - volumes.padding[:, None]).min(axis=0)
+    high = (corners.max(axis=1) + volumes.padding[:, None]).max(axis=0)
     credits = Counter(part for each in tree.documents for part in notices.split(each.copyright))
     return {
         "source": source.name(source.root),

@@ -256,7 +256,7 @@ class Tree:
         return np.flatnonzero(np.isin(self.content[:, 0], some))
 
     def flags(self) -> NDArray[np.uint8]:
-        """(n,) what `firetwin_core.tiles.select` needs to know; SHUT is left to the caller."""
+        """(n,) flags for `firetwin_core.tiles.select`; the caller adds OUTSIDE_REQUEST_VOLUME."""
         owner, kind = self.content[:, 0], self.content_kind
         model, external = np.zeros((2, self.size), bool)
         model[owner[kind == MODEL]] = True
@@ -280,7 +280,7 @@ class Tree:
             + tiles.CONTENT * model
             + tiles.PENDING * pending
             + tiles.BROKEN * broken
-            + tiles.PASSES * holder
+            + tiles.PASS_THROUGH * holder
         ).astype(np.uint8)
 
     def error_at(self, tile: int, reason: str) -> InputError:

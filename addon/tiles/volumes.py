@@ -25,19 +25,19 @@ class Volumes:
         (n, 3, 3) orthonormal directions of the edges, as rows.
     half
         (n, 3) half lengths of the edges, m.
-    round
-        (n,) radius by which the box is widened, m.
+    padding
+        (n,) radius of the sphere that is swept along the box (Minkowski sum), m.
     """
 
     centre: NDArray[np.float64]
     axis: NDArray[np.float64]
     half: NDArray[np.float64]
-    round: NDArray[np.float64]
+    padding: NDArray[np.float64]
 
     @property
     def radius(self) -> NDArray[np.float64]:
         """(n,) radii of the bounding spheres about `centre`, m."""
-        return np.linalg.norm(self.half, axis=1) + self.round
+        return np.linalg.norm(self.half, axis=1) + self.padding
 
     def corners(self) -> NDArray[np.float64]:
         """(n, 8, 3) corners of the boxes, m."""
@@ -53,11 +53,11 @@ class Volumes:
         centre = np.einsum("nij,nj->ni", linear, self.centre) + matrices[which, :3, 3]
         edges = np.einsum("nij,nkj->nki", linear, self.axis * self.half[:, :, None])
         axis, half = orthonormal(edges)
-        return Volumes(centre, axis, half, self.round * largest_scale(matrices[:, :3, :3])[which])
+        return Volumes(centre, axis, half, self.padding * largest_scale(matrices[:, :3, :3])[which])
 
     def taken(self, which: NDArray[np.int64]) -> Volumes:
         """Some of them."""
-        return Volumes(self.centre[which], self.axis[which], self.half[which], self.round[which])
+        return Volumes(self.centre[which], self.axis[which], self.half[which], self.padding[which])
 
     @staticmethod
     def joined(parts: list[Volumes]) -> Volumes:
@@ -67,7 +67,7 @@ class Volumes:
         return Volumes(
             *(
                 np.concatenate([getattr(p, name) for p in parts])
-                for name in ("centre", "axis", "half", "round")
+                for name in ("centre", "axis", "half", "padding")
             )
         )
 

@@ -13,11 +13,13 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -200,6 +202,17 @@ Array<float> read_image(const std::filesystem::path& path) {
   return pixels_of(image);
 }
 
+Array<float> decode_image(const py::bytes& data, const std::string& name) {
+  const std::string_view bytes = data;
+  sensor::Image image;
+  {
+    const py::gil_scoped_release release;
+    image = sensor::decode_image(
+        {reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}, name);
+  }
+  return pixels_of(image);
+}
+
 py::dict read_channels(const std::filesystem::path& path) {
   sensor::Image image = load(path);
   const py::array all = pixels_of(image);
@@ -210,20 +223,36 @@ py::dict read_channels(const std::filesystem::path& path) {
   return found;
 }
 
+/// Height, width and channels.
+std::array<std::size_t, 3> image_size(const Array<float>& pixels) {
+  if (pixels.ndim() != 2 && pixels.ndim() != 3) {
+    wrong("pixels", "must have shape (h, w) or (h, w, channels), not " + shape_text(pixels));
+  }
+  const auto size = [&](py::ssize_t axis) { return static_cast<std::size_t>(pixels.shape(axis)); };
+  return {size(0), size(1), pixels.ndim() == 3 ? size(2) : 1};
+}
+
+py::bytes encode_png(const py::object& pixels) {
+  const auto image = to_array<float>(pixels, "pixels");
+  const auto [height, width, count] = image_size(image);
+  std::vector<unsigned char> encoded;
+  {
+    const py::gil_scoped_release release;
+    encoded = sensor::encode_png(view(image), height, width, count);
+  }
+  return {reinterpret_cast<const char*>(encoded.data()), encoded.size()};
+}
+
 void write_image(const std::filesystem::path& path, const py::object& pixels,
                  const std::optional<io::Metadata>& metadata,
                  const std::optional<std::vector<std::string>>& channels) {
   const auto image = to_array<float>(pixels, "pixels");
-  if (image.ndim() != 2 && image.ndim() != 3) {
-    wrong("pixels", "must have shape (h, w) or (h, w, channels), not " + shape_text(image));
-  }
-  const auto size = [&](py::ssize_t axis) { return static_cast<std::size_t>(image.shape(axis)); };
-  const std::size_t count = image.ndim() == 3 ? size(2) : 1;
+  const auto [height, width, count] = image_size(image);
   if (channels && channels->size() != count) {
-    wrong("channels", "must be as many names as there are channels, " + std::to_string(count));
+    wrong("channels", "must have one name per channel, " + std::to_string(count));
   }
   const py::gil_scoped_release release;
-  sensor::write_image(path, view(image), size(0), size(1), count, metadata.value_or(io::Metadata{}),
+  sensor::write_image(path, view(image), height, width, count, metadata.value_or(io::Metadata{}),
                       channels.value_or(std::vector<std::string>{}));
 }
 
@@ -258,6 +287,8 @@ void init_sensor(Module module) {
   module.def("eye_dome", &eye_dome, py::arg("depth"), py::arg("strength") = 4.0,
              py::arg("radius") = 1);
   module.def("read_image", &read_image, py::arg("path"));
+  module.def("decode_image", &decode_image, py::arg("data"), py::arg("name") = "image");
+  module.def("encode_png", &encode_png, py::arg("pixels"));
   module.def("read_channels", &read_channels, py::arg("path"));
   module.def("write_image", &write_image, py::arg("path"), py::arg("pixels"),
              py::arg("metadata") = py::none(), py::arg("channels") = py::none());

@@ -1,7 +1,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "tiles/content_type.hpp"
 #include "tiles/decode.hpp"
-#include "tiles/kind.hpp"
 
 #include <pybind11/stl.h>
 
@@ -82,20 +82,20 @@ std::shared_ptr<Tile> decode(const py::bytes& content, const py::object& matrix,
   options.to_earth =
       earth_matrix.is_none() ? tiles::identity : to_matrix(earth_matrix, "earth_matrix");
   options.up_axis = to_axis(up_axis);
-  const HeldResources beside(resources);
+  const HeldResources held(resources);
   const tiles::Bytes bytes = bytes_of(content);
   const py::gil_scoped_release release;
-  return std::make_shared<Tile>(tiles::decode(bytes, name, beside.views, options));
+  return std::make_shared<Tile>(tiles::decode(bytes, name, held.views, options));
 }
 
-std::vector<std::string> resources_needed(const py::bytes& content, const std::string& name,
-                                          const std::optional<py::dict>& resources) {
-  const HeldResources beside(resources);
-  return tiles::list_missing(bytes_of(content), name, beside.views);
+std::vector<std::string> list_missing_resources(const py::bytes& content, const std::string& name,
+                                                const std::optional<py::dict>& resources) {
+  const HeldResources held(resources);
+  return tiles::list_missing_resources(bytes_of(content), name, held.views);
 }
 
-std::string content_kind(const py::bytes& content, const std::string& name) {
-  return tiles::name_of(tiles::kind_of(bytes_of(content), name));
+std::string content_type(const py::bytes& content, const std::string& name) {
+  return tiles::name_of(tiles::detect_content_type(bytes_of(content), name));
 }
 
 void bind_parts(const Module& module) {
@@ -155,9 +155,9 @@ void init_tiles(Module module) {
   module.def("decode", &decode, py::arg("content"), py::arg("matrix"), py::arg("name"),
              py::arg("resources") = py::none(), py::arg("earth_matrix") = py::none(),
              py::arg("up_axis") = "Y");
-  module.def("resources_needed", &resources_needed, py::arg("content"), py::arg("name"),
+  module.def("list_missing_resources", &list_missing_resources, py::arg("content"), py::arg("name"),
              py::arg("resources") = py::none());
-  module.def("content_kind", &content_kind, py::arg("content"), py::arg("name"));
+  module.def("content_type", &content_type, py::arg("content"), py::arg("name"));
 }
 
 } // namespace firetwin::bindings

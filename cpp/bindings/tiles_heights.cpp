@@ -30,24 +30,24 @@ Array<float> height(const HeightMap& map) {
 }
 
 /// Heights of the ground, and what each point shows.
-py::tuple find_ground(const py::object& surface, double step, double widest) {
+py::tuple find_ground(const py::object& surface, double step, double max_width) {
   const auto array = to_array<float>(surface, "height", {-1, -1});
   const auto rows = static_cast<std::size_t>(array.shape(0)),
              columns = static_cast<std::size_t>(array.shape(1));
   tiles::GroundOptions options;
   options.step = step;
-  options.widest = widest;
+  options.max_width = max_width;
   tiles::Ground found;
   {
     const py::gil_scoped_release release;
     found = tiles::find_ground(view(array), rows, columns, options);
   }
   auto ground = new_array<float>({array.shape(0), array.shape(1)});
-  auto shown = new_array<std::uint8_t>({array.shape(0), array.shape(1)});
+  auto classes = new_array<std::uint8_t>({array.shape(0), array.shape(1)});
   std::ranges::copy(found.height, writable(ground).begin());
-  std::ranges::transform(found.shown, writable(shown).begin(),
-                         [](tiles::Shown each) { return static_cast<std::uint8_t>(each); });
-  return py::make_tuple(ground, shown);
+  std::ranges::transform(found.surface_class, writable(classes).begin(),
+                         [](tiles::SurfaceClass each) { return static_cast<std::uint8_t>(each); });
+  return py::make_tuple(ground, classes);
 }
 
 } // namespace
@@ -59,10 +59,10 @@ void init_tiles_heights(Module module) {
       .def("add", &add, py::arg("position"), py::arg("origin"), py::arg("triangle"))
       .def_property_readonly("height", &height);
   module.def("find_ground", &find_ground, py::arg("height"), py::arg("step"),
-             py::arg("widest") = tiles::GroundOptions().widest);
-  module.attr("GROUND") = static_cast<int>(tiles::Shown::ground);
-  module.attr("GROWTH") = static_cast<int>(tiles::Shown::growth);
-  module.attr("BUILDING") = static_cast<int>(tiles::Shown::building);
+             py::arg("max_width") = tiles::GroundOptions().max_width);
+  module.attr("GROUND") = static_cast<int>(tiles::SurfaceClass::ground);
+  module.attr("VEGETATION") = static_cast<int>(tiles::SurfaceClass::vegetation);
+  module.attr("BUILDING") = static_cast<int>(tiles::SurfaceClass::building);
 }
 
 } // namespace firetwin::bindings

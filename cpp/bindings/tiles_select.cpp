@@ -15,24 +15,26 @@ namespace {
 class VolumeArrays {
 public:
   VolumeArrays(const py::object& centre, const py::object& axis, const py::object& half,
-               const py::object& round)
-      : round_(to_array<double>(round, "round", {-1})),
-        centre_(to_array<double>(centre, "centre", {round_.size(), 3})),
-        axis_(to_array<double>(axis, "axis", {round_.size(), 3, 3})),
-        half_(to_array<double>(half, "half", {round_.size(), 3})) {}
+               const py::object& padding)
+      : padding_(to_array<double>(padding, "padding", {-1})),
+        centre_(to_array<double>(centre, "centre", {padding_.size(), 3})),
+        axis_(to_array<double>(axis, "axis", {padding_.size(), 3, 3})),
+        half_(to_array<double>(half, "half", {padding_.size(), 3})) {}
 
-  py::ssize_t size() const { return round_.size(); }
-  tiles::Volumes volumes() const { return {view(centre_), view(axis_), view(half_), view(round_)}; }
+  py::ssize_t size() const { return padding_.size(); }
+  tiles::Volumes volumes() const {
+    return {view(centre_), view(axis_), view(half_), view(padding_)};
+  }
 
 private:
-  Array<double> round_, centre_, axis_, half_;
+  Array<double> padding_, centre_, axis_, half_;
 };
 
 Array<double> screen_error(const py::object& centre, const py::object& axis, const py::object& half,
-                           const py::object& round, const py::object& error,
+                           const py::object& padding, const py::object& error,
                            const lod::ViewSet& views, const py::object& pixels, double max_distance,
                            double margin, bool shadows) {
-  const VolumeArrays arrays(centre, axis, half, round);
+  const VolumeArrays arrays(centre, axis, half, padding);
   const auto errors = to_array<double>(error, "error", {arrays.size()});
   const auto scales = to_array<double>(pixels, "pixels", {-1});
   auto result = new_array<double>({arrays.size()});
@@ -43,14 +45,14 @@ Array<double> screen_error(const py::object& centre, const py::object& axis, con
   return result;
 }
 
-Array<bool> holds_any(const py::object& centre, const py::object& axis, const py::object& half,
-                      const py::object& round, const py::object& position) {
-  const VolumeArrays arrays(centre, axis, half, round);
+Array<bool> contains_any(const py::object& centre, const py::object& axis, const py::object& half,
+                         const py::object& padding, const py::object& position) {
+  const VolumeArrays arrays(centre, axis, half, padding);
   const auto places = to_array<double>(position, "position", {-1, 3});
   auto result = new_array<bool>({arrays.size()});
   const auto out = writable(result);
   const py::gil_scoped_release release;
-  tiles::holds_any(arrays.volumes(), view(places), out);
+  tiles::contains_any(arrays.volumes(), view(places), out);
   return result;
 }
 
@@ -80,18 +82,18 @@ void init_tiles_select(Module module) {
   Class<Cut>(module, "Cut")
       .def_property_readonly("tiles", &column<&Cut::tiles>)
       .def_property_readonly("expand", &column<&Cut::expand>)
-      .def_property_readonly("stands", &column<&Cut::stands>)
-      .def_property_readonly("missed", &column<&Cut::missed>)
+      .def_property_readonly("stand_ins", &column<&Cut::stand_ins>)
+      .def_property_readonly("missing", &column<&Cut::missing>)
       .def_readonly("error", &Cut::error)
       .def_readonly("fits", &Cut::fits)
       .def_readonly("bytes", &Cut::bytes)
       .def_readonly("triangles", &Cut::triangles);
   module.def("screen_error", &screen_error, py::arg("centre"), py::arg("axis"), py::arg("half"),
-             py::arg("round"), py::arg("error"), py::arg("views"), py::arg("pixels"),
+             py::arg("padding"), py::arg("error"), py::arg("views"), py::arg("pixels"),
              py::arg("max_distance") = std::numeric_limits<double>::infinity(),
              py::arg("margin") = 0.0, py::arg("shadows") = false);
-  module.def("holds_any", &holds_any, py::arg("centre"), py::arg("axis"), py::arg("half"),
-             py::arg("round"), py::arg("position"));
+  module.def("contains_any", &contains_any, py::arg("centre"), py::arg("axis"), py::arg("half"),
+             py::arg("padding"), py::arg("position"));
   module.def("select", &select, py::arg("parent"), py::arg("flags"), py::arg("screen_error"),
              py::arg("bytes"), py::arg("triangles"), py::arg("error"), py::arg("max_tiles") = -1,
              py::arg("max_bytes") = -1, py::arg("max_triangles") = -1);
@@ -100,8 +102,8 @@ void init_tiles_select(Module module) {
   module.attr("CONTENT") = static_cast<int>(tiles::content);
   module.attr("PENDING") = static_cast<int>(tiles::pending);
   module.attr("BROKEN") = static_cast<int>(tiles::broken);
-  module.attr("SHUT") = static_cast<int>(tiles::shut);
-  module.attr("PASSES") = static_cast<int>(tiles::passes);
+  module.attr("OUTSIDE_REQUEST_VOLUME") = static_cast<int>(tiles::outside_request_volume);
+  module.attr("PASS_THROUGH") = static_cast<int>(tiles::pass_through);
 }
 
 } // namespace firetwin::bindings

@@ -1,5 +1,6 @@
 #include "sensor/image.hpp"
 
+#include "base/error.hpp"
 #include "io/file.hpp"
 #include "io/name.hpp"
 #include "io/new_file.hpp"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <mutex>
 #include <ostream>
 #include <stdexcept>
@@ -17,42 +19,61 @@
 namespace firetwin::sensor {
 namespace {
 
-constexpr int largest_megabytes = 1024;
-constexpr int most_channels = 64;
-// PNG files are 4 times as quick to write as with zlib's usual level 6 and no filter, and an eighth
-// larger.
-constexpr int png_level = 1;     // of zlib
-constexpr int png_filter = 0x10; // of libpng: differences from the pixel at the left
-constexpr OIIO::imagesize_t most_values = 256'000'000; // 1 GB of floats
+[[noreturn]] void fail(const std::string& name, const std::string& reason) {
+  throw InputError(name, 0, 0, reason);
+}
 
-/// OpenImageIO's name of a format, by the first bytes.
-std::string format_of(const std::filesystem::path& path) {
+constexpr int max_megabytes = 1024;
+constexpr int max_channels = 64;
+constexpr OIIO::imagesize_t max_values = 256'000'000; // 1 GB of floats
+// Writing a PNG is 4 times faster than with zlib's default level 6 and no filter; the file is an
+// eighth larger.
+constexpr int png_level = 1;     // zlib compression level
+constexpr int png_filter = 0x10; // libpng's PNG_FILTER_SUB: difference from the pixel to the left
+constexpr std::size_t magic_length = 8;
+
+/// Encoded image in memory. IOMemReader of OpenImageIO 2.4 adds an offset and a size without a
+/// check for overflow: a negative offset, which an EXR may contain, reads memory in front of the
+/// buffer.
+class MemoryReader : public OIIO::Filesystem::IOMemReader {
+public:
+  using IOMemReader::IOMemReader;
+  std::size_t pread(void* buffer, std::size_t size, std::int64_t offset) override {
+    return offset < 0 ? 0 : IOMemReader::pread(buffer, size, offset);
+  }
+};
+
+/// OpenImageIO's name of the format with these magic bytes.
+std::string detect_format(std::string_view magic, const std::string& name) {
   using namespace std::string_view_literals;
-  const io::File file(path);
-  std::array<char, 8> start{};
-  const std::size_t have = std::min<std::uint64_t>(file.size(), start.size());
-  file.read(0, std::span(start).first(have));
-  const std::string_view bytes(start.data(), have);
-  if (bytes == "\x89PNG\r\n\x1a\n"sv) {
+  if (magic == "\x89PNG\r\n\x1a\n"sv) {
     return "png";
   }
-  if (bytes.starts_with("\x76\x2f\x31\x01"sv)) {
+  if (magic.starts_with("\x76\x2f\x31\x01"sv)) {
     return "openexr";
   }
-  if (bytes.starts_with("II*\0"sv) || bytes.starts_with("MM\0*"sv)) {
+  if (magic.starts_with("II*\0"sv) || magic.starts_with("MM\0*"sv)) {
     return "tiff";
   }
-  if (bytes.starts_with("\xff\xd8\xff"sv)) {
+  if (magic.starts_with("\xff\xd8\xff"sv)) {
     return "jpeg";
   }
-  io::fail(path, "is not a PNG, OpenEXR, TIFF or JPEG image");
+  fail(name, "is not a PNG, OpenEXR, TIFF or JPEG image");
+}
+
+std::string detect_format(const std::filesystem::path& path) {
+  const io::File file(path);
+  std::array<char, magic_length> start{};
+  const std::size_t length = std::min<std::uint64_t>(file.size(), start.size());
+  file.read(0, std::span(start).first(length));
+  return detect_format({start.data(), length}, io::utf8(path));
 }
 
 void set_limits() {
   static std::once_flag once;
   std::call_once(once, [] {
-    OIIO::attribute("limits:imagesize_MB", largest_megabytes);
-    OIIO::attribute("limits:channels", most_channels);
+    OIIO::attribute("limits:imagesize_MB", max_megabytes);
+    OIIO::attribute("limits:channels", max_channels);
   });
 }
 
@@ -64,7 +85,8 @@ OIIO::ImageSpec make_spec(std::size_t height, std::size_t width, std::size_t cha
   if (exr) {
     spec.attribute("compression", "zip");
     spec.attribute("DateTime",
-                   "1970:01:01 00:00:00"); // else now: one picture would have many files
+                   "1970:01:01 00:00:00"); // the default is the current time, which makes files of
+                                           // equal images differ
   }
   if (!exr) {
     spec.attribute("png:compressionLevel", png_level);
@@ -79,51 +101,39 @@ OIIO::ImageSpec make_spec(std::size_t height, std::size_t width, std::size_t cha
   return spec;
 }
 
-void check_size(const std::filesystem::path& path, std::size_t height, std::size_t width,
+void check_size(const std::string& name, std::size_t height, std::size_t width,
                 std::size_t channels) {
-  constexpr std::size_t longest = 1U << 20;
-  if (height == 0 || width == 0 || channels == 0 || height > longest || width > longest ||
-      channels > most_channels) {
-    io::fail(path, "an image needs at least one pixel and at most 64 channels");
+  constexpr std::size_t max_side = 1U << 20;
+  if (height == 0 || width == 0 || channels == 0 || height > max_side || width > max_side ||
+      channels > max_channels) {
+    fail(name, "an image needs at least one pixel and at most 64 channels");
   }
 }
 
-/// What a header claims, before memory is given to it (OpenImageIO 2.4 checks only some formats).
-void check_spec(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
+/// Checks the size in a header before memory is allocated (OpenImageIO 2.4 checks some formats
+/// only).
+void check_spec(const std::string& name, const OIIO::ImageSpec& spec) {
   if (spec.deep || spec.depth > 1) {
-    io::fail(path, "is a deep or volume image; write it flat");
+    fail(name, "is a deep or volume image; save it as a flat image");
   }
-  if (spec.nchannels < 1 || spec.nchannels > most_channels ||
-      spec.image_pixels() > most_values / static_cast<unsigned>(spec.nchannels)) {
-    io::fail(path, "has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
-                       " pixels of " + std::to_string(spec.nchannels) +
-                       " channels; the limit is 256 million values and 64 channels");
+  if (spec.nchannels < 1 || spec.nchannels > max_channels ||
+      spec.image_pixels() > max_values / static_cast<unsigned>(spec.nchannels)) {
+    fail(name, "has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+                   " pixels and " + std::to_string(spec.nchannels) +
+                   " channels; the limit is 256 million values and 64 channels");
   }
 }
 
-std::vector<unsigned char> encode(const std::filesystem::path& path, std::span<const float> pixels,
-                                  const OIIO::ImageSpec& spec, bool exr) {
+/// Reads a format from a file, or from `memory` if it is not null.
+Image read(const std::string& format, const std::string& name,
+           OIIO::Filesystem::IOProxy* memory = nullptr) {
   set_limits();
-  OIIO::Filesystem::IOVecOutput memory;
-  const auto output = OIIO::ImageOutput::create(exr ? "openexr" : "png");
-  if (!output || !output->set_ioproxy(&memory) ||
-      !output->open(exr ? "memory.exr" : "memory.png", spec) ||
-      !output->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) || !output->close()) {
-    io::fail(path, "cannot be written: " + (output ? output->geterror() : OIIO::geterror()));
-  }
-  return memory.buffer();
-}
-
-} // namespace
-
-Image read_image(const std::filesystem::path& path) {
-  set_limits();
-  const auto input = OIIO::ImageInput::create(format_of(path));
+  const auto input = OIIO::ImageInput::create(format);
   OIIO::ImageSpec spec;
-  if (!input || !input->open(io::utf8(path), spec)) {
-    io::fail(path, "cannot be read: " + (input ? input->geterror() : OIIO::geterror()));
+  if (!input || (memory != nullptr && !input->set_ioproxy(memory)) || !input->open(name, spec)) {
+    fail(name, "cannot be read: " + (input ? input->geterror() : OIIO::geterror()));
   }
-  check_spec(path, spec);
+  check_spec(name, spec);
   Image image{static_cast<std::size_t>(spec.height),
               static_cast<std::size_t>(spec.width),
               static_cast<std::size_t>(spec.nchannels),
@@ -131,9 +141,42 @@ Image read_image(const std::filesystem::path& path) {
               spec.channelnames};
   image.pixels.resize(image.height * image.width * image.channels);
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data())) {
-    io::fail(path, "cannot be read: " + input->geterror());
+    fail(name, "cannot be read: " + input->geterror());
   }
   return image;
+}
+
+std::vector<unsigned char> encode(const std::string& name, std::span<const float> pixels,
+                                  const OIIO::ImageSpec& spec, bool exr) {
+  set_limits();
+  OIIO::Filesystem::IOVecOutput memory;
+  const auto output = OIIO::ImageOutput::create(exr ? "openexr" : "png");
+  if (!output || !output->set_ioproxy(&memory) ||
+      !output->open(exr ? "memory.exr" : "memory.png", spec) ||
+      !output->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) || !output->close()) {
+    fail(name, "cannot be written: " + (output ? output->geterror() : OIIO::geterror()));
+  }
+  return memory.buffer();
+}
+
+} // namespace
+
+Image read_image(const std::filesystem::path& path) {
+  return read(detect_format(path), io::utf8(path));
+}
+
+Image decode_image(std::span<const unsigned char> data, const std::string& name) {
+  const std::span magic = data.first(std::min(data.size(), magic_length));
+  MemoryReader memory(data.data(), data.size());
+  return read(detect_format({reinterpret_cast<const char*>(magic.data()), magic.size()}, name),
+              name, &memory);
+}
+
+std::vector<unsigned char> encode_png(std::span<const float> pixels, std::size_t height,
+                                      std::size_t width, std::size_t channels) {
+  const std::string name = "PNG";
+  check_size(name, height, width, channels);
+  return encode(name, pixels, make_spec(height, width, channels, false, {}, {}), false);
 }
 
 void write_image(const std::filesystem::path& path, std::span<const float> pixels,
@@ -143,13 +186,13 @@ void write_image(const std::filesystem::path& path, std::span<const float> pixel
   if (!exr && path.extension() != ".png") {
     io::fail(path, "an image file must end in .png or .exr");
   }
-  check_size(path, height, width, channels);
+  check_size(io::utf8(path), height, width, channels);
   if (!names.empty() && names.size() != channels) {
-    throw std::invalid_argument("names must be as many as there are channels");
+    throw std::invalid_argument("names must have one entry per channel");
   }
-  // Into memory first: OpenImageIO does not say when the end of an EXR finds no room on the disk.
+  // Encoded in memory: OpenImageIO does not report a full disk while it writes the end of an EXR.
   const std::vector<unsigned char> bytes =
-      encode(path, pixels, make_spec(height, width, channels, exr, metadata, names), exr);
+      encode(io::utf8(path), pixels, make_spec(height, width, channels, exr, metadata, names), exr);
   io::write_file(path, [&bytes](std::ostream& stream) {
     stream.write(reinterpret_cast<const char*>(bytes.data()),
                  static_cast<std::streamsize>(bytes.size()));

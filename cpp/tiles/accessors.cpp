@@ -92,7 +92,7 @@ AccessorType Accessors::type(const Node& index) const {
   type.components = components_of(node.at("type"));
   type.component = component_type(node.at("componentType"));
   type.normalized = node.boolean("normalized", false);
-  const std::size_t most = type.components == 1 ? most_indices : most_vertices;
+  const std::size_t most = type.components == 1 ? max_indices : max_vertices;
   if (type.count > most) {
     node.at("count").refuse("is " + std::to_string(type.count) + "; " + std::to_string(most) +
                             " are the most");
@@ -147,7 +147,7 @@ void Accessors::read_sparse(const Node& sparse, const AccessorType& type, std::v
 
 template <class T>
 void Accessors::read(const Node& node, const AccessorType& type, std::vector<T>& out) {
-  take_(type.count * type.components * sizeof(T));
+  reserve_bytes_(type.count * type.components * sizeof(T));
   out.resize(type.count * type.components); // zeros, where there is no view
   if (const auto index = node.find("bufferView")) {
     std::size_t stride = 0;

@@ -24,8 +24,9 @@ struct AccessorType {
 /// Reads accessors of any component type, stride and sparseness.
 class Accessors {
 public:
-  Accessors(const Node& root, Buffers& buffers, Take take)
-      : nodes_(root.elements("accessors")), buffers_(&buffers), take_(std::move(take)) {}
+  Accessors(const Node& root, Buffers& buffers, ReserveBytes reserve_bytes)
+      : nodes_(root.elements("accessors")), buffers_(&buffers),
+        reserve_bytes_(std::move(reserve_bytes)) {}
 
   /// @throws InputError
   AccessorType type(const Node& index) const;
@@ -43,7 +44,7 @@ private:
 
   std::vector<Node> nodes_;
   Buffers* buffers_;
-  Take take_;
+  ReserveBytes reserve_bytes_;
 };
 
 } // namespace firetwin::tiles

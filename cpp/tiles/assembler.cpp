@@ -72,23 +72,23 @@ void Assembler::add_copyright(std::string_view text) {
   }
 }
 
-void Assembler::take_bytes(std::size_t bytes) {
-  if (bytes > most_decoded_bytes || bytes_ > most_decoded_bytes - bytes) {
+void Assembler::reserve_bytes(std::size_t bytes) {
+  if (bytes > max_decoded_bytes || bytes_ > max_decoded_bytes - bytes) {
     refuse(name_, "holds more than 1 GB when it is decoded");
   }
   bytes_ += bytes;
 }
 
 void Assembler::add_draw(std::shared_ptr<const Primitive> primitive, const Matrix& to_scene) {
-  if (++instances_ > most_instances) {
-    refuse(name_, "has more than " + std::to_string(most_instances) + " instances");
+  if (++instances_ > max_instances) {
+    refuse(name_, "has more than " + std::to_string(max_instances) + " instances");
   }
   if (determinant(to_scene) == 0.0) {
     return;
   }
   vertices_ += primitive->vertices();
-  if (vertices_ > most_vertices) {
-    refuse(name_, "has more than " + std::to_string(most_vertices) + " vertices");
+  if (vertices_ > max_vertices) {
+    refuse(name_, "has more than " + std::to_string(max_vertices) + " vertices");
   }
   draws_.push_back({std::move(primitive), to_scene});
 }
@@ -101,7 +101,7 @@ Assembler::Bounds Assembler::bounds(const Draw& draw) {
     const Vector place = transform_point(draw.to_scene, vector_at(draw.primitive->position, i));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       farthest = std::max(farthest, std::abs(draw.primitive->position[3 * i + axis]));
-      if (!(std::abs(place[axis]) <= farthest_vertex)) { // so is NaN
+      if (!(std::abs(place[axis]) <= max_vertex_distance)) { // so is NaN
         found.low[axis] = found.high[axis] = infinity;
         return found;
       }
@@ -191,7 +191,7 @@ Tile Assembler::finish() {
     indices += draw.primitive->triangle.size();
     coloured = coloured || !draw.primitive->colour.empty();
   }
-  take_bytes(vertices * (coloured ? 48 : 32) + 4 * indices);
+  reserve_bytes(vertices * (coloured ? 48 : 32) + 4 * indices);
   const auto key = [](const Draw& draw) {
     const Primitive& p = *draw.primitive;
     return std::tuple(p.points, p.material, p.has_normals);

@@ -41,7 +41,7 @@ public:
   /// @throws InputError beyond the most instances or vertices
   void add_draw(std::shared_ptr<const Primitive> primitive, const Matrix& to_scene);
   /// Counts decoded memory. @throws InputError beyond the most
-  void take_bytes(std::size_t bytes);
+  void reserve_bytes(std::size_t bytes);
   Tile finish();
 
 private:

@@ -31,7 +31,7 @@ bool is_fallback(const Node& buffer) {
 
 } // namespace
 
-std::string beside(const std::string& folder, const std::string& uri) {
+std::string resolve_uri(const std::string& folder, const std::string& uri) {
   const bool absolute = uri.rfind('/', 0) == 0 || uri.find("://") != std::string::npos;
   return absolute ? uri : folder + uri;
 }
@@ -71,10 +71,10 @@ std::vector<std::uint8_t> decode_data_uri(const Node& uri) {
 }
 
 Buffers::Buffers(const Container& container, const Resources& resources, std::string folder,
-                 Take take)
+                 ReserveBytes reserve_bytes)
     : buffers_(container.root.elements("buffers")), views_(container.root.elements("bufferViews")),
       binary_(container.binary), resources_(&resources), folder_(std::move(folder)),
-      take_(std::move(take)) {}
+      reserve_bytes_(std::move(reserve_bytes)) {}
 
 Bytes Buffers::buffer(const Node& index) {
   const std::size_t i = index.index(buffers_.size());
@@ -88,12 +88,12 @@ Bytes Buffers::buffer(const Node& index) {
     node.refuse("has no uri, and the content has no bytes for it");
   } else if (is_data_uri(uri->text())) {
     if (!decoded_buffers_.contains(i)) {
-      take_(uri->text().size());
+      reserve_bytes_(uri->text().size());
       decoded_buffers_[i] = decode_data_uri(*uri);
     }
     bytes = decoded_buffers_[i];
   } else {
-    const auto found = resources_->find(beside(folder_, uri->text()));
+    const auto found = resources_->find(resolve_uri(folder_, uri->text()));
     if (found == resources_->end()) {
       uri->refuse("the file " + uri->text() + " is not among the resources");
     }
@@ -131,7 +131,7 @@ Bytes Buffers::decompressed(std::size_t index, const Node& view, const Node& ext
                      std::to_string(view.at("byteLength").integer()));
   }
   const Bytes compressed = slice(extension);
-  take_(size);
+  reserve_bytes_(size);
   return decoded_views_.emplace(index, decompress_meshopt(description, compressed, extension))
       .first->second;
 }
@@ -147,14 +147,14 @@ Buffers::View Buffers::view(const Node& index) {
   return {extension ? decompressed(i, node, *extension) : slice(node), stride};
 }
 
-std::vector<std::string> Buffers::missing() const {
+std::vector<std::string> Buffers::missing_uris() const {
   std::vector<std::string> uris;
   for (const Node& buffer : buffers_) {
     const auto uri = buffer.find("uri");
     if (!uri || is_data_uri(uri->text()) || is_fallback(buffer)) {
       continue;
     }
-    std::string place = beside(folder_, uri->text());
+    std::string place = resolve_uri(folder_, uri->text());
     if (!resources_->contains(place)) {
       uris.push_back(std::move(place));
     }

@@ -14,7 +14,7 @@
 namespace firetwin::tiles {
 
 /// `uri` relative to a folder such as "models/".
-std::string beside(const std::string& folder, const std::string& uri);
+std::string resolve_uri(const std::string& folder, const std::string& uri);
 /// The folder of a uri, with its slash; nothing where it has none.
 std::string folder_of(const std::string& uri);
 bool is_data_uri(const std::string& uri);
@@ -22,13 +22,14 @@ bool is_data_uri(const std::string& uri);
 std::vector<std::uint8_t> decode_data_uri(const Node& uri);
 
 /// Called with the size of what is about to be decoded; it may throw.
-using Take = std::function<void(std::size_t)>;
+using ReserveBytes = std::function<void(std::size_t)>;
 
 /// Bytes of a document's buffers, and of their views decompressed. Each is decoded once, when it is
 /// asked for. The content and the resources must outlive it.
 class Buffers {
 public:
-  Buffers(const Container& container, const Resources& resources, std::string folder, Take take);
+  Buffers(const Container& container, const Resources& resources, std::string folder,
+          ReserveBytes reserve_bytes);
 
   struct View {
     Bytes bytes;
@@ -39,7 +40,7 @@ public:
   View view(const Node& index);
 
   /// uris of buffers that are neither in the document nor among the resources, for `folder`.
-  std::vector<std::string> missing() const;
+  std::vector<std::string> missing_uris() const;
 
 private:
   Bytes buffer(const Node& index);
@@ -51,7 +52,7 @@ private:
   std::optional<Bytes> binary_;
   const Resources* resources_;
   std::string folder_;
-  Take take_;
+  ReserveBytes reserve_bytes_;
   std::map<std::size_t, std::vector<std::uint8_t>> decoded_buffers_;
   std::map<std::size_t, std::vector<std::uint8_t>> decoded_views_;
 };

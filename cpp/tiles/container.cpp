@@ -61,7 +61,7 @@ struct Chunks {
   std::optional<Bytes> binary;
 };
 
-Bytes cut_to_own_length(Bytes content, const std::string& name) {
+Bytes trim_to_length(Bytes content, const std::string& name) {
   if (content.size() < 20) {
     refuse(name, "is cut off: a glb has 20 bytes at least");
   }
@@ -78,7 +78,7 @@ Bytes cut_to_own_length(Bytes content, const std::string& name) {
 }
 
 Chunks split(Bytes content, const std::string& name) {
-  Bytes rest = cut_to_own_length(content, name).subspan(12);
+  Bytes rest = trim_to_length(content, name).subspan(12);
   Chunks chunks;
   for (std::size_t i = 0; rest.size() >= 8; ++i) {
     const std::size_t length = load<std::uint32_t>(rest.data());

@@ -4,8 +4,8 @@
 #include "tiles/assembler.hpp"
 #include "tiles/buffers.hpp"
 #include "tiles/container.hpp"
+#include "tiles/content_type.hpp"
 #include "tiles/instances.hpp"
-#include "tiles/kind.hpp"
 #include "tiles/limits.hpp"
 #include "tiles/materials.hpp"
 #include "tiles/nodes.hpp"
@@ -36,21 +36,23 @@ Matrix to_z_up(UpAxis axis) {
 /// Calls `each` with the contents within a cmpt.
 void split_composite(Bytes content, const std::string& name,
                      const std::function<void(Bytes, const std::string&)>& each) {
-  const auto word = [](Bytes bytes, std::size_t i) {
+  const auto read_uint32 = [](Bytes bytes, std::size_t i) {
     return static_cast<std::size_t>(load<std::uint32_t>(bytes.data() + 4 * i));
   };
-  if (content.size() < 16 || word(content, 2) > content.size() || word(content, 2) < 16) {
+  if (content.size() < 16 || read_uint32(content, 2) > content.size() ||
+      read_uint32(content, 2) < 16) {
     refuse(name, "is cut off: its cmpt header and its " + std::to_string(content.size()) +
                      " bytes do not fit");
   }
-  if (word(content, 1) != 1) {
-    refuse(name, "is cmpt version " + std::to_string(word(content, 1)) + "; version 1 is read");
+  if (read_uint32(content, 1) != 1) {
+    refuse(name,
+           "is cmpt version " + std::to_string(read_uint32(content, 1)) + "; version 1 is read");
   }
-  const std::size_t count = word(content, 3);
-  Bytes rest = content.first(word(content, 2)).subspan(16);
+  const std::size_t count = read_uint32(content, 3);
+  Bytes rest = content.first(read_uint32(content, 2)).subspan(16);
   for (std::size_t i = 0; i < count; ++i) {
     const std::string inner = name + "[" + std::to_string(i) + "]";
-    const std::size_t length = rest.size() < 12 ? 0 : word(rest, 2);
+    const std::size_t length = rest.size() < 12 ? 0 : read_uint32(rest, 2);
     if (length < 12 || length > rest.size()) {
       refuse(inner,
              "its length does not fit the " + std::to_string(rest.size()) + " bytes that are left");
@@ -61,13 +63,13 @@ void split_composite(Bytes content, const std::string& name,
 }
 
 void check_depth(int depth, const std::string& name) {
-  if (depth > deepest_composite) {
-    refuse(name, "is a cmpt within more than " + std::to_string(deepest_composite) + " others");
+  if (depth > max_composite_depth) {
+    refuse(name, "is a cmpt within more than " + std::to_string(max_composite_depth) + " others");
   }
 }
 
-[[noreturn]] void refuse_kind(Kind kind, const std::string& name) {
-  refuse(name, std::string("is a ") + name_of(kind) + ", which holds no geometry");
+[[noreturn]] void refuse_content_type(ContentType type, const std::string& name) {
+  refuse(name, std::string("is a ") + name_of(type) + ", which holds no geometry");
 }
 
 /// The glTF of an i3dm, and the folder of its files; no bytes where the resource is missing.
@@ -95,37 +97,37 @@ public:
       : resources_(resources), options_(options), assembler_(assembler) {}
 
   void decode(Bytes content, const std::string& name, int depth) {
-    const Kind kind = kind_of(content, name);
-    switch (kind) {
-    case Kind::b3dm:
+    const ContentType type = detect_content_type(content, name);
+    switch (type) {
+    case ContentType::b3dm:
       return decode_b3dm(content, name);
-    case Kind::i3dm:
+    case ContentType::i3dm:
       return decode_i3dm(content, name);
-    case Kind::pnts:
+    case ContentType::pnts:
       return decode_pnts(content, name);
-    case Kind::cmpt:
+    case ContentType::cmpt:
       check_depth(depth, name);
       return split_composite(content, name, [&](Bytes inner, const std::string& inner_name) {
         decode(inner, inner_name, depth + 1);
       });
-    case Kind::glb:
-    case Kind::gltf:
+    case ContentType::glb:
+    case ContentType::gltf:
       return decode_gltf(content, name, "", {options_.to_scene});
     default:
-      refuse_kind(kind, name);
+      refuse_content_type(type, name);
     }
   }
 
 private:
   void decode_b3dm(Bytes content, const std::string& name) {
-    const Sections sections = read_sections(content, Kind::b3dm, name);
+    const Sections sections = read_sections(content, ContentType::b3dm, name);
     const FeatureTable table(sections, name);
     const Matrix centre = translate(table.vector("RTC_CENTER").value_or(Vector{}));
     decode_gltf(sections.body, name, "", {multiply(options_.to_scene, centre)});
   }
 
   void decode_i3dm(Bytes content, const std::string& name) {
-    const Sections sections = read_sections(content, Kind::i3dm, name);
+    const Sections sections = read_sections(content, ContentType::i3dm, name);
     const FeatureTable table(sections, name);
     const Model model = find_model(sections, name, resources_);
     if (model.content.empty()) {
@@ -140,7 +142,7 @@ private:
   }
 
   void decode_pnts(Bytes content, const std::string& name) {
-    const Sections sections = read_sections(content, Kind::pnts, name);
+    const Sections sections = read_sections(content, ContentType::pnts, name);
     const FeatureTable table(sections, name);
     const Vector centre = table.vector("RTC_CENTER").value_or(Vector{});
     auto points = read_points(table, assembler_);
@@ -154,9 +156,11 @@ private:
   void decode_gltf(Bytes content, const std::string& name, const std::string& folder,
                    std::vector<Matrix> to_scene) {
     const Container container = open_gltf(content, name);
-    const Take take = [this](std::size_t bytes) { assembler_.take_bytes(bytes); };
-    Buffers buffers(container, resources_, folder, take);
-    Accessors accessors(container.root, buffers, take);
+    const ReserveBytes reserve_bytes = [this](std::size_t bytes) {
+      assembler_.reserve_bytes(bytes);
+    };
+    Buffers buffers(container, resources_, folder, reserve_bytes);
+    Accessors accessors(container.root, buffers, reserve_bytes);
     Materials materials(container.root, buffers, resources_, folder, assembler_);
     const auto rtc = container.root.extension("CESIUM_RTC");
     const Vector centre = rtc ? rtc->at("center").numbers<3>() : Vector{};
@@ -173,34 +177,35 @@ private:
   Assembler& assembler_;
 };
 
-void list_missing(Bytes content, const std::string& name, const std::string& folder,
-                  const Resources& resources, int depth, std::vector<std::string>& missing) {
-  const Kind kind = kind_of(content, name);
-  if (kind == Kind::cmpt) {
+void list_missing_resources(Bytes content, const std::string& name, const std::string& folder,
+                            const Resources& resources, int depth,
+                            std::vector<std::string>& missing) {
+  const ContentType type = detect_content_type(content, name);
+  if (type == ContentType::cmpt) {
     check_depth(depth, name);
     split_composite(content, name, [&](Bytes inner, const std::string& inner_name) {
-      list_missing(inner, inner_name, folder, resources, depth + 1, missing);
+      list_missing_resources(inner, inner_name, folder, resources, depth + 1, missing);
     });
     return;
   }
-  if (kind == Kind::tileset || kind == Kind::subtree) {
-    refuse_kind(kind, name);
+  if (type == ContentType::tileset || type == ContentType::subtree) {
+    refuse_content_type(type, name);
   }
-  if (kind == Kind::pnts) {
+  if (type == ContentType::pnts) {
     return;
   }
   Model model{content, "", folder};
-  if (kind == Kind::b3dm) {
-    model.content = read_sections(content, kind, name).body;
-  } else if (kind == Kind::i3dm) {
-    model = find_model(read_sections(content, kind, name), name, resources);
+  if (type == ContentType::b3dm) {
+    model.content = read_sections(content, type, name).body;
+  } else if (type == ContentType::i3dm) {
+    model = find_model(read_sections(content, type, name), name, resources);
   }
   if (model.content.empty() && !model.uri.empty()) {
     missing.push_back(model.uri);
     return;
   }
   const Container container = open_gltf(model.content, name);
-  const auto more = Buffers(container, resources, model.folder, nullptr).missing();
+  const auto more = Buffers(container, resources, model.folder, nullptr).missing_uris();
   missing.insert(missing.end(), more.begin(), more.end());
 }
 
@@ -217,10 +222,10 @@ Tile decode(Bytes content, const std::string& name, const Resources& resources,
   return assembler.finish();
 }
 
-std::vector<std::string> list_missing(Bytes content, const std::string& name,
-                                      const Resources& resources) {
+std::vector<std::string> list_missing_resources(Bytes content, const std::string& name,
+                                                const Resources& resources) {
   std::vector<std::string> missing;
-  list_missing(content, name, "", resources, 0, missing);
+  list_missing_resources(content, name, "", resources, 0, missing);
   std::sort(missing.begin(), missing.end());
   missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
   return missing;

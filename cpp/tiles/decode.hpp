@@ -32,7 +32,7 @@ Tile decode(Bytes content, const std::string& name, const Resources& resources,
 /// uris, relative to the content, of the files that `decode` lacks; pictures are not among them.
 /// A file may need others: ask again with it.
 /// @throws InputError
-std::vector<std::string> list_missing(Bytes content, const std::string& name,
-                                      const Resources& resources);
+std::vector<std::string> list_missing_resources(Bytes content, const std::string& name,
+                                                const Resources& resources);
 
 } // namespace firetwin::tiles

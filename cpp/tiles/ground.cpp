@@ -1,7 +1,7 @@
 #include "tiles/ground.hpp"
 
+#include "tiles/connected_components.hpp"
 #include "tiles/opening.hpp"
-#include "tiles/patches.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,16 +23,17 @@ Mask find_objects(std::vector<float>& surface, std::size_t rows, std::size_t col
   Mask found(surface.size(), 0);
   for (std::size_t radius = 1, before = 0;; before = radius, radius *= 2) {
     const double wider = 2.0 * static_cast<double>(radius - before) * options.step;
-    const auto threshold = static_cast<float>(std::min(
-        options.least + options.slope * wider, std::max(options.most, options.slope * wider)));
-    const auto lower = open(surface, rows, columns, radius);
+    const auto threshold =
+        static_cast<float>(std::min(options.min_height + options.slope * wider,
+                                    std::max(options.max_threshold, options.slope * wider)));
+    const auto lower = morphological_opening(surface, rows, columns, radius);
     for (std::size_t k = 0; k < surface.size(); ++k) {
       if (surface[k] - lower[k] > threshold) { // NaN is not
         found[k] = 1;
       }
     }
     surface = lower;
-    if (static_cast<double>(2 * radius + 1) * options.step >= options.widest) {
+    if (static_cast<double>(2 * radius + 1) * options.step >= options.max_width) {
       return found;
     }
   }
@@ -41,7 +42,7 @@ Mask find_objects(std::vector<float>& surface, std::size_t rows, std::size_t col
 /// Adds points beside objects that stand above the opened surface: thin edges of crowns.
 void add_edges(Mask& found, std::span<const float> height, std::span<const float> opened,
                std::size_t rows, std::size_t columns, double least) {
-  const auto near = widen(found, rows, columns, edge_width);
+  const auto near = dilate(found, rows, columns, edge_width);
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (near[k] && height[k] - opened[k] > static_cast<float>(least)) {
       found[k] = 1;
@@ -50,7 +51,7 @@ void add_edges(Mask& found, std::span<const float> height, std::span<const float
 }
 
 /// Leaves out patches whose sides are not steep on average.
-void keep_steep(Mask& found, std::span<const float> height, const Patches& patches,
+void keep_steep(Mask& found, std::span<const float> height, const ConnectedComponents& patches,
                 const GroundOptions& options) {
   std::vector<double> rise(patches.count, 0.0);
   std::vector<std::size_t> sides(patches.count, 0);
@@ -64,19 +65,20 @@ void keep_steep(Mask& found, std::span<const float> height, const Patches& patch
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (found[k]) {
       const auto patch = static_cast<std::size_t>(patches.number[k]);
-      found[k] = rise[patch] >= options.wall * options.step * static_cast<double>(sides[patch]);
+      found[k] =
+          rise[patch] >= options.min_side_slope * options.step * static_cast<double>(sides[patch]);
     }
   }
 }
 
 /// Heights below objects: the mean of lines along rows and columns from ground to ground, weighted
 /// by the inverse square of their lengths.
-class Filling {
+class GapInterpolator {
 public:
-  explicit Filling(std::size_t count) : sum_(count, 0.0F), weight_(count, 0.0F) {}
+  explicit GapInterpolator(std::size_t count) : sum_(count, 0.0F), weight_(count, 0.0F) {}
 
-  void draw(const Mask& object, std::span<const float> height, std::size_t first, std::size_t count,
-            std::size_t between) {
+  void fill_line(const Mask& object, std::span<const float> height, std::size_t first,
+                 std::size_t count, std::size_t between) {
     const auto at = [&](std::size_t k) { return first + k * between; };
     for (std::size_t k = 0; k < count;) {
       if (!object[at(k)]) {
@@ -120,8 +122,8 @@ private:
 Mask find_roofs(const Mask& object, std::span<const float> height, std::size_t rows,
                 std::size_t columns, const GroundOptions& options) {
   Mask even(object.size(), 0);
-  const auto most = static_cast<float>(options.roof * options.step);
-  const auto steepest = static_cast<float>(2.0 * options.pitch * options.step);
+  const auto most = static_cast<float>(options.max_roof_bend * options.step);
+  const auto steepest = static_cast<float>(2.0 * options.max_roof_slope * options.step);
   for (std::size_t y = 1; y + 1 < rows; ++y) {
     for (std::size_t x = 1; x + 1 < columns; ++x) {
       const std::size_t k = y * columns + x;
@@ -134,11 +136,11 @@ Mask find_roofs(const Mask& object, std::span<const float> height, std::size_t r
       even[k] = flat;
     }
   }
-  Mask joined = widen(even, rows, columns, 1); // over the ridges of roofs
+  Mask joined = dilate(even, rows, columns, 1); // over the ridges of roofs
   for (std::size_t k = 0; k < even.size(); ++k) {
     joined[k] = joined[k] && object[k];
   }
-  const auto patches = find_patches(joined, rows, columns);
+  const auto patches = label_components(joined, rows, columns);
   std::vector<std::size_t> count(patches.count, 0);
   for (std::size_t k = 0; k < even.size(); ++k) {
     if (even[k]) {
@@ -155,26 +157,27 @@ Mask find_roofs(const Mask& object, std::span<const float> height, std::size_t r
 
 Ground find_ground(std::span<const float> height, std::size_t rows, std::size_t columns,
                    const GroundOptions& options) {
-  if (!(options.step > 0.0) || !(options.widest > 0.0) || height.size() != rows * columns) {
+  if (!(options.step > 0.0) || !(options.max_width > 0.0) || height.size() != rows * columns) {
     throw std::invalid_argument("step and widest must be above 0, and heights be rows x columns");
   }
   std::vector<float> opened(height.begin(), height.end());
   Mask object = find_objects(opened, rows, columns, options);
-  add_edges(object, height, opened, rows, columns, options.least);
-  keep_steep(object, height, find_patches(object, rows, columns), options);
-  Filling filling(height.size());
+  add_edges(object, height, opened, rows, columns, options.min_height);
+  keep_steep(object, height, label_components(object, rows, columns), options);
+  GapInterpolator gaps(height.size());
   for (std::size_t row = 0; row < rows; ++row) {
-    filling.draw(object, height, row * columns, columns, 1);
+    gaps.fill_line(object, height, row * columns, columns, 1);
   }
   for (std::size_t column = 0; column < columns; ++column) {
-    filling.draw(object, height, column, rows, columns);
+    gaps.fill_line(object, height, column, rows, columns);
   }
-  const Mask roof = widen(find_roofs(object, height, rows, columns, options), rows, columns, 2);
-  Ground ground{{height.begin(), height.end()}, std::vector<Shown>(height.size(), Shown::ground)};
+  const Mask roof = dilate(find_roofs(object, height, rows, columns, options), rows, columns, 2);
+  Ground ground{{height.begin(), height.end()},
+                std::vector<SurfaceClass>(height.size(), SurfaceClass::ground)};
   for (std::size_t k = 0; k < height.size(); ++k) {
     if (object[k]) {
-      ground.height[k] = std::min(filling.height(k, opened[k]), height[k]);
-      ground.shown[k] = roof[k] ? Shown::building : Shown::growth;
+      ground.height[k] = std::min(gaps.height(k, opened[k]), height[k]);
+      ground.surface_class[k] = roof[k] ? SurfaceClass::building : SurfaceClass::vegetation;
     }
   }
   return ground;

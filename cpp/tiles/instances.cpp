@@ -56,7 +56,7 @@ Matrix scaled(const Matrix& rotation, const Vector& scale, const Vector& by) {
 } // namespace
 
 std::vector<Matrix> read_instances(const FeatureTable& table, const Matrix& to_earth) {
-  const std::size_t n = table.count("INSTANCES_LENGTH", most_instances);
+  const std::size_t n = table.count("INSTANCES_LENGTH", max_instances);
   const std::vector<double> position = table.positions(n);
   const Vector centre = table.vector("RTC_CENTER").value_or(Vector{});
   const auto up = directions(table, "NORMAL_UP", n), right = directions(table, "NORMAL_RIGHT", n);

@@ -37,7 +37,7 @@ std::size_t depth(std::string_view text) {
 }
 
 /// What the parser says, without its own name and place.
-std::string complaint(const std::string& what) {
+std::string parser_message(const std::string& what) {
   const std::size_t place = what.find("column ");
   const std::size_t colon = what.find(": ", place == std::string::npos ? 0 : place);
   return colon == std::string::npos ? what : what.substr(colon + 2);
@@ -55,7 +55,7 @@ std::string complaint(const std::string& what) {
     column = static_cast<std::int64_t>(newline == std::string_view::npos ? before.size() + 1
                                                                          : before.size() - newline);
   }
-  throw InputError(content, line, column, "its JSON is not valid: " + complaint(error.what()));
+  throw InputError(content, line, column, "its JSON is not valid: " + parser_message(error.what()));
 }
 
 } // namespace
@@ -65,15 +65,15 @@ void refuse(const std::string& content, const std::string& reason) {
 }
 
 Node parse_json(Bytes bytes, const std::string& content) {
-  if (bytes.size() > most_json_bytes) {
+  if (bytes.size() > max_json_bytes) {
     refuse(content, "its JSON has " + std::to_string(bytes.size()) + " bytes; 64 MB are the most");
   }
   std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   while (!text.empty() && text.back() == '\0') { // some pad with zeros and not with blanks
     text.remove_suffix(1);
   }
-  if (depth(text) > deepest_json) {
-    refuse(content, "its JSON is nested deeper than " + std::to_string(deepest_json));
+  if (depth(text) > max_json_depth) {
+    refuse(content, "its JSON is nested deeper than " + std::to_string(max_json_depth));
   }
   try {
     return {std::make_shared<const Json>(Json::parse(text)), content};

@@ -53,9 +53,9 @@ void check_header(const ImageHeader& header, const Node& node) {
   if (header.width == 0 || header.height == 0) {
     node.refuse("its " + header.kind + " header is damaged");
   }
-  if (header.width > widest_image || header.height > widest_image) {
+  if (header.width > max_image_side || header.height > max_image_side) {
     node.refuse("has " + std::to_string(header.width) + " x " + std::to_string(header.height) +
-                " pixels; " + std::to_string(widest_image) + " are the most");
+                " pixels; " + std::to_string(max_image_side) + " are the most");
   }
 }
 
@@ -145,20 +145,20 @@ Image Materials::read_image(const Node& node) {
   const auto uri = node.find("uri");
   if (!uri) {
     const Bytes file = buffers_->view(node.at("bufferView")).bytes;
-    assembler_->take_bytes(file.size());
+    assembler_->reserve_bytes(file.size());
     return image_of(file, node);
   }
   const std::string text = uri->text();
   if (is_data_uri(text)) {
-    assembler_->take_bytes(text.size());
+    assembler_->reserve_bytes(text.size());
     return image_of(decode_data_uri(*uri), node);
   }
   Image image;
-  const auto found = resources_->find(beside(folder_, text));
+  const auto found = resources_->find(resolve_uri(folder_, text));
   if (found != resources_->end()) {
     image = image_of(found->second, node);
   }
-  image.uri = beside(folder_, text);
+  image.uri = resolve_uri(folder_, text);
   return image;
 }
 

@@ -55,7 +55,7 @@ MeshoptView read_meshopt(const Node& extension) {
   if (!stride_fits(view)) {
     extension.at("byteStride").refuse("must not be " + std::to_string(view.stride) + " here");
   }
-  if (view.count > most_indices || (view.mode == "TRIANGLES" && view.count % 3 != 0)) {
+  if (view.count > max_indices || (view.mode == "TRIANGLES" && view.count % 3 != 0)) {
     extension.at("count").refuse("must not be " + std::to_string(view.count) + " here");
   }
   return view;

@@ -43,9 +43,9 @@ std::vector<float> read_instances(const Node& attributes, const char* name, std:
   if (type.components != components || (count && *count != type.count)) {
     index->refuse("names an accessor of another type or count than the other attributes");
   }
-  if (type.count > most_instances) {
+  if (type.count > max_instances) {
     index->refuse("names " + std::to_string(type.count) + " instances; " +
-                  std::to_string(most_instances) + " are the most");
+                  std::to_string(max_instances) + " are the most");
   }
   count = type.count;
   return accessors.floats(*index);
@@ -81,9 +81,9 @@ std::vector<Matrix> instances_of(const Node& node, Accessors& accessors) {
 }
 
 /// Draws the nodes of one document.
-class Drawing {
+class SceneTraversal {
 public:
-  Drawing(const Node& root, const std::vector<Matrix>& to_scene, const Reader& reader)
+  SceneTraversal(const Node& root, const std::vector<Matrix>& to_scene, const Reader& reader)
       : nodes_(root.elements("nodes")), meshes_(root.elements("meshes")), to_scene_(to_scene),
         reader_(reader), seen_(nodes_.size(), false) {}
 
@@ -129,9 +129,9 @@ private:
     for (const Matrix& instance : instances_of(node, reader_.accessors)) {
       const Matrix local = multiply(matrix, instance);
       for (const Matrix& outer : to_scene_) {
-        const Matrix whole = multiply(outer, local);
+        const Matrix combined = multiply(outer, local);
         for (const auto& primitive : primitives) {
-          reader_.assembler.add_draw(primitive, whole);
+          reader_.assembler.add_draw(primitive, combined);
         }
       }
     }
@@ -153,9 +153,9 @@ void draw_nodes(const Node& root, const std::vector<Matrix>& to_scene, const Rea
     return; // a library of parts, of which nothing is drawn
   }
   const auto chosen = root.find("scene");
-  Drawing drawing(root, to_scene, reader);
+  SceneTraversal traversal(root, to_scene, reader);
   for (const Node& index : scenes[chosen ? chosen->index(scenes.size()) : 0].elements("nodes")) {
-    drawing.draw(index);
+    traversal.draw(index);
   }
 }
 

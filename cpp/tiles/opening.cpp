@@ -67,8 +67,8 @@ void slide_square(Values& values, std::span<const float> height, std::size_t row
 
 } // namespace
 
-Values open(std::span<const float> height, std::size_t rows, std::size_t columns,
-            std::size_t radius) {
+Values morphological_opening(std::span<const float> height, std::size_t rows, std::size_t columns,
+                             std::size_t radius) {
   constexpr float most = std::numeric_limits<float>::infinity();
   Values values(height.begin(), height.end());
   slide_square(values, height, rows, columns, radius, most, std::less<>());

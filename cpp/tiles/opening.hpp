@@ -10,7 +10,7 @@ namespace firetwin::tiles {
 /// takes away what is narrower than the window, and leaves planes as they are.
 /// @param height rows x columns; NaN counts for nothing and stays
 /// @param radius cells from the middle of the window to its sides
-std::vector<float> open(std::span<const float> height, std::size_t rows, std::size_t columns,
-                        std::size_t radius);
+std::vector<float> morphological_opening(std::span<const float> height, std::size_t rows,
+                                         std::size_t columns, std::size_t radius);
 
 } // namespace firetwin::tiles

@@ -158,10 +158,10 @@ std::size_t drop_not_finite(Primitive& made) {
 } // namespace
 
 std::shared_ptr<const Primitive> read_points(const FeatureTable& table, Assembler& assembler) {
-  const std::size_t n = table.count("POINTS_LENGTH", most_vertices);
+  const std::size_t n = table.count("POINTS_LENGTH", max_vertices);
   auto made = std::make_shared<Primitive>();
   made->points = true;
-  assembler.take_bytes(40 * n);
+  assembler.reserve_bytes(40 * n);
   if (const auto extension = table.json().extension("3DTILES_draco_point_compression")) {
     read_compressed(Compressed(*extension, table, n), *made);
   }

@@ -47,7 +47,7 @@ public:
     if (!id) {
       return reader_.accessors.floats(index);
     }
-    reader_.assembler.take_bytes(vertices_ * components * sizeof(float));
+    reader_.assembler.reserve_bytes(vertices_ * components * sizeof(float));
     return draco_->floats(*id, components, type.normalized);
   }
 
@@ -77,7 +77,7 @@ private:
     if (primitive_.integer("mode", mode_triangles) != mode_triangles || corners % 3 != 0) {
       compressed_->refuse("must be of triangles");
     }
-    reader_.assembler.take_bytes(4 * corners);
+    reader_.assembler.reserve_bytes(4 * corners);
     const Bytes data = reader_.buffers.view(compressed_->at("bufferView")).bytes;
     draco_ = DracoData::mesh(data, vertices_, corners / 3, *compressed_);
   }
@@ -155,8 +155,8 @@ std::vector<std::uint32_t> choose_vertices(Primitive& made, const std::vector<fl
     return corners;
   }
   made.triangle = list_triangles(std::move(corners), mode);
-  drop_broken(position, made.triangle);
-  return number_used(position.size() / 3, made.triangle);
+  drop_invalid_triangles(position, made.triangle);
+  return compact_vertices(position.size() / 3, made.triangle);
 }
 
 void add_normals(Primitive& made, const Attributes& attributes,
@@ -194,7 +194,7 @@ std::shared_ptr<const Primitive> read_primitive(const Node& node, const Reader& 
   if (kept.empty()) {
     return nullptr;
   }
-  reader.assembler.take_bytes(kept.size() * 12 * sizeof(float));
+  reader.assembler.reserve_bytes(kept.size() * 12 * sizeof(float));
   const auto material = node.find("material");
   const MaterialUse use = material ? reader.materials.use(*material) : MaterialUse{};
   made->material = use.material;

@@ -10,7 +10,7 @@
 namespace firetwin::tiles {
 namespace {
 
-constexpr double least_distance = 1.0e-7; // m
+constexpr double min_distance = 1.0e-7; // m
 constexpr std::size_t tiles_per_task = 64;
 
 void check(std::span<const double> values, const char* what) {
@@ -45,13 +45,13 @@ double Volumes::distance(std::size_t i, const Vector& place) const {
       sum += beyond * beyond;
     }
   }
-  return std::max(std::sqrt(sum) - round[i], 0.0);
+  return std::max(std::sqrt(sum) - padding[i], 0.0);
 }
 
 lod::BoundingSphere Volumes::sphere(std::size_t i) const {
   const Vector extent{half[3 * i], half[3 * i + 1], half[3 * i + 2]};
   return {{centre[3 * i], centre[3 * i + 1], centre[3 * i + 2]},
-          std::sqrt(dot(extent, extent)) + round[i]};
+          std::sqrt(dot(extent, extent)) + padding[i]};
 }
 
 void screen_error(const Volumes& volumes, std::span<const double> error,
@@ -63,7 +63,7 @@ void screen_error(const Volumes& volumes, std::span<const double> error,
   check(pixels, "pixels must be 0 or more");
   check(error, "error must be 0 or more");
   check(volumes.half, "half must be 0 or more");
-  check(volumes.round, "round must be 0 or more");
+  check(volumes.padding, "padding must be 0 or more");
   if (!(options.margin >= 0.0) || !(options.max_distance >= 0.0)) {
     throw std::invalid_argument("margin and max_distance must be 0 or more");
   }
@@ -72,7 +72,7 @@ void screen_error(const Volumes& volumes, std::span<const double> error,
       tbb::blocked_range<std::size_t>(0, out.size(), tiles_per_task), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           const auto bound = [&](std::size_t branch, const Vector& camera, double moved) {
-            const double away = std::max(volumes.distance(i, camera) - moved, least_distance);
+            const double away = std::max(volumes.distance(i, camera) - moved, min_distance);
             return std::max(error[i] * scales.perspective[branch] / away,
                             error[i] * scales.orthographic[branch]);
           };
@@ -81,7 +81,7 @@ void screen_error(const Volumes& volumes, std::span<const double> error,
       });
 }
 
-void holds_any(const Volumes& volumes, std::span<const double> place, std::span<bool> out) {
+void contains_any(const Volumes& volumes, std::span<const double> place, std::span<bool> out) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.size()), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       out[i] = false;

@@ -8,14 +8,14 @@
 
 namespace firetwin::tiles {
 
-/// Bounding volumes of n tiles: boxes, widened by a radius. A sphere is a box without extent.
+/// Bounding volumes of n tiles: boxes, widened by a padding. A sphere is a box without extent.
 struct Volumes {
-  std::span<const double> centre; ///< [3 n] m
-  std::span<const double> axis;   ///< [9 n] orthonormal rows: directions of the box's edges
-  std::span<const double> half;   ///< [3 n] half lengths of the edges, m
-  std::span<const double> round;  ///< [n] m by which the box is widened
+  std::span<const double> centre;  ///< [3 n] m
+  std::span<const double> axis;    ///< [9 n] orthonormal rows: directions of the box's edges
+  std::span<const double> half;    ///< [3 n] half lengths of the edges, m
+  std::span<const double> padding; ///< [n] m by which the box is widened
 
-  std::size_t size() const { return round.size(); }
+  std::size_t size() const { return padding.size(); }
   /// Distance of a place from the nearest point of volume i, m; 0 inside.
   double distance(std::size_t i, const Vector& place) const;
   lod::BoundingSphere sphere(std::size_t i) const;
@@ -34,6 +34,6 @@ void screen_error(const Volumes& volumes, std::span<const double> error,
 
 /// Whether any of some places lies inside each volume.
 /// @param place [3 m] m
-void holds_any(const Volumes& volumes, std::span<const double> place, std::span<bool> out);
+void contains_any(const Volumes& volumes, std::span<const double> place, std::span<bool> out);
 
 } // namespace firetwin::tiles

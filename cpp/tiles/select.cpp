@@ -22,9 +22,9 @@ void check(const Tree& tree, double error) {
 }
 
 /// One choice. Parents come before their children, so that each step is one pass over the tiles.
-class Choice {
+class Traversal {
 public:
-  Choice(const Tree& tree, double error) : tree_(tree), state_(tree.size(), 0) {
+  Traversal(const Tree& tree, double error) : tree_(tree), state_(tree.size(), 0) {
     descend(error);
     ascend();
   }
@@ -47,12 +47,12 @@ public:
 private:
   enum State : std::uint8_t {
     visited = 1,
-    forced = 2,  ///< shown even where no view sees it
-    refined = 4, ///< its children are visited
-    wanting = 8, ///< its children are not read, and would be visited
-    failed = 16, ///< something below, or the tile itself, is broken, and nothing stands in
+    forced = 2,           ///< shown even where no view sees it
+    refined = 4,          ///< its children are visited
+    children_pending = 8, ///< its children are not read, and would be visited
+    failed = 16,          ///< something below, or the tile itself, is broken, and nothing stands in
     stands_in = 32,
-    parental = 64 ///< has a visited child
+    visited_child = 64 ///< has a visited child
   };
 
   static std::size_t at(std::int64_t index) { return static_cast<std::size_t>(index); }
@@ -65,14 +65,14 @@ private:
 
   /// Which children a refined tile asks for even where no view sees them.
   bool forces(std::size_t i) const {
-    return has(i, passes) ? is(i, forced)
-                          : has(i, replaces) || (has(i, unconditional) && is(i, forced));
+    return has(i, pass_through) ? is(i, forced)
+                                : has(i, replaces) || (has(i, unconditional) && is(i, forced));
   }
 
   void descend(double error) {
     for (std::size_t i = 0; i < tree_.size(); ++i) {
       const std::int64_t parent = tree_.parent[i];
-      if ((parent >= 0 && !is(at(parent), refined)) || has(i, shut)) {
+      if ((parent >= 0 && !is(at(parent), refined)) || has(i, outside_request_volume)) {
         continue;
       }
       if (parent >= 0 && forces(at(parent))) {
@@ -84,21 +84,21 @@ private:
       }
       set(i, visited);
       if (parent >= 0) {
-        set(at(parent), parental);
+        set(at(parent), visited_child);
       }
       if (has(i, unconditional) || (seen && tree_.screen_error[i] > error)) {
-        set(i, refined | (has(i, pending) ? wanting : 0));
+        set(i, refined | (has(i, pending) ? children_pending : 0));
       }
     }
     for (std::size_t i = 0; i < tree_.size(); ++i) {
-      if (!is(i, parental)) {
+      if (!is(i, visited_child)) {
         clear(i, refined); // nothing below it is there, or asked for
       }
     }
   }
 
   bool shows(std::size_t i) const {
-    return has(i, content) && (!is(i, refined) || !has(i, replaces) || has(i, passes));
+    return has(i, content) && (!is(i, refined) || !has(i, replaces) || has(i, pass_through));
   }
   bool can_stand_in(std::size_t i) const { return has(i, content) && !has(i, broken); }
 
@@ -110,8 +110,8 @@ private:
       if (is(i, failed) && can_stand_in(i)) {
         clear(i, failed);
         set(i, stands_in);
-        if (has(i, replaces) && !has(i, passes)) {
-          clear(i, refined | wanting);
+        if (has(i, replaces) && !has(i, pass_through)) {
+          clear(i, refined | children_pending);
         }
       }
       if ((is(i, failed) || (shows(i) && has(i, broken))) && tree_.parent[i] >= 0) {
@@ -122,14 +122,14 @@ private:
 
   void enter(std::size_t i, Cut& cut) const {
     const auto number = static_cast<std::int64_t>(i);
-    if (is(i, wanting)) {
+    if (is(i, children_pending)) {
       cut.expand.push_back(number);
     }
     if (is(i, stands_in)) {
-      cut.stands.push_back(number);
+      cut.stand_ins.push_back(number);
     }
     if (shows(i) && has(i, broken)) {
-      cut.missed.push_back(number);
+      cut.missing.push_back(number);
     } else if (shows(i)) {
       cut.tiles.push_back(number);
       cut.bytes += tree_.bytes[i];
@@ -146,7 +146,7 @@ bool within(std::int64_t number, std::int64_t most) {
 }
 
 Cut choose(const Tree& tree, double error, const Budget& budget) {
-  Cut cut = Choice(tree, error).cut(error);
+  Cut cut = Traversal(tree, error).cut(error);
   cut.fits = within(static_cast<std::int64_t>(cut.tiles.size()), budget.tiles) &&
              within(cut.bytes, budget.bytes) && within(cut.triangles, budget.triangles);
   return cut;

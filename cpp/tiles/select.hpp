@@ -14,8 +14,8 @@ enum Flag : std::uint8_t {
   content = 4,       ///< has something to show
   pending = 8,       ///< has children that are not read yet
   broken = 16,       ///< its content cannot be had
-  shut = 32,         ///< no eye is in its viewer request volume
-  passes = 64        ///< stands for its children: it asks for them as it was asked for (a holder)
+  outside_request_volume = 32, ///< no eye is in its viewer request volume
+  pass_through = 64 ///< stands for its children: it asks for them as it was asked for (a holder)
 };
 
 /// A tree of n tiles as flat arrays.
@@ -38,8 +38,8 @@ struct Budget {
 struct Cut {
   std::vector<std::int64_t> tiles;  ///< ascending
   std::vector<std::int64_t> expand; ///< pending tiles whose children the cut needs, ascending
-  std::vector<std::int64_t> stands; ///< tiles shown in place of descendants that are broken
-  std::vector<std::int64_t> missed; ///< broken tiles that the cut would show
+  std::vector<std::int64_t> stand_ins; ///< tiles shown in place of descendants that are broken
+  std::vector<std::int64_t> missing; ///< broken tiles that the cut would show
   double error = 0.0;               ///< screen-space error to which tiles are refined, pixels
   bool fits = true;                 ///< the cut keeps within the budget
   std::int64_t bytes = 0, triangles = 0;

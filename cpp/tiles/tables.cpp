@@ -11,7 +11,7 @@ namespace {
 
 /// The least length that is no length but `{"` or `glTF` read as one (the first byte is a quotation
 /// mark): older b3dm headers are told by it.
-constexpr std::uint32_t text_as_length = 0x22000000;
+constexpr std::uint32_t min_text_length = 0x22000000;
 
 constexpr std::size_t length_of(Number number) {
   return number == Number::u8 ? 1 : number == Number::u16 ? 2 : 4;
@@ -22,39 +22,39 @@ struct Lengths {
   std::array<std::size_t, 4> tables{}; ///< feature JSON, feature binary, batch JSON, batch binary
 };
 
-std::uint32_t word(Bytes content, std::size_t index) {
+std::uint32_t read_uint32(Bytes content, std::size_t index) {
   return load<std::uint32_t>(content.data() + 4 * index);
 }
 
 /// Older b3dm: [batches, batch table] in 20 bytes, or [batch JSON, batch binary, batches] in 24.
-Lengths read_lengths(Bytes content, Kind kind) {
+Lengths read_lengths(Bytes content, ContentType type) {
   Lengths lengths;
   for (std::size_t i = 0; i < 4; ++i) {
-    lengths.tables[i] = word(content, 3 + i);
+    lengths.tables[i] = read_uint32(content, 3 + i);
   }
-  if (kind == Kind::i3dm) {
+  if (type == ContentType::i3dm) {
     lengths.header = 32;
-  } else if (kind == Kind::b3dm && lengths.tables[2] >= text_as_length) {
-    lengths = {20, {0, 0, word(content, 4), 0}};
-  } else if (kind == Kind::b3dm && lengths.tables[3] >= text_as_length) {
-    lengths = {24, {0, 0, word(content, 3), word(content, 4)}};
+  } else if (type == ContentType::b3dm && lengths.tables[2] >= min_text_length) {
+    lengths = {20, {0, 0, read_uint32(content, 4), 0}};
+  } else if (type == ContentType::b3dm && lengths.tables[3] >= min_text_length) {
+    lengths = {24, {0, 0, read_uint32(content, 3), read_uint32(content, 4)}};
   }
   return lengths;
 }
 
 /// The content cut to the length in its header.
-Bytes whole(Bytes content, Kind kind, const std::string& name) {
-  const std::size_t header = kind == Kind::i3dm ? 32 : 28;
+Bytes trim_to_length(Bytes content, ContentType type, const std::string& name) {
+  const std::size_t header = type == ContentType::i3dm ? 32 : 28;
   if (content.size() < header) {
-    refuse(name, std::string("is cut off: a ") + name_of(kind) + " header has " +
+    refuse(name, std::string("is cut off: a ") + name_of(type) + " header has " +
                      std::to_string(header) + " bytes, and there are " +
                      std::to_string(content.size()));
   }
-  if (word(content, 1) != 1) {
-    refuse(name, std::string("is ") + name_of(kind) + " version " +
-                     std::to_string(word(content, 1)) + "; version 1 is read");
+  if (read_uint32(content, 1) != 1) {
+    refuse(name, std::string("is ") + name_of(type) + " version " +
+                     std::to_string(read_uint32(content, 1)) + "; version 1 is read");
   }
-  const std::size_t length = word(content, 2);
+  const std::size_t length = read_uint32(content, 2);
   if (length > content.size()) {
     refuse(name, "is cut off: its header says " + std::to_string(length) +
                      " bytes, and there are " + std::to_string(content.size()));
@@ -98,9 +98,9 @@ std::size_t checked_offset(const Node& property, std::size_t length, std::size_t
 
 } // namespace
 
-Sections read_sections(Bytes content, Kind kind, const std::string& name) {
-  content = whole(content, kind, name);
-  const Lengths lengths = read_lengths(content, kind);
+Sections read_sections(Bytes content, ContentType type, const std::string& name) {
+  content = trim_to_length(content, type, name);
+  const Lengths lengths = read_lengths(content, type);
   std::array<Bytes, 4> tables;
   Bytes rest = content.subspan(lengths.header);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -111,7 +111,7 @@ Sections read_sections(Bytes content, Kind kind, const std::string& name) {
     tables[i] = rest.first(lengths.tables[i]);
     rest = rest.subspan(lengths.tables[i]);
   }
-  return {tables[0], tables[1], rest, kind == Kind::i3dm ? word(content, 7) : 1};
+  return {tables[0], tables[1], rest, type == ContentType::i3dm ? read_uint32(content, 7) : 1};
 }
 
 FeatureTable::FeatureTable(const Sections& sections, const std::string& name)

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "tiles/bytes.hpp"
+#include "tiles/content_type.hpp"
 #include "tiles/json.hpp"
-#include "tiles/kind.hpp"
 #include "tiles/matrix.hpp"
 
 #include <cstddef>
@@ -24,7 +24,7 @@ struct Sections {
 
 /// Reads the header, of b3dm also in its two older forms.
 /// @throws InputError when lengths do not fit the content or the version is not 1
-Sections read_sections(Bytes content, Kind kind, const std::string& name);
+Sections read_sections(Bytes content, ContentType type, const std::string& name);
 
 /// Kinds of numbers in a feature table's binary part.
 enum class Number { u8, u16, f32 };

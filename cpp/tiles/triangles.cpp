@@ -31,7 +31,7 @@ Vector vertex(const std::vector<float>& position, std::size_t i) {
 
 /// For each vertex, a number that vertices at the same place share; also how many there are.
 std::pair<std::vector<std::uint32_t>, std::size_t>
-number_places(const std::vector<float>& position) {
+weld_positions(const std::vector<float>& position) {
   const std::size_t n = position.size() / 3;
   std::unordered_map<Place, std::uint32_t, HashPlace> places;
   places.reserve(n);
@@ -65,7 +65,8 @@ std::vector<std::uint32_t> list_triangles(std::vector<std::uint32_t> corners, st
   return list;
 }
 
-void drop_broken(const std::vector<float>& position, std::vector<std::uint32_t>& triangles) {
+void drop_invalid_triangles(const std::vector<float>& position,
+                            std::vector<std::uint32_t>& triangles) {
   const auto finite = [&](std::uint32_t i) {
     return std::isfinite(position[3 * std::size_t{i}]) &&
            std::isfinite(position[3 * std::size_t{i} + 1]) &&
@@ -83,8 +84,8 @@ void drop_broken(const std::vector<float>& position, std::vector<std::uint32_t>&
   triangles.resize(kept);
 }
 
-std::vector<std::uint32_t> number_used(std::size_t vertices,
-                                       std::vector<std::uint32_t>& triangles) {
+std::vector<std::uint32_t> compact_vertices(std::size_t vertices,
+                                            std::vector<std::uint32_t>& triangles) {
   constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> number(vertices, unused);
   for (const std::uint32_t i : triangles) {
@@ -105,7 +106,7 @@ std::vector<std::uint32_t> number_used(std::size_t vertices,
 
 std::vector<float> smooth_normals(const std::vector<float>& position,
                                   const std::vector<std::uint32_t>& triangles) {
-  const auto [place, places] = number_places(position);
+  const auto [place, places] = weld_positions(position);
   std::vector<Vector> sums(places);
   for (std::size_t i = 0; i < triangles.size(); i += 3) {
     const Vector a = vertex(position, triangles[i]);

@@ -13,10 +13,12 @@ namespace firetwin::tiles {
 std::vector<std::uint32_t> list_triangles(std::vector<std::uint32_t> corners, std::size_t mode);
 
 /// Leaves out triangles with a vertex that is not finite, or with one corner twice.
-void drop_broken(const std::vector<float>& position, std::vector<std::uint32_t>& triangles);
+void drop_invalid_triangles(const std::vector<float>& position,
+                            std::vector<std::uint32_t>& triangles);
 
 /// Which vertices triangles use, in order; triangles are numbered anew.
-std::vector<std::uint32_t> number_used(std::size_t vertices, std::vector<std::uint32_t>& triangles);
+std::vector<std::uint32_t> compact_vertices(std::size_t vertices,
+                                            std::vector<std::uint32_t>& triangles);
 
 /// Smooth normals (n x 3): sums over corners at the same place of triangles' normals by area. Those
 /// are orthogonal to the surface whether or not its vertices are split at seams of the texture.

@@ -1,4 +1,4 @@
-"""Image files: round trips, OpenImageIO's own tool as a second reader, and what is refused."""
+"""Image files and encoded images in memory: round trips, oiiotool as a second reader, rejected input."""
 
 import re
 import shutil
@@ -8,7 +8,7 @@ import zlib
 import firetwin_core as core
 import numpy as np
 import pytest
-from firetwin_core.sensor import read_image, write_image
+from firetwin_core.sensor import decode_image, encode_png, read_image, write_image
 
 needs_oiiotool = pytest.mark.skipif(not shutil.which("oiiotool"), reason="needs openimageio-tools")
 
@@ -65,6 +65,27 @@ def test_reads_what_oiiotool_writes(tmp_path, name):
     np.testing.assert_allclose(result, 128 / 255, atol=1.5 / 255)
 
 
+@needs_oiiotool
+@pytest.mark.parametrize("name", ["b.tif", "b.jpg", "b.png", "b.exr"])
+def test_decoding_bytes_equals_reading_the_file(tmp_path, name):
+    write_image(tmp_path / "a.png", np.random.default_rng(13).random((40, 60, 3)))
+    subprocess.run(["oiiotool", str(tmp_path / "a.png"), "-o", str(tmp_path / name)], check=True)
+    decoded = decode_image((tmp_path / name).read_bytes())
+    assert decoded.dtype == np.float32
+    np.testing.assert_array_equal(decoded, read_image(tmp_path / name))
+
+
+def test_an_encoded_png_equals_the_written_file(tmp_path, pixels):
+    write_image(tmp_path / "a.png", pixels)
+    assert encode_png(pixels) == (tmp_path / "a.png").read_bytes()
+    assert decode_image(encode_png(pixels)).shape == (*pixels.shape, 1)[:3]
+
+
+def test_an_empty_image_cannot_be_encoded():
+    with pytest.raises(core.InputError, match="at least one pixel"):
+        encode_png(np.zeros((0, 3)))
+
+
 def test_content_counts_not_the_name(tmp_path):
     write_image(tmp_path / "a.png", np.zeros((2, 2)))
     (tmp_path / "a.png").rename(tmp_path / "a.dds")
@@ -78,6 +99,19 @@ def test_other_formats_are_refused(tmp_path, content):
         read_image(tmp_path / "a.png")
 
 
+@pytest.mark.parametrize("content", [b"", b"\x89", b"DDS |", b"GIF89a", b"#?RADIANCE\n", b"\x89PNG\r\n"])
+def test_other_formats_in_memory_are_refused(content):
+    with pytest.raises(core.InputError, match=r"^http://a/b: is not a PNG") as error:
+        decode_image(content, "http://a/b")
+    assert error.value.path == "http://a/b"
+
+
+@pytest.mark.parametrize("content", ["text", None, 3, [1, 2]])
+def test_only_bytes_can_be_decoded(content):
+    with pytest.raises(TypeError):
+        decode_image(content)
+
+
 @pytest.mark.parametrize("name", ["a.png", "a.exr"])
 def test_damaged_images_are_errors(tmp_path, name):
     write_image(tmp_path / name, np.random.default_rng(12).random((64, 64, 3)))
@@ -85,6 +119,65 @@ def test_damaged_images_are_errors(tmp_path, name):
     (tmp_path / name).write_bytes(content[: len(content) // 2])
     with pytest.raises(core.InputError, match="cannot be read"):
         read_image(tmp_path / name)
+
+
+def encoded(name, tmp_path):
+    pixels = np.random.default_rng(12).random((64, 64, 3))
+    write_image(tmp_path / "a.png", pixels)
+    if name == "a.exr":
+        write_image(tmp_path / name, pixels)
+    elif name != "a.png":
+        subprocess.run(["oiiotool", str(tmp_path / "a.png"), "-o", str(tmp_path / name)], check=True)
+    return (tmp_path / name).read_bytes()
+
+
+@needs_oiiotool
+@pytest.mark.parametrize("name", ["a.png", "a.exr", "a.tif", "a.jpg"])
+@pytest.mark.parametrize("part", [0.001, 0.02, 0.5, 0.95])
+def test_truncated_bytes_decode_like_the_truncated_file(tmp_path, name, part):
+    content = encoded(name, tmp_path)
+    content = content[: max(8, int(part * len(content)))]
+    (tmp_path / "cut").write_bytes(content)
+    results = []
+    for function, argument in ((read_image, tmp_path / "cut"), (decode_image, content)):
+        try:
+            results.append(function(argument))
+        except core.InputError as error:
+            results.append(error)
+    file, memory = results
+    if isinstance(file, core.InputError):
+        assert isinstance(memory, core.InputError)
+        assert memory.reason.startswith("cannot be read")
+    else:  # libjpeg fills the lost rows of a JPEG
+        assert name == "a.jpg"
+        np.testing.assert_array_equal(memory, file)
+
+
+@needs_oiiotool
+@pytest.mark.parametrize("name", ["a.png", "a.exr", "a.tif", "a.jpg"])
+def test_damaged_bytes_give_pixels_or_one_error(tmp_path, name):
+    content, random = encoded(name, tmp_path), np.random.default_rng(14)
+    for _ in range(200):
+        damaged = bytearray(content)
+        for place in random.integers(4, min(len(content), 2000), 4):
+            damaged[place] = random.integers(256)
+        try:
+            assert decode_image(bytes(damaged)).ndim == 3
+        except core.InputError as error:
+            assert error.path == "image"
+
+
+def test_an_exr_with_offsets_in_front_of_its_buffer(tmp_path):
+    write_image(tmp_path / "a.exr", np.zeros((64, 64)))
+    content = (tmp_path / "a.exr").read_bytes()
+    first = (
+        content.index(b"screenWindowWidth\0float\0") + 24 + 4 + 4 + 1
+    )  # the chunk offsets follow the header
+    for offset in (-4, -8, -(2**62)):
+        damaged = bytearray(content)
+        damaged[first : first + 32] = offset.to_bytes(8, "little", signed=True) * 4
+        with pytest.raises(core.InputError, match="cannot be read"):
+            decode_image(bytes(damaged))
 
 
 def test_a_png_that_claims_a_million_by_a_million_pixels(tmp_path):
@@ -95,6 +188,8 @@ def test_a_png_that_claims_a_million_by_a_million_pixels(tmp_path):
     (tmp_path / "a.png").write_bytes(content)
     with pytest.raises(core.InputError, match="1000000 x 1000000 pixels"):
         read_image(tmp_path / "a.png")
+    with pytest.raises(core.InputError, match="1000000 x 1000000 pixels"):
+        decode_image(bytes(content))
 
 
 def test_the_file_of_a_picture_does_not_tell_when_it_was_written(tmp_path):

@@ -57,7 +57,7 @@ def test_every_b3dm_header(wrap):
     """The glb within is cut to its own length: what follows may be anything."""
     content = wrap(made.square().glb() + b"\xff" * 12)
     np.testing.assert_allclose(places(decode(content)), SQUARE, atol=1e-7)
-    assert tiles.content_kind(content, "x") == "b3dm"
+    assert tiles.content_type(content, "x") == "b3dm"
 
 
 def test_matrices_in_their_order():
@@ -206,7 +206,7 @@ def test_a_composite_within_a_composite():
 
 def test_what_content_is():
     found = {
-        kind: tiles.content_kind(content, "x")
+        kind: tiles.content_type(content, "x")
         for kind, content in {
             "glb": made.glb({}),
             "gltf": b"\xef\xbb\xbf \n" + json.dumps(made.square().json).encode(),
@@ -217,7 +217,7 @@ def test_what_content_is():
     }
     assert found == {kind: kind for kind in found}
     with pytest.raises(InputError, match="begins with 3c 68 74 6d"):
-        tiles.content_kind(b"<html>", "x")
+        tiles.content_type(b"<html>", "x")
     with pytest.raises(InputError, match="tile: is a tileset"):
         decode(b'{"root": {}}')
 

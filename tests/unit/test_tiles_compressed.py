@@ -181,7 +181,7 @@ def meshopt_gltf(damage=lambda view, name: None):
 
 def test_meshopt_meshes():
     content = meshopt_gltf()
-    assert tiles.resources_needed(content, "a") == []  # a fallback has no file
+    assert tiles.list_missing_resources(content, "a") == []  # a fallback has no file
     tile = decode(content)
     plain = made.Gltf()
     plain.node(plain.mesh(plain.primitive(POSITION, TRIANGLES)))

@@ -152,7 +152,7 @@ def test_an_ancestor_stands_in_for_what_is_missing_and_it_is_named():
     loader = load(root, {"a.glb": GLB, "r.glb": GLB})
     choice = cut.choose(loader, looking(0.0), HERE, 2.0)
     assert names(loader, choice) == ["r.glb"]
-    assert choice.stands.tolist() == [0]
+    assert choice.stand_ins.tolist() == [0]
     assert "1 tiles are missing, the first: b.glb: is not there" in choice.sentence()
 
 

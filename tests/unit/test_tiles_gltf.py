@@ -202,13 +202,13 @@ def test_files_beside_the_content():
     model = made.glb(content.document())
     i3dm = made.i3dm(b"models/tree.glb ", {"INSTANCES_LENGTH": 1, "POSITION": [0, 0, 0]}, embedded=False)
     known = {}
-    assert tiles.resources_needed(i3dm, "a") == ["models/tree.glb"]
+    assert tiles.list_missing_resources(i3dm, "a") == ["models/tree.glb"]
     with pytest.raises(InputError, match=r"models/tree\.glb is not among the resources"):
         decode(i3dm)
     known["models/tree.glb"] = model
-    assert tiles.resources_needed(i3dm, "a", known) == ["models/tree.bin"]
+    assert tiles.list_missing_resources(i3dm, "a", known) == ["models/tree.bin"]
     known["models/tree.bin"] = content.binary
-    assert tiles.resources_needed(made.cmpt(i3dm), "a", known) == []
+    assert tiles.list_missing_resources(made.cmpt(i3dm), "a", known) == []
     tile = decode(i3dm, resources=known)
     np.testing.assert_allclose(places(tile), made.SQUARE, atol=1e-7)
     assert [(i.kind, i.uri, i.data) for i in tile.images] == [("", "models/wood.png", b"")]
@@ -231,7 +231,7 @@ def test_data_uris():
     }
     content.json["meshes"][0]["primitives"][0]["material"] = 0
     document = made.glb(content.document())
-    assert tiles.resources_needed(document, "a") == []
+    assert tiles.list_missing_resources(document, "a") == []
     tile = decode(document)
     np.testing.assert_allclose(places(tile), made.SQUARE, atol=1e-7)
     assert (tile.images[0].width, tile.images[0].height, tile.images[0].uri) == (5, 6, "")

@@ -50,7 +50,7 @@ def test_the_ground_below_boxes_and_crowns():
     assert np.abs(off[roof]).max() < 0.5  # found: 0.23
     assert np.abs(off[growth > 1.5]).max() < 0.3  # found: 0.14
     assert np.mean(shown[roof] == tiles.BUILDING) > 0.95
-    assert np.mean(shown[growth > 1.5] == tiles.GROWTH) > 0.95
+    assert np.mean(shown[growth > 1.5] == tiles.VEGETATION) > 0.95
     assert np.mean(shown[bare] == tiles.GROUND) > 0.99
     raised = surface - HILLS
     assert raised[roof].min() > 4.0  # what would stand on roofs without

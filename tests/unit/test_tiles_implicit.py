@@ -88,7 +88,7 @@ def test_all_of_a_constant_tiling():
     files |= {f"s/2.{x}.{y}.subtree": binary(1, [0], 0) for x, y in itertools.product(range(4), repeat=2)}
     loader = load(tiling(), files)
     flags = loader.tree.flags()
-    assert flags[0] == core.REPLACES | core.UNCONDITIONAL | core.PENDING | core.PASSES
+    assert flags[0] == core.REPLACES | core.UNCONDITIONAL | core.PENDING | core.PASS_THROUGH
     loader.expand_all()
     assert loader.tree.size == 1 + 1 + 4 + 16 + 64
     assert loader.tree.contents == 5

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 R, U, C, P, B, S, H = (
     *(tiles.REPLACES, tiles.UNCONDITIONAL, tiles.CONTENT, tiles.PENDING),
-    *(tiles.BROKEN, tiles.SHUT, tiles.PASSES),
+    *(tiles.BROKEN, tiles.OUTSIDE_REQUEST_VOLUME, tiles.PASS_THROUGH),
 )
 
 
@@ -112,14 +112,14 @@ def test_the_nearest_ancestor_with_content_stands_in():
     parent, error = [-1, 0, 1, 1, 0], [50.0, 40.0, 5.0, 5.0, 5.0]
     flags = [R | C, R | C, R | C | B, R | C, R | C]
     cut = select(parent, flags, error, 16.0)
-    assert (cut.tiles.tolist(), cut.stands.tolist(), cut.missed.tolist()) == ([1, 4], [1], [])
+    assert (cut.tiles.tolist(), cut.stand_ins.tolist(), cut.missing.tolist()) == ([1, 4], [1], [])
     flags[1] = R
     assert select(parent, flags, error, 16.0).tiles.tolist() == [0]
     flags[0] = R
     alone = select(parent, flags, error, 16.0)
-    assert (alone.tiles.tolist(), alone.missed.tolist()) == ([3, 4], [2])
+    assert (alone.tiles.tolist(), alone.missing.tolist()) == ([3, 4], [2])
     added = select([-1, 0, 0], [C, C | B, C], [50.0, 1.0, 1.0], 16.0)
-    assert (added.tiles.tolist(), added.stands.tolist(), added.missed.tolist()) == ([0, 2], [0], [1])
+    assert (added.tiles.tolist(), added.stand_ins.tolist(), added.missing.tolist()) == ([0, 2], [0], [1])
 
 
 def test_budgets_of_bytes_and_triangles():
@@ -172,9 +172,9 @@ def test_an_eye_inside_refines_whatever_the_error():
     volume = ([[0, 0, 0]], [np.eye(3)], [[1, 1, 1]], [0])
     assert tiles.screen_error(*volume, [1e-3], made, [1000.0])[0] == 1e-3 * 1000.0 / 1e-7
     assert tiles.screen_error(*volume, [0.0], made, [1000.0])[0] == 0.0
-    assert tiles.holds_any(*volume, [[5, 0, 0], [1, 1, 1]]).tolist() == [True]
-    assert tiles.holds_any(*volume, [[5, 0, 0]]).tolist() == [False]
-    assert tiles.holds_any(*volume, np.empty((0, 3))).tolist() == [False]
+    assert tiles.contains_any(*volume, [[5, 0, 0], [1, 1, 1]]).tolist() == [True]
+    assert tiles.contains_any(*volume, [[5, 0, 0]]).tolist() == [False]
+    assert tiles.contains_any(*volume, np.empty((0, 3))).tolist() == [False]
 
 
 def test_no_view_sees_nothing():
@@ -191,7 +191,7 @@ def test_no_view_sees_nothing():
         ({"pixels": [-1.0]}, "pixels must be 0 or more"),
         ({"pixels": [1.0, 1.0]}, "one number for each view"),
         ({"half": [[-1, 0, 0]]}, "half must be 0 or more"),
-        ({"round": [-1.0]}, "round must be 0 or more"),
+        ({"padding": [-1.0]}, "padding must be 0 or more"),
         ({"margin": -1.0}, "margin"),
         ({"centre": [[0, 0]]}, "shape"),
     ],
@@ -202,7 +202,7 @@ def test_impossible_volumes(change, message):
         "centre": [[0, 0, 0]],
         "axis": [np.eye(3)],
         "half": [[1, 1, 1]],
-        "round": [0],
+        "padding": [0],
         "error": [1.0],
         "views": made,
         "pixels": [1.0],

@@ -37,7 +37,7 @@ def test_transforms_chain_and_scale_errors_spheres_and_boxes_but_no_regions():
     np.testing.assert_array_equal(made.matrix_of(1) @ [1, 0, 0, 1], [12, 20, 30, 1])
     assert made.error.tolist() == [4.0, 2.0, 2.0]
     np.testing.assert_allclose(made.volumes.centre[:2], [[10, 20, 30], [12, 20, 30]])
-    np.testing.assert_allclose(made.volumes.round, [0, 6, 0])
+    np.testing.assert_allclose(made.volumes.padding, [0, 6, 0])
     alone = load(tile(1.0, volume=region)).tree
     np.testing.assert_array_equal(made.volumes.centre[2], alone.volumes.centre[0])
 
@@ -46,7 +46,7 @@ def test_an_external_tileset_continues_the_transforms_below_its_holder():
     files = {"in/sub.json": tileset(tile(2.0, "x.glb", transform=DOUBLE)), "in/x.glb": GLB}
     loader = load(tile(8.0, "in/sub.json", transform=SHIFT, refine="REPLACE"), files)
     assert loader.tree.flags().tolist() == [
-        core.REPLACES | core.UNCONDITIONAL | core.PENDING | core.PASSES,
+        core.REPLACES | core.UNCONDITIONAL | core.PENDING | core.PASS_THROUGH,
     ]
     loader.expand([0])
     made = loader.tree
@@ -68,7 +68,7 @@ def test_a_content_is_told_by_its_bytes():
     assert loader.kind(0) == "tileset"
     assert loader.kind(1) == "gltf"
     flags = loader.tree.flags()
-    assert flags[1] & core.PASSES
+    assert flags[1] & core.PASS_THROUGH
     assert flags[2] == core.CONTENT
 
 
@@ -130,7 +130,7 @@ def test_metadata_of_a_tile_replace_its_volume_and_error():
     schema = {"classes": {"tile": {"properties": kinds}}}
     own = {"class": "tile", "properties": {"b": [1, 2, 3, 4], "e": 5}}
     made = load(tile(8.0, metadata=own), schema=schema).tree
-    assert (made.error[0], made.volumes.round[0]) == (5.0, 4.0)
+    assert (made.error[0], made.volumes.padding[0]) == (5.0, 4.0)
     outside = load(tile(8.0, metadata=own), {"s.json": schema}, schemaUri="s.json").tree
     assert outside.error[0] == 5.0
     heights = metadata.Overrides(low=-1.0, high=7.0)

@@ -56,8 +56,8 @@ def in_process(
         some = np.argsort(tree.level, kind="stable")[:MOST]
         _, matrix = tile_source.to_scene(shot)
         placed = tree.volumes.taken(some).moved(matrix[None], np.zeros(len(some), np.int64))
-        wide = placed.half + placed.round[:, None]
-        corners = type(placed)(placed.centre, placed.axis, wide, placed.round).corners()
+        wide = placed.half + placed.padding[:, None]
+        corners = type(placed)(placed.centre, placed.axis, wide, placed.padding).corners()
         found.append(
             {
                 "name": source.name(source.root),

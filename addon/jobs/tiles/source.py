@@ -252,7 +252,7 @@ def _needed(data: bytes, name: str, found: dict[str, bytes]) -> list[str]:
     from firetwin_core import tiles
 
     try:
-        return tiles.resources_needed(data, name, found)
+        return tiles.list_missing_resources(data, name, found)
     except (InputError, ValueError) as error:
         raise _WrongError(str(error)) from None
 

@@ -50,7 +50,7 @@ class Surface:
     height, ground
         (ny, nx) scene z of the highest surface, and of the ground below roofs and crowns, m; NaN without.
     shown
-        (ny, nx) `tiles.GROUND`, `GROWTH` or `BUILDING`: what the highest surface is.
+        (ny, nx) `tiles.GROUND`, `VEGETATION` or `BUILDING`: what the highest surface is.
     """
 
     low: Array
@@ -125,7 +125,7 @@ class TileHeights:
     @cached_property
     def _growth(self) -> NDArray[np.bool_]:
         shown = self.surface.shown
-        return _widened(shown == tiles.GROWTH, 1, False) & (shown != tiles.BUILDING)
+        return _widened(shown == tiles.VEGETATION, 1, False) & (shown != tiles.BUILDING)
 
     @cached_property
     def _rim(self) -> NDArray[np.bool_]:
@@ -177,7 +177,7 @@ def rasterise(
     for rings in buildings:
         if covered := rasterize.filled([(ring - low) / step + 0.5 for ring in rings], (rows, columns)):
             part = shown[covered[0]]
-            part[(covered[1] > 0.5) & (part == tiles.GROWTH)] = tiles.BUILDING
+            part[(covered[1] > 0.5) & (part == tiles.VEGETATION)] = tiles.BUILDING
     return Surface(low, step, height, np.where(shown == tiles.GROUND, height, ground + below), shown)
 
 

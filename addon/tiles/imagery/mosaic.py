@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from firetwin_core import sensor
@@ -154,13 +152,10 @@ def decoded(body: bytes, name: str) -> Pixels:
     """
     if not body.startswith(_KINDS):
         raise missing(name, "is no PNG or JPEG")
-    with tempfile.TemporaryDirectory(prefix="firetwin-") as folder:
-        path = Path(folder) / "tile"
-        path.write_bytes(body)
-        try:
-            read = sensor.read_image(path)
-        except InputError as error:
-            raise missing(name, error.reason) from None
+    try:
+        read = sensor.decode_image(body, name)
+    except InputError as error:
+        raise missing(name, error.reason) from None
     height, width, bands = read.shape
     if height != width or height not in _SIDES:
         raise missing(name, f"is a picture of {width} x {height} pixels, and no tile")

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import io
-import tempfile
-from pathlib import Path
 from typing import Protocol
 
 import numpy as np
@@ -36,7 +34,7 @@ def draw(colours: Colours, latitude: Array, longitude: Array, pixels: int) -> by
     try:
         from PIL import Image
     except ImportError:
-        return _png(picture)
+        return sensor.encode_png(picture / np.float32(255.0))
     stream = io.BytesIO()
     Image.fromarray(picture).save(stream, "JPEG", quality=_QUALITY)
     return stream.getvalue()
@@ -45,13 +43,6 @@ def draw(colours: Colours, latitude: Array, longitude: Array, pixels: int) -> by
 def kind(data: bytes) -> str:
     """Media type of a picture that was drawn."""
     return "image/png" if data.startswith(b"\x89PNG") else "image/jpeg"
-
-
-def _png(picture: NDArray[np.uint8]) -> bytes:
-    with tempfile.TemporaryDirectory(prefix="firetwin-") as folder:
-        path = Path(folder, "tile.png")
-        sensor.write_image(path, picture / np.float32(255.0))
-        return path.read_bytes()
 
 
 def side(metres: float, resolution: float, least: int = 64, most: int = 512) -> int:

@@ -107,6 +107,37 @@ def eye_dome(depth: ArrayLike, strength: float = 4.0, radius: int = 1) -> NDArra
 def read_image(path: str | PathLike[str]) -> NDArray[np.float32]:
     """PNG, EXR, TIFF or JPEG (by content) -> (h, w, channels)."""
 
+def decode_image(data: bytes, name: str = "image") -> NDArray[np.float32]:
+    """Decode a PNG, EXR, TIFF or JPEG in memory.
+
+    The format is detected from the magic bytes. The limits are those of `read_image`; nothing is written to disk.
+
+    Parameters
+    ----------
+    data
+        The encoded image.
+    name
+        Stands for the path in error messages, for example a URL.
+
+    Returns
+    -------
+    (h, w, channels) pixels, top row first. Integers are scaled to 0..1, without a change of colour space.
+
+    Raises
+    ------
+    InputError
+        The data is empty, damaged or in another format, or exceeds 256 million values or 64 channels.
+    """
+
+def encode_png(pixels: ArrayLike) -> bytes:
+    """Encode (h, w) or (h, w, channels) pixels as an 8-bit PNG; values are clamped to 0..1.
+
+    Raises
+    ------
+    InputError
+        The image has no pixels or more than a PNG can hold.
+    """
+
 def read_channels(path: str | PathLike[str]) -> dict[str, NDArray[np.float32]]:
     """The same file as one array (h, w) for each channel, by name; of an EXR also those of its layers."""
 

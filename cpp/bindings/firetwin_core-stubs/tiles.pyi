@@ -10,17 +10,17 @@ UNCONDITIONAL: int
 CONTENT: int
 PENDING: int
 BROKEN: int
-SHUT: int
-PASSES: int
+OUTSIDE_REQUEST_VOLUME: int
+PASS_THROUGH: int
 GROUND: int
-GROWTH: int
+VEGETATION: int
 BUILDING: int
 
 def screen_error(
     centre: ArrayLike,
     axis: ArrayLike,
     half: ArrayLike,
-    round: ArrayLike,
+    padding: ArrayLike,
     error: ArrayLike,
     views: ViewSet,
     pixels: ArrayLike,
@@ -36,7 +36,7 @@ def screen_error(
 
     Parameters
     ----------
-    centre, axis, half, round
+    centre, axis, half, padding
         Volumes: boxes with centres (n, 3) m, orthonormal directions of edges (n, 3, 3) as rows, half lengths
         (n, 3) m, widened by (n,) m. A sphere is a box without extent.
     error
@@ -51,8 +51,8 @@ def screen_error(
         A shape does not fit, or a number is below 0 or NaN.
     """
 
-def holds_any(
-    centre: ArrayLike, axis: ArrayLike, half: ArrayLike, round: ArrayLike, position: ArrayLike
+def contains_any(
+    centre: ArrayLike, axis: ArrayLike, half: ArrayLike, padding: ArrayLike, position: ArrayLike
 ) -> NDArray[np.bool_]:
     """(n,) whether any position (m, 3) is inside each volume (see `screen_error`)."""
 
@@ -66,10 +66,10 @@ class Cut:
     def expand(self) -> NDArray[np.int64]:
         """Numbers of pending tiles whose children the cut needs, ascending."""
     @property
-    def stands(self) -> NDArray[np.int64]:
+    def stand_ins(self) -> NDArray[np.int64]:
         """Numbers of tiles that stand in for broken ones below them."""
     @property
-    def missed(self) -> NDArray[np.int64]:
+    def missing(self) -> NDArray[np.int64]:
         """Numbers of broken tiles for which no tile stands in, or an ancestor that is shown anyway."""
     @property
     def error(self) -> float:
@@ -109,8 +109,8 @@ def select(
         (n,) number of the parent, smaller than the tile's own; -1 for roots.
     flags
         (n,) sums of: REPLACES; UNCONDITIONAL; CONTENT: it has something to show; PENDING: it has children that
-        are not read yet; BROKEN: its content cannot be had; SHUT: no eye is in its request volume, so that it
-        and what is below is left out; PASSES: it stands for its children and shows its own content with them.
+        are not read yet; BROKEN: its content cannot be had; OUTSIDE_REQUEST_VOLUME: no eye is in its request volume, so that it
+        and what is below is left out; PASS_THROUGH: it stands for its children and shows its own content with them.
     screen_error
         (n,) pixels; below 0: no view sees the tile.
     bytes, triangles
@@ -264,7 +264,7 @@ def decode(
     name
         What messages call the content.
     resources
-        Files beside the content by uri (`resources_needed`). A picture may be among them; its header is
+        Files beside the content by uri (`list_missing_resources`). A picture may be among them; its header is
         then checked and `Image.data` has it.
     earth_matrix
         (4, 4) the content's frame to the Earth-centred one; None where it is that one. Only EAST_NORTH_UP of
@@ -282,7 +282,7 @@ def decode(
         A matrix is not finite, not affine or has the determinant 0.
     """
 
-def resources_needed(content: bytes, name: str, resources: dict[str, bytes] | None = None) -> list[str]:
+def list_missing_resources(content: bytes, name: str, resources: dict[str, bytes] | None = None) -> list[str]:
     """List uris, relative to the content, of files that `decode` needs beside those in `resources`.
 
     These are buffers and models, sorted; pictures are not needed. Ask again with what was found until the
@@ -290,7 +290,7 @@ def resources_needed(content: bytes, name: str, resources: dict[str, bytes] | No
     dots included: whoever fetches them decides what may be fetched.
     """
 
-def content_kind(content: bytes, name: str) -> str:
+def content_type(content: bytes, name: str) -> str:
     """Tell b3dm, i3dm, cmpt, pnts, glb, gltf, tileset or subtree by what is in it.
 
     Raises
@@ -325,12 +325,12 @@ class HeightMap:
         """(rows, columns) m; NaN where there is no triangle."""
 
 def find_ground(
-    height: ArrayLike, step: float, widest: float = 60.0
+    height: ArrayLike, step: float, max_width: float = 60.0
 ) -> tuple[NDArray[np.float32], NDArray[np.uint8]]:
     """Heights of the ground (ny, nx), m, below roofs and crowns, and what each point shows.
 
     A progressive morphological filter (Zhang et al. 2003, IEEE Transactions on Geoscience and Remote Sensing
-    41(4)): openings by windows that grow to `widest`. What one lowers by more than a threshold is an object, if
+    41(4)): openings by windows that grow to `max_width`. What one lowers by more than a threshold is an object, if
     its sides are steep. Below objects heights are linear between the ground on their sides.
 
     Parameters
@@ -339,12 +339,12 @@ def find_ground(
         (ny, nx) highest surface, m, best as its height above what is known of the ground; NaN without.
     step
         m between points.
-    widest
+    max_width
         m, width of the widest object.
 
     Returns
     -------
-    Heights, and GROUND, GROWTH or BUILDING for each point. Buildings have 2 points or more of an even surface.
+    Heights, and GROUND, VEGETATION or BUILDING for each point. Buildings have 2 points or more of an even surface.
 
     Raises
     ------

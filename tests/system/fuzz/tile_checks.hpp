@@ -2,7 +2,7 @@
 
 #include "check.hpp"
 #include "tiles/decode.hpp"
-#include "tiles/kind.hpp"
+#include "tiles/content_type.hpp"
 
 #include <algorithm>
 #include <array>
@@ -118,8 +118,8 @@ inline void check_content(const std::string& content) {
     vertices = tile.position.size();
     decoded = true;
   });
-  expect_result_or_input_error([&] { tiles::list_missing(bytes(content), "tile", resources()); });
-  if (decoded && tiles::kind_of(bytes(content), "tile") != tiles::Kind::gltf) {
+  expect_result_or_input_error([&] { tiles::list_missing_resources(bytes(content), "tile", resources()); });
+  if (decoded && tiles::detect_content_type(bytes(content), "tile") != tiles::ContentType::gltf) {
     const std::string longer = content + "more";
     check(tiles::decode(bytes(longer), "tile", resources(), {}).position.size() == vertices,
           "content ends where its header says");

@@ -1,4 +1,4 @@
-#include "tiles/kind.hpp"
+#include "tiles/content_type.hpp"
 
 #include "tiles/json.hpp"
 
@@ -13,13 +13,13 @@
 namespace firetwin::tiles {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Kind>, 6> magics = {{
-    {"b3dm", Kind::b3dm},
-    {"i3dm", Kind::i3dm},
-    {"cmpt", Kind::cmpt},
-    {"pnts", Kind::pnts},
-    {"glTF", Kind::glb},
-    {"subt", Kind::subtree},
+constexpr std::array<std::pair<std::string_view, ContentType>, 6> magics = {{
+    {"b3dm", ContentType::b3dm},
+    {"i3dm", ContentType::i3dm},
+    {"cmpt", ContentType::cmpt},
+    {"pnts", ContentType::pnts},
+    {"glTF", ContentType::glb},
+    {"subt", ContentType::subtree},
 }};
 
 /// A byte order mark and blanks may come before JSON.
@@ -33,9 +33,9 @@ bool looks_like_json(Bytes content) {
   return first != content.end() && *first == '{';
 }
 
-Kind kind_of_json(Bytes content, const std::string& name) {
+ContentType detect_json_type(Bytes content, const std::string& name) {
   const Node root = parse_json(content, name);
-  return root.find("root") ? Kind::tileset : Kind::gltf;
+  return root.find("root") ? ContentType::tileset : ContentType::gltf;
 }
 
 std::string first_bytes(Bytes content) {
@@ -50,36 +50,36 @@ std::string first_bytes(Bytes content) {
 
 } // namespace
 
-Kind kind_of(Bytes content, const std::string& name) {
+ContentType detect_content_type(Bytes content, const std::string& name) {
   const std::string_view start(reinterpret_cast<const char*>(content.data()),
                                std::min<std::size_t>(content.size(), 4));
-  for (const auto& [magic, kind] : magics) {
+  for (const auto& [magic, type] : magics) {
     if (start == magic) {
-      return kind;
+      return type;
     }
   }
   if (!looks_like_json(content)) {
     refuse(name, "is no 3-D Tiles content: it begins with " + first_bytes(content) +
                      ", and not with b3dm, i3dm, cmpt, pnts, glTF or JSON");
   }
-  return kind_of_json(content, name);
+  return detect_json_type(content, name);
 }
 
-const char* name_of(Kind kind) {
-  switch (kind) {
-  case Kind::gltf:
+const char* name_of(ContentType type) {
+  switch (type) {
+  case ContentType::gltf:
     return "gltf";
-  case Kind::glb:
+  case ContentType::glb:
     return "glb";
-  case Kind::tileset:
+  case ContentType::tileset:
     return "tileset";
-  case Kind::subtree:
+  case ContentType::subtree:
     return "subtree";
   default:
     break;
   }
   for (const auto& [magic, each] : magics) {
-    if (each == kind) {
+    if (each == type) {
       return magic.data();
     }
   }

@@ -8,16 +8,17 @@
 namespace firetwin::tiles {
 
 /// Connected parts of a mask, by sides.
-struct Patches {
+struct ConnectedComponents {
   std::size_t rows, columns, count;
   std::vector<std::int32_t> number; ///< of each point; -1 outside of the mask
 };
 
-Patches find_patches(std::span<const std::uint8_t> mask, std::size_t rows, std::size_t columns);
+ConnectedComponents label_components(std::span<const std::uint8_t> mask, std::size_t rows,
+                                     std::size_t columns);
 
 /// The mask widened by a number of points along rows and columns.
-std::vector<std::uint8_t> widen(std::vector<std::uint8_t> mask, std::size_t rows,
-                                std::size_t columns, std::size_t by);
+std::vector<std::uint8_t> dilate(std::vector<std::uint8_t> mask, std::size_t rows,
+                                 std::size_t columns, std::size_t by);
 
 /// Calls a function with each pair of points that are neighbours in a row or a column.
 template <typename Function>

@@ -1,9 +1,10 @@
-#include "tiles/patches.hpp"
+#include "tiles/connected_components.hpp"
 
 namespace firetwin::tiles {
 
-Patches find_patches(std::span<const std::uint8_t> mask, std::size_t rows, std::size_t columns) {
-  Patches found{rows, columns, 0, std::vector<std::int32_t>(mask.size(), -1)};
+ConnectedComponents label_components(std::span<const std::uint8_t> mask, std::size_t rows,
+                                     std::size_t columns) {
+  ConnectedComponents found{rows, columns, 0, std::vector<std::int32_t>(mask.size(), -1)};
   std::vector<std::size_t> open;
   const auto visit = [&](std::size_t k) {
     if (mask[k] && found.number[k] < 0) {
@@ -37,8 +38,8 @@ Patches find_patches(std::span<const std::uint8_t> mask, std::size_t rows, std::
   return found;
 }
 
-std::vector<std::uint8_t> widen(std::vector<std::uint8_t> mask, std::size_t rows,
-                                std::size_t columns, std::size_t by) {
+std::vector<std::uint8_t> dilate(std::vector<std::uint8_t> mask, std::size_t rows,
+                                 std::size_t columns, std::size_t by) {
   for (std::size_t turn = 0; turn < by; ++turn) {
     const auto before = mask;
     for_each_pair(rows, columns, [&](std::size_t a, std::size_t b) {
