@@ -6,8 +6,7 @@
 
 namespace firetwin {
 
-/// Memory of a fixed size that is not cleared first: whoever makes it fills all of it, on many
-/// threads.
+/// Uninitialized array of a fixed size. The owner writes every element, usually in parallel.
 template <class T> class Buffer {
 public:
   Buffer() = default;

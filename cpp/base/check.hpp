@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-/// Checks of arguments, all worded alike. @throws std::invalid_argument
+/// Argument checks with uniform messages. @throws std::invalid_argument
 namespace firetwin {
 
 void check_finite(double value, const std::string& name);

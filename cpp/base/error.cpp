@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t longest_reason = 1000;
 
-/// Text from a file may hold anything; a message is one line that no terminal acts upon.
+/// Escapes control characters: text from a file must not break a message or control a terminal.
 std::string one_line(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -25,7 +25,7 @@ std::string one_line(const std::string& text) {
   return result;
 }
 
-/// Cut where a character of UTF-8 begins.
+/// Truncates at a UTF-8 character boundary.
 std::string shortened(std::string text) {
   if (text.size() > longest_reason) {
     std::size_t end = longest_reason;

@@ -6,15 +6,14 @@
 
 namespace firetwin {
 
-/// Base of every error that Firetwin raises on purpose.
+/// Base class of Firetwin's errors.
 class Error : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
 };
 
-/// Bad input: names the file, the place (1-based; 0 where none applies) and what to do about it.
-/// Control characters of the reason are shown as \xNN, and a reason of more than 1,000 bytes is
-/// cut.
+/// Invalid input: file, position (1-based; 0 if not applicable) and reason with a remedy. Control
+/// characters in the reason are escaped as \xNN; reasons above 1,000 bytes are truncated.
 class InputError : public Error {
 public:
   InputError(std::string path, std::int64_t line, std::int64_t column, std::string reason);
@@ -25,7 +24,7 @@ public:
   const std::string& reason() const { return reason_; }
 
 private:
-  struct Clean {}; ///< the reason is printable and short
+  struct Clean {}; ///< tag: the reason is escaped and truncated
   InputError(std::string path, std::int64_t line, std::int64_t column, std::string reason, Clean);
 
   std::string path_;

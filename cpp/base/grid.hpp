@@ -5,7 +5,7 @@
 
 namespace firetwin {
 
-/// Row-major rows x columns.
+/// Row-major grid of rows x columns.
 template <class T> struct Grid {
   std::size_t rows = 0;
   std::size_t columns = 0;

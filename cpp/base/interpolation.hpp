@@ -5,19 +5,17 @@
 #include <cmath>
 #include <cstdint>
 
-/// Linear, bilinear and trilinear interpolation between the points of a lattice.
-///
-/// Done by hand elsewhere: weighted sums that leave out missing values (geo/axis.cpp,
-/// forest/stand.cpp, forest/placement.cpp), and what holds values in SIMD vectors
-/// (volume/march.cpp, volume/smooth.cpp).
+/// Linear, bilinear and trilinear interpolation on a lattice.
+/// Not used for weighted sums that skip missing values (geo/axis.cpp, forest/stand.cpp,
+/// forest/placement.cpp) and for SIMD code (volume/march.cpp, volume/smooth.cpp).
 namespace firetwin {
 
-/// a + (b - a) t: a at t = 0, b at t = 1 within rounding; one product.
+/// a + (b - a) t: exact at t = 0, within rounding at t = 1; one multiplication.
 struct Lerp {
   template <class T> constexpr T operator()(T a, T b, T t) const { return a + (b - a) * t; }
 };
 
-/// a (1 - t) + b t: a at t = 0 and b at t = 1 exactly, so that a surface holds its own points.
+/// a (1 - t) + b t: exact at t = 0 and t = 1, so that a surface contains its nodes.
 struct ExactLerp {
   template <class T> constexpr T operator()(T a, T b, T t) const { return a * (T{1} - t) + b * t; }
 };
@@ -28,7 +26,7 @@ template <class T> constexpr T lerp(T a, T b, T t) {
 
 /// Bilinear interpolation.
 /// @param corner value(j, i) of each corner, j and i 0 or 1
-/// @param v, u how far the place is towards j = 1 and i = 1
+/// @param v, u fractions towards j = 1 and i = 1
 template <class Linear = Lerp, class Corner, class T>
 constexpr T bilinear(const Corner& corner, T v, T u) {
   const Linear along;
@@ -37,7 +35,7 @@ constexpr T bilinear(const Corner& corner, T v, T u) {
 
 /// Trilinear interpolation.
 /// @param corner value(k, j, i) of each corner, k, j and i 0 or 1
-/// @param w, v, u how far the place is towards k = 1, j = 1 and i = 1
+/// @param w, v, u fractions towards k = 1, j = 1 and i = 1
 template <class Linear = Lerp, class Corner, class T>
 constexpr T trilinear(const Corner& corner, T w, T v, T u) {
   const auto level = [&](int k) {
@@ -46,18 +44,18 @@ constexpr T trilinear(const Corner& corner, T w, T v, T u) {
   return Linear{}(level(0), level(1), w);
 }
 
-/// Bilinear weights of corners (0, 0), (0, 1), (1, 0) and (1, 1), for several fields at one place.
+/// Bilinear weights of corners (0, 0), (0, 1), (1, 0) and (1, 1), for interpolating several fields.
 template <class T> constexpr std::array<T, 4> bilinear_weights(T v, T u) {
   return {(T{1} - v) * (T{1} - u), (T{1} - v) * u, v * (T{1} - u), v * u};
 }
 
-/// The interval of an axis of evenly spaced points that a place is in.
+/// Interval of a regular axis that contains a point.
 template <class T> struct Interval {
-  std::int64_t low, high; ///< points; the same on an axis of one point
-  T part;                 ///< of the way from low to high
+  std::int64_t low, high; ///< indices of its ends; equal on an axis with one point
+  T part;                 ///< fraction from low to high
 };
 
-/// Places beyond an axis of `count` points are moved to its nearest end.
+/// Finds the interval of a point, clamped to an axis of `count` points.
 /// @param at fractional point, not NaN
 template <class T> Interval<T> interval_within(T at, std::int64_t count) {
   const T held = std::clamp(at, T{0}, static_cast<T>(count - 1));
@@ -66,7 +64,8 @@ template <class T> Interval<T> interval_within(T at, std::int64_t count) {
   return {low, std::min(low + 1, count - 1), held - static_cast<T>(low)};
 }
 
-/// Beyond an axis of `count` points the first and last interval go on: part is below 0 or above 1.
+/// Finds the interval of a point; the end intervals extend beyond the axis, with part below 0 or
+/// above 1.
 /// @param at fractional point; NaN: part is NaN
 template <class T> Interval<T> interval_extended(T at, std::int64_t count) {
   const T last = count > 2 ? static_cast<T>(count - 2) : T{0};

@@ -3,11 +3,11 @@
 #include <array>
 #include <cstdint>
 
-/// Random numbers without a state: each depends on its key and counter alone, so any thread can
-/// draw any of them.
+/// Counter-based random numbers: each depends only on its key and counter, so any thread can draw
+/// any of them.
 namespace firetwin {
 
-/// A number of 128 bits.
+/// 128-bit unsigned integer.
 struct Uint128 {
   std::uint64_t high, low;
 };
@@ -17,7 +17,7 @@ constexpr Uint128 product(std::uint64_t a, std::uint64_t b) {
   __extension__ using Number = unsigned __int128;
   const Number whole = Number{a} * b;
   return {static_cast<std::uint64_t>(whole >> 64), static_cast<std::uint64_t>(whole)};
-#else // by halves of 32 bits: Visual C++
+#else // in 32-bit halves: Visual C++
   constexpr std::uint64_t half = 0xFFFFFFFF;
   const std::uint64_t low = (a & half) * (b & half);
   const std::uint64_t left = (a >> 32) * (b & half) + (low >> 32);
@@ -27,7 +27,7 @@ constexpr Uint128 product(std::uint64_t a, std::uint64_t b) {
 }
 
 /// Philox4x64-10: a counter-based random number generator (Salmon et al. 2011, "Parallel random
-/// numbers: as easy as 1, 2, 3", doi:10.1145/2063384.2063405). numpy.random.Philox gives the same.
+/// numbers: as easy as 1, 2, 3", doi:10.1145/2063384.2063405). Equal to numpy.random.Philox.
 constexpr std::array<std::uint64_t, 4> philox(std::array<std::uint64_t, 4> counter,
                                               std::array<std::uint64_t, 2> key) {
   for (int round = 0; round < 10; ++round) {
@@ -40,13 +40,13 @@ constexpr std::array<std::uint64_t, 4> philox(std::array<std::uint64_t, 4> count
   return counter;
 }
 
-/// The upper 53 bits as a number in [0, 1).
+/// Converts the upper 53 bits to a number in [0, 1).
 constexpr double unit(std::uint64_t bits) {
   return static_cast<double>(bits >> 11) * 0x1p-53;
 }
 
-/// SplitMix64's finaliser (Steele, Lea, Flood 2014): every input bit changes every output bit.
-/// Makes keys of keys.
+/// SplitMix64's finaliser (Steele, Lea, Flood 2014): every input bit affects every output bit.
+/// Derives keys from keys.
 constexpr std::uint64_t mix(std::uint64_t x) {
   x += 0x9E3779B97F4A7C15;
   x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9;
@@ -58,7 +58,7 @@ constexpr std::uint64_t mix(std::uint64_t key, std::uint64_t value) {
   return mix(key ^ mix(value));
 }
 
-/// The `use`-th number of `key`, in [0, 1).
+/// Number `use` of the stream `key`, in [0, 1).
 constexpr double uniform(std::uint64_t key, std::uint64_t use) {
   return unit(mix(key, use));
 }

@@ -3,18 +3,17 @@
 #include <cstddef>
 #include <cstring>
 
-/// Explicit SIMD vectors, for sums that must stay in registers and for lanes that are turned over:
-/// what a compiler makes of loops over arrays is several times slower there. All other loops are
-/// written plainly, over __restrict pointers, in functions compiled for each processor
-/// (base/clones.hpp).
+/// Explicit SIMD vectors for sums that must stay in registers and for lane permutations, where
+/// auto-vectorized loops are several times slower. All other loops are plain loops over __restrict
+/// pointers in multiversioned functions (base/clones.hpp).
 namespace firetwin {
 
 template <class T, std::size_t lanes> struct SimdOf {
   using Type __attribute__((vector_size(lanes * sizeof(T)))) = T;
 };
 
-/// `lanes` numbers of type T with the arithmetic of one. Handed on by reference: how vectors are
-/// passed by value differs between processors.
+/// Vector of `lanes` numbers of type T. Pass it by reference: the ABI for passing it by value
+/// depends on the target.
 template <class T, std::size_t lanes> using Simd = typename SimdOf<T, lanes>::Type;
 
 template <class T, class Vector>

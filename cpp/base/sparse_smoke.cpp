@@ -10,7 +10,7 @@ namespace firetwin {
 SparseSmoke::SparseSmoke(const Place& shape, double voxel, const Vector& origin, bool glows)
     : shape_(shape), voxel_(voxel), origin_(origin), fields_(glows ? glow + 1 : glow) {
   if (std::min({shape[0], shape[1], shape[2]}) < 1) {
-    throw std::invalid_argument("smoke needs one voxel or more along each side");
+    throw std::invalid_argument("smoke needs at least one voxel along each axis");
   }
   check_above_zero(voxel, "voxel_size");
   check_finite(origin, "origin");
@@ -37,7 +37,7 @@ void SparseSmoke::gather(Field field, const Place& at, Index before, Index count
     const float* found = block({at[0] + i, at[1] + j, at[2] + k}, field);
     return found == nullptr ? clear.data() : found;
   };
-  // Along an axis: from which voxel to which the block before, this one and the one after it reach.
+  // Along an axis: the voxel range of the previous, this and the next block.
   const auto first = [&](Index block) { return std::max(block * side, -before); };
   const auto end = [&](Index block) { return std::min((block + 1) * side, count - before); };
   for (Index i = -1; i <= 1; ++i) {

@@ -12,21 +12,21 @@
 
 namespace firetwin {
 
-/// Sparse voxel grid of smoke: blocks of 8^3 voxels, clear blocks are not stored. x is slowest and
-/// z fastest, among blocks as well as in them.
+/// Sparse voxel grid of smoke: blocks of 8^3 voxels; clear blocks are not stored. Blocks and voxels
+/// are ordered with x slowest and z fastest.
 class SparseSmoke {
 public:
   using Index = std::int64_t;
   using Place = std::array<Index, 3>;
   enum Field : std::size_t {
     density, ///< extinction, 1/m
-    fresh,   ///< 1 where smoke is young, 0 where it is old or none
-    glow     ///< light of flames; there may be none
+    fresh,   ///< freshness: 1 for young smoke, 0 for old or no smoke
+    glow     ///< light of flames; optional
   };
   static constexpr Index side = 8;
   static constexpr std::size_t block_size = side * side * side;
 
-  /// Clear at first.
+  /// Creates a clear grid.
   /// @param shape voxels along x, y and z
   /// @param origin centre of the first voxel, m
   SparseSmoke(const Place& shape, double voxel, const Vector& origin, bool glows);
@@ -36,11 +36,11 @@ public:
   double voxel() const { return voxel_; }
   const Vector& origin() const { return origin_; }
   bool glows() const { return fields_ > glow; }
-  /// Values of a block: all of a field, then all of the next.
+  /// Number of values of a block; fields are stored one after the other.
   std::size_t values() const { return fields_ * block_size; }
   std::size_t used() const;
 
-  /// A block's values of a field; null where it is clear, or beyond all blocks.
+  /// Values of a field in a block; null for clear blocks and blocks outside the grid.
   const float* block(const Place& at, Field field) const {
     for (std::size_t axis = 0; axis < at.size(); ++axis) {
       if (at[axis] < 0 || at[axis] >= blocks_[axis]) {
@@ -50,18 +50,18 @@ public:
     const float* found = pool_[number(at)].get();
     return found == nullptr ? nullptr : found + field * block_size;
   }
-  /// Gives a block its values. Several threads may, each other blocks.
+  /// Stores the values of a block. Thread-safe for distinct blocks.
   void keep(const Place& at, std::span<const float> values);
 
-  /// Keeps blocks of a dense array of densities in which there are any.
+  /// Stores the blocks of a dense density array that are not clear.
   void keep_all(std::span<const float> dense);
 
-  /// Copies a block and what is round it, zeros where it is clear or beyond: columns from `before`
-  /// voxels before it on, `count` of them along x and y, and along z the block and the two beside
-  /// it, to out[(x * count + y) * 3 * side].
+  /// Copies a block with its surroundings to out[(x * count + y) * 3 * side]: `count` columns along
+  /// x and y that start `before` voxels before the block; along z, the block and its two
+  /// neighbours. Clear voxels and voxels outside the grid are 0.
   void gather(Field field, const Place& block, Index before, Index count, float* out) const;
-  /// Writes what is not clear into a dense array of zeros: `change(value, column)`, columns being
-  /// counted along x, then y.
+  /// Writes `change(value, column)` of all stored voxels to a dense array of zeros. Columns are
+  /// numbered along x, then y.
   template <class Change>
   void spread(Field field, std::span<float> dense, const Change& change) const {
     check_dense(dense.size());
@@ -77,12 +77,12 @@ public:
   }
 
 private:
-  /// Voxels one above the other in a block, and in a dense array.
+  /// A vertical run of voxels in a block and its position in a dense array.
   struct Row {
-    std::size_t block, within;        ///< its first
-    std::size_t column, first, count; ///< the same
+    std::size_t block, within;        ///< block, and its first voxel in the block
+    std::size_t column, first, count; ///< position in the dense array
   };
-  /// f(row) for the rows of blocks that are not clear.
+  /// Calls f(row) for the rows of all stored blocks.
   template <class Function> void each_row(const Function& f) const;
 
   void check_dense(std::size_t size) const;
@@ -99,7 +99,7 @@ private:
   double voxel_;
   Vector origin_;
   std::size_t fields_;
-  std::vector<std::unique_ptr<float[]>> pool_; ///< of each block; null: clear
+  std::vector<std::unique_ptr<float[]>> pool_; ///< values of each block; null: clear
 };
 
 template <class Function> void SparseSmoke::each_row(const Function& f) const {

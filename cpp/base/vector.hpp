@@ -4,7 +4,7 @@
 
 namespace firetwin {
 
-/// A place or a direction in three dimensions.
+/// A point or direction in three dimensions.
 using Vector = std::array<double, 3>;
 
 inline Vector minus(const Vector& a, const Vector& b) {

@@ -23,7 +23,7 @@ using tiles::Material;
 using tiles::Range;
 using tiles::Tile;
 
-/// A column of a tile's vertices or triangles, as rows of n.
+/// A vertex or triangle array of a tile as rows of n.
 template <auto member, py::ssize_t n> py::object rows(const py::object& self) {
   const auto& values = self.cast<const Tile&>().*member;
   using T = typename std::decay_t<decltype(values)>::value_type;
@@ -39,7 +39,7 @@ tiles::Bytes bytes_of(const py::bytes& bytes) {
   return {reinterpret_cast<const std::uint8_t*>(data), static_cast<std::size_t>(size)};
 }
 
-/// Resources whose bytes stay alive with it.
+/// Resources; keeps their bytes alive.
 struct HeldResources {
   explicit HeldResources(const std::optional<py::dict>& given) {
     for (const auto& [uri, bytes] : given.value_or(py::dict())) {

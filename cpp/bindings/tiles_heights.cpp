@@ -29,7 +29,7 @@ Array<float> height(const HeightMap& map) {
   return result;
 }
 
-/// Heights of the ground, and what each point shows.
+/// Returns ground heights and the surface class of each point.
 py::tuple find_ground(const py::object& surface, double step, double max_width) {
   const auto array = to_array<float>(surface, "height", {-1, -1});
   const auto rows = static_cast<std::size_t>(array.shape(0)),

@@ -11,7 +11,7 @@ namespace firetwin::bindings {
 namespace py = pybind11;
 namespace {
 
-/// Bounding volumes of tiles; keeps the arrays.
+/// Bounding volumes of tiles; owns the arrays.
 class VolumeArrays {
 public:
   VolumeArrays(const py::object& centre, const py::object& axis, const py::object& half,

@@ -33,7 +33,8 @@ std::vector<double> own(const run::Run& run) {
   return result;
 }
 
-/// Times of the fluxes at `rows` x `columns`, where half of the ground around burns within the run.
+/// Interpolates the front passage to `rows` x `columns`; NaN where less than half of the
+/// surroundings burns during the run.
 std::vector<double> at(const FrontPassage& middle, const run::Run& run,
                        std::span<const double> rows, std::span<const double> columns) {
   const std::size_t nx = run.longitude().size();
@@ -52,7 +53,7 @@ std::vector<double> at(const FrontPassage& middle, const run::Run& run,
   return result;
 }
 
-/// The earliest beginning among the fuel cells of each model cell.
+/// Earliest ignition among the fuel cells of each model cell.
 class Earliest {
 public:
   explicit Earliest(const run::Run& run)
@@ -79,7 +80,7 @@ public:
 private:
   static constexpr std::size_t rows_at_once = 16; ///< of the model grid
 
-  /// Fuel rows `begin` to `end`, with one on each side for their slopes.
+  /// Adds the fuel rows `begin` to `end`; reads one more on each side for the slopes.
   void add(std::size_t begin, std::size_t end) {
     const std::size_t first = begin - std::min<std::size_t>(begin, 1), fx = column_.size();
     const std::size_t last = std::min(end + 1, row_.size());
@@ -98,8 +99,9 @@ private:
 
   const run::Plane& arrival_;
   std::size_t nx_;
-  std::vector<std::size_t> row_, column_; ///< of the model grid, of each fuel row and column
-  std::vector<std::size_t> starts_;       ///< first fuel row of each row of the model grid
+  std::vector<std::size_t> row_,
+      column_; ///< row and column of the model grid for each fuel row and column
+  std::vector<std::size_t> starts_; ///< first fuel row of each row of the model grid
   std::vector<double> result_;
 };
 

@@ -6,37 +6,35 @@
 
 namespace firetwin::flux {
 
-/// Fire arrival time: the front passes the centre of a cell, s; NaN where it does not within the
-/// run. Flames, terrain, smoke and the interpolation of fluxes all use it.
-///
-/// The run's own fuel_arrival_time where it has one. Else from the fluxes: when a cell begins
-/// (ignition_time.hpp) and how its heat is released tell when the front is in its middle.
-///
-/// Slope: neighbours that begin later tell how long the front takes across a cell, c; the middle
-/// is reached c / 2 after the beginning. Where the front is ragged that is off by 0.8 c (measured).
-///
-/// Heat: it is released around the mean time of arrival in the cell, later by how long the fuel
-/// burns. That delay is the same for all cells: the median of what the slopes leave over in cells
-/// that have burned out and have neighbours on all sides. Its standard deviation is half of it.
-/// A cell at the edge of the fire burns in part: its share is its heat for its fuel over that of
-/// such cells near it, and in a cell still burning when the run ends the share tells how far the
-/// front has come in it. Heat alone tells that where cells burn of which the run knows no fuel.
-///
-/// Both are averaged by their variances. On the sample run without its own arrival times, fluxes of
-/// 370 m cells each minute or each quarter of an hour, the front is off by 43 m in the mean (area
-/// between the lines over the front's length, as tests/benchmarks/scale.py counts it) and lies 12 m
-/// too far in (130 m and 129 m out when cells burn from the first model time with flux).
+/// Fire arrival time: when the front passes the centre of a cell, s; NaN if it does not during the
+/// run. Flames, terrain, smoke and the interpolation of fluxes use it. It is the run's field
+/// fuel_arrival_time if there is one. Otherwise it is estimated from the heat flux: from the
+/// ignition time of a cell (ignition_time.hpp) and the time course of its heat release. Slope:
+/// neighbours that ignite later give the time c that the front takes to cross a cell; it reaches
+/// the centre c / 2 after ignition. For a ragged front the error is 0.8 c (measured). Heat: it is
+/// released around the mean arrival time in the cell plus a delay, the burning time of the fuel.
+/// The delay is uniform: the median of the residuals of the slope estimate over burned-out cells
+/// with neighbours on all sides. Its standard deviation is half of it. A cell at the edge of the
+/// fire burns partly: its share is its heat per fuel divided by the heat per fuel of burned-out
+/// cells near it. In a cell that still burns when the run ends, the share gives the position of the
+/// front. If the fuel of burning cells is unknown, shares are ratios of heat alone. The two
+/// estimates are averaged with inverse-variance weights. Error on the sample run without
+/// fuel_arrival_time, for fluxes of 370 m cells every minute or every quarter of an hour: the front
+/// is displaced by 43 m on average (area between the fronts / length of the front, see
+/// tests/benchmarks/scale.py), with a bias of 12 m inwards. If cells ignited at the first model
+/// time with flux, it would be 130 m, with a bias of 129 m outwards.
 
-/// [ny nx] at the centres of the model grid's cells.
+/// Arrival time [ny nx] at the cell centres of the model grid, s.
 std::vector<double> arrival_time(const run::Run& run);
 
-/// [fy fx] at the centres of the fuel cells: without the run's own bilinear between the model
-/// cells', and inside the line where half of the ground around has burned by the end of the run.
-/// Where the run knows the fuel of all that burns, a fuel cell without any does not.
+/// Arrival time [fy fx] at the centres of the fuel cells, s. Without the run's field it is
+/// interpolated bilinearly between model cells, within the line where half of the surroundings has
+/// burned by the end of the run. If the run has fuel in all burning cells, fuel cells without fuel
+/// do not burn.
 std::vector<double> fuel_arrival_time(const run::Run& run);
 
-/// Ignition time of each cell of the model grid [ny nx], s: the earliest of its fuel cells with the
-/// run's own arrival times, else as in ignition_time.hpp; NaN where never.
+/// Ignition time of each cell of the model grid [ny nx], s: the earliest arrival in its fuel cells
+/// if the run has fuel_arrival_time, else as in ignition_time.hpp; NaN if it never ignites.
 std::vector<double> ignition_time(const run::Run& run);
 
 } // namespace firetwin::flux

@@ -16,7 +16,7 @@ void reserve(Emitters& e, std::size_t n) {
   e.flux.reserve(n);
 }
 
-/// F_curved, see emitters.hpp.
+/// F_curved (see emitters.hpp).
 double curved(double flux, double flux_min, double flux_max) {
   const double range = flux_max - flux_min;
   if (range == 0.0) {
@@ -32,7 +32,7 @@ Emitters emitters(std::span<const float> flux, std::span<const double> position,
                   double flux_max) {
   if (!std::isfinite(flux_min) || !std::isfinite(flux_max) || flux_min > flux_max) {
     throw std::invalid_argument(
-        "flux_min and flux_max must be finite, flux_min not above flux_max");
+        "flux_min and flux_max must be finite, and flux_min must not be above flux_max");
   }
   Emitters e;
   reserve(e, static_cast<std::size_t>(

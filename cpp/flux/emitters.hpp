@@ -7,7 +7,7 @@
 
 namespace firetwin::flux {
 
-/// Fire emitters at one time, one per burning cell, in order of their cells.
+/// Fire emitters at one time, one per burning cell, ordered by cell.
 struct Emitters {
   std::vector<std::int64_t> cell; ///< y nx + x
   std::vector<double> position;   ///< [3 n] m
@@ -18,10 +18,11 @@ struct Emitters {
   std::size_t invalid = 0;        ///< cells without an emitter because their flux is NaN
 };
 
-/// Algorithm 1 of the FIRETWIN paper: an emitter where flux > 0, with scale = 100 + 50 F_curved and
-/// colour = 100 + 400 F_curved, where F_curved = clamp((F - Fmin)/(Fmax - Fmin), 0, 1)^1.5
-/// (equations 1 and 2). Where Fmax == Fmin that is 1 for F >= Fmax and 0 below, the limit of the
-/// formula; +infinity gives 1. The range is that of the whole run: a range per frame would flicker.
+/// Algorithm 1 of the FIRETWIN paper: one emitter per cell with flux > 0, with scale = 100 + 50
+/// F_curved and colour = 100 + 400 F_curved, where F_curved = clamp((F - Fmin)/(Fmax - Fmin), 0,
+/// 1)^1.5 (equations 1 and 2). If Fmax == Fmin, F_curved is 1 for F >= Fmax and 0 below, the limit
+/// of the formula; +infinity gives 1. Use the range of the complete run: a range per frame would
+/// flicker.
 /// @param position [3 n] m, one per flux
 /// @throws std::invalid_argument unless flux_min <= flux_max are finite.
 Emitters emitters(std::span<const float> flux, std::span<const double> position, double flux_min,

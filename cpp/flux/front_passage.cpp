@@ -17,30 +17,31 @@ namespace firetwin::flux {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-/// A cell has burned out when what it still gives would be less than this part of its heat.
+/// A cell has burned out if its remaining heat is less than this fraction of its total.
 constexpr double left_over = 0.05;
-/// Fewer burned out cells inside the fire than this say nothing of the others.
+/// Minimum number of burned-out cells inside the fire for statistics.
 constexpr std::size_t enough_cells = 10;
 constexpr double least_share = 0.02;
 constexpr double least_delay = 1.0; ///< s
-/// Standard deviations as parts of what they belong to: crossing, delay, and a cell's heat.
+/// Relative standard deviations of the crossing time, the delay and the heat of a cell.
 constexpr double ragged = 0.8, uneven_fuel = 0.5, uneven_heat = 0.25;
-constexpr std::size_t heat_reach = 2; ///< cells around one that tell how much heat a cell gives
+constexpr std::size_t heat_reach =
+    2; ///< radius of the neighbourhood for the heat of a burned-out cell, cells
 
 double square(double value) {
   return value * value;
 }
 
-/// Part of its heat that a cell has released `age` s after the front came, which takes `crossing` s
-/// across it; each spot of it burns as exp(-age / delay) (Mandel et al. 2011, eq. 3).
+/// Fraction of its heat that a cell has released `age` s after ignition. The front takes `crossing`
+/// s to cross it; each point burns as exp(-age / delay) (Mandel et al. 2011, eq. 3).
 double released(double age, double crossing, double delay) {
   const double lit = std::min(age, crossing);
   return (lit - delay * (std::exp(-(age - lit) / delay) - std::exp(-age / delay))) / crossing;
 }
 
-/// The crossing with which a cell has released so much; 0 where no front is that fast.
+/// Crossing time for which a cell has released the fraction `part`; 0 if no front is that fast.
 double crossing_by_heat(double age, double part, double delay) {
-  if (released(age, age, delay) >= part) { // the front is still in it, or has just left
+  if (released(age, age, delay) >= part) { // the front is in the cell or has just left it
     return age * released(age, age, delay) / part;
   }
   double low = 0.0, high = age;
@@ -88,7 +89,8 @@ public:
 private:
   bool burns(std::size_t i) const { return cells_[i].first != run::Scan::never; }
 
-  /// Values at a time stand for it; means, for the middle of what they are a mean of.
+  /// Time from the centre of a flux's averaging interval to its model time, s; 0 for instantaneous
+  /// values.
   static double half_mean(const run::Run& run, double interval) {
     return 0.5 * std::min(run.description().mean_s.value_or(interval), interval);
   }
@@ -101,16 +103,16 @@ private:
     return times_.size() > 1 ? times_.back() - times_[times_.size() - 2] : 0.0;
   }
 
-  /// J/m2 of a cell until the end of the run. The sum by trapezoids counts half of the last flux,
-  /// which is right for values at their times; of a mean it lacks the other half.
+  /// Heat of a cell until the end of the run, J/m2. The trapezoidal rule counts half of the last
+  /// flux, which is right for instantaneous values; the other half is added for means.
   double heat_so_far(std::size_t i) const {
     return cells_[i].heat + half_last_ * double{cells_[i].last};
   }
 
-  /// kg/m2 that heat goes by; where that is not known all cells count alike.
+  /// Fuel load for the heat of a cell, kg/m2; 1 if the fuel is unknown.
   double fuel(std::size_t i) const { return fuel_.empty() ? 1.0 : fuel_[i]; }
 
-  /// Mean time of a cell's heat, s.
+  /// Mean time of a cell's heat release, s.
   double heat_time(std::size_t i) const {
     return times_.front() + cells_[i].moment / cells_[i].heat - half_mean_;
   }
@@ -129,7 +131,7 @@ private:
     }
   }
 
-  /// Whether the cells around burn too: then the front has gone right through it.
+  /// True if all neighbours burn, so that the front has crossed the cell completely.
   bool inside(std::size_t i) const {
     bool all = true;
     around(i, 1, [&](std::size_t k) { all = all && burns(k); });
@@ -154,7 +156,7 @@ private:
     }
   }
 
-  /// Part of a cell that its heat, up to now, stands for.
+  /// Burned fraction of a cell, from its heat so far.
   double share(std::size_t i) const {
     if (whole_[i]) {
       return 1.0;
@@ -181,7 +183,7 @@ private:
     return from_slope + weight * (begin_[i] + time_in - from_slope);
   }
 
-  /// What the slopes in and around a cell say of its crossing at most, s.
+  /// Largest crossing time by the slopes in and around a cell, s.
   double wide_crossing(std::size_t i) const {
     double sum = 0.0, count = 0.0;
     around(i, 1, [&](std::size_t k) {
@@ -191,16 +193,16 @@ private:
     return std::max(crossing_[i], sum / count);
   }
 
-  /// From a cell's beginning to its middle, and the standard deviation of that, s.
+  /// Time from ignition of a cell to the passage of its centre, and its standard deviation, s.
   using TimeIn = std::pair<double, double>;
 
-  /// The mean time of its heat is that of the share that burned, at the same pace over all of it.
+  /// Estimate from the mean time of heat release, at a constant pace over the burned fraction.
   TimeIn by_mean_time(std::size_t i) const {
     const double found = std::max(heat_time(i) - *delay_ - begin_[i], 0.0) / share(i);
     return {found, std::hypot(uneven_fuel * *delay_, uneven_heat * found)};
   }
 
-  /// The front is as far as its heat tells, give or take what cells differ in heat and in delay.
+  /// Estimate from the heat so far, with the variance of heat and delay among cells.
   TimeIn by_heat_so_far(std::size_t i) const {
     const double age = times_.back() - begin_[i], part = share(i);
     const auto time_in = [&](double heat, double delay) {
@@ -229,7 +231,8 @@ private:
     return found.empty() ? 0.0 : median(found);
   }
 
-  /// What burns from the beginning: the outermost cells then, those within earlier at a usual pace.
+  /// Cells that burn at the first model time: the outermost ignite then, inner ones earlier at the
+  /// usual pace.
   void add_first(FrontPassage& result, double pace) const {
     std::vector<std::size_t> edge, next;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -256,14 +259,14 @@ private:
         });
       }
     }
-    for (std::size_t i = 0; i < cells_.size(); ++i) { // where all of the grid burns
+    for (std::size_t i = 0; i < cells_.size(); ++i) { // if all of the grid burns
       if (cells_[i].first == 0 && std::isnan(result.time[i])) {
         result.time[i] = times_.front();
       }
     }
   }
 
-  /// One cell beyond the fire, at the pace of the cells beside it.
+  /// Extrapolates to one cell beyond the fire at the pace of its neighbours.
   void extend(FrontPassage& result, double pace) const {
     std::vector<std::pair<std::size_t, double>> ring;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -290,12 +293,12 @@ private:
   const std::vector<double>& times_;
   std::size_t rows_, columns_;
   std::vector<double> begin_;    ///< s
-  std::vector<double> crossing_; ///< s, by the slope of begin_
-  std::vector<double> fuel_;     ///< kg/m2, empty where it is not known
-  double half_mean_, half_last_; ///< s, of all fluxes and of the last
-  std::vector<bool> whole_;      ///< burned out, and burning cells on all sides
-  double heat_ = 0.0;            ///< J/kg, median of the whole ones
-  std::optional<double> delay_;  ///< s from arrival to heat, where enough cells tell
+  std::vector<double> crossing_; ///< s, from the slope of begin_
+  std::vector<double> fuel_;     ///< kg/m2; empty if unknown
+  double half_mean_, half_last_; ///< s, for all fluxes and for the last one
+  std::vector<bool> whole_;      ///< burned out, with burning cells on all sides
+  double heat_ = 0.0;            ///< J/kg, median over cells of whole_
+  std::optional<double> delay_;  ///< s from arrival to heat release; empty with too few cells
 };
 
 } // namespace

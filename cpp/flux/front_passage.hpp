@@ -8,8 +8,8 @@ namespace firetwin::flux {
 
 /// Front passage of the cell centres of the model grid, from the heat flux (see arrival.hpp).
 struct FrontPassage {
-  /// [ny nx] s. It may lie beyond the end of the run. Cells that never burn, beside cells that do,
-  /// have an extrapolated time. Other cells that never burn have NaN.
+  /// [ny nx] s; may be after the end of the run. Unburned cells next to burned ones have an
+  /// extrapolated time, other unburned cells NaN.
   std::vector<double> time;
   /// [ny nx] burned fraction of each cell at the end of the run, 0..1.
   std::vector<float> burned_fraction;

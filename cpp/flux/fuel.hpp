@@ -6,11 +6,11 @@
 
 namespace firetwin::flux {
 
-/// [ny nx] kg/m2, surface and canopy fuel of each cell of the model grid: the mean of the fuel
-/// cells in it. Empty where the run does not know it, so that cells burn which have none.
+/// Surface and canopy fuel [ny nx] of the model grid, kg/m2: the mean over the fuel cells in each
+/// cell. Empty if cells without fuel burn, because the run's fuel is incomplete.
 std::vector<double> fuel_of_cells(const run::Run& run);
 
-/// [fy fx] surface and canopy fuel of the fuel cells, kg/m2, 0 where it is not known.
+/// Surface and canopy fuel [fy fx] of the fuel cells, kg/m2; 0 if unknown.
 std::vector<float> fuel_load(const run::Run& run);
 
 } // namespace firetwin::flux

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Cells; a front that moves further in an interval tells nothing of the cells in its middle.
+/// Cells; a front that moves farther in an interval gives no information about the cells in
+/// between.
 constexpr std::ptrdiff_t widest_band = 32;
 
 struct Estimate {
@@ -30,7 +31,7 @@ struct Estimate {
   }
 };
 
-/// The interval between two model times in which a cell begins to burn.
+/// Interval between two model times in which a cell ignites.
 struct Interval {
   double begin;
   double end;
@@ -39,15 +40,15 @@ struct Interval {
   double variance() const { return length() * length() / 12.0; }
 };
 
-/// Time since the beginning from the first two fluxes, `gap` apart. Each is a mean over its
-/// `mean[i]` seconds: see ignition_time.hpp.
+/// Time since ignition from the first two fluxes, `gap` apart; each is a mean over `mean[i]`
+/// seconds (see ignition_time.hpp).
 double grown(double first, double next, double gap, const std::array<double, 2>& mean) {
   const double r = first / next, a = mean[0], later = gap - 0.5 * mean[1];
   const double within = a * r + std::sqrt(a * r * (a * r + 2.0 * later));
   return within < a ? within : (0.5 * a + r * later) / (1.0 - r);
 }
 
-/// What is known of all cells.
+/// Ignition data of all cells.
 class Cells {
 public:
   explicit Cells(const run::Run& run)
@@ -99,7 +100,7 @@ private:
       if (std::isfinite(mean) && tells) {
         sum += 2.0 * mean;
         weight += 2.0;
-        // The mean of two less a third has 1.5 times the variance of each.
+        // The mean of two values minus a third has 1.5 times the variance of each.
         spread += (mean - middle_[i]) * (mean - middle_[i]) / 1.5;
       }
     };
@@ -132,7 +133,8 @@ private:
     return {at.begin + at.length() * (to_burned - 0.5) / width, at.variance() / (width * width)};
   }
 
-  /// Cells to the nearest that began before the time `first`, and to the nearest that began after.
+  /// Distances in cells to the nearest cell that ignited before the time index `first`, and to the
+  /// nearest that ignited after.
   std::array<double, 2> distances(std::size_t cell, std::uint32_t first) const {
     const auto y = static_cast<std::ptrdiff_t>(cell / columns_);
     const auto x = static_cast<std::ptrdiff_t>(cell % columns_);
@@ -167,10 +169,10 @@ private:
 
   const std::vector<run::Scan::Cell>& scan_;
   const std::vector<double>& times_;
-  double mean_; ///< s over which a flux is a mean
+  double mean_; ///< averaging interval of a flux, s
   std::size_t rows_, columns_;
-  std::vector<double> middle_;     ///< of each cell's interval, NaN where it has none
-  std::vector<std::size_t> begun_; ///< cells that have begun by each model time
+  std::vector<double> middle_;     ///< centre of each cell's interval; NaN without one
+  std::vector<std::size_t> begun_; ///< number of ignited cells at each model time
 };
 
 } // namespace

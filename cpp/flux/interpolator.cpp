@@ -15,7 +15,7 @@ Interpolator::Interpolator(std::shared_ptr<const run::Run> run)
 
 SparseFlux Interpolator::at(double time) const {
   if (std::isnan(time)) {
-    throw std::invalid_argument("time must be a number of seconds, not NaN");
+    throw std::invalid_argument("time must not be NaN");
   }
   const std::vector<double>& times = run_->times();
   if (time < times.front() || time > times.back()) {

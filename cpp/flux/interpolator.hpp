@@ -12,20 +12,19 @@
 namespace firetwin::flux {
 
 /// Heat flux of the fire at any time, with LRU caches of frames. A cell that the front has not
-/// reached does not burn if its flux is below a fire's (run::least_fire).
-///
-/// The cost of a time is that of its burning cells. Frames in order are read once each. The class
-/// is thread-safe, and the result does not depend on the order of calls.
+/// reached does not burn if its flux is below run::least_fire. The cost is proportional to the
+/// number of burning cells. In sequential access each frame is read once. The class is thread-safe,
+/// and results do not depend on the order of calls.
 class Interpolator {
 public:
-  /// Finds ignition times, see arrival.hpp.
+  /// Computes ignition times (see arrival.hpp).
   explicit Interpolator(std::shared_ptr<const run::Run> run);
 
   const run::Run& run() const { return *run_; }
 
-  /// What burns at `time` (s since start): the frame at a model time, between two of them as in
-  /// IntervalInterpolator; nothing before the first and after the last.
-  /// @throws std::invalid_argument when time is NaN.
+  /// Heat flux at `time` (s since start): the frame at a model time, interpolated by
+  /// IntervalInterpolator in between, and empty before the first and after the last model time.
+  /// @throws std::invalid_argument if time is NaN
   SparseFlux at(double time) const;
 
 private:
@@ -36,10 +35,10 @@ private:
   std::shared_ptr<const run::Run> run_;
   std::vector<double> begin_; ///< [ny nx] s
 
-  mutable std::mutex mutex_; ///< for all below
+  mutable std::mutex mutex_; ///< protects the members below
   mutable LruCache<SparseFlux, 4> frames_;
   mutable LruCache<IntervalInterpolator, 3> steps_;
-  mutable std::vector<float> values_; ///< [ny nx] of the frame being read
+  mutable std::vector<float> values_; ///< [ny nx] buffer of the frame being read
 };
 
 } // namespace firetwin::flux

@@ -6,15 +6,15 @@
 namespace firetwin::flux {
 namespace {
 
-/// How far new cells may be ahead or behind, as a share of the F^1.5 of the other cells; what makes
-/// them rise less suddenly may take as much again.
+/// Allowed deviation of new cells from a linear sum, as a fraction of the other cells' F^1.5.
+/// Smoothing of sudden rises may add the same amount.
 constexpr double slack = 0.025;
-/// A new cell rises over at least this part of an interval, if the slack allows it.
+/// Minimum rise time of a new cell as a fraction of the interval, if the slack allows it.
 constexpr double least_rise = 1.0 / 16.0;
-/// Part of an interval.
+/// Tolerance for equal times, as a fraction of an interval.
 constexpr double same_time = 1e-6;
 
-/// F^1.5; 0 for what does not burn.
+/// F^1.5; 0 for cells that do not burn.
 double brightness(double flux) {
   return flux > 0.0 ? flux * std::sqrt(flux) : 0.0;
 }
@@ -66,9 +66,10 @@ void IntervalInterpolator::add(std::int64_t cell, float before, float after, dou
   cells_.push_back(c);
 }
 
-/// How far, 0 to 1, new cells of one arrival have come. All times are fractions of the interval.
-/// @param turn when they would be lit if all new cells were lit one after the other
-/// @param share of them in what the new cells have in the end
+/// Progress, 0 to 1, of the new cells with one arrival time. All times are fractions of the
+/// interval.
+/// @param turn start of their rise if all new cells rose one after the other
+/// @param share their share in the final F^1.5 of all new cells
 double IntervalInterpolator::rise(double fraction, double arrival, double turn,
                                   double share) const {
   const double near = std::clamp(arrival, turn - leeway_, turn + leeway_);
@@ -77,11 +78,11 @@ double IntervalInterpolator::rise(double fraction, double arrival, double turn,
   return std::clamp((fraction - begin) / length, 0.0, 1.0);
 }
 
-/// Lights the new cells, by and by, in the order of their arrival; gives their F^1.5.
+/// Adds the new cells in the order of their arrival. Returns the sum of their F^1.5.
 double IntervalInterpolator::light(double fraction, std::vector<double>& found) const {
   double lit = 0.0, sum = 0.0;
   for (std::size_t i = 0; i < beginnings_.size();) {
-    // Cells that the front reaches together, to rounding, are lit together.
+    // Cells with equal arrival times (within rounding) rise together.
     std::size_t end = i;
     double own = 0.0;
     for (; end < beginnings_.size() && beginnings_[end].time - beginnings_[i].time < same_time;

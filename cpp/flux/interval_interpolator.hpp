@@ -7,30 +7,27 @@
 
 namespace firetwin::flux {
 
-/// Sparse heat flux: the cells of a grid whose flux is not 0, in order.
+/// Sparse heat flux: the cells of a grid with nonzero flux, ascending.
 struct SparseFlux {
   std::vector<std::int64_t> cell; ///< y nx + x
-  std::vector<float> flux;        ///< W/m2; NaN where the model has none
+  std::vector<float> flux;        ///< W/m2; NaN if the model has no value
 };
 
 /// Interpolation of heat flux in the interval between two model times.
-///
-/// Size and colour of the flames go with F^1.5 (see emitters.hpp), so between two model times the
-/// sum of F^1.5 changes linearly, and nothing pulses once a model step:
+/// Size and colour of the flames follow F^1.5 (see emitters.hpp), so the sum of F^1.5 changes
+/// linearly between model times, and brightness does not pulse with the model step:
 /// - In a cell that burned before, F^1.5 changes linearly.
-/// - A cell that first burns in between stays cold until the front arrives, so the
-///   front moves instead of lighting all its new cells at once. Its F^1.5 then rises over the share
-///   of the interval that it has in the F^1.5 of all new cells. Lit one after the other in this
-///   way, in the order of their arrival, the sum of the new cells would rise linearly. They may be
-///   ahead of that or behind it by a few percent of what the other cells have; an arrival that asks
-///   for more is moved.
-/// - What is then still off is made good by one factor for all cells, within 5 % for F^1.5.
-///
-/// NaN where a cell that burned before has NaN in one of the two frames. Cells below 0 take no part
-/// in this and change linearly.
+/// - A cell that ignites in the interval stays cold until the front arrives, so that the front
+///   moves continuously. Its F^1.5 then rises during a fraction of the interval equal to its share
+///   in the F^1.5 of all new cells. If they rose one after the other in the order of arrival, their
+///   sum would rise linearly. It may deviate by a few percent of the other cells' sum; arrivals
+///   with a larger deviation are shifted.
+/// - One factor for all cells, within 5 % of F^1.5, corrects the remaining deviation.
+/// The result is NaN if a cell that burned before is NaN in one of the two frames. Negative fluxes
+/// are excluded and change linearly.
 class IntervalInterpolator {
 public:
-  /// @param begin [ny nx] s, when cells begin to burn; NaN: half-way
+  /// @param begin [ny nx] ignition times, s; NaN: half-way
   /// @param start, end model times of the frames, s
   IntervalInterpolator(const SparseFlux& before, const SparseFlux& after,
                        std::span<const double> begin, double start, double end);
@@ -46,7 +43,7 @@ private:
     double bright_before, bright_after; ///< F^1.5
     Course course = Course::even;
   };
-  /// A cell that begins to burn.
+  /// A cell that ignites in the interval.
   struct Beginning {
     std::size_t index; ///< in cells_
     double time;       ///< fraction of the interval
@@ -60,7 +57,7 @@ private:
   std::vector<Cell> cells_;
   std::vector<Beginning> beginnings_;         ///< ascending
   double old_before_ = 0.0, old_after_ = 0.0; ///< F^1.5 of the cells that burned before
-  double new_ = 0.0;                          ///< F^1.5 that those that begin have in the end
+  double new_ = 0.0;                          ///< final F^1.5 of the cells that ignite
   double leeway_ = 0.0;                       ///< fraction of the interval
 };
 

@@ -11,7 +11,7 @@ namespace firetwin::flux {
 /// LRU cache of `count` values by number. A value lives as long as a caller holds its pointer.
 template <class Value, std::size_t count> class LruCache {
 public:
-  /// The value of a number; `make()` makes it if it is not in the cache.
+  /// Returns the value of a number; calls `make()` if it is not in the cache.
   template <class Make> std::shared_ptr<const Value> get(std::size_t number, const Make& make) {
     const auto is_it = [number](const Entry& e) { return e.second && e.first == number; };
     auto found = std::find_if(entries_.begin(), entries_.end(), is_it);

@@ -12,7 +12,7 @@
 namespace firetwin::geo {
 namespace {
 
-/// Index of the last interval whose start is not beyond `value`.
+/// Index of the last interval that starts at or before `value`.
 std::size_t interval_of(std::span<const double> axis, double value) {
   const bool ascending = axis.front() < axis.back();
   const auto beyond = [ascending](double v, double node) {

@@ -8,7 +8,7 @@ namespace firetwin::geo {
 
 EarthAxes earth_axes(const Vector& place) {
   double latitude = 0.0, longitude = 0.0, height = 0.0;
-  std::vector<double> rotation(9); // row after row; its columns are east, north and up
+  std::vector<double> rotation(9); // row-major; its columns are east, north and up
   GeographicLib::Geocentric::WGS84().Reverse(place[0], place[1], place[2], latitude, longitude,
                                              height, rotation);
   return {{rotation[0], rotation[3], rotation[6]},

@@ -4,7 +4,7 @@
 
 namespace firetwin::geo {
 
-/// East, north and up of a place on or about the ellipsoid, in Earth-centred axes.
+/// East, north and up directions at a point, in Earth-centred axes.
 struct EarthAxes {
   Vector east;
   Vector north;

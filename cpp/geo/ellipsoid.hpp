@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-/// What points of one parallel or one meridian share, so that a grid needs its sines once per row
-/// and column.
+/// Terms of geodetic coordinates that depend on the parallel or the meridian only, so that a grid
+/// computes sines once per row and column.
 namespace firetwin::geo {
 
 struct SineCosine {
@@ -22,7 +22,7 @@ struct Radii {
   double normal_polar; ///< N (1 - e^2), m
 };
 
-/// @param sine of the latitude
+/// @param sine sine of the latitude
 inline Radii radii(double sine) {
   constexpr double rest = 1.0 - constants::eccentricity_squared;
   const double normal =
@@ -33,12 +33,11 @@ inline Radii radii(double sine) {
 /// @param latitude degrees, NaN beyond 90
 SineCosine parallel(double latitude);
 
-/// Sine and cosine of each longitude's difference from the origin's (degrees), reduced without
-/// rounding.
+/// Sine and cosine of longitude - origin (degrees), reduced without rounding.
 std::vector<SineCosine> meridians(std::span<const double> longitude, double origin);
 
-/// Sine and cosine of an angle that is `degrees` further on, up to 90 degrees. Taylor series
-/// without branches; what is left out is below (pi/2)^23 / 23! < 2e-18.
+/// Sine and cosine of an angle plus `degrees`, up to 90. Branch-free Taylor series with a
+/// truncation error below (pi/2)^23 / 23! < 2e-18.
 inline SineCosine turned(const SineCosine& from, double degrees) {
   const double d = degrees * (std::numbers::pi / 180.0);
   const double d2 = d * d;
@@ -55,15 +54,15 @@ inline SineCosine turned(const SineCosine& from, double degrees) {
 }
 
 /// Rotation of geocentric differences into the plane of an origin's meridian (IOGP 373-7-2, method
-/// 9837). With r the distance from the Earth's axis, z the height above the equator's plane and d
-/// the longitude from the origin's:
+/// 9837). r is the distance from the Earth's axis, z the distance from the equatorial plane and d
+/// the longitude relative to the origin:
 ///   east = r sin d,  dr = r cos d - r0,  dz = z - z0,
 ///   north = cos(lat0) dz - sin(lat0) dr,  up = sin(lat0) dz + cos(lat0) dr.
 class Origin {
 public:
   Origin(double latitude, double height);
 
-  /// @param meridian longitude from the origin's
+  /// @param meridian longitude relative to the origin
   /// @return m
   Vector to_local(const SineCosine& parallel, const Radii& radii, const SineCosine& meridian,
                   double height) const {

@@ -14,11 +14,11 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Whether the axis descends. @throws std::invalid_argument
+/// Returns true for a descending axis. @throws std::invalid_argument
 bool check_axis(std::span<const double> axis, const std::string& name) {
   const auto not_finite = [](double v) { return !std::isfinite(v); };
   if (axis.size() < 2 || std::any_of(axis.begin(), axis.end(), not_finite)) {
-    throw std::invalid_argument(name + " must hold two or more finite places");
+    throw std::invalid_argument(name + " must have at least two finite values");
   }
   const bool descends = axis[1] < axis[0];
   for (std::size_t i = 1; i < axis.size(); ++i) {

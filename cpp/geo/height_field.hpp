@@ -6,11 +6,11 @@
 
 namespace firetwin::geo {
 
-/// The ground as heights on a rectilinear grid in local metres, bilinear between its nodes.
+/// Ground heights on a rectilinear grid in local metres, interpolated bilinearly.
 class HeightField {
 public:
   /// @param x, y strictly ascending or descending, m
-  /// @param height [y x] m; no ground where it is not finite
+  /// @param height [y x] m; values that are not finite mean no ground
   /// @throws std::invalid_argument
   HeightField(std::span<const double> x, std::span<const double> y, std::span<const float> height);
 
@@ -19,7 +19,7 @@ public:
   double highest() const { return highest_; } ///< -infinity without any ground
   double smallest_cell() const { return smallest_cell_; }
 
-  /// Height at a place, that of the nearest edge outside the grid; NaN where there is no ground.
+  /// Height at a point; outside the grid, the height of the nearest edge. NaN without ground.
   double at(double x, double y) const;
 
 private:

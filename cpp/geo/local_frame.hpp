@@ -8,30 +8,31 @@
 
 namespace firetwin::geo {
 
-/// WGS84 <-> local east-north-up metres about one origin. Longitude, latitude in degrees, heights
-/// in metres above the ellipsoid. Latitudes beyond +-90 degrees and NaN give NaN.
+/// Converts between WGS84 and local east-north-up metres. Latitudes and longitudes are in degrees,
+/// heights in metres above the ellipsoid. Latitudes beyond +-90 degrees and NaN give NaN.
 class LocalFrame {
 public:
-  /// @throws std::invalid_argument when the origin is not finite or |latitude| > 90.
+  /// @throws std::invalid_argument if the origin is not finite or |latitude| > 90
   LocalFrame(double latitude, double longitude, double height);
 
   double latitude() const { return latitude_; }
   double longitude() const { return longitude_; }
   double height() const { return height_; }
 
-  /// One point -> east, north, up (GeographicLib::LocalCartesian).
+  /// Converts one point to east, north, up (GeographicLib::LocalCartesian).
   Vector forward(double latitude, double longitude, double height) const;
 
-  /// n scattered points -> enu[3 n].
+  /// Converts n scattered points to enu[3 n].
   void forward(std::span<const double> latitude, std::span<const double> longitude,
                std::span<const double> height, std::span<double> enu) const;
 
-  /// Rectilinear grid: ny latitudes, nx longitudes, height[ny nx] -> enu[ny nx 3]. The same result
-  /// within 5 nm, with sines and cosines once per row and column instead of once per point.
+  /// Converts a rectilinear grid of ny latitudes, nx longitudes and height[ny nx] to enu[ny nx 3].
+  /// Equal to `forward` within 5 nm; sines and cosines are computed per row and column instead of
+  /// per point.
   void forward_grid(std::span<const double> latitude, std::span<const double> longitude,
                     std::span<const double> height, std::span<double> enu) const;
 
-  /// enu[3 n] -> n latitudes, longitudes in [-180, 180] and heights.
+  /// Converts enu[3 n] to n latitudes, longitudes in [-180, 180] and heights.
   void reverse(std::span<const double> enu, std::span<double> latitude, std::span<double> longitude,
                std::span<double> height) const;
 

@@ -21,7 +21,7 @@ File::File(std::filesystem::path path) : path_(std::move(path)) {
   const auto size = system::size(descriptor_);
   if (!size) {
     system::close(descriptor_);
-    fail(path_, "is not a regular file; put the data itself there");
+    fail(path_, "is not a regular file; replace it with a file that holds the data");
   }
   size_ = *size;
 }
@@ -67,7 +67,7 @@ void check_size(const File& file, std::uint64_t limit) {
   }
 }
 
-/// Bytes up to the end of the last whole line, 0 where there is none.
+/// Bytes up to the end of the last complete line; 0 without one.
 std::size_t whole_lines(std::span<const char> text) {
   const auto end = std::find(text.rbegin(), text.rend(), '\n');
   return static_cast<std::size_t>(text.rend() - end);
@@ -88,7 +88,7 @@ void read_lines(const std::filesystem::path& path, std::uint64_t limit, std::siz
   const File file(path);
   check_size(file, limit);
   std::vector<char> buffer(std::min<std::uint64_t>(file.size(), piece));
-  std::size_t kept = 0; // of a line whose end is still to come
+  std::size_t kept = 0; // bytes of an incomplete line
   for (std::uint64_t offset = 0; offset < file.size();) {
     if (kept == buffer.size()) {
       buffer.resize(2 * buffer.size());

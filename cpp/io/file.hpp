@@ -9,12 +9,12 @@
 
 namespace firetwin::io {
 
-/// A regular file opened for positioned reads. Reads, not a memory map: when another program
-/// shortens a mapped file, touching it kills the whole process (SIGBUS); a short read is an
-/// InputError.
+/// A regular file opened for positioned reads. It is not memory-mapped: if another program
+/// truncates a mapped file, access kills the process (SIGBUS); a short read is an InputError
+/// instead.
 class File {
 public:
-  /// @throws InputError when the file is missing, unreadable or not a regular file.
+  /// @throws InputError if the file is missing, unreadable or not a regular file
   explicit File(std::filesystem::path path);
   ~File();
   File(const File&) = delete;
@@ -25,7 +25,7 @@ public:
   const std::filesystem::path& path() const { return path_; }
   std::uint64_t size() const { return size_; }
 
-  /// Fills `out` from `offset` on. @throws InputError when the file ends before that.
+  /// Fills `out` from `offset` on. @throws InputError if the file ends too early
   void read(std::uint64_t offset, std::span<char> out) const;
 
 private:
@@ -34,12 +34,12 @@ private:
   std::uint64_t size_ = 0;
 };
 
-/// The whole file; files beyond `limit` bytes are refused before anything is allocated.
+/// Reads a file. @throws InputError, before allocation, if it exceeds `limit` bytes
 Buffer<char> read_all(const std::filesystem::path& path, std::uint64_t limit);
 
-/// The same piece by piece in memory that stays in the processor's cache, each of whole lines (but
-/// for the last line of a file, which may lack its end), with the number of bytes after it.
-/// @param piece bytes, above 0; longer lines get more
+/// Reads a file in pieces that fit the processor's cache. Each piece consists of complete lines
+/// (the last line of a file may have no line end); `left` is the number of bytes after it.
+/// @param piece size of a piece in bytes, above 0; extended for longer lines
 void read_lines(const std::filesystem::path& path, std::uint64_t limit, std::size_t piece,
                 const std::function<void(std::span<const char> lines, std::uint64_t left)>& take);
 

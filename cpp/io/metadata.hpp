@@ -5,7 +5,7 @@
 
 namespace firetwin::io {
 
-/// What a file says of itself: texts by name.
+/// Metadata of a file: values by name.
 using Metadata = std::map<std::string, std::string>;
 
 } // namespace firetwin::io

@@ -6,12 +6,12 @@
 
 namespace firetwin::io {
 
-/// A path, or part of one, as UTF-8 on every system; on POSIX its bytes as they are.
+/// Converts a path to UTF-8; on POSIX its bytes are unchanged.
 std::string utf8(const std::filesystem::path& path);
 
-/// @throws InputError that names `path`, always.
+/// Throws an InputError for `path`.
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason);
-/// The same with a place in the file, counted from 1.
+/// Throws an InputError with a 1-based position in the file.
 [[noreturn]] void fail(const std::filesystem::path& path, std::int64_t line, std::int64_t column,
                        const std::string& reason);
 

@@ -31,14 +31,14 @@ std::string random_name() {
   return text.data();
 }
 
-/// A file in the making; what was not put in place is removed.
+/// Temporary file; the destructor removes it unless it was renamed.
 class NewFile {
 public:
   explicit NewFile(fs::path target) : target_(std::move(target)), temporary_(target_) {
     const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
     std::error_code code;
     if (!fs::is_directory(folder, code)) {
-      fail(folder, "no such folder; make it first");
+      fail(folder, "the folder does not exist; create it first");
     }
     temporary_ += "." + random_name() + ".tmp";
   }
@@ -51,7 +51,7 @@ public:
 
   const fs::path& path() const { return temporary_; }
 
-  /// Gives a whole, closed file its name.
+  /// Renames the complete, closed file to its final name.
   void put_in_place() const {
     if (!system::sync(temporary_)) {
       cannot_write(target_);

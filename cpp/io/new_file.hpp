@@ -7,11 +7,12 @@
 
 namespace firetwin::io {
 
-/// Writes a new file through a stream. It is written under another name in the same folder,
-/// `NAME.RANDOM.tmp`, which no other thread, process or machine uses, and gets its own once it is
-/// whole and on the disk, so that whoever opens the file finds all of it or none.
+/// Writes a file atomically: writes `NAME.RANDOM.tmp` in the same folder, flushes it to the disk
+/// and renames it, so that a reader sees the complete file or none. The random name is unique among
+/// threads, processes and machines.
 /// @return its length in bytes
-/// @throws InputError when the folder is not there or the file cannot be written; nothing is left.
+/// @throws InputError if the folder does not exist or the file cannot be written; the temporary
+/// file is removed
 std::uint64_t write_file(const std::filesystem::path& path,
                          const std::function<void(std::ostream&)>& write);
 

@@ -27,7 +27,7 @@ std::optional<std::uint64_t> size(int descriptor) {
 }
 
 std::ptrdiff_t read(int descriptor, std::uint64_t offset, std::span<char> out) {
-  OVERLAPPED place{}; // an offset of its own for each call, as with pread
+  OVERLAPPED place{}; // offset of this call, as with pread
   place.Offset = static_cast<DWORD>(offset);
   place.OffsetHigh = static_cast<DWORD>(offset >> 32);
   const auto most = static_cast<DWORD>(std::min(out.size(), most_at_once));
@@ -48,7 +48,7 @@ void close(int descriptor) {
 }
 
 bool sync(const std::filesystem::path& path) {
-  int descriptor = -1; // for writing: nothing comes to the disk through a handle for reading
+  int descriptor = -1; // opened for writing: a handle for reading cannot be flushed
   if (::_wsopen_s(&descriptor, path.c_str(), _O_RDWR | _O_BINARY | _O_NOINHERIT, _SH_DENYNO, 0)) {
     return false;
   }

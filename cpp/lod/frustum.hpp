@@ -12,7 +12,7 @@ struct View {
   std::array<double, 9> to_world; ///< rotation, row-major; the camera looks along its -z, y is up
   double half_width;              ///< perspective: tangent of half the horizontal angle of view
   double half_height;             ///< perspective: tangent of half the vertical angle of view
-  bool orthographic;  ///< parallel projection; half_width and half_height are then lengths, m
+  bool orthographic;  ///< parallel projection: half_width and half_height are lengths, m
   bool above_terrain; ///< the camera is above the terrain; only then does terrain occlude
   Vector sun;         ///< unit vector to the sun; a zero vector casts no shadows
 };
@@ -24,7 +24,7 @@ public:
   explicit Frustum(const View& view);
 
   /// Sphere-plane test. The test is conservative: every bounding sphere that touches the frustum
-  /// passes, and some spheres beside an edge of the frustum pass too.
+  /// passes, and some spheres just outside an edge pass too.
   bool intersects(const Vector& centre, double radius) const {
     const Vector to = minus(centre, position_);
     for (std::size_t i = 0; i < 5; ++i) {

@@ -19,7 +19,8 @@ LevelTable::LevelTable(std::vector<double> thresholds, std::vector<double> multi
     throw std::invalid_argument("thresholds must ascend");
   }
   if (multipliers_.size() != thresholds_.size() + 1 || multipliers_.size() > 256) {
-    throw std::invalid_argument("multipliers must be one more than thresholds, 256 at most");
+    throw std::invalid_argument(
+        "multipliers must have one more value than thresholds, and at most 256");
   }
 }
 

@@ -11,7 +11,7 @@ namespace firetwin::lod {
 class LevelTable {
 public:
   /// @param thresholds ascending distances, m; level i ends at thresholds[i], included
-  /// @param multipliers one more than thresholds
+  /// @param multipliers one per level, one more than thresholds
   /// @throws std::invalid_argument
   explicit LevelTable(std::vector<double> thresholds = {1500.0, 3500.0},
                       std::vector<double> multipliers = {1.0, 0.7, 0.4});
@@ -19,7 +19,7 @@ public:
   const std::vector<double>& thresholds() const { return thresholds_; }
   const std::vector<double>& multipliers() const { return multipliers_; }
 
-  /// Level of a distance (m). NaN has the last level.
+  /// Level at a distance (m); NaN gives the last level.
   std::uint8_t level(double distance) const;
   void levels(std::span<const double> distance, std::span<std::uint8_t> out) const;
   void multiplier(std::span<const double> distance, std::span<double> out) const;

@@ -12,13 +12,13 @@ namespace firetwin::lod {
 namespace {
 
 constexpr double most_cells = 4.0e6;
-constexpr double cells_per_quad = 4.0; ///< more lose less at the edges of ridges
-/// Part of a cell by which a quad is taken to be wider, for what bends between its nodes.
+constexpr double cells_per_quad = 4.0; ///< a higher resolution loses less at ridges
+/// Fraction of a cell by which a quad is enlarged, for curvature between its nodes.
 constexpr double bend = 0.01;
 constexpr float none = -std::numeric_limits<float>::infinity();
 constexpr float unset = std::numeric_limits<float>::infinity();
 
-/// The greatest float that is not above `value`.
+/// Largest float not above `value`.
 float rounded_down(double value) {
   const auto near = static_cast<float>(value);
   return double{near} > value ? std::nextafter(near, none) : near;
@@ -38,7 +38,7 @@ struct Range {
 
 Occluder::Occluder(std::span<const double> node, std::size_t rows, std::size_t columns) {
   if (rows < 2 || columns < 2) {
-    throw std::invalid_argument("position must hold two or more rows and columns");
+    throw std::invalid_argument("position must have at least two rows and columns");
   }
   check_finite(node, "position");
   Range x, y;
@@ -71,7 +71,7 @@ Occluder::Occluder(std::span<const double> node, std::size_t rows, std::size_t c
   build_blocks();
 }
 
-/// The rim's quads say where the surface ends: cells that they reach into are not covered.
+/// Quads at the rim mark the end of the surface: cells that they overlap are not covered.
 void Occluder::add_quad(std::span<const double> node, std::size_t corner, std::size_t columns,
                         bool rim) {
   Range x, y, z;
@@ -117,14 +117,14 @@ Occluder::Cells Occluder::cells(double left, double right, double low, double hi
 }
 
 long Occluder::index(double from_corner) const {
-  // Held to where the grid may be, so that it fits a long; rounded down without a library's call.
+  // Clamped to the grid's range, so that it fits a long; rounded down without a library call.
   const double held = std::min(std::max(from_corner / cell_, -2.0), 1e8);
   const auto whole = static_cast<long>(held);
   return whole - (held < static_cast<double>(whole));
 }
 
 template <class Visit> void Occluder::visit(Cells c, const Visit& visit) const {
-  // The finest blocks of which at most 3 x 3 cover the cells.
+  // The finest level on which at most 3 x 3 blocks cover the cells.
   const auto most = static_cast<unsigned long>(std::max(c.right - c.left, c.high - c.low));
   int k = std::max(static_cast<int>(std::bit_width(most)) - 2, 0);
   const auto wide = [&k](long first, long last) { return (last >> k) - (first >> k) > 2; };
@@ -170,21 +170,21 @@ public:
         grows_(to.radius - from.radius), length_(std::sqrt(way_[0] * way_[0] + way_[1] * way_[1])) {
   }
 
-  /// Whether the ground is over all of them at the fraction t, and t is one that is tried below.
+  /// True if the ground is above all lines at the fraction t, and t is one of the tested fractions.
   bool blocked(double t) const { return ground_.is_below(at(t).sphere) && tried(t); }
 
-  /// Whether it is at a fraction that is tried, and at which.
+  /// Tests all fractions; `where` receives the one that is blocked.
   bool blocked_anywhere(double& where) const { return blocked(0.0, 1.0, at(0.0), at(1.0), where); }
 
 private:
-  /// All of them at a fraction of their way, and the cell under the middle one.
+  /// All lines at one fraction: a bounding sphere and the cell below its centre.
   struct Point {
     BoundingSphere sphere;
     long column, row;
     double top() const { return sphere.centre[2] + sphere.radius; }
   };
 
-  /// Between the fractions `a` and `b`, where lines are at `from` and `to`.
+  /// Tests the fractions between `a` and `b` by bisection; the lines are at `from` and `to` there.
   bool blocked(double a, double b, const Point& from, const Point& to, double& where) const {
     if (!(ground_.highest(under(from, to)) > std::min(from.top(), to.top()))) {
       return false;
@@ -201,13 +201,13 @@ private:
     return blocked(half, b, middle, to, where) || blocked(a, half, from, middle, where);
   }
 
-  /// Whether the fractions between `a` and `b` are too near each other to be halved again.
+  /// True if the interval from `a` to `b` is too short to be halved again.
   bool is_short(double a, double b) const {
     const double radius = from_.radius + 0.5 * (a + b) * grows_;
     return (b - a) * length_ <= std::max(0.5 * ground_.cell_, 0.5 * radius);
   }
 
-  /// Whether t is the middle of a part that comes of halving.
+  /// True if t is the midpoint of an interval of the bisection.
   bool tried(double t) const {
     double a = 0.0, b = 1.0;
     for (double half = 0.5; half != t; half = 0.5 * (a + b)) {
@@ -226,8 +226,8 @@ private:
     return {sphere, ground_.index(sphere.centre[0] - ground_.x_),
             ground_.index(sphere.centre[1] - ground_.y_)};
   }
-  /// Cells under the middle line between two places. Where the ground in the one cell is no higher
-  /// than all lines' top there, the lowest of all cells that they are over is not either.
+  /// Cells below the middle line between two points. If the ground in each of them is below the top
+  /// of all lines, so is the lowest of all cells below the lines.
   static Cells under(const Point& a, const Point& b) {
     return {std::min(a.column, b.column), std::max(a.column, b.column), std::min(a.row, b.row),
             std::max(a.row, b.row)};

@@ -14,7 +14,7 @@ struct BoundingSphere {
   double radius; ///< m
 };
 
-/// Terrain as an occluder for occlusion culling. It keeps a lower bound of the surface.
+/// Terrain as an occluder for occlusion culling. It stores a lower bound of the surface.
 ///
 /// The bound of a grid cell is the lowest node of all quads that reach into the cell. So it holds
 /// for any triangulation of the nodes, and for finer surfaces above these triangles. Cells outside
@@ -25,7 +25,7 @@ public:
   /// @throws std::invalid_argument for fewer than 2 x 2 nodes and for nodes that are not finite.
   Occluder(std::span<const double> node, std::size_t rows, std::size_t columns);
 
-  /// Whether the terrain occludes all of `target` from all of `camera`. Every place of `camera`
+  /// Returns true if the terrain occludes all of `target` from all of `camera`. All of `camera`
   /// must be above the terrain. The test is conservative: it has no false positives, and it may
   /// miss an occlusion.
   ///
@@ -36,7 +36,7 @@ public:
   ///        are mostly occluded at a similar t. The result does not depend on it.
   bool occludes(const BoundingSphere& camera, const BoundingSphere& target, double& where) const;
 
-  /// Whether all of a sphere is below the terrain. Conservative: no false positives.
+  /// Returns true if a sphere is entirely below the terrain. Conservative: no false positives.
   bool is_below(const BoundingSphere& sphere) const;
 
 private:

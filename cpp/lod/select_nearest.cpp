@@ -19,7 +19,7 @@ double nearest(const double* point, std::span<const double> camera) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < camera.size(); c += 3) {
     const double d = squared_distance(point, &camera[c]);
-    least = d < least ? d : least; // a NaN loses
+    least = d < least ? d : least; // false for NaN
   }
   return least;
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double lowest_sun = 0.0175; // sine of one degree
 constexpr double thinnest_step = 1.0; // m
-/// Part of the way from the sphere by which the steps along its shadow grow.
+/// Growth of the steps along a shadow, as a fraction of the distance from the sphere.
 constexpr double step_growth = 0.125;
 
 double length(const Vector& v) {
@@ -23,7 +23,8 @@ bool has_sun(const View& view) {
   return view.sun[2] >= lowest_sun;
 }
 
-/// Largest change of a direction by the rotation between two (their difference's spectral norm).
+/// Largest change of a unit vector by the rotation between two views (spectral norm of the
+/// difference).
 double turn(const View& a, const View& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < 9; ++i) {
@@ -45,8 +46,7 @@ void check(const View& view) {
         product += view.to_world[3 * i + k] * view.to_world[3 * j + k];
       }
       if (std::abs(product - (i == j ? 1.0 : 0.0)) > 1.0e-6) {
-        throw std::invalid_argument(
-            "rotation must be a rotation: columns at right angles, of length 1");
+        throw std::invalid_argument("rotation must be orthonormal");
       }
     }
   }
@@ -142,7 +142,7 @@ BoundingSphere ViewSet::shadow_sphere(const Branch& b, const BoundingSphere& sph
           std::sqrt(sphere.radius * sphere.radius + (to - at) * (to - at)) + to * b.sun_moved};
 }
 
-/// Along the rays of light that go through the sphere, until all of them are under the ground.
+/// Follows the sun rays through the sphere until all of them are below the ground.
 bool ViewSet::may_cast_shadow(const Branch& b, const BoundingSphere& sphere,
                               const CullOptions& options, const Occluder* occluder,
                               double& ridge) const {

@@ -15,17 +15,16 @@ namespace firetwin::lod {
 /// Options of a visibility query.
 struct CullOptions {
   double max_distance = std::numeric_limits<double>::infinity(); ///< from perspective cameras, m
-  double margin = 0.0;  ///< m by which every frustum is enlarged, for indirect light
-  bool shadows = false; ///< keep shadow casters: spheres whose shadow falls on a visible place
+  double margin = 0.0;  ///< m by which each frustum is enlarged, for indirect light
+  bool shadows = false; ///< keep shadow casters: spheres whose shadow falls on a visible point
 };
 
 /// Views of a shot as a tree, for frustum and occlusion culling. Culling is conservative: it never
 /// removes a visible object.
 ///
-/// The views are the leaves of a binary tree. A branch stands for all views below it. It has the
-/// frustum of its middle view, the largest translation of the other cameras from it and their
-/// largest rotation. A sphere is enlarged by this motion before the test. Where the test of a
-/// branch fails, none of its views is tested.
+/// The views are the leaves of a binary tree. A branch represents all views below it by the frustum
+/// of its middle view and the largest translation and rotation of the other views. A sphere is
+/// enlarged by this motion before the test. If the test of a branch fails, its views are skipped.
 class ViewSet {
 public:
   /// @param views in order along the camera path, so that neighbours share a branch
@@ -35,16 +34,16 @@ public:
   ///         half_width and half_height are positive.
   ViewSet(std::vector<View> views, std::shared_ptr<const Occluder> occluder, double lowest_terrain);
 
-  /// Whether any view sees any part of a bounding sphere. A sphere with a NaN is never visible.
+  /// Returns true if any view sees any part of a bounding sphere. Spheres with NaN are never
+  /// visible.
   bool is_visible(const BoundingSphere& sphere, const CullOptions& options) const;
 
-  /// Distance of a place from the nearest perspective camera, m; infinite without one.
+  /// Distance of a point from the nearest perspective camera, m; infinite without one.
   double distance(const Vector& place) const;
 
-  /// Largest value over the views that see a sphere; -1 where none does.
-  ///
-  /// A branch is left out where its bound is no larger than what was found elsewhere. Its bound is
-  /// the value of its views where they have the same camera.
+  /// Largest value over the views that see a sphere; -1 if none does.
+  /// Branch and bound: a branch is skipped if its bound is not above the largest value so far. The
+  /// bound must be the exact value for views with one camera.
   /// @param bound bound(branch, camera, moved) >= 0: upper bound of the values of a branch, whose
   /// cameras are
   ///        within `moved` m of `camera`
@@ -58,7 +57,7 @@ public:
     return most;
   }
 
-  /// Largest of a number of each view, for each branch, as `largest` numbers them.
+  /// Maximum of a number per view, for each branch, in the numbering of `largest`.
   std::vector<double> largest_of_branches(std::span<const double> of_view) const;
 
   /// Number of views.
@@ -73,23 +72,23 @@ private:
     std::size_t first, last;
     std::size_t left, right; ///< branches; 0 for leaves
     std::size_t middle;      ///< view that represents the branch
-    Frustum frustum;         ///< of the middle view, as wide as the widest
+    Frustum frustum;         ///< of the middle view, as wide as the widest view
     double moved;            ///< largest translation from the middle view, m
     double turned;           ///< largest change of a unit vector by rotation from the middle view
-    bool perspective;        ///< any of them
-    bool orthographic;       ///< any of them
-    bool above_terrain;      ///< all of them
-    Vector sun;              ///< of a view with shadows
-    double sun_moved;        ///< largest difference of another's from it
-    double sun_height;       ///< least sine of those with shadows; 0 where none has
+    bool perspective;        ///< any view is perspective
+    bool orthographic;       ///< any view is orthographic
+    bool above_terrain;      ///< all cameras are above the terrain
+    Vector sun;              ///< sun direction of a view with shadows
+    double sun_moved;        ///< largest difference from the sun directions of other views
+    double sun_height;       ///< lowest sine of the sun's elevation; 0 without shadows
   };
 
   std::size_t grow(std::size_t first, std::size_t last);
   Branch branch(std::size_t first, std::size_t last) const;
-  /// Bound of a place's displacement between the middle view's frame and another view's, m.
+  /// Upper bound of a point's displacement between the middle view's frame and another view's, m.
   double shift(const Branch& branch, const Vector& place) const;
-  /// Whether a sphere may be visible in a view of this branch; exact for leaves.
-  /// @param occluder null tests the frusta alone, which is quick
+  /// Returns true if a sphere may be visible in a view of this branch; exact for leaves.
+  /// @param occluder null tests only the frusta, which is fast
   /// @param ridge fraction of the last occlusion (see `Occluder::occludes`)
   bool may_be_visible(const Branch& branch, const BoundingSphere& sphere,
                       const CullOptions& options, const Occluder* occluder, double& ridge) const;
@@ -97,8 +96,8 @@ private:
                       const CullOptions& options, const Occluder* occluder, double& ridge) const;
   bool may_cast_shadow(const Branch& branch, const BoundingSphere& sphere,
                        const CullOptions& options, const Occluder* occluder, double& ridge) const;
-  /// Bounding sphere of a shadow between two distances (m) from the caster, for all suns of the
-  /// branch.
+  /// Bounding sphere of a shadow between two distances (m) from the caster, for all sun directions
+  /// of the branch.
   static BoundingSphere shadow_sphere(const Branch& branch, const BoundingSphere& sphere,
                                       double from, double to);
   /// @param leaf receives the leaf whose view sees the sphere

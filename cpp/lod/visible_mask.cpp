@@ -14,7 +14,7 @@ namespace firetwin::lod {
 namespace {
 
 constexpr double tile_side = 300.0; // m
-/// Part of a tile's radius by which views may show it elsewhere and still are asked together.
+/// Views that displace a tile by less than this fraction of its radius are tested together.
 constexpr double same_place = 1.0;
 
 void check(std::span<const double> radius, const CullOptions& options) {
@@ -27,7 +27,7 @@ void check(std::span<const double> radius, const CullOptions& options) {
   }
 }
 
-/// The least box round some spheres.
+/// Bounding box of spheres.
 struct Box {
   Vector low, high;
   double radius = 0.0;
@@ -97,7 +97,7 @@ private:
       all.add(sphere(i));
     }
     const double width = all.high[0] - all.low[0], depth = all.high[1] - all.low[1];
-    // Never many more tiles than spheres.
+    // At most about as many tiles as spheres.
     const double most = 2.0 * static_cast<double>(finite.size()) + 64.0;
     const double side =
         std::max({tile_side, std::sqrt(width * depth / most), width / most, depth / most});
@@ -145,8 +145,8 @@ private:
     find(branch.right, tile, found);
   }
 
-  /// Tests the spheres of a tile. The view that saw the sphere before is tested first. The
-  /// occlusion of the whole tile from a branch is tested once, when it is first needed.
+  /// Tests the spheres of a tile. The view that saw the previous sphere is tested first. The
+  /// occlusion of the complete tile from a branch is tested once, on first use.
   void ask(std::size_t tile, const BoundingSphere& bounds, const std::vector<std::size_t>& branches,
            std::span<bool> out) const {
     std::vector<std::optional<bool>> open(branches.size());
@@ -170,7 +170,7 @@ private:
   std::span<const double> centre_, radius_;
   const ViewSet& view_set_;
   CullOptions options_;
-  std::vector<std::size_t> start_; ///< of each tile in member_, and the end
+  std::vector<std::size_t> start_; ///< first member of each tile in member_, and the end
   std::vector<std::uint32_t> member_;
 };
 

@@ -8,11 +8,11 @@
 
 namespace firetwin::particles {
 
-/// n particles, changed in place.
+/// n particles, updated in place.
 struct Particles {
   std::span<double> position;     ///< [3 n] m
   std::span<double> velocity;     ///< [3 n] m/s
-  std::span<std::uint8_t> landed; ///< [n] those that landed stay where they are
+  std::span<std::uint8_t> landed; ///< [n] landed particles do not move
 };
 
 /// Forces on each particle during a step.
@@ -24,10 +24,10 @@ struct Forces {
   std::span<const double> relaxation;  ///< [n] tau of the drag, s
 };
 
-/// One step of motion.hpp's exact solution. What meets the ground lies there from then on, without
-/// velocity. Any number of threads gives the same.
+/// Advances particles by one step with the exact solution of motion.hpp. A particle that reaches
+/// the ground stays there with zero velocity. The result does not depend on the number of threads.
 /// @param ground may be null
-/// @throws std::invalid_argument unless step >= 0 is finite and no relaxation is negative or NaN.
+/// @throws std::invalid_argument unless step >= 0 is finite and no relaxation is negative or NaN
 void advance(const Particles& particles, const Forces& forces, double step,
              const geo::HeightField* ground);
 

@@ -14,8 +14,8 @@ bool below(const Vector& position, const geo::HeightField& ground) {
   return position[2] < ground.highest() && position[2] < ground.at(position[0], position[1]);
 }
 
-/// About the highest speed over the ground (the highest in a wind without bend): drag draws the
-/// velocity to the wind.
+/// Estimate of the highest horizontal speed (exact for wind without curvature): drag pulls the
+/// velocity towards the wind.
 double fastest(const Motion& motion, double duration) {
   double speed = std::hypot(motion.velocity[0], motion.velocity[1]);
   for (const double t : {0.0, 0.5 * duration, duration}) {
@@ -28,7 +28,7 @@ double fastest(const Motion& motion, double duration) {
   return speed;
 }
 
-/// The last moment in low..high that is not below the ground, to the precision of a double.
+/// Last time in low..high at which the particle is not below the ground, to double precision.
 double bisect(const Motion& motion, double low, double high, const geo::HeightField& ground) {
   for (double middle = 0.5 * (low + high); middle > low && middle < high;
        middle = 0.5 * (low + high)) {

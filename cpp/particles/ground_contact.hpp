@@ -7,16 +7,15 @@
 
 namespace firetwin::particles {
 
-/// When a motion of `duration` seconds first meets the ground, if that is not after `until`.
-///
-/// The path is looked at in equal parts of `duration`, short enough that it crosses half a cell of
-/// the ground in each at most (10,000 parts at most), and the first part that ends below the ground
-/// is bisected. So the answer does not depend on `until`, and a hill that the path cuts off within
-/// one part does not stop it.
+/// Time of the first ground contact of a motion of `duration` seconds; empty if it is after
+/// `until`. The path is sampled at equal steps of `duration`, short enough to cross at most half a
+/// ground cell each (at most 10,000 steps); the first step that ends below the ground is bisected.
+/// So the result does not depend on `until`, and a hill that the path crosses within one step is
+/// missed.
 std::optional<double> ground_contact(const Motion& motion, double duration, double until,
                                      const geo::HeightField& ground);
 
-/// The same place, not below the ground.
+/// Clamps a position to the ground from below.
 Vector raised_to_ground(const Vector& position, const geo::HeightField& ground);
 
 } // namespace firetwin::particles

@@ -17,7 +17,7 @@ struct Phi {
   double three;
 };
 
-/// The differences lose digits for small s. There phi3 is its Taylor series, the sum of
+/// The differences cancel for small s. There phi3 is its Taylor series, the sum of
 /// (-s)^k / (k + 3)! = 1/6 (1 - s/4 (1 - s/5 (...))), and the others follow from it.
 Phi phi(double s) {
   constexpr double few = 0.5;

@@ -8,15 +8,15 @@ namespace firetwin::particles {
 /// gas rises.
 double lift(double density, double air_density);
 
-/// The motion of one particle in a wind that changes as a parabola:
+/// Motion of one particle in a wind that is a parabola in time:
 ///   dv/dt = (u(t) - v) / tau + a,  u(t) = u0 + w t + q t^2 / 2
 /// (drag linear in the slip, gravity and buoyancy: the leading terms of Maxey & Riley 1983,
 /// doi:10.1063/1.864230). Solved exactly, by variation of constants: with s = t / tau,
 ///   v = v0 phi0 + u0 (1 - phi0) + t (a phi1 + w (1 - phi1)) + t^2 q (1/2 - phi2),
 ///   x = x0 + t (v0 phi1 + u0 (1 - phi1)) + t^2 (a phi2 + w (1/2 - phi2)) + t^3 q (1/6 - phi3),
 /// with phi0 = e^-s, phi1 = (1 - phi0) / s, phi2 = (1 - phi1) / s, phi3 = (1/2 - phi2) / s.
-/// It holds for any t >= 0 and any tau from 0 (the particle is carried by the wind) to infinity (it
-/// falls freely), so no step is too long to be stable.
+/// It holds for any t >= 0 and any tau from 0 (passive tracer) to infinity (free fall), and is
+/// stable for any step.
 struct Motion {
   Vector position;   ///< at t = 0, m
   Vector velocity;   ///< at t = 0, m/s

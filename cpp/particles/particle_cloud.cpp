@@ -18,7 +18,7 @@ namespace {
 
 constexpr double most_particles = 1e8;
 
-/// Second word of Philox's key: 0 belongs to the forest.
+/// Second word of the Philox key; 0 is used by the forest.
 constexpr std::uint64_t stream = 1;
 
 void check_range(const Range& range, const std::string& name, double least) {
@@ -40,19 +40,19 @@ void check(double time, const Sources& sources, const ParticleKind& kind, const 
   check_finite(wind.time, "wind_time");
   if (wind.time.empty() || std::adjacent_find(wind.time.begin(), wind.time.end(),
                                               std::greater_equal<>()) != wind.time.end()) {
-    throw std::invalid_argument("wind needs one or more finite times that ascend");
+    throw std::invalid_argument("wind needs at least one time; times must be finite and ascending");
   }
   double expected = 0.0;
   for (std::size_t i = 0; i < sources.rate.size(); ++i) {
     if (!(sources.rate[i] >= 0.0) || !finite(sources.rate[i]) || !finite(sources.start[i]) ||
         !finite(sources.end[i])) {
-      throw std::invalid_argument("rate, start and end must be finite, rate 0 or more");
+      throw std::invalid_argument("rate, start and end must be finite, and rate must be 0 or more");
     }
     expected += sources.rate[i] * kind.life[1];
   }
   if (expected > most_particles) {
-    throw std::invalid_argument("rate and life would keep " + std::to_string(expected) +
-                                " particles; 1e8 is the limit");
+    throw std::invalid_argument("rate and life give " + std::to_string(expected) +
+                                " particles; the limit is 1e8");
   }
 }
 
@@ -70,7 +70,7 @@ public:
     offset_ = shared ? 0 : 3 * source;
   }
 
-  /// Sets wind and gust of a motion that starts at `time`, and returns when they change.
+  /// Sets wind and gust of a motion that starts at `time`. Returns the time of their next change.
   double set(Motion& motion, double time) const {
     const auto next = static_cast<std::size_t>(std::upper_bound(time_.begin(), time_.end(), time) -
                                                time_.begin());
@@ -122,8 +122,8 @@ struct Now {
   bool landed;
 };
 
-/// Where a particle is at `time`. Its path is cut where the wind changes and where its life ends,
-/// never at `time`, so that it lands at the same moment for every time asked for.
+/// State of a particle at `time`. Its path is split at wind changes and at the end of its life,
+/// never at `time`, so that its landing time does not depend on `time`.
 Now follow(Launch l, double time, const SourceWind& wind, const geo::HeightField* ground) {
   if (ground) {
     l.motion.position = raised_to_ground(l.motion.position, *ground);

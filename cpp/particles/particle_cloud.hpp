@@ -18,29 +18,29 @@ struct ParticleKind {
   Range relaxation; ///< tau of the drag, s: terminal speed is |lift| tau
   Range rise;       ///< upward speed at launch, m/s
   Range spread;     ///< sideways speed at launch, m/s, in any direction
-  Range life;       ///< s, after which a particle is gone
+  Range life;       ///< lifetime, s
 };
 
-/// m places that launch `rate` particles a second from `start` to `end`.
+/// m sources that launch `rate` particles per second from `start` to `end`.
 struct Sources {
   std::span<const double> position;  ///< [3 m] m
   std::span<const double> start;     ///< [m] s
   std::span<const double> end;       ///< [m] s
   std::span<const double> rate;      ///< [m] 1/s
-  std::span<const std::uint64_t> id; ///< [m] key of their random numbers, such as the cell
+  std::span<const std::uint64_t> id; ///< [m] key of the source's random numbers, such as its cell
   double size; ///< particles start in a square this wide about the position, m
 };
 
-/// Wind at `time` (ascending), linear between, constant before and after.
+/// Wind at ascending times, linear in between and constant outside.
 struct Wind {
   std::span<const double> time;     ///< [k] s
-  std::span<const double> velocity; ///< [k 3] m/s for all, or [k m 3] for each source
+  std::span<const double> velocity; ///< [k 3] m/s for all sources, or [k m 3] per source
 };
 
-/// n particles, in order of source and number.
+/// n particles, ordered by source and number.
 struct ParticleCloud {
   std::vector<std::int64_t> source; ///< index of the source
-  std::vector<std::int64_t> number; ///< how many its source launched before
+  std::vector<std::int64_t> number; ///< index of the particle within its source
   std::vector<double> position;     ///< [3 n] m
   std::vector<double> velocity;     ///< [3 n] m/s
   std::vector<double> age;          ///< s
@@ -48,11 +48,11 @@ struct ParticleCloud {
   std::vector<std::uint8_t> landed;
 };
 
-/// The particles that are in the air or on the ground at one time. It needs no time before it: how
-/// particle k of a source starts follows from Philox keyed by (seed, id, k), its launch at
-/// start + (k + U) / rate, and its path from motion.hpp's exact solution. So a frame comes out the
-/// same in any order of calls, and no source changes another's particles.
-/// @param ground may be null; particles that meet it lie there until their life ends
+/// Particles in the air or on the ground at one time, in closed form: particle k of a source starts
+/// at start + (k + U) / rate, with random numbers of a Philox stream keyed by (seed, id, k), and
+/// moves by the exact solution of motion.hpp. So frames can be computed in any order, and sources
+/// are independent.
+/// @param ground may be null; landed particles stay until the end of their life
 /// @throws std::invalid_argument
 ParticleCloud state(double time, const Sources& sources, const ParticleKind& kind, const Wind& wind,
                     const geo::HeightField* ground, std::uint64_t seed);

@@ -14,7 +14,7 @@
 namespace firetwin::sensor {
 namespace {
 
-/// Weights of a Gaussian at whole pixels from its middle on, of sum 1 on both sides together.
+/// Weights of a Gaussian at integer distances from its centre; the two-sided sum is 1.
 std::vector<double> gaussian(double sigma) {
   const auto reach = static_cast<std::size_t>(std::ceil(4.0 * sigma));
   std::vector<double> weight(reach + 1);
@@ -30,7 +30,7 @@ std::vector<double> gaussian(double sigma) {
   return weight;
 }
 
-/// Rows of an image, one after the other, blurred along themselves and written as columns.
+/// Blurs each row of an image and writes it as a column.
 std::vector<float> blurred_turned(std::span<const float> image, std::size_t height,
                                   std::size_t width, std::span<const double> weight) {
   std::vector<float> turned(image.size());
@@ -66,7 +66,7 @@ void check(const Detector& detector) {
     throw std::invalid_argument("bits must be from 0 to 16");
   }
   if (detector.bits > 0 && detector.saturation == 0.0) {
-    throw std::invalid_argument("counts need a saturation, which fills their range");
+    throw std::invalid_argument("counts need a saturation, which defines full scale");
   }
 }
 

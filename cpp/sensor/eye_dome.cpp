@@ -25,8 +25,8 @@ void eye_dome(std::span<const float> depth, std::size_t height, std::size_t widt
   if (!(strength >= 0.0) || !std::isfinite(strength) || radius == 0) {
     throw std::invalid_argument("strength must be 0 or more, radius above 0");
   }
-  radius = std::min(radius, std::max(height, width)); // farther out there is nothing
-  // Logarithms with a rim that is farther than all: no neighbour is nearer there.
+  radius = std::min(radius, std::max(height, width)); // no neighbours beyond the image
+  // Logarithms with a rim at infinite depth, which is never nearer than a pixel.
   const std::size_t wide = width + 2 * radius;
   std::vector<float> log((height + 2 * radius) * wide, std::numeric_limits<float>::infinity());
   tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
@@ -40,7 +40,7 @@ void eye_dome(std::span<const float> depth, std::size_t height, std::size_t widt
     const float* const beside = above + radius * wide;
     const float* const below = beside + radius * wide;
     const std::span<float> row = shade.subspan(y * width, width);
-    for (std::size_t x = 0; x < width; ++x) { // without branches, so that it is vectorised
+    for (std::size_t x = 0; x < width; ++x) { // branch-free, so that it is vectorized
       const float here = beside[x + radius];
       float sum = 0.0F;
       for (const float* const line : {above, beside, below}) {

@@ -89,7 +89,7 @@ void colour(std::span<const float> kelvin, double low, double high, double knee,
   const double scale = knee > 0.0 ? 1.0 / std::log1p(range / knee) : 1.0 / range;
   for (std::size_t i = 0; i < kelvin.size(); ++i) {
     const double above = static_cast<double>(kelvin[i]) - low;
-    const double held = above > 0.0 ? std::min(above, range) : 0.0; // NaN: cold
+    const double held = above > 0.0 ? std::min(above, range) : 0.0; // NaN: low
     const Colour shown = palette.at(scale * (knee > 0.0 ? std::log1p(held / knee) : held));
     for (std::size_t c = 0; c < 3; ++c) {
       colour[3 * i + c] = static_cast<float>(shown[c]);

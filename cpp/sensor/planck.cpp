@@ -84,8 +84,8 @@ double slope(double kelvin, double radiance, const Band& band) {
          first() * kelvin * kelvin * kelvin * (low * integrand(low) - high * integrand(high));
 }
 
-/// Long waves (Rayleigh-Jeans), where radiance is proportional to temperature; always below the
-/// answer.
+/// Rayleigh-Jeans limit, where radiance is proportional to temperature; a lower bound of the
+/// result.
 double rayleigh_jeans(double radiance, const Band& band) {
   const double low = second / band.high, high = second / band.low;
   return radiance * 3.0 / (first() * (high * high * high - low * low * low));
@@ -130,8 +130,8 @@ double temperature_exponent(double kelvin, const Band& band) {
   return slope(kelvin, value, band) * kelvin / value;
 }
 
-// Newton's method on log(radiance) against 1/T, which is nearly straight where x is large and
-// gently curved elsewhere; bisection where a step leaves the bracket.
+// Newton's method on log(radiance) against 1/T, which is nearly linear for large x; bisection if a
+// step leaves the bracket.
 double brightness_temperature(double target, const Band& band) {
   if (!(target > 0.0) || std::isinf(target)) {
     return target >= 0.0 ? target : std::numeric_limits<double>::quiet_NaN();

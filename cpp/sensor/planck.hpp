@@ -8,15 +8,15 @@ struct Band {
   double high = 14.0;
 };
 
-/// @throws std::invalid_argument unless 0 < low < high are finite.
+/// @throws std::invalid_argument unless 0 < low < high are finite
 void check(const Band& band);
 
 /// Radiance of a black body at one wavelength (um), W m-2 sr-1 um-1: Planck's law. 0 K gives 0;
 /// negative and NaN temperatures give NaN.
 double spectral_radiance(double kelvin, double wavelength);
 
-/// The temperature of a black body with this spectral radiance, K: the inverse, in closed form. 0
-/// gives 0, infinity infinity; negative values and NaN give NaN.
+/// Temperature of a black body with this spectral radiance, K: the inverse in closed form. 0 gives
+/// 0, infinity gives infinity; negative values and NaN give NaN.
 double spectral_temperature(double radiance, double wavelength);
 
 /// Radiance of a black body over a band, W m-2 sr-1: the integral of Planck's law
@@ -29,8 +29,8 @@ double radiance(double kelvin, const Band& band);
 /// kelvin > 0.
 double temperature_exponent(double kelvin, const Band& band);
 
-/// Brightness temperature of a band radiance, K: the inverse of radiance. 0 gives 0,
-/// infinity infinity; negative values and NaN give NaN.
+/// Brightness temperature of a band radiance, K: the inverse of `radiance`. 0 gives 0, infinity
+/// gives infinity; negative values and NaN give NaN.
 double brightness_temperature(double radiance, const Band& band);
 
 } // namespace firetwin::sensor

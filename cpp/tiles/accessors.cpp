@@ -43,7 +43,7 @@ void convert(const std::uint8_t* from, std::size_t stride, const AccessorType& t
   }
 }
 
-/// Indices are never of type float, and nothing else becomes a whole number.
+/// Converts one component. Indices are checked to be unsigned, so only they become integers.
 template <class To>
 void convert_elements(const std::uint8_t* from, std::size_t stride, const AccessorType& type,
                       To* to) {
@@ -70,7 +70,7 @@ unsigned component_type(const Node& node) {
   const bool known =
       (type >= signed_byte && type <= unsigned_short) || type == unsigned_int || type == real;
   if (!known) {
-    node.refuse("is " + std::to_string(type) + ", which is no type of glTF");
+    node.refuse("is " + std::to_string(type) + ", which is not a glTF component type");
   }
   return static_cast<unsigned>(type);
 }
@@ -94,13 +94,13 @@ AccessorType Accessors::type(const Node& index) const {
   type.normalized = node.boolean("normalized", false);
   const std::size_t most = type.components == 1 ? max_indices : max_vertices;
   if (type.count > most) {
-    node.at("count").refuse("is " + std::to_string(type.count) + "; " + std::to_string(most) +
-                            " are the most");
+    node.at("count").refuse("is " + std::to_string(type.count) + "; the limit is " +
+                            std::to_string(most));
   }
   return type;
 }
 
-/// The bytes from the first element on, when all of them are there.
+/// Bytes from the first element on, after a check that the view contains all elements.
 Bytes Accessors::elements(const Node& place, Buffers::View view, std::size_t count,
                           std::size_t bytes, std::size_t& stride) {
   stride = view.stride == 0 ? bytes : view.stride;
@@ -112,7 +112,7 @@ Bytes Accessors::elements(const Node& place, Buffers::View view, std::size_t cou
   const std::size_t length = count == 0 ? 0 : stride * (count - 1) + bytes;
   if (!within(offset, length, view.bytes.size())) {
     place.refuse("its " + std::to_string(count) + " elements need " + std::to_string(length) +
-                 " bytes from " + std::to_string(offset) + " on, and the view has " +
+                 " bytes from byte " + std::to_string(offset) + ", but the view has " +
                  std::to_string(view.bytes.size()));
   }
   return view.bytes.subspan(offset, length);
@@ -148,7 +148,7 @@ void Accessors::read_sparse(const Node& sparse, const AccessorType& type, std::v
 template <class T>
 void Accessors::read(const Node& node, const AccessorType& type, std::vector<T>& out) {
   reserve_bytes_(type.count * type.components * sizeof(T));
-  out.resize(type.count * type.components); // zeros, where there is no view
+  out.resize(type.count * type.components); // all zeros without a view
   if (const auto index = node.find("bufferView")) {
     std::size_t stride = 0;
     const Bytes from = elements(node, buffers_->view(*index), type.count, type.bytes(), stride);

@@ -10,18 +10,18 @@
 
 namespace firetwin::tiles {
 
-/// What a document says of an accessor, checked.
+/// Validated properties of an accessor.
 struct AccessorType {
   std::size_t count = 0;
   std::size_t components = 1;
-  unsigned component = 0; ///< 5120 to 5126, as glTF numbers them
+  unsigned component = 0; ///< glTF component type, 5120 to 5126
   bool normalized = false;
 
   std::size_t component_bytes() const;
   std::size_t bytes() const { return components * component_bytes(); }
 };
 
-/// Reads accessors of any component type, stride and sparseness.
+/// Reads accessors of any component type and stride, dense or sparse.
 class Accessors {
 public:
   Accessors(const Node& root, Buffers& buffers, ReserveBytes reserve_bytes)
@@ -30,9 +30,9 @@ public:
 
   /// @throws InputError
   AccessorType type(const Node& index) const;
-  /// count x components; normalized integers become -1 to 1.
+  /// count x components; normalized integers are scaled to -1..1.
   std::vector<float> floats(const Node& index);
-  /// Whole numbers. @throws InputError where the accessor is not one of unsigned scalars
+  /// Indices. @throws InputError if the accessor does not hold unsigned scalars
   std::vector<std::uint32_t> indices(const Node& index);
 
 private:

@@ -24,7 +24,7 @@ std::string_view trimmed(std::string_view text) {
              : text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
-/// Of length 1; up where it has no length.
+/// Unit vector; (0, 0, 1) for a vector of length 0.
 Vector unit(const Vector& v) {
   const double length = std::sqrt(dot(v, v));
   if (!(length > 0.0) || !std::isfinite(length)) {
@@ -33,7 +33,7 @@ Vector unit(const Vector& v) {
   return {v[0] / length, v[1] / length, v[2] / length};
 }
 
-/// How much longer the matrix makes the longest of the three axes.
+/// Largest scale factor of the matrix along the three axes.
 double stretch(const Matrix& m) {
   double square = 0.0;
   for (std::size_t column = 0; column < 3; ++column) {
@@ -74,7 +74,7 @@ void Assembler::add_copyright(std::string_view text) {
 
 void Assembler::reserve_bytes(std::size_t bytes) {
   if (bytes > max_decoded_bytes || bytes_ > max_decoded_bytes - bytes) {
-    refuse(name_, "holds more than 1 GB when it is decoded");
+    refuse(name_, "exceeds 1 GB when decoded");
   }
   bytes_ += bytes;
 }
@@ -101,7 +101,7 @@ Assembler::Bounds Assembler::bounds(const Draw& draw) {
     const Vector place = transform_point(draw.to_scene, vector_at(draw.primitive->position, i));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       farthest = std::max(farthest, std::abs(draw.primitive->position[3 * i + axis]));
-      if (!(std::abs(place[axis]) <= max_vertex_distance)) { // so is NaN
+      if (!(std::abs(place[axis]) <= max_vertex_distance)) { // true for NaN
         found.low[axis] = found.high[axis] = infinity;
         return found;
       }
@@ -114,7 +114,7 @@ Assembler::Bounds Assembler::bounds(const Draw& draw) {
   return found;
 }
 
-/// The middle of all that is near enough; the rest is left out.
+/// Sets the origin to the centre of all draws within max_vertex_distance and drops the others.
 void Assembler::choose_origin() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Bounds all{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, 0.0};

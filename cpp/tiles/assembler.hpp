@@ -13,12 +13,12 @@
 
 namespace firetwin::tiles {
 
-/// Vertices as the content has them, in their own frame; all that are there are finite.
+/// Vertices in the content's local frame; all are finite.
 struct Primitive {
   std::vector<float> position;         ///< n x 3
-  std::vector<float> normal;           ///< n x 3; nothing for points without
-  std::vector<float> uv;               ///< n x 2, or nothing
-  std::vector<float> colour;           ///< n x 4 linear, or nothing
+  std::vector<float> normal;           ///< n x 3; empty for points without normals
+  std::vector<float> uv;               ///< n x 2, or empty
+  std::vector<float> colour;           ///< n x 4, linear, or empty
   std::vector<std::uint32_t> triangle; ///< m x 3
   int material = -1;
   bool points = false;
@@ -27,20 +27,20 @@ struct Primitive {
   std::size_t vertices() const { return position.size() / 3; }
 };
 
-/// Gathers what a tile's contents hold, and puts it together in the scene's frame.
+/// Collects the primitives of a tile's contents and merges them in the scene's frame.
 class Assembler {
 public:
   explicit Assembler(std::string name) : name_(std::move(name)) {}
 
   int add_image(Image image);
   int add_material(Material material);
-  void add_copyright(std::string_view text); ///< each notice between semicolons once
+  void add_copyright(std::string_view text); ///< adds each notice between semicolons once
   void add_lines() { ++tile_.lines; }
   void add_not_finite(std::size_t vertices) { tile_.not_finite += vertices; }
-  /// A matrix that flattens hides what it moves, as glTF has it.
-  /// @throws InputError beyond the most instances or vertices
+  /// Adds an instance of a primitive. A singular matrix hides it, as in glTF.
+  /// @throws InputError if the tile exceeds max_instances or max_vertices
   void add_draw(std::shared_ptr<const Primitive> primitive, const Matrix& to_scene);
-  /// Counts decoded memory. @throws InputError beyond the most
+  /// Counts decoded memory. @throws InputError beyond max_decoded_bytes
   void reserve_bytes(std::size_t bytes);
   Tile finish();
 
@@ -51,7 +51,7 @@ private:
   };
   struct Bounds {
     Vector low, high;
-    double spacing; ///< m between neighbouring numbers of the content's own coordinates
+    double spacing; ///< m between neighbouring float32 numbers in the content's coordinates
   };
 
   static Bounds bounds(const Draw& draw);

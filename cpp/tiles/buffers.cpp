@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint8_t no_letter = 64;
 
-/// Six bits of each letter of base64 (RFC 4648).
+/// The six bits of each base64 character (RFC 4648).
 constexpr std::array<std::uint8_t, 256> base64_values = [] {
   std::array<std::uint8_t, 256> values{};
   values.fill(no_letter);
@@ -23,7 +23,7 @@ constexpr std::array<std::uint8_t, 256> base64_values = [] {
   return values;
 }();
 
-/// Whether a buffer stands for data that is compressed elsewhere, and has no bytes of its own.
+/// True for a placeholder buffer whose data is stored compressed in another buffer.
 bool is_fallback(const Node& buffer) {
   const auto extension = buffer.extension("EXT_meshopt_compression");
   return extension && extension->boolean("fallback", false);
@@ -58,7 +58,7 @@ std::vector<std::uint8_t> decode_data_uri(const Node& uri) {
   for (std::size_t i = comma + 1; i < text.size() && text[i] != '='; ++i) {
     const std::uint8_t value = base64_values[static_cast<unsigned char>(text[i])];
     if (value == no_letter) {
-      uri.refuse("has a letter that base64 has not");
+      uri.refuse("contains a character that is not base64");
     }
     bits = bits << 6U | value;
     held += 6;
@@ -85,7 +85,7 @@ Bytes Buffers::buffer(const Node& index) {
   if (!uri && i == 0 && binary_) {
     bytes = *binary_;
   } else if (!uri) {
-    node.refuse("has no uri, and the content has no bytes for it");
+    node.refuse("has no uri, and the content has no binary chunk for it");
   } else if (is_data_uri(uri->text())) {
     if (!decoded_buffers_.contains(i)) {
       reserve_bytes_(uri->text().size());
@@ -100,13 +100,13 @@ Bytes Buffers::buffer(const Node& index) {
     bytes = found->second;
   }
   if (bytes.size() < length) {
-    node.refuse("says " + std::to_string(length) + " bytes, and there are " +
+    node.refuse("declares " + std::to_string(length) + " bytes, but has " +
                 std::to_string(bytes.size()));
   }
   return bytes.first(length);
 }
 
-/// What byteOffset and byteLength of a view, or of its compressed form, name.
+/// The part of a buffer given by byteOffset and byteLength of a view or of its compressed form.
 Bytes Buffers::slice(const Node& described) {
   const Bytes bytes = buffer(described.at("buffer"));
   const std::size_t offset = described.integer("byteOffset", 0);
@@ -127,7 +127,7 @@ Bytes Buffers::decompressed(std::size_t index, const Node& view, const Node& ext
   const std::size_t size = description.count * description.stride;
   if (size != view.at("byteLength").integer()) {
     extension.refuse("has " + std::to_string(size) +
-                     " bytes when it is decompressed, and the view " + "says " +
+                     " bytes when decompressed, but the view declares " +
                      std::to_string(view.at("byteLength").integer()));
   }
   const Bytes compressed = slice(extension);
@@ -141,7 +141,7 @@ Buffers::View Buffers::view(const Node& index) {
   const Node& node = views_[i];
   const std::size_t stride = node.integer("byteStride", 0);
   if (stride > 256) {
-    node.at("byteStride").refuse("is " + std::to_string(stride) + "; 256 is the most");
+    node.at("byteStride").refuse("is " + std::to_string(stride) + "; the limit is 256");
   }
   const auto extension = node.extension("EXT_meshopt_compression");
   return {extension ? decompressed(i, node, *extension) : slice(node), stride};

@@ -13,19 +13,19 @@
 
 namespace firetwin::tiles {
 
-/// `uri` relative to a folder such as "models/".
+/// Resolves `uri` against a folder such as "models/".
 std::string resolve_uri(const std::string& folder, const std::string& uri);
-/// The folder of a uri, with its slash; nothing where it has none.
+/// The folder of a uri with a trailing slash; empty if it has none.
 std::string folder_of(const std::string& uri);
 bool is_data_uri(const std::string& uri);
-/// The bytes of a data: uri. @throws InputError where it is not base64
+/// Decodes a data: uri. @throws InputError if it is not base64
 std::vector<std::uint8_t> decode_data_uri(const Node& uri);
 
-/// Called with the size of what is about to be decoded; it may throw.
+/// Callback with the number of bytes about to be allocated; throws beyond the memory limit.
 using ReserveBytes = std::function<void(std::size_t)>;
 
-/// Bytes of a document's buffers, and of their views decompressed. Each is decoded once, when it is
-/// asked for. The content and the resources must outlive it.
+/// Buffers and buffer views of a document. Each is decoded once, on first use. The content and the
+/// resources must outlive it.
 class Buffers {
 public:
   Buffers(const Container& container, const Resources& resources, std::string folder,
@@ -33,13 +33,13 @@ public:
 
   struct View {
     Bytes bytes;
-    std::size_t stride = 0; ///< 0 where elements follow one another
+    std::size_t stride = 0; ///< 0 if elements are tightly packed
   };
 
-  /// The view that `index` names. @throws InputError
+  /// Returns the buffer view with this index. @throws InputError
   View view(const Node& index);
 
-  /// uris of buffers that are neither in the document nor among the resources, for `folder`.
+  /// Uris of buffers that are neither embedded in the document nor among the resources.
   std::vector<std::string> missing_uris() const;
 
 private:

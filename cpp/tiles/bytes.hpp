@@ -15,17 +15,17 @@ static_assert(std::endian::native == std::endian::little, "glTF and 3-D Tiles ar
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// Files beside the content, by their uri relative to it.
+/// External files of a content, by uri relative to it.
 using Resources = std::map<std::string, Bytes, std::less<>>;
 
-/// The number at a place of any alignment.
+/// Loads a number from an address of any alignment.
 template <class T> T load(const std::uint8_t* place) {
   T value{};
   std::memcpy(&value, place, sizeof(T));
   return value;
 }
 
-/// Whether `length` bytes from `offset` on lie within `size` bytes.
+/// True if `length` bytes from `offset` on lie within `size` bytes.
 inline bool within(std::size_t offset, std::size_t length, std::size_t size) {
   return offset <= size && length <= size - offset;
 }

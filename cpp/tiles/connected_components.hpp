@@ -7,20 +7,20 @@
 
 namespace firetwin::tiles {
 
-/// Connected parts of a mask, by sides.
+/// Connected components of a mask (4-connectivity).
 struct ConnectedComponents {
   std::size_t rows, columns, count;
-  std::vector<std::int32_t> number; ///< of each point; -1 outside of the mask
+  std::vector<std::int32_t> number; ///< label of each point; -1 outside the mask
 };
 
 ConnectedComponents label_components(std::span<const std::uint8_t> mask, std::size_t rows,
                                      std::size_t columns);
 
-/// The mask widened by a number of points along rows and columns.
+/// Dilates a mask by `by` points along rows and columns (4-connectivity).
 std::vector<std::uint8_t> dilate(std::vector<std::uint8_t> mask, std::size_t rows,
                                  std::size_t columns, std::size_t by);
 
-/// Calls a function with each pair of points that are neighbours in a row or a column.
+/// Calls a function with each pair of neighbouring points in a row or a column.
 template <typename Function>
 void for_each_pair(std::size_t rows, std::size_t columns, Function function) {
   for (std::size_t y = 0; y < rows; ++y) {

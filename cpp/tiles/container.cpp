@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint32_t json_chunk = 0x4E4F534A;   ///< "JSON"
 constexpr std::uint32_t binary_chunk = 0x004E4942; ///< "BIN\0"
 
-/// Extensions that are read, or change nothing of what is read.
+/// Extensions that are read or do not affect the parts that are read.
 constexpr std::array<std::string_view, 13> known = {
     "KHR_draco_mesh_compression",
     "KHR_mesh_quantization",
@@ -30,20 +30,20 @@ constexpr std::array<std::string_view, 13> known = {
 
 std::string remedy(std::string_view extension) {
   if (extension == "KHR_texture_basisu") {
-    return "its textures are KTX2, which are not read; convert them to JPEG, PNG or WebP "
+    return "KTX2 textures are not supported; convert them to JPEG, PNG or WebP "
            "(gltf-transform does)";
   }
   if (extension == "KHR_techniques_webgl") {
-    return "its materials are shaders, which are not read; convert it to glTF 2.0 materials";
+    return "shader materials are not supported; convert them to glTF 2.0 materials";
   }
-  return "it is not known; convert the content without it";
+  return "unknown extension; convert the content without it";
 }
 
 void check_version(const Node& root) {
   const std::string version = root.at("asset").text("version", "");
   if (version.rfind("2.", 0) != 0) {
-    root.at("asset").refuse("is glTF " + (version.empty() ? "of no version" : version) +
-                            "; version 2.0 is read");
+    root.at("asset").refuse("is glTF " + (version.empty() ? "without a version" : version) +
+                            "; only version 2.0 is supported");
   }
 }
 
@@ -63,16 +63,16 @@ struct Chunks {
 
 Bytes trim_to_length(Bytes content, const std::string& name) {
   if (content.size() < 20) {
-    refuse(name, "is cut off: a glb has 20 bytes at least");
+    refuse(name, "is truncated: a glb has at least 20 bytes");
   }
   const auto version = load<std::uint32_t>(content.data() + 4);
   if (version != 2) {
-    refuse(name, "is glb version " + std::to_string(version) + "; version 2 is read");
+    refuse(name, "is glb version " + std::to_string(version) + "; only version 2 is supported");
   }
   const std::size_t length = load<std::uint32_t>(content.data() + 8);
   if (length > content.size() || length < 20) {
-    refuse(name, "is cut off: its glb header says " + std::to_string(length) +
-                     " bytes, and there are " + std::to_string(content.size()));
+    refuse(name, "is truncated: its glb header declares " + std::to_string(length) +
+                     " bytes, but the content has " + std::to_string(content.size()));
   }
   return content.first(length);
 }
@@ -85,7 +85,7 @@ Chunks split(Bytes content, const std::string& name) {
     const auto type = load<std::uint32_t>(rest.data() + 4);
     rest = rest.subspan(8);
     if (length > rest.size()) {
-      refuse(name, "a chunk of its glb has " + std::to_string(length) + " bytes, and " +
+      refuse(name, "a chunk of its glb has " + std::to_string(length) + " bytes, but only " +
                        std::to_string(rest.size()) + " are left");
     }
     if (i == 0 && type != json_chunk) {

@@ -8,14 +8,14 @@
 
 namespace firetwin::tiles {
 
-/// A glTF document and the binary chunk that comes with it.
+/// A glTF document and its binary chunk.
 struct Container {
   Node root;
   std::optional<Bytes> binary;
 };
 
-/// Opens a glb, or glTF as JSON. A glb ends where its own header says. Refuses glTF 1 and unknown
-/// extensions that the document requires.
+/// Opens a glb or a JSON glTF. Bytes after the length in a glb header are ignored. Rejects glTF 1
+/// and documents that require an unsupported extension.
 /// @throws InputError
 Container open_gltf(Bytes content, const std::string& name);
 

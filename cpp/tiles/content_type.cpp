@@ -22,7 +22,7 @@ constexpr std::array<std::pair<std::string_view, ContentType>, 6> magics = {{
     {"subt", ContentType::subtree},
 }};
 
-/// A byte order mark and blanks may come before JSON.
+/// JSON may start with a byte order mark and white space.
 bool looks_like_json(Bytes content) {
   constexpr std::array<std::uint8_t, 3> mark = {0xEF, 0xBB, 0xBF};
   if (content.size() >= 3 && std::equal(mark.begin(), mark.end(), content.begin())) {
@@ -59,8 +59,8 @@ ContentType detect_content_type(Bytes content, const std::string& name) {
     }
   }
   if (!looks_like_json(content)) {
-    refuse(name, "is no 3-D Tiles content: it begins with " + first_bytes(content) +
-                     ", and not with b3dm, i3dm, cmpt, pnts, glTF or JSON");
+    refuse(name, "is not 3D Tiles content: it begins with " + first_bytes(content) +
+                     " instead of b3dm, i3dm, cmpt, pnts, glTF or JSON");
   }
   return detect_json_type(content, name);
 }

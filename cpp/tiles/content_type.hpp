@@ -8,11 +8,11 @@ namespace firetwin::tiles {
 
 enum class ContentType { b3dm, i3dm, cmpt, pnts, glb, gltf, tileset, subtree };
 
-/// What content is, by its first bytes; JSON by its keys. The name of a file tells nothing.
-/// @throws InputError when it is none of these, or is JSON that cannot be parsed
+/// Detects the content type from the magic bytes, or from the keys of JSON. File names are ignored.
+/// @throws InputError if the type is unknown or JSON cannot be parsed
 ContentType detect_content_type(Bytes content, const std::string& name);
 
-/// "b3dm", "i3dm" and so on.
+/// Name of a content type, such as "b3dm".
 const char* name_of(ContentType type);
 
 } // namespace firetwin::tiles

@@ -21,7 +21,7 @@
 namespace firetwin::tiles {
 namespace {
 
-/// glTF's axes to the content's, whose z points up.
+/// Rotation from glTF's axes to the content's z-up axes.
 Matrix to_z_up(UpAxis axis) {
   switch (axis) {
   case UpAxis::x:
@@ -33,7 +33,7 @@ Matrix to_z_up(UpAxis axis) {
   }
 }
 
-/// Calls `each` with the contents within a cmpt.
+/// Calls `each` with every inner content of a cmpt.
 void split_composite(Bytes content, const std::string& name,
                      const std::function<void(Bytes, const std::string&)>& each) {
   const auto read_uint32 = [](Bytes bytes, std::size_t i) {
@@ -41,12 +41,12 @@ void split_composite(Bytes content, const std::string& name,
   };
   if (content.size() < 16 || read_uint32(content, 2) > content.size() ||
       read_uint32(content, 2) < 16) {
-    refuse(name, "is cut off: its cmpt header and its " + std::to_string(content.size()) +
-                     " bytes do not fit");
+    refuse(name, "is truncated: its cmpt header does not fit its " +
+                     std::to_string(content.size()) + " bytes");
   }
   if (read_uint32(content, 1) != 1) {
-    refuse(name,
-           "is cmpt version " + std::to_string(read_uint32(content, 1)) + "; version 1 is read");
+    refuse(name, "is cmpt version " + std::to_string(read_uint32(content, 1)) +
+                     "; only version 1 is supported");
   }
   const std::size_t count = read_uint32(content, 3);
   Bytes rest = content.first(read_uint32(content, 2)).subspan(16);
@@ -55,7 +55,7 @@ void split_composite(Bytes content, const std::string& name,
     const std::size_t length = rest.size() < 12 ? 0 : read_uint32(rest, 2);
     if (length < 12 || length > rest.size()) {
       refuse(inner,
-             "its length does not fit the " + std::to_string(rest.size()) + " bytes that are left");
+             "its length does not fit the remaining " + std::to_string(rest.size()) + " bytes");
     }
     each(rest.first(length), inner);
     rest = rest.subspan(length);
@@ -64,15 +64,15 @@ void split_composite(Bytes content, const std::string& name,
 
 void check_depth(int depth, const std::string& name) {
   if (depth > max_composite_depth) {
-    refuse(name, "is a cmpt within more than " + std::to_string(max_composite_depth) + " others");
+    refuse(name, "is nested in more than " + std::to_string(max_composite_depth) + " cmpt files");
   }
 }
 
 [[noreturn]] void refuse_content_type(ContentType type, const std::string& name) {
-  refuse(name, std::string("is a ") + name_of(type) + ", which holds no geometry");
+  refuse(name, std::string("is a ") + name_of(type) + ", which has no geometry");
 }
 
-/// The glTF of an i3dm, and the folder of its files; no bytes where the resource is missing.
+/// The glTF of an i3dm and the folder of its files; empty if the resource is missing.
 struct Model {
   Bytes content;
   std::string uri;
@@ -151,8 +151,8 @@ private:
     }
   }
 
-  /// CESIUM_RTC lies outside of the change of axes, as in CesiumJS, cesium-native and
-  /// 3DTilesRendererJS: its centre has z up.
+  /// The CESIUM_RTC centre is applied after the y-up to z-up rotation, as in CesiumJS,
+  /// cesium-native and 3DTilesRendererJS.
   void decode_gltf(Bytes content, const std::string& name, const std::string& folder,
                    std::vector<Matrix> to_scene) {
     const Container container = open_gltf(content, name);

@@ -7,30 +7,31 @@
 #include <string>
 #include <vector>
 
-/// Decoding of 3-D Tiles content: b3dm, i3dm, cmpt, pnts (3D Tiles 1.0, OGC 18-053r2), glb and glTF
-/// (3D Tiles 1.1, OGC 22-025r4). Nothing is opened or fetched: files beside the content come as
-/// resources. Pictures are handed on as they are. Every count is checked here, but Draco trusts its
-/// own data: content from elsewhere belongs into a process with limits of memory and time.
+/// Decoder of 3D Tiles content: b3dm, i3dm, cmpt, pnts (3D Tiles 1.0, OGC 18-053r2), glb and glTF
+/// (3D Tiles 1.1, OGC 22-025r4). No file is opened and nothing is downloaded: external files are
+/// passed as resources. Images stay encoded. All counts are checked here, but Draco does not
+/// validate its data: decode untrusted content in a process with memory and time limits.
 namespace firetwin::tiles {
 
-/// Which axis of a tileset's glTF points up (its asset.gltfUpAxis).
+/// Up axis of the glTF contents of a tileset (asset.gltfUpAxis).
 enum class UpAxis { x, y, z };
 
 struct DecodeOptions {
-  Matrix to_scene = identity; ///< the content's frame (z up) to the scene's
+  Matrix to_scene = identity; ///< from the content's frame (z up) to the scene's
   Matrix to_earth =
-      identity; ///< the content's frame to the Earth-centred one: i3dm's EAST_NORTH_UP
+      identity; ///< from the content's frame to Earth-centred metres, for EAST_NORTH_UP of i3dm
   UpAxis up_axis = UpAxis::y;
 };
 
-/// @param name of the content, for messages
-/// @throws InputError when the content is damaged, asks for more than the limits, or cannot be read
-/// @throws std::invalid_argument when a matrix is not finite, not affine or flattens
+/// @param name stands for the content in error messages
+/// @throws InputError if the content is damaged, exceeds a limit or is not supported
+/// @throws std::invalid_argument if a matrix is not finite, not affine or singular
 Tile decode(Bytes content, const std::string& name, const Resources& resources,
             const DecodeOptions& options);
 
-/// uris, relative to the content, of the files that `decode` lacks; pictures are not among them.
-/// A file may need others: ask again with it.
+/// Lists the uris, relative to the content, of external files that `decode` needs in addition to
+/// `resources`. Images are optional and not listed. Call it again with the new files until the list
+/// is empty, because a model may need further buffers.
 /// @throws InputError
 std::vector<std::string> list_missing_resources(Bytes content, const std::string& name,
                                                 const Resources& resources);

@@ -12,7 +12,7 @@
 namespace firetwin::tiles {
 namespace {
 
-/// Draco asks for memory before it knows whether the data is damaged.
+/// Draco allocates memory before it validates the data.
 template <class Decode> auto guarded(const Node& place, Decode decode) {
   try {
     auto result = decode();
@@ -35,14 +35,14 @@ draco::DecoderBuffer buffer_of(Bytes compressed) {
 
 void check_points(const draco::PointCloud& data, std::size_t points, const Node& place) {
   if (data.num_points() != points) {
-    place.refuse("its Draco data has " + std::to_string(data.num_points()) + " points, and " +
-                 std::to_string(points) + " are said");
+    place.refuse("its Draco data has " + std::to_string(data.num_points()) + " points instead of " +
+                 std::to_string(points));
   }
 }
 
-/// 1, or the largest integer of the attribute's type where values are fractions of it.
+/// Scale of normalized integers to 0..1 or -1..1; 1 for other values.
 float scale_of(const draco::PointAttribute& attribute, bool normalized) {
-  if (!normalized || attribute.normalized()) { // Draco does it itself
+  if (!normalized || attribute.normalized()) { // Draco scales such values
     return 1.0F;
   }
   switch (attribute.data_type()) {
@@ -68,8 +68,8 @@ DracoData DracoData::mesh(Bytes compressed, std::size_t points, std::size_t tria
       guarded(place, [&] { return draco::Decoder().DecodeMeshFromBuffer(&buffer); });
   check_points(*mesh, points, place);
   if (mesh->num_faces() != triangles) {
-    place.refuse("its Draco data has " + std::to_string(mesh->num_faces()) + " triangles, and " +
-                 std::to_string(triangles) + " are said");
+    place.refuse("its Draco data has " + std::to_string(mesh->num_faces()) +
+                 " triangles instead of " + std::to_string(triangles));
   }
   return DracoData(std::move(mesh));
 }
@@ -104,11 +104,11 @@ std::vector<float> DracoData::floats(const Node& id, std::size_t components,
   const auto* attribute =
       data_->GetAttributeByUniqueId(static_cast<std::uint32_t>(id.index(largest_id)));
   if (attribute == nullptr) {
-    id.refuse("names an attribute that the Draco data has not");
+    id.refuse("names an attribute that is not in the Draco data");
   }
   if (static_cast<std::size_t>(attribute->num_components()) != components) {
     id.refuse("names an attribute of " + std::to_string(attribute->num_components()) +
-              " numbers, and " + std::to_string(components) + " are said");
+              " components instead of " + std::to_string(components));
   }
   const float scale = scale_of(*attribute, normalized);
   std::vector<float> values(components * points());

@@ -15,18 +15,19 @@ class PointCloud;
 
 namespace firetwin::tiles {
 
-/// Decoded Draco data: a mesh, or points.
+/// Decoded Draco data: a mesh or a point cloud.
 class DracoData {
 public:
-  /// Decodes a mesh that must have so many points and triangles. @throws InputError
+  /// Decodes a mesh. @throws InputError if the numbers of points and triangles differ from these
   static DracoData mesh(Bytes compressed, std::size_t points, std::size_t triangles,
                         const Node& place);
-  /// Decodes a cloud of so many points. @throws InputError
+  /// Decodes a point cloud. @throws InputError if the number of points differs from this
   static DracoData cloud(Bytes compressed, std::size_t points, const Node& place);
 
   std::size_t points() const;
   std::vector<std::uint32_t> triangles() const; ///< m x 3
-  /// An attribute by its unique id: points x components, integers over their largest if normalized.
+  /// Attribute with a unique id: points x components. Normalized integers are scaled to 0..1 or
+  /// -1..1.
   std::vector<float> floats(const Node& id, std::size_t components, bool normalized) const;
 
 private:

@@ -15,9 +15,9 @@ using Mask = std::vector<std::uint8_t>;
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t edge_width = 2; // points
-constexpr std::size_t least_roof = 2; // points of an even surface that make a roof
+constexpr std::size_t least_roof = 2; // number of points of a smooth surface that make a roof
 
-/// Mask of what openings lower by more than their threshold; `surface` is opened by all of them.
+/// Mask of points that an opening lowers by more than its threshold. Opens `surface` in place.
 Mask find_objects(std::vector<float>& surface, std::size_t rows, std::size_t columns,
                   const GroundOptions& options) {
   Mask found(surface.size(), 0);
@@ -28,7 +28,7 @@ Mask find_objects(std::vector<float>& surface, std::size_t rows, std::size_t col
                                     std::max(options.max_threshold, options.slope * wider)));
     const auto lower = morphological_opening(surface, rows, columns, radius);
     for (std::size_t k = 0; k < surface.size(); ++k) {
-      if (surface[k] - lower[k] > threshold) { // NaN is not
+      if (surface[k] - lower[k] > threshold) { // false for NaN
         found[k] = 1;
       }
     }
@@ -39,7 +39,7 @@ Mask find_objects(std::vector<float>& surface, std::size_t rows, std::size_t col
   }
 }
 
-/// Adds points beside objects that stand above the opened surface: thin edges of crowns.
+/// Adds points next to objects that rise above the opened surface: thin edges of crowns.
 void add_edges(Mask& found, std::span<const float> height, std::span<const float> opened,
                std::size_t rows, std::size_t columns, double least) {
   const auto near = dilate(found, rows, columns, edge_width);
@@ -50,7 +50,7 @@ void add_edges(Mask& found, std::span<const float> height, std::span<const float
   }
 }
 
-/// Leaves out patches whose sides are not steep on average.
+/// Removes components whose sides are not steep on average.
 void keep_steep(Mask& found, std::span<const float> height, const ConnectedComponents& patches,
                 const GroundOptions& options) {
   std::vector<double> rise(patches.count, 0.0);
@@ -71,8 +71,8 @@ void keep_steep(Mask& found, std::span<const float> height, const ConnectedCompo
   }
 }
 
-/// Heights below objects: the mean of lines along rows and columns from ground to ground, weighted
-/// by the inverse square of their lengths.
+/// Interpolates ground heights below objects: the mean of linear interpolations along rows and
+/// columns, weighted by the inverse square of the gap.
 class GapInterpolator {
 public:
   explicit GapInterpolator(std::size_t count) : sum_(count, 0.0F), weight_(count, 0.0F) {}
@@ -110,7 +110,8 @@ private:
       return;
     }
     const float value = both ? from + part * (to - from) : std::isnan(from) ? to : from;
-    const float weight = (both ? 1.0F : 0.01F) / (gap * gap); // one side alone knows no slope
+    const float weight =
+        (both ? 1.0F : 0.01F) / (gap * gap); // low weight: ground on one side gives no slope
     sum_[k] += weight * value;
     weight_[k] += weight;
   }
@@ -118,7 +119,8 @@ private:
   std::vector<float> sum_, weight_;
 };
 
-/// Points within objects whose surroundings bend by less than a roof does, in patches large enough.
+/// Mask of roofs: points of objects with little curvature and slope, in components that are large
+/// enough.
 Mask find_roofs(const Mask& object, std::span<const float> height, std::size_t rows,
                 std::size_t columns, const GroundOptions& options) {
   Mask even(object.size(), 0);
@@ -136,7 +138,7 @@ Mask find_roofs(const Mask& object, std::span<const float> height, std::size_t r
       even[k] = flat;
     }
   }
-  Mask joined = dilate(even, rows, columns, 1); // over the ridges of roofs
+  Mask joined = dilate(even, rows, columns, 1); // joins the two sides of a ridge
   for (std::size_t k = 0; k < even.size(); ++k) {
     joined[k] = joined[k] && object[k];
   }
@@ -158,7 +160,8 @@ Mask find_roofs(const Mask& object, std::span<const float> height, std::size_t r
 Ground find_ground(std::span<const float> height, std::size_t rows, std::size_t columns,
                    const GroundOptions& options) {
   if (!(options.step > 0.0) || !(options.max_width > 0.0) || height.size() != rows * columns) {
-    throw std::invalid_argument("step and widest must be above 0, and heights be rows x columns");
+    throw std::invalid_argument(
+        "step and max_width must be above 0, and height must have rows x columns values");
   }
   std::vector<float> opened(height.begin(), height.end());
   Mask object = find_objects(opened, rows, columns, options);

@@ -8,9 +8,9 @@
 namespace firetwin::tiles {
 namespace {
 
-constexpr double slack = 1e-9; // of a triangle: points on an edge belong to both its sides
+constexpr double slack = 1e-9; // in barycentric units: a point on an edge belongs to both triangles
 
-/// First and last grid line within a range; nothing where last < first.
+/// First and last grid line within a range; empty if last < first.
 struct Lines {
   std::ptrdiff_t first, last;
 };
@@ -37,7 +37,7 @@ void HeightMap::add(std::span<const float> position, std::array<double, 3> origi
                     std::span<const std::uint32_t> triangle) {
   const std::size_t count = position.size() / 3;
   if (std::ranges::any_of(triangle, [&](std::uint32_t vertex) { return vertex >= count; })) {
-    throw std::out_of_range("triangle names a vertex that does not exist");
+    throw std::out_of_range("triangle refers to a vertex that does not exist");
   }
   for (std::size_t first = 0; first + 3 <= triangle.size(); first += 3) {
     std::array<Corner, 3> corners;
@@ -69,7 +69,7 @@ void HeightMap::draw(const std::array<Corner, 3>& corners) {
       const auto found = static_cast<float>(a[2] + to_b * (b[2] - a[2]) + to_c * (c[2] - a[2]));
       float& height =
           height_[static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column)];
-      if (!(found <= height)) { // also where it is NaN
+      if (!(found <= height)) { // true if the height is NaN
         height = found;
       }
     }

@@ -10,7 +10,7 @@ bool holds(Bytes file, std::size_t offset, std::string_view text) {
          std::string_view(reinterpret_cast<const char*>(file.data()) + offset, text.size()) == text;
 }
 
-/// Most significant byte first.
+/// Reads a big-endian number.
 std::uint32_t big_endian(Bytes file, std::size_t offset, std::size_t bytes) {
   std::uint32_t value = 0;
   for (std::size_t i = 0; i < bytes; ++i) {
@@ -35,11 +35,11 @@ ImageHeader read_png(Bytes file) {
   return {"png", big_endian(file, 16, 4), big_endian(file, 20, 4)};
 }
 
-/// ITU-T T.81: the size is in a start-of-frame segment, C0 to CF but for C4, C8 and CC.
+/// ITU-T T.81: the size is in a start-of-frame segment, C0 to CF except C4, C8 and CC.
 ImageHeader read_jpeg(Bytes file) {
   for (std::size_t at = 2; within(at, 9, file.size()) && file[at] == 0xFF;) {
     const std::uint8_t marker = file[at + 1];
-    if (marker == 0xFF) { // filling
+    if (marker == 0xFF) { // fill byte
       ++at;
     } else if (marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 &&
                marker != 0xCC) {

@@ -17,7 +17,7 @@ Vector triple(const std::vector<double>& values, std::size_t i) {
 }
 
 Matrix inverse_linear(const Matrix& m) {
-  const Matrix cofactors = for_normals(m); // inverse transpose times the determinant's size
+  const Matrix cofactors = for_normals(m); // inverse transpose times |determinant|
   const double size = std::abs(determinant(m));
   Matrix inverse = identity;
   for (std::size_t row = 0; row < 3; ++row) {
@@ -28,7 +28,7 @@ Matrix inverse_linear(const Matrix& m) {
   return inverse;
 }
 
-/// Axes of an instance that stands upright on the ellipsoid, in the content's frame.
+/// East-north-up axes of an instance on the ellipsoid, in the content's frame.
 Matrix upright(const Vector& position, const Matrix& to_earth, const Matrix& from_earth) {
   const geo::EarthAxes axes = geo::earth_axes(transform_point(to_earth, position));
   const auto unit = [&](const Vector& axis) {
@@ -39,7 +39,7 @@ Matrix upright(const Vector& position, const Matrix& to_earth, const Matrix& fro
   return from_columns(unit(axes.east), unit(axes.north), unit(axes.up), {});
 }
 
-/// NORMAL_UP or NORMAL_RIGHT in either form.
+/// NORMAL_UP or NORMAL_RIGHT, as floats or octahedral-encoded.
 std::optional<std::vector<double>> directions(const FeatureTable& table, const std::string& key,
                                               std::size_t n) {
   auto plain = table.values(key, Number::f32, 3, n);

@@ -14,9 +14,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double largest_whole = 9007199254740992.0; ///< 2^53, up to which doubles are exact
+constexpr double largest_whole =
+    9007199254740992.0; ///< 2^53, the largest exact integer range of a double
 
-/// Brackets within brackets, without those in strings.
+/// Nesting depth of objects and arrays; brackets in strings do not count.
 std::size_t depth(std::string_view text) {
   std::size_t open = 0, deepest = 0;
   bool in_string = false;
@@ -36,7 +37,7 @@ std::size_t depth(std::string_view text) {
   return deepest;
 }
 
-/// What the parser says, without its own name and place.
+/// The parser's message without its prefix and position.
 std::string parser_message(const std::string& what) {
   const std::size_t place = what.find("column ");
   const std::size_t colon = what.find(": ", place == std::string::npos ? 0 : place);
@@ -66,10 +67,10 @@ void refuse(const std::string& content, const std::string& reason) {
 
 Node parse_json(Bytes bytes, const std::string& content) {
   if (bytes.size() > max_json_bytes) {
-    refuse(content, "its JSON has " + std::to_string(bytes.size()) + " bytes; 64 MB are the most");
+    refuse(content, "its JSON has " + std::to_string(bytes.size()) + " bytes; the limit is 64 MB");
   }
   std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  while (!text.empty() && text.back() == '\0') { // some pad with zeros and not with blanks
+  while (!text.empty() && text.back() == '\0') { // some writers pad with zeros instead of spaces
     text.remove_suffix(1);
   }
   if (depth(text) > max_json_depth) {
@@ -116,7 +117,7 @@ std::optional<Node> Node::find(std::string_view key) const {
 Node Node::at(std::string_view key) const {
   std::optional<Node> found = find(key);
   if (!found) {
-    refuse("lacks \"" + std::string(key) + "\"");
+    refuse("\"" + std::string(key) + "\" is missing");
   }
   return *std::move(found);
 }
@@ -197,7 +198,7 @@ std::size_t Node::integer() const {
 std::size_t Node::index(std::size_t size) const {
   const std::size_t value = integer();
   if (value >= size) {
-    refuse("is " + std::to_string(value) + ", and there are " + std::to_string(size));
+    refuse("is " + std::to_string(value) + ", but there are only " + std::to_string(size));
   }
   return value;
 }

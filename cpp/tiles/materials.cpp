@@ -32,7 +32,7 @@ void read_alpha(const Node& node, Material& material) {
   material.alpha_cutoff = node.number("alphaCutoff", 0.5);
 }
 
-/// Offset, then rotation, then scale, as the extension's specification multiplies them.
+/// Translation * rotation * scale, as specified by the extension.
 std::array<double, 6> read_transform(const Node& extension) {
   const auto offset = extension.find("offset"), scale = extension.find("scale");
   const auto by = offset ? offset->numbers<2>() : std::array<double, 2>{0, 0};
@@ -44,7 +44,8 @@ std::array<double, 6> read_transform(const Node& extension) {
 
 void check_header(const ImageHeader& header, const Node& node) {
   if (header.kind == "ktx2") {
-    node.refuse("is KTX2 (KHR_texture_basisu), which is not read; convert the textures to JPEG, "
+    node.refuse("is a KTX2 texture (KHR_texture_basisu), which is not supported; convert the "
+                "textures to JPEG, "
                 "PNG or WebP (gltf-transform does)");
   }
   if (header.kind.empty()) {
@@ -55,7 +56,7 @@ void check_header(const ImageHeader& header, const Node& node) {
   }
   if (header.width > max_image_side || header.height > max_image_side) {
     node.refuse("has " + std::to_string(header.width) + " x " + std::to_string(header.height) +
-                " pixels; " + std::to_string(max_image_side) + " are the most");
+                " pixels; the limit is " + std::to_string(max_image_side) + " per side");
   }
 }
 
@@ -65,15 +66,16 @@ Image image_of(Bytes file, const Node& node) {
   return {header.kind, header.width, header.height, {file.begin(), file.end()}, ""};
 }
 
-/// The picture of a texture: WebP where there is one, else what every reader reads.
+/// The image of a texture: the WebP version if there is one, else the source of core glTF.
 Node source_of(const Node& texture) {
   if (const auto webp = texture.extension("EXT_texture_webp")) {
     return webp->at("source");
   }
   const auto source = texture.find("source");
   if (!source && texture.extension("KHR_texture_basisu")) {
-    texture.refuse("has KTX2 alone (KHR_texture_basisu), which is not read; convert the textures "
-                   "to JPEG, PNG or WebP (gltf-transform does)");
+    texture.refuse(
+        "has only a KTX2 image (KHR_texture_basisu), which is not supported; convert the textures "
+        "to JPEG, PNG or WebP (gltf-transform does)");
   }
   return source ? *source : texture.at("source");
 }
@@ -116,7 +118,7 @@ MaterialUse Materials::read(const Node& node) {
 void Materials::read_texture(const Node& reference, Material& material, MaterialUse& use) {
   const Node& texture = textures_[reference.at("index").index(textures_.size())];
   if (!texture.find("source") && !texture.find("extensions")) {
-    return; // a texture may have no picture
+    return; // a texture may have no image
   }
   use.textured = true;
   use.coordinates = reference.integer("texCoord", 0);

@@ -12,7 +12,7 @@
 
 namespace firetwin::tiles {
 
-/// How a primitive uses its material: what to read as uv, and how to move it.
+/// Material of a primitive: its index, texture coordinate set and texture transform.
 struct MaterialUse {
   int material = -1;           ///< index in the tile
   std::size_t coordinates = 0; ///< n of TEXCOORD_n
@@ -21,13 +21,13 @@ struct MaterialUse {
   std::array<double, 6> transform = {1, 0, 0, 0, 1, 0};
 };
 
-/// Materials and pictures of one document; those that are used go to the tile, once.
+/// Materials and images of one document; each one that is used is added to the tile once.
 class Materials {
 public:
   Materials(const Node& root, Buffers& buffers, const Resources& resources, std::string folder,
             Assembler& assembler);
 
-  /// The material that `index` names. @throws InputError
+  /// Adds the material with this index to the tile on first use. @throws InputError
   MaterialUse use(const Node& index);
 
 private:

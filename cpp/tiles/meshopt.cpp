@@ -7,7 +7,7 @@
 namespace firetwin::tiles {
 namespace {
 
-/// Strides that each mode and filter allows, by the extension's specification.
+/// True if the extension's specification allows this stride for the mode and the filter.
 bool stride_fits(const MeshoptView& view) {
   const std::size_t stride = view.stride;
   if (view.mode == "TRIANGLES" || view.mode == "INDICES") {
@@ -24,18 +24,18 @@ bool stride_fits(const MeshoptView& view) {
 
 void check_names(const MeshoptView& view, const Node& extension) {
   if (view.mode != "ATTRIBUTES" && view.mode != "TRIANGLES" && view.mode != "INDICES") {
-    extension.refuse("has no mode that is known: " + view.mode);
+    extension.refuse("has an unknown mode: " + view.mode);
   }
   if (view.filter != "NONE" && view.filter != "OCTAHEDRAL" && view.filter != "QUATERNION" &&
       view.filter != "EXPONENTIAL") {
-    extension.refuse("has no filter that is known: " + view.filter);
+    extension.refuse("has an unknown filter: " + view.filter);
   }
   if (view.mode != "ATTRIBUTES" && view.filter != "NONE") {
-    extension.refuse("filters indices, which cannot be");
+    extension.refuse("has a filter for indices; only attributes can be filtered");
   }
 }
 
-/// Whether the data was sound.
+/// False if the data is damaged.
 bool decode(const MeshoptView& view, Bytes from, std::uint8_t* to) {
   if (view.mode == "ATTRIBUTES") {
     return meshopt_decodeVertexBuffer(to, view.count, view.stride, from.data(), from.size()) == 0;
@@ -53,10 +53,11 @@ MeshoptView read_meshopt(const Node& extension) {
                    extension.at("mode").text(), extension.text("filter", "NONE")};
   check_names(view, extension);
   if (!stride_fits(view)) {
-    extension.at("byteStride").refuse("must not be " + std::to_string(view.stride) + " here");
+    extension.at("byteStride")
+        .refuse("must not be " + std::to_string(view.stride) + " for this mode and filter");
   }
   if (view.count > max_indices || (view.mode == "TRIANGLES" && view.count % 3 != 0)) {
-    extension.at("count").refuse("must not be " + std::to_string(view.count) + " here");
+    extension.at("count").refuse("must not be " + std::to_string(view.count) + " for this mode");
   }
   return view;
 }

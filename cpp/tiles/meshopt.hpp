@@ -10,7 +10,7 @@
 
 namespace firetwin::tiles {
 
-/// EXT_meshopt_compression of a buffer view, checked.
+/// Validated EXT_meshopt_compression of a buffer view.
 struct MeshoptView {
   std::size_t count = 0;
   std::size_t stride = 0; ///< bytes
@@ -18,11 +18,11 @@ struct MeshoptView {
   std::string filter;     ///< NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL
 };
 
-/// @throws InputError when a number is not one that the decoder may be given
+/// @throws InputError if a value is not valid for the decoder
 MeshoptView read_meshopt(const Node& extension);
 
-/// count x stride bytes.
-/// @throws InputError where the data is damaged
+/// Decompresses a view to count x stride bytes.
+/// @throws InputError if the data is damaged
 std::vector<std::uint8_t> decompress_meshopt(const MeshoptView& view, Bytes compressed,
                                              const Node& extension);
 

@@ -17,7 +17,7 @@ namespace {
 Matrix local_matrix(const Node& node) {
   if (const auto matrix = node.find("matrix")) {
     Matrix m = transpose(matrix->numbers<16>());
-    for (std::size_t i = 0; i < 4; ++i) { // exporters multiply in float32
+    for (std::size_t i = 0; i < 4; ++i) { // exporters compute in float32
       if (std::abs(m[12 + i] - identity[12 + i]) > 1e-5) {
         matrix->refuse("must be affine: its last row is not 0 0 0 1");
       }
@@ -32,7 +32,7 @@ Matrix local_matrix(const Node& node) {
                     scale ? scale->numbers<3>() : Vector{1, 1, 1});
 }
 
-/// Numbers of one attribute of EXT_mesh_gpu_instancing; nothing where it is absent.
+/// Reads an attribute of EXT_mesh_gpu_instancing; empty if it is absent.
 std::vector<float> read_instances(const Node& attributes, const char* name, std::size_t components,
                                   std::optional<std::size_t>& count, Accessors& accessors) {
   const auto index = attributes.find(name);
@@ -41,11 +41,11 @@ std::vector<float> read_instances(const Node& attributes, const char* name, std:
   }
   const AccessorType type = accessors.type(*index);
   if (type.components != components || (count && *count != type.count)) {
-    index->refuse("names an accessor of another type or count than the other attributes");
+    index->refuse("has another type or count than the other attributes");
   }
   if (type.count > max_instances) {
-    index->refuse("names " + std::to_string(type.count) + " instances; " +
-                  std::to_string(max_instances) + " are the most");
+    index->refuse("has " + std::to_string(type.count) + " instances; the limit is " +
+                  std::to_string(max_instances));
   }
   count = type.count;
   return accessors.floats(*index);
@@ -61,7 +61,7 @@ std::array<double, n> row(const std::vector<float>& values, std::size_t i,
   return found;
 }
 
-/// Matrices of a node's instances; the identity alone where it has none.
+/// Instance matrices of a node; only the identity if it has no instances.
 std::vector<Matrix> instances_of(const Node& node, Accessors& accessors) {
   const auto extension = node.extension("EXT_mesh_gpu_instancing");
   if (!extension) {
@@ -80,7 +80,7 @@ std::vector<Matrix> instances_of(const Node& node, Accessors& accessors) {
   return matrices;
 }
 
-/// Draws the nodes of one document.
+/// Depth-first traversal of the nodes of one document.
 class SceneTraversal {
 public:
   SceneTraversal(const Node& root, const std::vector<Matrix>& to_scene, const Reader& reader)
@@ -150,7 +150,7 @@ private:
 void draw_nodes(const Node& root, const std::vector<Matrix>& to_scene, const Reader& reader) {
   const std::vector<Node> scenes = root.elements("scenes");
   if (scenes.empty()) {
-    return; // a library of parts, of which nothing is drawn
+    return; // an asset library without a scene shows nothing
   }
   const auto chosen = root.find("scene");
   SceneTraversal traversal(root, to_scene, reader);

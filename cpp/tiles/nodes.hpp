@@ -8,9 +8,9 @@
 
 namespace firetwin::tiles {
 
-/// Adds what the nodes of a document's scene draw, once for each of `to_scene`, which take the
-/// document's coordinates to the scene's.
-/// @throws InputError where a node is reached twice, which includes a circle of nodes
+/// Adds the primitives of all nodes in a document's scene once per matrix of `to_scene`, which
+/// transform the document's coordinates to the scene's.
+/// @throws InputError if a node is reached twice, for example in a cycle
 void draw_nodes(const Node& root, const std::vector<Matrix>& to_scene, const Reader& reader);
 
 } // namespace firetwin::tiles

@@ -13,8 +13,8 @@ namespace {
 
 using Values = std::vector<float>;
 
-/// Least value (by `before`) within `radius` of each value of a line: van Herk 1992, Pattern
-/// Recognition Letters 13(7), in three comparisons a value for any radius.
+/// Running minimum (by `before`) within `radius` of each value of a line: van Herk 1992, Pattern
+/// Recognition Letters 13(7); three comparisons per value for any radius.
 template <typename Before>
 void slide(std::span<const float> line, std::size_t radius, float nothing, Before before,
            Values& ahead, Values& behind, std::span<float> out) {

@@ -13,17 +13,17 @@
 namespace firetwin::tiles {
 namespace {
 
-/// IEC 61966-2-1.
+/// sRGB to linear (IEC 61966-2-1).
 double linear(double srgb) {
   return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
 }
 
-/// From 0 to 1; 0 for NaN.
+/// Clamps to 0..1; 0 for NaN.
 double fraction(double value) {
   return value > 0.0 ? std::min(value, 1.0) : 0.0;
 }
 
-/// sRGB values of 0 to `largest`, and alpha of the same range if there are four.
+/// Converts sRGB values from 0..largest to linear 0..1; a fourth component is alpha.
 std::vector<float> linear_colours(const std::vector<double>& values, std::size_t components,
                                   double largest) {
   const std::size_t n = values.size() / components;
@@ -37,7 +37,7 @@ std::vector<float> linear_colours(const std::vector<double>& values, std::size_t
   return colour;
 }
 
-/// 5 bits of red, 6 of green, 5 of blue.
+/// RGB565: 5 bits of red, 6 of green, 5 of blue.
 std::vector<float> unpack_565(const std::vector<double>& packed) {
   std::vector<double> values;
   for (const double each : packed) {
@@ -74,7 +74,7 @@ std::vector<float> as_float(const std::vector<double>& values) {
   return {values.begin(), values.end()};
 }
 
-/// Draco's form of the points (3DTILES_draco_point_compression).
+/// Points compressed by Draco (3DTILES_draco_point_compression).
 class Compressed {
 public:
   Compressed(const Node& extension, const FeatureTable& table, std::size_t n)
@@ -130,7 +130,7 @@ void read_plain(const FeatureTable& table, std::size_t n, Primitive& made) {
   }
 }
 
-/// Moves row `from` to row `to`, in arrays that have rows.
+/// Copies row `from` to row `to` unless the array is empty.
 void move_row(std::vector<float>& values, std::size_t from, std::size_t to, std::size_t length) {
   for (std::size_t c = 0; c < length && !values.empty(); ++c) {
     values[to * length + c] = values[from * length + c];

@@ -7,8 +7,9 @@
 
 namespace firetwin::tiles {
 
-/// The points of a pnts in the content's frame, without its RTC_CENTER, compressed by Draco or not.
-/// Colours are sRGB there, and linear here. Points that are not finite are left out and counted.
+/// Reads the points of a pnts, plain or Draco-compressed, in the content's frame without
+/// RTC_CENTER. Colours are converted from sRGB to linear. Points with NaN or infinite coordinates
+/// are dropped and counted.
 /// @throws InputError
 std::shared_ptr<const Primitive> read_points(const FeatureTable& table, Assembler& assembler);
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t mode_points = 0, mode_triangles = 4, mode_fan = 6;
 
-/// Attributes of one primitive, compressed or not.
+/// Attributes of one primitive, plain or Draco-compressed.
 class Attributes {
 public:
   Attributes(const Node& primitive, const Reader& reader)
@@ -40,7 +40,7 @@ public:
     const AccessorType type = reader_.accessors.type(index);
     if (type.count != vertices_ || type.components != components) {
       index.refuse("names " + std::to_string(type.count) + " x " + std::to_string(type.components) +
-                   " numbers, and must name " + std::to_string(vertices_) + " x " +
+                   " numbers instead of " + std::to_string(vertices_) + " x " +
                    std::to_string(components));
     }
     const auto id = draco_ ? compressed_->at("attributes").find(name) : std::nullopt;
@@ -62,7 +62,7 @@ public:
       std::iota(corners.begin(), corners.end(), 0U);
     }
     if (!corners.empty() && *std::max_element(corners.begin(), corners.end()) >= vertices_) {
-      primitive_.refuse("its indices name vertices beyond the last");
+      primitive_.refuse("its indices exceed the number of vertices");
     }
     return corners;
   }
@@ -75,7 +75,7 @@ private:
     }
     const std::size_t corners = reader_.accessors.type(primitive_.at("indices")).count;
     if (primitive_.integer("mode", mode_triangles) != mode_triangles || corners % 3 != 0) {
-      compressed_->refuse("must be of triangles");
+      compressed_->refuse("must have triangles");
     }
     reader_.assembler.reserve_bytes(4 * corners);
     const Bytes data = reader_.buffers.view(compressed_->at("bufferView")).bytes;
@@ -90,7 +90,7 @@ private:
   std::size_t vertices_ = 0;
 };
 
-/// Rows `kept` of an array of rows.
+/// Copies the rows `kept` of an array with `components` columns.
 std::vector<float> gather(const std::vector<float>& values, const std::vector<std::uint32_t>& kept,
                           std::size_t components) {
   std::vector<float> gathered;
@@ -110,7 +110,7 @@ bool is_finite(const std::vector<float>& position, std::size_t i) {
          std::isfinite(position[3 * i + 2]);
 }
 
-/// uv with v upward, moved as the material says.
+/// Texture coordinates with v upward, transformed by KHR_texture_transform.
 std::vector<float> read_uv(const Attributes& attributes, const MaterialUse& use) {
   const std::string name = "TEXCOORD_" + std::to_string(use.coordinates);
   if (!attributes.has(name)) {
@@ -129,7 +129,7 @@ std::vector<float> read_uv(const Attributes& attributes, const MaterialUse& use)
   return uv;
 }
 
-/// n x 4; what is not finite is 1.
+/// n x 4; components that are not finite become 1.
 std::vector<float> read_colour(const Attributes& attributes) {
   if (!attributes.has("COLOR_0")) {
     return {};
@@ -146,7 +146,7 @@ std::vector<float> read_colour(const Attributes& attributes) {
   return colour;
 }
 
-/// Vertices that are left out: not finite, or of no triangle.
+/// Returns the vertices to keep, in order: finite and used by a triangle. Renumbers the triangles.
 std::vector<std::uint32_t> choose_vertices(Primitive& made, const std::vector<float>& position,
                                            std::vector<std::uint32_t> corners, std::size_t mode) {
   if (mode == mode_points) {
@@ -172,7 +172,7 @@ void add_normals(Primitive& made, const Attributes& attributes,
 std::shared_ptr<const Primitive> read_primitive(const Node& node, const Reader& reader) {
   const std::size_t mode = node.integer("mode", mode_triangles);
   if (mode > mode_fan) {
-    node.at("mode").refuse("is " + std::to_string(mode) + ", which is no mode of glTF");
+    node.at("mode").refuse("is " + std::to_string(mode) + ", which is not a glTF primitive mode");
   }
   if (mode > mode_points && mode < mode_triangles) {
     reader.assembler.add_lines();

@@ -11,7 +11,7 @@
 
 namespace firetwin::tiles {
 
-/// What a glTF document is read with.
+/// Readers of the parts of a glTF document.
 struct Reader {
   Buffers& buffers;
   Accessors& accessors;
@@ -19,8 +19,8 @@ struct Reader {
   Assembler& assembler;
 };
 
-/// Reads the primitives of a mesh. Those without positions, of lines, or with no finite vertex are
-/// left out.
+/// Reads the primitives of a mesh. Lines and primitives without positions or finite vertices are
+/// dropped.
 /// @throws InputError
 std::vector<std::shared_ptr<const Primitive>> read_mesh(const Node& mesh, const Reader& reader);
 

@@ -19,7 +19,7 @@ void check(std::span<const double> values, const char* what) {
   }
 }
 
-/// Scales of the branches of a view set, with those of the other projection 0.
+/// Largest pixel scales of the branches of a view set, per projection; 0 for the other projection.
 struct Scales {
   std::vector<double> perspective, orthographic;
 

@@ -21,7 +21,8 @@ void check(const Tree& tree, double error) {
   }
 }
 
-/// One choice. Parents come before their children, so that each step is one pass over the tiles.
+/// One traversal of the tree at a given error. Parents come before their children, so each step is
+/// one pass over the tiles.
 class Traversal {
 public:
   Traversal(const Tree& tree, double error) : tree_(tree), state_(tree.size(), 0) {
@@ -47,10 +48,10 @@ public:
 private:
   enum State : std::uint8_t {
     visited = 1,
-    forced = 2,           ///< shown even where no view sees it
+    forced = 2,           ///< shown even if no view sees it
     refined = 4,          ///< its children are visited
-    children_pending = 8, ///< its children are not read, and would be visited
-    failed = 16,          ///< something below, or the tile itself, is broken, and nothing stands in
+    children_pending = 8, ///< its children would be visited, but are not loaded
+    failed = 16,          ///< the tile or a descendant is broken and has no stand-in
     stands_in = 32,
     visited_child = 64 ///< has a visited child
   };
@@ -63,7 +64,7 @@ private:
     state_[i] = static_cast<std::uint8_t>(state_[i] & ~state);
   }
 
-  /// Which children a refined tile asks for even where no view sees them.
+  /// True if the children of a refined tile are shown even if no view sees them.
   bool forces(std::size_t i) const {
     return has(i, pass_through) ? is(i, forced)
                                 : has(i, replaces) || (has(i, unconditional) && is(i, forced));
@@ -92,7 +93,7 @@ private:
     }
     for (std::size_t i = 0; i < tree_.size(); ++i) {
       if (!is(i, visited_child)) {
-        clear(i, refined); // nothing below it is there, or asked for
+        clear(i, refined); // no child is loaded or needed
       }
     }
   }
@@ -165,7 +166,7 @@ Cut select(const Tree& tree, double error, const Budget& budget) {
                [&](double each) { return each > error; });
   std::sort(steps.begin(), steps.end());
   steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
-  std::size_t low = 0, high = steps.size(); // at steps[high] it fits, below steps[low] it does not
+  std::size_t low = 0, high = steps.size(); // fits at steps[high], does not fit below steps[low]
   while (low < high) {
     const std::size_t middle = low + (high - low) / 2;
     Cut cut = choose(tree, steps[middle], budget);

@@ -9,8 +9,8 @@
 namespace firetwin::tiles {
 namespace {
 
-/// The least length that is no length but `{"` or `glTF` read as one (the first byte is a quotation
-/// mark): older b3dm headers are told by it.
+/// Older b3dm headers are shorter, so a length field overlaps `{"` or `glTF`. Read as a length,
+/// such text is at least this large (0x22 is the quotation mark).
 constexpr std::uint32_t min_text_length = 0x22000000;
 
 constexpr std::size_t length_of(Number number) {
@@ -42,25 +42,26 @@ Lengths read_lengths(Bytes content, ContentType type) {
   return lengths;
 }
 
-/// The content cut to the length in its header.
+/// Trims the content to the length in its header.
 Bytes trim_to_length(Bytes content, ContentType type, const std::string& name) {
   const std::size_t header = type == ContentType::i3dm ? 32 : 28;
   if (content.size() < header) {
-    refuse(name, std::string("is cut off: a ") + name_of(type) + " header has " +
-                     std::to_string(header) + " bytes, and there are " +
+    refuse(name, std::string("is truncated: a ") + name_of(type) + " header has " +
+                     std::to_string(header) + " bytes, but the content has " +
                      std::to_string(content.size()));
   }
   if (read_uint32(content, 1) != 1) {
     refuse(name, std::string("is ") + name_of(type) + " version " +
-                     std::to_string(read_uint32(content, 1)) + "; version 1 is read");
+                     std::to_string(read_uint32(content, 1)) + "; only version 1 is supported");
   }
   const std::size_t length = read_uint32(content, 2);
   if (length > content.size()) {
-    refuse(name, "is cut off: its header says " + std::to_string(length) +
-                     " bytes, and there are " + std::to_string(content.size()));
+    refuse(name, "is truncated: its header declares " + std::to_string(length) +
+                     " bytes, but the content has " + std::to_string(content.size()));
   }
   if (length < header) {
-    refuse(name, "its header says " + std::to_string(length) + " bytes, less than the header has");
+    refuse(name,
+           "its header declares " + std::to_string(length) + " bytes, less than the header itself");
   }
   return content.first(length);
 }
@@ -85,13 +86,13 @@ double number_at(const std::uint8_t* place, Number number) {
   }
 }
 
-/// Where a property of the binary part begins, when it is all there.
+/// Offset of a property in the binary part, after a check that the part contains it.
 std::size_t checked_offset(const Node& property, std::size_t length, std::size_t size) {
   const Node place = property.at("byteOffset");
   const std::size_t offset = place.integer();
   if (!within(offset, length, size)) {
-    place.refuse("the property needs " + std::to_string(length) + " bytes from " +
-                 std::to_string(offset) + " on, and the table has " + std::to_string(size));
+    place.refuse("the property needs " + std::to_string(length) + " bytes from byte " +
+                 std::to_string(offset) + ", but the table has " + std::to_string(size));
   }
   return offset;
 }
@@ -106,7 +107,7 @@ Sections read_sections(Bytes content, ContentType type, const std::string& name)
   for (std::size_t i = 0; i < 4; ++i) {
     if (lengths.tables[i] > rest.size()) {
       refuse(name, "its tables are longer than the " + std::to_string(content.size()) +
-                       " bytes that its header says");
+                       " bytes declared in its header");
     }
     tables[i] = rest.first(lengths.tables[i]);
     rest = rest.subspan(lengths.tables[i]);
@@ -121,7 +122,7 @@ std::size_t FeatureTable::count(const std::string& key, std::size_t most) const 
   const Node found = json_.at(key);
   const std::size_t n = found.integer();
   if (n > most) {
-    found.refuse("is " + std::to_string(n) + "; " + std::to_string(most) + " are the most");
+    found.refuse("is " + std::to_string(n) + "; the limit is " + std::to_string(most));
   }
   return n;
 }
@@ -165,7 +166,8 @@ std::vector<double> FeatureTable::positions(std::size_t n) const {
   auto quantized = values("POSITION_QUANTIZED", Number::u16, 3, n);
   const auto offset = vector("QUANTIZED_VOLUME_OFFSET"), scale = vector("QUANTIZED_VOLUME_SCALE");
   if (!quantized || !offset || !scale) {
-    json_.refuse("the feature table has neither POSITION nor POSITION_QUANTIZED with its volume");
+    json_.refuse(
+        "the feature table has neither POSITION nor POSITION_QUANTIZED with a quantized volume");
   }
   for (std::size_t i = 0; i < quantized->size(); ++i) {
     (*quantized)[i] = (*quantized)[i] / 65535.0 * (*scale)[i % 3] + (*offset)[i % 3];
@@ -173,7 +175,7 @@ std::vector<double> FeatureTable::positions(std::size_t n) const {
   return *std::move(quantized);
 }
 
-/// Cigolla et al. 2014, A survey of efficient representations for independent unit vectors.
+/// Cigolle et al. 2014, A survey of efficient representations for independent unit vectors.
 std::optional<std::vector<double>> FeatureTable::directions(const std::string& key, Number number,
                                                             std::size_t n) const {
   const auto encoded = values(key, number, 2, n);

@@ -13,39 +13,37 @@
 
 namespace firetwin::tiles {
 
-/// What b3dm, i3dm and pnts have in common: a feature table, a batch table (which nobody needs
-/// here) and what follows.
+/// Parts of a b3dm, i3dm or pnts: the feature table and the body. The batch table is skipped.
 struct Sections {
   Bytes feature_json;
   Bytes feature_binary;
-  Bytes body;                    ///< glTF, or the uri of one; nothing in pnts
-  std::uint32_t gltf_format = 1; ///< of i3dm: 0 when the body is a uri
+  Bytes body;                    ///< glTF or its uri; empty in pnts
+  std::uint32_t gltf_format = 1; ///< i3dm: 0 if the body is a uri
 };
 
-/// Reads the header, of b3dm also in its two older forms.
-/// @throws InputError when lengths do not fit the content or the version is not 1
+/// Reads the header; supports the two older b3dm headers.
+/// @throws InputError if lengths do not fit the content or the version is not 1
 Sections read_sections(Bytes content, ContentType type, const std::string& name);
 
-/// Kinds of numbers in a feature table's binary part.
+/// Component types in a feature table's binary part.
 enum class Number { u8, u16, f32 };
 
-/// A feature table: properties in JSON, longer ones in binary form. It lives as long as the
-/// content.
+/// A feature table: properties in JSON or in binary form. The content must outlive it.
 class FeatureTable {
 public:
   FeatureTable(const Sections& sections, const std::string& name);
 
   const Node& json() const { return json_; }
   Bytes binary() const { return binary_; }
-  /// A count that must be there, at most `most`.
+  /// Reads a required count. @throws InputError if it is missing or above `most`
   std::size_t count(const std::string& key, std::size_t most) const;
   std::optional<Vector> vector(const std::string& key) const;
-  /// `n` values of `components` numbers each, or nothing where there is no such property.
+  /// Reads `n` values with `components` numbers each; empty if the property is absent.
   std::optional<std::vector<double>> values(const std::string& key, Number number,
                                             std::size_t components, std::size_t n) const;
-  /// POSITION, or POSITION_QUANTIZED in its volume: n x 3, m.
+  /// Reads POSITION or dequantizes POSITION_QUANTIZED: n x 3, m.
   std::vector<double> positions(std::size_t n) const;
-  /// Unit vectors of two numbers each, from 0 to `largest` (octahedral mapping): n x 3.
+  /// Decodes octahedral-encoded unit vectors: n x 3.
   std::optional<std::vector<double>> directions(const std::string& key, Number number,
                                                 std::size_t n) const;
 

@@ -29,7 +29,7 @@ Vector vertex(const std::vector<float>& position, std::size_t i) {
           static_cast<double>(position[3 * i + 2])};
 }
 
-/// For each vertex, a number that vertices at the same place share; also how many there are.
+/// Numbers the distinct positions. Returns the number of each vertex's position, and their count.
 std::pair<std::vector<std::uint32_t>, std::size_t>
 weld_positions(const std::vector<float>& position) {
   const std::size_t n = position.size() / 3;
@@ -39,7 +39,7 @@ weld_positions(const std::vector<float>& position) {
   for (std::size_t i = 0; i < n; ++i) {
     Place place{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      place[axis] = std::bit_cast<std::uint32_t>(position[3 * i + axis] + 0.0F); // -0 is 0
+      place[axis] = std::bit_cast<std::uint32_t>(position[3 * i + axis] + 0.0F); // -0 becomes 0
     }
     number[i] = places.try_emplace(place, static_cast<std::uint32_t>(places.size())).first->second;
   }

@@ -8,20 +8,20 @@
 
 namespace firetwin::tiles {
 
-/// Triangles of a list, a strip or a fan of corners (glTF modes 4, 5, 6); what is left over at the
-/// end is dropped.
+/// Converts a list, strip or fan of corners (glTF modes 4, 5, 6) to a list of triangles. Incomplete
+/// triangles at the end are dropped.
 std::vector<std::uint32_t> list_triangles(std::vector<std::uint32_t> corners, std::size_t mode);
 
-/// Leaves out triangles with a vertex that is not finite, or with one corner twice.
+/// Drops triangles with a vertex that is not finite or with two equal corners.
 void drop_invalid_triangles(const std::vector<float>& position,
                             std::vector<std::uint32_t>& triangles);
 
-/// Which vertices triangles use, in order; triangles are numbered anew.
+/// Returns the vertices that triangles use, ascending, and renumbers the triangles to them.
 std::vector<std::uint32_t> compact_vertices(std::size_t vertices,
                                             std::vector<std::uint32_t>& triangles);
 
-/// Smooth normals (n x 3): sums over corners at the same place of triangles' normals by area. Those
-/// are orthogonal to the surface whether or not its vertices are split at seams of the texture.
+/// Smooth normals (n x 3): area-weighted sums over all corners at the same position, so that
+/// vertices split at texture seams get equal normals.
 std::vector<float> smooth_normals(const std::vector<float>& position,
                                   const std::vector<std::uint32_t>& triangles);
 

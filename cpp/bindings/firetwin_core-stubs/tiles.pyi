@@ -1,4 +1,7 @@
-"""3D Tiles: content decoded to flat arrays, and the choice of tiles for a shot. Nothing here opens a file."""
+"""3D Tiles: decoding of content to flat arrays, selection of tiles for a shot, and ground extraction.
+
+No function opens a file.
+"""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -28,61 +31,70 @@ def screen_error(
     margin: float = 0.0,
     shadows: bool = False,
 ) -> NDArray[np.float64]:
-    """(n,) screen-space error of tiles in pixels: the largest over the views that see them; -1: none does.
+    """Compute the screen-space error of n tiles, the maximum over all views.
 
-    Perspective: error * pixels / max(distance, 1e-7 m), with the distance of the camera from the nearest point
-    of the tile's volume. Orthographic: error * pixels. A view sees a tile by its bounding sphere (see
-    `lod.visible_mask`, also for the last three arguments).
+    Perspective: error * pixels / max(distance, 1e-7 m), where distance is measured from the camera to the nearest
+    point of the tile's volume. Orthographic: error * pixels. Tiles are culled by their bounding spheres; see
+    `lod.visible_mask`, also for `max_distance`, `margin` and `shadows`.
 
     Parameters
     ----------
     centre, axis, half, padding
-        Volumes: boxes with centres (n, 3) m, orthonormal directions of edges (n, 3, 3) as rows, half lengths
-        (n, 3) m, widened by (n,) m. A sphere is a box without extent.
+        Bounding volumes: oriented boxes with centres (n, 3) in m, orthonormal edge directions (n, 3, 3) as rows and
+        half lengths (n, 3) in m, padded by a radius (n,) in m. A sphere is a box with half lengths of 0.
     error
         (n,) geometric errors, m.
+    views
+        m views.
     pixels
-        (m,) of each view. Perspective: pixels of 1 m at a distance of 1 m, height / (2 tan(angle / 2)).
-        Orthographic: pixels of 1 m.
+        (m,) scales. Perspective: pixels per metre at a distance of 1 m, height / (2 tan(angle / 2)).
+        Orthographic: pixels per metre.
+
+    Returns
+    -------
+    (n,) screen-space errors, pixels; -1 for tiles that no view sees.
 
     Raises
     ------
     ValueError
-        A shape does not fit, or a number is below 0 or NaN.
+        A shape does not fit, or a number is negative or NaN.
     """
 
 def contains_any(
     centre: ArrayLike, axis: ArrayLike, half: ArrayLike, padding: ArrayLike, position: ArrayLike
 ) -> NDArray[np.bool_]:
-    """(n,) whether any position (m, 3) is inside each volume (see `screen_error`)."""
+    """Test for each of n volumes whether it contains at least one of the positions (m, 3).
+
+    `screen_error` describes the volumes. Returns an array of shape (n,).
+    """
 
 class Cut:
-    """The tiles that a shot shows (see `select`)."""
+    """A cut through the tree: the tiles that a shot shows (see `select`)."""
 
     @property
     def tiles(self) -> NDArray[np.int64]:
-        """Numbers of the tiles whose content is shown, ascending."""
+        """Indices of the tiles whose content is shown, ascending."""
     @property
     def expand(self) -> NDArray[np.int64]:
-        """Numbers of pending tiles whose children the cut needs, ascending."""
+        """Indices of pending tiles whose children must be loaded, ascending."""
     @property
     def stand_ins(self) -> NDArray[np.int64]:
-        """Numbers of tiles that stand in for broken ones below them."""
+        """Indices of tiles that are shown in place of broken descendants."""
     @property
     def missing(self) -> NDArray[np.int64]:
-        """Numbers of broken tiles for which no tile stands in, or an ancestor that is shown anyway."""
+        """Indices of broken tiles without a stand-in, or whose stand-in is shown anyway."""
     @property
     def error(self) -> float:
-        """Screen-space error above which tiles are refined, pixels: what was asked for, or more to fit."""
+        """Maximum screen-space error used, pixels: the requested one, or a larger one that fits the budget."""
     @property
     def fits(self) -> bool:
-        """Whether the cut keeps within the budget."""
+        """True if the cut is within the budget."""
     @property
     def bytes(self) -> int:
-        """Sum over the tiles shown."""
+        """Total size of the contents shown."""
     @property
     def triangles(self) -> int:
-        """Sum over the tiles shown."""
+        """Total number of triangles shown."""
 
 def select(
     parent: ArrayLike,
@@ -95,28 +107,38 @@ def select(
     max_bytes: int = -1,
     max_triangles: int = -1,
 ) -> Cut:
-    """Choose one cut of a tree of n tiles. The time is linear in n.
+    """Select a cut through a tree of n tiles. The run time is linear in n.
 
-    A tile is refined where its screen-space error is above `error`, and UNCONDITIONAL ones always. Children of
-    a tile that REPLACES are chosen all or none; those that no view sees stay coarse. Other children are chosen
-    each by itself, where a view sees it. In place of a BROKEN tile its nearest ancestor with content is shown.
-    Beyond the budget the error is raised for all tiles to the next screen-space error of any tile at which the
-    cut fits, found by bisection; where nothing fits the coarsest cut is given.
+    A tile is refined if its screen-space error is above `error` or if it is UNCONDITIONAL. If a tile REPLACES, all
+    its children are selected or none; those that no view sees stay coarse. Otherwise each child is selected on its
+    own if a view sees it. The nearest ancestor with content replaces a BROKEN tile. If the cut exceeds the budget,
+    `error` is raised to the smallest screen-space error of any tile at which the cut fits, found by bisection. If
+    no cut fits, the coarsest one is returned.
 
     Parameters
     ----------
     parent
-        (n,) number of the parent, smaller than the tile's own; -1 for roots.
+        (n,) index of the parent, less than the tile's own; -1 for roots.
     flags
-        (n,) sums of: REPLACES; UNCONDITIONAL; CONTENT: it has something to show; PENDING: it has children that
-        are not read yet; BROKEN: its content cannot be had; OUTSIDE_REQUEST_VOLUME: no eye is in its request volume, so that it
-        and what is below is left out; PASS_THROUGH: it stands for its children and shows its own content with them.
+        (n,) sums of
+
+        - REPLACES: the tile's refinement is REPLACE, otherwise ADD;
+        - UNCONDITIONAL: the tile is refined at any error;
+        - CONTENT: the tile has renderable content;
+        - PENDING: the tile has children that are not loaded yet;
+        - BROKEN: the content is not available;
+        - OUTSIDE_REQUEST_VOLUME: no camera is inside the viewer request volume; the tile and its descendants are
+          skipped;
+        - PASS_THROUGH: the parent of an external or implicit tileset, which hands its own state to its children and
+          shows its content together with them.
     screen_error
-        (n,) pixels; below 0: no view sees the tile.
+        (n,) pixels; negative if no view sees the tile.
     bytes, triangles
-        (n,) of the contents, 0 where unknown.
+        (n,) sizes of the contents; 0 if unknown.
+    error
+        Maximum screen-space error, pixels.
     max_tiles, max_bytes, max_triangles
-        Budget; below 0: no limit.
+        Budget; negative for no limit.
 
     Raises
     ------
@@ -125,119 +147,119 @@ def select(
     """
 
 class Image:
-    """An encoded picture of a tile, as it lies in the content or beside it."""
+    """An encoded image of a tile, embedded in the content or external."""
 
     @property
     def kind(self) -> str:
-        """jpeg, png or webp by its first bytes; empty where only the uri is known."""
+        """Format by magic bytes: jpeg, png or webp; empty if only the uri is known."""
     @property
     def width(self) -> int:
-        """Pixels, by its header; 0 where only the uri is known."""
+        """Pixels, from the header; 0 if only the uri is known."""
     @property
     def height(self) -> int:
-        """Pixels, by its header; 0 where only the uri is known."""
+        """Pixels, from the header; 0 if only the uri is known."""
     @property
     def data(self) -> bytes:
-        """The file; empty where only the uri is known."""
+        """The encoded file; empty if only the uri is known."""
     @property
     def uri(self) -> str:
-        """Where it lies, relative to the content; empty where the content holds it."""
+        """Address relative to the content; empty if the image is embedded."""
 
 class Material:
-    """What a range of triangles looks like. Lighting is not read: whoever draws it decides."""
+    """Base colour of a range of triangles. Lighting properties such as roughness are not read."""
 
     @property
     def colour(self) -> list[float]:
-        """Linear red, green, blue and alpha, to be multiplied with the picture's and the vertices'."""
+        """Linear RGBA factor of the image's and the vertices' colours."""
     @property
     def image(self) -> int:
-        """Index of the picture in `Tile.images`; -1 for none."""
+        """Index in `Tile.images`; -1 for none."""
     @property
     def wrap_u(self) -> str:
-        """repeat, clamp or mirror beyond the picture's sides."""
+        """Horizontal texture wrapping: repeat, clamp or mirror."""
     @property
     def wrap_v(self) -> str:
-        """The same beyond its top and bottom."""
+        """Vertical texture wrapping: repeat, clamp or mirror."""
     @property
     def alpha_mode(self) -> str:
-        """opaque, mask or blend."""
+        """Alpha mode: opaque, mask or blend."""
     @property
     def alpha_cutoff(self) -> float:
-        """Alpha below which a mask shows nothing."""
+        """Alpha below which a masked material is transparent."""
     @property
     def double_sided(self) -> bool:
-        """Whether triangles show from behind too."""
+        """True if back faces are visible."""
 
 class Range:
-    """Vertices and triangles of one material; ranges follow one another without gaps."""
+    """A range of vertices and triangles with one material. Ranges are contiguous."""
 
     @property
     def material(self) -> int:
         """Index in `Tile.materials`; -1 for none."""
     @property
     def first_vertex(self) -> int:
-        """Row of `Tile.position`."""
+        """First row of `Tile.position`."""
     @property
     def vertices(self) -> int:
-        """Number of rows."""
+        """Number of vertices."""
     @property
     def first_triangle(self) -> int:
-        """Row of `Tile.triangle`."""
+        """First row of `Tile.triangle`."""
     @property
     def triangles(self) -> int:
-        """Number of rows; 0 for points."""
+        """Number of triangles; 0 for points."""
     @property
     def points(self) -> bool:
-        """Whether its vertices are points of a cloud."""
+        """True if the vertices are a point cloud."""
     @property
     def has_normals(self) -> bool:
-        """Whether the content has normals. Else `Tile.normal` has smooth ones here, and 0 for points."""
+        """False if `Tile.normal` has computed smooth normals here (0 for points)."""
 
 class Tile:
-    """Decoded content: read-only arrays of n vertices and m triangles about an origin."""
+    """Decoded content: read-only arrays of n vertices and m triangles relative to an origin."""
 
     @property
     def origin(self) -> NDArray[np.float64]:
-        """(3,) m in the scene's frame, whole metres: the middle of all vertices."""
+        """(3,) centre of all vertices in the scene's frame, rounded to metres."""
     @property
     def position(self) -> NDArray[np.float32]:
-        """(n, 3) m from the origin. No vertex is a content without geometry, which is no error."""
+        """(n, 3) m from the origin. Content without geometry is valid and has no vertices."""
     @property
     def normal(self) -> NDArray[np.float32]:
-        """(n, 3) unit vectors; smooth where the content has none (see `Range.has_normals`)."""
+        """(n, 3) unit vectors; computed if the content has none (see `Range.has_normals`)."""
     @property
     def uv(self) -> NDArray[np.float32]:
-        """(n, 2) place in the picture, from its lower left corner; 0 where there is none."""
+        """(n, 2) texture coordinates from the lower left corner; 0 without any."""
     @property
     def colour(self) -> NDArray[np.float32]:
-        """(n, 4) linear red, green, blue and alpha; (0, 4) where no vertex has a colour."""
+        """(n, 4) linear RGBA; (0, 4) if no vertex has a colour."""
     @property
     def triangle(self) -> NDArray[np.uint32]:
-        """(m, 3) rows of `position`, counter-clockwise from outside."""
+        """(m, 3) rows of `position`, counter-clockwise seen from outside."""
     @property
     def ranges(self) -> list[Range]:
-        """By material; points come last."""
+        """Ranges sorted by material; points come last."""
     @property
     def materials(self) -> list[Material]:
-        """Those that are used."""
+        """Materials in use."""
     @property
     def images(self) -> list[Image]:
-        """Those that are used."""
+        """Images in use."""
     @property
     def copyright(self) -> str:
-        """Notices of the content, each once, with semicolons between them."""
+        """Distinct copyright notices of the content, separated by semicolons."""
     @property
     def spacing(self) -> float:
-        """Metres between neighbouring float32 numbers at the content's vertex farthest from its own origin.
+        """Resolution of the content in m: the spacing of float32 numbers at the vertex farthest from its own origin.
 
-        Where positions are Earth-centred in float32 it is 0.5: no decoder can do better with such content.
+        It is 0.5 m for Earth-centred float32 positions, whatever the decoder.
         """
     @property
     def not_finite(self) -> int:
-        """Vertices left out because they are NaN, infinite or more than 1e9 m away."""
+        """Number of dropped vertices: NaN, infinite or farther than 1e9 m from the scene's origin."""
     @property
     def lines(self) -> int:
-        """Primitives of lines, which are left out."""
+        """Number of dropped line primitives."""
 
 def decode(
     content: bytes,
@@ -247,73 +269,81 @@ def decode(
     earth_matrix: ArrayLike | None = None,
     up_axis: str = "Y",
 ) -> Tile:
-    """Decode a b3dm, i3dm, cmpt, pnts, glb or glTF, told by its first bytes.
+    """Decode a b3dm, i3dm, cmpt, pnts, glb or glTF. The type is detected from the magic bytes.
 
-    All transforms are multiplied in float64: matrix, RTC_CENTER or an instance of i3dm, CESIUM_RTC (z up),
-    glTF's y to z, nodes, instances of EXT_mesh_gpu_instancing. Instances are expanded. Draco, meshopt and
-    quantised attributes are read. Skins, animations, morphs and features are ignored; pictures are not
-    decoded. Damaged Draco data may make Draco's own decoder ask for gigabytes or crash: content from
-    elsewhere belongs into a process of its own, with limits of memory and time.
+    Transforms are multiplied in float64 in this order: `matrix`, RTC_CENTER or the i3dm instance, CESIUM_RTC (z up),
+    glTF's y-up to z-up rotation, nodes, EXT_mesh_gpu_instancing. Instances are expanded. Draco, meshopt and quantized
+    attributes are supported. Skins, animations, morph targets and feature metadata are ignored. Images stay encoded.
+
+    Draco's decoder does not validate its data: damaged content may make it allocate gigabytes or crash. Decode
+    untrusted content in a separate process with memory and time limits.
 
     Parameters
     ----------
     content
-        The file.
+        The encoded tile.
     matrix
-        (4, 4), of columns on its right: the content's frame (z up) to the scene's, m.
+        (4, 4) transform from the content's frame (z up) to the scene's, m; multiplies column vectors.
     name
-        What messages call the content.
+        Stands for the content in error messages.
     resources
-        Files beside the content by uri (`list_missing_resources`). A picture may be among them; its header is
-        then checked and `Image.data` has it.
+        External files by uri (see `list_missing_resources`). They may include images: their headers are checked, and
+        `Image.data` holds them.
     earth_matrix
-        (4, 4) the content's frame to the Earth-centred one; None where it is that one. Only EAST_NORTH_UP of
-        i3dm needs it.
+        (4, 4) transform from the content's frame to Earth-centred metres, used by EAST_NORTH_UP of i3dm only. None:
+        identity.
     up_axis
         X, Y or Z: `asset.gltfUpAxis` of the tileset.
 
     Raises
     ------
     InputError
-        The content is damaged, lacks a resource, requires an extension that is not known, or asks for more
-        than the limits: 10 million vertices, a million instances, 1 GB when decoded, pictures of 16384
-        pixels a side, cmpt in cmpt 8 deep. The reason begins with the place in the JSON.
+        The content is damaged, a resource is missing, a required extension is not supported, or a limit is exceeded:
+        10 million vertices, 1 million instances, 1 GB decoded, images of 16384 pixels per side, 8 levels of nested
+        cmpt. The reason starts with the position in the JSON.
     ValueError
-        A matrix is not finite, not affine or has the determinant 0.
+        A matrix is not finite, not affine or singular.
     """
 
 def list_missing_resources(content: bytes, name: str, resources: dict[str, bytes] | None = None) -> list[str]:
-    """List uris, relative to the content, of files that `decode` needs beside those in `resources`.
+    """List the uris of external files that `decode` needs in addition to `resources`.
 
-    These are buffers and models, sorted; pictures are not needed. Ask again with what was found until the
-    list is empty, for a model may need buffers. The uris are as the content writes them, percent signs and
-    dots included: whoever fetches them decides what may be fetched.
-    """
-
-def content_type(content: bytes, name: str) -> str:
-    """Tell b3dm, i3dm, cmpt, pnts, glb, gltf, tileset or subtree by what is in it.
+    These are buffers and models, sorted and relative to the content; images are optional and not listed. Call it
+    again with the new files until the list is empty, because a model may need buffers. The uris are not normalized:
+    percent signs and dots are returned as written, and the caller decides which uris may be fetched.
 
     Raises
     ------
     InputError
-        It is none of these.
+        The content is damaged or is not a tile.
+    """
+
+def content_type(content: bytes, name: str) -> str:
+    """Detect the content type: b3dm, i3dm, cmpt, pnts, glb, gltf, tileset or subtree.
+
+    Binary types are detected from their magic bytes, JSON from its keys.
+
+    Raises
+    ------
+    InputError
+        The type is unknown.
     """
 
 class HeightMap:
-    """Heights of the highest surface of triangles above points of an even grid."""
+    """Maximum height of triangles at the points of a regular grid (a digital surface model)."""
 
     def __init__(self, low: tuple[float, float], step: float, rows: int, columns: int) -> None:
-        """Points at low + (column, row) * step, m.
+        """Create a grid of points at low + (column, row) * step, m.
 
         Raises
         ------
         ValueError
-            The step is not above 0.
+            `step` is not above 0.
         """
     def add(self, position: ArrayLike, origin: tuple[float, float, float], triangle: ArrayLike) -> None:
-        """Raise the heights to triangles (t, 3) of positions (n, 3), m about an origin.
+        """Raise the heights to triangles (t, 3): rows of positions (n, 3) in m, relative to an origin.
 
-        Upright triangles count for nothing.
+        Vertical triangles are ignored.
 
         Raises
         ------
@@ -322,32 +352,35 @@ class HeightMap:
         """
     @property
     def height(self) -> NDArray[np.float32]:
-        """(rows, columns) m; NaN where there is no triangle."""
+        """(rows, columns) m; NaN without a triangle."""
 
 def find_ground(
     height: ArrayLike, step: float, max_width: float = 60.0
 ) -> tuple[NDArray[np.float32], NDArray[np.uint8]]:
-    """Heights of the ground (ny, nx), m, below roofs and crowns, and what each point shows.
+    """Extract the ground below roofs and crowns from a surface model, and classify its points.
 
-    A progressive morphological filter (Zhang et al. 2003, IEEE Transactions on Geoscience and Remote Sensing
-    41(4)): openings by windows that grow to `max_width`. What one lowers by more than a threshold is an object, if
-    its sides are steep. Below objects heights are linear between the ground on their sides.
+    A progressive morphological filter (Zhang et al. 2003, IEEE Transactions on Geoscience and Remote Sensing 41(4)):
+    points that an opening with a growing window lowers by more than a threshold belong to objects, if these have
+    steep sides. Ground heights below objects are interpolated linearly between the ground on their sides.
 
     Parameters
     ----------
     height
-        (ny, nx) highest surface, m, best as its height above what is known of the ground; NaN without.
+        (ny, nx) surface model, m; NaN for gaps. Subtract a coarse terrain model first for best results.
     step
-        m between points.
+        Grid spacing, m.
     max_width
-        m, width of the widest object.
+        Width of the widest object, m.
 
     Returns
     -------
-    Heights, and GROUND, VEGETATION or BUILDING for each point. Buildings have 2 points or more of an even surface.
+    ground
+        (ny, nx) ground heights, m.
+    surface_class
+        (ny, nx) GROUND, VEGETATION or BUILDING. A building has at least 2 points with a smooth surface.
 
     Raises
     ------
     ValueError
-        A number is not above 0.
+        `step` or `max_width` is not above 0.
     """
