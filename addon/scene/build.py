@@ -138,7 +138,7 @@ def _grow_and_shape(shot: Shot) -> tuple[stand.Stand, ground.Shape]:
     """
     shot.visibility.distance([(0.0, 0.0, 0.0)])  # compute their shared inputs first
     with ThreadPoolExecutor(1) as beside:
-        shaping = beside.submit(ground.shape, shot)
+        shaping = beside.submit(ground.make_shape, shot)
         metering = beside.submit(exposure.at, shot, np.ones(1))
         grown = stand.grow(shot)
         metering.result()

@@ -21,7 +21,7 @@ def of(settings, run, name, **more):
 
 def test_the_sierra_has_the_images_and_plants_that_it_had(near_settings, run, stage):
     chosen, auto = (of(near_settings, run, name) for name in ("sierra_conifer", "auto"))
-    made = fields.images(auto, None)
+    made = fields.create_images(auto, None)
     assert set(made) == {"Firetwin Ground Fuel", "Firetwin Ground Fire", "Firetwin Ground Front"}
     first, second = stand.grow(chosen), stand.grow(auto)
     assert np.array_equal(first.model, second.model)
@@ -36,7 +36,7 @@ def test_every_biome_has_its_own_trees_and_ground(name, near_settings, run, stag
     assert len(grown.model) > 50
     assert set(grown.model.tolist()) <= {k for sort in biomes.choose(shot).biome.species for k in sort.models}
     assert grown.height.mean() < stand.grow(of(near_settings, run, "sierra_conifer")).height.mean()
-    made = fields.images(shot, grown)
+    made = fields.create_images(shot, grown)
     assert "Firetwin Ground Cover" in made
     look = material.build(shot, stage, made)
     assert look.name == "Firetwin Ground"

@@ -129,7 +129,7 @@ def test_the_material_is_charred_with_the_images_of_the_ground(shot, stage):
     plain = buildings.material(shot, stage, "Firetwin Halls")
     from firetwin.scene.terrain import fields
 
-    charred = buildings.material(shot, stage, "Firetwin Roofs", fields.images(shot, None))
+    charred = buildings.material(shot, stage, "Firetwin Roofs", fields.create_images(shot, None))
 
     def images(look):
         trees = [look.node_tree, *(n.node_tree for n in look.node_tree.nodes if n.type == "GROUP")]

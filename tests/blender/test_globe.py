@@ -26,7 +26,7 @@ def space(settings, run):
 
 def test_the_shell_is_the_ellipsoid_and_joins_the_terrain(space):
     ground = space.ground
-    position, triangles = globe.shell(ground)
+    position, triangles = globe.create_shell(ground)
     latitude, longitude, height = ground.frame.reverse(position)
     assert np.linalg.norm(position, axis=1).max() > 1.27e7, "it reaches the other side"
     far = np.linalg.norm(position, axis=1) > 3.0e6
@@ -62,9 +62,9 @@ def test_the_ground_goes_over_into_the_globe_between_run_and_border(space):
     rows, columns = ground.shape
     margin = ground.fields.margin
     at = np.array([0.0, rows / 2, margin, rows - 1.0])
-    share = globe.share(ground, at, np.full(4, columns / 2))
+    share = globe.border_share(ground, at, np.full(4, columns / 2))
     assert share == pytest.approx([1.0, 0.0, 0.0, 1.0], abs=0.02)
-    assert globe.share(ground, np.array([rows / 2]), np.zeros(1)) == pytest.approx([1.0])
+    assert globe.border_share(ground, np.array([rows / 2]), np.zeros(1)) == pytest.approx([1.0])
 
 
 @pytest.mark.slow  # three builds of the terrain
@@ -113,4 +113,4 @@ def test_its_picture_and_credit_are_told(space, stage, tmp_path, plain_looks):
     settings = replace(space.settings.terrain, globe=path, globe_credit="NASA")
     shot = Shot(replace(space.settings, terrain=settings), space.run)
     assert picture_credits.of_shot(shot) == Credits(("NASA",))
-    assert globe.picture(shot).size[:] == (8, 4)
+    assert globe.load_picture(shot).size[:] == (8, 4)

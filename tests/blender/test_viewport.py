@@ -104,7 +104,7 @@ def test_the_solid_view_shows_fuel_scar_and_water(settings, run_folder, scene, p
     data = bpy.data.objects["Firetwin Ground"].data
     assert data.color_attributes.active_color.name == solid_view.NAME
     row, column = (axis.ravel() for axis in np.indices(shot.ground.shape).astype(float))
-    found = solid_view.colours(shot, row, column).reshape(*shot.ground.shape, 3)
+    found = solid_view.vertex_colours(shot, row, column).reshape(*shot.ground.shape, 3)
     ground = shot.ground
     inside = ground.burned > 0.5
     before = inside & (ground.burn_time <= shot.frames.first)
@@ -116,7 +116,7 @@ def test_the_solid_view_shows_fuel_scar_and_water(settings, run_folder, scene, p
     dense = (ground.fields.canopy_fuel > 2.0) & ~inside & (ground.bare < 0.01) & (ground.water < 0.5)
     assert found[dense] == pytest.approx(np.broadcast_to(solid_view.FOREST, found[dense].shape), rel=0.05)
     ground.__dict__["water"] = np.ones(ground.shape)
-    assert np.all(solid_view.colours(shot, row, column) == np.float32(solid_view.WATER))
+    assert np.all(solid_view.vertex_colours(shot, row, column) == np.float32(solid_view.WATER))
 
 
 def test_a_file_opens_with_views_that_show_the_scene():

@@ -17,39 +17,41 @@ from .. import credits
 from ..forest.stand import Stand
 from . import buildings, fields, globe, material, solid_view
 
-_SEAM = 2.0  # points of the tiles' heights, width of ground that is left under their border
-_UNDER = 0.25  # m that this ground lies lower, so that it does not show through
+_SEAM = 2.0  # points of the tiles' heights, width of the ground retained under their border
+_UNDER = 0.25  # m by which this ground is lowered, so that it does not show through
 
 Shape = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]]
 
 
 def build(shot: Shot, stage: Stage, grown: Stand | None, shaped: Shape | None = None) -> bpy.types.Object:
-    """Build "Firetwin Ground", from its `shape` where that is known.
+    """Build "Firetwin Ground", from its `shape` if already computed.
 
-    Its mesh carries point attributes: `elevation` (m); `grid`, the texture coordinates in the images of the
+    Its mesh has point attributes: `elevation` (m); `grid`, the texture coordinates in the images of the
     terrain's fields (see `fields`); and `solid_view`, its colours in Blender's solid view.
     """
     collection, ground = stage.part("Terrain"), shot.ground
     credits.store(collection, picture_credits.of_settings(shot.settings))
-    row, column, triangles = without_tiles(shot, *(shaped or shape(shot)))
+    row, column, triangles = cut_out_tiles(shot, *(shaped or make_shape(shot)))
     latitude, longitude = ground.places(row, column)
     coarse = ground.frame.forward(latitude, longitude, ground.height(row, column))
     height = ground.height(row, column, ground.detail(*coarse.T))
     if (tiles := tile_cut.heights(shot)) is not None:
         height = height - _UNDER * np.isfinite(tiles.up(*coarse[:, :2].T))
     data = bpy.data.meshes.new("Firetwin Ground")
-    _fill(data, ground.frame.forward(latitude, longitude, height), triangles)
+    _fill_mesh(data, ground.frame.forward(latitude, longitude, height), triangles)
     data.attributes.new("elevation", "FLOAT", "POINT").data.foreach_set("value", height.astype(np.float32))
-    place = fields.place(ground.shape, row, column, ground.fields.margin)
+    place = fields.texture_coordinates(ground.shape, row, column, ground.fields.margin)
     data.attributes.new(fields.GRID, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", place.ravel())
     solid_view.paint(shot, data, row, column)
-    picture = globe.picture(shot) if shot.beyond else None
+    picture = globe.load_picture(shot) if shot.beyond else None
     if shot.beyond:
         attribute = data.attributes.new(material.GLOBE, "FLOAT", "POINT")
-        attribute.data.foreach_set("value", globe.share(ground, row, column))
-    images = fields.images(shot, grown)
+        attribute.data.foreach_set("value", globe.border_share(ground, row, column))
+    images = fields.create_images(shot, grown)
     data.materials.append(
-        material.build(shot, stage, images, fields.photos(shot), fields.maps(shot), globe=picture)
+        material.build(
+            shot, stage, images, fields.orthophoto_images(shot), fields.land_use_images(shot), globe=picture
+        )
     )
     buildings.build(shot, stage, images)
     if shot.beyond:
@@ -57,8 +59,8 @@ def build(shot: Shot, stage: Stage, grown: Stand | None, shaped: Shape | None = 
     return owned.add(collection, "Ground", data)
 
 
-def shape(shot: Shot) -> Shape:
-    """Vertices by fractional row and column (n,), and triangles (m, 3): as fine as the cameras resolve."""
+def make_shape(shot: Shot) -> Shape:
+    """Return vertices by fractional row and column (n,), and triangles (m, 3), as fine as cameras resolve."""
     ground, wanted = shot.ground, mesh_tolerance.wanted(shot)
     return terrain.mesh(
         wanted.place,
@@ -71,10 +73,10 @@ def shape(shot: Shot) -> Shape:
     )
 
 
-def without_tiles(
+def cut_out_tiles(
     shot: Shot, row: NDArray[np.float64], column: NDArray[np.float64], triangles: NDArray[np.int32]
 ) -> Shape:
-    """A shape without the triangles that lie under 3-D Tiles, but for a seam along their border."""
+    """Return a shape without the triangles under 3D Tiles, except a seam along the tiles' border."""
     cut, tiles = tile_cut.of_shot(shot), tile_cut.heights(shot)
     if cut is None or tiles is None:
         return row, column, triangles
@@ -90,10 +92,10 @@ def without_tiles(
     return row[left], column[left], kept.reshape(-1, 3).astype(np.int32)
 
 
-def _fill(data: bpy.types.Mesh, positions: NDArray[np.float64], triangles: NDArray[np.int32]) -> None:
-    """Write vertices and triangles into an empty mesh, smooth shaded.
+def _fill_mesh(data: bpy.types.Mesh, positions: NDArray[np.float64], triangles: NDArray[np.int32]) -> None:
+    """Write vertices and triangles into an empty mesh, with smooth shading.
 
-    By attributes: Blender copies these in bulk, but loops over vertices and corners one by one.
+    Attributes are used because Blender copies them in bulk, but loops over vertices and corners one by one.
     """
     data.vertices.add(len(positions))
     data.attributes["position"].data.foreach_set("vector", positions.astype(np.float32).ravel())

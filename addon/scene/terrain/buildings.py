@@ -24,7 +24,7 @@ from . import burn_scar, fields, shading_inputs
 
 WALL = (0.24, 0.22, 0.19)  # linear reflectances; by eye
 _ROOFS = ((0.125, 0.048, 0.030), (0.150, 0.068, 0.043), (0.075, 0.072, 0.070), (0.110, 0.100, 0.088))
-_CHARRED = 0.8  # of the surface where the fire has passed (assumed)
+_CHARRED = 0.8  # fraction of the surface after the fire has passed (assumed)
 
 Array = NDArray[np.float64]
 Colour = tuple[float, float, float]
@@ -32,9 +32,9 @@ Colour = tuple[float, float, float]
 
 @dataclass
 class Blocks:
-    """Walls and roofs of several buildings: triangles (t, 3, 3) with a colour and a number for each.
+    """Walls and roofs of several buildings: triangles (t, 3, 3), each with a colour and a number.
 
-    Numbers are those of the masks' instances, from 1; 0 is none.
+    Numbers are the instance numbers of the masks, from 1; 0 is none.
     """
 
     corners: list[Array] = field(default_factory=list)
@@ -42,47 +42,47 @@ class Blocks:
     numbers: list[NDArray[np.int64]] = field(default_factory=list)
 
     def add(self, building: Building, roof: Colour, wall: Colour = WALL, number: int = 0) -> None:
-        """Append a building whose outline is in the scene, m."""
-        corners, is_roof = blocks.block(building, triangles)
+        """Append a building with its outline in the scene, m."""
+        corners, is_roof = blocks.block(building, triangulate)
         self.corners.append(corners)
         self.colours.append(np.where(is_roof[:, None], roof, wall))
         self.numbers.append(np.full(len(corners), number))
 
     def face(self, corners: Array, colour: Colour, number: int = 0) -> None:
-        """Append a face (4, 3), seen from outside anticlockwise."""
+        """Append a face (4, 3), anticlockwise as seen from outside."""
         self.corners.append(corners[[[0, 1, 2], [0, 2, 3]]])
         self.colours.append(np.tile(colour, (2, 1)))
         self.numbers.append(np.full(2, number))
 
     def mesh(self, name: str, shot: Shot, look: bpy.types.Material) -> bpy.types.Mesh:
-        """All of them as one mesh.
+        """Return all faces as a single mesh.
 
-        Its attributes: `shade`, the colours, and `number`, of faces; `elevation` and `grid` of points, as the
-        ground has them.
+        Its attributes: `shade`, the colours, and `number`, on faces; `elevation` and `grid` on points, as on
+        the ground.
         """
         corners = np.concatenate(self.corners).reshape(-1, 3)
         data = bpy.data.meshes.new(name)
         data.from_pydata(corners, [], np.arange(len(corners)).reshape(-1, 3))
         shade = np.pad(np.concatenate(self.colours), [(0, 0), (0, 1)], constant_values=1.0)
-        _attribute(data, "shade", "FLOAT_COLOR", "FACE", shade)
-        _attribute(data, "number", "FLOAT", "FACE", np.concatenate(self.numbers))
+        _add_attribute(data, "shade", "FLOAT_COLOR", "FACE", shade)
+        _add_attribute(data, "number", "FLOAT", "FACE", np.concatenate(self.numbers))
         latitude, longitude, height = shot.ground.frame.reverse(corners)
         row, column = shot.ground.indices(latitude, longitude)
-        _attribute(data, "elevation", "FLOAT", "POINT", height)
-        place = fields.place(shot.ground.shape, row, column, shot.ground.fields.margin)
-        _attribute(data, fields.GRID, "FLOAT_VECTOR", "POINT", place)
+        _add_attribute(data, "elevation", "FLOAT", "POINT", height)
+        place = fields.texture_coordinates(shot.ground.shape, row, column, shot.ground.fields.margin)
+        _add_attribute(data, fields.GRID, "FLOAT_VECTOR", "POINT", place)
         data.materials.append(look)
         data.update()
         return data
 
 
-def _attribute(data: bpy.types.Mesh, name: str, kind: str, domain: str, values: NDArray) -> None:
+def _add_attribute(data: bpy.types.Mesh, name: str, kind: str, domain: str, values: NDArray) -> None:
     key = {"FLOAT": "value", "FLOAT_COLOR": "color", "FLOAT_VECTOR": "vector"}[kind]
     data.attributes.new(name, kind, domain).data.foreach_set(key, np.asarray(values, np.float32).ravel())
 
 
-def triangles(outline: Rings) -> Array:
-    """Triangles (t, 3, 2) of a polygon with holes, anticlockwise, by Blender."""
+def triangulate(outline: Rings) -> Array:
+    """Triangulate a polygon with holes: triangles (t, 3, 2), anticlockwise, by Blender."""
     points = np.concatenate(outline)
     found = tessellate_polygon([[Vector((x, y, 0.0)) for x, y in ring] for ring in outline])
     return rings.anticlockwise(points[np.array(found, np.int64).reshape(-1, 3)])
@@ -104,9 +104,9 @@ def build(shot: Shot, stage: Stage, images: Mapping[str, bpy.types.Image]) -> bp
 def material(
     shot: Shot, stage: Stage, name: str, images: Mapping[str, bpy.types.Image] | None = None
 ) -> bpy.types.Material:
-    """Material of buildings: the colour of each face with a grain, as warm as stone in air and sun.
+    """Build a material: the colour of each face with a grain, with stone's temperature in air and sun.
 
-    With the `images` of the ground's fields it is charred where the fire has passed, and cools as the ground.
+    With the `images` of the ground's fields, it is charred after the fire, and cools like the ground.
     """
     look, tree = nodes.material(name, (0.3, 0.25, 0.22))
     colour = tree.attribute("shade", output="Color")
@@ -120,7 +120,7 @@ def material(
         with tree.frame("Fire"):
             here = shading_inputs.gather(tree, fields.Fields(tree, dict(images)), shot, whole=False)
             charred = here.burned * _CHARRED
-            colour = tree.mix_colour(charred, colour, burn_scar.charred(tree, here))
+            colour = tree.mix_colour(charred, colour, burn_scar.scar_colour(tree, here))
             kelvin = temperature.burned_temperature(tree, kelvin, here.age, charred, here.residence)
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
     warmth = infrared.radiance_at_camera(

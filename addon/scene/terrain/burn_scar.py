@@ -9,37 +9,37 @@ from .shading_inputs import Place
 
 EMBER_TIME = 3600.0  # s, decay time of embers of timber, to 1/e
 _BENT = 1.75
-"""Exponent of the decay time of embers in the residence time: 3600 (r / 120)^1.75 s, so 95 s in grass and 650
-s in shrubs (assumed).
+"""Exponent of the decay time of embers in the residence time: 3600 (r / 120)^1.75 s, so 95 s in grass and
+650 s in shrubs (assumed).
 """
-_TIMBER = 120.0  # s
-_WIDE = 0.8  # least width of the flaming front, pixels; its coverage is lower in proportion
+_TIMBER = 120.0  # s, residence time in timber
+_WIDE = 0.8  # minimum width of the flaming front, pixels; its coverage is reduced in proportion
 _PALE = 0.55  # factor on the emission of grass flames, which are low and thin
 _FLAME_LIGHT, _EMBER_LIGHT = 10.0, 1.8  # radiance at exposure 0
 _DIMMED = 0.3  # factor on the emission of the flaming front close by
 
 
-def charred(tree: nodes.Tree, place: Place) -> nodes.Value:
-    """Colour of the scar: char, white ash in streaks, brown scorched crowns where fire severity was low."""
+def scar_colour(tree: nodes.Tree, place: Place) -> nodes.Value:
+    """Return the colour of the scar: char, white ash in streaks, brown scorched crowns if severity is low."""
     tone = place.grain.noise(90.0 * place.scale, 4.0, 0.62)
     dark = tree.input("Char Dark", (0.009, 0.008, 0.008), "Blackest char", "Scar")
     pale = tree.input("Char Light", (0.052, 0.046, 0.041), "Char mixed with soil", "Scar")
     white = tree.input("Ash Colour", (0.150, 0.142, 0.135), "White ash, some hours after the fire", "Scar")
     much = tree.input("Ash Amount", 0.6, "How white streaks of old ash become", "Scar", most=1.0)
-    kept = tree.input("Scorch Amount", 0.75, "How brown it is where it burned mildly", "Scar", most=1.0)
+    kept = tree.input("Scorch Amount", 0.75, "How brown the scar is at low fire severity", "Scar", most=1.0)
     char = tree.mix_colour(tone.smoothstep(0.3, 0.72), dark, pale)
     ash = place.grain.noise(33.0 * place.scale, 4.0, 0.6).smoothstep(0.58, 0.70)
     old = (place.age * (_TIMBER / place.residence)).smoothstep(900.0, 14_400.0)
     char = tree.mix_colour(ash * old * much * (place.ash / 0.6), char, white)
     if place.mixed:
-        char = tree.mix_colour(place.woody, _stubble(tree, place, tone, ash * old), char)
+        char = tree.mix_colour(place.woody, _burned_grass_colour(tree, place, tone, ash * old), char)
     mild = place.grain.noise(540.0, 4.0, 0.6).smoothstep(0.54, 0.64) * place.canopy.smoothstep(0.1, 0.6)
     scorched = tree.mix_colour(tone, (0.035, 0.022, 0.012), (0.085, 0.052, 0.026))
     return tree.mix_colour(mild * kept, char, scorched)
 
 
-def _stubble(tree: nodes.Tree, place: Place, tone: nodes.Value, ash: nodes.Value) -> nodes.Value:
-    """Colour of burned grass: black first, then brown as its thin ash is blown off, with unburned tufts."""
+def _burned_grass_colour(tree: nodes.Tree, place: Place, tone: nodes.Value, ash: nodes.Value) -> nodes.Value:
+    """Return the colour of burned grass: black, then brown as its thin ash blows off, with unburned tufts."""
     broad = place.grain.noise(420.0 * place.scale, 3.0, 0.6)
     worn = place.age.smoothstep(120.0, 3600.0)
     pale = (tone * 0.7 + broad * 0.6 + worn * 0.08).smoothstep(0.52, 0.86)
@@ -50,8 +50,8 @@ def _stubble(tree: nodes.Tree, place: Place, tone: nodes.Value, ash: nodes.Value
     return tree.mix_colour(tufts * 0.6, char, (0.135, 0.108, 0.068))
 
 
-def glow(tree: nodes.Tree, place: Place) -> tuple[nodes.Value, nodes.Value]:
-    """Coverage 0..1 of the flaming front, and of embers behind it, on ground with burned fuel."""
+def front_coverage(tree: nodes.Tree, place: Place) -> tuple[nodes.Value, nodes.Value]:
+    """Return the coverage 0..1 of the flaming front, and of embers behind it, on ground with burned fuel."""
     part, size = place.residence / _TIMBER, place.scale
     clusters = place.grain.noise(420.0 * size, 2.0).smoothstep(0.42, 0.66)
     weak = place.speed.ramp(0.03, 0.4, 0.09, 0.0) + (1.0 - clusters) * 0.08  # gaps of low flames
@@ -69,9 +69,9 @@ def glow(tree: nodes.Tree, place: Place) -> tuple[nodes.Value, nodes.Value]:
     return body * tongues, speckles * clusters * fading * sparks
 
 
-def light(tree: nodes.Tree, shot: Shot, place: Place, fuel: nodes.Value) -> nodes.Value:
-    """Emission of flames and embers to the camera, scaled by the amount of burned `fuel` (0..1)."""
-    flaming, embers = glow(tree, place)
+def fire_emission(tree: nodes.Tree, shot: Shot, place: Place, fuel: nodes.Value) -> nodes.Value:
+    """Return the emission of flames and embers to the camera, scaled by the burned `fuel` (0..1)."""
+    flaming, embers = front_coverage(tree, place)
     flame = tree.input("Flame Colour", FLAME, "Light of the burning edge", "Fire")
     ember = tree.input("Ember Colour", EMBER, "Light of the spots that glow in the ash", "Fire")
     bright = tree.input("Flame Brightness", _FLAME_LIGHT, "Radiance of the edge at exposure 0", "Fire")

@@ -1,6 +1,6 @@
-"""Terrain fields as textures of the ground's material: full resolution also where the mesh is coarse.
+"""Terrain fields as textures of the ground's material, in full resolution even if the mesh is coarse.
 
-A mesh carries `grid`, its texture coordinates. A pixel is a point of the terrain grid, and values are
+The mesh attribute `grid` is its texture coordinates. A pixel is a point of the terrain grid; values are
 bilinear between pixels.
 """
 
@@ -18,10 +18,10 @@ from ..forest import biomes, cover
 from ..forest.stand import Stand
 
 GRID = "grid"
-_OUT = 40.0  # rows beyond the run at which the apron's cells reach their full size: seven times the run's
-_SOFT = 12.0  # rows beyond the run over which the apron's forest edges become soft
+_OUT = 40.0  # rows beyond the run at which the apron's cells reach their full size: seven run cells
+_SOFT = 12.0  # rows beyond the run over which the apron's forest edges are softened
 _EDGE = 0.35  # kg/m2 of canopy fuel at which the shader has half forest and half open land
-_LARGEST = 2048  # pixels of an image's side; larger grids are downsampled by means
+_LARGEST = 2048  # pixels along an image's side; larger grids are averaged to this size
 _FUEL, _FIRE, _FRONT, _COVER = (f"Firetwin Ground {name}" for name in ("Fuel", "Fire", "Front", "Cover"))
 NAMES = {
     "canopy_fuel": (_FUEL, 0),
@@ -40,19 +40,19 @@ NAMES = {
 """Image and channel of each field."""
 
 
-def images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]:
+def create_images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]:
     """Create images, by name: `canopy_fuel` (kg/m2), `bare` (fraction without fuel), `water` (1 on lakes).
 
-    Also `burn_time` (arrival time in s, extrapolated a little past the last perimeter), `burned` (1 inside
-    it) and `stand` (fraction of the forest that is instanced trees). Of the front its rate of spread `speed`
-    (m/s), the residence time of flames over a spot (`residence`, s), and the brightness of the residue
-    (`ash`). Where the biome's open land uses them also `shrub` (shrub cover), `hollow` (-1 on crests, 1 in
-    hollows) and `mapped` (1 where a map has data, so that nothing is procedural).
+    Other fields are `burn_time` (arrival time in s, extrapolated a little past the last perimeter), `burned`
+    (1 inside it), `stand` (fraction of the forest that is instanced trees), the front's rate of spread
+    `speed` (m/s), the `residence` time of flames at a point (s), and the brightness of the residue (`ash`).
+    If the biome's open land uses them, `shrub` (shrub cover), `hollow` (-1 on crests, 1 in hollows) and
+    `mapped` (1 where a map has data, so that nothing is procedural) are added.
     """
     ground = shot.ground
     size = -(-max(ground.shape) // _LARGEST)
     known = {
-        "canopy_fuel": _softened(ground),
+        "canopy_fuel": _soften_edges(ground),
         "bare": ground.bare,
         "water": ground.water,
         "burn_time": np.minimum(ground.burn_time, 1.0e7),
@@ -61,66 +61,71 @@ def images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]:
         "residence": shot.front.residence,
         "ash": shot.front.ash,
     }
-    thin = {name: _thinned(field, size) for name, field in known.items()}
+    thin = {name: _downsample(field, size) for name, field in known.items()}
     thin["stand"] = _stand_cover(shot, grown, size)
     made = {}
     if biomes.choose(shot).biome.open_land is not None:
-        thin |= {"shrub": _thinned(cover.shrubs(shot), size), "hollow": _thinned(cover.hollows(ground), size)}
-        thin["mapped"] = _thinned(cover.mapped(shot), size)
+        thin |= {
+            "shrub": _downsample(cover.shrubs(shot), size),
+            "hollow": _downsample(cover.hollows(ground), size),
+        }
+        thin["mapped"] = _downsample(cover.mapped(shot), size)
     for image in dict.fromkeys(NAMES[name][0] for name in thin):
-        made[image] = _image(
+        made[image] = _float_image(
             image, [thin[name] for name, (holder, _) in NAMES.items() if holder == image and name in thin]
         )
     return made
 
 
-def place(shape: tuple[int, int], row: NDArray, column: NDArray, margin: int = 0) -> NDArray[np.float32]:
-    """Texture coordinates `grid` (n, 3) of fractional rows and columns (n,) of a grid of this shape.
+def texture_coordinates(
+    shape: tuple[int, int], row: NDArray, column: NDArray, margin: int = 0
+) -> NDArray[np.float32]:
+    """Return texture coordinates `grid` (n, 3) of fractional rows and columns (n,) of a grid of this shape.
 
-    The last of them is 0 within the run, and 1 on an apron of `margin` rows where its cells have their full
+    The third coordinate is 0 within the run, and 1 on an apron of `margin` rows where its cells have full
     size.
     """
     size = -(-max(shape) // _LARGEST)
     rows, columns = (size * -(-count // size) for count in shape)
-    beyond = [_lines_beyond(at, count, margin) for at, count in zip((row, column), shape, strict=True)]
+    beyond = [_lines_to_run(at, count, margin) for at, count in zip((row, column), shape, strict=True)]
     out = np.clip(np.maximum(*beyond) / _OUT, 0.0, 1.0) if margin else 0.0 * row
     return np.stack([(column + 0.5) / columns, (row + 0.5) / rows, out], axis=-1).astype(np.float32)
 
 
-def _softened(ground: Terrain) -> NDArray[np.float64]:
-    """Canopy fuel (ny, nx) kg/m2, with the apron's forest edges blurred in proportion to its cell size.
+def _soften_edges(ground: Terrain) -> NDArray[np.float64]:
+    """Return canopy fuel (ny, nx) kg/m2 with the apron's forest edges blurred in proportion to its cell size.
 
-    The shader's noise turns soft edges into edges of all sizes, without the steps of cells. Where half of a
-    neighbourhood is wooded the value is `_EDGE`, at which the shader has half forest: the wooded area stays
-    the same.
+    The shader's noise turns soft edges into edges of all sizes, without the steps of cells. If half of a
+    neighbourhood is wooded, the value is `_EDGE`, at which the shader shows half forest: the wooded area
+    stays the same.
     """
     canopy, margin = ground.fields.canopy_fuel, ground.fields.margin
     if not margin:
         return canopy
     wooded = (canopy > _EDGE).astype(np.float32)
-    part = _blurred(wooded)
-    beyond = np.maximum(*np.ix_(*(_beyond(count, margin) for count in canopy.shape)))
+    part = _blur(wooded)
+    beyond = np.maximum(*np.ix_(*(_apron_position(count, margin) for count in canopy.shape)))
     edge = np.nonzero((part > 1.0e-4) & (part < 0.9999) & (beyond > 0.0))
-    mean = _blurred(wooded * canopy.astype(np.float32))[edge] / part[edge]
+    mean = _blur(wooded * canopy.astype(np.float32))[edge] / part[edge]
     power = np.log2(np.maximum(mean / _EDGE, 1.05))
     soft = canopy.copy()
     soft[edge] += beyond[edge] * (mean * part[edge] ** power - canopy[edge])
     return soft
 
 
-def _beyond(count: int, margin: int) -> NDArray[np.float32]:
-    """Position of lines (count,) on the apron: 0 within the run, and 1 from `_SOFT` lines beyond it."""
+def _apron_position(count: int, margin: int) -> NDArray[np.float32]:
+    """Return the position of lines (count,) on the apron: 0 in the run, 1 from `_SOFT` lines beyond it."""
     at = np.arange(count, dtype=np.float32)
-    return np.clip(_lines_beyond(at, count, margin) / np.float32(_SOFT), 0.0, 1.0)
+    return np.clip(_lines_to_run(at, count, margin) / np.float32(_SOFT), 0.0, 1.0)
 
 
-def _lines_beyond(at: NDArray, count: int, margin: int) -> NDArray:
-    """Lines from positions `at` to the run; `margin` of `count` lines on each side are apron."""
+def _lines_to_run(at: NDArray, count: int, margin: int) -> NDArray:
+    """Return lines from positions `at` to the run; `margin` of `count` lines on each side are apron."""
     return np.maximum(margin - at, at - (count - 1 - margin))
 
 
-def _blurred(field: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Means with the neighbours, twice; edge values extend the field."""
+def _blur(field: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Average with the neighbours, twice; edge values extend the field."""
     for _ in range(2):
         for axis in (0, 1):
             padded = np.pad(field, [(1, 1) if k == axis else (0, 0) for k in (0, 1)], "edge")
@@ -138,7 +143,7 @@ class Fields:
     def __init__(self, tree: nodes.Tree, made: dict[str, bpy.types.Image]) -> None:
         at = tree.attribute(GRID, output="Vector")
         self.beyond = tree.separate(at)[2]
-        self._none = at  # fields without an image have no users
+        self._none = at  # fields without an image are not used
         self._channels = {
             name: tree.separate(
                 tree.output("ShaderNodeTexImage", {"Vector": at}, image=image, extension="EXTEND")
@@ -153,8 +158,8 @@ class Fields:
         return self._channels[image][channel]
 
 
-def _thinned(field: NDArray[np.float64], size: int) -> NDArray[np.float64]:
-    """Means of size x size points each; edge values extend the field."""
+def _downsample(field: NDArray[np.float64], size: int) -> NDArray[np.float64]:
+    """Average blocks of size x size points; edge values extend the field."""
     if size == 1:
         return field
     field = np.pad(field, [(0, -count % size) for count in field.shape], "edge")
@@ -164,8 +169,8 @@ def _thinned(field: NDArray[np.float64], size: int) -> NDArray[np.float64]:
     return total / size**2
 
 
-def _image(name: str, channels: list[NDArray[np.float64]]) -> bpy.types.Image:
-    """A float image without colour management, packed into the .blend file."""
+def _float_image(name: str, channels: list[NDArray[np.float64]]) -> bpy.types.Image:
+    """Create a float image without colour management, packed into the .blend file."""
     rows, columns = channels[0].shape
     image = bpy.data.images.new(name, columns, rows, alpha=False, float_buffer=True, is_data=True)
     pixels = np.ones((rows, columns, 4), np.float32)
@@ -176,27 +181,27 @@ def _image(name: str, channels: list[NDArray[np.float64]]) -> bpy.types.Image:
     return owned.mark(image)
 
 
-def photos(shot: Shot) -> list[tuple[orthophoto.OrthophotoImage, bpy.types.Image]]:
-    """The user's orthophotos as images, packed into the .blend file; finer ones after coarser ones."""
+def orthophoto_images(shot: Shot) -> list[tuple[orthophoto.OrthophotoImage, bpy.types.Image]]:
+    """Create images of the user's orthophotos, packed into the .blend file; finer ones after coarser ones."""
     return [
-        (picture, _coloured(f"Firetwin Photo {number}", picture))
+        (picture, _colour_image(f"Firetwin Photo {number}", picture))
         for number, picture in enumerate(orthophoto.pictures(shot), 1)
     ]
 
 
-def maps(shot: Shot) -> dict[str, list[tuple[orthophoto.OrthophotoImage, bpy.types.Image]]]:
-    """The user's land use as images, by `land_use.LAYERS`; finer ones after coarser ones."""
+def land_use_images(shot: Shot) -> dict[str, list[tuple[orthophoto.OrthophotoImage, bpy.types.Image]]]:
+    """Create images of the user's land use, by `land_use.LAYERS`; finer ones after coarser ones."""
     return {
         layer: [
-            (picture, _coloured(f"Firetwin Land Use {layer.title()} {number}", picture))
+            (picture, _colour_image(f"Firetwin Land Use {layer.title()} {number}", picture))
             for number, picture in enumerate(drawn, 1)
         ]
         for layer, drawn in land_use.pictures(shot).items()
     }
 
 
-def _coloured(name: str, picture: orthophoto.OrthophotoImage) -> bpy.types.Image:
-    """A colour image, packed into the .blend file."""
+def _colour_image(name: str, picture: orthophoto.OrthophotoImage) -> bpy.types.Image:
+    """Create a colour image, packed into the .blend file."""
     rows, columns = picture.pixels.shape[:2]
     image = bpy.data.images.new(name, columns, rows, alpha=True)
     image.alpha_mode = "CHANNEL_PACKED"
@@ -206,10 +211,10 @@ def _coloured(name: str, picture: orthophoto.OrthophotoImage) -> bpy.types.Image
 
 
 def _stand_cover(shot: Shot, grown: Stand | None, size: int) -> NDArray[np.float64]:
-    """Fraction of the forest cover that is instanced trees, which the ground's material leaves out."""
+    """Return the fraction of forest cover that is instanced trees, which the ground's material omits."""
     fields = shot.ground.fields
-    latitude, longitude = (_thinned(axis[None], size)[0] for axis in (fields.latitude, fields.longitude))
-    elevation = _thinned(fields.elevation, size)
+    latitude, longitude = (_downsample(axis[None], size)[0] for axis in (fields.latitude, fields.longitude))
+    elevation = _downsample(fields.elevation, size)
     if grown is None or not shot.perspective_paths:
         return np.zeros(elevation.shape)
     place = shot.ground.frame.forward_grid(latitude, longitude, elevation)

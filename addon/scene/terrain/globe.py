@@ -1,7 +1,7 @@
-"""The Earth beyond the terrain: the whole ellipsoid as one mesh, joined to the border of the apron.
+"""The Earth beyond the terrain: the ellipsoid as a single mesh, joined to the border of the apron.
 
-It is built only for cameras that see it. It begins at the border's own heights; these fade to sea level
-within some hundred kilometres, as nothing is known there.
+It is built only for cameras that see it. Its heights start at the border's and fade to sea level within some
+hundred kilometres, since no terrain data are available there.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from . import globe_material
 
 _SIDE = 96  # points along a side of the border
 _FIRST, _GROWTH, _STEP = 3000.0, 1.09, 100_000.0  # m: first step between rings, its growth, largest step
-_RADIUS = 6_371_000.0  # m, which turns lengths into angles here
-_HILLS, _LAND = 8_000.0, 300_000.0  # m beyond the border in which hills and mean height fade
+_RADIUS = 6_371_000.0  # m, converts lengths to angles here
+_HILLS, _LAND = 8_000.0, 300_000.0  # m beyond the border over which hills and mean height fade
 _SKIRT = (
     0.97,
     400.0,
-)  # part of its distance, and m below it, of a skirt under the border
+)  # fraction of its distance, and m below it, of a skirt under the border
 
 Array = NDArray[np.float64]
 
@@ -33,8 +33,8 @@ Array = NDArray[np.float64]
 def build(
     shot: Shot, stage: Stage, collection: bpy.types.Collection, image: bpy.types.Image | None
 ) -> bpy.types.Object:
-    """Build "Firetwin Globe" in a collection of ours."""
-    position, triangles = shell(shot.ground)
+    """Build "Firetwin Globe" in a Firetwin collection."""
+    position, triangles = create_shell(shot.ground)
     data = bpy.data.meshes.new("Firetwin Globe")
     data.vertices.add(len(position))
     data.attributes["position"].data.foreach_set("vector", position.astype(np.float32).ravel())
@@ -50,8 +50,8 @@ def build(
     return obj
 
 
-def picture(shot: Shot) -> bpy.types.Image | None:
-    """The user's picture of the whole Earth; None without one."""
+def load_picture(shot: Shot) -> bpy.types.Image | None:
+    """Load the user's picture of the Earth; None without one."""
     path = shot.settings.terrain.globe
     if path is None:
         return None
@@ -60,8 +60,8 @@ def picture(shot: Shot) -> bpy.types.Image | None:
     return image
 
 
-def share(ground: Terrain, row: Array, column: Array) -> NDArray[np.float32]:
-    """Way from the run's edge, 0, to the border, 1 (n,), at fractional rows and columns."""
+def border_share(ground: Terrain, row: Array, column: Array) -> NDArray[np.float32]:
+    """Return the position (n,) from the run's edge, 0, to the border, 1, at fractional rows and columns."""
     fields = ground.fields
     if fields.margin == 0:
         return np.zeros(len(row), np.float32)
@@ -75,22 +75,25 @@ def share(ground: Terrain, row: Array, column: Array) -> NDArray[np.float32]:
     return np.clip(1.0 - np.minimum(*inside) / min(reach), 0.0, 1.0).astype(np.float32)
 
 
-def shell(ground: Terrain) -> tuple[Array, NDArray[np.int32]]:
-    """Vertices (n, 3), m, and triangles (m, 3): rings from the terrain's border around the Earth."""
-    latitude, longitude, height = _border(ground)
-    bearing, arc = _polar(ground, latitude, longitude)
+def create_shell(ground: Terrain) -> tuple[Array, NDArray[np.int32]]:
+    """Create vertices (n, 3), m, and triangles (m, 3): rings from the terrain's border around the Earth."""
+    latitude, longitude, height = _border_points(ground)
+    bearing, arc = _to_polar(ground, latitude, longitude)
     mean = float(height.mean())
-    rings = [_at(ground, bearing, arc * _SKIRT[0], height - _SKIRT[1]), _at(ground, bearing, arc, height)]
-    for way in _ways(np.pi - float(arc.min())):
+    rings = [
+        _from_polar(ground, bearing, arc * _SKIRT[0], height - _SKIRT[1]),
+        _from_polar(ground, bearing, arc, height),
+    ]
+    for way in _ring_fractions(np.pi - float(arc.min())):
         beyond = _RADIUS * way * (np.pi - float(arc.min()))
         rise = mean + (height - mean) * np.exp(-beyond / _HILLS)
-        rings.append(_at(ground, bearing, arc + way * (np.pi - arc), rise * np.exp(-beyond / _LAND)))
+        rings.append(_from_polar(ground, bearing, arc + way * (np.pi - arc), rise * np.exp(-beyond / _LAND)))
     position = np.concatenate(rings)
     return position, _triangles(len(rings), len(latitude))
 
 
-def _border(ground: Terrain) -> tuple[Array, Array, Array]:
-    """Latitude, longitude (degrees) and height (m) of points once around the border, counter-clockwise."""
+def _border_points(ground: Terrain) -> tuple[Array, Array, Array]:
+    """Return latitude, longitude (degrees) and height (m) of points around the border, counter-clockwise."""
     rows, columns = ground.shape
     part = np.arange(_SIDE) / _SIDE
     low, high = np.zeros(_SIDE), np.ones(_SIDE)
@@ -104,8 +107,8 @@ def _border(ground: Terrain) -> tuple[Array, Array, Array]:
     return latitude, longitude, bilinear(fields.elevation, row, column)
 
 
-def _polar(ground: Terrain, latitude: Array, longitude: Array) -> tuple[Array, Array]:
-    """Bearing and arc (radians) of points (degrees) from the scene's origin, on the sphere."""
+def _to_polar(ground: Terrain, latitude: Array, longitude: Array) -> tuple[Array, Array]:
+    """Return bearing and arc (radians) of points (degrees) from the scene's origin, on the sphere."""
     here, there = np.radians(ground.frame.latitude), np.radians(latitude)
     away = np.radians(longitude - ground.frame.longitude)
     east = np.cos(there) * np.sin(away)
@@ -114,8 +117,8 @@ def _polar(ground: Terrain, latitude: Array, longitude: Array) -> tuple[Array, A
     return np.arctan2(east, north), np.arctan2(np.hypot(east, north), up)
 
 
-def _at(ground: Terrain, bearing: Array, arc: Array, height: Array) -> Array:
-    """Places (n, 3) of bearings and arcs from the scene's origin: inverse of `_polar`."""
+def _from_polar(ground: Terrain, bearing: Array, arc: Array, height: Array) -> Array:
+    """Return positions (n, 3) of bearings and arcs from the scene's origin: inverse of `_to_polar`."""
     here = np.radians(ground.frame.latitude)
     sine = np.sin(here) * np.cos(arc) + np.cos(here) * np.sin(arc) * np.cos(bearing)
     latitude = np.arcsin(np.clip(sine, -1.0, 1.0))
@@ -126,8 +129,8 @@ def _at(ground: Terrain, bearing: Array, arc: Array, height: Array) -> Array:
     return ground.frame.forward(np.degrees(latitude), longitude, height)
 
 
-def _ways(arc: float) -> Array:
-    """Shares (n,) of an arc (radians) at which rings lie, the last at its end."""
+def _ring_fractions(arc: float) -> Array:
+    """Return fractions (n,) of an arc (radians) at which rings are placed, the last at its end."""
     steps, total, step = [0.0], 0.0, _FIRST
     while total < arc * _RADIUS:
         steps.append(total)
@@ -136,7 +139,7 @@ def _ways(arc: float) -> Array:
 
 
 def _triangles(rings: int, around: int) -> NDArray[np.int32]:
-    """Triangles between rings of points; the first two rings are a skirt and share none with the rest."""
+    """Create triangles between rings of points; the first two are a skirt, not joined to the rest."""
     at = np.arange(around)
     after = (at + 1) % around
     found = []

@@ -19,7 +19,7 @@ def radiance(
     normal: nodes.Value,
     burning: tuple[nodes.Value, nodes.Value],
 ) -> nodes.Value:
-    """Radiance at the camera; `burning` are the area fractions 0..1 of flames and embers."""
+    """Return the radiance at the camera; `burning` are the area fractions 0..1 of flames and embers."""
     flaming, embers = burning
     bare = bare_fraction(tree, place, rock)
     kelvin = surface_temperature(tree, shot, stage, place, rock, lake, normal, bare)
@@ -33,7 +33,7 @@ def radiance(
 
 
 def bare_fraction(tree: nodes.Tree, place: Place, rock: nodes.Value) -> nodes.Value:
-    """Fraction 0..1 of the ground without living crowns."""
+    """Return the fraction 0..1 of the ground without living crowns."""
     bare = tree.math("MAXIMUM", rock, place.canopy.ramp(0.0, 1.2, 1.0, 0.1))
     return tree.math("MAXIMUM", bare, place.burned)
 
@@ -48,7 +48,7 @@ def surface_temperature(
     normal: nodes.Value,
     bare: nodes.Value,
 ) -> nodes.Value:
-    """Kinetic temperature (K) of ground and crowns without flames and embers; `bare` is `bare_fraction`."""
+    """Return kinetic temperature (K) of ground and crowns, no flames or embers; `bare` is `bare_fraction`."""
     ambient = temperature.unburned_temperature(tree, shot, stage, place.elevation, normal, bare)
     kelvin = temperature.burned_temperature(
         tree, ambient, place.age, place.burned * (1.0 - rock), place.residence

@@ -1,7 +1,7 @@
 """Material of the ground: vegetation and fire effects as a function of time.
 
-age = model time - arrival time, so one static mesh shows every time: flaming front, embers, char and ash.
-Reflectances are display colours, chosen by eye against photographs, not measured.
+age = model time - arrival time, so a single static mesh shows every time: flaming front, embers, char and
+ash. Reflectances are display colours, chosen by eye against photographs, not measured.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ from . import (
 )
 from .shading_inputs import Place
 
-_FAR, _ON_ROCK = 1.5, 2.0  # pixels, the least wavelength of noise where trees are part of the ground
+_FAR, _ON_ROCK = 1.5, 2.0  # pixels, minimum wavelength of noise where trees are part of the ground
 
 _WAVES = (500.0, 4000.0)  # m from the camera between which waves fall below the pixel size (by eye)
 TILE_COLOUR = "Tile Colour"
 GLOBE = "globe"
-"""Point attribute of the ground: 0 within the run, 1 at the border, where it looks like the globe."""
+"""Point attribute of the ground: 0 within the run, 1 at the border, where the ground looks like the globe."""
 
-_BLUR = 0.12  # roughness that stands for unresolved waves (by eye)
+_BLUR = 0.12  # roughness that represents unresolved waves (by eye)
 
 
 def build(
@@ -51,23 +51,24 @@ def build(
 ) -> bpy.types.Material:
     """Build "Firetwin Ground" from the images of fields, coloured by these orthophotos.
 
-    `globe` is the user's picture of the Earth, whose look the ground has at its border for cameras in space.
-    `maps` are the user's land use by `shot.terrain.land_use.LAYERS`. With a `skin`, its name, it is the
-    material of 3-D tiles: the same ground in the colour of its input `TILE_COLOUR`, where nothing burned.
+    `globe` is the user's picture of the Earth, which the ground shows at its border for cameras in space.
+    `maps` are images of the user's land use, by `shot.terrain.land_use.LAYERS`. With a `skin`, its name, it
+    becomes the material of 3D Tiles: the same ground, but with the input `TILE_COLOUR` as the colour of
+    unburned ground.
     """
     material, tree = nodes.material(skin or "Firetwin Ground", (0.30, 0.26, 0.17))
     biome = biomes.choose(shot)
     with tree.frame("Fields"):
         known = fields.Fields(tree, images)
         lake = known["water"] > 0.5
-    visible = _visible(tree, shot, stage, known, lake, photos, biome, maps or {}, skin, globe)
-    warmth, kind = _data(tree, shot, stage, known, lake)
+    visible = _visible_shader(tree, shot, stage, known, lake, photos, biome, maps or {}, skin, globe)
+    warmth, kind = _data_outputs(tree, shot, stage, known, lake)
     tree.surface(nodes.mask_switch(tree, nodes.thermal_switch(tree, visible, warmth), kind))
-    material.cycles.emission_sampling = "NONE"  # sampled as a lamp, its small emitters would be noise
+    material.cycles.emission_sampling = "NONE"  # sampled as a lamp, its small emitters would be noisy
     return material
 
 
-def _visible(
+def _visible_shader(
     tree: nodes.Tree,
     shot: Shot,
     stage: Stage,
@@ -79,50 +80,52 @@ def _visible(
     skin: str,
     globe: bpy.types.Image | None,
 ) -> nodes.Value:
-    """Visible shader. Shaders are mixed, not colours: Cycles does not evaluate a shader of weight 0."""
+    """Return the visible shader; shaders are mixed, not colours: Cycles skips shaders of weight 0."""
     outcrops = biome.biome.outcrops
     with tree.frame("Place and time"):
         here = shading_inputs.gather(tree, known, shot, whole=False)
-        bare = shading_inputs.rock(tree, here, outcrops)
+        bare = shading_inputs.bare_rock(tree, here, outcrops)
     with tree.frame("Rock"):
-        rock = _rock(tree, here, biome)
+        rock = _rock_shader(tree, here, biome)
     with tree.frame("Soil"):
-        ground = tree.mix_shader(bare, _soil(tree, here, biome), rock)
+        ground = tree.mix_shader(bare, _soil_shader(tree, here, biome), rock)
     for picture, image in photos:
         with tree.frame("Photo"):
-            ground = _photographed(tree, here, picture, image, ground)
+            ground = _apply_orthophoto(tree, here, picture, image, ground)
     for layer, drawn in maps.items():
         for picture, image in drawn:
             with tree.frame(f"Land use: {layer}"):
-                ground = _mapped(tree, here, layer, picture, image, ground)
+                ground = _apply_land_use(tree, here, layer, picture, image, ground)
     with tree.frame("Water"):
-        ground = tree.mix_shader(lake, ground, _water(tree, here))
+        ground = tree.mix_shader(lake, ground, _water_shader(tree, here))
     if skin:
         with tree.frame("Tiles"):
             colour = tree.input(TILE_COLOUR, (1.0, 1.0, 1.0), "Colour of the tile", "Tiles")
-            ground = tree.mix_shader(1.0 - here.burned, ground, _matt(tree, colour, None))
+            ground = tree.mix_shader(1.0 - here.burned, ground, _matte_shader(tree, colour, None))
     with tree.frame("Flames and embers"):
-        ground = tree.add_shader(ground, burn_scar.light(tree, shot, here, here.burned * (1.0 - bare)))
+        ground = tree.add_shader(
+            ground, burn_scar.fire_emission(tree, shot, here, here.burned * (1.0 - bare))
+        )
     if shot.beyond and not skin:
         with tree.frame("Globe"):
-            ground = globe_material.blended(tree, stage, globe, GLOBE, ground)
+            ground = globe_material.blend_with_globe(tree, stage, globe, GLOBE, ground)
     with tree.frame("Air"):
         ground = haze.apply(tree, ground, stage)
     with tree.frame("Light of other ground"):
         camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
-        return tree.mix_shader(camera, _plain(tree, known, biome), ground)
+        return tree.mix_shader(camera, _simple_ground(tree, known, biome), ground)
 
 
-def _data(
+def _data_outputs(
     tree: nodes.Tree, shot: Shot, stage: Stage, known: fields.Fields, lake: nodes.Value
 ) -> tuple[nodes.Value, nodes.Value]:
-    """Infrared radiance, and the class of the masks: all octaves of noise, at any pixel size."""
+    """Return infrared radiance, and the class of the masks: all octaves of noise, at any pixel size."""
     outcrops = biomes.choose(shot).biome.outcrops
     with tree.frame("Place and time of data"):
         here = shading_inputs.gather(tree, known, shot, whole=True)
-        bare = shading_inputs.rock(tree, here, outcrops)
+        bare = shading_inputs.bare_rock(tree, here, outcrops)
         fuel = here.burned * (1.0 - bare)
-        flaming, embers = (fuel * part for part in burn_scar.glow(tree, here))
+        flaming, embers = (fuel * part for part in burn_scar.front_coverage(tree, here))
     with tree.frame("Infrared"):
         facing = tree.output("ShaderNodeNewGeometry", name="Normal")
         warmth = infrared_radiance.radiance(tree, shot, stage, here, bare, lake, facing, (flaming, embers))
@@ -132,63 +135,66 @@ def _data(
     return warmth, kind
 
 
-def _matt(tree: nodes.Tree, colour: nodes.Value, normal: nodes.Value | None) -> nodes.Value:
+def _matte_shader(tree: nodes.Tree, colour: nodes.Value, normal: nodes.Value | None) -> nodes.Value:
     inputs = {"Color": colour, "Roughness": 0.6}
     return tree.output("ShaderNodeBsdfDiffuse", inputs if normal is None else {**inputs, "Normal": normal})
 
 
-def _bump(tree: nodes.Tree, height: nodes.Value, strength: float = 0.9) -> nodes.Value:
-    """Normal from a bump map of this height (m), which Cycles evaluates three times."""
+def _bump_normal(tree: nodes.Tree, height: nodes.Value, strength: float = 0.9) -> nodes.Value:
+    """Return the normal of a bump map of this height (m), which Cycles evaluates three times."""
     return tree.output("ShaderNodeBump", {"Strength": strength, "Distance": 1.0, "Height": height})
 
 
-def _soil(tree: nodes.Tree, here: Place, biome: Here) -> nodes.Value:
-    """Ground without rock: vegetation as texture from afar, and the floor below instanced trees close by."""
+def _soil_shader(tree: nodes.Tree, here: Place, biome: Here) -> nodes.Value:
+    """Shade ground without rock: a vegetation texture afar, and the floor below nearby instanced trees."""
     made = []
-    for grown, there in ((vegetation_cover.far, here.coarser(_FAR)), (vegetation_cover.close, here)):
+    for grown, there in (
+        (vegetation_cover.distant_canopy, here.coarser(_FAR)),
+        (vegetation_cover.near_ground, here),
+    ):
         colour, height = grown(tree, there, biome)
-        normal = _bump(tree, height)
-        char = _grained(tree, there, burn_scar.charred(tree, there))
-        green = _matt(tree, _grained(tree, there, colour), normal)
-        made.append(tree.mix_shader(here.burned, green, _matt(tree, char, normal)))
+        normal = _bump_normal(tree, height)
+        char = _grain_floor(tree, there, burn_scar.scar_colour(tree, there))
+        green = _matte_shader(tree, _grain_floor(tree, there, colour), normal)
+        made.append(tree.mix_shader(here.burned, green, _matte_shader(tree, char, normal)))
     return tree.mix_shader(here.near, *made)
 
 
-def _grained(tree: nodes.Tree, here: Place, colour: nodes.Value) -> nodes.Value:
-    """Colour of the floor with needles, soil and shadows, with the same mean."""
+def _grain_floor(tree: nodes.Tree, here: Place, colour: nodes.Value) -> nodes.Value:
+    """Return the colour of the floor with needles, soil and shadows, with the same mean."""
     grain = tree.mix_colour(here.duff.ramp(-0.5, 0.5), (0.22, 0.20, 0.18), (1.78, 1.80, 1.82))
     return tree.mix_colour(1.0, colour, grain, "MULTIPLY")
 
 
-def _rock(tree: nodes.Tree, here: Place, biome: Here) -> nodes.Value:
+def _rock_shader(tree: nodes.Tree, here: Place, biome: Here) -> nodes.Value:
     colour, height = rock_outcrops.look(tree, here)
     if biome.biome.open_land is not None:
-        colour, height = _weathered(tree, here, biome, colour, height)
-    normal = _bump(tree, height)
-    bare = _matt(tree, colour, normal)
-    crowns, where = vegetation_cover.on_rock(tree, here.coarser(_ON_ROCK), biome)
-    wooded = tree.mix_shader(where, bare, _matt(tree, crowns, normal))
+        colour, height = _weather_rock(tree, here, biome, colour, height)
+    normal = _bump_normal(tree, height)
+    bare = _matte_shader(tree, colour, normal)
+    crowns, where = vegetation_cover.trees_on_rock(tree, here.coarser(_ON_ROCK), biome)
+    wooded = tree.mix_shader(where, bare, _matte_shader(tree, crowns, normal))
     return tree.mix_shader(here.near, wooded, bare)
 
 
-def _weathered(
+def _weather_rock(
     tree: nodes.Tree, here: Place, biome: Here, colour: nodes.Value, height: nodes.Value
 ) -> tuple[nodes.Value, nodes.Value]:
-    """Rock of biomes outside of the Sierra, with soil in its place where it is not steep."""
+    """Shade rock of biomes outside of the Sierra, replaced by soil on gentle slopes."""
     colour = tree.mix_colour(1.0, colour, biome.biome.rock, "MULTIPLY")
     flat = here.slope.smoothstep(0.14, 0.05)
-    soil = tree.mix_colour(here.burned * 0.6, open_land.bare(tree, here, biome), (0.045, 0.042, 0.040))
+    soil = tree.mix_colour(here.burned * 0.6, open_land.bare_colour(tree, here, biome), (0.045, 0.042, 0.040))
     return tree.mix_colour(flat, colour, soil), tree.mix(flat, height, here.grain.noise(3.0, 3.0) * 0.4)
 
 
-def _plain(tree: nodes.Tree, known: fields.Fields, biome: Here) -> nodes.Value:
-    """Simplified ground for indirect light, where detail is not visible."""
+def _simple_ground(tree: nodes.Tree, known: fields.Fields, biome: Here) -> nodes.Value:
+    """Simplify the ground for indirect light, where detail is not visible."""
     canopy = known["canopy_fuel"].smoothstep(0.0, 0.7)
     land = biome.biome.open_land
     grass = (
         (0.080, 0.070, 0.045)
         if land is None
-        else vegetation_cover.between(biome.green, land.straw, land.green)
+        else vegetation_cover.mix_colours(biome.green, land.straw, land.green)
     )
     green = tree.mix_colour(canopy, grass, (0.030, 0.040, 0.018))
     green = tree.mix_colour(known["bare"], green, (0.120, 0.110, 0.100))
@@ -197,20 +203,20 @@ def _plain(tree: nodes.Tree, known: fields.Fields, biome: Here) -> nodes.Value:
     return tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
 
 
-def _photographed(
+def _apply_orthophoto(
     tree: nodes.Tree,
     here: Place,
     picture: orthophoto.OrthophotoImage,
     image: bpy.types.Image,
     ground: nodes.Value,
 ) -> nodes.Value:
-    """The ground in the orthophoto's colour, where it has data and nothing burned. It needs no bumps."""
-    shown = _picture(tree, here, picture, image)
+    """Apply the orthophoto's colour where it has data and nothing burned. It needs no bump map."""
+    shown = _picture_node(tree, here, picture, image)
     counts = tree.pick(shown, "Alpha") * (1.0 - here.burned)
-    return tree.mix_shader(counts, ground, _matt(tree, tree.pick(shown, "Color"), None))
+    return tree.mix_shader(counts, ground, _matte_shader(tree, tree.pick(shown, "Color"), None))
 
 
-def _mapped(
+def _apply_land_use(
     tree: nodes.Tree,
     here: Place,
     layer: str,
@@ -218,39 +224,43 @@ def _mapped(
     image: bpy.types.Image,
     ground: nodes.Value,
 ) -> nodes.Value:
-    """The ground with a layer of the user's land use: its colour, with texture; layers with fuel burn."""
-    shown = _picture(tree, here, picture, image)
+    """Apply a layer of the user's land use: its colour, with texture; layers with fuel burn."""
+    shown = _picture_node(tree, here, picture, image)
     counts = tree.pick(shown, "Alpha")
     if layer == "water":
-        return tree.mix_shader(counts, ground, _water(tree, here))
+        return tree.mix_shader(counts, ground, _water_shader(tree, here))
     grain = here.grain.noise(11.0, 5.0, 0.7).ramp(0.25, 0.75, 0.72, 1.28)
     broad = here.grain.noise(140.0, 3.0, 0.6).ramp(0.3, 0.7, 0.86, 1.14)
     tone = grain * broad if layer == "soft" else broad
     colour = tree.mix_colour(1.0, tree.pick(shown, "Color"), tree.combine(tone, tone, tone), "MULTIPLY")
     if layer == "soft":
         counts = counts * (1.0 - here.burned)
-    return tree.mix_shader(counts, ground, _matt(tree, colour, None))
+    return tree.mix_shader(counts, ground, _matte_shader(tree, colour, None))
 
 
-def _picture(
+def _picture_node(
     tree: nodes.Tree, here: Place, picture: orthophoto.OrthophotoImage, image: bpy.types.Image
 ) -> bpy.types.Node:
-    """Image texture node of a picture draped on the ground."""
+    """Create the image texture node of a picture draped on the ground."""
     scale = 1.0 / (picture.high - picture.low)
     across = tree.vector("SUBTRACT", here.position, (*picture.low, 0.0))
     at = tree.vector("MULTIPLY", across, (*scale, 0.0))
     return tree.node("ShaderNodeTexImage", {"Vector": at}, image=image, extension="CLIP")
 
 
-def _water(tree: nodes.Tree, here: Place) -> nodes.Value:
-    """Dark water that reflects the sky by Fresnel's law, with waves from the wind.
+def _water_shader(tree: nodes.Tree, here: Place) -> nodes.Value:
+    """Shade dark water that reflects the sky by Fresnel's law, with waves from the wind.
 
-    Roughness stands for waves below the pixel size (Cox and Munk 1954: distribution of slopes).
+    Roughness represents waves below the pixel size (Cox and Munk 1954: distribution of slopes).
     """
     shown = here.distance.ramp(*_WAVES, 1.0, 0.0)
-    normal = _bump(tree, here.grain.noise(7.0, 2.0) * shown * 0.05, 0.5)
-    colour = tree.input("Water Colour", (0.010, 0.022, 0.024), "Of deep lakes, seen from above", "Water")
-    rough = tree.input("Water Roughness", 0.22, "How blurred a lake mirrors the sky", "Water", most=1.0)
+    normal = _bump_normal(tree, here.grain.noise(7.0, 2.0) * shown * 0.05, 0.5)
+    colour = tree.input(
+        "Water Colour", (0.010, 0.022, 0.024), "Colour of deep lakes, seen from above", "Water"
+    )
+    rough = tree.input(
+        "Water Roughness", 0.22, "Roughness of a lake's reflection of the sky", "Water", most=1.0
+    )
     deep = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
     blur = rough + (1.0 - shown) * _BLUR
     mirror = tree.output("ShaderNodeBsdfGlossy", {"Roughness": blur, "Normal": normal})

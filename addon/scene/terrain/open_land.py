@@ -1,6 +1,6 @@
 """Open land of biomes outside of the Sierra: grass patches of all sizes, tussocks, bushes, fields and tracks.
 
-Colours are those of the biome. Detail below a pixel is filtered to its mean.
+Colours come from the biome. Detail below a pixel is filtered to its mean.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from .shading_inputs import Place
 _MARK = "firetwin_biome"
 _RUT, _TRACK = 0.45, 2.6  # m: width of a wheel's rut, and of a track with grass between (by eye)
 _STREAK = (1.0, 0.45, 1.0)  # grass forms streaks along the wind
-_SEEN = (400.0, 9000.0)  # m from the camera at which single bushes are sharp, and a mean tone
+_SEEN = (400.0, 9000.0)  # m from the camera at which bushes are sharp, and at which they are a mean tone
 
 
 @dataclass
@@ -36,7 +36,7 @@ class Spot:
 
 
 def look(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.Value]:
-    """Colour and height (m), from a shared node group: Blender is slow with many nodes in one tree."""
+    """Return colour and height (m), from a shared node group: Blender is slow with many nodes in a tree."""
     inputs = {
         "Pixel": place.pixel,
         "Least": place.grain.least,
@@ -44,12 +44,12 @@ def look(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes
         "Hollow": place.hollow,
         "Free": place.free,
     }
-    node = tree.node("ShaderNodeGroup", inputs, node_tree=_group(tree, here))
+    node = tree.node("ShaderNodeGroup", inputs, node_tree=_node_group(tree, here))
     return tree.pick(node, "Colour"), tree.pick(node, "Height")
 
 
-def _group(tree: nodes.Tree, here: Here) -> bpy.types.NodeTree:
-    """Node group of this biome; an existing one is reused."""
+def _node_group(tree: nodes.Tree, here: Here) -> bpy.types.NodeTree:
+    """Return the node group of this biome; an existing one is reused."""
     for node in tree.node_tree.nodes:
         if node.bl_idname == "ShaderNodeGroup" and node.node_tree and node.node_tree.get(_MARK) == here.name:
             return node.node_tree
@@ -59,18 +59,18 @@ def _group(tree: nodes.Tree, here: Here) -> bpy.types.NodeTree:
     for name, kind in (("Colour", "Color"), ("Height", "Float")):
         group.interface.new_socket(name, in_out="OUTPUT", socket_type=f"NodeSocket{kind}")
     inner = nodes.Tree(group)
-    colour, height = _look(inner, _spot(inner), here)
+    colour, height = _look(inner, _group_inputs(inner), here)
     inner.finish({"Colour": colour, "Height": height})
     return group
 
 
-def _spot(tree: nodes.Tree) -> Spot:
-    """Inputs of the group at a point."""
+def _group_inputs(tree: nodes.Tree) -> Spot:
+    """Add the inputs of the group at a point."""
     pixel = tree.input("Pixel", 1.0, "Size of a pixel, m", "Place")
     least = tree.input("Least", 1.0, "Pixels of the finest noise", "Place")
-    shrub = tree.input("Shrub", 0.0, "Part of the land under bushes", "Place", most=1.0)
+    shrub = tree.input("Shrub", 0.0, "Fraction of the land under bushes", "Place", most=1.0)
     hollow = tree.input("Hollow", 0.0, "-1: a crest, 1: a hollow", "Place", least=None)
-    free = tree.input("Free", 1.0, "1: fields and tracks are invented", "Place", most=1.0)
+    free = tree.input("Free", 1.0, "1: fields and tracks are procedural", "Place", most=1.0)
     position = tree.output("ShaderNodeNewGeometry", name="Position")
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
     return Spot(Grain(tree, position, pixel * least), position, distance, pixel, shrub, hollow, free)
@@ -83,17 +83,17 @@ def _look(tree: nodes.Tree, place: Spot, here: Here) -> tuple[nodes.Value, nodes
     broad, middling, wet = patterns.wetness(place.grain.noise, place.hollow, land)
     colour = _grass(tree, place, here, wet, middling, small)
     if min(land.field) > 0.0:
-        colour = _fields(tree, place, here, colour, small)
+        colour = _colour_fields(tree, place, here, colour, small)
     fine = tree.cells(place.position, land.tussock)
     shown = place.pixel.ramp(0.25 * land.tussock, 1.2 * land.tussock, 1.0, 0.0)
     shade = place.pixel.ramp(0.02, 0.15, 0.70, 1.0)  # between tufts that are instanced
     rough = (1.0 + (0.42 - fine) * 0.9 * shown) * shade
-    colour = _times(tree, colour, rough)
+    colour = _scale_colour(tree, colour, rough)
     there = _bushes(tree, place, land, wet, middling)
-    colour = tree.mix_colour(there.part, colour, _brush(tree, place, land, there, broad, middling))
+    colour = tree.mix_colour(there.part, colour, _bush_colour(tree, place, land, there, broad, middling))
     height = small * 0.8 + (1.0 - fine) * 0.25 * shown + there.part * there.dome * (0.45 * land.bush)
     if land.tracks:
-        colour = _tracks(tree, place, land, colour)
+        colour = _colour_tracks(tree, place, land, colour)
     if land.hedge:
         hedge, thick = _hedges(tree, place, land)
         colour = tree.mix_colour(hedge, colour, tree.mix_colour(small.smoothstep(0.35, 0.65), *land.shrub))
@@ -101,8 +101,8 @@ def _look(tree: nodes.Tree, place: Spot, here: Here) -> tuple[nodes.Value, nodes
     return colour, height
 
 
-def bare(tree: nodes.Tree, place: Place, here: Here) -> nodes.Value:
-    """Colour of ground without fuel: soil, dry beds and stones."""
+def bare_colour(tree: nodes.Tree, place: Place, here: Here) -> nodes.Value:
+    """Return the colour of ground without fuel: soil, dry beds and stones."""
     land = here.biome.open_land
     assert land is not None
     noise = place.grain.noise
@@ -116,7 +116,7 @@ def bare(tree: nodes.Tree, place: Place, here: Here) -> nodes.Value:
 def _grass(
     tree: nodes.Tree, place: Spot, here: Here, wet: nodes.Value, middling: nodes.Value, small: nodes.Value
 ) -> nodes.Value:
-    """Colour of grass from wetness and season, with soil between."""
+    """Return the colour of grass from wetness and season, with soil between."""
     land = here.biome.open_land
     assert land is not None
     streaks = place.grain.at(tree.vector("MULTIPLY", place.position, _STREAK)).noise(9.0, 3.0, 0.6)
@@ -142,11 +142,11 @@ class Bushes:
     Attributes
     ----------
     part, cover
-        0..1: coverage by a bush at the point, and shrub cover round it.
+        0..1: coverage by a bush at the point, and shrub cover around it.
     tone, dome
-        0..1: tone of the bush, and height of the point on its dome, from the rim (0) to the top.
+        0..1: tone of the bush, and height of the point on the bush's dome, from rim (0) to top.
     groups
-        Noise of the groups that they stand in.
+        Noise of the groups of bushes.
     """
 
     part: nodes.Value
@@ -157,7 +157,7 @@ class Bushes:
 
 
 def _bushes(tree: nodes.Tree, place: Spot, land: OpenLand, wet: nodes.Value, middling: nodes.Value) -> Bushes:
-    """Bushes; from afar a bush is below the pixel size, so it is filtered to a mean within its group."""
+    """Return bushes; from afar they are below the pixel size and filtered to a mean within groups."""
     groups, cover = patterns.bushes(place.grain.noise, place.shrub, wet, land)
     cells = tree.node("ShaderNodeTexVoronoi", {"Vector": place.position, "Scale": 1.0 / land.bush})
     near = tree.pick(cells, "Distance")
@@ -169,26 +169,26 @@ def _bushes(tree: nodes.Tree, place: Spot, land: OpenLand, wet: nodes.Value, mid
         0.5 * land.bush, 1.5 * land.bush, 1.0, 0.0
     )
     part = tree.mix(sharp, (cover + (middling - 0.5) * 0.25 * cover) * 0.88, alone)
-    # Close by bushes are instanced; the ground shows their litter.
+    # Close by, bushes are instanced; the ground shows their litter.
     far = place.pixel.ramp(0.10, 0.60)
     shed = (place.grain.noise(2.2, 5.0, 0.7) + cover - 0.95).smoothstep(-0.14, 0.14) * 0.8
     tones = tree.mix(sharp, 0.40, tone), tree.mix(sharp, 0.38, dome.clamp())
     return Bushes(tree.mix(far, shed, part.clamp()), cover, tones[0], tones[1] * far, groups)
 
 
-def _brush(
+def _bush_colour(
     tree: nodes.Tree, place: Spot, land: OpenLand, there: Bushes, broad: nodes.Value, middling: nodes.Value
 ) -> nodes.Value:
-    """Colour of bushes: species in patches, self-shadowed clumps, dark below where they are dense."""
+    """Return the colour of bushes: species in patches, self-shadowed clumps, dark below dense bushes."""
     sorts = (broad * 0.6 + middling * 0.7).smoothstep(0.48, 0.86)
     green = tree.mix_colour(there.tone, *land.shrub)
     green = tree.mix_colour(
         1.0, green, tree.mix_colour(sorts, (0.72, 0.84, 0.76), (1.28, 1.14, 1.10)), "MULTIPLY"
     )
     clumps = place.grain.noise(24.0, 4.0, 0.7) * 0.7 + there.groups * 0.3
-    green = _times(tree, green, clumps.ramp(0.32, 0.66, 0.38, 1.42))
+    green = _scale_colour(tree, green, clumps.ramp(0.32, 0.66, 0.38, 1.42))
     under = tree.mix_colour(there.cover.smoothstep(0.2, 0.7), land.stale, land.shrub[0])
-    return tree.mix_colour(there.dome.smoothstep(0.0, 0.35), _times(tree, under, 0.75), green)
+    return tree.mix_colour(there.dome.smoothstep(0.0, 0.35), _scale_colour(tree, under, 0.75), green)
 
 
 def _maths(tree: nodes.Tree) -> field_lines.Maths:
@@ -200,10 +200,10 @@ def _maths(tree: nodes.Tree) -> field_lines.Maths:
     )
 
 
-def _fields(
+def _colour_fields(
     tree: nodes.Tree, place: Spot, here: Here, colour: nodes.Value, small: nodes.Value
 ) -> nodes.Value:
-    """Fields in different greens: grazed, mown, hay, and some of them ploughed or stubble."""
+    """Colour fields in different greens: grazed, mown, hay, and some of them ploughed or stubble."""
     land = here.biome.open_land
     assert land is not None
     x, y, _ = tree.separate(place.position)
@@ -219,17 +219,17 @@ def _fields(
     colour = tree.mix_colour((kind > 0.84) * place.free * 0.6, colour, hay)
     soil = tree.mix_colour(small, *land.soil)
     colour = tree.mix_colour((kind < 0.06) * place.free * 0.85, colour, soil)
-    # Rows of the mower or the plough, filtered at the pixel size.
+    # Rows of the mower or the plough, filtered to the pixel size.
     along = tree.mix(turn > 0.5, x, y)
     lines = tree.math("PINGPONG", along, 2.4) / 2.4
     shown = place.pixel.ramp(0.8, 2.4, 0.30, 0.0) * place.free * (tone > 0.35)
-    colour = _times(tree, colour, 1.0 + (lines - 0.5) * shown)
+    colour = _scale_colour(tree, colour, 1.0 + (lines - 0.5) * shown)
     margin = off.smoothstep(1.5 * land.hedge + 2.0, 0.6 * land.hedge)
     return tree.mix_colour(margin * place.free * 0.6, colour, tree.mix_colour(small, land.lush, land.stale))
 
 
 def _hedges(tree: nodes.Tree, place: Spot, land: OpenLand) -> tuple[nodes.Value, nodes.Value]:
-    """Hedges 0..1 along fields, with gaps, and their height, m."""
+    """Return hedges 0..1 along fields, with gaps, and their height, m."""
     x, y, _ = tree.separate(place.position)
     off = field_lines.fields(_maths(tree), x, y, land.field)[0]
     ragged = place.grain.noise(9.0, 3.0, 0.65)
@@ -240,8 +240,8 @@ def _hedges(tree: nodes.Tree, place: Spot, land: OpenLand) -> tuple[nodes.Value,
     return line * gaps * thin * place.free, 2.2 + ragged * 1.5
 
 
-def _tracks(tree: nodes.Tree, place: Spot, land: OpenLand, colour: nodes.Value) -> nodes.Value:
-    """Winding tracks with two ruts, and cattle paths across them."""
+def _colour_tracks(tree: nodes.Tree, place: Spot, land: OpenLand, colour: nodes.Value) -> nodes.Value:
+    """Colour winding tracks with two ruts, and cattle paths across them."""
     x, y, _ = tree.separate(place.position)
     wander = place.grain.noise(1600.0, 4.0, 0.42) - 0.5
     soil = tree.mix_colour(0.5, *land.soil)
@@ -259,5 +259,5 @@ def _tracks(tree: nodes.Tree, place: Spot, land: OpenLand, colour: nodes.Value) 
     return colour
 
 
-def _times(tree: nodes.Tree, colour: nodes.Value, factor: nodes.Value | float) -> nodes.Value:
+def _scale_colour(tree: nodes.Tree, colour: nodes.Value, factor: nodes.Value | float) -> nodes.Value:
     return tree.mix_colour(1.0, colour, tree.combine(factor, factor, factor), "MULTIPLY")

@@ -8,7 +8,7 @@ from .shading_inputs import Place
 
 
 def look(tree: nodes.Tree, place: Place) -> tuple[nodes.Value, nodes.Value]:
-    """Colour and height (m)."""
+    """Return colour and height (m)."""
     noise = place.grain.noise
     stone, height = granite.face(tree, place.position, place.pixel)
     broad = noise(64.0, 6.0, 0.68)

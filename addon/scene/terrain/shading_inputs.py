@@ -14,12 +14,12 @@ from .. import granite
 from ..band_limited_noise import Grain
 from . import fields
 
-_OWN = 1.25  # factor on the tree drawing distance, beyond which the ground's material shows the canopy
+_OWN = 1.25  # factor on the tree drawing distance; beyond it the ground's material shows the canopy
 _HILLS = 0.5  # factor on the deviation of the run's terrain: hills finer than the apron's mesh (by eye)
-_JITTER = 130.0  # s, at most; breaks up the straight edges of the mesh's triangles
-_STRAY = 0.7  # cells of the fuel grid, greatest displacement of the front by noise
+_JITTER = 130.0  # s, maximum; breaks up the straight edges of the mesh's triangles
+_STRAY = 0.7  # cells of the fuel grid, maximum displacement of the front by noise
 _RAGGED = 74.0  # m, cell size at which noise displaces the front in full
-_SOME = 0.02  # seed offsets, so that grass and shrubs have patterns of their own
+_SOME = 0.02  # seed offsets, so that grass and shrubs have separate patterns
 _TIMBER = 120.0  # s, residence time of flames over a spot of timber
 
 
@@ -43,27 +43,27 @@ class Place:
     woody: nodes.Value  # 0 grass .. 1 timber
     ash: nodes.Value  # 0..1, brightness of the residue
     scale: float  # of the front's and the scar's patterns, 1 in a crown fire
-    mixed: bool  # whether grass or shrubs burn, and not only timber
+    mixed: bool  # True if grass or shrubs burn, and not only timber
     beyond: nodes.Value  # 0 within the run, 1 where the apron's cells have their full size
-    relief: float  # m, height of hills that the apron's mesh does not resolve
-    shrub: nodes.Value  # 0..1, shrub cover of open land; 0 in the Sierra, where it is noise
-    hollow: nodes.Value  # -1 crests to 1 hollows; 0 in the Sierra too
-    free: nodes.Value  # 1 where no map has data, so fields and tracks may be procedural
+    relief: float  # m, height of hills below the resolution of the apron's mesh
+    shrub: nodes.Value  # 0..1, shrub cover of open land; 0 in the Sierra, which uses noise
+    hollow: nodes.Value  # -1 crests to 1 hollows; 0 in the Sierra
+    free: nodes.Value  # 1 if no map has data there, so fields and tracks may be procedural
     duff: nodes.Value  # -1..1, texture of soil, needles and ash; 0 where pixels are larger
 
     def coarser(self, least: float) -> Place:
-        """The same point with noise of at least `least` pixels, for other branches of the shader.
+        """Return the same point with noise of at least `least` pixels, for other branches of the shader.
 
-        Cycles evaluates nodes that branches share before it knows which branch it needs. Noise whose octaves
-        differ is not shared.
+        Cycles evaluates nodes that branches share before it knows which branch it needs. Noise with different
+        octaves is not shared.
         """
         return replace(self, grain=self.grain.coarser(least))
 
 
 def gather(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -> Place:
-    """Shading inputs at a point, with noise in all octaves (`whole`) or band-limited to the picture.
+    """Gather shading inputs at a point, with noise in all octaves (`whole`) or band-limited to the picture.
 
-    Both in one material cost no more than one of them, while they are in different branches of it.
+    Both in the same material cost no more than one of them, if they are in different branches.
     """
     radius = shot.settings.forest.draw_distance
     geometry = tree.node("ShaderNodeNewGeometry")
@@ -82,7 +82,7 @@ def gather(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -
     woody = residence.ramp(15.0, _TIMBER, 0.0, 1.0)
     mixed = shot.fire.smoke.shares[[emissions.GRASS, emissions.SHRUB]].sum() > _SOME
     if mixed:
-        edge = edge - _left_out(grain, speed, woody, shot.front_scale)
+        edge = edge - _unburned_islands(grain, speed, woody, shot.front_scale)
     return Place(
         grain,
         position,
@@ -110,15 +110,15 @@ def gather(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -
     )
 
 
-def _left_out(grain: Grain, speed: nodes.Value, woody: nodes.Value, scale: float) -> nodes.Value:
-    """Unburned islands: above 0 in tufts and strips of grass and shrubs, most where the front is slow."""
+def _unburned_islands(grain: Grain, speed: nodes.Value, woody: nodes.Value, scale: float) -> nodes.Value:
+    """Return unburned islands: above 0 in tufts and strips of grass and shrubs, most for a slow front."""
     tufts = grain.noise(45.0 * scale, 5.0, 0.66)
     weak = speed.ramp(0.03, 0.5, 0.08, 0.0)
     return (tufts + weak).smoothstep(0.66, 0.74) * (1.0 - woody).smoothstep(0.0, 0.4)
 
 
-def rock(tree: nodes.Tree, place: Place, outcrops: float = 1.0) -> nodes.Value:
-    """Bare rock 0..1: without vegetation, on cliffs, and in outcrops whose frequency grows with elevation."""
+def bare_rock(tree: nodes.Tree, place: Place, outcrops: float = 1.0) -> nodes.Value:
+    """Return bare rock 0..1: no vegetation, cliffs, and outcrops, more frequent at high elevation."""
     ragged = place.grain.noise(260.0, 6.0, 0.66)
     bare = (place.bare + (ragged - 0.5) * 1.7).smoothstep(0.42, 0.58) * (place.bare > 0.02)
     cliff = (place.slope + (ragged - 0.5) * 0.35).smoothstep(0.27, 0.36)

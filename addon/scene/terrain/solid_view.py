@@ -1,7 +1,7 @@
 """Colours of the ground in Blender's solid viewport shading, from a colour attribute.
 
 They do not depend on time, so that a frame change costs nothing: ground that burns during the shot has a
-colour of its own. Renders do not use them.
+separate colour. Renders do not use them.
 """
 
 from __future__ import annotations
@@ -16,21 +16,21 @@ from ..forest import biomes
 
 NAME = "solid_view"
 BARE, GRASS, FOREST, WATER = (0.30, 0.28, 0.25), (0.22, 0.17, 0.08), (0.035, 0.070, 0.022), (0.02, 0.09, 0.20)
-# burned before the first frame, and by the last one
+# burned before the first frame, and burned by the last frame
 BURNED, BURNS = (0.020, 0.017, 0.016), (0.120, 0.036, 0.014)
-_DENSE = 1.2  # kg/m2 of canopy fuel that hides the grass
+_DENSE = 1.2  # kg/m2 of canopy fuel that hides grass
 
 
 def paint(shot: Shot, data: bpy.types.Mesh, row: NDArray[np.float64], column: NDArray[np.float64]) -> None:
     """Set the mesh's active colour attribute, for points at fractional rows and columns (n,)."""
     painted = data.attributes.new(NAME, "BYTE_COLOR", "POINT")
-    rgb = colours(shot, row, column)
+    rgb = vertex_colours(shot, row, column)
     painted.data.foreach_set("color", np.pad(rgb, [(0, 0), (0, 1)], constant_values=1.0).ravel())
     data.color_attributes.active_color = data.color_attributes[NAME]
 
 
-def colours(shot: Shot, row: NDArray[np.float64], column: NDArray[np.float64]) -> NDArray[np.float32]:
-    """Scene-linear red, green and blue (n, 3): vegetation, lakes and burned area."""
+def vertex_colours(shot: Shot, row: NDArray[np.float64], column: NDArray[np.float64]) -> NDArray[np.float32]:
+    """Return scene-linear red, green and blue (n, 3): vegetation, lakes and burned area."""
     ground = shot.ground
 
     def at(field: NDArray) -> NDArray[np.float64]:

@@ -43,7 +43,7 @@ def build(
     same = same and [image for each in known for image in reuse.images(each)] == images
     if same and all(each[STATE] == state.of_material(each) for each in known):
         return known
-    first = material.build(shot, stage, fields.images(shot, grown), skin=_NAME)
+    first = material.build(shot, stage, fields.create_images(shot, grown), skin=_NAME)
     others = [owned.mark(first.copy()) for _ in images]
     colour(first, None)
     for other, image in zip(others, images, strict=True):

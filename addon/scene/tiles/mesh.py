@@ -82,7 +82,12 @@ def add_ground(
     latitude, longitude, height = ground.frame.reverse(position.astype(np.float64) + origin)
     row, column = ground.indices(latitude, longitude)
     add(data, "elevation", "FLOAT", height)
-    add(data, fields.GRID, "FLOAT_VECTOR", fields.place(ground.shape, row, column, ground.fields.margin))
+    add(
+        data,
+        fields.GRID,
+        "FLOAT_VECTOR",
+        fields.texture_coordinates(ground.shape, row, column, ground.fields.margin),
+    )
 
 
 def add(data: bpy.types.Mesh, name: str, kind: str, values: NDArray) -> None:
