@@ -94,7 +94,7 @@ def score(arguments: argparse.Namespace) -> None:
         named = arguments.against or observations.beside(arguments.run)
     runs = [_open(Path(each)) for each in named if not observations.is_one(each)]
     if len(runs) > 1:
-        raise UsageError("--against: takes one other run; leave the rest out")
+        raise UsageError("--against: accepts one other run; remove the others")
     if arguments.report and arguments.report.suffix.lower() != ".html":
         raise UsageError(f"--report: {arguments.report} does not end in .html; name an .html file")
     observed = observations.read(each for each in named if observations.is_one(each))
@@ -139,7 +139,7 @@ def imager(arguments: argparse.Namespace) -> None:
     except imager.HorizonError as error:
         raise UsageError(f"--longitude: {error}") from None
     except imager.NothingSeenError as error:
-        finer = "; --instrument viirs has finer ones" if instrument is imager.ABI else ""
+        finer = "; try --instrument viirs, which has smaller pixels" if instrument is imager.ABI else ""
         raise input_error(arguments.run, f"{error}{finer}") from None
     report(len(moments), len(moments))
 
@@ -175,11 +175,11 @@ def bake(arguments: argparse.Namespace) -> None:
     """Write the smoke volumes."""
     from .jobs import bake
 
-    places = bake.run(_choice(arguments), Reporter("smoke"), say)
-    if not places:
-        say("this scene has no smoke ([smoke] enabled = false), so there is nothing to bake")
-    for place in places:
-        result(place)
+    folders = bake.run(_choice(arguments), Reporter("smoke"), say)
+    if not folders:
+        say("nothing to bake: this scene has no smoke ([smoke] enabled = false)")
+    for folder in folders:
+        result(folder)
 
 
 def render(arguments: argparse.Namespace) -> None:
@@ -202,7 +202,7 @@ def render(arguments: argparse.Namespace) -> None:
 
 
 def farm(arguments: argparse.Namespace) -> int | None:
-    """Plan a film for a farm, or work on one."""
+    """Plan, run or follow a farm job."""
     from .farm import command
 
     return command.run(arguments, _choice)
@@ -216,7 +216,7 @@ def stations(arguments: argparse.Namespace) -> None:
 
 
 def resources(arguments: argparse.Namespace) -> int:
-    """List resources that answer a query."""
+    """List resources that match a query."""
     from .stations import command
 
     return command.find_resources(arguments, _fire)
@@ -234,7 +234,7 @@ def tiles(arguments: argparse.Namespace) -> None:
 
 
 def _access(arguments: argparse.Namespace) -> TileAccess:
-    """How tiles may be had."""
+    """Collect the options on access to tiles."""
     from .jobs.tiles.access import TileAccess
 
     return TileAccess(
@@ -295,13 +295,12 @@ def cache(arguments: argparse.Namespace) -> None:
     folders = cache.folders(arguments.places or [Path("cache")])
     kept = cache.by_last_use(folders)
     where = " and ".join(map(str, folders))
-    place, number, whole, used = cache.answers()
+    folder, number, total, used = cache.answers()
     if not arguments.prune:
         _cached(kept)
         if number:
-            result(
-                f"{place}  {size(whole)}  {count(number, 'answer')}, used {duration(time.time() - used)} ago"
-            )
+            ago = duration(time.time() - used)
+            result(f"{folder}  {size(total)}  {count(number, 'response')}, used {ago} ago")
         say(f"{size(sum(each.bytes for each in kept))} of {_kinds(kept)} in {where}")
         return
     gone = cache.prune(kept, arguments.limit, arguments.dry_run)
@@ -309,18 +308,18 @@ def cache(arguments: argparse.Namespace) -> None:
     freed = sum(each.bytes for each in gone)
     left = sum(each.bytes for each in kept) - freed
     word = "would free" if arguments.dry_run else "freed"
-    say(f"{word} {size(freed)}; {size(left)} of {_kinds(kept)} stay in {where}")
+    say(f"{word} {size(freed)}; {size(left)} of {_kinds(kept)} remain in {where}")
     if number:
-        stay = cache.prune_answers(arguments.answers, arguments.dry_run)
-        say(f"{word} {size(whole - stay)}; {size(stay)} of answers of tile servers stay in {place}")
+        left = cache.prune_answers(arguments.answers, arguments.dry_run)
+        say(f"{word} {size(total - left)}; {size(left)} of tile server responses remain in {folder}")
 
 
 def _kinds(kept: Iterable[Cached]) -> str:
-    """What is in a cache."""
+    """Name the content of a cache."""
     from .jobs.tiles.cache import CachedTiles
 
-    some = any(isinstance(each, CachedTiles) for each in kept)
-    return "smoke volumes and tiles" if some else "smoke volumes"
+    has_tiles = any(isinstance(each, CachedTiles) for each in kept)
+    return "smoke volumes and tiles" if has_tiles else "smoke volumes"
 
 
 def _cached(kept: Iterable[Cached]) -> None:
@@ -359,10 +358,10 @@ def schema(arguments: argparse.Namespace) -> None:
 
 
 def bench(arguments: argparse.Namespace) -> int:
-    """Measure, print the tables, and report whether every target is met."""
+    """Measure, and print the tables; the exit status is 1 if a target is missed."""
     from .bench import measure
 
-    say("measuring run time against error, all tools in turn")
+    say("measuring run time and error of all tools in turn")
     from .bench import table
 
     report = measure(arguments.runs, Reporter())
@@ -376,13 +375,13 @@ def bench(arguments: argparse.Namespace) -> int:
 
 
 def _made(out: Path, made: RenderResult) -> dict[str, Any]:
-    """Machine-readable result of a render; memory in bytes, None where it is unknown."""
+    """Collect the result of a render for JSON; memory in bytes, None if unknown."""
     memory = {"expected": made.expected or None, "peak": made.peak or None}
     return {"folder": str(out), "pictures": made.pictures, "files": _files(out), "memory": memory}
 
 
 def _files(out: Path) -> list[str]:
-    """Finished files, relative to the folder."""
+    """List the finished files, relative to the folder."""
     from .render.store import Store
 
     with Store(out) as store:
@@ -408,7 +407,7 @@ def _list(out: Path) -> None:
 
 
 def _runs(scene: Path) -> dict[str, Run]:
-    """All runs of a scene file by name, the first one first."""
+    """Open all runs of a scene file, by name and in order."""
     from .shot.source import ShotSource
 
     shot = ShotSource(scene=str(scene)).shot()
@@ -422,7 +421,7 @@ def _open(folder: Path) -> Run:
 
 
 def _fire(path: Path) -> Fire:
-    """Run of a folder, or the first one of a scene file, with the head of its fire."""
+    """Open the run of a folder, or the first run of a scene file, with the head of its fire."""
     from .shot.runs.run_head import Head
     from .stations.command import Fire
 
@@ -431,7 +430,7 @@ def _fire(path: Path) -> Fire:
 
 
 def _choice(arguments: argparse.Namespace) -> ShotSource:
-    """Shot source: a scene file, or for a run folder a fitted one in the cache, shared by all processes."""
+    """Find the shot source: a scene file, or for a run folder a fitted scene file in the cache."""
     import hashlib
 
     from . import files
@@ -443,14 +442,14 @@ def _choice(arguments: argparse.Namespace) -> ShotSource:
         text = _fitted(scene, cache / "scene.toml", cache)
         scene = cache / f"{scene.absolute().name}-{hashlib.sha256(text.encode()).hexdigest()[:12]}.toml"
         files.write_text(scene, text)
-        say(f"these settings are in {scene}; to change them: firetwin new {arguments.scene} -o SCENE.toml")
+        say(f"these settings are in {scene}; to edit them, run: firetwin new {arguments.scene} -o SCENE.toml")
     return ShotSource(scene=str(scene), beside=getattr(arguments, "run", None) or "")
 
 
 def _fitted(
     run: Path, path: Path, cache: Path, asked: tuple[datetime | None, datetime | None] = (None, None)
 ) -> str:
-    """Text of a scene file `path` that fits a run within the requested times; its choices are reported."""
+    """Write the text of a scene file `path` that fits a run in the requested times; prints its choices."""
     from .errors import UsageError
     from .progress import READING, notify_if_slow
     from .run import times
@@ -462,7 +461,7 @@ def _fitted(
     for name, moment in zip(("start", "end"), asked, strict=True):
         if moment is not None and not first <= moment <= last:
             raise UsageError(
-                f"--{name}: lies outside of the run, which has {times.iso(first)} to {times.iso(last)}"
+                f"--{name}: is outside the run, which covers {times.iso(first)} to {times.iso(last)}"
             )
     if wrong := window.validate():
         raise UsageError(f"--end: {wrong[1]}")

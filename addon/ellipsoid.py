@@ -31,7 +31,7 @@ def enu_axes(latitude: NDArray[np.float64], longitude: NDArray[np.float64]) -> N
 def ecef(
     latitude: NDArray[np.float64], longitude: NDArray[np.float64], height: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Convert latitudes, longitudes (radians) and heights above WGS84 (m) to Earth-centred positions (n, 3), m."""
+    """Convert latitudes, longitudes (radians) and WGS84 heights (m) to Earth-centred positions (n, 3), m."""
     sine, cosine = np.sin(latitude), np.cos(latitude)
     normal = A / np.sqrt(1.0 - E2 * sine * sine)
     across = (normal + height) * cosine

@@ -30,9 +30,7 @@ __all__ = [
     "writing",
 ]
 
-FULL = (
-    "the disk is full; free some space or choose another folder, then run it again: finished files are kept"
-)
+FULL = "the disk is full; free some space or choose another folder, then run it again; finished files stay"
 _LITTLE = 1 << 22  # bytes, below which a disk counts as full
 _NO_ROOM = (errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC))
 

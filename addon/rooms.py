@@ -1,6 +1,6 @@
 """Rooms of the top floor: packages that an installation can omit.
 
-Each room serves one kind of user. Only its command and its panel import it, after a check with `is_installed`.
+Each room serves one kind of user. Only its command and panel import it, after a check with `is_installed`.
 """
 
 from __future__ import annotations

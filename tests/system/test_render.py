@@ -227,7 +227,7 @@ def test_ctrl_c_stops_cleanly(command, tmp_path):
     os.killpg(process.pid, signal.SIGINT)
     out_text, err = process.communicate(timeout=60)
     assert process.returncode == 130
-    assert err.splitlines()[-1] == "firetwin: stopped; what was finished is kept"
+    assert err.splitlines()[-1] == "firetwin: stopped; finished files stay"
     assert "Traceback" not in err
     assert out_text == ""
     assert not list(out.glob(".part-*"))

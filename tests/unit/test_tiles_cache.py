@@ -134,12 +134,12 @@ def test_answers_of_servers_are_listed_and_pruned(kept, capsys):
         )
     answers.close()
     assert cli.main(["cache", str(kept.parent)]) == 0
-    assert f"{http_cache.folder()}  0 MB  3 answers, used 2 h 0 min ago" in capsys.readouterr().out
+    assert f"{http_cache.folder()}  0 MB  3 responses, used 2 h 0 min ago" in capsys.readouterr().out
     arguments = ["cache", "--prune", "--answers", "2500", str(kept.parent)]
     assert cli.main([*arguments, "--dry-run"]) == 0
     assert HttpCache(http_cache.folder()).content()[0] == 3
     assert cli.main(arguments) == 0
-    assert "answers of tile servers stay in" in capsys.readouterr().err
+    assert "tile server responses remain in" in capsys.readouterr().err
     assert HttpCache(http_cache.folder()).content()[:2] == (2, 2000)
 
 

@@ -1,0 +1,76 @@
+"""Argument types of the command line: each converts a text or explains its error."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import re
+from datetime import UTC, datetime
+from pathlib import Path
+
+
+def name(text: str) -> str:
+    """Accept a name that is not blank."""
+    if not text.strip():
+        raise argparse.ArgumentTypeError("is empty; give a name, or omit the option")
+    return text
+
+
+def path(text: str) -> Path:
+    """Convert to a path."""
+    if not text:
+        raise argparse.ArgumentTypeError("is empty; name a file or a folder")
+    return Path(text)
+
+
+def count(text: str) -> int:
+    """Convert to a positive integer."""
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"must be a whole number above 0, not {text!r}")
+    return int(text)
+
+
+def moment(text: str) -> datetime:
+    """Convert an ISO 8601 time with its UTC offset to UTC."""
+    try:
+        value = datetime.fromisoformat(text)
+    except ValueError:
+        value = None
+    if value is None or value.tzinfo is None:
+        raise argparse.ArgumentTypeError(
+            f"must be a time with its zone, 2014-09-17T16:00-07:00, not {text!r}"
+        )
+    return value.astimezone(UTC)
+
+
+def factor(text: str) -> float:
+    """Convert to a number from 0.1 to 3."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.1 <= value <= 3.0:
+        raise argparse.ArgumentTypeError(f"must be a number from 0.1 to 3, not {text!r}")
+    return value
+
+
+def longitude(text: str) -> float:
+    """Convert to a longitude, degrees east."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not -360.0 <= value <= 360.0:
+        raise argparse.ArgumentTypeError(f"must be a number of degrees east from -360 to 360, not {text!r}")
+    return value
+
+
+_UNITS = {"": 1, "B": 1, "KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
+
+
+def size(text: str) -> int:
+    """Convert a size such as 500MB to bytes."""
+    match = re.fullmatch(r"(\d+(?:\.\d+)?) ?([A-Za-z]*)", text.strip(), re.ASCII)
+    if not match or match[2].upper() not in _UNITS:
+        raise argparse.ArgumentTypeError(f"must be a size such as 500MB or 20GB, not {text!r}")
+    return round(float(match[1]) * _UNITS[match[2].upper()])
