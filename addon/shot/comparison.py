@@ -1,4 +1,4 @@
-"""Comparison runs of a scene file: each is a shot of its own with the first run's cameras and clock.
+"""Comparison runs of a scene file: each is a separate shot with the first run's cameras and clock.
 
 Camera paths follow the first run's terrain and fire. In another run a camera has the same position on the
 Earth at the same UTC, for any grid, start and projection of that run. Heights refer to the datum of each
@@ -60,14 +60,14 @@ class ComparisonShot(Shot):
         self.others = first.others
 
     def input_hashes(self, leave_out: Collection[str] = (), progress: Progress = silent) -> dict[str, str]:
-        """Hashes of its own run's inputs, and of the first run's, which decide the camera paths."""
+        """Hash the inputs of this run, and of the first run, which decide the camera paths."""
         flown = self.first.input_hashes((), progress)
         return super().input_hashes(leave_out, progress) | {
             f"first {name}": digest for name, digest in flown.items()
         }
 
     def for_camera(self, name: str) -> Shot:
-        """A shot with this camera alone."""
+        """Return a shot with this camera alone."""
         return ComparisonShot(self.first.for_camera(name.partition("@")[0]), self.label)
 
     def other_runs(self) -> dict[str, Run]:
@@ -90,7 +90,7 @@ class ComparisonShot(Shot):
         messages = []
         if self.run.vertical != self.first.run.vertical:
             messages.append(
-                f'heights of run "{self.label}" are {self.run.vertical}, those of the first '
+                f'heights of run "{self.label}" are {self.run.vertical} and heights of the first are '
                 f"{self.first.run.vertical}: cameras are as far off over its ground as the geoid is"
             )
         for view in self.perspective_paths:
@@ -108,7 +108,7 @@ def for_view(shot: Shot, view: str) -> Shot:
 
 
 def for_views(shot: Shot, views: Sequence[str]) -> list[Shot]:
-    """Shots of views that are built each by itself; without views the shot of all cameras together."""
+    """Return the shots of views that are built separately; without views the shot of all cameras."""
     return [for_view(shot, view) for view in views] or [shot]
 
 

@@ -147,7 +147,7 @@ class Shot:
         return dict(self.others)
 
     def for_camera(self, name: str) -> Shot:
-        """A shot with this camera alone. Its content depends only on this camera and on the one it follows.
+        """Return a shot with this camera alone. It depends only on this camera and on the one it follows.
 
         See `comparison.for_view` for views of other runs.
         """
@@ -158,9 +158,9 @@ class Shot:
         return shot
 
     def for_frames(self, listed: list[int]) -> Shot:
-        """A subset of a one-camera shot: some of its filmed frames, ascending.
+        """Return a subset of a one-camera shot: some of its filmed frames, ascending.
 
-        Paths, smoke and light are those of the full shot. Terrain, plants and flames cover these frames only.
+        Paths, smoke and light are of the full shot. Terrain, plants and flames cover these frames only.
         """
         (camera,) = self.settings.cameras
         camera = replace(camera, frames=FrameList(",".join(map(str, listed))))
@@ -169,14 +169,14 @@ class Shot:
         return shot
 
     def _with_settings(self, settings: Settings) -> Shot:
-        """A shot with other settings that shares terrain, fire and scale with this one."""
+        """Return a shot with other settings that shares terrain, fire and scale with this one."""
         shot = Shot(settings, self.run)
         shot.relief, shot.fire, shot.bare_ground = self.relief, self.fire, self.bare_ground
         shot.scale, shot.arrival, shot.cameras = self.scale, self.arrival, self.cameras
         return shot
 
     def camera(self, name: str) -> Camera:
-        """Look up a camera by name. A view of a comparison run has a name of its own.
+        """Look up a camera by name. A view of a comparison run has its own name.
 
         Raises
         ------
@@ -218,7 +218,7 @@ class Shot:
 
     @cached_property
     def built_frames(self) -> NDArray[np.int64]:
-        """Frames, from 0, for which terrain, plants and flames are built: all, or those of a subset."""
+        """Frames, from 0, for which terrain, plants and flames are built: all, or a subset."""
         return np.arange(self.frames.count) if self.full is self else self.filmed(self.paths[0])
 
     @property
@@ -285,7 +285,7 @@ class Shot:
 
     @property
     def beyond(self) -> bool:
-        """Whether a camera sees the Earth beyond the terrain."""
+        """True if a camera sees the Earth beyond the terrain."""
         return any(view.beyond for view in self.paths)
 
     @cached_property

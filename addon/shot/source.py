@@ -43,7 +43,7 @@ class ShotSource:
         return asdict(self)
 
     def settings(self) -> Settings:
-        """Settings of the scene file, or fitted to the run, with the overrides applied."""
+        """Read the settings of the scene file, or fit them to the run, and apply the overrides."""
         from . import auto_framing
 
         if self.scene:
@@ -68,7 +68,7 @@ class ShotSource:
         Raises
         ------
         InputError
-            The error names the file, line and column, what is wrong and what to do.
+            The error names the file, line and column, the fault and the remedy.
         UsageError
             The scene file has no comparison run with the name.
         """

@@ -89,7 +89,7 @@ def away(view: Path) -> float:
 
 
 def enough(visible: VisibleShare) -> bool:
-    """Whether a close camera may stay: it shows enough and is not in smoke."""
+    """Return whether a close camera may stay: it shows enough and is not in smoke."""
     return visible.share >= ENOUGH and visible.clear >= _SOME
 
 

@@ -24,7 +24,7 @@ _SPREAD = (0.001, 5.0)  # m/s
 _STILL = 0.5  # m/s; a weaker wind has no direction
 _ALOFT = 2.0  # ratio of the wind that moves smoke to that near the ground (assumed)
 _BREEZE = 3.0  # m/s, wind with the fire's course if the run has none (assumed)
-_ONE_WAY = 0.3  # length of the mean spread vector over mean speed, below which there is no head (assumed)
+_ONE_WAY = 0.3  # length of the mean spread vector over mean speed, below which the fire has no head (assumed)
 
 Array = NDArray[np.float64]
 
@@ -38,14 +38,14 @@ class Front:
     frames
         (m,) indices of the frames nearest to these times, from 0.
     point, velocity, moment
-        Of n points: (n, 3) m in the scene, a little above the ground; (n, 2) m/s east and north; and (n,)
+        For n points: (n, 3) m in the scene, a little above the ground; (n, 2) m/s east and north; and (n,)
         index of the time.
     low, high
         (2,) corners of the area burned by the end of the window, m.
     fire
-        Diagonal of the largest fire, m; `size` is that of all fires.
+        Diagonal of the largest fire, m; `size` covers all fires.
     runs
-        Whether any fuel ignites in the window; else points are those that burn nearest in time.
+        True if any fuel ignites in the window; else the points burn nearest in time to it.
     """
 
     shot: Shot
@@ -114,7 +114,7 @@ class Front:
 
     @cached_property
     def crowns(self) -> bool:
-        """Whether trees stand in or around the burning area."""
+        """Return whether the burning area has trees in it or around it."""
         fields = self.ground.fields
         if len(self.point) == 0:
             return False

@@ -108,7 +108,7 @@ def _nearest(points: Array, direction: Array, half: Array, least: float) -> floa
 
 
 def _fits(points: Array, eye: Array, rotation: Array, half: Array) -> bool:
-    """Whether the front's part of the picture contains all but a few points."""
+    """Return whether the front's part of the picture contains all but a few points."""
     right, above, back = ((points - eye) @ rotation).T
     ahead = np.maximum(-back, 1.0e-6)
     x, y = right / ahead / half[0], above / ahead / half[1]

@@ -81,7 +81,7 @@ class Visible:
         )
 
     def over_ground(self, view: Path, frame: int, place: Array) -> NDArray[np.bool_]:
-        """Whether points (n, 3) are in the picture of a frame (from 0) and not occluded by terrain."""
+        """Return whether points (n, 3) are in the picture of a frame (from 0) and not occluded by terrain."""
         ground, eye = self.front.ground, view.position[frame]
         views = lod.ViewSet(
             eye[None],

@@ -77,7 +77,7 @@ def most_active(arrival: ArrayLike, fuel: ArrayLike, first: float, last: float, 
 def _burned(run: Run, arrival: Array) -> tuple[NDArray[np.int64], NDArray[np.int64], Array]:
     """Row and column of the fuel cells that burn during the run, and their fuel, kg/m2.
 
-    In a run without fuel data all cells count alike.
+    In a run without fuel data all cells have equal weight.
     """
     first, last = float(run.times[0]), float(run.times[-1])
     with np.errstate(invalid="ignore"):

@@ -12,7 +12,7 @@ from .path import Path
 
 
 def mono_vr(cameras: Sequence[CameraSettings]) -> list[str]:
-    """Warn of headset cameras that lack the second eye in a scene shared with other cameras."""
+    """Warn of headset cameras that have one eye only in a scene shared with other cameras."""
     around = [camera.name for camera in cameras if camera.rig.around]
     if not around or len(around) == len(cameras):
         return []

@@ -1,6 +1,6 @@
 """Clip planes of cameras that change height by orders of magnitude, for every frame.
 
-Near and far follow the nearest and farthest thing that can be seen, so that their ratio, which decides the
+Near and far follow the nearest and farthest visible object, so that their ratio, which decides the
 precision of a depth buffer, is as small as that allows. Both are continuous in the height.
 """
 

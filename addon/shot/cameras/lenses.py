@@ -1,6 +1,6 @@
 """Lens presets: focal length and sensor width of real camera types.
 
-Names are of types, not of products. Figures come from a data sheet where one is named; else they are typical.
+Names are of types, not of products. Figures come from the named data sheet; without one they are typical.
 """
 
 from __future__ import annotations

@@ -145,7 +145,7 @@ def _tolerance(
 
 
 def _subdivisions(shot: Shot, tolerance: NDArray, distance: NDArray) -> NDArray[np.int64]:
-    """Number of subdivisions of blocks where the surface is finer than its grid, from the error bounds."""
+    """Count the subdivisions of blocks where the surface is finer than its grid, from the error bounds."""
     ground = shot.ground
     finest = min(_FINEST, max(ground.cell) / ground.patch.parts) if ground.patch else _FINEST
     spacing = np.maximum(_SPACING * tolerance, finest)

@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 
 def direction(bearing: Array, elevation: Array) -> Array:
-    """Unit vectors (n, 3), right, up and back, from bearings to the right and elevations (n,), rad."""
+    """Compute unit vectors (n, 3), right, up and back, from right bearings and elevations (n,), rad."""
     flat = np.cos(elevation)
     return np.stack([np.sin(bearing) * flat, np.sin(elevation), -np.cos(bearing) * flat], axis=-1)
 
@@ -28,7 +28,7 @@ def pixels(height: int, width: int, at: tuple[float, float] = (0.5, 0.5)) -> tup
 
 
 def right(bearing: Array) -> Array:
-    """Unit vectors (n, 3) to an observer's right at bearings (n,), rad: the direction from eye to eye."""
+    """Compute unit vectors (n, 3) from eye to eye, an observer's right, at bearings (n,), rad."""
     return np.stack([np.cos(bearing), 0.0 * bearing, np.sin(bearing)], axis=-1)
 
 

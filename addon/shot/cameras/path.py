@@ -40,9 +40,9 @@ class Path:
         (frames, 3) look-at points.
     half
         Tangents of half the horizontal and vertical angle of view. In an orthographic view, half the width
-        and height of the picture, m. Of a zoom lens, the values at its longest focal length.
+        and height of the picture, m. A zoom lens has the values at its longest focal length.
     perspective
-        Whether the projection is perspective; else it is orthographic.
+        True for a perspective projection, False for an orthographic one.
     hidden
         (frames,) height to add to the keys so that the target is visible over ridges, m; None: not computed.
     sensor
@@ -53,13 +53,13 @@ class Path:
         Distance (m) from the target to the eye of a very distant camera that counts as orthographic; `half`
         is its picture at the target. 0: parallel rays.
     around
-        Whether it is a panorama of all directions. `half` is then half of its angles, radians.
+        True for a panorama of all directions. `half` is then half of its angles, radians.
     apart
         Eye separation, m. The eyes are right and left of `position` in each direction of view.
     clips
-        (frames, 2) near and far clip planes, m; None: those of `clip` in all frames.
+        (frames, 2) near and far clip planes, m; None: `clip` in all frames.
     beyond
-        Whether it sees the Earth beyond the terrain, which is built then.
+        True if it sees the Earth beyond the terrain, which is built then.
     width
         Picture width (of one eye), pixels; the shot fills it in.
     """

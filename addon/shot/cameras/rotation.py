@@ -11,7 +11,7 @@ _UPRIGHT = 1.0e-9  # sine of the angle from the vertical below which heading is 
 
 
 def quaternions(rotation: Array) -> Array:
-    """Unit quaternions (n, 4) (w, x, y, z) of matrices (n, 3, 3), with continuous sign.
+    """Compute unit quaternions (n, 4) (w, x, y, z) of matrices (n, 3, 3), with continuous sign.
 
     The largest component is computed first for precision (Shepperd 1978).
     """

@@ -44,7 +44,7 @@ def with_shade(
 def _reaches(
     centre: NDArray, rise: NDArray, low: NDArray, lit: NDArray, rest: NDArray, bearing: float, height: float
 ) -> NDArray[np.bool_]:
-    """Whether each block's shadow (n,) falls on a `lit` block before it passes below the ground.
+    """Return whether each block's shadow (n,) falls on a `lit` block before it passes below the ground.
 
     Blocks are widened by one block on all sides.
     """

@@ -57,7 +57,7 @@ def fit(values: Array, tolerance: float, first: tuple[int, ...] = ()) -> NDArray
 def through(at: Array, values: Array, moments: Array) -> Array:
     """Cubic interpolation (moments, channels) through values (k, channels) at `at` (k,), clamped outside.
 
-    The slope at a key is that of the parabola through the key and its neighbours.
+    The slope at a key is the slope of the parabola through the key and its neighbours.
     """
     if len(at) == 1:
         return np.repeat(values, len(moments), axis=0)

@@ -13,7 +13,7 @@ from ..terrain.terrain import NEVER, UNKNOWN, Terrain, box
 
 Array = NDArray[np.float64]
 
-MOVING = ("head", "fire")  # targets that move by themselves
+MOVING = ("head", "fire")  # moving targets
 _RECENT = 1800.0  # s; in a large fire, ground that burned within this time belongs to the active front
 _KNOTS = 24  # times at which the target is computed; it is interpolated between
 _BLOCK = 1500.0  # m, blocks of a large fire's front that are compared
@@ -61,7 +61,7 @@ def ignition(ground: Terrain) -> tuple[float, float]:
 
 
 def smoothed(values: Array) -> Array:
-    """Moving average over a fifth of the shot, ends continued."""
+    """Return the moving average over a fifth of the shot; the ends are continued."""
     reach = max(len(values) // 10, 1)
     window = np.hanning(2 * reach + 3)[1:-1]
     return np.convolve(np.pad(values, reach, "edge"), window / window.sum(), "valid")
@@ -114,7 +114,7 @@ def _scale(ground: Terrain, speed: Array, time: float) -> tuple[float, float]:
 
 
 def _front(time: float, arrival: Array, recent: float) -> NDArray[np.int64]:
-    """Indices of the cells that burned within `recent` s before `time`; else those nearest in time."""
+    """Return indices of the cells that burned in the `recent` s before `time`, or else nearest to it."""
     recent_cells = np.flatnonzero((arrival <= time) & (arrival > time - recent))
     if len(recent_cells) or len(arrival) == 0:
         return recent_cells

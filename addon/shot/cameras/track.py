@@ -129,7 +129,7 @@ def _validated(path: Path, points: Sequence[Point]) -> Track:
     for point in points:
         if not (abs(point.latitude) <= 90.0 and abs(point.longitude) <= 180.0):
             place = f"{point.latitude:g}, {point.longitude:g}"
-            reason = f"{place} is no latitude (-90 to 90) and longitude (-180 to 180)"
+            reason = f"{place} is not a latitude (-90 to 90) and longitude (-180 to 180)"
             raise input_error(path, reason, line=point.line)
     with_height = _all_or_none(path, points, "height", "a height", "give all points one, or none")
     with_moment = _all_or_none(path, points, "moment", "a time", "give all points one, or none")
@@ -145,7 +145,7 @@ def _validated(path: Path, points: Sequence[Point]) -> Track:
 
 
 def _all_or_none(path: Path, points: Iterable[Point], name: str, what: str, remedy: str) -> bool:
-    """Whether all points have an attribute.
+    """Return whether all points have an attribute.
 
     Raises
     ------

@@ -27,7 +27,7 @@ def points(path: Path) -> Iterator[Point]:
             for line, value in tables.rows(path, file, _NAMES, ("latitude", "longitude"), _COLUMNS):
                 yield _point(path, line, value)
     except UnicodeDecodeError:
-        raise input_error(path, "is no text in UTF-8; save it as CSV (UTF-8)") from None
+        raise input_error(path, "is not UTF-8 text; save it as CSV (UTF-8)") from None
 
 
 def _point(path: Path, line: int, value: dict[str, str]) -> Point:

@@ -32,7 +32,7 @@ def moment(path: Path, line: int, text: str, zone: bool = False) -> datetime:
     Raises
     ------
     InputError
-        The text is no time.
+        The text is not a time.
     """
     try:
         parsed = datetime.fromisoformat(text.strip())
@@ -42,7 +42,7 @@ def moment(path: Path, line: int, text: str, zone: bool = False) -> datetime:
             return parsed.astimezone(UTC)
     except (ValueError, OverflowError):
         pass
-    raise input_error(path, f'"{text.strip()[:40]}" is no time such as 2014-09-17T21:30:00Z', line=line)
+    raise input_error(path, f'"{text.strip()[:40]}" is not a time such as 2014-09-17T21:30:00Z', line=line)
 
 
 def number(path: Path, line: int, text: str | None, what: str) -> float:
@@ -51,12 +51,14 @@ def number(path: Path, line: int, text: str | None, what: str) -> float:
     Raises
     ------
     InputError
-        The text is no finite number.
+        The text is not a finite number.
     """
     try:
         parsed = float(text or "")
     except ValueError:
         parsed = np.nan
     if not np.isfinite(parsed):
-        raise input_error(path, f'the {what} is "{(text or "").strip()[:40]}", which is no number', line=line)
+        raise input_error(
+            path, f'the {what} is "{(text or "").strip()[:40]}", which is not a number', line=line
+        )
     return parsed

@@ -1,4 +1,4 @@
-"""A name for what the cameras of a shot see: files that follow the views bear it."""
+"""Digest of the views of a shot: files that depend on the views have it in their names."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def of_views(shot: Shot, *words: str) -> str:
-    """16 hexadecimal digits of the full shot's paths and filmed frames, its place, and these words."""
+    """Hash the full shot's paths, filmed frames and place, and these words, to 16 hexadecimal digits."""
     shot = shot.full
     digest = hashlib.sha256("".join(words).encode() + repr(shot.ground.frame.latitude).encode())
     for path in shot.paths:

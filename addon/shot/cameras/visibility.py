@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 _HALF_SPACE = 1.0e9  # tangent of 90 degrees, half the angle of a hemisphere
-_ONE_POINT = 0.5  # m; with eyes farther apart terrain is no occluder: one eye may see past its edge
+_ONE_POINT = 0.5  # m; with eyes farther apart terrain does not occlude: one eye may see past its edge
 
 
 class Visibility:
@@ -58,11 +58,11 @@ class Visibility:
         margin
             Width added to each view frustum, m, for objects outside of the picture that light it.
         shadows
-            Whether an object counts as visible if its shadow falls on a visible place.
+            Count an object as visible if its shadow falls on a visible place.
         pixel
             Orthographic cameras count if their pixels are smaller than this, m.
         perspective
-            Whether perspective cameras count.
+            Count perspective cameras.
         """
         showing = self._counted_cameras(pixel, perspective)
         if self.unculled:
@@ -102,7 +102,7 @@ class Visibility:
         return np.reshape(places, (-1, 3)), np.reshape(back, (-1, 3))
 
     def all_views(self) -> tuple[lod.ViewSet, NDArray, NDArray, NDArray]:
-        """Views of all cameras in all frames that they film.
+        """Collect the views of all cameras in all frames that they film.
 
         Returns
         -------
@@ -120,7 +120,7 @@ class Visibility:
         return [path for path in self.shot.paths if frame - 1 in self.shot.filmed(path)]
 
     def _counted_cameras(self, pixel: float, perspective: bool = True) -> tuple[int, ...]:
-        """Indices of the cameras that count: perspective ones if wanted, orthographic ones by pixel size."""
+        """Return indices of cameras that count: perspective ones if wanted, orthographic by pixel size."""
         return tuple(
             number
             for number, path in enumerate(self.shot.paths)
@@ -158,7 +158,7 @@ class Visibility:
         )
 
     def _sun(self, frames: NDArray[np.int64]) -> NDArray[np.float64]:
-        """Unit vectors (m, 3) towards the sun or moon in frames (m,), from 0."""
+        """Compute unit vectors (m, 3) towards the sun or moon in frames (m,), from 0."""
         each, number = np.unique(frames, return_inverse=True)
         times = self.shot.frames.times[each]
         return np.array([sun.toward_light(self.shot.run, float(t)) for t in times]).reshape(-1, 3)[number]
@@ -201,7 +201,7 @@ def _distance(shot: Shot, place: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _clear(ground: Terrain, position: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Whether points lie above the drawn terrain for certain, by more than its roughness `rough`."""
+    """Return whether points are certainly above the drawn terrain, by more than its roughness `rough`."""
     if len(position) == 0:
         return np.empty(0, bool)
     return position[:, 2] > ground.up(position[:, 0], position[:, 1]) + ground.rough

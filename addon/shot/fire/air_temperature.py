@@ -28,7 +28,7 @@ ABSORBED, LOSS = 0.85, 70.0
 SKY = 250.0  # K, brightness temperature of a clear sky (assumed, uniform)
 STONE = 0.94  # emissivity of stone, the lowest of any ground (assumed)
 
-_FIRE = 1.0  # W/m2; less is no fire (see `firetwin_core.flux.at_time`)
+_FIRE = 1.0  # W/m2; lower fluxes are not fire (see `firetwin_core.flux.at_time`)
 LAPSE = 6.5e-3  # K/m, the standard atmosphere
 _SAMPLES = 25  # times of a shot at most at which its air is sampled
 _AVERAGED = 600.0  # s

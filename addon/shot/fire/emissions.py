@@ -1,6 +1,6 @@
 """Emissions by kind of fuel: heat of combustion, emission factors, residence time and look of the smoke.
 
-Emission factors of particles under 2.5 um (PM2.5) and of carbon monoxide are those of S. P. Urbanski (2014,
+Emission factors of particles under 2.5 um (PM2.5) and of carbon monoxide are from S. P. Urbanski (2014,
 "Wildland fire emissions, carbon, and climate: Emission factors", Forest Ecology and Management 317, 51-60),
 as the fire effects model FOFEM 6 tabulates them: grassland 8.5, shrubland 7.1, western forest in prescribed
 fires 17.6 and in wildfires 23.2, and of residual smouldering wood 33.0 and duff 35.3 g of PM2.5 per kg of
@@ -108,7 +108,7 @@ _OF_CATEGORY = {
 def kind(surface: ArrayLike, canopy: ArrayLike, category: ArrayLike | None = None) -> NDArray[np.int8]:
     """Kind of the surface fuel (kg/m2).
 
-    The fuel model number (`category`) decides where it is a burnable one. Else the surface fuel and the
+    The fuel model number (`category`) decides if it is burnable. Else the surface fuel and the
     canopy fuel above it (kg/m2) decide.
     """
     open_ground = np.where(np.asarray(surface) > _GRASS_MOST, SHRUB, GRASS)

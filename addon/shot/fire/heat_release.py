@@ -49,7 +49,7 @@ class Sources:
         return Sources(*(getattr(self, field.name)[chosen] for field in fields(self)))
 
     def luminous(self) -> Sources:
-        """Sources with luminous power: flaming heat counts fully, smouldering heat by `SMOULDER_LIGHT`."""
+        """Return sources with luminous power: all flaming heat, smouldering heat times `SMOULDER_LIGHT`."""
         light = self.flaming + SMOULDER_LIGHT * (self.power - self.flaming)
         return replace(self, power=light, flaming=np.minimum(self.flaming, light))
 

@@ -1,7 +1,7 @@
 """Smoke scale: cell size of the flow solver and of drawn smoke, with the lengths and times that follow it.
 
 Parameters were tuned for a fire of 15 km on cells of `REFERENCE` m and scale with the cells. Lengths scale
-linearly. Times scale as those of eddies, whose speed is proportional to the cube root of their size (A. N.
+linearly. Times scale as in eddies, whose speed is proportional to the cube root of their size (A. N.
 Kolmogorov 1941, "The local structure of turbulence", Dokl. Akad. Nauk SSSR 30).
 """
 
@@ -46,7 +46,7 @@ class Scale:
     cell
         Cell size of the outer domain, m.
     nested
-        Whether the budget allows a nest with cells a third as wide where cameras look.
+        True if the budget allows a nest with cells a third as wide where cameras look.
     """
 
     cell: float = REFERENCE

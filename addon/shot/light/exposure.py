@@ -80,7 +80,7 @@ def _metered(shot: Shot) -> _Metered:
 
 
 def _stops(luminance: Array, glow: Array) -> float:
-    """Stops for these luminances (n,) and the glow (n,) of flame-lit smoke among them."""
+    """Compute stops for these luminances (n,) and the glow (n,) of flame-lit smoke among them."""
     mean = np.log2(np.maximum(luminance, 1.0e-4)).mean()
     below = np.log2(_CLEAR) - mean
     wanted = _DAY + _ADAPTATION_DARK * max(below, 0.0) + _ADAPTATION_BRIGHT * min(below, 0.0)
@@ -97,7 +97,7 @@ def _sun(shot: Shot, frame: float) -> float:
 def _dark(luminance: Array, sun: float) -> float:
     """Darkness, 0 to 1, from these luminances (n,), metered without flames and relief.
 
-    In a ridge's shade a picture is exposed longer, but the smoke above is no darker. While the sun (elevation
+    In a ridge's shade a picture is exposed longer, but the smoke above is as bright. While the sun (elevation
     in degrees) is up, shaded smoke is grey, lit from its sunny side.
     """
     most = 1.0 - (1.0 - _SUNLIT) * float(noise.smoothstep(*_RISEN, sun))

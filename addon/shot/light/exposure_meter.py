@@ -223,7 +223,7 @@ def _depth(
 ) -> tuple[Array, Array, Array]:
     """Smoke along rays: optical depth (n,), distance (n,) to the first dense parcel, m, and brightness (n,).
 
-    Of each fire only the parcel with the largest depth on a ray counts.
+    Only the parcel with the largest depth on a ray counts for each fire.
     """
     n = len(start)
     if len(smoke.place) == 0:

@@ -21,7 +21,7 @@ NIGHT_SKY = np.array([0.010, 0.014, 0.024]) * 0.05  # radiance
 _DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.45, 0.75]) * 0.01
 _FULL_DAY = 1.8  # air masses; beyond, the sun and haze in its light are redder
 HAZE = 1.2e-5  # extinction at z = 0 on a dry September day, 1/m: clear mountain air
-HAZE_HEIGHT = 5000.0  # m, scale height, between that of dust (about 2 km) and of air (8 km)
+HAZE_HEIGHT = 5000.0  # m, scale height, between dust (about 2 km) and air (8 km)
 
 MEAN = (
     (-9.0, -6.0, -4.0, -2.0, 0.0, 2.0, 5.0, 10.0, 20.0, 34.0, 50.0, 70.0),
@@ -33,7 +33,7 @@ _AROUND = (
     (0.000, 0.0005, 0.0038, 0.0208, 0.0741, 0.1425, 0.2156, 0.2804, 0.3152, 0.3088, 0.2912, 0.2725),
     (0.000, 0.0004, 0.0034, 0.0181, 0.0629, 0.1366, 0.2367, 0.3334, 0.3992, 0.4099, 0.3981, 0.3801),
     (0.000, 0.0004, 0.0037, 0.0178, 0.0525, 0.1109, 0.2170, 0.3546, 0.4868, 0.5452, 0.5576, 0.5520),
-)  # at the heights of MEAN, mean radiance of the same sky in red, green and blue, all parts counting alike
+)  # at the heights of MEAN, mean radiance of the same sky in red, green and blue, all parts with equal weight
 
 GLOW = (1.0, 0.18, 0.027)  # colour of flame-lit smoke
 _GLOW_LIGHT = 0.0172, 0.2  # luminance of that, by day and by night

@@ -36,18 +36,18 @@ class Pass:
         "grain", "thermal", "film" or "passes"; see `sections`. A name also means its folders
         ``NAME`` and ``scene/NAME`` in `code_fingerprint`.
     film
-        Whether its PNG files make a film.
+        Make a film of its PNG files.
     captions
-        Whether films have a caption with the time.
+        Draw the time into its films as a caption.
     single_view
-        Whether panorama cameras cannot record it.
+        Refuse panorama cameras.
     min_rows
         Minimum number of rows; a smaller picture of a camera is enlarged, see `size`.
     code
         Files and folders of the package that decide its files, in addition to its own module, the module that
         finishes it (`render.finish`) and what all passes depend on.
     finished
-        Whether a module of `render.finish` makes its files, or completes those that Blender renders.
+        A module of `render.finish` makes its files, or completes the files that Blender renders.
     """
 
     name: str
@@ -101,11 +101,11 @@ class RenderedPass(Pass):
     bits
         Bits per value in its EXR.
     pixel_centres
-        Whether rays go through pixel centres.
+        Send rays through pixel centres.
     through_smoke
-        Whether smoke is almost transparent, with longer ray steps.
+        Render smoke almost transparent, with longer ray steps.
     geometry_only
-        Whether it shows only geometry, independent of materials.
+        It shows geometry alone, independent of materials.
     """
 
     socket: str = "Image"
@@ -129,7 +129,7 @@ class DerivedPass(Pass):
     needs
         Passes whose files it is made from.
     mount
-        Whether sensors on its camera's mount may supply these (see `cameras.mount`).
+        Sensors on its camera's mount may supply these (see `settings.mount`).
     """
 
     needs: tuple[str, ...] = ()

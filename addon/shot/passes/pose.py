@@ -5,7 +5,7 @@ nerfstudio) to metres east, north and up of `origin`, the WGS84 point of the sce
 coordinates count from the picture's upper left corner, u to the right and v down; the first pixel's centre is
 (0.5, 0.5). A camera point (x, y, z) projects to u = cx + fx x / d and v = cy - fy y / d, where d = -z is its
 planar depth. In an orthographic projection u and v do not depend on d, and fx and fy are pixels per metre.
-There is no lens distortion. The camera in Blender agrees within 0.05 pixels. `files` are the files of the
+Lenses are free of distortion. The camera in Blender agrees within 0.05 pixels. `files` are the files of the
 camera's other passes, relative to the sidecar. `credits` and `services` are the credits that the picture
 needs. `tiles`, if 3-D Tiles are shown, has missing tiles and the screen-space error of the selection, pixels.
 

@@ -28,7 +28,7 @@ def open_others(settings: Settings) -> dict[str, Run]:
     Raises
     ------
     InputError
-        The error names the line of the scene file and what is wrong with the run.
+        The error names the line of the scene file and the fault of the run.
     """
     runs = {}
     for i, other in enumerate(settings.runs):

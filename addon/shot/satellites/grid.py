@@ -26,7 +26,7 @@ class ImagerGrid(Protocol):
 
     @property
     def step(self) -> tuple[float, float]:
-        """Of columns and rows, in units of `crs`."""
+        """Sizes of columns and rows, in units of `crs`."""
 
     def forward(self, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
         """Fractional row and column of points (degrees); pixel i spans i to i + 1. NaN if not visible."""

@@ -6,7 +6,7 @@ A pixel's radiance is (1 - f) L(background) + f L(1000 K) (J. Dozier 1981, Remot
 1000 K. The background is the run's air, and ground that cools after the fire. Atmosphere, smoke, clouds and
 reflected sunlight (some kelvin at 3.9 um by day) are left out. Pixels are adjacent boxes of uniform response.
 
-The saturation temperatures of ABI, 400 K in band 7 and 330 K in band 14, are those of C. C. Schmidt et al.
+The saturation temperatures of ABI, 400 K in band 7 and 330 K in band 14, are from C. C. Schmidt et al.
 2020, "GOES-R ABI Algorithm Theoretical Basis Document for Fire / Hot Spot Characterization" 2.7, table 2.3.
 Users of VIIRS's fire product take I4 as saturated from 367 K. No document of the instrument's makers was
 available for that value, nor for the 380 K of I5.
@@ -19,8 +19,8 @@ VIIRS's I4 saturates in most fires, so its product of 375 m (VNP14IMG) takes the
 (W. Schroeder, P. Oliva, L. Giglio and I. A. Csiszar 2014, Remote Sensing of Environment 143, 85; "VIIRS 375 m
 Active Fire Detection and Characterization Algorithm Theoretical Basis Document" 1.0, 2016). M13 is at 4.05
 um, its low gain measures up to 634 K, and a = 2.88e-9 there: 1.12 of the power at 1000 K, 0.157 of the heat.
-A pixel of M13 is 2 x 2 of 375 m. Its power is shared evenly among those of them that show fire. Without such
-a pixel there is no power.
+A pixel of M13 is 2 x 2 of 375 m. Its power is shared evenly among the pixels that show
+fire, and is zero without such a pixel.
 """
 
 from __future__ import annotations

@@ -113,7 +113,7 @@ def _number(value: float) -> str:
 
 
 def either(names: Iterable[str]) -> str:
-    """``"a", "b" or "c"``."""
+    """Join names: ``"a", "b" or "c"``."""
     *most, last = [f'"{name}"' for name in names]
     return f"{', '.join(most)} or {last}" if most else last
 

@@ -27,7 +27,7 @@ def json_schema(kind: type) -> dict[str, Any]:
 
 
 def _table(kind: type) -> dict[str, Any]:
-    """Schema of a dataclass; of a table with variants, a schema for each of them."""
+    """Make the schema of a dataclass; a table with variants has one for each of them."""
     rig = next((part for part in fields(kind) if part.key.variants), None)
     if not rig:
         return _object([part for part in fields(kind)], {}, [])
@@ -70,7 +70,7 @@ def _list(inner: tuple[Any, ...], key: Key) -> dict[str, Any]:
 
 
 def _one(kind: type, key: Key) -> dict[str, Any]:
-    """Schema of a single value, or of an item of a list."""
+    """Make the schema of a single value, or of an item of a list."""
     bounds = {"minimum": key.at_least, "exclusiveMinimum": key.above, "maximum": key.at_most}
     schema = _TYPES[kind] | {name: bound for name, bound in bounds.items() if bound is not None}
     return schema | ({"enum": list(key.names())} if key.choices else {})

@@ -20,11 +20,11 @@ class CameraSettings(Protocol):
 
     @property
     def passes(self) -> tuple[str, ...]:
-        """Passes that it records; empty: those of [render]."""
+        """Passes that it records; empty: the passes of [render]."""
 
     @property
     def resolution(self) -> tuple[int, int] | None:
-        """Width and height (pixels) of its pictures; None: those of [render]."""
+        """Width and height (pixels) of its pictures; None: the resolution of [render]."""
 
     @property
     def kind(self) -> str:

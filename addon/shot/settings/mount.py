@@ -1,6 +1,6 @@
 """Sensor mounts: which camera supplies each input of a composite pass, such as the fused view.
 
-A camera's own recording comes first. What it does not record comes from the first sensor on its mount that
+A camera's own recording comes first. Any other input comes from the first sensor on its mount that
 records it. A map comes from the first minimap that follows the camera and records the visible picture. Any
 other input is rendered for the camera. A sensor supplies nothing if it films other frames than the camera.
 """

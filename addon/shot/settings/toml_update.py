@@ -224,7 +224,7 @@ def _tables(value: Any) -> bool:
 
 
 def _item(value: Any) -> Any:
-    """A value for tomlkit; tables are written in one line."""
+    """Convert a value for tomlkit; tables are written in one line."""
     if isinstance(value, list):
         array = tomlkit.array()
         for item in value:

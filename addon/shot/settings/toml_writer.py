@@ -121,7 +121,7 @@ class _Writer:
         return quoted(part.default.as_posix()) if part.type is Path else self.value(part.type, part.default)
 
     def once(self, key: Key, comment: str) -> str:
-        """The comment at the key's first occurrence, else empty."""
+        """Return the comment at the key's first occurrence, else an empty text."""
         known = id(key) in self.explained
         self.explained.add(id(key))
         return "" if known else comment

@@ -261,7 +261,7 @@ def _fuel(
 ) -> NDArray[np.float64]:
     """Apron fuel (n,): near the edge as mirrored there, farther out by height band of the grid, in patches.
 
-    The whole distribution matches that of the grid, not only its mean, so that the share of bare ground is
+    The complete distribution matches the grid, not only the mean, so that the share of bare ground is
     the same. `ranks` are 0..1 at the apron's points: for the fuel, its height, and the choice of mirrored
     fuel.
     """

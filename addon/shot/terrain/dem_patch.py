@@ -53,7 +53,7 @@ def patch(
 ) -> Patch | None:
     """Sample the elevation model in these rows and columns, without the apron; None if it has no data there.
 
-    Its resolution is that of the model, or as many points allow.
+    It has the resolution of the model, or as many points as allowed.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ def patch(
 
 
 def _beside_tiles(relief: Elevation, offset: NDArray, axes: list[Array], grid: list[Array]) -> NDArray:
-    """Offsets that are whole up to the border of tiles, and beside it those of the elevation model's detail.
+    """Return offsets in full up to the border of tiles, and the elevation model's detail outside of it.
 
     The grid's own heights meet the tiles there. The model's would not.
     """

@@ -1,6 +1,6 @@
-"""Terrain elevation of a shot: the run's heights, or a user's elevation model (DEM) where it has data.
+"""Terrain elevation of a shot: the run's heights, or the data of a user's elevation model (DEM).
 
-All objects on the ground take their heights from here. Where the model ends or has no data, it blends into
+All objects on the ground take their heights from here. At its edges and gaps the model blends into
 the run's heights over `_BLEND` metres. Beside 3-D Tiles the ground blends into the tiles, outside of them.
 """
 
@@ -52,7 +52,7 @@ class Elevation:
 
     @property
     def parts(self) -> tuple[Elevation, Elevation]:
-        """Elevation of the 3-D Tiles alone, and of what is beside them; only where it is of tiles."""
+        """Elevation of the 3-D Tiles alone, and of the ground around them; only for elevation from tiles."""
         assert isinstance(self.model, _Stacked)
         return Elevation(self.run, _Stacked(self.model.tiles, None)), Elevation(self.run, self.model.model)
 
@@ -113,7 +113,7 @@ class Elevation:
     def _on_tiles(
         self, latitude: Array, longitude: Array, own: NDArray
     ) -> tuple[NDArray, NDArray[np.float32]]:
-        """As `mixed`: tiles in full up to their border, where the ground beside them meets them."""
+        """Blend as `mixed`: tiles in full up to their border, where the surrounding ground meets them."""
         tiles, others = self.parts
         beside, share = others.mixed(latitude, longitude, own)
         heights = rim.meet(tiles.read(latitude, longitude), beside, _width(latitude, longitude))
@@ -154,7 +154,7 @@ def resolve(settings: SceneSettings, run: Run, tiles: Path | None = None) -> Ele
 
 
 class _Stacked:
-    """Heights of tiles, and of an elevation model where there are none."""
+    """Heights of tiles, and of an elevation model outside of them."""
 
     unit = "m"
 
@@ -162,7 +162,7 @@ class _Stacked:
         self.tiles, self.model, self.resolution = tiles, model, tiles.resolution
 
     def overlaps(self, latitude: Array, longitude: Array) -> bool:
-        """Whether one of them has heights there."""
+        """Return whether one of them has heights there."""
         return self.tiles.overlaps(latitude, longitude) or (
             self.model is not None and self.model.overlaps(latitude, longitude)
         )
@@ -211,7 +211,7 @@ def check(settings: SceneSettings, run: Run) -> None:
 
 
 def _compare(model: GeoTiff, height: Array, own: Array) -> None:
-    """Raise where heights are not those of the run's places by far."""
+    """Raise an error if heights differ from the run's by far."""
     times = float(np.sum(height * own) / max(np.sum(own * own), 1.0))
     off = float(np.median(height - own))
     if abs(off) > _MAX_OFFSET and _FEET[0] < times < _FEET[1]:
@@ -232,9 +232,9 @@ def unit(model: GeoTiff | _Stacked) -> float:
 
 
 def ramp(known: NDArray[np.bool_], width: int) -> NDArray[np.float32]:
-    """1 where all points (ny, nx) within `width` steps are known, falling smoothly to 0 where one is not.
+    """Ramp (ny, nx): 1 if all points within `width` steps are known, falling smoothly to 0 at unknown ones.
 
-    Values beyond the grid are those of its edge.
+    The edge continues beyond the grid.
     """
     total, eroded = np.zeros(known.shape, np.float32), known
     for _ in range(width):
@@ -267,7 +267,7 @@ def _spacing(latitude: Array, longitude: Array) -> float:
 
 
 def _even(axis: Array) -> Array:
-    """An even, ascending axis over the same stretch, as fine as this one or of `_APRON` points."""
+    """Make an even, ascending axis over the same stretch, as fine as this one or of `_APRON` points."""
     low, high = float(axis.min()), float(axis.max())
     if len(axis) == 1:
         return np.array([low, low + 1.0e-3])
@@ -278,7 +278,7 @@ def _even(axis: Array) -> Array:
 
 
 def _run_heights(run: Run, latitude: Array, longitude: Array) -> Array:
-    """The run's heights (n,) in the model cells that hold these places, NaN outside of the run."""
+    """Sample the run's heights (n,) in the model cells of these places; NaN outside of the run."""
     index, inside = [], np.ones(len(latitude), bool)
     middle = 0.5 * float(run.longitude[0] + run.longitude[-1])
     for axis, at in ((run.latitude, latitude), (run.longitude, areas.turned(longitude, middle))):

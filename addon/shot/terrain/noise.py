@@ -13,7 +13,7 @@ def uniform(x: ArrayLike, y: ArrayLike, seed: int) -> NDArray[np.float64]:
 
 
 def normal(first: ArrayLike, second: ArrayLike) -> NDArray[np.float64]:
-    """Normal deviates from two uniform ones (Box and Muller 1958)."""
+    """Compute normal deviates from two uniform ones (Box and Muller 1958)."""
     first, second = np.asarray(first, np.float64), np.asarray(second, np.float64)
     return np.sqrt(-2.0 * np.log1p(-first * 0.9999)) * np.cos(2.0 * np.pi * second)
 

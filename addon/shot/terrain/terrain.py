@@ -46,7 +46,7 @@ class Terrain:
     Attributes
     ----------
     made_up
-        Whether the run is synthetic. Only then are unburned islands invented.
+        True for a synthetic run. Only then are unburned islands invented.
     eyes
         Eye points (m, 3) in the scene, m. Without them the terrain is bilinear everywhere.
     surface
@@ -120,7 +120,7 @@ class Terrain:
         )
 
     def seen_from(self, eyes: ArrayLike) -> Terrain:
-        """The same terrain with detail near these eye points (m, 3) in the scene, m."""
+        """Return the same terrain with detail near these eye points (m, 3) in the scene, m."""
         detailed = copy.copy(self)
         detailed.eyes = np.asarray(eyes, np.float64).reshape(-1, 3)
         if self._relief.model and self.near_radius > 0.0 and (near := detailed._near_eyes(detailed._grid())):
@@ -222,13 +222,13 @@ class Terrain:
         return height
 
     def floor(self) -> Array:
-        """Lower bound of the terrain: scene points (ny, nx, 3) of the grid, with no ground below them.
+        """Compute a lower bound of the terrain: scene points (ny, nx, 3) of the grid, all below the ground.
 
         Bilinear ground within a quad is never below its lowest corner. Far from eyes this holds for the quads
         as drawn. Near eyes Catmull-Rom deviates from the chord by at most 1/8 of the second differences along
         one axis and 1.25/8 along the other, as the absolute values of its weights add up to 1.25. Relief goes
-        down to RELIEF times the slope factor times the sum of the octaves' minima. Where an elevation model
-        has finer data, its lowest point in a quad counts.
+        down to RELIEF times the slope factor times the sum of the octaves' minima. In finer data of an
+        elevation model, its lowest point in a quad counts.
         """
         place = self._grid()
         near = self._near_eyes(place)
@@ -290,7 +290,7 @@ class Terrain:
         return self.point(*self.geodetic(east, north))[:, 2]
 
     def top(self, east: ArrayLike, north: ArrayLike) -> Array:
-        """Scene z (n,) of the ground, or of roofs and crowns where it is that of 3-D Tiles."""
+        """Scene z (n,) of the ground, or of roofs and crowns if 3-D Tiles are the ground."""
         east, north = (np.atleast_1d(np.asarray(v, np.float64)) for v in np.broadcast_arrays(east, north))
         up, tiles = self.up(east, north), self._relief.tiles
         return up if tiles is None else np.fmax(up, tiles.top(east, north))

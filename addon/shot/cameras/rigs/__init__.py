@@ -35,9 +35,9 @@ class Rig:
     Attributes
     ----------
     around
-        Whether it is a stereo panorama, which only Cycles renders, with square pictures.
+        True for a stereo panorama, which only Cycles renders, with square pictures.
     beyond
-        Whether it sees the Earth beyond the terrain, which is built then.
+        True if it sees the Earth beyond the terrain, which is built then.
     """
 
     around: ClassVar[bool] = False

@@ -35,7 +35,7 @@ class Chase(Lens):
 
     @classmethod
     def from_view(cls, view: View) -> Chase:
-        """Same distance and height above ground as the eye has from the centre of the view."""
+        """Keep the distance and height above ground that the eye has from the centre of the view."""
         return cls(**view.lens, distance=max(view.away, 1.0), height=view.above)
 
     def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:

@@ -203,7 +203,7 @@ class Globe(Lens):
         return frame.forward(north, east, floor + width / wide), course
 
     def _lifted(self, ground: Terrain, position: Array) -> Array:
-        """The places, raised smoothly above hills."""
+        """Raise the places smoothly above hills."""
         latitude, longitude, height = ground.frame.reverse(position)
         low = height < float(ground.fields.elevation.max()) + 2.0 * ground.rough + self.clearance
         low &= np.linalg.norm(position, axis=1) < _TERRAIN
@@ -215,7 +215,7 @@ class Globe(Lens):
 
 
 def _runs(chosen: np.ndarray) -> list[slice]:
-    """Runs of chosen frames, each with the frame before and after it."""
+    """Find the runs of chosen frames, each with the frame before and after it."""
     at = np.flatnonzero(np.diff(np.concatenate([[False], chosen, [False]]).astype(int)))
     return [slice(max(int(a) - 1, 0), int(b) + 1) for a, b in at.reshape(-1, 2)]
 

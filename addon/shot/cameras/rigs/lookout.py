@@ -64,7 +64,7 @@ class Lookout(Lens):
         return [(("latitude",), self.latitude, self.longitude)]
 
     def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
-        """Fixed position; bearings count from north and tilts from the horizon at the mast."""
+        """Stay at a fixed position; bearings count from north and tilts from the horizon at the mast."""
         count = shot.frames.count
         keys = self.keys or (LookoutKey(),)
         at, pan, tilt, zoom = np.array([[k.at, k.pan, k.tilt, k.zoom] for k in keys], np.float64).T

@@ -34,7 +34,7 @@ class Minimap(Rig):
         return cls(swath=view.width)
 
     def followed(self, cameras: Sequence[CameraSettings]) -> CameraSettings | None:
-        """The camera that it follows; None without a camera of that name, or without any."""
+        """Return the camera that it follows; None without a camera of that name, or without any."""
         candidates = (camera for camera in cameras if not hasattr(camera.rig, "follows"))
         return next((candidate for candidate in candidates if self.follows in ("", candidate.name)), None)
 

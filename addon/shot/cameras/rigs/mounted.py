@@ -36,7 +36,7 @@ class Mounted(Rig):
         return None if self.follows else (("follows",), "has no follows; name the camera it is mounted with")
 
     def followed(self, cameras: Sequence[CameraSettings]) -> CameraSettings | None:
-        """The perspective camera whose mount it shares; None without one of that name."""
+        """Return the perspective camera whose mount it shares; None without a camera of that name."""
         candidates = (camera for camera in cameras if isinstance(camera.rig, Lens))
         return next((candidate for candidate in candidates if candidate.name == self.follows), None)
 

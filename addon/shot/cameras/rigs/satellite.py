@@ -60,7 +60,7 @@ class Satellite(Rig):
         return rising(self.keys)
 
     def coordinates(self) -> list[Place]:
-        """The point viewed."""
+        """Look at the point viewed."""
         return [(("keys", i, "latitude"), at.latitude, at.longitude) for i, at in enumerate(self.keys)]
 
     def validate_against(self, run: Run, frames: Frames) -> tuple[Where, str] | None:
@@ -80,7 +80,7 @@ class Satellite(Rig):
         return ("geostationary",), reason
 
     def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
-        """Fixed path."""
+        """Stay at a fixed position."""
         first = self.keys[0] if self.keys else ground.frame
         place = np.repeat(ground.point(first.latitude, first.longitude), shot.frames.count, axis=0)
         if self.geostationary is None:

@@ -85,7 +85,7 @@ class Vr(Rig):
         return Path(camera, flown.position, rotation, flown.target, half, around=True, apart=self.interocular)
 
     def _drone(self) -> Drone:
-        """The drone whose path it takes."""
+        """Make the drone whose path it takes."""
         return Drone(clearance=self.clearance, track=self.track, track_times=self.track_times, keys=self.keys)
 
 
