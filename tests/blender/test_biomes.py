@@ -1,4 +1,4 @@
-"""Biomes and land use in Blender: what the ground's material and the forest have of them."""
+"""Biomes and land use in Blender: their effect on the ground's material and the forest."""
 
 import json
 from dataclasses import replace

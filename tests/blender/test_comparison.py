@@ -1,4 +1,4 @@
-"""Several runs rendered: what is made in one go, that cameras agree in all of them, and fronts."""
+"""Several runs rendered: files of one call, equal cameras in all runs, and fronts."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The other engine, in a process of its own and without a display."""
+"""The other engine, in a separate process and without a display."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""Exposure from what the camera sees: the glow by night, the smoke's shade, and smooth over time."""
+"""Exposure metering: glow by night, shade of smoke, and smoothness over time."""
 
 import shutil
 from dataclasses import replace

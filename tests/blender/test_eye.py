@@ -1,4 +1,4 @@
-"""What an eye sees of smoke right before it, and what is said of a camera that stands in it."""
+"""Smoke directly in front of the camera, and the warning of a camera in smoke."""
 
 from types import SimpleNamespace
 

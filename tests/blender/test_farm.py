@@ -1,4 +1,4 @@
-"""The panel On a farm: its job is that of the command line, and it submits, follows and cancels likewise."""
+"""The panel On a farm: the same job as on the command line; submission, status and cancellation."""
 
 import json
 import os

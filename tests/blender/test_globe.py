@@ -1,4 +1,4 @@
-"""The Earth beyond the terrain: where it is, where it joins, and that only cameras in space have it."""
+"""The Earth beyond the terrain: its position, its join, and that only cameras in space show it."""
 
 from collections import Counter
 from dataclasses import replace

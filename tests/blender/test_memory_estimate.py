@@ -1,4 +1,4 @@
-"""The memory that a render is expected to take: what is counted, and what each of it adds."""
+"""The memory estimate of a render: its parts and their sizes."""
 
 from dataclasses import replace
 

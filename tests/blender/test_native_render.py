@@ -1,4 +1,4 @@
-"""What is on the screen is what is rendered: by F12, beside the window, and by the command line."""
+"""Equal pictures by F12, in the background, and by the command line."""
 
 import time
 

@@ -1,4 +1,4 @@
-"""Cameras in the window: from what is seen, keyed there, aimed, on curves; going to places and moments."""
+"""Cameras in the window: from the view, keyed, aimed, on curves; navigation to places and times."""
 
 import bpy
 import firetwin

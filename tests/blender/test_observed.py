@@ -1,4 +1,4 @@
-"""Lines of what was seen, in Blender: they are there from their date on, and never in the thermal view."""
+"""Lines of observations in Blender: visible from their date on, and never in the thermal view."""
 
 from dataclasses import replace
 

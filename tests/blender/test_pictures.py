@@ -1,4 +1,4 @@
-"""The line of frames that are rendered: what stays of one when the next begins, and what is told of it."""
+"""The queue of frames: lifetime of a frame's data, and messages."""
 
 import weakref
 

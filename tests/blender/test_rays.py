@@ -1,4 +1,4 @@
-"""Rays of built cameras, of every kind, beside what depth says of space."""
+"""Rays of built cameras, of every kind, against depth."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""What an artist does to camera objects: back into the settings, kept by a rebuild, and rendered alike."""
+"""An artist's edits of cameras: read into the settings, preserved by a rebuild, rendered equally."""
 
 from dataclasses import replace
 

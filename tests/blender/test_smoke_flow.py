@@ -1,4 +1,4 @@
-"""Smoke solved as a flow: what frames say is what was solved, once, however often it was interrupted."""
+"""Smoke solved as a flow: frames show the solution, which is computed once despite interruptions."""
 
 from __future__ import annotations
 

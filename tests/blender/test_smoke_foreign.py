@@ -1,4 +1,4 @@
-"""A flow of smoke in runs of all kinds: each bakes, and what it writes is finite and where it belongs."""
+"""A flow of smoke in runs of all kinds: each bakes, with finite values in the right places."""
 
 from __future__ import annotations
 

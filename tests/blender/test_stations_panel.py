@@ -1,4 +1,4 @@
-"""The panel of stations: filters are those of a search; list, 3D view and map share one selection."""
+"""The panel of stations: the filters of a search; list, 3D view and map share one selection."""
 
 import bpy
 import exercise_stations

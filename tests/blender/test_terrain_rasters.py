@@ -1,4 +1,4 @@
-"""The user's own rasters in the scene: what stands on an elevation model, and what an orthophoto colours."""
+"""The user's rasters in the scene: objects on an elevation model, and colours of an orthophoto."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""A rebuild keeps the tiles that are the same, and makes the others anew."""
+"""A rebuild reuses equal tiles and makes the others again."""
 
 from dataclasses import replace
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The panel: what is refused and why, what its operators do, how work is stopped, and what is left."""
+"""The panel: rejected input and its reasons, operators, stopped work, and its remains."""
 
 import shutil
 import time

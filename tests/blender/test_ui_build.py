@@ -1,4 +1,4 @@
-"""What panels build: the same as the exported scene file, part by part, with hand edits kept."""
+"""Builds by panels: equal to the exported scene file, part by part, with edits by hand preserved."""
 
 import hashlib
 import shutil

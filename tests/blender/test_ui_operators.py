@@ -1,4 +1,4 @@
-"""All operators alike: what each one says, that it never fails with a traceback, and that undo knows it."""
+"""All operators: their texts, no traceback on failure, and undo."""
 
 import shutil
 

@@ -1,4 +1,4 @@
-"""The asset library: what is in it, and that Blender finds it as assets."""
+"""The asset library: its content, and that Blender lists it as assets."""
 
 import bpy
 import numpy as np

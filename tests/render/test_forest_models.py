@@ -1,4 +1,4 @@
-"""Models of trees: budgets, sizes, levels that look alike, and an artist's in their place."""
+"""Models of trees: budgets, sizes, levels of similar look, and an artist's own models."""
 
 import bpy
 import numpy as np

@@ -1,4 +1,4 @@
-"""Compositor node groups against what the core makes of the same pictures: within 1e-5, in 8 bits a step."""
+"""Compositor node groups against the core on the same pictures: within 1e-5, one step of 8 bits."""
 
 import bpy
 import numpy as np

@@ -1,4 +1,4 @@
-"""Pixels of a geostationary imager in a rendered picture: where they are on Earth, by its own depth."""
+"""Pixels of a geostationary imager in a rendered picture: their position on Earth, by depth."""
 
 from dataclasses import replace
 

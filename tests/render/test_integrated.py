@@ -1,4 +1,4 @@
-"""A frame of one render and of marched smoke, beside the same frame with smoke that Cycles walks through."""
+"""A frame of one render and of marched smoke, against the same frame with smoke traced by Cycles."""
 
 from dataclasses import replace
 from datetime import UTC, datetime

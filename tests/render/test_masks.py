@@ -1,4 +1,4 @@
-"""Classes and instances of pixels: whole numbers that agree with what was built, and cost nobody else."""
+"""Classes and instances of pixels: integers that agree with the built scene, at no cost to other passes."""
 
 from dataclasses import replace
 

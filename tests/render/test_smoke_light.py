@@ -1,4 +1,4 @@
-"""Light in a flow's smoke, solved or of one bounce, beside many bounces of light that goes forwards."""
+"""Light in a flow's smoke, solved or of one bounce, against many bounces of forward scattering."""
 
 from dataclasses import replace
 

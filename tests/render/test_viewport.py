@@ -1,4 +1,4 @@
-"""What the viewport shows in place of what renders draw, and that no render knows of it."""
+"""Stand-ins of the viewport, and that no render shows them."""
 
 import bpy
 import numpy as np

@@ -1,4 +1,4 @@
-"""The briefing page in a real browser: time, search, keys, colours, print, and that no request leaves it.
+"""The briefing page in a real browser: time, search, keys, colours, print, and no request to elsewhere.
 
 Needs selenium, and Debian's chromium and chromium-driver; skipped where they are missing.
 """

@@ -1,4 +1,4 @@
-"""`firetwin render` as a process: what it writes, what --resume keeps, and what a kill leaves."""
+"""`firetwin render` as a process: its files, the effect of --resume, and the remains of a kill."""
 
 import json
 import os

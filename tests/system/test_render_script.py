@@ -1,4 +1,4 @@
-"""The examples' scripts, beside a `firetwin` that only writes down what it is asked for."""
+"""The scripts in examples/, with a `firetwin` that only writes down its arguments."""
 
 import shutil
 import subprocess

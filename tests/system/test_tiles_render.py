@@ -1,4 +1,4 @@
-"""Films on tiles by the command line: credits in pictures, sidecars and manifest, and what is missing."""
+"""Films on tiles by the command line: credits in pictures, sidecars and manifest, and missing tiles."""
 
 import json
 import subprocess

@@ -1,4 +1,4 @@
-"""What goes wrong around an artist: Esc at any moment, a lost run, a full disk, several scenes, libraries."""
+"""Faults around an artist: Esc at any time, a lost run, a full disk, several scenes, libraries."""
 
 import contextlib
 import os

@@ -1,4 +1,4 @@
-"""The camera for headsets in Cycles: where each eye sees things, and files that say what they are."""
+"""The camera for headsets in Cycles: views of both eyes, and metadata of the files."""
 
 import json
 import subprocess

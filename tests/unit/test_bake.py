@@ -1,4 +1,4 @@
-"""Smoke is baked in a process of its own, which needs no Blender."""
+"""Smoke is baked in a separate process, which needs no Blender."""
 
 import os
 

@@ -1,4 +1,4 @@
-"""The benchmark's own parts: its rivals compute the same things, its errors are errors, its tables tell."""
+"""Parts of the benchmark: tools compute equal results, errors are errors, and tables print targets."""
 
 import importlib
 import json

@@ -1,4 +1,4 @@
-"""Developers' benchmarks: rivals compute the same things, errors are errors, and all of them are listed."""
+"""Developers' benchmarks: tools compute equal results, errors are errors, and all are listed."""
 
 import importlib.util
 import subprocess

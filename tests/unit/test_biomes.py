@@ -1,4 +1,4 @@
-"""Biomes: which one a run's land has, what the settings change of it, and that each is whole."""
+"""Biomes: choice by land, changes by settings, and completeness."""
 
 from datetime import date
 

@@ -1,4 +1,4 @@
-"""The briefing page: what it holds, that texts of files stay texts, and its size."""
+"""The briefing page: its content, escaped texts of files, and its size."""
 
 import hashlib
 import json

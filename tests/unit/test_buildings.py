@@ -1,4 +1,4 @@
-"""Buildings by one rule: heights, what is mended or left out, where they stand, and their blocks."""
+"""Buildings by one rule: heights, mended and omitted outlines, positions, and blocks."""
 
 import builtins
 import json

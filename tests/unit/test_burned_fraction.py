@@ -1,4 +1,4 @@
-"""Where a run says what share of each fuel cell burned, areas, scores, maps and fuel are of that share."""
+"""Runs with burned fractions: areas, scores, maps and fuel use these fractions."""
 
 import numpy as np
 import pytest

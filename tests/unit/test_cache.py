@@ -1,4 +1,4 @@
-"""`firetwin cache`: what is kept, what goes first, and what never goes."""
+"""`firetwin cache`: order of removal, and files that stay."""
 
 import os
 import time

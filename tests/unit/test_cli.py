@@ -1,4 +1,4 @@
-"""The command line as a person meets it: what it prints where, and its exit status."""
+"""The command line as a person uses it: output, streams, and exit status."""
 
 import json
 import subprocess

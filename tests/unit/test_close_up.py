@@ -1,4 +1,4 @@
-"""Where smoke right before a camera is painted more finely: round its eye, and nothing twice."""
+"""Finer smoke directly in front of a camera: around its eye, and nothing twice."""
 
 from types import SimpleNamespace
 

@@ -1,4 +1,4 @@
-"""Pictures of surfaces and marched smoke, beside what a pixel of so many rays is by definition."""
+"""Pictures of surfaces and marched smoke, against the definition of a pixel of several rays."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Constants: those of nature against CODATA as SciPy has it, those of air against the laws that join them."""
+"""Constants: of nature against CODATA in SciPy, of air against the laws that relate them."""
 
 import numpy as np
 import pytest

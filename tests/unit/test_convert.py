@@ -1,4 +1,4 @@
-"""Conversion as a user meets it: damaged files, stops, what is there already; a run is whole or not there."""
+"""Conversion as a user sees it: damaged files, stops, existing files; a run is complete or absent."""
 
 import io
 import sys

@@ -1,4 +1,4 @@
-"""What a detector makes of radiance: blur against SciPy, noise by its statistics, saturation and counts."""
+"""The detector: blur against SciPy, noise by its statistics, saturation and counts."""
 
 import firetwin_core as core
 import numpy as np

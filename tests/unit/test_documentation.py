@@ -1,4 +1,4 @@
-"""`help` says as much as the stubs, and the stubs say what the module has."""
+"""`help` has the texts of the stubs, and the stubs have the content of the module."""
 
 import ast
 import importlib

@@ -1,4 +1,4 @@
-"""The artists' page says what the test in Blender's window does, and its pictures are there and small."""
+"""The artists' page agrees with the test in Blender's window, and its pictures exist and are small."""
 
 import ast
 import re

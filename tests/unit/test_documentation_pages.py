@@ -1,4 +1,4 @@
-"""The pages say what the code says, the start page is short, and links and pictures are there."""
+"""The pages agree with the code, the start page is short, and links and pictures exist."""
 
 import importlib.util
 import re

@@ -1,4 +1,4 @@
-"""The orthophoto of a server: its level, where tiles lie in the scene, who is named, what is refused."""
+"""The orthophoto of a server: its level, positions of tiles, credits, and rejected settings."""
 
 import logging
 

@@ -1,4 +1,4 @@
-"""The user's own elevation model: whose heights the ground has, and what is said of a bad one."""
+"""The user's elevation model: heights of the ground, and messages on a bad model."""
 
 import builtins
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Smoke is what the fuel gives: its mass is emission factor times fuel burned, by kind and phase."""
+"""Smoke mass: emission factor times burned fuel, by kind and phase."""
 
 import numpy as np
 import pytest

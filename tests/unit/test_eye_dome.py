@@ -1,4 +1,4 @@
-"""Eye-dome lighting against a plain reference, and what it must not darken."""
+"""Eye-dome lighting against a plain reference, and pixels that stay as bright."""
 
 import numpy as np
 import pytest

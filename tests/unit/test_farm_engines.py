@@ -1,4 +1,4 @@
-"""What engines write of a job: graph, quoting, limits, and what is submitted again. No engine is asked."""
+"""Job files of engines: graph, quoting, limits, and resubmission. No engine runs."""
 
 import json
 import shlex

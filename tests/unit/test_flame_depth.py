@@ -1,4 +1,4 @@
-"""How deep the front's flames are, whatever the cells; and how fast what they leave behind cools."""
+"""Flame depth of the front for any cell size, and cooling of the ground behind it."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The house: what the contracts of imports in pyproject.toml cannot say."""
+"""The layers: rules that the import contracts in pyproject.toml cannot express."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The buoyant flow: what is kept, what stays at rest, what threads and interruptions do not change."""
+"""The buoyant flow: conservation, rest, and independence of threads and interruptions."""
 
 import firetwin_core as core
 import numpy as np

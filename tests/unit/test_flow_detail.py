@@ -1,4 +1,4 @@
-"""Detail below a flow's cells: it travels with the air, stays where smoke is, and is alike on any threads."""
+"""Detail below a flow's cells: it moves with the air, stays in smoke, and is equal on any threads."""
 
 import firetwin_core as core
 import numpy as np

@@ -1,4 +1,4 @@
-"""Films built some frames at a time: what a part of a shot keeps of the whole, and what is its own."""
+"""Films built in chunks of frames: data of the shot that a chunk shares, and its own data."""
 
 from dataclasses import replace
 from datetime import UTC, datetime

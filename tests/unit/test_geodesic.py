@@ -1,4 +1,4 @@
-"""Geodesics against PROJ's, which are those of GeographicLib (Karney 2013)."""
+"""Geodesics against PROJ, which uses GeographicLib (Karney 2013)."""
 
 import numpy as np
 import pyproj

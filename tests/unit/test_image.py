@@ -1,4 +1,4 @@
-"""Image files and encoded images in memory: round trips, oiiotool as a second reader, rejected input."""
+"""Image files: round trips, OpenImageIO's tool as a second reader, and rejected files."""
 
 import contextlib
 import re

@@ -1,4 +1,4 @@
-"""Addresses of an orthophoto's tiles: rows from either side, what is refused, and keys of the environment."""
+"""Addresses of imagery: rows from either side, rejected templates, and keys of the environment."""
 
 import pytest
 from firetwin.errors import InputError

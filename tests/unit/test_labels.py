@@ -1,4 +1,4 @@
-"""Lists of places to label: what is read of them, and what is said of those that hold something else."""
+"""Lists of places to label: accepted columns, and messages on other files."""
 
 import json
 

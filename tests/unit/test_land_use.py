@@ -1,4 +1,4 @@
-"""The user's map of land use: what features are, where they are drawn, and what stays free of plants."""
+"""The user's map of land use: kinds of features, their position, and areas without plants."""
 
 import json
 import sqlite3

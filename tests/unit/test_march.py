@@ -1,4 +1,4 @@
-"""Ray marching through bricks of smoke, beside closed forms."""
+"""Ray marching through bricks of smoke, against closed forms."""
 
 import numpy as np
 import pytest

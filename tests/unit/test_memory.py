@@ -1,4 +1,4 @@
-"""Memory of the worker: few heaps, what is free given back, and the peak as the system counts it."""
+"""Memory of the worker: few heaps, return of free memory, and the peak as the system counts it."""
 
 import os
 import subprocess

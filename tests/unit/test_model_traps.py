@@ -1,4 +1,4 @@
-"""Each trap of fire models' files has a test that fails without its cure: those that no other file has.
+"""Traps of fire models' files that no other test file has: each test fails without its cure.
 
 ======================================================  =====================================================
 CFBM: time in the name only, with colons                test_models::test_cfbm, ..._without_a_time_in_its_name

@@ -1,4 +1,4 @@
-"""Perimeters and detections from every kind of file, their dates, and what is said of bad ones."""
+"""Perimeters and detections from every kind of file, their dates, and messages on bad files."""
 
 import io
 import sqlite3

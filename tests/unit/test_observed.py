@@ -1,4 +1,4 @@
-"""What was seen, as lines over the ground of a shot; and on the maps."""
+"""Observations as lines on the ground of a shot and on the maps."""
 
 import numpy as np
 import pytest

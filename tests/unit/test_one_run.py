@@ -1,4 +1,4 @@
-"""What is of two runs is refused, and each run has a name of its own."""
+"""Files of two runs are rejected, and each run has a separate name."""
 
 import model_files as made
 import numpy as np

@@ -1,4 +1,4 @@
-"""Passes: what each of them says, and what is made of their files."""
+"""Passes: their declarations, and pictures made from their files."""
 
 import dataclasses
 import sys

@@ -1,4 +1,4 @@
-"""What progress says on a terminal and elsewhere, with the note of what was done last."""
+"""Progress on a terminal and elsewhere, with a note on the last step."""
 
 import os
 import sys

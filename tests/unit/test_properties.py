@@ -1,4 +1,4 @@
-"""What must hold for any input: invariances, conservation, and the same on any number of threads."""
+"""Properties for any input: invariances, conservation, and independence of the number of threads."""
 
 import firetwin_core as core
 import geodesy

@@ -1,4 +1,4 @@
-"""Wind beside pyretechnics' matrices."""
+"""Wind of pyretechnics' matrices."""
 
 import numpy as np
 import pytest

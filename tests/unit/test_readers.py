@@ -1,4 +1,4 @@
-"""What readers forgive: NumPy's files in any layout, other longitudes, quoted times, commas at the end."""
+"""Tolerance of readers: NumPy files in any layout, other longitudes, quoted times, trailing commas."""
 
 from datetime import UTC, datetime
 

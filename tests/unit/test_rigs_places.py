@@ -1,4 +1,4 @@
-"""Lookout, chase, minimap and satellite: where they are and where they look."""
+"""Lookout, chase, minimap and satellite: their positions and views."""
 
 from dataclasses import replace
 from datetime import UTC, datetime

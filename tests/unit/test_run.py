@@ -1,4 +1,4 @@
-"""Opening runs and what they hold."""
+"""Opening of runs, and their content."""
 
 import firetwin_core as core
 import numpy as np

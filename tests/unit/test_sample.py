@@ -1,4 +1,4 @@
-"""The sample run: what is stored, and what its expansion writes."""
+"""The sample run: the store, and the files of its expansion."""
 
 import filecmp
 import tomllib

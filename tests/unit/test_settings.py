@@ -1,4 +1,4 @@
-"""The settings' schema: what is said once, and what follows from it."""
+"""The settings' schema: single definitions, and everything derived from them."""
 
 import dataclasses
 import re

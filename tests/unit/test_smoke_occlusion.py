@@ -1,4 +1,4 @@
-"""Smoke that is hidden by other smoke, beside closed forms and marches through the same smoke."""
+"""Smoke occluded by other smoke, against closed forms and marches through the same smoke."""
 
 import firetwin_core as core
 import numpy as np

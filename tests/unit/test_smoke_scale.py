@@ -1,4 +1,4 @@
-"""How fine a flow is for a fire of some size: cells, steps and what a budget pays for."""
+"""Resolution of a flow for a fire of some size: cells, steps and the cell budget."""
 
 import numpy as np
 import pytest

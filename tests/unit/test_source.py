@@ -1,4 +1,4 @@
-"""What to work on: a scene file with other things in its place, or a run alone; what ridges do is told."""
+"""Shot sources: a scene file with overrides, or a run folder; messages on ridges."""
 
 import numpy as np
 import pytest

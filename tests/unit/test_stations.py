@@ -1,4 +1,4 @@
-"""What signs and routes of stations show, how an exercise is told, and what is said of wrong files."""
+"""Signs and routes of stations: their content, the mark of an exercise, and messages on wrong files."""
 
 import json
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""`firetwin stations` and `firetwin resources`: what they print, what they write, and how they fail."""
+"""`firetwin stations` and `firetwin resources`: output, files, and failures."""
 
 import json
 from datetime import timedelta

@@ -1,4 +1,4 @@
-"""A file of places: what is written is read, is a valid GeoPackage, and says what another program broke."""
+"""A file of stations: round trip, valid GeoPackage, and messages on edits of other programs."""
 
 import sqlite3
 import struct

@@ -1,4 +1,4 @@
-"""Files of stations and resources: what is kept, merged, refused and never stored."""
+"""Station import: accepted, merged, rejected and never stored values."""
 
 import json
 import sqlite3

@@ -1,4 +1,4 @@
-"""Which pictures are asked for, and which count as finished. Without Blender."""
+"""Requested and finished pictures, without Blender."""
 
 import json
 import shutil

@@ -1,4 +1,4 @@
-"""Light of sun and sky in bricks of smoke, beside closed forms and marches through the same smoke."""
+"""Light of sun and sky in bricks of smoke, against closed forms and marches through the same smoke."""
 
 import firetwin_core as core
 import numpy as np

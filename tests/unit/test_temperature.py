@@ -1,4 +1,4 @@
-"""Where the thermal picture's palette begins: the coldest that ground or air is."""
+"""The lower end of the thermal palette: the coldest ground or air."""
 
 from datetime import datetime
 

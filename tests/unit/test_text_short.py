@@ -1,4 +1,4 @@
-"""Short numbers, which the text reader reads in a way of their own, are as exact as all others."""
+"""Short numbers, which the text reader reads in a special way, are as exact as others."""
 
 import re
 from fractions import Fraction

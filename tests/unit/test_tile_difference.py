@@ -1,4 +1,4 @@
-"""The tiles' ground against a run's own: percentiles, and what the user is told."""
+"""Height difference between tiles and terrain: percentiles and messages."""
 
 from dataclasses import replace
 

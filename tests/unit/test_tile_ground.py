@@ -1,4 +1,4 @@
-"""A scene's ground on and beside tiles: it is the tiles' own, and meets their border without a step."""
+"""Terrain on and next to tiles: heights of the tiles, and a border without a step."""
 
 from dataclasses import replace
 

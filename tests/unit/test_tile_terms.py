@@ -1,4 +1,4 @@
-"""What services allow: one error that names the policy, before anything is fetched or rendered."""
+"""Terms of services: one error that names the policy, before any request or render."""
 
 import subprocess
 

@@ -1,4 +1,4 @@
-"""Blender's permission to use the network: asked before anything else, and named where it is missing."""
+"""Blender's permission to use the network: checked first, and named if it is missing."""
 
 import tomllib
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What may go wrong with tiles, line by line, from a server to the cut that is shown: fetch, decode, choose.
+"""Faults of tiles, line by line, from a server to the selection: fetch, decode, select.
 
 The lines are those of the table in docs/tiles.md. In each case the job goes on with what there is, says what
 is missing, and fails where it is to be strict; or it stops with the service's own words.

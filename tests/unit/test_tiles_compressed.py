@@ -1,4 +1,4 @@
-"""Draco and meshopt against what was compressed; both packages are of the extra `test`."""
+"""Draco and meshopt against the uncompressed data; both packages are in the extra `test`."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Decoding in processes of their own: arrays as files, and what cannot be decoded is named."""
+"""Decoding in separate processes: arrays as files, and names of undecodable tiles."""
 
 import json
 import os

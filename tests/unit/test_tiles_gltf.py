@@ -1,4 +1,4 @@
-"""What glTF can say: component types, strides, sparse and quantised accessors, instances, materials."""
+"""Features of glTF: component types, strides, sparse and quantised accessors, instances, materials."""
 
 import base64
 import struct

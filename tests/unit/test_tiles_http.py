@@ -1,4 +1,4 @@
-"""Tiles of servers that fail, lie and end sessions: what is done in each case; no secret gets out."""
+"""Tiles of servers that fail, lie and end sessions: the reaction to each; no secret gets out."""
 
 import gzip
 import json

@@ -1,4 +1,4 @@
-"""The cache of servers' answers: what headers allow, what goes first, and two processes at once."""
+"""The HTTP cache: effect of headers, order of removal, and two processes at the same time."""
 
 import multiprocessing
 import sqlite3

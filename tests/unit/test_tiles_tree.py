@@ -1,4 +1,4 @@
-"""Tilesets to flat arrays: what is read, what is tolerated, and what is refused by its JSON path."""
+"""Tilesets to flat arrays: accepted and tolerated input, and rejected input by its JSON path."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""Saving over a scene file: what changed is written into it, and the rest of it stays."""
+"""Saving over a scene file: changed values are written, and the rest stays."""
 
 import dataclasses
 import difflib

@@ -1,4 +1,4 @@
-"""Tracks in and out: what is in them, which moments show it, and files that are damaged or hostile."""
+"""Tracks in and out: their content, their times in the film, and damaged or hostile files."""
 
 import contextlib
 from dataclasses import replace

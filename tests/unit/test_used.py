@@ -1,4 +1,4 @@
-"""Which observations a score uses, and what is said where it uses none."""
+"""Observations that a score uses, and messages if it uses none."""
 
 import re
 from datetime import UTC, datetime, timedelta

@@ -1,4 +1,4 @@
-"""What the cameras of a shot see in the frames that they film, and what may hide it."""
+"""Visibility by the cameras of a shot in their filmed frames, and occluders."""
 
 from dataclasses import replace
 from datetime import UTC, datetime

@@ -1,4 +1,4 @@
-"""The camera for headsets: its way, what it sees, and what tells players of its pictures and films."""
+"""The camera for headsets: its path, its view, and metadata of its pictures and films."""
 
 import struct
 import zlib

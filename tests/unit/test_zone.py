@@ -1,4 +1,4 @@
-"""In which zone a run's times are told."""
+"""Time zone of a run."""
 
 import numpy as np
 import pytest

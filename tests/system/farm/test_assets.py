@@ -1,4 +1,4 @@
-"""What a job lists is all that its tasks read: pictures of these files alone; what is missing is named."""
+"""Assets of a job: all files that its tasks read; pictures of these files alone; missing files are named."""
 
 import json
 import shutil

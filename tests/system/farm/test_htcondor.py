@@ -1,4 +1,4 @@
-"""A film by HTCondor's DAGMan on a pool of this machine: that of one process, also if it was removed."""
+"""A film by HTCondor's DAGMan on a pool of this machine: equal to one process, also after a removal."""
 
 import shlex
 import shutil

@@ -1,4 +1,4 @@
-"""A film by Slurm on two nodes of this machine: that of one process, whatever happens to nodes and tasks."""
+"""A film by Slurm on two nodes of this machine: equal to one process, despite faults of nodes and tasks."""
 
 import subprocess
 

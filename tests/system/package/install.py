@@ -1,4 +1,4 @@
-"""Installs the extension's zip as a user does, uses it, and takes it away: ``install.py ZIP``.
+"""Install the extension's zip as a user does, use it, and remove it: ``install.py ZIP``.
 
 Blender's settings, extensions and files are in a folder of their own, which is empty before and after.
 """

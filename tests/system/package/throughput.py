@@ -1,4 +1,4 @@
-"""How fast the core is inside Blender and outside: ``throughput.py FOLDER [TIMES]`` prints a table.
+"""Speed of the core inside and outside of Blender: ``throughput.py FOLDER [TIMES]`` prints a table.
 
 FOLDER holds the unpacked wheel. One process has Blender, the other has not; each does every job TIMES times,
 in turns, so that what else the machine does falls on both. The best time counts, of the clock and of all

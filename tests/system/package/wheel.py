@@ -1,4 +1,4 @@
-"""Checks one wheel of the core beside Blender: ``wheel.py FOLDER before|after|preloaded``.
+"""Check one wheel of the core with Blender: ``wheel.py FOLDER before|after|preloaded``.
 
 FOLDER holds the unpacked wheel. `before` and `after` say when the core is imported, seen from `bpy`;
 `preloaded` first loads Blender's own TBB, OpenVDB, OpenImageIO, OpenEXR and Imath so that every symbol of

@@ -1,4 +1,4 @@
-"""What a user does at the screen and what is seen there, written to session.log."""
+"""A user's actions at the screen and their visible effects, written to session.log."""
 
 from __future__ import annotations
 

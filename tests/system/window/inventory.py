@@ -1,4 +1,4 @@
-"""What is registered in a running Blender and what lies in a folder: taken before and after, and compared."""
+"""Registrations in a running Blender and files in a folder, recorded before and after, and compared."""
 
 from __future__ import annotations
 
