@@ -1,4 +1,4 @@
-"""Automatic framing: time window and cameras that fit the run, until the user sets others."""
+"""Automatic framing: time window and cameras that fit the run, until the user changes them."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ _WINDOW = ("start", "end")
 
 
 def frame_run(run: Run, start: datetime | None = None, end: datetime | None = None) -> dict[str, Any]:
-    """Framing of a run, as JSON: cameras, values of [time], and messages about both.
+    """Return the framing of a run, as JSON: cameras, values of [time], and messages about both.
 
     Parameters
     ----------
     start, end
-        Start and end of the shot; without them its most active period is selected.
+        Start and end of the shot; by default the run's most active period.
     """
     from ..run import content
 
@@ -41,7 +41,7 @@ def frame_run(run: Run, start: datetime | None = None, end: datetime | None = No
 
 @functools.lru_cache(maxsize=8)
 def _frame_folder(folder: str, stamps: str, start: datetime | None, end: datetime | None) -> dict[str, Any]:
-    """Framing of the run in a folder, in its current state."""
+    """Return the framing of the run in a folder, in its current state."""
     from ..run import readers
     from ..shot import auto_framing
 
@@ -52,7 +52,7 @@ def _frame_folder(folder: str, stamps: str, start: datetime | None, end: datetim
 
 
 def put(panel: bpy.types.PropertyGroup, fits: dict[str, Any]) -> None:
-    """Set the panel to the framing of its run, where it shows defaults or an earlier framing."""
+    """Apply the framing of the panel's run to values that are defaults or come from an earlier framing."""
     before = _usual(panel)
     here = camera_list.text(camera_list.cameras(panel))
     if not panel.scene_file:
@@ -61,13 +61,13 @@ def put(panel: bpy.types.PropertyGroup, fits: dict[str, Any]) -> None:
         if not here and not panel.scene_file:
             from ..smoke import sources
 
-            panel.smoke.method = sources.preview()  # the slower steps are announced first
+            panel.smoke.method = sources.preview()  # a slower method is announced first
         camera_list.fill(panel, camera_list.listed(fits["cameras"]))
     panel.usual = json.dumps(fits | {"placed_for": [fits["time"][name] for name in _WINDOW]})
 
 
 def again(uid: int) -> Steps:
-    """Place automatic cameras again, after the user changed the time window."""
+    """Place automatic cameras again after the user changed the time window."""
     from ..run import readers, times
 
     panel = owned.scene(uid).firetwin
@@ -79,7 +79,7 @@ def again(uid: int) -> Steps:
     run = readers.open(bpy.path.abspath(panel.run))
     first, last = (times.utc(run, float(run.times[i])) for i in (0, -1))
     if time.validate() or any(moment and not first <= moment <= last for moment in (time.start, time.end)):
-        return ""  # what reads the settings reports it
+        return ""  # the next reader of the settings reports it
     fits = yield InThread("placing the cameras", lambda **_: frame_run(run, time.start, time.end))
     panel = owned.scene(uid).firetwin
     camera_list.fill(panel, camera_list.listed(fits["cameras"]))
@@ -89,14 +89,14 @@ def again(uid: int) -> Steps:
 
 
 def lines(panel: bpy.types.PropertyGroup) -> list[str]:
-    """Messages about the framing, while its cameras are the panel's."""
+    """Return messages about the framing, while its cameras are the panel's."""
     told, names = _told(panel.usual)
     return told if [item.name for item in panel.cameras] == names else []
 
 
 @functools.lru_cache(maxsize=8)
 def _told(usual: str) -> tuple[list[str], list[str]]:
-    """Messages, and names of the cameras, cached for drawing."""
+    """Return messages, and names of the cameras, cached for drawing."""
     kept = json.loads(usual or "{}")
     return kept.get("lines", []), [each.name for each in camera_list.listed(kept.get("cameras", ""))]
 
@@ -110,13 +110,13 @@ def _time_of(panel: bpy.types.PropertyGroup) -> Time:
 
 
 def _put_time(group: bpy.types.PropertyGroup, before: dict[str, Any], now: dict[str, Any]) -> None:
-    """Update keys of [time] that show their default, or the earlier framing, to the new framing."""
+    """Update keys of [time] that are defaults, or come from the earlier framing, to the new framing."""
     for part in fields(Time):
         if not keys.differs(group, part) or keys.shows(group, part, _values(before)[part.name]):
             keys.put(group, part, _values(now)[part.name])
 
 
 def _values(kept: dict[str, Any]) -> dict[str, Any]:
-    """Values of [time] from their JSON; defaults where it has none."""
+    """Return values of [time] from their JSON, with defaults for missing keys."""
     moments = {name: datetime.fromisoformat(kept[name]) for name in _WINDOW if kept.get(name)}
     return asdict(Time()) | kept | moments

@@ -133,7 +133,7 @@ class FIRETWIN_OT_queue_esc(bpy.types.Operator):
         return {"PASS_THROUGH"}
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """Another file is opened."""
+        """Handle the opening of another file."""
         type(self).on = False
 
 
@@ -147,16 +147,16 @@ class FIRETWIN_OT_queue(bpy.types.Operator):
     index: bpy.props.IntProperty(options={"SKIP_SAVE"})
     what: bpy.props.EnumProperty(
         items=(
-            ("pause", "Pause", "Stop the render; finished pictures are kept"),
+            ("pause", "Pause", "Pause the render; finished pictures remain"),
             ("go_on", "Resume", "Render the missing pictures"),
-            ("remove", "Remove", "Remove the render from the queue; its pictures are kept"),
+            ("remove", "Remove", "Remove the render from the queue; its pictures remain"),
         ),
         options={"SKIP_SAVE"},
     )
 
     @classmethod
     def description(cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """The tooltip."""
+        """Return the tooltip."""
         items = properties.bl_rna.properties["what"].enum_items
         return items[properties.what].description
 
@@ -215,7 +215,7 @@ class FIRETWIN_PT_queue(bpy.types.Panel):
                     grid.template_icon(icon, scale=4.0)
 
     def button(self, row: bpy.types.UILayout, index: int, what: str, icon: str) -> None:
-        """A button for one render of the queue."""
+        """Draw a button for one render of the queue."""
         pressed = row.operator(FIRETWIN_OT_queue.bl_idname, text="", icon=icon)
         pressed.index, pressed.what = index, what
 

@@ -39,12 +39,12 @@ from .working import Working
 ALL = "all"
 _CHOICES = (
     (ALL, "All", "All parts of the scene"),
-    *((name, keys.label(name), f"Only the {name}; other parts are kept") for name in PARTS),
+    *((name, keys.label(name), f"Only the {name}; other parts do not change") for name in PARTS),
 )
 
 
 def _ready(operator: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
-    """Whether a scene can be built; else its tooltip says why not."""
+    """Return whether a scene can be built; otherwise set the poll message."""
     if context.mode != "OBJECT":
         operator.poll_message_set("Leave the edit mode first")
         return False
@@ -64,25 +64,25 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
 
     @classmethod
     def description(cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """The tooltip."""
+        """Return the tooltip."""
         if properties.part == ALL:
             return (
                 "Build the scene of the run and replace the previous build. "
-                "A Blender scene with other content is kept; Firetwin then adds a new scene"
+                "If the Blender scene has other content, Firetwin adds a new scene"
             )
-        return f"Rebuild the {properties.part}; manual changes to other parts are kept"
+        return f"Rebuild the {properties.part}; manual changes to other parts remain"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return _ready(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """Smoke in a worker process, then all other parts in this one."""
+        """Build smoke in a worker process, then all other parts in this one."""
         return (yield from steps(context, self.part))
 
 
 class FIRETWIN_OT_solve(Working, bpy.types.Operator):
-    """Solve the flow of air and smoke once, and replace the preview of puffs.
+    """Solve the flow of air and smoke once, and replace the puff preview.
 
     Solved snapshots are cached and reused; a stopped solution resumes from them
     """
@@ -94,7 +94,7 @@ class FIRETWIN_OT_solve(Working, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if not solve.replacement(context.scene.firetwin):
-            cls.poll_message_set("The smoke is solved already, or Build scene solves it")
+            cls.poll_message_set("The smoke is already solved, or Build scene solves it")
             return False
         return _ready(cls, context)
 
@@ -106,7 +106,7 @@ class FIRETWIN_OT_solve(Working, bpy.types.Operator):
 
 
 def steps(context: bpy.types.Context, part: str) -> Steps:
-    """Build a part of the scene, or all of it."""
+    """Build one part of the scene, or all parts."""
     from ..jobs import bake
     from ..jobs.tiles import imagery, selection
     from ..scene import build
@@ -146,13 +146,13 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
 
 
 def _read(chosen: ShotSource, whole: bool) -> tuple[Shot, Moving | None]:
-    """The shot, and for a build of all parts where its fire began and is."""
+    """Return the shot and, for a build of all parts, the ignition and the head's positions."""
     shot = chosen.shot()
     return shot, station_signs.moving(shot) if whole else None
 
 
 def _finish(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], new: bool) -> None:
-    """Set engine and layers of our own scene, the panel's state, and the clipping of the 3D views."""
+    """Set engine and view layers of Firetwin's scene, the panel's state, and the clipping of the 3D views."""
     from ..blender import devices
     from ..render import credits, engine, layers
 
@@ -176,7 +176,7 @@ def _finish(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], new: boo
 
 
 class FIRETWIN_OT_remove(bpy.types.Operator):
-    """Remove what Firetwin built in this scene; other objects are kept"""
+    """Remove what Firetwin built in this scene; other objects remain"""
 
     bl_idname = "firetwin.remove"
     bl_label = "Remove scene"
@@ -187,7 +187,7 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
         if not working.editable(cls, context):
             return False
         if not owned.built(context.scene):
-            cls.poll_message_set("This scene holds nothing that Firetwin built")
+            cls.poll_message_set("Firetwin has built nothing in this scene")
             return False
         if context.mode != "OBJECT":
             cls.poll_message_set("Leave the edit mode first")
@@ -199,7 +199,7 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
             self,
             event,
             title="Remove what Firetwin built?",
-            message="Manual changes to it are removed too. Settings are kept, and undo restores all",
+            message="Manual changes to it are removed too. Settings remain, and undo restores everything",
             confirm_text="Remove",
         )
 
@@ -231,7 +231,7 @@ class FIRETWIN_MT_parts(bpy.types.Menu):
 
 
 def again(layout: bpy.types.UILayout, part: str, due: bool = False) -> None:
-    """Rebuild button for a panel's header; highlighted where a part is out of date."""
+    """Draw a rebuild button in a panel's header, highlighted if the part is out of date."""
     row = layout.row(align=True)
     row.enabled, row.alert = job.Job.current is None, due
     row.operator(FIRETWIN_OT_build.bl_idname, text="", icon="FILE_REFRESH", emboss=due).part = part

@@ -9,7 +9,7 @@ from . import camera_list
 
 
 def pull(scene: bpy.types.Scene) -> list[str]:
-    """Read the edits; returns messages about edits that settings cannot express."""
+    """Read the edits; return messages about edits that settings cannot express."""
     panel = scene.firetwin
     told: list[str] = []
     if not panel.frames:  # nothing is built

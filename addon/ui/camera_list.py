@@ -1,18 +1,17 @@
-"""Camera list of the scene file in the .blend file: `scene.firetwin.cameras`, an item for each camera.
+"""Camera list of the scene file in the .blend file: `scene.firetwin.cameras`, one item per camera.
 
-An item has a name, and the camera's table as the text of a scene file (`[[cameras]]` with its keys, paths
-absolute). `get` parses the dataclass `shot.settings.Camera` of an item and `put` writes one into it, without
-loss::
+An item has a name, and the camera's table as scene-file text (`[[cameras]]` with its keys, paths absolute).
+`get` parses the dataclass `shot.settings.Camera` of an item and `put` writes one into it, without loss::
 
     camera = camera_list.get(item)
     camera_list.put(item, replace(camera, rig=replace(camera.rig, focal_length=50.0)))
     camera_list.add(scene.firetwin, Camera("mine", Drone(keys=(...))))
-    camera_list.cameras(scene.firetwin)  # all of them, in their order
+    camera_list.cameras(scene.firetwin)  # all cameras, in order
 
-The item's name overrides that of the table, so that a list in a panel renames a camera. Build, render and
-export use these cameras and no others (see `scene_file.settings`). The object of a built camera is
-`owned.stage(scene).camera(item.name)`. `scene.firetwin.camera_index` is the selected item, which the panel
-FIRETWIN_PT_cameras shows (see `cameras_panel`). Panels of a camera use it as their `bl_parent_id`.
+The item's name overrides the name in the table, so that a list in a panel can rename a camera. Build, render
+and export use exactly these cameras (see `scene_file.settings`). The object of a built camera is
+`owned.stage(scene).camera(item.name)`. `scene.firetwin.camera_index` is the item selected in the panel
+FIRETWIN_PT_cameras (see `cameras_panel`). Panels of a camera use that panel as their `bl_parent_id`.
 """
 
 from __future__ import annotations
@@ -46,7 +45,7 @@ def get(item: FIRETWIN_PG_camera) -> Camera:
     Raises
     ------
     Error
-        Its text is no camera of this version.
+        Its text is not a valid camera of this version.
     """
     try:
         return replace(_read(item.table), name=item.name)
@@ -68,7 +67,7 @@ def add(panel: bpy.types.PropertyGroup, camera: Camera) -> FIRETWIN_PG_camera:
 
 
 def renamed(panel: bpy.types.PropertyGroup, camera: Camera) -> Camera:
-    """The camera under a name that is unique in the list: ``drone``, ``drone-2``."""
+    """Rename a camera so that its name is unique in the list: ``drone``, ``drone-2``."""
     taken = {item.name for item in panel.cameras}
     name = next(
         name
@@ -79,12 +78,12 @@ def renamed(panel: bpy.types.PropertyGroup, camera: Camera) -> Camera:
 
 
 def cameras(panel: bpy.types.PropertyGroup) -> tuple[Camera, ...]:
-    """All cameras in their order."""
+    """Return all cameras in order."""
     return tuple(get(item) for item in panel.cameras)
 
 
 def fill(panel: bpy.types.PropertyGroup, cameras: Iterable[Camera]) -> None:
-    """Replace the list by these cameras; selects the first."""
+    """Replace the list with these cameras, and select the first."""
     panel.cameras.clear()
     for camera in cameras:
         add(panel, camera)
@@ -92,7 +91,7 @@ def fill(panel: bpy.types.PropertyGroup, cameras: Iterable[Camera]) -> None:
 
 
 def text(cameras: Iterable[Camera]) -> str:
-    """Canonical text of cameras, for comparison."""
+    """Serialize cameras to canonical text, for comparison."""
     return tables.to_text(_part(), tuple(cameras))
 
 

@@ -21,11 +21,11 @@ _TARGETS = (
     ("head", "Head of the fire", "Part of the front with the highest rate of spread, in every frame"),
     ("fire", "Centre of the fire", "Centre of the burning terrain, in every frame"),
     ("point", "Ground in the view", "Terrain in the centre of this view"),
-    ("station", "Place", "A place by its name or coordinates; empty: the text of Go to"),
+    ("station", "Place", "A place by name or coordinates; empty: the text of Go to"),
     ("object", "Active object", "Active object, such as a label"),
     ("none", "Nothing", "Remove the target; the camera's own keys set its direction"),
 )
-_ABOVE = 100.0  # m, height of a target over burning ground
+_ABOVE = 100.0  # m, height of a target above burning ground
 _CLOSE = 1.0  # m, tolerance of a target's keyframes
 
 
@@ -58,7 +58,7 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
         elif target == "station":
             met = go_to.place(scene, at)
             if met is None:
-                raise Error(f'no place here is called "{at}"; choose one of the list, or type coordinates')
+                raise Error(f'no place is called "{at}"; choose one from the list, or type coordinates')
             way = np.array([met])
         elif target in targets.MOVING:
             chosen = choice.from_panel(scene.firetwin)
@@ -84,7 +84,7 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
 
 
 def moving_empty(scene: bpy.types.Scene, name: str, way: np.ndarray) -> bpy.types.Object:
-    """A new empty, the artist's own, that follows a path (frames, 3) in few keyframes."""
+    """Create an empty, owned by the artist, that follows a path (frames, 3) with few keyframes."""
     empty = bpy.data.objects.new(name, None)
     empty.empty_display_type, empty.empty_display_size = "SPHERE", 100.0
     scene.collection.objects.link(empty)
@@ -146,7 +146,7 @@ class FIRETWIN_OT_camera_path(bpy.types.Operator):
 
 
 def _keyed(scene: bpy.types.Scene, obj: bpy.types.Object) -> dict[int, Vector]:
-    """Positions of a camera at the frames of its location keyframes."""
+    """Return positions of a camera at the frames of its location keyframes."""
     curves = [curve for curve in compat.fcurves(obj) if curve.data_path == "location"]
     frames = sorted({round(point.co[0]) for curve in curves for point in curve.keyframe_points})
     at = {curve.array_index: curve for curve in curves}
@@ -156,7 +156,7 @@ def _keyed(scene: bpy.types.Scene, obj: bpy.types.Object) -> dict[int, Vector]:
 def _drawn(
     scene: bpy.types.Scene, obj: bpy.types.Object, keyed: dict[int, Vector]
 ) -> tuple[bpy.types.Object, dict[int, float]]:
-    """A new curve through points, and the camera's offset along it at their frames."""
+    """Create a curve through points; also return the camera's offset along it at their frames."""
     data = bpy.data.curves.new(f"Path of {obj.name}", "CURVE")
     data.dimensions, data.resolution_u = "3D", 32
     spline = data.splines.new("BEZIER")
@@ -166,7 +166,7 @@ def _drawn(
         point.handle_left_type = point.handle_right_type = "AUTO"
     curve = bpy.data.objects.new(data.name, data)
     scene.collection.objects.link(curve)
-    scene.view_layers[0].update()  # so that handles are where "AUTO" puts them
+    scene.view_layers[0].update()  # to evaluate the "AUTO" handles
     points, length = spline.bezier_points, [0.0]
     for a, b in itertools.pairwise(points):
         steps = geometry.interpolate_bezier(a.co, a.handle_right, b.handle_left, b.co, 65)

@@ -1,4 +1,4 @@
-"""Camera list panel in the sidebar; panels of single cameras stand below it."""
+"""Camera list panel in the sidebar, parent of the panels of single cameras."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class FIRETWIN_OT_camera_remove(bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         panel = context.scene.firetwin
         if not 0 <= panel.camera_index < len(panel.cameras):
-            cls.poll_message_set("Choose a camera in the list first")
+            cls.poll_message_set("Select a camera in the list first")
             return False
         return working.editable(cls, context)
 

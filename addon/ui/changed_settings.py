@@ -1,7 +1,7 @@
-"""Change tracking: settings that differ from those of the last build.
+"""Change tracking: settings that differ from the last build.
 
 Digests of each section's values are stored in the .blend file at a build, and compared whenever a setting
-changes. The panel draws a stored text, and undo restores it too.
+changes. The panel draws a stored text, so undo restores it as well.
 """
 
 from __future__ import annotations
@@ -16,16 +16,16 @@ from ..shot.settings import Settings
 from . import keys
 
 ALONE = ("terrain", "forest", "fire", "smoke", "light", "labels", "stations")
-"""Parts that depend on their own settings only, once they are built.
+"""Parts that, once built, depend only on their own settings.
 
-The other parts depend on the time window and on the cameras, so they are up to date only when all parts were
+The other parts depend on the time window and on the cameras, so they are up to date only if all parts were
 built."""
 
 _ELSEWHERE = ("path", "cache")
 
 
 def digests(panel: bpy.types.PropertyGroup) -> dict[str, str]:
-    """Digests of the panel's values of every section, of the run and of the cameras."""
+    """Return digests of the panel's values of every section, of the run and of the cameras."""
     values = {
         part.name: _shown_values(panel, part) for part in fields(Settings) if part.name not in _ELSEWHERE
     }
@@ -45,7 +45,7 @@ def _shown_values(panel: bpy.types.PropertyGroup, part: Field) -> object:
 
 
 def remember(panel: bpy.types.PropertyGroup, then: dict[str, str], built: tuple[str, ...]) -> None:
-    """Store the digests of the time when a build of these parts began."""
+    """Store the digests from the time when a build of these parts began."""
     if set(built) > set(ALONE):
         panel.built = json.dumps(then)
     else:
@@ -55,7 +55,7 @@ def remember(panel: bpy.types.PropertyGroup, then: dict[str, str], built: tuple[
 
 
 def forget(panel: bpy.types.PropertyGroup) -> None:
-    """Delete the digests: nothing is built."""
+    """Delete the digests, because nothing is built."""
     panel.built = panel.changed = ""
 
 
@@ -68,7 +68,7 @@ def compare(panel: bpy.types.PropertyGroup) -> None:
 
 
 def note(group: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """Update callback of a setting in a panel."""
+    """Compare settings after one has changed (update callback)."""
     panel = getattr(group.id_data, "firetwin", None)
     if panel is not None:
         compare(panel)

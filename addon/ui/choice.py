@@ -9,6 +9,6 @@ from . import camera_edits, preferences, scene_file
 
 
 def from_panel(settings: bpy.types.PropertyGroup) -> ShotSource:
-    """Shot source of the panel and the preferences, with manual edits of cameras."""
+    """Return the shot source of the panel and the preferences, with manual edits of cameras."""
     camera_edits.pull(settings.id_data)
     return ShotSource(str(scene_file.written(settings.id_data)), device=preferences.device())

@@ -6,7 +6,7 @@ _handles: list[object] = []
 
 
 def run(arguments: list[str]) -> int:
-    """Run the command line; returns its exit code, also where argparse exits, as for --help."""
+    """Run the command line and return its exit code, also if argparse exits, as for --help."""
     from .. import cli
 
     try:

@@ -1,4 +1,4 @@
-"""Coordinates as people write them: decimal degrees, degrees and minutes, degrees, minutes and seconds."""
+"""Coordinates as users write them: decimal degrees, degrees and minutes, degrees, minutes and seconds."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ _HALVES = (
 
 
 def parse(text: str) -> tuple[float, float] | None:
-    """Latitude and longitude, degrees north and east; None if the text has none.
+    """Parse latitude and longitude, degrees north and east; None if the text has none.
 
-    Minutes and seconds need the letters of the hemispheres, before or behind the numbers: 38 46 could else be
-    two coordinates.
+    Minutes and seconds need hemisphere letters before or after the numbers: 38 46 could otherwise be two
+    coordinates.
     """
     return _decimal(text) or _sexagesimal(text.strip())
 
@@ -50,7 +50,7 @@ def _sexagesimal(text: str) -> tuple[float, float] | None:
 
 
 def _angle(text: str) -> float | None:
-    """Degrees of degrees, minutes and seconds; None where a part is too large, or broken before the last."""
+    """Convert degrees, minutes and seconds to degrees; None if a value is too large or invalid."""
     match = _ANGLE.fullmatch(text)
     if match is None:
         try:

@@ -1,4 +1,4 @@
-"""Dated events that Go to knows: reports, the run's beginning and end, the fire's arrival at stations."""
+"""Dated events that Go to accepts: reports, start and end of the run, the fire's arrival at stations."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from . import run, station_data
 
 
 class Event(NamedTuple):
-    """An event: when, in words, and the name of its place; empty without one."""
+    """An event: its time, its text, and the name of its place (empty without one)."""
 
     time: datetime
     words: str
@@ -20,21 +20,21 @@ class Event(NamedTuple):
 
 
 def known(panel: bpy.types.PropertyGroup) -> list[Event]:
-    """Events of the run in the order of time; those of stations as soon as a thread has read them."""
+    """Return events of the run in order of time, with station events once a thread has read them."""
     moments = run.read(panel.facts)["moments"] if panel.facts else []
     found = [Event(datetime.fromisoformat(time), words) for time, words in moments]
     return sorted([*found, *_arrivals(panel)], key=lambda event: event.time)
 
 
 def find(panel: bpy.types.PropertyGroup, text: str) -> Event | None:
-    """The event of these words, or the first whose words contain them."""
+    """Return the event with this text, or the first whose text contains it."""
     wanted = text.strip().lower()
     matches = [event for event in known(panel) if wanted and wanted in event.words.lower()]
     return min(matches, key=lambda event: event.words.lower() != wanted, default=None)
 
 
 def _arrivals(panel: bpy.types.PropertyGroup) -> list[Event]:
-    """When the fire comes to stations, by the run."""
+    """Return the run's arrival times of the fire at stations."""
     key = station_data.key(panel)
     loaded = station_data.get(key) if key else None
     if not isinstance(loaded, station_data.Loaded) or loaded.run is None or loaded.arrivals is None:
@@ -43,5 +43,5 @@ def _arrivals(panel: bpy.types.PropertyGroup) -> list[Event]:
     return [
         Event(times.utc(loaded.run, float(time)), f"the fire reaches {station.name}", station.name)
         for station, time in zip(loaded.station_file.stations, arrivals.time, strict=True)
-        if time == time  # NaN: it does not come
+        if time == time  # NaN: the fire does not arrive
     ]

@@ -56,7 +56,7 @@ def _options(panel: bpy.types.PropertyGroup) -> tuple[str, ...]:
 
 
 def _has_output(cls: type[bpy.types.Operator], panel: bpy.types.PropertyGroup) -> bool:
-    """Whether a folder is chosen; otherwise sets the poll message."""
+    """Return whether an output folder is set; otherwise set the poll message."""
     if panel.farm_output.startswith("//") and not bpy.data.filepath:
         cls.poll_message_set(NOT_SAVED)
         return False
@@ -66,7 +66,7 @@ def _has_output(cls: type[bpy.types.Operator], panel: bpy.types.PropertyGroup) -
 
 
 def _writable(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
-    """Whether a job can be written; otherwise sets the poll message."""
+    """Return whether a job can be written; otherwise set the poll message."""
     if not run.ready(cls, context):
         return False
     if not bpy.data.filepath:
@@ -76,7 +76,7 @@ def _writable(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool
 
 
 def _present(out: Path) -> None:
-    """Check that a folder has a job; the message names the panel's button."""
+    """Check that a folder has a job; the error message names the panel's button."""
     if not (plan.job_dir(out) / plan.FILE).is_file():
         raise Error(f"{out} {NO_JOB}")
 
@@ -90,7 +90,7 @@ def _write(
     tell: MessageCallback,
     stop: Stop,
 ) -> list[str]:
-    """Plan and write a job in a thread; returns the command that submits it."""
+    """Plan and write a job in a thread; return the command that submits it."""
     found = plan.make_job(ShotSource(str(scene)).shot(), scene, size)
     if stop.asked:
         raise StoppedError
@@ -107,7 +107,7 @@ def _missing(
     tell: MessageCallback,
     stop: Stop,
 ) -> list[str]:
-    """Find missing pictures in a thread; returns the command that submits their tasks."""
+    """Find missing pictures in a thread; return the command that submits their tasks."""
 
     def followed(done: int, total: int, what: str = "", note: str = "") -> None:
         if stop.asked:
@@ -124,7 +124,7 @@ def _missing(
 
 
 def _written(context: bpy.types.Context) -> Generator[InThread | Message, Any, list[str]]:
-    """Write the scene file next to the .blend file, and its job; returns the submit command."""
+    """Write the scene file next to the .blend file, and its job; return the submit command."""
     panel = context.scene.firetwin
     for text in camera_edits.pull(context.scene):
         yield Message(text, "WARNING")
@@ -150,27 +150,27 @@ def _submitted(command: list[str], out: Path, last: str) -> Steps:
 
 
 class FarmProperties:
-    """Properties of the scene that this panel shows"""
+    """Properties of the scene that this panel shows."""
 
     farm_engine: bpy.props.EnumProperty(
         name="Engine", description="Engine that runs the tasks", items=_items(), default="slurm"
     )
     farm_output: bpy.props.StringProperty(
         name="Output",
-        description="Folder for the film and the job, which all machines of the farm see under this path; "
-        "each job has its own",
+        description="Folder for the film and the job, with the same path on all machines of the farm; "
+        "each job needs a separate folder",
         subtype="DIR_PATH",
         default="//firetwin_farm",
         options={"PATH_SUPPORTS_BLEND_RELATIVE"},
     )
     farm_chunk: bpy.props.IntProperty(
         name="Frames per task",
-        description="Frames per task; rounded up to multiples of Chunk where that splits the film",
+        description="Frames per task; rounded up to multiples of Chunk if that splits the film",
         default=plan.CHUNK,
         min=1,
     )
     farm_options: bpy.props.StringProperty(
-        name="Options", description="Options of the engine's own command, as on a command line"
+        name="Options", description="Options of the engine's command, as on a command line"
     )
 
 
@@ -218,7 +218,7 @@ class _OfJob(Working):
 
 
 class FIRETWIN_OT_farm_status(_OfJob, bpy.types.Operator):
-    """Read how many tasks and pictures of the job are finished, from its files alone"""
+    """Read how many tasks and pictures of the job are finished, from its files"""
 
     bl_idname = "firetwin.farm_status"
     bl_label = "Status"
@@ -252,7 +252,7 @@ class FIRETWIN_OT_farm_resume(_OfJob, bpy.types.Operator):
 
 
 class FIRETWIN_OT_farm_cancel(_OfJob, bpy.types.Operator):
-    """Cancel the submitted tasks of the job. Finished pictures are kept"""
+    """Cancel the submitted tasks of the job. Finished pictures remain"""
 
     bl_idname = "firetwin.farm_cancel"
     bl_label = "Cancel job"
@@ -330,5 +330,5 @@ properties = FarmProperties
 
 
 def unregister() -> None:
-    """End the watch of the job."""
+    """Stop watching the job."""
     farm_watch.forget()

@@ -1,4 +1,4 @@
-"""Status of farm jobs: read in a thread every few seconds, never while a panel is drawn."""
+"""Status of farm jobs, read in a thread every few seconds, never while a panel is drawn."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def start(out: Path) -> None:
 
 
 def forget() -> None:
-    """Stop reading, and clear all known states."""
+    """Stop reading, and clear all cached states."""
     global _out
     _out = None
     if bpy.app.timers.is_registered(_tick):
@@ -54,7 +54,7 @@ def forget() -> None:
 
 
 def unfinished(found: Status | str | None) -> bool:
-    """Whether tasks are running or waiting."""
+    """Return whether tasks are running or waiting."""
     return isinstance(found, Status) and bool(found.running or found.waiting)
 
 

@@ -1,4 +1,4 @@
-"""Import of a fire model's own files: a worker process converts them to a run, which is opened then."""
+"""Import of a fire model's files: a worker process converts them to a run, which is then opened."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .working import Working
 
 
 class Said:
-    """Import options that files may lack, as properties of an operator."""
+    """Import options for information that files may not contain, as properties of an operator."""
 
     start: bpy.props.StringProperty(
         name="Start",
@@ -36,7 +36,7 @@ class Said:
 
 
 class FIRETWIN_OT_convert(Said, Working, bpy.types.Operator):
-    """Convert a fire model's files to a run, beside them or in the output folder, and open the run"""
+    """Convert a fire model's files to a run, next to them or in the output folder, and open the run"""
 
     bl_idname = "firetwin.convert"
     bl_label = "Convert model output"
@@ -51,7 +51,7 @@ class FIRETWIN_OT_convert(Said, Working, bpy.types.Operator):
         return working.editable(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """Convert in a worker process, unless the run exists already; then inspect the run."""
+        """Convert in a worker process, unless the run already exists; then inspect the run."""
         from ..jobs import convert
 
         uid, paths = context.scene.session_uid, chosen(self)
@@ -74,17 +74,17 @@ class FIRETWIN_OT_convert(Said, Working, bpy.types.Operator):
 
 
 def _words(error: Exception) -> str:
-    """Error text with the operator's fields in place of the command line's options."""
+    """Rewrite an error text with the operator's fields in place of command-line options."""
     option = r"--(start|at|projection)\b"
     return re.sub(
         option,
-        lambda found: f"{found[1].capitalize()} (beside the files in Open run)",
+        lambda found: f"{found[1].capitalize()} (next to the files in Open run)",
         job.describe_error(error),
     )
 
 
 def chosen(operator: bpy.types.Operator) -> list[Path]:
-    """The selected files, file or folder."""
+    """Return the selected files, file or folder."""
     names = [file.name for file in operator.files if file.name]
     if names and operator.directory:
         return [Path(operator.directory, name) for name in names]
@@ -92,7 +92,7 @@ def chosen(operator: bpy.types.Operator) -> list[Path]:
 
 
 def begin(panel: bpy.types.PropertyGroup, folder: str) -> None:
-    """Select a run; the time window and cameras of another run are reset."""
+    """Select a run; time window and cameras of another run are reset."""
     if bpy.path.abspath(panel.run) != folder:
         panel.scene_file = panel.time.start = panel.time.end = panel.facts = panel.smoke_cost = ""
         panel.cameras.clear()

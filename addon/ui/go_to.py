@@ -17,14 +17,14 @@ from . import coordinates, events, landmarks, place_names, working
 from .navigation import can_navigate, space
 
 _DATE = re.compile(r"\s*(\d{4}-\d\d-\d\d)[ T](\d\d?:\d\d)\s*(Z|UTC)?\s*", re.IGNORECASE)
-_TILTS = (1.05, 0.8, 0.5, 0.2, 0.0)  # rad from straight down, of views at the end of a flight
-_CLEARANCE = 30.0  # m of the eye over the terrain
-_SHOWN = 40  # names of a kind in the menu
+_TILTS = (1.05, 0.8, 0.5, 0.2, 0.0)  # rad from straight down, tilts of views at the end of a flight
+_CLEARANCE = 30.0  # m, clearance of the viewpoint above the terrain
+_SHOWN = 40  # names per kind in the menu
 _SECONDS, _STEP = 1.5, 1.0 / 30.0  # s of the flight, and between its redraws
 
 
 def parse_time(panel: bpy.types.PropertyGroup, text: str) -> datetime | None:
-    """Parse a time: date and time, or words of a reported event."""
+    """Parse a time: date and time, or the text of a reported event."""
     if match := _DATE.fullmatch(text):
         zone = UTC if match[3] else zoneinfo.ZoneInfo(panel.zone)
         return datetime.fromisoformat(f"{match[1]} {match[2]:0>5}").replace(tzinfo=zone).astimezone(UTC)
@@ -33,16 +33,16 @@ def parse_time(panel: bpy.types.PropertyGroup, text: str) -> datetime | None:
 
 
 def frame_of(panel: bpy.types.PropertyGroup, when: datetime) -> int:
-    """The frame of a time, or the nearest one."""
+    """Return the frame of a time, or the nearest one."""
     passed = (when - datetime.fromisoformat(panel.first_time)).total_seconds()
     frame = 1 + round(passed / panel.seconds_per_frame) if panel.seconds_per_frame else 1
     return min(max(frame, 1), panel.frames)
 
 
 def place(scene: bpy.types.Scene, text: str) -> Vector | None:
-    """Position in the scene of a text: coordinates on the terrain, head or ignition, or a name.
+    """Return the scene position of a text: coordinates on the terrain, head or ignition, or a name.
 
-    A name is that of a place, a station or an object.
+    The name may belong to a place, a station or an object.
     """
     stage, pair = owned.stage(scene), coordinates.parse(text)
     if pair is None and (found := landmarks.find(scene.firetwin, text)):
@@ -64,7 +64,7 @@ class FIRETWIN_OT_go(bpy.types.Operator):
 
     bl_idname = "firetwin.go"
     bl_label = "Go to"
-    bl_options = {"REGISTER", "UNDO_GROUPED"}  # views have no undo, the frame has
+    bl_options = {"REGISTER", "UNDO_GROUPED"}  # views have no undo, but the frame has
     bl_undo_group = "Frame Change"
 
     text: bpy.props.StringProperty(name="Where", description="Place, date or event; empty: the text of Go to")
@@ -98,8 +98,8 @@ class FIRETWIN_OT_go(bpy.types.Operator):
 
 
 def _unknown(panel: bpy.types.PropertyGroup, text: str) -> str:
-    """Why a text leads nowhere."""
-    words = f'"{escaped(text)}" is no known name and no place on the terrain'
+    """Explain why a text is not a destination."""
+    words = f'"{escaped(text)}" is not a known name, nor coordinates on the terrain'
     why = place_names.refusal(panel)
     return f"{words}. {why}" if why else words
 
@@ -111,7 +111,7 @@ def _fly(
     distance: float,
     smooth: bool,
 ) -> None:
-    """Move the view to a point, with the same distance and direction."""
+    """Move the view to a point, keeping its distance and direction."""
     if region.view_perspective == "CAMERA":
         camera = context.scene.camera.matrix_world
         region.view_perspective, region.view_distance = "PERSP", distance
@@ -129,7 +129,7 @@ def _fly(
         part = min((time.monotonic() - began) / _SECONDS, 1.0)
         try:
             _flight_point(region, start, end, part * part * (3.0 - 2.0 * part))
-        except ReferenceError:  # the window or the file is another one
+        except ReferenceError:  # the window was closed, or another file opened
             return None
         return _STEP if part < 1.0 else None
 
@@ -137,7 +137,7 @@ def _fly(
 
 
 def above(stage: owned.Stage, where: Vector, bearing: float, distance: float) -> Quaternion:
-    """Rotation of a view that looks at a point from above the terrain: as flat as that allows."""
+    """Return the rotation of a view that looks at a point from above the terrain, as flat as possible."""
     for tilt in _TILTS:
         turn = Euler((tilt, 0.0, bearing)).to_quaternion()
         eye = where + turn @ Vector((0.0, 0.0, distance))
@@ -153,7 +153,7 @@ def _flight_point(
     end: tuple[Vector, Quaternion, float],
     part: float,
 ) -> None:
-    """Point of the flight at a fraction of its path, with an arc upwards in the middle for orientation."""
+    """Return a point of the flight at a fraction of its path, which arcs upwards for orientation."""
     region.view_location = start[0].lerp(end[0], part)
     region.view_rotation = start[1].slerp(end[1], part)
     over = 0.5 * (end[0] - start[0]).length * 4.0 * part * (1.0 - part)

@@ -1,11 +1,11 @@
 """Task runner: long tasks as generators of steps.
 
-A generator yields one of three values. A text comes before each step that runs in Blender itself.
-`Message(...)` is a message for the user. `InThread(...)` is a function for a thread, which most often waits
-for a worker process; its result is sent back.
+A generator yields one of three values. A text precedes each step that runs in Blender's main thread.
+`Message(...)` is a message for the user. `InThread(...)` is a function to run in a thread, which usually
+waits for a worker process; its result is sent back.
 
-At every yield the user may rename, delete or undo anything, so no data-block is referenced across one:
-`owned.scene` looks the scene up again.
+At every yield the user may rename, delete or undo anything, so no data-block reference is retained across a
+yield: `owned.scene` looks up the scene again.
 """
 
 from __future__ import annotations
@@ -67,9 +67,9 @@ class Job:
     last
         Messages of the previous task.
     touched
-        Whether a step in Blender has run, so that there are changes to undo.
+        True once a step in Blender has run, so that there are changes to undo.
     undone
-        Whether undo or redo was used after that.
+        True if undo or redo was used after that.
     said
         Messages so far.
     """
@@ -89,29 +89,29 @@ class Job:
         self._shown = False
 
     def run(self) -> str:
-        """Run all steps at once; returns the messages."""
+        """Run all steps at once and return the final message."""
         while not self._step(wait=True):
             pass
         return self.told
 
     def advance(self) -> bool:
-        """Run a step or poll the thread, without blocking; returns whether the task has finished."""
+        """Run a step or poll the thread, without blocking; return whether the task has finished."""
         if self._thread is not None and self._thread.is_alive():
             return False
         if self._thread is None and not self._shown:
-            self._shown = True  # so that the next step is on the screen while it runs
+            self._shown = True  # so that the next step is displayed while it runs
             return False
         self._shown = False
         return self._step(wait=False)
 
     def progress(self, done: int, total: int, what: str = "", note: str = "") -> None:
-        """Progress callback of the thread."""
+        """Update the progress (callback of the thread)."""
         if what and what != self.what:
             self.what, self._since = what, time.monotonic()
         self.done, self.total = done, total
 
     def tell(self, text: str) -> None:
-        """Message callback of the thread."""
+        """Add a message (callback of the thread)."""
         self.said.append(Message(text))
 
     @property
@@ -188,7 +188,7 @@ unexpected: list[str] = []
 
 
 def describe_error(error: BaseException) -> str:
-    """One-line message of an error: location and remedy, without a traceback."""
+    """Return a one-line message for an error: location and remedy, without a traceback."""
     return message(_words(error))
 
 
@@ -197,7 +197,7 @@ def _words(error: BaseException) -> str:
         option, _, rest = str(error).partition(": ")
         return f"{option[2:].capitalize()}: {rest}" if option.startswith("--") else str(error)
     if isinstance(error, InputError) and Path(error.path).parent == scene_file.folder():
-        return keys.sentence(error.reason)  # a temporary file that the user does not know
+        return keys.sentence(error.reason)  # the user does not know this temporary file
     if isinstance(error, Error):
         return str(error)
     if isinstance(error, OSError) and error.filename:

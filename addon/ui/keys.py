@@ -1,8 +1,8 @@
 """Blender properties generated from the settings' schema, with its names, units, bounds and help.
 
-Blender stores numbers in single precision, lists of choices without order, and has no property without a
-value. `put` and `take` convert a value there and back. A value that does not survive the conversion is stored
-in the group's `exact` text, and is used while the panel shows the same.
+Blender stores numbers in single precision and lists of choices without order, and has no unset properties.
+`put` and `take` convert values in both directions. A value that does not survive the conversion is stored in
+the group's `exact` text, and is used while the property still shows the converted value.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from ..shot.schema.frame_list import FrameList
 Items = tuple[tuple[str, str, str], ...]
 
 USE = "use_"
-"""Prefix of the property that switches an optional number on."""
+"""Prefix of the property that enables an optional number."""
 
 _SHORT = {"cpu", "edl", "eevee", "fps", "gpu", "lwir", "mwir", "rgb"}  # names in capitals
 _LARGEST = 2**31 - 1  # stored by Blender as an integer
@@ -33,14 +33,14 @@ _RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"}
 
 
 def prop(kind: type, name: str, first: tuple[str, str, str] | None = None, **options: Any) -> Any:
-    """Blender property of the key `name` of a settings dataclass.
+    """Create the Blender property of the key `name` of a settings dataclass.
 
     Parameters
     ----------
     first
-        A further choice (identifier, name, description) before the schema's, which becomes the default.
+        An additional choice (identifier, name, description) before the schema's, which becomes the default.
     options
-        Arguments for `bpy.props` that override those of the schema.
+        Arguments for `bpy.props` that override the schema.
     """
     part = next(part for part in fields(kind) if part.name == name)
     about = {"name": label(name), "description": sentence(part.key.described())}
@@ -51,34 +51,34 @@ def prop(kind: type, name: str, first: tuple[str, str, str] | None = None, **opt
 
 
 def switch(part: Field, **options: Any) -> Any:
-    """Blender property that switches an optional number on; `options` as in `prop`."""
+    """Create the Blender property that enables an optional number; `options` as in `prop`."""
     text = f"Set this value: {part.key.described()}"
     return bpy.props.BoolProperty(name=label(part.name), description=text, default=False, **options)
 
 
 def switched(part: Field) -> bool:
-    """Whether a number is optional and needs a switch; an empty text needs none."""
+    """Return whether a number is optional and needs a switch; empty text needs none."""
     return part.default is None and (part.type in _NUMBERS or typing.get_origin(part.type) is tuple)
 
 
 def items(key: Key) -> Items:
-    """Choices of a key as enumeration items."""
+    """Return the choices of a key as enumeration items."""
     return tuple((name, label(name), sentence(words)) for name, words in key.names().items())
 
 
 def label(name: str) -> str:
-    """``thermal_low`` -> ``Thermal low``, ``rgb`` -> ``RGB``."""
+    """Turn a key into a label: ``thermal_low`` -> ``Thermal low``, ``rgb`` -> ``RGB``."""
     return name.upper() if name in _SHORT else sentence(name.replace("_", " "))
 
 
 def heading(part: Field) -> str:
-    """Label of a key in a panel, with the unit where Blender does not display it after the number."""
+    """Return the panel label of a key, with its unit if Blender does not display it after the number."""
     unit = "UTC" if part.type is datetime else part.key.unit
     return f"{label(part.name)} ({unit})" if unit and unit not in _UNITS else label(part.name)
 
 
 def sentence(text: str) -> str:
-    """Text with a capital first letter; Blender tooltips have no final period."""
+    """Capitalize the first letter and drop the final period, as in Blender tooltips."""
     return text[:1].upper() + text[1:]
 
 
@@ -93,12 +93,12 @@ def put(group: bpy.types.PropertyGroup, part: Field, value: Any) -> None:
 
 
 def take(group: bpy.types.PropertyGroup, part: Field, exact: dict[str, Any] | None = None) -> Any:
-    """The value of the key that a group's property shows.
+    """Return the value of the key that a group's property shows.
 
     Raises
     ------
     Error
-        A typed text is no valid value.
+        A typed text is not a valid value.
     """
     exact = json.loads(group.exact or "{}") if exact is None else exact
     kept = _restored(part, exact[part.name]) if part.name in exact else _ABSENT
@@ -107,12 +107,12 @@ def take(group: bpy.types.PropertyGroup, part: Field, exact: dict[str, Any] | No
 
 
 def shows(group: bpy.types.PropertyGroup, part: Field, value: Any) -> bool:
-    """Whether a property shows this value."""
+    """Return whether a property shows this value."""
     return stored_value(group, part) == _as_shown(part, value)
 
 
 def differs(group: bpy.types.PropertyGroup, part: Field) -> bool:
-    """Whether a property differs from the default."""
+    """Return whether a property differs from its default."""
     return not shows(group, part, part.default)
 
 
@@ -120,14 +120,14 @@ _ABSENT = object()
 
 
 def _stored(value: Any) -> Any:
-    """JSON of a value, without loss."""
+    """Serialize a value to JSON, without loss."""
     if isinstance(value, datetime):
         return value.isoformat()
     return list(value) if isinstance(value, tuple) else str(value) if isinstance(value, Path) else value
 
 
 def _restored(part: Field, stored: Any) -> Any:
-    """Value from `_stored` JSON, if it is valid for the key."""
+    """Restore a value from `_stored` JSON, if it is valid for the key."""
     try:
         if part.type is datetime:
             return datetime.fromisoformat(stored)
@@ -147,7 +147,7 @@ def _show(group: bpy.types.PropertyGroup, part: Field, value: Any) -> None:
 
 
 def stored_value(group: bpy.types.PropertyGroup, part: Field) -> tuple[bool, Any]:
-    """The panel's value: whether it is switched on, and the value as stored by Blender."""
+    """Return the panel's value: whether it is enabled, and the value as stored by Blender."""
     if switched(part) and not getattr(group, USE + part.name):
         return False, None
     value = getattr(group, part.name)
@@ -155,7 +155,7 @@ def stored_value(group: bpy.types.PropertyGroup, part: Field) -> tuple[bool, Any
 
 
 def _as_shown(part: Field, value: Any) -> tuple[bool, Any]:
-    """Result of `shown` for a property set to `value`."""
+    """Return the result of `stored_value` for a property set to `value`."""
     if value is None:
         return (False, None) if switched(part) else (True, "")
     if isinstance(value, datetime):
@@ -175,7 +175,7 @@ def _as_shown(part: Field, value: Any) -> tuple[bool, Any]:
 
 
 def _number(part: Field, value: float) -> float:
-    """A number as stored by Blender: clamped, in single precision."""
+    """Return a number as stored by Blender: clamped, in single precision."""
     low, high = _bounds(part)
     if isinstance(value, int):
         return min(max(value, low if low is not None else -_LARGEST - 1), min(high or _LARGEST, _LARGEST))
@@ -185,7 +185,7 @@ def _number(part: Field, value: float) -> float:
 
 
 def _value(group: bpy.types.PropertyGroup, part: Field) -> Any:
-    """Value of the key from its property only: for numbers the shortest decimal of equal single precision."""
+    """Return the key's value from its property: numbers as the shortest equal decimal (float32)."""
     use, value = stored_value(group, part)
     if not use:
         return None
@@ -214,10 +214,10 @@ def _listed(part: Field, text: str) -> tuple[Any, ...]:
         listed = json.loads(f"[{text}]")
     except ValueError:
         if kind is not str:
-            raise Error(f'{label(part.name)}: "{text}" is no list; write numbers with commas') from None
+            raise Error(f'{label(part.name)}: "{text}" is not a list; separate numbers with commas') from None
         listed = [each for word in text.split(",") if (each := word.strip().strip('"').strip())]
     if not all(type(each) in ((int, float) if kind is float else (kind,)) for each in listed):
-        raise Error(f'{label(part.name)}: "{text}" is no valid list: {part.key.described()}')
+        raise Error(f'{label(part.name)}: "{text}" is not a valid list: {part.key.described()}')
     return tuple(kind(each) for each in listed)
 
 
@@ -226,7 +226,7 @@ def _moment(part: Field, text: str) -> datetime:
     try:
         moment = datetime.fromisoformat(text.strip())
     except ValueError:
-        reason = f'"{text}" is no date and time; write it as 2014-09-17 21:30'
+        reason = f'"{text}" is not a date and time; write it as 2014-09-17 21:30'
         raise Error(f"{label(part.name)}: {reason}") from None
     return moment.astimezone(UTC) if moment.tzinfo else moment.replace(tzinfo=UTC)
 
@@ -239,14 +239,14 @@ def _choice(part: Field, first: tuple[str, str, str] | None) -> dict[str, Any]:
 
 
 def _bounds(part: Field) -> tuple[float | None, float | None]:
-    """Bounds of the number property; an exclusive bound of 0 becomes a small positive number."""
+    """Return the bounds of the number property; an exclusive bound of 0 becomes a small positive number."""
     key = part.key
     above = None if key.above is None else key.above + (1 if part.type is int else 1.0e-4)
     return key.at_least if key.at_least is not None else above, key.at_most
 
 
 def _plain(part: Field) -> tuple[Any, dict[str, Any]]:
-    """Property type and arguments of a key without choices."""
+    """Return property type and arguments of a key without choices."""
     kind, inner = part.type, typing.get_args(part.type)
     default = None if part.default is None else _as_shown(part, part.default)[1]
     if kind is bool:

@@ -1,4 +1,4 @@
-"""Landmarks: where the fire began and where its head is at each frame, stored with the scene at a build."""
+"""Landmarks: the ignition, and the head of the fire at each frame, stored with the scene at a build."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from ..shot.stations.station_signs import Moving
 
 HEAD, IGNITION = "Head of the fire", "Ignition"
 
-_KNOTS = 49  # positions of the head that are stored; it is linear between
+_KNOTS = 49  # stored positions of the head, interpolated linearly
 _WORDS = {"head": HEAD, "head of the fire": HEAD, "ignition": IGNITION}
 
 
 def store(panel: bpy.types.PropertyGroup, found: Moving) -> None:
-    """Store them in the .blend file."""
+    """Store the landmarks in the .blend file."""
     frames = np.unique(np.linspace(0, len(found.head) - 1, _KNOTS).round().astype(int))
     ignition = None if found.ignition is None else np.round(found.ignition, 1).tolist()
     head = np.round(found.head[frames], 1).tolist()
@@ -27,12 +27,12 @@ def store(panel: bpy.types.PropertyGroup, found: Moving) -> None:
 
 
 def forget(panel: bpy.types.PropertyGroup) -> None:
-    """Nothing is built."""
+    """Delete the landmarks, because nothing is built."""
     panel.landmarks = ""
 
 
 def known(panel: bpy.types.PropertyGroup) -> list[str]:
-    """Names of those that the scene has."""
+    """Return the names of the scene's landmarks."""
     found = _read(panel.landmarks)
     if not found or found["ignition"] is None:
         return []
@@ -40,7 +40,7 @@ def known(panel: bpy.types.PropertyGroup) -> list[str]:
 
 
 def find(panel: bpy.types.PropertyGroup, text: str) -> Vector | None:
-    """Position in the scene of the head at the current frame, or of the ignition, by name."""
+    """Return the scene position of the head at the current frame, or of the ignition, by name."""
     name = _WORDS.get(text.strip().lower())
     if name not in known(panel):
         return None
@@ -50,7 +50,7 @@ def find(panel: bpy.types.PropertyGroup, text: str) -> Vector | None:
 
 
 def track(panel: bpy.types.PropertyGroup) -> NDArray[np.float64]:
-    """Positions (frames, 3) of the head, above the ground."""
+    """Return positions (frames, 3) of the head, above the ground."""
     found = _read(panel.landmarks)
     head, every = np.array(found["head"]), np.arange(1, panel.frames + 1)
     return np.stack([np.interp(every, found["frames"], head[:, axis]) for axis in range(3)], axis=-1)

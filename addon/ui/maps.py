@@ -1,4 +1,4 @@
-"""Thumbnail maps of the run's fuel and fire in the sidebar; drawn when a run is read, then cached."""
+"""Thumbnail maps of the run's fuel and fire in the sidebar, drawn when a run is read, then cached."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _kept: dict[str, bpy.utils.previews.ImagePreviewCollection] = {}
 
 
 def show(run: str, images: Images) -> None:
-    """Replace all maps by those of a run folder."""
+    """Replace all maps with the maps of a run folder."""
     forget()
     kept = _kept[run] = bpy.utils.previews.new()
     for name, pixels in images.items():
@@ -24,7 +24,7 @@ def show(run: str, images: Images) -> None:
 
 
 def icon(run: str, name: str) -> int:
-    """Icon number of a map of a run folder; 0: none is drawn."""
+    """Return the icon number of a map of a run folder; 0 if it is not drawn yet."""
     kept = _kept.get(run)
     return kept[name].icon_id if kept is not None and name in kept else 0
 

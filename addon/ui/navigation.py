@@ -16,14 +16,14 @@ from . import camera_edits, camera_list, choice, job, keys, run, working
 from .job import InThread, Message, Steps
 from .working import Working
 
-_AHEAD = 2000.0  # m, distance of the view's target where its ray misses the terrain
-_SENSOR = 36.0  # mm, focal length that stands in for a view
+_AHEAD = 2000.0  # m, distance of the view's target if its ray misses the terrain
+_SENSOR = 36.0  # mm, sensor width assumed for a view
 
-_kinds: list[tuple[str, str, str]] = []  # Blender holds no reference of its own to these texts
+_kinds: list[tuple[str, str, str]] = []  # Blender does not hold a reference to these texts
 
 
 def space(context: bpy.types.Context) -> bpy.types.SpaceView3D | None:
-    """The 3D view whose sidebar was clicked, or one of the window; None without any."""
+    """Return the 3D view whose sidebar was clicked, or one of the window; None without any."""
     if context.space_data is not None and context.space_data.type == "VIEW_3D":
         return context.space_data
     areas = context.window.screen.areas if context.window is not None else ()
@@ -31,9 +31,9 @@ def space(context: bpy.types.Context) -> bpy.types.SpaceView3D | None:
 
 
 def eye(context: bpy.types.Context) -> tuple[Matrix, float, float]:
-    """The 3D view as a camera: matrix, and a focal length and sensor (mm) of equal field of view."""
+    """Return the 3D view as a camera: matrix, and focal length and sensor (mm) of the same field of view."""
     shown, camera = space(context), context.scene.camera
-    region = shown.region_3d if shown is not None else None  # the sidebar's own region has none
+    region = shown.region_3d if shown is not None else None  # the sidebar's region has none
     if shown is None or region is None or (region.view_perspective == "CAMERA" and camera is not None):
         return camera.matrix_world.copy(), camera.data.lens, camera.data.sensor_width
     matrix = region.view_matrix.inverted()
@@ -44,7 +44,7 @@ def eye(context: bpy.types.Context) -> tuple[Matrix, float, float]:
 
 
 def view(stage: owned.Stage, matrix: Matrix, lens: float, sensor: float) -> View:
-    """View from this camera, from which rigs are created."""
+    """Create the view of this camera, from which rigs are created."""
     frame = read_edits.built_frame(stage)
     place, turn = read_edits.matrix_pose(matrix)
     met = ground_raycast.cast_ray(stage, place, -turn[:, 2])
@@ -68,7 +68,7 @@ def view(stage: owned.Stage, matrix: Matrix, lens: float, sensor: float) -> View
 
 
 def can_navigate(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
-    """Whether there is a built scene to navigate; otherwise sets the poll message."""
+    """Return whether there is a built scene to navigate; otherwise set the poll message."""
     if not working.editable(cls, context):
         return False
     if not context.scene.firetwin.first_time:
@@ -77,7 +77,7 @@ def can_navigate(cls: type[bpy.types.Operator], context: bpy.types.Context) -> b
 
 
 def has_editable_camera(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
-    """Whether the scene has an editable camera; otherwise sets the poll message."""
+    """Return whether the scene has an editable camera; otherwise set the poll message."""
     if not working.editable(cls, context):
         return False
     obj = context.scene.camera
@@ -91,7 +91,7 @@ def has_editable_camera(cls: type[bpy.types.Operator], context: bpy.types.Contex
 
 
 def kind_items(self: object, context: bpy.types.Context) -> list[tuple[str, str, str]]:
-    """Kinds of camera; the one with exactly the view's pose comes first."""
+    """Return the kinds of camera; the kind with exactly the view's pose comes first."""
     names = sorted(rigs.kinds(), key=lambda name: name != "poses")
     _kinds[:] = [(name, keys.label(name), _first_line(rigs.kinds()[name])) for name in names]
     return _kinds
@@ -115,7 +115,7 @@ class FIRETWIN_OT_camera_add(Working, bpy.types.Operator):
         return can_navigate(cls, context) and run.ready(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """Write its table, then rebuild the cameras."""
+        """Add the camera's settings, then rebuild the cameras."""
         from ..scene import build
 
         scene, kind = context.scene, self.kind
@@ -192,7 +192,7 @@ class FIRETWIN_OT_camera_key(bpy.types.Operator):
         return {"FINISHED"}
 
     def _warn(self, stage: owned.Stage, obj: bpy.types.Object) -> None:
-        """Warn of frames between keyframes at which the terrain is too close."""
+        """Warn about frames between keyframes in which the terrain is too close."""
         frames = stage.scene.firetwin.frames
         size = stage.scene.render.resolution_x, stage.scene.render.resolution_y
         places = read_edits.evaluate_path(stage.scene, obj, frames, size).place
@@ -206,7 +206,7 @@ class FIRETWIN_OT_camera_key(bpy.types.Operator):
 
 
 class FIRETWIN_OT_camera_lens(bpy.types.Operator):
-    """Set lens and sensor of the scene's camera to those of a drone, thermal or film camera"""
+    """Set lens and sensor of the scene's camera to a drone, thermal or film camera"""
 
     bl_idname = "firetwin.camera_lens"
     bl_label = "Lens and sensor"
@@ -220,7 +220,7 @@ class FIRETWIN_OT_camera_lens(bpy.types.Operator):
 
     @classmethod
     def description(cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """The tooltip."""
+        """Return the tooltip."""
         return LENSES[properties.preset].about
 
     @classmethod
@@ -275,7 +275,7 @@ class FIRETWIN_PT_flying(bpy.types.Panel):
         )
         column.prop(scene, "camera", text="")
         row = column.row(align=True)
-        row.operator_context = "INVOKE_REGION_WIN"  # the sidebar is no view
+        row.operator_context = "INVOKE_REGION_WIN"  # the sidebar is not a view
         row.operator("view3d.walk", text="Walk", icon="VIEW_PAN")
         row.operator("view3d.fly", text="Fly", icon="ORIENTATION_GIMBAL")
         column.operator(FIRETWIN_OT_camera_key.bl_idname, icon="KEY_HLT")

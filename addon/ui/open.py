@@ -25,8 +25,8 @@ class FIRETWIN_OT_open(foreign.Said, bpy.types.Operator, ImportHelper):
     bl_label = "Open run"
     bl_description = (
         "Open a run (its run.toml or its folder), a scene file, or all files of a fire model's run. "
-        "A fire model's files are converted to a run beside them. Opening another run resets time window and "
-        "cameras; the field Run keeps them"
+        "A fire model's files are converted to a run next to them. Opening another run resets the time "
+        "window and cameras; the field Run does not"
     )
     bl_options = {"UNDO"}
 
@@ -60,7 +60,7 @@ class FIRETWIN_OT_open(foreign.Said, bpy.types.Operator, ImportHelper):
         return {"FINISHED"}
 
     def _convert(self, panel: bpy.types.PropertyGroup) -> set[str]:
-        """Convert a fire model's own files to a run."""
+        """Convert a fire model's files to a run."""
         words = {name: getattr(self, name) for name in ("filepath", "directory", "start", "at", "projection")}
         files = [{"name": file.name} for file in self.files]
         try:
@@ -91,9 +91,10 @@ class FIRETWIN_OT_export(bpy.types.Operator, ExportHelper):
 
 
 class FIRETWIN_FH_open(bpy.types.FileHandler):
-    """A run.toml, a scene file or a fire model's own files dropped on a 3D view
+    """A run.toml, a scene file or a fire model's files dropped on a 3D view
 
-    GeoTIFF, which is Blender's own too, and wrfout files, whose names have no end, are opened by the menu.
+    GeoTIFF, which Blender also handles, and wrfout files, which have no file extension, are opened from the
+    menu.
     """
 
     bl_idname = "FIRETWIN_FH_open"
@@ -103,7 +104,7 @@ class FIRETWIN_FH_open(bpy.types.FileHandler):
 
     @classmethod
     def poll_drop(cls, context: bpy.types.Context) -> bool:
-        """Whether the pointer is over a 3D view."""
+        """Return whether the pointer is over a 3D view."""
         return context.area is not None and context.area.type == "VIEW_3D"
 
 
@@ -116,7 +117,7 @@ class FIRETWIN_OT_sample(Working, bpy.types.Operator):
 
     folder: bpy.props.StringProperty(
         name="Folder",
-        description="Output folder of the run; empty: Firetwin's own folder",
+        description="Output folder of the run; empty: Firetwin's folder",
         subtype="DIR_PATH",
         options={"SKIP_SAVE"},
     )
@@ -126,7 +127,7 @@ class FIRETWIN_OT_sample(Working, bpy.types.Operator):
         return working.editable(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """Write it in a worker process, unless it exists; then inspect it."""
+        """Write the run in a worker process, unless it exists; then inspect it."""
         from ..jobs import sample
 
         uid = context.scene.session_uid
@@ -149,7 +150,7 @@ class FIRETWIN_MT_add(bpy.types.Menu):
 
 
 def entries(layout: bpy.types.UILayout) -> None:
-    """Menu entries that open a run."""
+    """Draw menu entries that open a run."""
     layout.operator_context = "INVOKE_DEFAULT"
     layout.operator(FIRETWIN_OT_open.bl_idname, text="Open run...", icon="FILEBROWSER")
     layout.operator(FIRETWIN_OT_sample.bl_idname, icon="LIGHT_SUN")

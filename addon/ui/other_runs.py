@@ -1,4 +1,4 @@
-"""Comparison runs of the scene file in the .blend file: `scene.firetwin.runs`, an item for each."""
+"""Comparison runs of the scene file in the .blend file: `scene.firetwin.runs`, one item per run."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ FIRETWIN_PG_otherrun = sections.group(OtherRun)
 
 
 def runs(panel: bpy.types.PropertyGroup) -> tuple[OtherRun, ...]:
-    """All comparison runs in their order."""
+    """Return all comparison runs in order."""
     return tuple(sections.take(item, fields(OtherRun), OtherRun()) for item in panel.runs)
 
 
 def fill(panel: bpy.types.PropertyGroup, found: Iterable[OtherRun]) -> None:
-    """Replace the list by these runs."""
+    """Replace the list with these runs."""
     panel.runs.clear()
     for each in found:
         sections.put(panel.runs.add(), fields(OtherRun), each)

@@ -1,4 +1,4 @@
-"""Order of the sidebar's panels after Run, Scene and Time, and titles of those generated from the schema."""
+"""Order of the sidebar's panels after Run, Scene and Time, and titles of the generated panels."""
 
 from . import keys
 
@@ -6,5 +6,5 @@ SECTIONS, CAMERAS, SENSORS, RENDER, REPORT = 3, 30, 31, 40, 50
 
 
 def title(section: str) -> str:
-    """Title of the panel for a section of a scene file."""
+    """Return the panel title of a section of a scene file."""
     return {"thermal": "Sensors"}.get(section, keys.label(section))

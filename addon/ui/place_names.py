@@ -1,4 +1,4 @@
-"""Place names: the user's list of [labels], or else the known places of the run's fire."""
+"""Place names: the user's list in [labels], or else the known places of the run's fire."""
 
 from __future__ import annotations
 
@@ -18,23 +18,23 @@ from . import run, sections
 
 
 def refusal(panel: bpy.types.PropertyGroup) -> str:
-    """Why place names must not be searched beside the panel's tiles; empty: they may."""
+    """Explain why the tiles' policy forbids a search for place names; empty if it is allowed."""
     parts = tuple(part for part in fields(TileSettings) if part.name == "sources")
     try:
         sources = sections.take(panel.tiles, parts, TileSettings()).sources
-    except Error:  # a text that is half typed
+    except Error:  # an incomplete text
         return ""
     for place in sources:
         policy = policies.of_place(place)
         if not policy.other_geocoder:
-            return f"{policy.name} allows no other gazetteer than its own; coordinates work"
+            return f"{policy.name} allows no other gazetteer; type coordinates"
     return ""
 
 
 def known(panel: bpy.types.PropertyGroup) -> tuple[labels.Label, ...]:
-    """All place names; empty if the user's list cannot be read, which building the labels reports.
+    """Return all place names; empty if the user's list is invalid, which the labels' build reports.
 
-    Also empty where a policy of tiles forbids the search (see `refusal`).
+    Also empty if a policy of tiles forbids the search (see `refusal`).
     """
     if refusal(panel):
         return ()
@@ -49,7 +49,7 @@ def known(panel: bpy.types.PropertyGroup) -> tuple[labels.Label, ...]:
 
 
 def stations(panel: bpy.types.PropertyGroup) -> tuple[Station, ...]:
-    """Stations of the user's file; empty if it cannot be read, which building them reports."""
+    """Return stations of the user's file; empty if it is invalid, which building them reports."""
     if not panel.stations.file:
         return ()
     path = Path(bpy.path.abspath(panel.stations.file))
@@ -70,7 +70,7 @@ def _read(path: Path, changed: int) -> tuple[labels.Label, ...]:
 
 
 def find(panel: bpy.types.PropertyGroup, text: str) -> labels.Label | Station | None:
-    """The place or station of this name, or the first whose name contains it."""
+    """Return the place or station of this name, or the first whose name contains it."""
     wanted = text.strip().lower()
     every: list[labels.Label | Station] = [*known(panel), *stations(panel)]
     matches = [place for place in every if wanted and wanted in place.name.lower()]

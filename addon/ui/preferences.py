@@ -9,7 +9,7 @@ from . import keys
 
 _PACKAGE = __package__.rpartition(".")[0]
 AS_FILE = ("scene", "As in the scene", "Device of the scene's settings")
-"""Choice of the scene file's own value."""
+"""Option to use the scene file's value."""
 
 
 class FIRETWIN_AP_preferences(bpy.types.AddonPreferences):
@@ -26,7 +26,7 @@ class FIRETWIN_AP_preferences(bpy.types.AddonPreferences):
 
 
 def device() -> str:
-    """Render device of Cycles for `source.ShotSource`: empty for the scene file's."""
+    """Return the Cycles render device for `source.ShotSource`; empty: the scene file's."""
     addon = bpy.context.preferences.addons.get(_PACKAGE)
     chosen = addon.preferences.device if addon is not None and addon.preferences is not None else AS_FILE[0]
     return "" if chosen == AS_FILE[0] else chosen

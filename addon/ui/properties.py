@@ -48,8 +48,8 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings, *room_panels.propert
     cache: keys.prop(
         Settings,
         "cache",
-        description="Folder of smoke volumes, kept and reused; empty: in the output folder, or "
-        "in Firetwin's own folder if the .blend file is not saved",
+        description="Folder of smoke volumes, which are reused; empty: in the output folder, or "
+        "in Firetwin's folder if the .blend file is not saved",
         default="",
         options=_BLEND_RELATIVE,
     )
@@ -98,7 +98,7 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings, *room_panels.propert
         name="Go to",
         description="Latitude and longitude (38.82 -120.55 or 38 49 12 N 120 33 0 W), a station, place or "
         "object by name, head or ignition, a date and time (2014-09-17 15:30, in the zone of the film), or "
-        "words of an event",
+        "text of an event",
         options={"SKIP_SAVE"},
     )
     go_smoothly: bpy.props.BoolProperty(

@@ -39,7 +39,7 @@ _STEPS: dict[str, tuple[str, tuple[Any, ...]]] = {
     ),
 }
 LEVELS = {name: dict(zip(_MOVED, values, strict=True)) for name, (_, values) in _STEPS.items()}
-"""Settings by section and key, of each level of quality."""
+"""Settings by section and key, for each quality level."""
 
 _ITEMS = [(name, keys.label(name), words) for name, (words, _) in _STEPS.items()]
 
@@ -50,7 +50,7 @@ _NOT_SAVED = {
         *("photo_url", "photo_layer", "photo_level", "photo_credit"),
     ),
 }
-"""Settings of a run, which presets leave out."""
+"""Settings specific to a run, which presets omit."""
 
 
 def apply(panel: bpy.types.PropertyGroup, level: str) -> None:
@@ -61,7 +61,7 @@ def apply(panel: bpy.types.PropertyGroup, level: str) -> None:
 
 
 def level(panel: bpy.types.PropertyGroup) -> str:
-    """Current quality level of the panel; empty: none."""
+    """Return the current quality level of the panel; empty: none."""
     for each, values in LEVELS.items():
         if all(keys.shows(*_found(panel, *place), value) for place, value in values.items()):
             return each
@@ -89,7 +89,7 @@ class FIRETWIN_OT_quality(bpy.types.Operator):
 
     @classmethod
     def description(cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """The tooltip."""
+        """Return the tooltip."""
         return f"{_STEPS[properties.level][0]}. Rebuild the scene to apply it"
 
     @classmethod
@@ -118,7 +118,7 @@ class FIRETWIN_OT_preset(AddPresetBase, bpy.types.Operator):
 
     @property
     def preset_values(self) -> list[str]:
-        """Values of a preset: every setting except those of a run."""
+        """Return the values of a preset: every setting that is not specific to a run."""
         saved = ["firetwin.seed"]
         for section in sections.sections():
             names = [
@@ -150,7 +150,7 @@ class FIRETWIN_MT_presets(bpy.types.Menu):
 
 
 def draw(layout: bpy.types.UILayout, panel: bpy.types.PropertyGroup) -> None:
-    """Draw the quality levels, the current one pressed, and the presets."""
+    """Draw the quality levels, with the current one pressed, and the presets."""
     row = layout.row(align=True)
     row.enabled = job.Job.current is None
     here = level(panel)

@@ -1,4 +1,4 @@
-"""Render queue: background renders one after the other, each of a copy of the file when it was queued."""
+"""Render queue: background renders in sequence, each of a copy of the file made when it was queued."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ class Item:
     Attributes
     ----------
     folder
-        Temporary, with the copy of the file in it.
+        Temporary folder with the copy of the file.
     resume
-        Whether some of it is finished already.
+        True if some of it is already finished.
     finished
         Pictures to show, in order of completion.
     """
@@ -60,7 +60,7 @@ class Item:
 
     @property
     def blend(self) -> Path:
-        """The copy of the file."""
+        """Copy of the file."""
         return self.folder / "scene.blend"
 
     @property
@@ -82,7 +82,7 @@ class Item:
         return f"{words}, {duration(left)} left"
 
     def start(self) -> None:
-        """Start rendering in a thread, which waits for the worker process."""
+        """Start rendering in a thread that waits for the worker process."""
         self.state, self.told, self.stop = RENDERING, "", worker.Stop()
         self.began = self.began or time.time()
         asked = RenderRequest(**{**vars(self.asked), "resume": self.resume})
@@ -127,7 +127,7 @@ class Item:
         self.finished += sorted(new, key=lambda path: path.stat().st_mtime)
 
     def drop(self) -> None:
-        """Cancel it, and remove the copy of the file."""
+        """Cancel the render, and remove the copy of the file."""
         self.stop.now()
         if self._thread is not None:
             self._thread.join(timeout=5.0)
@@ -144,7 +144,7 @@ def add(title: str, scene: bpy.types.Scene, choice: ShotSource, asked: RenderReq
     Raises
     ------
     RuntimeError
-        It cannot be saved.
+        The copy cannot be saved.
     """
     folder = Path(tempfile.mkdtemp(prefix="firetwin-render-"))
     item = Item(title, folder, scene.name, choice, asked, render)
@@ -169,7 +169,7 @@ def start_timer() -> None:
 
 
 def current() -> Item | None:
-    """The item being rendered."""
+    """Return the item being rendered."""
     return next((item for item in items if item.state == RENDERING), None)
 
 
@@ -180,7 +180,7 @@ def advance() -> None:
 
 
 def pause(item: Item) -> None:
-    """Pause it; finished pictures are retained, and `go_on` renders the rest."""
+    """Pause an item; finished pictures remain, and `go_on` renders the rest."""
     if item.state == RENDERING:
         item.stop.now()
     elif item.state == WAITING:
@@ -188,13 +188,13 @@ def pause(item: Item) -> None:
 
 
 def go_on(item: Item) -> None:
-    """Resume: put it back into the queue."""
+    """Resume an item by returning it to the queue."""
     if item.state in (PAUSED, FAILED):
         item.state = WAITING
 
 
 def remove(item: Item) -> None:
-    """Remove it from the queue."""
+    """Remove an item from the queue."""
     items.remove(item)
     item.drop()
 
@@ -211,7 +211,7 @@ def clear() -> None:
 
 
 def thumbnails(item: Item) -> list[tuple[str, int]]:
-    """Names and icons of the last finished pictures."""
+    """Return names and icons of the last finished pictures."""
     from bpy.utils import previews
 
     if "" not in _pictures:

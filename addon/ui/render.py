@@ -14,11 +14,11 @@ from .text import paragraph
 from .working import Working
 
 NO_OUTPUT = "Save the .blend file or choose an output folder first"
-_items: list[tuple[str, str, str]] = []  # Blender holds no reference of its own to these texts
+_items: list[tuple[str, str, str]] = []  # Blender does not hold a reference to these texts
 
 
 def camera_items(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> list[tuple[str, str, str]]:
-    """Enumeration items: all cameras, or one of the list."""
+    """Return enumeration items: all cameras, or one of the list."""
     _items[:] = [
         ("*", "All cameras", "Every camera of the scene"),
         *((item.name, item.name, f"The camera {item.name}") for item in settings.cameras),

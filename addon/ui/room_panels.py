@@ -21,6 +21,6 @@ properties = tuple(panel.properties for panel in panels)
 
 
 def unregister() -> None:
-    """End what the panels have started."""
+    """Call `unregister` of all panels."""
     for panel in panels:
         panel.unregister()

@@ -1,4 +1,4 @@
-"""Setting row in the sidebar: label, value, and a reset button where it differs from its default."""
+"""Setting row in the sidebar: label, value, and a reset button if the value differs from its default."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from . import keys, sections, working
 from .text import labelled
 
 _LABEL = 0.48  # fraction of the width
-_LETTERS = 17  # characters of a label that fits into it, in a sidebar of the default width
+_LETTERS = 17  # characters of a label that fit, in a sidebar of default width
 
 
 def key(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Field, section: str) -> None:
-    """A key on one line, or on two where its value is long."""
+    """Draw a key on one line, or on two if its value is long."""
     row = layout.row(align=True)
     shown = _value(row, group, part)
     mark = shown.row(align=True)
@@ -26,7 +26,7 @@ def key(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Field,
 
 
 def _value(row: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Field) -> bpy.types.UILayout:
-    """Draw the label and the value; returns the row for the reset button."""
+    """Draw the label and the value; return the row for the reset button."""
     text = keys.heading(part)
     if part.type is bool:
         row.prop(group, part.name, text=text)
@@ -52,7 +52,7 @@ def _value(row: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Field)
 
 
 def _long(part: Field) -> bool:
-    """Whether a key needs the width of the sidebar: paths, times, lists, and labels that need it."""
+    """Return whether a key needs the sidebar's full width: paths, times, lists, and long labels."""
     if part.type in (int, float):
         return len(keys.heading(part)) > _LETTERS and not keys.switched(part)
     return part.type is not str or part.key.choices is None

@@ -21,7 +21,7 @@ from .working import Working
 
 
 def chosen(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """Update callback: inspect another run folder."""
+    """Inspect another run folder (update callback)."""
     changed_settings.compare(settings)
     if job.Job.current is not None:
         return
@@ -32,7 +32,7 @@ def chosen(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> Non
 
 
 def imported(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """Update callback: fill the panel from another scene file."""
+    """Fill the panel from another scene file (update callback)."""
     if job.Job.current is not None or not settings.scene_file:
         return
     try:
@@ -43,7 +43,7 @@ def imported(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> N
 
 
 def _inspect(settings: bpy.types.PropertyGroup) -> None:
-    """Inspect a run, or convert a model's own files; errors go into `problem` and are not raised."""
+    """Inspect a run, or convert a model's files; errors go into `problem` and are not raised."""
     folder = Path(bpy.path.abspath(settings.run))
     try:
         with bpy.context.temp_override(scene=settings.id_data):
@@ -56,7 +56,7 @@ def _inspect(settings: bpy.types.PropertyGroup) -> None:
 
 
 def ready(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
-    """Whether there is a run and no task is running; otherwise sets the poll message."""
+    """Return whether there is a run and no task is running; otherwise set the poll message."""
     settings = context.scene.firetwin
     if not settings.run:
         cls.poll_message_set("Open a run or a scene file first")
@@ -95,7 +95,7 @@ def look(uid: int) -> Steps:
         yield InThread("reading the run", lambda **_: chosen.shot())
         yield from solve.price(uid)
     except StoppedError:
-        owned.scene(uid).firetwin.problem = "The run was read only in part; use Read run"
+        owned.scene(uid).firetwin.problem = "The run was only partly read; use Read run"
         raise
     except Exception as error:
         owned.scene(uid).firetwin.problem = job.describe_error(error)
@@ -104,7 +104,7 @@ def look(uid: int) -> Steps:
 
 
 def facts(folder: Path) -> tuple[dict[str, Any], maps.Images]:
-    """Facts of a run for the panel: name, rows, warnings, dated events, framing; and its maps."""
+    """Collect facts of a run for the panel: name, rows, warnings, dated events, framing; and its maps."""
     from ..run import info, labels, thumbnails, zone
 
     run = readers.open(folder)
@@ -126,7 +126,7 @@ def facts(folder: Path) -> tuple[dict[str, Any], maps.Images]:
 
 
 def _moments(found: dict[str, Any]) -> list[tuple[str, str]]:
-    """Dated events: start and end of the run, and reports between."""
+    """Return dated events: start and end of the run, and reports in between."""
     from ..run import info
 
     reports = (
@@ -139,7 +139,7 @@ def _moments(found: dict[str, Any]) -> list[tuple[str, str]]:
 
 
 def _burned(found: dict[str, Any]) -> list[tuple[str, str, str]]:
-    """Burned areas: date, reported area, and the run's area with its difference."""
+    """Return burned areas: date, reported area, and the run's area with its difference."""
     from ..run import info, times
 
     return [
@@ -155,7 +155,7 @@ def _burned(found: dict[str, Any]) -> list[tuple[str, str, str]]:
 
 @functools.lru_cache(maxsize=8)
 def read(text: str) -> dict[str, Any]:
-    """Facts from the text stored in the .blend file."""
+    """Parse the facts stored as text in the .blend file."""
     return json.loads(text)
 
 
@@ -189,7 +189,7 @@ class FIRETWIN_PT_run(bpy.types.Panel):
 
 
 def _hint(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
-    """Hint for the first step."""
+    """Draw a hint for the first step."""
     paragraph(context, layout.column(align=True), "Open a run, or try the synthetic King Fire.", "INFO")
     row = layout.column(align=True)
     row.operator("firetwin.open", text="Open run...", icon="FILEBROWSER")

@@ -1,6 +1,6 @@
 """Scene file of the panel: its values as settings, import and export.
 
-Build and render always use the scene file that the panel would export: `written` writes it, and the jobs get
+Build and render always use the scene file that the panel would export: `written` writes it, and jobs receive
 its path.
 """
 
@@ -20,12 +20,12 @@ from . import camera_edits, camera_list, keys, other_runs, sections
 
 
 def settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Settings:
-    """Validated settings of a scene's panel, as those of the file `path`.
+    """Return the validated settings of a scene's panel, as if read from the file `path`.
 
     Raises
     ------
     Error
-        What is wrong, in the terms of the panel.
+        A value is invalid; the message uses the panel's labels.
     """
     panel = scene.firetwin
     cache = panel.cache or output(panel, "cache") or own_folder() / "cache"
@@ -53,25 +53,25 @@ def fill(scene: bpy.types.Scene, whole: Settings) -> None:
 
 
 def _beside(path: Path, place: str) -> str:
-    """A tileset's place; what lies beside the scene file gets its whole path."""
+    """Return a tileset's location; a path relative to the scene file becomes absolute."""
     near = path.absolute().parent / place
     return str(near) if near.exists() else place
 
 
 def output(panel: bpy.types.PropertyGroup, *inside: str) -> str:
-    """The output folder, or its default; empty while it depends on an unsaved .blend file."""
+    """Return the output folder, or its default; empty while it depends on an unsaved .blend file."""
     return resolved(panel.output, *inside)
 
 
 def resolved(folder: str, *inside: str) -> str:
-    """Path of a folder's property; empty while it depends on an unsaved .blend file."""
+    """Return the path in a folder property; empty while it depends on an unsaved .blend file."""
     if folder.startswith("//") and not bpy.data.filepath:
         return ""
     return str(Path(bpy.path.abspath(folder), *inside)) if folder else ""
 
 
 def own_folder() -> Path:
-    """Folder of Firetwin's own files on this computer, which is removed with the extension."""
+    """Return the folder of Firetwin's files on this computer, which is removed with the extension."""
     try:
         return Path(bpy.utils.extension_path_user(__package__.rpartition(".")[0]))
     except ValueError:  # not installed as an extension
@@ -81,7 +81,7 @@ def own_folder() -> Path:
 def export(scene: bpy.types.Scene, path: Path) -> None:
     """Write the panel's settings, with manual edits of cameras, as a scene file.
 
-    In an existing file only changed values are written; its comments and layout stay.
+    In an existing file only changed values are written; its comments and layout do not change.
 
     Raises
     ------
@@ -95,24 +95,24 @@ def export(scene: bpy.types.Scene, path: Path) -> None:
 
 
 def folder() -> Path:
-    """Temporary folder of scene files for jobs, until Blender ends."""
+    """Return the temporary folder of scene files for jobs, which exists until Blender ends."""
     return Path(bpy.app.tempdir) / "firetwin"
 
 
 def written(scene: bpy.types.Scene) -> Path:
-    """Path of the panel's scene file, written for a job; its name changes with its text."""
+    """Write the panel's scene file for a job; its name contains a digest of its text."""
     text = scene_file.text(settings(scene, folder() / "scene.toml"))
     return _kept(folder() / f"{_digest(text)}.toml", text)
 
 
 def beside(scene: bpy.types.Scene) -> tuple[Path, bool]:
-    """The panel's scene file beside the saved .blend file, for other computers.
+    """Write the panel's scene file next to the saved .blend file, for other computers.
 
-    Its name changes with its text: what is written later does not change the scene of an earlier job.
+    Its name contains a digest of its text, so that later changes do not affect the scene of an earlier job.
 
     Returns
     -------
-    path, whether it was not there before
+    path, whether it is new
     """
     blend = Path(bpy.data.filepath)
     text = scene_file.text(settings(scene, blend.with_suffix(".toml")))

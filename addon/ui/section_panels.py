@@ -10,13 +10,13 @@ from ..scene.build import PARTS
 from ..shot.schema import Field, fields
 from . import build, job, keys, panel_order, rows, sections
 
-_OWN = ("time",)  # drawn by a panel of its own
+_OWN = ("time",)  # drawn by a separate panel
 _BELOW = {"render": "FIRETWIN_PT_render"}  # sections inside another panel
 _LATE = ("thermal",)  # after the cameras
 
 
 def draw(layout: bpy.types.UILayout, panel: bpy.types.PropertyGroup, name: str) -> None:
-    """Draw every key of a section; those that differ from their default have a reset button."""
+    """Draw every key of a section; keys that differ from their default have a reset button."""
     section = next(part for part in sections.sections() if part.name == name)
     group = getattr(panel, name)
     column = layout.column(align=False)
@@ -27,7 +27,7 @@ def draw(layout: bpy.types.UILayout, panel: bpy.types.PropertyGroup, name: str) 
 
 
 def _panel(section: Field, place: int) -> type[bpy.types.Panel]:
-    """Panel class of a section; a part that can be built on its own has a rebuild button in its header."""
+    """Create the panel class of a section, with a rebuild button if its part can be built separately."""
     name = section.name
 
     def drawn(self: bpy.types.Panel, context: bpy.types.Context) -> None:

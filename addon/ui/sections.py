@@ -1,7 +1,7 @@
 """Settings in the .blend file: a property group per section of a scene file, generated from the schema.
 
-`scene.firetwin.forest.budget` is the key `budget` of [forest]. A list of tables other than the cameras and
-the comparison runs is stored as the text of its tables.
+`scene.firetwin.forest.budget` is the key `budget` of [forest]. Lists of tables, except cameras and comparison
+runs, are stored as the text of their tables.
 """
 
 from __future__ import annotations
@@ -19,23 +19,23 @@ from . import changed_settings, keys
 from .tables import from_text, to_text
 
 NOT_HERE = ("path", "run", "cache", "runs", "cameras")
-"""Fields of `Settings` that are no sections: the panel stores them in its own way."""
+"""Fields of `Settings` that are not sections: the panel stores them separately."""
 
 
 @functools.cache
 def sections() -> tuple[Field, ...]:
-    """Sections of a scene file in their order."""
+    """Return the sections of a scene file in order."""
     return tuple(part for part in fields(Settings) if part.table and not part.tables)
 
 
 def single() -> tuple[Field, ...]:
-    """Keys before all sections, and lists of tables, without those that the panel stores in its own way."""
+    """Return keys before all sections, and lists of tables, except those that the panel stores separately."""
     parts = (part for part in fields(Settings) if not part.table or part.tables)
     return tuple(part for part in parts if part.name not in NOT_HERE)
 
 
 def properties(known: tuple[Field, ...], kind: type) -> dict[str, Any]:
-    """Property annotations of a group for keys of a dataclass."""
+    """Return property annotations of a group for keys of a dataclass."""
     annotations: dict[str, Any] = {"exact": bpy.props.StringProperty(options={"HIDDEN"})}
     for part in known:
         if part.tables:
@@ -55,7 +55,7 @@ _groups: dict[type, type[bpy.types.PropertyGroup]] = {}
 
 
 def group(kind: type) -> type[bpy.types.PropertyGroup]:
-    """Property group class of a settings dataclass; always the same one."""
+    """Return the property group class of a settings dataclass; the same class on every call."""
     if kind not in _groups:
         _groups[kind] = type(
             f"FIRETWIN_PG_{kind.__name__.lower()}",
@@ -66,7 +66,7 @@ def group(kind: type) -> type[bpy.types.PropertyGroup]:
 
 
 def groups() -> Iterator[type[bpy.types.PropertyGroup]]:
-    """All property groups, nested ones first, in Blender's order of registration."""
+    """Return all property groups, nested groups first, in Blender's order of registration."""
 
     def inner(kind: type) -> Iterator[type[bpy.types.PropertyGroup]]:
         for part in fields(kind):
@@ -92,7 +92,7 @@ def put(group: bpy.types.PropertyGroup, known: tuple[Field, ...], values: Any) -
 
 
 def take(group: bpy.types.PropertyGroup, known: tuple[Field, ...], values: Any) -> Any:
-    """The dataclass with the values that a group shows.
+    """Return the dataclass with the values that a group shows.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Solver button: shows the cost of solved smoke in place of a preview, and selects it."""
+"""Solver button: shows the cost of solving smoke that is only a preview, and selects the solver."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ OPERATOR = "firetwin.solve"
 
 
 def replacement(panel: bpy.types.PropertyGroup) -> str:
-    """Method of which the panel's smoke is a preview; empty where it is none."""
+    """Return the method of which the panel's smoke is a preview; empty if it is not a preview."""
     from ..smoke import sources
 
     return sources.known()[panel.smoke.method].preview_of
 
 
 def price(uid: int) -> Steps:
-    """Estimate the cost of solving the smoke, where the scene with this `session_uid` shows a preview."""
+    """Estimate the cost of solving the smoke, if the scene with this `session_uid` shows a preview."""
     panel = owned.scene(uid).firetwin
     panel.smoke_cost = ""
     better = replacement(panel)
@@ -35,7 +35,7 @@ def price(uid: int) -> Steps:
 
 
 def _cost(chosen: ShotSource) -> str:
-    """Time and disk space as a short text; empty where the run includes its smoke, or nothing burns."""
+    """Return time and disk space as a short text; empty if the run includes its smoke, or nothing burns."""
     from ..smoke import sources
 
     cost = sources.select(chosen.shot()).cost()
@@ -43,6 +43,6 @@ def _cost(chosen: ShotSource) -> str:
 
 
 def draw(layout: bpy.types.UILayout, panel: bpy.types.PropertyGroup) -> None:
-    """Draw the button with the cost, where a preview is shown."""
+    """Draw the button with the cost, if a preview is shown."""
     if panel.run and panel.smoke.enabled and panel.smoke_cost and replacement(panel):
         layout.operator(OPERATOR, text=f"Solve smoke ({panel.smoke_cost})", icon="MOD_FLUIDSIM")

@@ -1,4 +1,4 @@
-"""Tables of a scene file, such as that of a camera, as text in a Blender property."""
+"""Tables of a scene file, such as a camera's, as text in a Blender property."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ def to_text(part: Field, tables: tuple[Any, ...]) -> str:
 
 
 def from_text(part: Field, text: str) -> tuple[Any, ...]:
-    """Parse tables from `to_text`, or typed ones.
+    """Parse tables from `to_text`, or typed tables.
 
     Raises
     ------
     InputError
-        Line and column of the mistake in the text.
+        The text is invalid; with line and column.
     """
     return getattr(scene_file.parse(text, Path("scene.toml")), part.name)

@@ -1,4 +1,4 @@
-"""Target scene of a build: an unused one, our own, or a new one."""
+"""Target scene of a build: an unused scene, Firetwin's scene, or a new one."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def prepare(scene: bpy.types.Scene, part: bool) -> tuple[int, str]:
     Parameters
     ----------
     part
-        Only a part is rebuilt: a scene that has objects of ours is the target.
+        Only a part is rebuilt: a scene that has objects of Firetwin is the target.
 
     Returns
     -------
@@ -41,7 +41,7 @@ def prepare(scene: bpy.types.Scene, part: bool) -> tuple[int, str]:
 
 
 def vacant(scene: bpy.types.Scene) -> bool:
-    """Whether a scene is empty, or has only Blender's unchanged startup objects."""
+    """Return whether a scene is empty, or has only Blender's unchanged startup objects."""
     tree, editor = compat.compositor(scene), scene.sequence_editor
     return (
         (not scene.collection.all_objects or _startup(scene))
@@ -54,7 +54,7 @@ def vacant(scene: bpy.types.Scene) -> bool:
 
 
 def _startup(scene: bpy.types.Scene) -> bool:
-    """Whether there are only the startup file's cube, light and camera."""
+    """Return whether the scene has only the startup file's cube, light and camera."""
     cube = scene.objects.get("Cube")
     return (
         not bpy.data.filepath
@@ -66,7 +66,7 @@ def _startup(scene: bpy.types.Scene) -> bool:
 
 
 def _plain(world: bpy.types.World | None) -> bool:
-    """Whether a world is missing, or the grey one of the startup file."""
+    """Return whether a world is missing, or is the grey one of the startup file."""
     if world is None:
         return True
     if world.library is not None or world.animation_data is not None or world.node_tree is None:
@@ -80,7 +80,7 @@ def _plain(world: bpy.types.World | None) -> bool:
 
 
 def _clear(scene: bpy.types.Scene) -> bool:
-    """Remove the startup objects and world of a vacant scene; returns whether there were such objects."""
+    """Remove the startup objects and world of a vacant scene; return whether there were such objects."""
     objects = list(scene.collection.all_objects)
     bpy.data.batch_remove(objects)
     world, scene.world = scene.world, None
@@ -97,7 +97,7 @@ def _show(before: bpy.types.Scene, after: bpy.types.Scene) -> None:
 
 
 def remove(scene: bpy.types.Scene) -> None:
-    """Remove our objects from a scene; a scene created for them is deleted, unless others were added."""
+    """Remove Firetwin's objects from a scene; delete a scene that was created for them, if empty."""
     from ..render import layers
     from ..scene import build
 

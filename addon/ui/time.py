@@ -17,7 +17,7 @@ from .text import labelled
 
 
 def position(settings: bpy.types.PropertyGroup) -> float:
-    """Position of the current frame between the first (0) and the last (1)."""
+    """Return the position of the current frame between the first (0) and the last (1)."""
     frame = settings.id_data.frame_current
     return min(max((frame - 1) / max(settings.frames - 1, 1), 0.0), 1.0)
 
@@ -35,13 +35,13 @@ def remember(settings: bpy.types.PropertyGroup, shot: Shot) -> None:
 
 
 def forget(settings: bpy.types.PropertyGroup) -> None:
-    """Delete the mapping: nothing is built."""
+    """Delete the mapping, because nothing is built."""
     for name in ("first_time", "seconds_per_frame", "frames", "zone"):
         settings.property_unset(name)
 
 
 def shown_time(settings: bpy.types.PropertyGroup) -> datetime:
-    """Time of the current frame, UTC."""
+    """Return the time of the current frame, UTC."""
     frame = settings.id_data.frame_current
     return datetime.fromisoformat(settings.first_time) + timedelta(
         seconds=(frame - 1) * settings.seconds_per_frame
@@ -96,13 +96,13 @@ class FIRETWIN_OT_window(bpy.types.Operator):
 
 
 def frame_of(settings: bpy.types.PropertyGroup, moment: datetime) -> float:
-    """Frame of a time, also before the first and after the last frame."""
+    """Return the frame of a time, which may be before the first or after the last frame."""
     since = (moment - datetime.fromisoformat(settings.first_time)).total_seconds()
     return 1 + since / (settings.seconds_per_frame or 1.0)
 
 
 def moments(settings: bpy.types.PropertyGroup) -> list[list[str]]:
-    """Dated events of the run: ISO text and description of each."""
+    """Return dated events of the run: ISO text and description of each."""
     return run.read(settings.facts)["moments"] if settings.facts else []
 
 
@@ -148,20 +148,20 @@ def _ends(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, key: st
 
 
 def _zone(settings: bpy.types.PropertyGroup) -> str:
-    """Time zone of the clock: that of the settings, else the run's."""
+    """Return the time zone of the clock: from the settings, else the run's."""
     return settings.time.zone or (run.read(settings.facts).get("zone", "") if settings.facts else "")
 
 
 def _local(moment: datetime, zone: str) -> str:
     try:
         return times.text(moment, zone)
-    except (zoneinfo.ZoneInfoNotFoundError, ValueError, OSError):  # typed in, and incomplete
+    except (zoneinfo.ZoneInfoNotFoundError, ValueError, OSError):  # incompletely typed
         return f"{moment.day} {moment:%b %Y %H:%M} UTC"
 
 
 @functools.lru_cache(maxsize=32)
 def _end(text: str, other: str) -> datetime | None:
-    """Start or end of the time window: the typed time, else the run's; None without either."""
+    """Return start or end of the time window: the typed time, else the run's; None without either."""
     try:
         moment = datetime.fromisoformat((text or other).strip())
     except ValueError:
@@ -191,7 +191,7 @@ class FIRETWIN_PT_time(bpy.types.Panel):
             column = layout.column(align=True)
             column.enabled = job.Job.current is None
             typed = bool(getattr(settings.time, name))
-            told = _local(moment, _zone(settings)) if moment else "no date and time" if typed else ""
+            told = _local(moment, _zone(settings)) if moment else "not a date and time" if typed else ""
             column.label(text=f"{keys.label(name)}: {told}" if told else keys.label(name))
             row = column.row(align=True)
             row.prop(settings.time, name, text="", placeholder=f"The run's {other} (UTC)")

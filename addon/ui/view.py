@@ -18,7 +18,7 @@ _TILT = 0.9  # rad from straight down
 
 
 def spaces(scene: bpy.types.Scene) -> Iterator[bpy.types.SpaceView3D]:
-    """The 3D views of the windows that show a scene."""
+    """Return the 3D views of the windows that show a scene."""
     for window in bpy.context.window_manager.windows:
         if window.scene == scene:
             for area in window.screen.areas:
@@ -40,7 +40,7 @@ def narrow(scene: bpy.types.Scene) -> None:
 
 
 def look(scene: bpy.types.Scene, whole: bool = False) -> None:
-    """Align the views of a scene with its camera, or show the whole run from the south."""
+    """Align the views of a scene with its camera, or show the entire run from the south."""
     widen(scene)
     for space in spaces(scene):
         region = space.region_3d
@@ -48,7 +48,7 @@ def look(scene: bpy.types.Scene, whole: bool = False) -> None:
             continue
         if scene.camera is not None and not whole:
             region.view_perspective = "CAMERA"
-            region.view_camera_zoom, region.view_camera_offset = 10.0, (0.1, 0.0)  # beside the sidebar
+            region.view_camera_zoom, region.view_camera_offset = 10.0, (0.1, 0.0)  # next to the sidebar
             continue
         _overlook(region, (0.0, 0.0, scene.firetwin.height), scene.firetwin.extent)
 
@@ -91,9 +91,9 @@ class FIRETWIN_OT_view(bpy.types.Operator):
 
     @classmethod
     def description(cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """The tooltip."""
+        """Return the tooltip."""
         if properties.whole:
-            return "View the whole run from above, from the south; the clipping distance includes all terrain"
+            return "View the entire run from the south and above; the clipping distance includes all terrain"
         return "View through the scene's camera; the clipping distance includes all terrain"
 
     @classmethod

@@ -1,7 +1,7 @@
-"""Landmarks of Blender's own VR viewer: stations, the ignition, and the moving head of the fire.
+"""Landmarks in Blender's VR viewer: stations, the ignition, and the moving head of the fire.
 
-Its add-on "VR Scene Inspection" keeps them with the scene. A landmark at a place stands on the ground and
-looks at where the fire began; that of the head belongs to an empty, which is the artist's own.
+The add-on "VR Scene Inspection" stores them with the scene. A landmark at a fixed position is on the ground
+and looks towards the ignition. The head's landmark follows an empty, which is owned by the artist.
 """
 
 from __future__ import annotations
@@ -46,14 +46,14 @@ class FIRETWIN_OT_vr_landmarks(bpy.types.Operator):
             _ride(scene, began)
         total = len(places) + (0 if began is None else 2)
         if not total:
-            self.report({"WARNING"}, "There are no stations, and nothing burns")
+            self.report({"WARNING"}, "The run has neither stations nor fire")
             return {"CANCELLED"}
         self.report({"INFO"}, f"Added {count(total, 'landmark')} to the tab VR")
         return {"FINISHED"}
 
 
 def _landmark(scene: bpy.types.Scene, name: str) -> bpy.types.PropertyGroup:
-    """The landmark of this name, selected; a new one where it is missing."""
+    """Select the landmark of this name, after creating it if necessary."""
     index = next((k for k, each in enumerate(scene.vr_landmarks) if each.name == name), None)
     if index is None:
         index = len(scene.vr_landmarks)
@@ -63,7 +63,7 @@ def _landmark(scene: bpy.types.Scene, name: str) -> bpy.types.PropertyGroup:
 
 
 def _stand(scene: bpy.types.Scene, name: str, where: Vector, to: Vector | None) -> None:
-    """A landmark on the ground that looks at a point; without one it looks north."""
+    """Add a landmark on the ground that looks at a point; without one it looks north."""
     found = _landmark(scene, name)
     found.type = "CUSTOM"
     found.base_pose_location = where
@@ -71,7 +71,7 @@ def _stand(scene: bpy.types.Scene, name: str, where: Vector, to: Vector | None) 
 
 
 def _ride(scene: bpy.types.Scene, began: Vector) -> None:
-    """A landmark on an empty that goes with the head of the fire and looks where it went."""
+    """Add a landmark on an empty that follows the head of the fire and looks in its direction of travel."""
     track = landmarks.track(scene.firetwin)
     for old in [obj for obj in scene.objects if obj.name == landmarks.HEAD and obj.type == "EMPTY"]:
         bpy.data.objects.remove(old)
@@ -83,7 +83,7 @@ def _ride(scene: bpy.types.Scene, began: Vector) -> None:
 
 
 def _angle(way: Vector) -> float:
-    """Rotation about the vertical, rad, that turns north into this direction."""
+    """Return the rotation about the vertical, rad, that turns north into this direction."""
     return math.atan2(-way.x, way.y) if np.hypot(way.x, way.y) > 0.0 else 0.0
 
 

@@ -1,9 +1,9 @@
 """Modal task operator: shows progress, keeps the window usable, and can be cancelled.
 
-In the background, and when called by a script, the steps of a task run one after the other at once. In the
-window a modal operator runs them. Esc cancels the task only with the pointer over the sidebar: elsewhere it
-has other meanings. After a step in Blender only the mouse in the sidebar is handled, and views can be turned.
-A task that ends early is undone in the window, so that a scene is complete or unchanged.
+In the background, and when called by a script, all steps of a task run at once. In the window a modal
+operator runs them. Esc cancels the task only with the pointer over the sidebar, because it has other meanings
+elsewhere. After a step in Blender only mouse events in the sidebar are handled, and views can be turned. A
+task that ends early is undone in the window, so that a scene is complete or unchanged.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ _ICONS = {"INFO": "INFO", "WARNING": "ERROR", "ERROR": "CANCEL"}
 
 
 def free(cls: type[bpy.types.Operator]) -> bool:
-    """Whether no task is running; otherwise sets the poll message."""
+    """Return whether no task is running; otherwise set the poll message."""
     if Job.current is not None:
-        cls.poll_message_set(f"{Job.current.name} is not finished; Stop in Firetwin's sidebar ends it")
+        cls.poll_message_set(f"{Job.current.name} is not finished; press Stop in the sidebar to end it")
     return Job.current is None
 
 
 def editable(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
-    """Whether no task is running and the scene is editable; otherwise sets the poll message."""
+    """Return whether no task is running and the scene is editable; otherwise set the poll message."""
     if context.scene.library is not None:
         cls.poll_message_set("This scene is linked from another file: change it there, or make it local")
         return False
@@ -40,7 +40,7 @@ def editable(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
 
 
 def reported(execute: Callable[..., set[str]]) -> Callable[..., set[str]]:
-    """Decorator of an operator's `execute`: errors become reports."""
+    """Turn errors of an operator's `execute` into reports (decorator)."""
 
     @functools.wraps(execute)
     def told(self: bpy.types.Operator, context: bpy.types.Context) -> set[str]:
@@ -61,7 +61,7 @@ def take_back() -> None:
 
 
 def abandon() -> None:
-    """Cancel the running task without a message: its operator ends."""
+    """Cancel the running task without a message, which ends its operator."""
     if Job.current is not None:
         Job.current.stop.now()
         Job.current = None
@@ -84,7 +84,7 @@ def _undone(*_: object) -> None:
 
 
 def over_sidebar(window: bpy.types.Window, event: bpy.types.Event) -> bool:
-    """Whether the pointer is over the sidebar of a 3D view."""
+    """Return whether the pointer is over the sidebar of a 3D view."""
     return any(
         region.x <= event.mouse_x < region.x + region.width
         and region.y <= event.mouse_y < region.y + region.height
@@ -100,15 +100,15 @@ class Working:
 
     _timer: bpy.types.Timer | None = None
 
-    if TYPE_CHECKING:  # what bpy.types.Operator has
+    if TYPE_CHECKING:  # members of bpy.types.Operator
         bl_label: str
         bl_options: set[str]
 
         def report(self, type: set[str], message: str) -> None:
-            """Tell the user."""
+            """Report a message to the user."""
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """Steps of the task."""
+        """Yield the steps of the task."""
         raise NotImplementedError
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -164,7 +164,7 @@ class Working:
         return {"FINISHED"}
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """Another file is opened, or Blender ends."""
+        """Handle the opening of another file, or the end of Blender."""
         self.job.stop.now()
         self._end(context)
         gone = Message(f"{self.job.name} stopped because another file was opened", "WARNING")
@@ -172,7 +172,7 @@ class Working:
 
     def _tell(self, work: Job, last: Message) -> None:
         """Report the messages, and store them for the panel."""
-        told = tuple({each.text: each for each in (*work.said, last) if each.text}.values())  # each once
+        told = tuple({each.text: each for each in (*work.said, last) if each.text}.values())  # unique
         Job.last = JobResult(work.name, told, bpy.data.filepath)
         for message in told:
             self.report({message.level}, message.text)
@@ -180,7 +180,7 @@ class Working:
     def _failed(self, work: Job, error: Exception, back: bool = False) -> set[str]:
         if isinstance(error, StoppedError):
             undo = "the scene is restored" if back else "undo restores the scene"
-            kept = undo if work.touched else "finished work is kept"
+            kept = undo if work.touched else "finished work remains"
             self._tell(work, Message(f"{work.name} stopped; {kept}", "WARNING"))
         else:
             self._tell(work, Message(describe_error(error), "ERROR"))
@@ -189,7 +189,7 @@ class Working:
         return {"FINISHED"} if work.touched else {"CANCELLED"}  # an incomplete result can be undone then
 
     def _goes_back(self) -> bool:
-        """Whether an incomplete result can be undone, and was not undone yet."""
+        """Return whether an incomplete result can be undone, and has not been undone yet."""
         able = not bpy.app.background and bpy.context.preferences.edit.use_global_undo
         return able and self.job.touched and not self.job.undone and "UNDO" in self.bl_options
 
@@ -206,7 +206,7 @@ class Working:
 def _show(context: bpy.types.Context, work: Job | None) -> None:
     """Redraw the sidebars and the status bar."""
     if context.workspace is not None:
-        how = "Stop in the sidebar, or Esc over it, ends the task"
+        how = "Press Stop in the sidebar, or Esc over it, to end the task"
         context.workspace.status_text_set(f"{work.name}: {work.text}    {how}" if work else None)
     redraw()
 
@@ -222,7 +222,7 @@ def redraw() -> None:
 
 
 def button(layout: bpy.types.UILayout, operator: type[bpy.types.Operator], icon: str) -> None:
-    """Button of a task; while it runs, its progress and a stop button in the same place."""
+    """Draw the button of a task; while it runs, its progress and a stop button instead."""
     if Job.current is not None and Job.current.name == operator.bl_label:
         layout.progress(factor=Job.current.factor, text=Job.current.text)
         layout.operator(FIRETWIN_OT_stop.bl_idname, text="", icon="CANCEL")
@@ -233,10 +233,10 @@ def button(layout: bpy.types.UILayout, operator: type[bpy.types.Operator], icon:
 def messages(
     context: bpy.types.Context, layout: bpy.types.UILayout, operator: type[bpy.types.Operator]
 ) -> None:
-    """Draw the messages of the operator's last task; while it runs, the hint how to stop it."""
+    """Draw the messages of the operator's last task; while it runs, a hint on how to stop it."""
     column = layout.column(align=True)
     if Job.current is not None and Job.current.name == operator.bl_label:
-        text.paragraph(context, column, "Stop, or Esc with the pointer here, ends the task")
+        text.paragraph(context, column, "Press Stop, or Esc with the pointer here, to end the task")
     elif Job.current is None:
         for message in last_messages(operator):
             text.paragraph(context, column, keys.sentence(message.text), _ICONS[message.level])
@@ -245,12 +245,12 @@ def messages(
 
 
 def copy_button(layout: bpy.types.UILayout, message: str) -> None:
-    """A button that copies an error message with the details for a support request."""
+    """Draw a button that copies an error message with the details for a support request."""
     layout.operator(FIRETWIN_OT_copy.bl_idname, icon="COPYDOWN").message = message
 
 
 def last_messages(operator: type[bpy.types.Operator]) -> tuple[Message, ...]:
-    """Messages of the last task, if it was this operator's and in this file."""
+    """Return messages of the last task, if it was this operator's and in this file."""
     last = Job.last
     if last is None or last.name != operator.bl_label or last.file not in (None, bpy.data.filepath):
         return ()
@@ -258,7 +258,7 @@ def last_messages(operator: type[bpy.types.Operator]) -> tuple[Message, ...]:
 
 
 class FIRETWIN_OT_stop(bpy.types.Operator):
-    """Stop the task, as Esc over this sidebar does. Finished work is kept"""
+    """Stop the task, as Esc over this sidebar does. Finished work remains"""
 
     bl_idname = "firetwin.stop"
     bl_label = "Stop"
@@ -294,7 +294,7 @@ class FIRETWIN_OT_copy(bpy.types.Operator):
 
 
 def details(message: str) -> str:
-    """A message with the versions of the software, and the traceback of an unexpected error."""
+    """Return a message with software versions, and the traceback of an unexpected error."""
     import platform
 
     import firetwin_core

@@ -122,7 +122,7 @@ def test_a_camera_looks_at_an_empty_that_follows_the_fire_or_stands_at_a_place(p
     assert (empty.location - go_to.place(scene, "38.84 -120.55")).length < 0.01
     place, ahead = _back(scene.camera, 2)
     assert ahead.angle(empty.matrix_world.translation - place) < 1e-3
-    with pytest.raises(RuntimeError, match='no place here is called "elsewhere"'):
+    with pytest.raises(RuntimeError, match='no place is called "elsewhere"'):
         bpy.ops.firetwin.camera_aim(target="station", place="elsewhere")
     assert len(scene.camera.constraints) == 1
     bpy.ops.firetwin.camera_aim(target="none")

@@ -205,7 +205,7 @@ def test_solved_smoke_is_a_button_that_names_its_cost(settings, run_folder, monk
     layout = MagicMock()
     solve.draw(layout, settings)
     assert not layout.operator.called
-    assert "solved already" in refusal(bpy.ops.firetwin.solve)
+    assert "already solved" in refusal(bpy.ops.firetwin.solve)
 
 
 def test_properties_say_what_the_schema_says(settings):
@@ -639,7 +639,7 @@ def test_esc_stops_work_only_with_the_pointer_over_the_sidebar(waiting):
     assert waiting.happens("ESC", x=900) == {"RUNNING_MODAL"}
     assert waiting.job.stop.asked
     assert waiting.goes_on() == {"CANCELLED"}
-    assert waiting.reports == [("WARNING", "Test stopped; finished work is kept")]
+    assert waiting.reports == [("WARNING", "Test stopped; finished work remains")]
     assert job.Job.current is None
 
 

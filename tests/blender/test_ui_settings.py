@@ -91,7 +91,7 @@ def test_what_an_artist_changes_is_what_comes_out(panel):
 @pytest.mark.parametrize(
     ("section", "name", "value", "words"),
     [
-        ("time", "start", "yesterday", 'Start: "yesterday" is no date and time; write it as'),
+        ("time", "start", "yesterday", 'Start: "yesterday" is not a date and time; write it as'),
         ("time", "zone", "America/Los_Angles", 'Time.zone "America/Los_Angles" is not a time zone; did you'),
         ("terrain", "photo_extent", "west", 'Photo extent: "west" is no list'),
         ("render", "passes", set(), "Render.passes is empty; name at least one"),
