@@ -1,4 +1,4 @@
-"""The command line of `firetwin allocate`; nothing heavy is imported here."""
+"""Arguments of `firetwin allocate`; no heavy module is imported here."""
 
 from __future__ import annotations
 
@@ -12,15 +12,16 @@ from ..stations.records import EXERCISE
 from . import LIMITS
 
 DETAIL = f"""\
-{EXERCISE}. Suggests which resources of a file of places to send to which division of a run's front,
-so that the line that they build is as long as the front at the hour of containment, at the least cost and
-loss (after Donovan and Rideout 2003). Divisions are sectors about the centre of what has burned, A clockwise
-from north.
+{EXERCISE}. Suggests an allocation of the resources of a station file to divisions of a run's front. They
+build at least as much line as the length of the front at the hour of containment, at minimum cost and loss
+(after Donovan and Rideout 2003). Divisions are sectors around the centre of the burned area, lettered
+clockwise from north.
 
-  firetwin allocate places.gpkg RUN --budget 250000 --standard-response engine/3=4,dozer/2=1 --minutes 60
+  firetwin allocate stations.gpkg RUN --budget 250000 --standard-response engine/3=4,dozer/2=1 --minutes 60
 
-Limits: {"; ".join(LIMITS)}.
-It needs the extra `resources`. Exit status: 0 suggested, 1 there is no allocation (stderr says why)."""
+Limits: {"; ".join(LIMITS)}. Needs SciPy (pip install 'firetwin[resources]'). Exit status: 0 allocation found,
+1 no allocation (the reasons are
+printed on stderr)."""
 
 
 def add(
@@ -34,11 +35,9 @@ def add(
     Parameters
     ----------
     path, count, moment
-        Types of arguments.
+        Converters of arguments.
     """
-    parser.add_argument(
-        "stations", metavar="STATIONS.gpkg", type=path, help="file with stations and resources"
-    )
+    parser.add_argument("stations", metavar="STATIONS.gpkg", type=path, help="station file")
     parser.add_argument("run", metavar="RUN", type=path, help="run folder")
     parser.add_argument(
         "--divisions", metavar="N", type=count, default=4, help="number of divisions, up to 26 (4)"
@@ -51,10 +50,10 @@ def add(
         help="time of the order, such as 2014-09-17T16:00-07:00 (the ignition)",
     )
     parser.add_argument(
-        "--hours", metavar="N", type=count, help="hours after the order (12, or fewer if the run ends)"
+        "--hours", metavar="N", type=count, help="hours after the order (12, or until the end of the run)"
     )
     parser.add_argument(
-        "--budget", metavar="X", type=_amount, help="most that all resources may cost (no limit)"
+        "--budget", metavar="X", type=_amount, help="maximum cost of all resources (no limit)"
     )
     parser.add_argument(
         "--standard-response",
@@ -62,7 +61,7 @@ def add(
         metavar="TYPE=N,...",
         type=response,
         default={},
-        help="least number by type or kind that arrives in time, such as engine/3=4,dozer=1 (none)",
+        help="minimum number by type or kind that arrives in time, such as engine/3=4,dozer=1 (none)",
     )
     parser.add_argument(
         "--minutes",
@@ -78,18 +77,18 @@ def add(
         "--escape-loss",
         metavar="X",
         type=_amount,
-        help="loss of a division that is not contained (each has to be)",
+        help="loss of a division that is not contained (without it, each must be contained)",
     )
     parser.add_argument("--json", action="store_true", help="write JSON")
 
 
 def response(text: str) -> dict[str, int]:
-    """Numbers by type of "engine/3=4,dozer/2=1"."""
+    """Parse numbers by type, such as "engine/3=4,dozer/2=1"."""
     found: dict[str, int] = {}
     for part in text.split(","):
         kind, _, number = (word.strip() for word in part.partition("="))
         if not kind or not number.isdecimal() or int(number) < 1:
-            raise argparse.ArgumentTypeError(f"must be as engine/3=4,dozer/2=1, not {text!r}")
+            raise argparse.ArgumentTypeError(f"must have the form engine/3=4,dozer/2=1, not {text!r}")
         if kind in found:
             raise argparse.ArgumentTypeError(f"names {kind} twice")
         found[kind] = int(number)

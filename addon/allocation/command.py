@@ -22,7 +22,7 @@ def run(arguments: argparse.Namespace, open_run: Callable[[Path], Run]) -> None:
     Raises
     ------
     Error
-        There is no allocation; the message gives the reasons.
+        The allocation is infeasible; the message gives the reasons.
     """
     run = open_run(arguments.run)
     start = arguments.start or times.utc(run, job.first_order(run))

@@ -1,17 +1,21 @@
 """Containment as an integer program after Donovan and Rideout (2003), solved by SciPy's HiGHS.
 
 Over resources i, divisions k and hours t, with binaries x_ik (i is sent to k) and y_kt (k is contained at
-t, or at no hour: it escapes); resources that differ by their ids alone share an integer::
+t; -1: it escapes); interchangeable resources share an integer (`symmetry`)::
 
     minimise    sum cost_i x_ik + sum loss_kt y_kt
-    subject to  sum_t y_kt = 1                                          each division once
-                sum_k x_ik <= 1                                         a resource in one division
-                sum_i line_ikt x_ik >= sum_{s<=t} perimeter_ks y_ks     line as long as the front
+    subject to  sum_t y_kt = 1                                          one hour per division
+                sum_k x_ik <= 1                                         at most one division per resource
+                sum_i line_ikt x_ik >= sum_{s<=t} perimeter_ks y_ks     line at least as long as the front
                 sum cost_i x_ik <= budget
                 sum of x_ik that arrive in time >= number               for each type of the response
 
-The third is `line >= perimeter - M (1 - y)` with the least M, the perimeter itself, for all hours so far at
-once: what has been built only grows. One resource's line counts up to the longest front of these hours.
+The third constraint is `line >= perimeter - M (1 - y)` with the smallest M, the perimeter itself, for all
+hours up to t together, as built line only grows. The line of one resource counts up to the longest front of
+these hours.
+
+Ties are decided after the solver, whose gap is larger than any weight that could break them: the first hour
+at which the line is as long as the front counts, and resources that the answer does not need are removed.
 """
 
 from __future__ import annotations
@@ -29,25 +33,25 @@ from .problem import SMALLEST, Problem
 Array = NDArray[np.float64]
 Whole = NDArray[np.int64]
 
-_SHORT = 0.01  # m of line, the solver's tolerance
+_SHORT = 0.01  # m of line, tolerance of the solver
 
 
 @dataclass(frozen=True)
 class Answer:
-    """What the solver found.
+    """Solution of the integer program.
 
     Attributes
     ----------
     division
-        (n,) division that each resource is sent to; -1: not sent.
+        (n,) division of each resource; -1: not sent.
     hour
         (k,) index of the hour of containment; -1: escapes.
     cost, loss
         Sums, in the currency.
     bound
-        Least that cost and loss can be together.
+        Lower bound of cost and loss together.
     in_time
-        Whether the search ended by itself, and so in the same way each time.
+        True if the time limit did not end the search, so that a repetition gives the same answer.
     """
 
     division: NDArray[np.int64]
@@ -59,12 +63,12 @@ class Answer:
 
 
 def solve(problem: Problem, options: Options = USUAL) -> Answer | None:
-    """Cheapest allocation; None if there is none.
+    """Find the cheapest allocation; None if there is none.
 
     Raises
     ------
     Error
-        SciPy is missing, or no answer was found in time.
+        SciPy is missing, or the time limit was reached without an answer.
     """
     model = Model(problem)
     values, bound, in_time = model.run(model.objective(), options)
@@ -77,9 +81,9 @@ def solve(problem: Problem, options: Options = USUAL) -> Answer | None:
 
 
 def shortest_line(problem: Problem, options: Options = USUAL) -> tuple[Array, NDArray[np.int64]]:
-    """Line (k,), m, that all resources lack at least, and the hour (k,) at which each division lacks it."""
+    """Return the minimum line (k,), m, that is missing with all resources, and its hour (k,)."""
     model = Model(replace(problem, request=replace(problem.request, budget=None)), slack=True)
-    values, _, _ = model.run(model.lacking(), options)
+    values, _, _ = model.run(model.shortfall(), options)
     assert values is not None
     return KM * values[model.slack], model.read(values)[1]
 
@@ -122,7 +126,7 @@ def _first_hour(problem: Problem, line: Array) -> Whole:
 
 
 def valued(problem: Problem, division: NDArray[np.int64], hour: NDArray[np.int64]) -> Answer:
-    """Answer with its sums, exact by the problem's arrays."""
+    """Make an answer with sums computed from the arrays of the problem."""
     sent, held = division >= 0, np.flatnonzero(hour >= 0)
     losses = float(problem.loss[held, hour[held]].sum())
     if (lost := np.flatnonzero(hour < 0)).size:
@@ -132,7 +136,7 @@ def valued(problem: Problem, division: NDArray[np.int64], hour: NDArray[np.int64
 
 
 def built(problem: Problem, division: NDArray[np.int64]) -> Array:
-    """Line (k, t), m, that the resources sent have built."""
+    """Compute the line (k, t), m, that the resources have built."""
     at = division[:, None] == np.arange(len(problem.perimeter))
     return np.einsum("nk,nkt->kt", at, problem.line)
 
@@ -143,7 +147,7 @@ def check(problem: Problem, answer: Answer) -> None:
     Raises
     ------
     Error
-        It is no answer.
+        The answer breaks a constraint.
     """
     if problem.request.escape is None and (answer.hour < 0).any():
         raise Error("the solver's answer leaves a division uncontained; please report this")

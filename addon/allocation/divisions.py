@@ -1,4 +1,4 @@
-"""Divisions of a run's front: sectors about the fire's centre, with the length of their front by the hour."""
+"""Divisions of a run's front: sectors around the centre of the fire, with hourly front lengths."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..ellipsoid import metres_per_degree
 from ..run import front
 from ..run.arrival_grid import ArrivalGrid
 
-MOST = 26  # divisions, which letters name
+MOST = 26  # divisions, named by letters
 HOUR = 3600.0  # s
 
 Array = NDArray[np.float64]
@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Divisions:
-    """Sectors of equal angle about a centre, clockwise from north.
+    """Sectors of equal angle around a centre, clockwise from north.
 
     Attributes
     ----------
@@ -29,11 +29,11 @@ class Divisions:
     hours
         (t,) hours after the order: 1, 2, ...
     perimeter
-        (k, t) length of the outer front in each sector, m. Slopes are not counted.
+        (k, t) length of the outer front in each sector, m, without slopes.
     burned
         (k, t) burned area in each sector, m2.
     place
-        (k, 2) latitude and longitude of the middle of the first front in each sector, degrees; NaN without.
+        (k, 2) latitude and longitude of the middle of the first front in each sector, degrees; NaN: none.
     """
 
     centre: tuple[float, float]
@@ -44,11 +44,11 @@ class Divisions:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Letters, as divisions of an incident have."""
+        """Letters, as for divisions of an incident."""
         return tuple(chr(ord("A") + k) for k in range(len(self.perimeter)))
 
     def bearings(self, k: int) -> tuple[float, float]:
-        """Bearings between which a division lies, degrees clockwise from north."""
+        """Return the bearings that limit a division, degrees clockwise from north."""
         width = 360.0 / len(self.perimeter)
         return k * width, (k + 1) * width
 
@@ -80,7 +80,7 @@ def divide(run: Run, start: float, hours: int, count: int) -> Divisions:
 
 
 def ignition(run: Run) -> float:
-    """Model time (s) at which the run's fire begins; infinite without fire."""
+    """Return the model time (s) at which the fire of a run begins; infinite without fire."""
     return _first(ArrivalGrid.from_run(run))
 
 
@@ -89,7 +89,7 @@ def _first(grid: ArrivalGrid) -> float:
 
 
 def sector(east: ArrayLike, north: ArrayLike, count: int) -> NDArray[np.int64]:
-    """Sector, from 0 clockwise from north, of points in metres from the centre."""
+    """Return the sector, numbered clockwise from north, of points in metres from the centre."""
     bearing = np.arctan2(east, north) / (2.0 * np.pi) % 1.0
     return np.minimum((bearing * count).astype(np.int64), count - 1)
 
@@ -97,14 +97,14 @@ def sector(east: ArrayLike, north: ArrayLike, count: int) -> NDArray[np.int64]:
 def lengths(
     latitude: Array, longitude: Array, after: NDArray[np.int64], centre: tuple[float, float], count: int
 ) -> tuple[Array, Array]:
-    """Length (k,), m, of closed lines in each sector, and the middle (k, 2) of these parts, degrees.
+    """Compute the length (k,) of closed lines in each sector, m, and the middle (k, 2) of each part, degrees.
 
-    A segment counts for the sector of its middle. Lines around unburned islands are left out.
+    A segment belongs to the sector of its middle. Lines around unburned islands are omitted.
 
     Parameters
     ----------
     latitude, longitude, after
-        Lines (n,) and the index of each point's next, with the burned side on the left.
+        Points (n,) of the lines and the index of the next point, with the burned side on the left.
     """
     outer = outlines(*_metres(latitude, longitude, centre), after)
     ends = np.stack([latitude, longitude], axis=-1)[np.stack([outer, after[outer]])]
@@ -119,10 +119,10 @@ def lengths(
 
 
 def outlines(x: Array, y: Array, after: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Indices of the points of closed lines that run counter-clockwise: around burned ground, not islands."""
+    """Return the indices of points on counter-clockwise lines: around burned ground, not around islands."""
     ring = np.arange(len(after))
     step = after
-    for _ in range(len(after).bit_length()):  # least index of each ring, by doubling the step
+    for _ in range(len(after).bit_length()):  # smallest index of each ring, by pointer doubling
         ring = np.minimum(ring, ring[step])
         step = step[step]
     area = np.bincount(ring, x * y[after] - x[after] * y, len(after))
@@ -130,13 +130,13 @@ def outlines(x: Array, y: Array, after: NDArray[np.int64]) -> NDArray[np.int64]:
 
 
 def _metres(latitude: ArrayLike, longitude: ArrayLike, centre: tuple[float, float]) -> tuple[Array, Array]:
-    """Metres east and north of the centre."""
+    """Convert points to metres east and north of the centre."""
     north, east = metres_per_degree(centre[0])
     return (np.asarray(longitude) - centre[1]) * east, (np.asarray(latitude) - centre[0]) * north
 
 
 def _centre(grid: ArrivalGrid, start: float) -> tuple[float, float]:
-    """Centre of the ground that has burned by the order; else of what burns first."""
+    """Return the centre of the area burned by the order, or of the cells that burn first."""
     weight = np.where(grid.arrival <= max(start, _first(grid)), grid.areas, 0.0)
     if weight.sum() == 0.0:
         return 0.5 * float(grid.latitude[0] + grid.latitude[-1]), grid.middle

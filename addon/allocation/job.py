@@ -1,6 +1,6 @@
-"""Allocation job: a suggested allocation, solved in a process of its own. Exercise: not operational advice.
+"""Allocation job: a suggested allocation, solved in a worker process. Exercise: not operational advice.
 
-SciPy is not in Blender's process, and a search can be stopped.
+Blender's process does not have SciPy, and a worker process can be stopped.
 """
 
 from __future__ import annotations
@@ -45,14 +45,14 @@ def suggest(
     Parameters
     ----------
     start, hours
-        Time of the order (by default the ignition) and hours after it.
+        Time of the order (by default the ignition), and hours after it.
 
     Raises
     ------
     InputError, UsageError
-        The run has no fire, or none of these hours.
+        The run has no fire, or does not cover these hours.
     Error
-        SciPy is missing, or no answer was found in time.
+        SciPy is missing, or the time limit was reached without an answer.
     StoppedError
         `stop` was used.
     """
@@ -63,7 +63,7 @@ def suggest(
     kept, left = usable(resources)
     parts = divisions.divide(run, order, hours, count)
     if not parts.perimeter.any():
-        raise UsageError("--from: the run has no front in these hours; choose a later time or more hours")
+        raise UsageError("--from: the run has no front in these hours; give a later time or more hours")
     problem, burning = state(kept, parts, request)
     asked = suggestion.Asked(kept, left, parts, burning, problem)
     solved = worker.run(
@@ -79,7 +79,7 @@ def suggest(
 
 
 def first_order(run: Run) -> float:
-    """Model time (s) of the ignition, or of the first frame if it burns already.
+    """Return the model time (s) of the ignition, or of the first frame if the fire already burns.
 
     Raises
     ------
@@ -88,7 +88,7 @@ def first_order(run: Run) -> float:
     """
     moment = divisions.ignition(run)
     if not np.isfinite(moment):
-        raise input_error(Path(run.path), "has no fire; there is nothing to allocate to")
+        raise input_error(Path(run.path), "has no fire and therefore no front to allocate resources to")
     return max(moment, float(run.times[0]))
 
 
@@ -99,7 +99,7 @@ def in_process(
     progress: Progress = silent,
     tell: MessageCallback = no_message,
 ) -> dict[str, Any]:
-    """Worker side: solve, or find out why there is no answer."""
+    """Solve in the worker process, or find the reasons if it is infeasible."""
     asked, chosen = Problem.from_json(problem), Options(**options)
     answer = containment.solve(asked, chosen)
     reasons: list[str] = []
@@ -121,7 +121,7 @@ def _answer(plain: dict[str, Any]) -> Answer:
 
 
 def _period(run: Run, order: float, hours: int | None) -> int:
-    """Hours after the order, within the run."""
+    """Return the hours after the order, limited to the run."""
     last = float(run.times[-1])
     there = int((last - order) // HOUR) if order >= float(run.times[0]) else 0
     if there < 1:
@@ -130,5 +130,5 @@ def _period(run: Run, order: float, hours: int | None) -> int:
             f"--from: an hour from {times.iso(times.utc(run, order))} is not in the run, {first} to {end}"
         )
     if hours is not None and hours > there:
-        raise UsageError(f"--hours: the run ends {there} h after the order; ask for at most {there}")
+        raise UsageError(f"--hours: the run ends {there} h after the order; give at most {there}")
     return min(HOURS, there) if hours is None else hours

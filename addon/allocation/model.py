@@ -1,4 +1,4 @@
-"""The integer program of `containment`: its variables, rows and bounds, and the call of SciPy's HiGHS."""
+"""Integer program of `containment`: variables, constraints and bounds, and the call of SciPy's HiGHS."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 TIME_LIMIT = 60.0
-"""Seconds after which the best answer so far is taken; the next run may then find another."""
+"""Time limit, s; the best answer so far is returned, and a repetition can give another one."""
 NODES = 3000
-"""Nodes of the search tree after which the best answer so far is taken, the same one on each machine."""
+"""Limit of nodes of the search tree; the best answer so far is returned, equal on every machine."""
 GAP = 1e-3
-"""Largest relative distance from the best bound at which a search ends."""
+"""Relative gap to the best bound at which the search ends."""
 KM = 1000.0
-"""Metres of a row's unit of length: numbers near 1 suit the solver's tolerances."""
+"""Unit of length in constraints, m: values near 1 suit the tolerances of the solver."""
 
 
 @dataclass(frozen=True)
@@ -42,12 +42,12 @@ USUAL = Options()
 
 
 def scipy() -> ModuleType:
-    """SciPy's optimisation.
+    """Import SciPy's optimisation.
 
     Raises
     ------
     Error
-        It is missing; the message has the install command.
+        SciPy is missing; the message has the install command.
     """
     try:
         import scipy.optimize
@@ -60,7 +60,7 @@ def scipy() -> ModuleType:
 
 
 class Model:
-    """Rows and bounds over x (c, k), y (k, t + 1) with "escapes" last, and optionally missing line (k,), km.
+    """Constraints and bounds over x (c, k), y (k, t + 1) with "escapes" last, and missing line (k,), km.
 
     x counts the resources of a class (`symmetry`) that are sent to a division.
     """
@@ -88,14 +88,14 @@ class Model:
         weight[self.y[:, -1]] = self.problem.escape
         return weight
 
-    def lacking(self) -> Array:
-        """Missing line, km."""
+    def shortfall(self) -> Array:
+        """Return the weights of the missing line, km."""
         weight = np.zeros(self.count)
         weight[self.slack] = 1.0
         return weight
 
     def run(self, weight: Array, options: Options) -> tuple[Array | None, float, bool]:
-        """Values, bound, and whether the search ended by itself; no values if there is no answer."""
+        """Solve; return values, bound, and True if the time limit was not reached; None if infeasible."""
         optimize = scipy()
         rows = optimize.LinearConstraint(self._matrix(), self._low, self._high)
         result = optimize.milp(
@@ -113,8 +113,8 @@ class Model:
             return None, np.inf, True
         if result.x is None:
             raise Error(
-                f"no allocation was found in {options.time_limit:g} s; ask for fewer divisions or hours, "
-                "or for fewer resources"
+                f"no allocation was found in {options.time_limit:g} s; request fewer divisions or hours, "
+                "or use fewer resources"
             )
         over = result.status == 1 and result.mip_node_count < options.nodes
         return result.x, float(result.mip_dual_bound), not over
@@ -125,7 +125,7 @@ class Model:
         return np.round(values[self.x]).astype(np.int64), np.where(hour == self.t, -1, hour)
 
     def _most(self) -> Array:
-        """Upper bounds: 0 for what cannot be, or what cannot help."""
+        """Return the upper bounds: 0 for variables that are impossible or cannot contribute."""
         most = np.ones(self.count)
         wanted = np.zeros(self.problem.minutes.shape, bool)
         for kind in self.problem.request.response:

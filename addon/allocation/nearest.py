@@ -1,4 +1,4 @@
-"""The nearest resource of each kind for each division, no resource twice."""
+"""Nearest resource of each kind for each division; each resource is used once."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .problem import Problem
 
 
 class Nearest(NamedTuple):
-    """A resource of a kind for a division, by their indices, and its minutes to there."""
+    """Resource of a kind for a division, as indices, and its travel time, min."""
 
     kind: str
     division: int
@@ -21,9 +21,9 @@ class Nearest(NamedTuple):
 
 
 def nearest(problem: Problem) -> list[Nearest]:
-    """Nearest resources by kind: of all pairings of one each, that of the least sum of minutes.
+    """Pair the resources of each kind with divisions so that the sum of travel times is minimal.
 
-    With fewer resources of a kind than divisions some divisions have none.
+    With fewer resources of a kind than divisions, some divisions get none.
     """
     found = []
     for kind in sorted({each.partition("/")[0] for each in problem.types}):
@@ -37,5 +37,5 @@ def nearest(problem: Problem) -> list[Nearest]:
 
 
 def pair(minutes: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Rows and columns of the pairing with the least sum (Crouse 2016, in SciPy), one to one."""
+    """Return rows and columns of the one-to-one pairing with the smallest sum (Crouse 2016, in SciPy)."""
     return scipy().linear_sum_assignment(minutes)

@@ -1,4 +1,4 @@
-"""A suggestion as text for people."""
+"""Text of a suggested allocation."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 
 def page(found: dict[str, Any]) -> str:
-    """Lines with the label first and last, divisions, sums, assumptions and limits."""
+    """Format divisions, sums, assumptions and limits, with the exercise label first and last."""
     return "\n".join(_lines(found))
 
 
@@ -29,8 +29,8 @@ def _lines(found: dict[str, Any]) -> Iterator[str]:
         if sums["above_bound"] > 0.0:
             yield f"another allocation may be up to {100.0 * sums['above_bound']:.2g} % cheaper"
         if not sums["same_each_time"]:
-            yield "the time limit ended the search: the next one may find another allocation"
-    yield from _listed("nearest of each kind, no resource twice", map(_pair, found["nearest"]))
+            yield "the time limit ended the search: a repetition can find another allocation"
+    yield from _listed("nearest of each kind, each resource once", map(_pair, found["nearest"]))
     yield from _listed("left out", found["left_out"])
     yield from _listed("assumptions", found["assumptions"])
     yield from _listed("limits", found["limits"])

@@ -1,4 +1,4 @@
-"""An allocation problem as arrays, which a worker process gets and solves."""
+"""Allocation problem as arrays, for the worker process that solves it."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ from numpy.typing import NDArray
 from .divisions import Divisions
 from .resources import Unit, costs, is_of, minutes
 
-SMALLEST = 0.01  # of the currency: costs and losses count in whole multiples of it
+SMALLEST = 0.01  # unit of costs and losses, in the currency
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Request:
-    """What is asked for.
+    """Request of the user.
 
     Attributes
     ----------
     budget
-        Most that all resources may cost; None: no limit.
+        Maximum cost of all resources; None: no limit.
     response, limit
-        Standard response: least number by type or kind, of which each arrives within `limit` minutes.
+        Standard response: minimum number by type or kind that arrives within `limit` minutes.
     loss
-        Loss by burned area, per hectare.
+        Loss per hectare of burned area.
     escape
-        Loss of a division that is not contained; None: each has to be contained.
+        Loss of a division that is not contained; None: each must be contained.
     """
 
     budget: float | None = None
@@ -42,20 +42,20 @@ class Request:
 
 @dataclass(frozen=True)
 class Problem:
-    """Arrays over resources (n), divisions (k) and hours (t). All have a front at some hour.
+    """Arrays over resources (n), divisions (k) and hours (t). Each division has a front at some hour.
 
     Attributes
     ----------
     ids, types
-        (n,) in the order by which ties are broken.
+        (n,) in ascending order of ids; ties go to lower ids.
     minutes
-        (n, k) from the order to the arrival.
+        (n, k) time from the order to the arrival, min.
     rate, cost
-        (n,) line rate, m/h, and cost of the whole period.
+        (n,) line rate, m/h, and cost of the period.
     hours
         (t,) hours after the order.
     perimeter, loss
-        (k, t) front to be held, m, and loss if it is contained then. NaN: it cannot be; the fire comes later.
+        (k, t) length of the front, m, and loss if it is contained at this hour. NaN: not yet burning.
     """
 
     ids: tuple[str, ...]
@@ -70,26 +70,26 @@ class Problem:
 
     @property
     def line(self) -> Array:
-        """Line (n, k, t), m, that each resource has built in each division by each hour."""
+        """Line (n, k, t), m, that each resource can build in each division by each hour."""
         worked = np.maximum(self.hours - self.minutes[..., None] / 60.0, 0.0)
         return self.rate[:, None, None] * worked
 
     @property
     def in_time(self) -> NDArray[np.bool_]:
-        """Which resources (n, k) arrive within the limit of the standard response."""
+        """Mask (n, k) of resources that arrive within the time limit of the standard response."""
         return self.minutes <= self.request.limit
 
     @property
     def escape(self) -> Array:
-        """Loss (k,) of each division that is not contained, with what it has burned by the last hour."""
+        """Loss (k,) of a division that is not contained, including its burned area by the last hour."""
         return self.loss[:, -1] + (self.request.escape or 0.0)
 
     def of(self, wanted: str) -> NDArray[np.bool_]:
-        """Which resources (n,) are of a type or kind."""
+        """Return a mask (n,) of the resources of a type or kind."""
         return np.array([is_of(each, wanted) for each in self.types], bool)
 
     def as_json(self) -> dict[str, Any]:
-        """The same as JSON can hold it."""
+        """Convert to JSON data."""
         return {
             name: value.tolist() if isinstance(value, np.ndarray) else value
             for name, value in ((part.name, getattr(self, part.name)) for part in fields(self))
@@ -97,7 +97,7 @@ class Problem:
 
     @classmethod
     def from_json(cls, data: dict[str, Any]) -> Problem:
-        """The problem of `as_json`."""
+        """Make a problem from the data of `as_json`."""
         many = len(data["ids"]), len(data["perimeter"])
         arrays = {name: np.array(data[name], np.float64) for name in _ARRAYS}
         arrays["minutes"] = arrays["minutes"].reshape(many)
@@ -109,10 +109,10 @@ _ARRAYS = ("minutes", "rate", "cost", "hours", "perimeter", "loss")
 
 
 def state(resources: Sequence[Unit], divisions: Divisions, request: Request) -> tuple[Problem, list[int]]:
-    """Problem of resources in the order of their ids, and which divisions are in it: those that burn.
+    """Make the problem of resources, by ascending id, and of burning divisions; return their indices.
 
-    A resource is paid for mobilising, and from the order to the end of the period. Before the first hour with
-    a front a division cannot be contained: the fire would come to it later.
+    A resource is paid for mobilisation, and from the order to the end of the period. A division cannot be
+    contained before the first hour at which it has a front.
     """
     burning = [k for k in range(len(divisions.perimeter)) if divisions.perimeter[k].any()]
     perimeter = divisions.perimeter[burning]

@@ -1,4 +1,4 @@
-"""Resources of a file of places as an allocation takes them: unit by unit, as they are at a time."""
+"""Units for an allocation: the available resources of a station file at a time, unit by unit."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from ..stations.records import Resource
 from ..stations.station_file import StationFile
 from .resources import Unit
 
-_MOST = 10_000  # units of one row
+_MOST = 10_000  # maximum number of units of one row
 
 
 def read(path: Path, moment: datetime) -> tuple[list[Unit], list[str]]:
-    """Units that are available at a time, and sentences on those that are not.
+    """Read the units that are available at a time, and messages on the unavailable ones.
 
-    A row of several units gives as many, with ids such as 7-1 and 7-2. A resource without any window of
+    A row with several units gives units with ids such as 7-1 and 7-2. A resource without windows of
     availability is available.
 
     Raises
     ------
     InputError
-        The file is no file of places, is damaged, or has costs in several currencies.
+        The file is not a station file, is damaged, or has costs in several currencies.
     """
     station_file = reading.read(path)
     units: list[Unit] = []

@@ -1,4 +1,4 @@
-"""Resources as an allocation takes them, and how long each takes to a place."""
+"""Resources for an allocation, with their travel times and costs."""
 
 from __future__ import annotations
 
@@ -17,22 +17,22 @@ Array = NDArray[np.float64]
 
 
 class Unit(NamedTuple):
-    """One resource that can be sent: an engine, a crew, a dozer, an aircraft. None is not known.
+    """Resource that can be sent: an engine, a crew, a dozer, an aircraft. None: unknown.
 
     Attributes
     ----------
     id
-        Unique name; ties are broken by it.
+        Unique name; ties go to lower ids.
     type
-        Kind and type of the PMS 200, such as "engine/3" or "crew/IHC".
+        Kind and type of PMS 200, such as "engine/3" or "crew/IHC".
     line_m_h
-        Line that it builds, m/h.
+        Line production rate, m/h.
     mobilise_min, speed_km_h
-        Time from the order to its departure, and its speed.
+        Time from the order to the departure, and travel speed.
     cost_hour, cost_mobilise, cost_day
-        Cost of an hour, of mobilising and of a day, in `currency`.
+        Cost per hour, of mobilisation and per day, in `currency`.
     lat, lon
-        Where it stands, degrees.
+        Position of its station, degrees.
     """
 
     id: str
@@ -51,7 +51,10 @@ class Unit(NamedTuple):
 
 
 def usable(units: Iterable[Unit]) -> tuple[list[Unit], list[str]]:
-    """Units in the order of their ids, and why others are left out; no line rate counts as 0."""
+    """Return the usable units in the order of ids, and messages on omitted ones.
+
+    A missing line rate counts as 0.
+    """
     kept, left = [], []
     for each in sorted(units, key=lambda one: natural(one.id)):
         missing = [name for name in ("mobilise_min", "speed_km_h") if not _known(each, name)]
@@ -71,29 +74,29 @@ def _known(unit: Unit, name: str) -> bool:
 
 
 def natural(text: str) -> tuple[tuple[int, str], ...]:
-    """Sort key by which 9 comes before 10, and 7-2 before 7-10."""
+    """Return a sort key that puts 9 before 10, and 7-2 before 7-10."""
     return tuple((len(part), part) for part in re.split(r"[-. ]", text))
 
 
 def is_of(kind: str, wanted: str) -> bool:
-    """Whether a type such as "engine/3" is the wanted type, or of the wanted kind "engine"."""
+    """Return True if a type such as "engine/3" is the wanted type or of the wanted kind "engine"."""
     return kind == wanted or kind.partition("/")[0] == wanted
 
 
 def values(units: Sequence[Unit], name: str) -> Array:
-    """Numbers (n,) of units; NaN where one is not known."""
+    """Return a numeric field (n,) of units; NaN: unknown."""
     found = (getattr(each, name) for each in units)
     return np.array([np.nan if each is None else each for each in found], np.float64)
 
 
 def costs(units: Sequence[Unit], hours: float) -> Array:
-    """Cost (n,) of mobilising and of hours of work, as searches have it."""
+    """Compute the cost (n,) of mobilisation and hours of work, as in a search."""
     mobilise, hour, day = (values(units, f"cost_{name}") for name in ("mobilise", "hour", "day"))
     return unit_cost(mobilise, hour, day, hours)
 
 
 def minutes(units: Sequence[Unit], place: ArrayLike) -> Array:
-    """Minutes (n, k) from the order to the arrival at places (k, 2), degrees, as searches have them."""
+    """Compute the time (n, k), min, from the order to the arrival at points (k, 2), degrees."""
     at, spots = (values(units, "lat"), values(units, "lon")), np.asarray(place, np.float64).reshape(-1, 2)
     air = np.array([each.type.partition("/")[0] in AIR for each in units], bool)
     speed, first = values(units, "speed_km_h"), values(units, "mobilise_min")

@@ -1,4 +1,4 @@
-"""Why there is no allocation: which type, how much line or how much money is missing."""
+"""Reasons for an infeasible allocation: missing resources of a type, missing line, or missing budget."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _LEAST = 0.1  # m of line
 
 
 def reasons(problem: Problem, names: tuple[str, ...], options: Options = USUAL) -> list[str]:
-    """Sentences on what is missing, in this order: types of the standard response, line, money.
+    """Explain the shortfall, in this order: types of the standard response, line, budget.
 
     Parameters
     ----------
@@ -36,33 +36,33 @@ def _response(problem: Problem) -> list[str]:
         if there >= number:
             continue
         text = (
-            f"the standard response lacks {number - there} of {number} {kind}: {there} can arrive within "
-            f"{limit:g} min"
+            f"the standard response is short of {number - there} of {number} {kind}: {there} can arrive "
+            f"within {limit:g} min"
         )
         late = np.sort(problem.minutes[of_kind].min(axis=1, initial=np.inf))[there:number]
         if late.size == number - there:
-            text += f"; with {np.ceil(late[-1]):.0f} min there would be {number}"
+            text += f"; {number} can arrive within {np.ceil(late[-1]):.0f} min"
         else:
-            text += f", and the list has {int(of_kind.sum())}"
+            text += f"; the file has {int(of_kind.sum())}"
         found.append(text)
     return found
 
 
 def _line(problem: Problem, names: tuple[str, ...], options: Options) -> list[str]:
-    lacking, hour = containment.shortest_line(problem, options)
-    short = np.flatnonzero(lacking > _LEAST)
+    missing, hour = containment.shortest_line(problem, options)
+    short = np.flatnonzero(missing > _LEAST)
     if not short.size:
         return []
     hours = problem.hours[hour]
     each = ", ".join(
-        f"{lacking[k]:,.0f} m of the {problem.perimeter[k, hour[k]]:,.0f} m of division {names[k]} at hour "
+        f"{missing[k]:,.0f} m of the {problem.perimeter[k, hour[k]]:,.0f} m of division {names[k]} at hour "
         f"{hours[k]:g}"
         for k in short
     )
-    rate = (lacking / hours)[short].sum()
+    rate = (missing / hours)[short].sum()
     return [
-        f"the line rate is too low: all resources together lack {each}, which is {rate:,.0f} m/h from the "
-        "order on"
+        f"the line rate is too low: with all resources {each} are missing, a rate of {rate:,.0f} m/h from "
+        "the order"
     ]
 
 

@@ -1,4 +1,4 @@
-"""A suggestion as JSON holds it: divisions with their resources, sums, assumptions and limits."""
+"""Suggested allocation as JSON data: divisions with their resources, sums, assumptions and limits."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ UNITS = {"perimeter": "m", "line": "m", "arrival": "min", "hour": "h", "position
 
 @dataclass(frozen=True)
 class Asked:
-    """Resources (n), divisions and which of them burn (k), and the problem that they make."""
+    """Resources (n), divisions, indices (k) of the burning ones, and their problem."""
 
     resources: Sequence[Unit]
     left_out: list[str]
@@ -31,12 +31,12 @@ class Asked:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the divisions of the problem."""
+        """Names of the divisions in the problem."""
         return tuple(self.divisions.names[k] for k in self.burning)
 
 
 def describe(asked: Asked, answer: Answer | None, pairs: list[Nearest], reasons: list[str]) -> dict[str, Any]:
-    """The suggestion; without an answer, the reasons why there is none."""
+    """Return the suggestion, or the reasons if it is infeasible."""
     request, divisions = asked.problem.request, asked.divisions
     return {
         "label": EXERCISE,
@@ -117,14 +117,14 @@ def _currency(asked: Asked) -> str:
 def _assumptions(asked: Asked) -> list[str]:
     request, period = asked.problem.request, asked.divisions.hours[-1]
     escape = (
-        "has to be contained" if request.escape is None else f"may escape at a loss of {request.escape:,.2f}"
+        "must be contained" if request.escape is None else f"may escape at a loss of {request.escape:,.2f}"
     )
     return [
-        f"divisions are sectors about the centre of what has burned by the order; each {escape}",
-        "a division is contained at the hour at which its line is as long as the run's front there, measured "
-        "on the map without slopes",
-        f"a resource that is sent works in one division and is paid for mobilising and all {period:g} h",
-        f"on roads a way is {DETOUR:g} times the straight distance, and {', '.join(AIR)} fly straight, "
-        "to the middle of the division's first front",
+        f"divisions are sectors around the centre of the area burned by the time of the order; each {escape}",
+        "a division is contained at the first hour at which its line is as long as its front in the run, "
+        "measured on the map without slopes",
+        f"a resource works in one division and is paid for mobilisation and {period:g} h",
+        f"travel is to the middle of the first front of a division: roads are {DETOUR:g} times the straight "
+        f"distance, {' and '.join(AIR)} fly straight",
         f"burned ground is a loss of {request.loss:,.2f} per hectare",
     ]

@@ -1,6 +1,6 @@
-"""Stations and resources around a fire: one GeoPackage, importers, search, and a suggested allocation.
+"""Stations and resources around a fire: one GeoPackage, importers, and search.
 
-A file of places holds where stations are and what stands there. Each row says where it comes from (`Source`)
-and what it is (`ORIGINS` of `records`): a fact, part of an exercise, or the user's own. Nothing here knows a
-person, a telephone number or a radio channel.
+A station file stores stations with their positions and resources. Each row has a source (`records.Source`)
+and an origin (`records.ORIGINS`): fact, exercise or user. Persons, telephone numbers and radio channels are
+not stored.
 """

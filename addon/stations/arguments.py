@@ -1,4 +1,4 @@
-"""The command lines of `firetwin stations` and `firetwin resources`; nothing heavy is imported here."""
+"""Arguments of `firetwin stations` and `firetwin resources`; no heavy module is imported here."""
 
 from __future__ import annotations
 
@@ -12,29 +12,30 @@ from pathlib import Path
 from .records import DETOUR, MODES, STAFFING
 
 STATIONS = """\
-Makes and lists files of stations and resources (GeoPackage, which QGIS opens too).
+Makes and lists station files: stations and resources in a GeoPackage, which QGIS also opens.
 
-  firetwin stations import stations.csv --out places.gpkg
+  firetwin stations import stations.csv --out stations.gpkg
   firetwin stations exercise RUN --out exercise.gpkg
-  firetwin stations info places.gpkg
+  firetwin stations info stations.gpkg
 
-import reads fire stations of HIFLD (CSV, GeoJSON), of the USGS (structures; GeoPackage, GeoJSON) and of
+`import` reads fire stations from HIFLD (CSV, GeoJSON), the USGS (structures; GeoPackage, GeoJSON) and
 OpenStreetMap (Overpass JSON, GeoJSON), CSV of stations (name, latitude, longitude) and of resources (station,
-type), and files of places. Formats are found by content. Stations within 150 m of like name and kind are
-merged. Telephones and persons are never stored. exercise invents resources at bases in towns around the fire
-of a run; all of it is labelled as an exercise."""
+type), and station files. The format is detected from the content. Stations within 150 m with similar name and
+equal kind are merged. Telephone numbers and persons are never stored. `exercise` invents resources at bases
+in towns around the fire of a run; everything in the file is labelled as an exercise."""
 
 RESOURCES = """\
-Lists what answers all conditions, soonest first. Five words have one meaning each. Area of coverage: the
-polygon drawn for the station, else the resource's radius, else what it reaches within --minutes. Budget:
-mobilising and --hours of work, summed. Tonnage: water or retardant delivered in an hour by round trips. Mode:
-attack, structure, drop, line, water, lift or command. Availability: its status at a time.
+Lists the resources that meet all conditions, earliest arrival first. Five terms are defined as follows. Area
+of coverage: the polygon of the station, otherwise the radius of the resource, otherwise the area that it
+reaches within --minutes. Budget: mobilisation and --hours of work, summed. Tonnage: water or retardant
+delivered per hour by round trips. Mode: attack, structure, drop, line, water, lift or command. Availability:
+the status at a time.
 
-With --tonnes-per-hour the list is the cheapest set that delivers it; the exit status is 1 if there is none
-within --budget. With --budget alone it is what arrives first and can be paid. Units and assumptions are
-printed. With --run the list says when the fire reaches each station, with the earliest and the latest time,
-or how close it comes.
-A file without resources lists its stations, as --stations does."""
+With --tonnes-per-hour the result is the cheapest set that delivers this much; the exit status is 1 if there
+is no such set within --budget. With --budget only, the result is the earliest resources that the budget pays
+for. Units and assumptions are printed. With --run the list gives the time at which the fire reaches each
+station, with the earliest and latest time, or its closest approach. For a file without resources the stations
+are listed, as with --stations."""
 
 _LENGTHS = {"": 1.0, "km": 1.0, "m": 0.001, "mi": 1.609344}
 
@@ -52,27 +53,31 @@ def add_stations(parser: argparse.ArgumentParser, path: Callable[[str], Path]) -
         parser.add_argument("--out", metavar="STATIONS.gpkg", type=path, required=True, help="file to write")
         parser.add_argument("--overwrite", action="store_true", help="replace an existing file")
 
-    made = verb("import", "make a file of places of other files")
-    made.add_argument("files", metavar="FILE", nargs="+", type=path, help="files of any known format")
+    made = verb("import", "make a station file from other files")
+    made.add_argument("files", metavar="FILE", nargs="+", type=path, help="files in any known format")
     out(made)
-    made.add_argument("--source", metavar="NAME", default="", help="name of the source (the format's)")
-    made.add_argument("--licence", metavar="TEXT", default="", help="licence of the data (the format's)")
-    made.add_argument("--url", metavar="URL", default="", help="address of the source (the format's)")
+    made.add_argument("--source", metavar="NAME", default="", help="name of the source (by format)")
+    made.add_argument("--licence", metavar="TEXT", default="", help="licence of the data (by format)")
+    made.add_argument("--url", metavar="URL", default="", help="address of the source (by format)")
     made.add_argument(
-        "--date", metavar="DAY", type=_day, default=None, help="day of the data, 2026-11-25 (the file's)"
+        "--date",
+        metavar="DAY",
+        type=_day,
+        default=None,
+        help="date of the data, such as 2026-11-25 (from the data or the file)",
     )
 
-    exercise = verb("exercise", "invent an exercise's resources around the fire of a run")
-    exercise.add_argument("run", metavar="RUN", type=path, help="run folder, or a scene file: its first run")
+    exercise = verb("exercise", "invent resources of an exercise around the fire of a run")
+    exercise.add_argument("run", metavar="RUN", type=path, help="run folder, or scene file (its first run)")
     out(exercise)
     exercise.add_argument(
         "--towns", metavar="FILE", type=path,
-        help="CSV or GeoJSON with name, latitude, longitude of bases (published towns of a known fire)",
+        help="CSV or GeoJSON of bases: name, latitude, longitude (published towns of a known fire)",
     )  # fmt: skip
-    exercise.add_argument("--seed", metavar="N", type=_seed, default=0, help="another exercise (0)")
+    exercise.add_argument("--seed", metavar="N", type=_seed, default=0, help="random seed (0)")
 
-    info = verb("info", "list what is in a file of places")
-    info.add_argument("file", metavar="STATIONS.gpkg", type=path, help="file of places")
+    info = verb("info", "list the content of a station file")
+    info.add_argument("file", metavar="STATIONS.gpkg", type=path, help="station file")
     info.add_argument("--json", action="store_true", help="write JSON")
 
 
@@ -80,32 +85,49 @@ def add_resources(
     parser: argparse.ArgumentParser, path: Callable[[str], Path], moment: Callable[[str], datetime]
 ) -> None:
     """Define the options of `firetwin resources`."""
-    parser.add_argument("file", metavar="STATIONS.gpkg", type=path, help="file of places")
-    parser.add_argument("--run", metavar="RUN", type=path, help="run folder, or a scene file: its first run")
+    parser.add_argument("file", metavar="STATIONS.gpkg", type=path, help="station file")
+    parser.add_argument("--run", metavar="RUN", type=path, help="run folder, or scene file (its first run)")
     parser.add_argument(
         "--near", metavar="PLACE", type=_place,
-        help="LAT,LON; or of --run: ignition, or head (of the fire at the time --available-at)",
+        help="destination: LAT,LON; with --run also ignition, or head (of the fire at --available-at)",
     )  # fmt: skip
     parser.add_argument(
-        "--within", metavar="LENGTH", type=_length, help="straight distance, such as 60km or 40mi"
+        "--within", metavar="LENGTH", type=_length, help="maximum straight distance, such as 60km or 40mi"
     )
     parser.add_argument(
-        "--minutes", metavar="N", type=_positive, help="time from the order to the arrival, min"
+        "--minutes", metavar="N", type=_positive, help="maximum time from the order to the arrival, min"
     )
     parser.add_argument("--kind", metavar="LIST", type=_words, default=(), help="kinds, such as engine,dozer")
     parser.add_argument(
         "--type", metavar="LIST", type=parse_types, default=(), help="types, such as 3, 1-3 or VLAT"
     )
-    parser.add_argument("--mode", metavar="LIST", type=_among(MODES), default=(), help="operational modes")
-    parser.add_argument("--staffing", metavar="LIST", type=_among(STAFFING), default=(), help="employment")
-    parser.add_argument("--night", action="store_true", help="only what works at night")
-    parser.add_argument("--available-at", metavar="TIME", type=moment, help="time, 2014-09-17T16:00-07:00")
     parser.add_argument(
-        "--tonnes-per-hour", metavar="T", type=_positive, help="water or retardant delivered, t/h"
+        "--mode",
+        metavar="LIST",
+        type=_among(MODES),
+        default=(),
+        help="operational modes, such as attack,drop",
     )
-    parser.add_argument("--budget", metavar="COST", type=_positive, help="greatest cost of the set")
     parser.add_argument(
-        "--currency", metavar="CODE", default="USD", type=str.upper, help="of the budget (USD)"
+        "--staffing",
+        metavar="LIST",
+        type=_among(STAFFING),
+        default=(),
+        help="employment, such as career or volunteer",
+    )
+    parser.add_argument("--night", action="store_true", help="only resources that work at night")
+    parser.add_argument(
+        "--available-at",
+        metavar="TIME",
+        type=moment,
+        help="time of availability, such as 2014-09-17T16:00-07:00",
+    )
+    parser.add_argument(
+        "--tonnes-per-hour", metavar="T", type=_positive, help="minimum water or retardant delivered, t/h"
+    )
+    parser.add_argument("--budget", metavar="COST", type=_positive, help="maximum cost of the set")
+    parser.add_argument(
+        "--currency", metavar="CODE", default="USD", type=str.upper, help="currency of the budget (USD)"
     )
     for name, unit, usual, what in (
         ("hours", "H", 12.0, "hours of work that are paid"),
@@ -120,7 +142,7 @@ def add_resources(
     )
     parser.add_argument(
         "--clearance", metavar="LENGTH", type=_length, default=0.5,
-        help="distance to the fire at which --ahead keeps a station that itself does not burn (500m)",
+        help="distance to the fire up to which --ahead lists stations that do not burn (500m)",
     )  # fmt: skip
     parser.add_argument("--stations", action="store_true", help="list stations instead of resources")
     parser.add_argument("--json", action="store_true", help="write JSON")
@@ -178,12 +200,12 @@ def _words(text: str) -> tuple[str, ...]:
 
 
 def parse_types(text: str) -> tuple[str, ...]:
-    """Types of a list such as ``1-3,VLAT``.
+    """Parse a list of types such as ``1-3,VLAT``.
 
     Raises
     ------
     argparse.ArgumentTypeError
-        It is empty, or a range goes backwards.
+        The list is empty, or a range goes backwards.
     """
     found: list[str] = []
     for part in _words(text):
@@ -199,7 +221,7 @@ def _among(known: tuple[str, ...]) -> Callable[[str], tuple[str, ...]]:
         found = _words(text)
         for word in found:
             if word not in known:
-                raise argparse.ArgumentTypeError(f"{word!r} is none of {', '.join(known)}")
+                raise argparse.ArgumentTypeError(f"{word!r} is not one of {', '.join(known)}")
         return found
 
     return words

@@ -1,4 +1,4 @@
-"""Columns of words, such as kinds of resources, as numbers that searches compare at once."""
+"""Categorical columns, such as kinds of resources: integer codes that a search compares in one step."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class Categorical:
-    """A column of words: the different ones, and the index (n,) of each row's."""
+    """A categorical column: its distinct words, and the code (n,) of each row."""
 
     words: tuple[str, ...]
     index: NDArray[np.int64]
 
     @classmethod
     def from_values(cls, values: Iterable[str]) -> Categorical:
-        """Words of a column."""
+        """Encode a column of words."""
         number: dict[str, int] = {}
         index = np.array([number.setdefault(value, len(number)) for value in values], np.int64)
         return cls(tuple(number), index)
 
     def isin(self, wanted: Collection[str]) -> NDArray[np.bool_]:
-        """Which rows (n,) have one of these words, in any case of letters."""
+        """Return a mask (n,) of the rows with one of these words; letter case is ignored."""
         low = {word.lower() for word in wanted}
         return np.array([word.lower() in low for word in self.words] or [False])[self.index]

@@ -1,4 +1,4 @@
-"""What `firetwin stations` and `firetwin resources` do."""
+"""The commands `firetwin stations` and `firetwin resources`."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from .records import EXERCISE
 
 @dataclass(frozen=True)
 class Fire:
-    """A run, and the head of its fire: degrees north and east at a time; None while nothing burns."""
+    """A run, and the head of its fire at a time: degrees north and east, None if nothing burns."""
 
     run: Run
     head: Callable[[datetime], tuple[float, float] | None]
@@ -32,7 +32,7 @@ OpenFire = Callable[[Path], Fire]
 
 
 def run_stations(arguments: argparse.Namespace, fire: OpenFire) -> None:
-    """Do what a verb of `firetwin stations` says."""
+    """Run a verb of `firetwin stations`."""
     if arguments.verb == "info":
         show_info(arguments)
     elif arguments.verb == "import":
@@ -42,7 +42,7 @@ def run_stations(arguments: argparse.Namespace, fire: OpenFire) -> None:
 
 
 def import_files(arguments: argparse.Namespace) -> None:
-    """Make a file of places of others."""
+    """Make a station file from other files."""
     _check_out(arguments)
     about = merging.About(arguments.source, arguments.licence, arguments.date or "", arguments.url)
     batches = [(path, importers.read(path)) for path in arguments.files]
@@ -50,10 +50,10 @@ def import_files(arguments: argparse.Namespace) -> None:
     for message in messages:
         say(message)
     if not station_file.stations:
-        reason = "has no station that can be kept" + ("" if len(batches) == 1 else ", nor have the others")
+        reason = "has no valid station" + ("" if len(batches) == 1 else ", and neither have the other files")
         raise input_error(arguments.files[0], reason)
     if any(source.licence == merging.NO_LICENCE for source in station_file.sources):
-        say("a source has no licence; say whose data it is by --source and --licence before it is shown")
+        say("a source has no licence; give --source and --licence before you publish the data")
     writing.write(station_file, arguments.out)
     result(arguments.out)
 
@@ -64,7 +64,7 @@ def make_exercise(arguments: argparse.Namespace, fire: OpenFire) -> None:
     run = fire(arguments.run).run
     known = run.event in history.events()
     if arguments.towns is None and not known:
-        reason = "depicts no known fire, whose towns are published; name a list of bases by --towns"
+        reason = "is not a known fire with published towns; name a list of bases with --towns"
         raise input_error(arguments.run, reason)
     if arguments.towns is None:
         station_file = exercise.of_event(run.event, arguments.seed)
@@ -75,7 +75,7 @@ def make_exercise(arguments: argparse.Namespace, fire: OpenFire) -> None:
             arguments.towns.name, arguments.seed,
         )  # fmt: skip
     if not station_file.stations:
-        raise input_error(arguments.towns or arguments.run, "names no place for a base; name one or more")
+        raise input_error(arguments.towns or arguments.run, "has no place for a base; list at least one")
     writing.write(station_file, arguments.out)
     bases, resources = (
         count(len(station_file.stations), "base"),
@@ -86,13 +86,13 @@ def make_exercise(arguments: argparse.Namespace, fire: OpenFire) -> None:
 
 
 def show_info(arguments: argparse.Namespace) -> None:
-    """List what is in a file of places."""
+    """List the content of a station file."""
     facts = page.facts(reading.read(arguments.file))
     result(json.dumps(facts, indent=1, ensure_ascii=False) if arguments.json else page.info(facts))
 
 
 def find_resources(arguments: argparse.Namespace, fire: OpenFire) -> int:
-    """List resources or stations that answer a query; 1 where no set delivers what is asked for."""
+    """List the resources or stations that match a query; return 1 if no set delivers enough."""
     _check_query(arguments)
     station_file = reading.read(arguments.file)
     opened = fire(arguments.run) if arguments.run else None
@@ -121,14 +121,14 @@ def _check_query(arguments: argparse.Namespace) -> None:
         One is missing.
     """
     if arguments.near in ("ignition", "head") and arguments.run is None:
-        raise UsageError(f"--near: {arguments.near} is that of a run's fire; name the run by --run")
+        raise UsageError(f"--near: {arguments.near} needs the fire of a run; name it with --run")
     if arguments.near == "head" and arguments.available_at is None:
-        raise UsageError("--near: head is where the fire is at a time; name it by --available-at")
+        raise UsageError("--near: head needs a time; give it with --available-at")
     if arguments.ahead and arguments.run is None:
-        raise UsageError("--ahead: needs the fire of a run; name it by --run")
+        raise UsageError("--ahead: needs the fire of a run; name it with --run")
     for name in ("within", "minutes", "tonnes_per_hour"):
         if getattr(arguments, name) is not None and arguments.near is None:
-            raise UsageError(f"--{name.replace('_', '-')}: needs a place to go to; name it by --near")
+            raise UsageError(f"--{name.replace('_', '-')}: needs a destination; give it with --near")
 
 
 def _check_stations(arguments: argparse.Namespace) -> None:
@@ -140,11 +140,11 @@ def _check_stations(arguments: argparse.Namespace) -> None:
     for name, value in asked.items():
         if value:
             why = "--stations lists stations" if arguments.stations else f"{arguments.file} has none"
-            raise UsageError(f"--{name}: is a condition on resources, and {why}")
+            raise UsageError(f"--{name}: is a condition on resources, but {why}")
 
 
 def _near(arguments: argparse.Namespace, fire: Fire | None) -> tuple[float, float] | None:
-    """Coordinates of the place that resources go to; a word for one is said with its source."""
+    """Return the coordinates of the destination; print the coordinates of `ignition` and `head`."""
     if fire is None or not isinstance(arguments.near, str):
         return arguments.near
     if arguments.near == "head":
@@ -152,7 +152,7 @@ def _near(arguments: argparse.Namespace, fire: Fire | None) -> tuple[float, floa
     else:
         found, source = ignition.find(fire.run) or (None, "")
     if found is None:
-        raise input_error(arguments.run, f"has no fire, so no {arguments.near}; give LAT,LON")
+        raise input_error(arguments.run, f"has no fire and therefore no {arguments.near}; give LAT,LON")
     say(f"{arguments.near}: {found[0]:.4f}, {found[1]:.4f} ({source})")
     return found
 

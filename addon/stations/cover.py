@@ -1,9 +1,9 @@
-"""The cheapest set of resources that delivers enough: a 0-1 minimum knapsack cover, solved exactly.
+"""Minimum knapsack cover: the cheapest set of resources that delivers enough, solved exactly.
 
-Costs and deliveries are whole numbers (cents and kg/h). States are pairs of cost and delivery; of two states
-the one that costs no less and delivers no more is dropped (Nemhauser and Ullmann, Discrete dynamic
-programming and capital allocation, Management Science 15, 1969). A state is also dropped when even the linear
-relaxation of what it lacks costs more than a set already known.
+Costs and deliveries are integers (cents and kg/h). States are pairs of cost and delivery; a state that
+another one dominates (no higher cost, no lower delivery) is dropped (Nemhauser and Ullmann, Discrete dynamic
+programming and capital allocation, Management Science 15, 1969). A state is also dropped if its cost plus the
+linear relaxation of its missing delivery exceeds the cost of a known set.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 
 Whole = NDArray[np.int64]
 
-_MOST = 4e18  # sum of prices that 64 bits hold
+_MOST = 4e18  # largest sum of prices in 64 bits
 
 
 class _States(NamedTuple):
-    """Sets of items, by ascending cost and delivery; `before` is a state of the step before."""
+    """Sets of items, by ascending cost and delivery; `before` is an index of a state of the previous step."""
 
     cost: Whole
     gain: Whole
@@ -28,10 +28,10 @@ class _States(NamedTuple):
 
 
 def cheapest(cost: Whole, gain: Whole, need: int) -> Whole | None:
-    """Indices (k,), ascending, of the items with the least cost whose gains sum to `need` or more.
+    """Return the indices (k,), ascending, of the cheapest set of items whose gains sum to `need` or more.
 
-    Of sets of one cost it is one of the fewest items. Items of equal cost and gain are taken in their order.
-    None where all items together are not enough.
+    Ties go to the set with fewer items. Items of equal cost and gain are taken in their order. None if all
+    items together are not enough.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def cheapest(cost: Whole, gain: Whole, need: int) -> Whole | None:
     gains = np.minimum(gain[items], need)
     if int(gains.sum()) < need:
         return None
-    factor = len(items) + 1  # of two sets of one cost the one of fewer items
+    factor = len(items) + 1  # ties go to the set with fewer items
     if float(cost[items].sum()) * factor > _MOST:
         return _solve_scaled(items, cost[items], gains, need)
     return _solve_scaled(items, cost[items] * factor + 1, gains, need)
@@ -57,7 +57,7 @@ def _solve_scaled(items: Whole, prices: Whole, gains: Whole, need: int) -> Whole
 
 
 def _reduce(prices: Whole, gains: Whole, need: int) -> tuple[Whole, int]:
-    """Items that a cheapest set may hold, by ascending price of a gain, and the price of some set."""
+    """Return the items that can be in a cheapest set, by ascending price per gain, and a price bound."""
     order = np.lexsort((np.arange(len(prices)), -gains, prices / gains))
     order = order[_first_equal(prices[order], gains[order], need)]
     p, g = prices[order], gains[order]
@@ -71,7 +71,7 @@ def _reduce(prices: Whole, gains: Whole, need: int) -> tuple[Whole, int]:
 
 
 def _first_equal(prices: Whole, gains: Whole, need: int) -> NDArray[np.bool_]:
-    """Of alike items, which lie side by side, no more than are enough by themselves."""
+    """Mask equal items, which are adjacent, beyond the number that is enough without other items."""
     new = np.concatenate([[True], (np.diff(prices) != 0) | (np.diff(gains) != 0)])
     starts = np.flatnonzero(new)
     rank = np.arange(len(prices)) - starts[np.cumsum(new) - 1]
@@ -79,27 +79,27 @@ def _first_equal(prices: Whole, gains: Whole, need: int) -> NDArray[np.bool_]:
 
 
 def _greedy(prices: Whole, gains: Whole, need: int, last: int) -> int:
-    """Price of a set: the items before `last`, and the cheapest one that completes them."""
-    lacking = need - int(np.sum(gains[:last]))
-    rest = prices[last:][gains[last:] >= lacking]
+    """Return the price of the items before `last` and of the cheapest item that completes the set."""
+    missing = need - int(np.sum(gains[:last]))
+    rest = prices[last:][gains[last:] >= missing]
     return int(np.sum(prices[:last])) + int(rest.min())
 
 
 def _solve(prices: Whole, gains: Whole, need: int, bound: int) -> Whole:
-    """Indices of the cheapest set, of items by ascending price of a gain; its price is `bound` or less."""
+    """Return the indices of the cheapest set of items sorted by price per gain; `bound` is attainable."""
     zero = np.zeros(1, np.int64)
     steps = [_States(zero, zero, zero, np.zeros(1, np.bool_))]
     sums, spent = (np.concatenate([zero, np.cumsum(each)]) for each in (gains, prices))
     limit, best = bound + 1, zero[:0]
     for item, (price, gain) in enumerate(zip(prices, gains, strict=True)):
         states = _extend(steps[-1], int(price), int(gain), need)
-        for enough in np.flatnonzero(states.gain >= need):  # one at most, as others cost more
+        for enough in np.flatnonzero(states.gain >= need):  # at most one, as the others cost more
             if states.cost[enough] < limit:
                 limit = int(states.cost[enough])
                 best = np.append(_backtrack(steps, int(states.before[enough])), item)
-        lacking, done = need - states.gain, sums[item + 1]
-        least = np.interp(lacking + done, sums[item + 1 :], spent[item + 1 :]) - spent[item + 1]
-        keep = (lacking > 0) & (lacking <= sums[-1] - done)
+        missing, done = need - states.gain, sums[item + 1]
+        least = np.interp(missing + done, sums[item + 1 :], spent[item + 1 :]) - spent[item + 1]
+        keep = (missing > 0) & (missing <= sums[-1] - done)
         keep &= states.cost + least < limit - 0.5 + 1e-12 * limit  # prices are whole numbers
         steps.append(_States(*(each[keep] for each in states)))
         if not keep.any():
@@ -108,7 +108,7 @@ def _solve(prices: Whole, gains: Whole, need: int, bound: int) -> Whole:
 
 
 def _extend(states: _States, price: int, gain: int, need: int) -> _States:
-    """States without and with one more item; of equal ones that without comes first."""
+    """Return the states without and with one more item; of equal states the one without it comes first."""
     cost = np.concatenate([states.cost, states.cost + price])
     sums = np.minimum(np.concatenate([states.gain, states.gain + gain]), need)
     before = np.tile(np.arange(len(states.cost)), 2)
@@ -120,7 +120,7 @@ def _extend(states: _States, price: int, gain: int, need: int) -> _States:
 
 
 def _backtrack(steps: list[_States], state: int) -> Whole:
-    """Items of a state of the last step."""
+    """Return the items of a state of the last step."""
     found = []
     for item in range(len(steps) - 1, 0, -1):
         step = steps[item]

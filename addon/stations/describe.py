@@ -1,4 +1,4 @@
-"""Texts of stations that lists, signs and pages share."""
+"""Texts about stations for lists, signs and pages."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .records import Resource
 
 
 def count_types(resources: Iterable[Resource], most: int) -> str:
-    """``2 x engine/3, 1 x dozer/2 and 2 more types``, with `most` of them named; empty without any."""
+    """Format counts by type: ``2 x engine/3, 1 x dozer/2 and 2 more types``; at most `most` are named."""
     counted: Counter[str] = Counter()
     for each in resources:
         counted[each.type] += each.count
@@ -19,11 +19,11 @@ def count_types(resources: Iterable[Resource], most: int) -> str:
 
 
 def degrees(latitude: float, longitude: float) -> tuple[str, str]:
-    """Latitude and longitude to a metre, the latter from -180 to 180."""
+    """Format latitude and longitude with a resolution of 1 m, the longitude from -180 to 180."""
     return f"{latitude:.5f}", f"{(longitude + 180.0) % 360.0 - 180.0:.5f}"
 
 
 def web_map_address(latitude: float, longitude: float) -> str:
-    """Address of a position on OpenStreetMap's page; nothing is loaded until a reader follows it."""
+    """Return the address of a position on openstreetmap.org; nothing is loaded before a reader follows it."""
     north, east = degrees(latitude, longitude)
     return f"https://www.openstreetmap.org/?mlat={north}&mlon={east}#map=14/{north}/{east}"

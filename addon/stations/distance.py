@@ -15,7 +15,7 @@ _FLATTENING = 1.0 - np.sqrt(1.0 - E2)
 
 
 def distance_km(latitude: ArrayLike, longitude: ArrayLike, near: tuple[float, float]) -> Array:
-    """Distance (n,) of points to one, km, along the ellipsoid; degrees north and east.
+    """Compute the distance (n,) of points to a point, km, along the ellipsoid; degrees north and east.
 
     Andoyer's and Lambert's correction of the great circle between reduced latitudes (Thomas, Spheroidal
     geodesics, reference systems, and local geometry, US Naval Oceanographic Office SP-138, 1970). Within 1e-5
@@ -35,12 +35,12 @@ def distance_km(latitude: ArrayLike, longitude: ArrayLike, near: tuple[float, fl
 
 
 def covers(area: Area, latitude: float, longitude: float) -> bool:
-    """Whether a point lies in an area: within an odd number of rings of one of its polygons."""
+    """Return True if a point is in an area: within an odd number of rings of one of its polygons."""
     return any(sum(_inside(ring, latitude, longitude) for ring in rings) % 2 == 1 for rings in area.polygons)
 
 
 def _inside(ring: Array, latitude: float, longitude: float) -> bool:
-    """Even-odd rule: how often a line to the east crosses the ring (n, 2)."""
+    """Apply the even-odd rule: count how often a line to the east crosses the ring (n, 2)."""
     x, y = areas.turned(ring[:, 0], longitude), ring[:, 1]
     after_x, after_y = np.roll(x, -1), np.roll(y, -1)
     crosses = (y > latitude) != (after_y > latitude)

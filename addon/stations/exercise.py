@@ -1,8 +1,8 @@
-"""An exercise's places: bases at towns with published positions, and invented resources.
+"""Exercises: bases at towns with published positions, and invented resources.
 
-No base is a real station, and no resource, number or window is a fact: all rows have the origin ``exercise``.
-Kinds and types are those of NWCG PMS 200. Speeds, times, costs and line rates are round assumptions of the
-exercise, and say so in `Resource.note`.
+Bases are not real stations, and resources, numbers and windows are not facts: all rows have the origin
+``exercise``. Kinds and types are from NWCG PMS 200. Speeds, times, costs and line rates are rounded
+assumptions of the exercise; `Resource.note` states this.
 """
 
 from __future__ import annotations
@@ -24,18 +24,18 @@ from .types import mode_of, standard_types
 NOTE = "exercise assumption: speed, minutes, costs, load and line rate are round numbers, not facts"
 KIND = "exercise base"
 _TOWNS = ("town", "valley")
-_DAY, _NIGHT = 6, 18  # hours of local time at which shifts begin
+_DAY, _NIGHT = 6, 18  # local hours at which shifts begin
 _SHARES = {"available": 0.75, "committed": 0.15, "unavailable": 0.10}
 
 
 @dataclass(frozen=True)
 class Assumed:
-    """Assumptions about a type; None where it has none. Loads that a type's tank gives are not repeated.
+    """Assumptions about a type; None: not applicable. Loads that follow from the tank are omitted.
 
     Attributes
     ----------
     often
-        Mean number of rows at a base.
+        Mean number of resources at a base.
     """
 
     often: float
@@ -71,7 +71,7 @@ ASSUMED = {
 
 
 def towns(event: str) -> list[Label]:
-    """Towns of a known fire with published positions (data/<event>.toml)."""
+    """Return the towns of a known fire with published positions (data/<event>.toml)."""
     places = history.load(event).places
     return [
         Label(each.name, each.latitude, each.longitude)
@@ -81,7 +81,7 @@ def towns(event: str) -> list[Label]:
 
 
 def of_event(event: str, seed: int = 0) -> StationFile:
-    """Exercise around a known fire: its towns, and windows from its ignition to its last report."""
+    """Make an exercise for a known fire: bases in its towns, windows from the ignition to the last report."""
     known = history.load(event)
     begins, ends = known.ignitions[0].time, known.acreages[-1].time
     positions = f"towns of data/{event}.toml, published and not verified one by one"
@@ -97,18 +97,18 @@ def make(
     positions: str,
     seed: int = 0,
 ) -> StationFile:
-    """Make an exercise; the same arguments make the same one.
+    """Make an exercise; equal arguments give equal results.
 
     Parameters
     ----------
     begins, ends
-        Time of the exercise, UTC; whole local days are made.
+        Period of the exercise, UTC, extended to complete local days.
     zone
-        Time zone of its shifts.
+        Time zone of the shifts.
     name
         Name of the fire.
     positions
-        Where the positions of the bases come from.
+        Source of the positions of the bases.
     """
     rng = np.random.default_rng(seed)
     day = begins.astimezone(ZoneInfo(zone)).date()
@@ -137,7 +137,7 @@ def make(
 def _resources(
     stations: Sequence[Station], bases: Sequence[Label], source: Source, rng: np.random.Generator
 ) -> Iterator[Resource]:
-    """Resources of each base; the first base has at least one of each type, so that an exercise has all."""
+    """Draw the resources of each base; the first base has at least one of each type."""
     number = 0
     for at, (station, base) in enumerate(zip(stations, bases, strict=True)):
         for code, assumed in ASSUMED.items():
@@ -173,7 +173,7 @@ def _resource(number: int, station: Station, base: Label, code: str, row: int, s
 
 
 def _shifts(begins: datetime, ends: datetime, zone: ZoneInfo) -> list[tuple[datetime, datetime, bool]]:
-    """Shifts of whole local days: beginning and end in UTC, and whether it is night."""
+    """Return the shifts of complete local days: start and end in UTC, and True for night."""
     first, last = begins.astimezone(zone).date(), ends.astimezone(zone).date()
     edges = [
         datetime(day.year, day.month, day.day, hour, tzinfo=zone).astimezone(UTC)
@@ -187,7 +187,7 @@ def _shifts(begins: datetime, ends: datetime, zone: ZoneInfo) -> list[tuple[date
 def _windows(
     resource: Resource, shifts: Sequence[tuple[datetime, datetime, bool]], rng: np.random.Generator
 ) -> Iterator[Availability]:
-    """Status in each shift, alike ones together; what does not work at night is unavailable then."""
+    """Draw the status in each shift, and merge equal ones; at night only night resources are available."""
     drawn = rng.choice(len(_SHARES), len(shifts), p=list(_SHARES.values()))
     words = list(_SHARES)
     status, since, until = "", shifts[0][0], shifts[0][0]

@@ -1,7 +1,7 @@
-"""When the fire of a run reaches a place, and between which times it may.
+"""Fire arrival: the time at which the fire of a run reaches a point, with its earliest and latest bound.
 
-The time is that of the flames and scores: the front moves at constant speed between two cell centres, and one
-that has stopped lies half-way between them (`run.arrival_grid.fill_unburned`).
+The front is the same as for flames and scores: it moves at constant speed between two cell centres, and a
+front that has stopped is half-way between them (`run.arrival_grid.fill_unburned`).
 """
 
 from __future__ import annotations
@@ -23,27 +23,28 @@ Array = NDArray[np.float64]
 
 OUTSIDE, NEVER, BEFORE, REACHED = range(4)
 STATES = ("outside of the run", "never", "burned before the run", "reached")
-"""What the fire does at a place; never is within the run's times."""
+"""States of a point; "never" holds until the end of the run."""
 
 OWN = "fuel_arrival_time"
 
 
 @dataclass(frozen=True)
 class Arrivals:
-    """Arrival of the fire at places (n,).
+    """Arrival of the fire at points (n,).
 
     Attributes
     ----------
     state
         Index into `STATES`.
     time, earliest, latest
-        Model times, s since the run began, NaN where the fire does not come. It comes between the earliest
-        and the latest of the four cell centres around the place. Of a run without arrival times of its own
-        these are the model's cells, and one interval of its output more. Where one of the cells never burns
-        the front stops near the place, and the latest is the run's end.
+        Model times, s since the start of the run; NaN if the fire does not arrive. The bounds are the
+        earliest and the latest arrival at the four cell centres around the point. For a run without the field
+        `fuel_arrival_time` these are cells of the model, and one output interval is added on both sides. If
+        one of the cells never burns, the front stops near the point, and the latest time is the end of the
+        run.
     nearest_km, nearest_time
-        Distance to the nearest cell that ever burns, km, and its arrival time: 0 and `time` where the fire
-        comes itself. Cells without fuel, such as those of buildings, do not burn. NaN without a fire.
+        Distance to the nearest cell that burns, km, and its arrival time: 0 and `time` if the fire reaches
+        the point. Cells without fuel, such as cells of buildings, do not burn. NaN without a fire.
     """
 
     state: NDArray[np.int64]
@@ -54,7 +55,7 @@ class Arrivals:
     nearest_time: Array
 
     def utc(self, run: Run, index: int) -> tuple[datetime, datetime, datetime] | None:
-        """Time, earliest and latest of a place, UTC; None where the fire does not come."""
+        """Return time, earliest and latest time of a point, UTC; None if the fire does not arrive."""
         if np.isnan(self.time[index]):
             return None
         first, second, third = (
@@ -63,7 +64,7 @@ class Arrivals:
         return first, second, third
 
     def text(self, run: Run, index: int, zone: str) -> str:
-        """Time of a place in a time zone; else its state, with how near the fire comes and when."""
+        """Format the time of a point; without arrival, its state, and the closest approach of the fire."""
         state, near = int(self.state[index]), float(self.nearest_km[index])
         there = float(self.nearest_time[index])
         moment = "" if np.isnan(there) else times.text(times.utc(run, there), zone)
@@ -74,12 +75,12 @@ class Arrivals:
 
 
 def sample(run: Run, latitude: ArrayLike, longitude: ArrayLike, until: float | None = None) -> Arrivals:
-    """Arrival of a run's fire at places (n,), degrees north and east.
+    """Sample the arrival of a run's fire at points (n,), degrees north and east.
 
     Parameters
     ----------
     until
-        Model time, s, after which nothing counts; by default all that the run has.
+        Last model time that counts, s; by default the last time of the run.
     """
     cells = ArrivalGrid.from_run(run)
     grid = _Corners.of(front.reach(run), latitude, longitude)
@@ -105,7 +106,7 @@ def sample(run: Run, latitude: ArrayLike, longitude: ArrayLike, until: float | N
 
 
 def text(run: Run, arrivals: Arrivals, index: int) -> str:
-    """When the fire reaches a place, and between which times that is, for people."""
+    """Format the arrival at a point with its bounds."""
     found = arrivals.text(run, index, zone.time_zone(run))
     if arrivals.state[index] != REACHED:
         return found
@@ -114,12 +115,12 @@ def text(run: Run, arrivals: Arrivals, index: int) -> str:
 
 
 def clock(run: Run, seconds: float) -> str:
-    """A model time, s, in the run's time zone."""
+    """Format a model time, s, in the time zone of the run."""
     return times.text(times.utc(run, seconds), zone.time_zone(run))
 
 
 def first_burned(run: Run) -> tuple[float, float] | None:
-    """Latitude and longitude of the middle of the fuel cells that burn first; None without a fire."""
+    """Return the mean position of the fuel cells that burn first, degrees; None without a fire."""
     grid = ArrivalGrid.from_run(run)
     if not np.isfinite(grid.arrival).any():
         return None
@@ -130,14 +131,17 @@ def first_burned(run: Run) -> tuple[float, float] | None:
 def _nearest(
     grid: ArrivalGrid, latitude: ArrayLike, longitude: ArrayLike, wanted: NDArray[np.bool_], end: float
 ) -> tuple[Array, Array]:
-    """Distance (n,) to the nearest cell that burns by `end`, km, and its arrival time; of `wanted` places."""
+    """Return the distance (n,), km, to the nearest cell that burns by `end`, and its time.
+
+    Both are NaN for points that are not `wanted`.
+    """
     burned = grid.arrival <= end
     far, time = (np.full(wanted.shape, np.nan) for _ in range(2))
     if not burned.any():
         return far, time
     padded = np.pad(burned, 1)
     inner = padded[:-2, 1:-1] & padded[2:, 1:-1] & padded[1:-1, :-2] & padded[1:-1, 2:]
-    row, column = np.nonzero(burned & ~inner)  # the nearest cell has a side that never burns
+    row, column = np.nonzero(burned & ~inner)  # the nearest cell is at the edge of the burned area
     y, x = np.asarray(latitude, np.float64), np.asarray(longitude, np.float64)
     for k in np.flatnonzero(wanted):
         distance = distance_km(grid.latitude[row], grid.longitude[column], (float(y[k]), float(x[k])))
@@ -148,7 +152,7 @@ def _nearest(
 
 @dataclass(frozen=True)
 class _Corners:
-    """Arrival times on a grid with a margin, and what the four cells around each place (n,) say."""
+    """Arrival times on a grid with a margin, and bounds from the four cells around each point (n,)."""
 
     field: Array
     row: Array
@@ -161,7 +165,7 @@ class _Corners:
 
     @classmethod
     def of(cls, fire: Reach, latitude: ArrayLike, longitude: ArrayLike) -> _Corners:
-        """Find the cells; the time is bilinear between those that burn."""
+        """Find the cells; the time is bilinear between the cells that burn."""
         field = fire.arrival
         row, column = fire.at(latitude, longitude)
         inside = (row >= 0.5) & (row <= len(field) - 1.5)  # within the edges of cells, half-way to the margin
@@ -193,7 +197,7 @@ class _Corners:
 def _of_model(
     run: Run, latitude: ArrayLike, longitude: ArrayLike, earliest: Array, latest: Array
 ) -> tuple[Array, Array]:
-    """Widen times to those of the model's cells around, and by an interval of the output."""
+    """Widen the bounds to the surrounding cells of the model, and by one output interval."""
     order = [slice(None, None, -1 if axis[0] > axis[-1] else 1) for axis in (run.latitude, run.longitude)]
     time = np.asarray(run.arrival_time(), np.float64)[order[0], order[1]]
     grid = ArrivalGrid(run.latitude[order[0]], run.longitude[order[1]], time)

@@ -1,4 +1,4 @@
-"""Where the fire of a run began: the published place of a known fire, else the run's first cells."""
+"""Ignition point of a run: the published point of a known fire, otherwise the cells that burn first."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from . import fire_arrival
 
 
 def find(run: Run) -> tuple[tuple[float, float], str] | None:
-    """Latitude and longitude, degrees, and their source; None where nothing burns."""
+    """Return latitude and longitude, degrees, and their source; None if nothing burns."""
     if run.event in history.events():
         point = history.load(run.event).ignitions[0]
         return (point.latitude, point.longitude), point.source

@@ -1,4 +1,4 @@
-"""What importers read: stations and resources before they are merged and numbered, and what was refused."""
+"""Rows of importers: stations and resources before merging and numbering, and rejected rows."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from .names import readable
 from .records import Resource
 from .station_file import StationFile
 
-MISSING = "without coordinates"
-BEYOND = "with coordinates that are no degrees (save them in WGS84, EPSG:4326)"
-EMS = "of ambulances or medical services alone, without a fire station"
-NAMELESS = "without a name and without a number"
+MISSING = "no coordinates"
+BEYOND = "coordinates are not in degrees (save them in WGS84, EPSG:4326)"
+EMS = "ambulance or medical service, not a fire station"
+NAMELESS = "no name and no number"
 
 _TELEPHONE = re.compile(
     r"(?:\+?\d{1,3}[ .-]?)?(?:\(\d{3}\)\s*|\b\d{3}[ .-])\d{3}[ .-]\d{4}\b(?:\s*(?:x|ext\.?)\s*\d+)?", re.I
@@ -27,7 +27,7 @@ _FIRE = re.compile(r"\b(fire|hose|engine|ladder|volunteer|f\.?d\.?|vfd|fpd|cal ?
 
 @dataclass
 class Draft:
-    """A station as a source has it; `place` says where in the file."""
+    """A station as in the source; `place` is its position in the file."""
 
     name: str
     latitude: float
@@ -41,55 +41,55 @@ class Draft:
 
 
 @dataclass
-class Refused:
-    """Counts of what was refused, and the place of the first of each reason."""
+class Rejections:
+    """Number of rejected rows by reason, and the place of the first row of each reason."""
 
     counts: dict[str, int] = field(default_factory=dict)
     first: dict[str, str] = field(default_factory=dict)
 
     def add(self, reason: str, place: str) -> None:
-        """Count one."""
+        """Count a rejected row."""
         self.counts[reason] = self.counts.get(reason, 0) + 1
         self.first.setdefault(reason, place)
 
     def lines(self) -> list[str]:
-        """One line for each reason: ``3 refused without coordinates, the first in line 5``."""
+        """Format a line for each reason: ``3 rejected, the first in line 5: no coordinates``."""
         return [
-            f"{number:,} refused {reason}, the first in {self.first[reason]}"
+            f"{number:,} rejected, the first in {self.first[reason]}: {reason}"
             for reason, number in self.counts.items()
         ]
 
 
 @dataclass
 class Batch:
-    """What an importer read of one file.
+    """Content of one file, as an importer reads it.
 
     Attributes
     ----------
     resources
-        Resources with the name or number of their station, of a table of resources.
+        Resources with the name or number of their station, from a table of resources.
     licence, name, retrieved, url
-        What the format or the file itself says of its source; empty where it says nothing.
+        Source, as the format or the file gives it; empty if neither does.
     dropped
-        Columns and tags with telephones or persons, which are not stored.
-    whole
-        A file of places, which is taken over as it is.
+        Columns and tags with telephone numbers or persons, which are not stored.
+    station_file
+        Content of a station file, which is merged unchanged.
     """
 
     stations: list[Draft] = field(default_factory=list)
     resources: list[ResourceDraft] = field(default_factory=list)
-    refused: Refused = field(default_factory=Refused)
+    rejected: Rejections = field(default_factory=Rejections)
     name: str = ""
     licence: str = ""
     retrieved: str = ""
     url: str = ""
     dropped: list[str] = field(default_factory=list)
-    whole: StationFile | None = None
+    station_file: StationFile | None = None
 
 
 @dataclass
 class ResourceDraft:
-    """A resource without its numbers, the station that it names, and its windows' status."""
+    """A resource before numbering, the station that it names, and its window of availability."""
 
     resource: Resource
     station: str
@@ -98,17 +98,17 @@ class ResourceDraft:
 
 
 def add(batch: Batch, latitude: Any, longitude: Any, draft: Draft) -> None:
-    """Add a station to a batch, with its texts made readable, or count why it is refused."""
+    """Add a station with normalised texts to a batch, or count it as rejected."""
     draft.name, draft.agency, draft.address = (
         readable(without_telephones(text)) for text in (draft.name, draft.agency, draft.address)
     )
     position = degrees(latitude, longitude)
     if isinstance(position, str):
-        batch.refused.add(position, draft.place)
-    elif medical(f"{draft.name} {draft.agency}"):
-        batch.refused.add(EMS, draft.place)
+        batch.rejected.add(position, draft.place)
+    elif is_medical(f"{draft.name} {draft.agency}"):
+        batch.rejected.add(EMS, draft.place)
     elif not (draft.name or draft.source_id):
-        batch.refused.add(NAMELESS, draft.place)
+        batch.rejected.add(NAMELESS, draft.place)
     else:
         draft.latitude, draft.longitude = position
         draft.name = draft.name or f"Fire station {draft.source_id}"
@@ -116,7 +116,10 @@ def add(batch: Batch, latitude: Any, longitude: Any, draft: Draft) -> None:
 
 
 def degrees(latitude: Any, longitude: Any) -> tuple[float, float] | str:
-    """Position in degrees north and east; else why it is none. Exports write 0, 0 for none."""
+    """Return the position in degrees north and east, or the reason for rejection.
+
+    0, 0 counts as missing, as exports write it for unknown positions.
+    """
     try:
         position = float(latitude), float(longitude)
     except (TypeError, ValueError, OverflowError):
@@ -128,16 +131,16 @@ def degrees(latitude: Any, longitude: Any) -> tuple[float, float] | str:
     return position
 
 
-def medical(text: str) -> bool:
-    """Whether a name says medical services and no fire station."""
+def is_medical(text: str) -> bool:
+    """Return True for the name of a medical service without a fire station."""
     return bool(_MEDICAL.search(text)) and not _FIRE.search(text)
 
 
 def without_telephones(text: str) -> str:
-    """Text without numbers that look like telephones'."""
+    """Remove telephone numbers from a text."""
     return " ".join(_TELEPHONE.sub(" ", text).split()).strip(" ,;")
 
 
 def private(names: Iterable[str]) -> list[str]:
-    """Names of columns or tags of telephones and persons."""
+    """Select the names of columns or tags with telephone numbers and persons."""
     return sorted({name for name in names if _PRIVATE.search(name)})

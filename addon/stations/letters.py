@@ -1,4 +1,4 @@
-"""Letters of the one sentence that maps of an exercise carry, without a typeface."""
+"""Bitmap letters for the exercise label of maps."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 _HIGH, _WIDE = 9, 5
-_SCALE, _EDGE = 2, 4  # pixels of the picture for one of a letter; around the sentence
+_SCALE, _EDGE = 2, 4  # picture pixels per letter pixel; margin around the text
 _ROWS = """\
 E ##### #.... #.... ####. #.... #.... ##### ..... .....
 x ..... ..... #...# .#.#. ..#.. .#.#. #...# ..... .....
@@ -28,7 +28,7 @@ v ..... ..... #...# #...# #...# .#.#. ..#.. ..... .....
 
 
 def bitmap(text: str) -> NDArray[np.bool_]:
-    """Pixels (9, n) of a text, north first; letters that the sentence has not are blank."""
+    """Return the pixels (9, n) of a text, north first; letters outside of the label are blank."""
     known = dict((line[0], line[2:].split()) for line in _ROWS.splitlines())
     blank = ["." * _WIDE] * _HIGH
     rows = [".".join(known.get(letter, blank)[k] for letter in text) for k in range(_HIGH)]

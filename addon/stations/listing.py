@@ -1,4 +1,4 @@
-"""Stations for a list: those whose resources answer a query, each once, and what is known of one."""
+"""List of stations: stations with a resource that matches a query, and the details of a station."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from .query import Query
 from .records import EXERCISE, Resource, Station
 from .station_file import StationFile
 
-_TYPES = 6  # types of resources that are named of one station
+_TYPES = 6  # types of resources that are named for a station
 
 
 @dataclass(frozen=True)
 class Row:
-    """A station of a list; None is not known.
+    """A station of a list; None: unknown.
 
     Attributes
     ----------
     distance_km
-        Straight distance to the query's place, km.
+        Straight distance to the place of the query, km.
     minutes
-        Least minutes from the order to the arrival of what answers the query.
+        Shortest time from the order to the arrival of a resource that matches the query, min.
     exercise
-        Whether the station or any of its resources was invented for an exercise.
+        True if the station or any of its resources was invented for an exercise.
     """
 
     station: Station
@@ -36,28 +36,28 @@ class Row:
 
 @dataclass(frozen=True)
 class Listing:
-    """Rows by minutes, or else by distance; and how many each reason left out."""
+    """Rows by minutes, or by distance; and the number of omitted rows by reason."""
 
     rows: list[Row]
     left_out: dict[str, int] = field(default_factory=dict)
 
 
 def key(station: Station) -> str:
-    """What names a station for good: its number in the file, and its name."""
+    """Return the permanent identifier of a station: its number in the file, and its name."""
     return f"{station.id} {station.name}"
 
 
 def find(listed: Sequence[Station], wanted: str) -> Station | None:
-    """The station of a key; where no number and name are these, the only one of the name."""
+    """Find the station of a key; if number and name do not match, the only station of this name."""
     same = [each for each in listed if key(each) == wanted]
     same = same or [each for each in listed if each.name == wanted.partition(" ")[2]]
     return same[0] if len(same) == 1 else None
 
 
 def survey(station_file: StationFile, query: Query) -> Listing:
-    """Stations whose resources answer a query; of one without conditions on resources all stations."""
+    """List the stations with a resource that matches a query; all stations if it has no such condition."""
     own = _own(station_file)
-    if not _asks(query) or not station_file.resources:
+    if not _has_resource_condition(query) or not station_file.resources:
         least = _least(search.find(station_file, query)) if station_file.resources else {}
         found = station_search.survey(station_file, query)
         rows = [
@@ -77,34 +77,34 @@ def survey(station_file: StationFile, query: Query) -> Listing:
 
 
 def facts(station_file: StationFile, station: Station) -> list[tuple[str, str]]:
-    """Label and text of what is known of a station: resources, source, origin and the mark of an exercise."""
+    """Return the details of a station as labels and texts: resources, source, origin, exercise label."""
     own = [each for each in station_file.resources if each.station == station.id]
     source = station_file.source_of.get(station.source)
     lines = [
         ("Kind", station.kind),
         ("Agency", station.agency),
         ("Address", station.address),
-        ("Resources", count_types(own, _TYPES) or "none known"),
+        ("Resources", count_types(own, _TYPES) or "unknown"),
         ("Source", "" if source is None else f"{source.name}, {source.licence}, {source.retrieved}"),
         ("Origin", station.origin),
     ]
-    if exercise(station, own):
+    if is_exercise(station, own):
         lines.append(("", EXERCISE))
     return [(label, text) for label, text in lines if text]
 
 
-def exercise(station: Station, own: Sequence[Resource]) -> bool:
-    """Whether a station or any of its own resources was invented."""
+def is_exercise(station: Station, own: Sequence[Resource]) -> bool:
+    """Return True if a station or any of its resources was invented."""
     return station.origin == "exercise" or any(each.origin == "exercise" for each in own)
 
 
-def _asks(query: Query) -> bool:
-    """Whether a query has a condition on resources."""
+def _has_resource_condition(query: Query) -> bool:
+    """Return True if a query has a condition on resources."""
     return replace(query, near=None, within_km=None) != Query()
 
 
 def _least(matches: Sequence[search.Match]) -> dict[int, float]:
-    """Least minutes of each station, by its number."""
+    """Return the shortest time of each station, min, by its number."""
     least: dict[int, float] = {}
     for each in matches:
         if each.minutes is not None:
@@ -114,7 +114,7 @@ def _least(matches: Sequence[search.Match]) -> dict[int, float]:
 
 
 def _own(station_file: StationFile) -> set[int]:
-    """Numbers of stations that have a resource of an exercise."""
+    """Return the numbers of stations with a resource of an exercise."""
     return {each.station for each in station_file.resources if each.origin == "exercise"}
 
 

@@ -1,4 +1,4 @@
-"""What a query measures of every resource at once: distance, minutes, cost, tonnes, and what rules it out."""
+"""Measures of all resources for a query: distance, minutes, cost, delivery, and reasons to omit them."""
 
 from __future__ import annotations
 
@@ -17,23 +17,23 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 COVERAGE = ("time", "radius", "area")
-"""What an area of coverage is, by its number in `Measures.coverage`."""
+"""Kinds of areas of coverage, by their number in `Measures.coverage`."""
 
 _MOST = 10**10  # cents and kg/h
 
 
 @dataclass(frozen=True)
 class Measures:
-    """Values (n,) of all resources, of all units of a row; NaN is not known.
+    """Values (n,) of all resources, each for all units of a row; NaN: unknown.
 
     Attributes
     ----------
     coverage
         Index into `COVERAGE`.
     cents, kg_h
-        Cost rounded to cents and delivery rounded down to kg/h, for sums without rounding; 0 is not known.
+        Cost rounded to cents, and delivery rounded down to kg/h, for exact sums; 0: unknown.
     tests
-        Reasons why resources are ruled out, each with a mask (n,) of those; the most evident first.
+        Reasons to omit resources, each with its mask (n,); the most evident first.
     """
 
     distance_km: Array
@@ -74,16 +74,16 @@ def measure(station_file: StationFile, query: Query) -> Measures:
 def travel_minutes(
     far_km: ArrayLike, air: ArrayLike, speed_km_h: Array, mobilise_min: Array, detour: float = DETOUR
 ) -> Array:
-    """Minutes from the order to the arrival: mobilising and the way, which is straight by air.
+    """Compute the time from the order to the arrival, min: mobilisation and travel, straight by air.
 
-    NaN where the speed or the time to mobilise is. All broadcast.
+    NaN if the speed or the mobilisation time is NaN. All arguments broadcast.
     """
     way = np.asarray(far_km, np.float64) * np.where(air, 1.0, detour)
     return mobilise_min + 60.0 * way / speed_km_h
 
 
 def least_minutes(station_file: StationFile, near: tuple[float, float]) -> Array:
-    """Least minutes (stations,) of what stands at each station; NaN where nothing has them."""
+    """Compute the shortest time (stations,), min, of the resources of each station; NaN: unknown."""
     columns, least = station_file.columns, np.full(len(station_file.stations), np.nan)
     far = distance_km(*station_file.positions, near)[columns.station]
     minutes = travel_minutes(far, station_file.codes.kind.isin(AIR), columns.speed_km_h, columns.mobilise_min)
@@ -92,24 +92,25 @@ def least_minutes(station_file: StationFile, near: tuple[float, float]) -> Array
 
 
 def cost_of(station_file: StationFile, hours: float) -> Array:
-    """Cost (n,) of mobilising and of hours of work; see `unit_cost`."""
+    """Compute the cost (n,) of mobilisation and of hours of work; see `unit_cost`."""
     columns = station_file.columns
     return columns.count * unit_cost(columns.cost_mobilise, columns.cost_hour, columns.cost_day, hours)
 
 
 def unit_cost(mobilise: Array, hour: Array, day: Array, hours: float) -> Array:
-    """Cost (n,) of one unit: mobilising, and work by the hour, or by days without a rate by the hour.
+    """Compute the cost (n,) of one unit: mobilisation, and work by the hour, or by the day.
 
-    What costs nothing to mobilise need not say so. NaN without a rate.
+    The rate per day applies if there is no rate per hour. A missing cost of mobilisation counts as 0. NaN
+    without a rate.
     """
     work = np.where(np.isnan(hour), day * np.ceil(hours / 24.0), hour * hours)
     return np.nan_to_num(mobilise) + work
 
 
 def delivery(station_file: StationFile, query: Query, far: Array, air: Mask, way: Array) -> Array:
-    """Delivery (n,), t/h, by round trips between the place and where the tank is filled.
+    """Compute the delivery (n,), t/h, by round trips between the place and the refill point.
 
-    Air tankers fill at their station, all others at `Query.refill_km`. 0 for what carries nothing.
+    Air tankers fill at their station, all others at `Query.refill_km`. 0 for resources without a load.
     """
     columns = station_file.columns
     home = station_file.codes.kind.isin(("airtanker",))
@@ -120,7 +121,7 @@ def delivery(station_file: StationFile, query: Query, far: Array, air: Mask, way
 
 
 def coverages(station_file: StationFile, query: Query, far: Array) -> tuple[NDArray[np.int64], Mask]:
-    """What the area of coverage of each resource is, and whether the place lies in it (n,)."""
+    """Return the kind of area of coverage (n,) of each resource, and a mask (n,): the place is in it."""
     columns = station_file.columns
     drawn = np.zeros(len(station_file.stations), np.bool_)
     inside = np.zeros(len(station_file.stations), np.bool_)
@@ -176,7 +177,7 @@ def _tests(
 
 
 def statuses(station_file: StationFile, at: datetime) -> NDArray[np.int64]:
-    """Status (n,) of all resources at a time: 1 available, 0 not, -1 not known."""
+    """Return the status (n,) of all resources at a time: 1 available, 0 not available, -1 unknown."""
     found = windows_at(station_file, at)
     known = found >= 0
     found[known] = station_file.windows.available[found[known]]
@@ -184,9 +185,9 @@ def statuses(station_file: StationFile, at: datetime) -> NDArray[np.int64]:
 
 
 def windows_at(station_file: StationFile, at: datetime) -> NDArray[np.int64]:
-    """Index (n,) into `StationFile.windows` of what counts for each resource at a time; -1 without any.
+    """Return the index (n,) into `StationFile.windows` that applies to each resource at a time; -1: none.
 
-    Of windows that overlap it is the one that begins last.
+    If windows overlap, the last one to begin applies.
     """
     found, windows, time = (
         np.full(len(station_file.resources), -1, np.int64),
@@ -194,7 +195,7 @@ def windows_at(station_file: StationFile, at: datetime) -> NDArray[np.int64]:
         at.timestamp(),
     )
     now = (windows.begins <= time) & (time < windows.ends)
-    found[windows.row[now]] = np.flatnonzero(now)  # of one row the last stays
+    found[windows.row[now]] = np.flatnonzero(now)  # the last window of a row wins
     return found
 
 

@@ -1,4 +1,4 @@
-"""Batches of importers made one: sources numbered, duplicates merged, resources given their station."""
+"""Merging of import batches: numbered sources, merged duplicates, resources assigned to stations."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from .import_rows import Batch, ResourceDraft
 from .records import Area, Availability, Resource, Source, Station, Type
 from .station_file import StationFile
 
-NEAR = 150.0  # m, within which two stations of like name and kind are one
+NEAR = 150.0  # m, within which stations of similar name and equal kind are duplicates
 _DEGREE = 111_000.0  # m of latitude, at least 110,574
 NO_LICENCE = "not stated"
-_NO_STATION = "of a station that is not there"
-_MANY_STATIONS = "of a station whose name several have (name its number)"
+_NO_STATION = "unknown station"
+_MANY_STATIONS = "several stations have this name (use the number)"
 
 
 @dataclass(frozen=True)
 class About:
-    """What the user says of the files' source; empty where it is the format's or the file's."""
+    """Source of the files, as the user gives it; empty: as the format or the file gives it."""
 
     name: str = ""
     licence: str = ""
@@ -36,7 +36,7 @@ class About:
 
 @dataclass
 class _Merged:
-    """What grows file by file."""
+    """Content merged so far."""
 
     stations: list[Station] = field(default_factory=list)
     resources: list[Resource] = field(default_factory=list)
@@ -48,15 +48,15 @@ class _Merged:
 
 
 def merge(batches: Sequence[tuple[Path, Batch]], about: About) -> tuple[StationFile, list[str]]:
-    """StationFile of all batches, and a line for what each file gave, merged, refused and dropped.
+    """Merge all batches; also return messages on the rows imported, merged, rejected and dropped.
 
-    Tables of resources come after all stations, whatever the order of the files.
+    Tables of resources come after all stations, independent of the order of the files.
     """
     merged = _Merged(types={each.code: each for each in types.standard_types()})
     for path, batch in sorted(batches, key=lambda pair: bool(pair[1].resources)):
-        if batch.whole is not None:
-            _take_over(merged, batch.whole)
-            stations, resources = len(batch.whole.stations), len(batch.whole.resources)
+        if batch.station_file is not None:
+            _take_over(merged, batch.station_file)
+            stations, resources = len(batch.station_file.stations), len(batch.station_file.resources)
             merged.messages.append(f"{path}: {_counted(stations, resources)}")
             continue
         source = _source(merged, path, batch, about)
@@ -77,7 +77,7 @@ def _counted(stations: int, resources: int) -> str:
 
 
 def _source(merged: _Merged, path: Path, batch: Batch, about: About) -> Source:
-    """Source of a file, with the day of the file where nobody says the data's."""
+    """Return the source of a file; its date is the date of the file if no other is given."""
     changed = datetime.fromtimestamp(path.stat().st_mtime, UTC).date().isoformat()
     with path.open("rb") as file:
         digest = hashlib.file_digest(file, "sha256").hexdigest()
@@ -97,10 +97,10 @@ def _tell(merged: _Merged, path: Path, batch: Batch, source: Source, resources: 
     what = _counted(len(batch.stations), resources)
     about = f"source {source.name}, licence {source.licence}, data of {source.retrieved}"
     merged.messages.append(f"{path}: {what}; {about}")
-    merged.messages += [f"{path}: {line}" for line in batch.refused.lines()]
+    merged.messages += [f"{path}: {line}" for line in batch.rejected.lines()]
     if batch.dropped:
         listed = ", ".join(batch.dropped)
-        merged.messages.append(f"{path}: telephones and persons are not kept ({listed})")
+        merged.messages.append(f"{path}: telephone numbers and persons are not stored ({listed})")
 
 
 def _add_stations(merged: _Merged, batch: Batch, source: Source) -> None:
@@ -115,7 +115,10 @@ def _add_stations(merged: _Merged, batch: Batch, source: Source) -> None:
 
 
 def _add_resources(merged: _Merged, batch: Batch, source: Source) -> int:
-    """Add resources whose station is known; rows of one name at one station add windows. Their number."""
+    """Add resources with a known station and return their number.
+
+    Further rows with the same name and station add windows of availability.
+    """
     by_word = _stations_by_word(merged.stations)
     number = max((each.id for each in merged.resources), default=0)
     known: dict[tuple[int, str, str], int] = {}
@@ -139,7 +142,7 @@ def _add_resources(merged: _Merged, batch: Batch, source: Source) -> int:
 
 
 def _stations_by_word(stations: Iterable[Station]) -> dict[str, set[int]]:
-    """Numbers of stations by their name and their number in the source, both in lower case."""
+    """Index the numbers of stations by name and by number in the source, both in lower case."""
     found: dict[str, set[int]] = {}
     for station in stations:
         for word in {station.name.lower(), station.source_id.lower()} - {""}:
@@ -150,13 +153,13 @@ def _stations_by_word(stations: Iterable[Station]) -> dict[str, set[int]]:
 def _station_of(by_word: dict[str, set[int]], draft: ResourceDraft, batch: Batch) -> int | None:
     found = by_word.get(draft.station.lower(), set())
     if len(found) != 1:
-        batch.refused.add(_MANY_STATIONS if found else _NO_STATION, draft.place)
+        batch.rejected.add(_MANY_STATIONS if found else _NO_STATION, draft.place)
         return None
     return next(iter(found))
 
 
 def _take_over(merged: _Merged, station_file: StationFile) -> None:
-    """Add a file of places with new numbers."""
+    """Add a station file with new numbers."""
     source, station, resource, area = (
         max((each.id for each in rows), default=0)
         for rows in (merged.sources, merged.stations, merged.resources, merged.areas)
@@ -179,7 +182,7 @@ def _take_over(merged: _Merged, station_file: StationFile) -> None:
 
 
 def _merge_duplicates(merged: _Merged) -> None:
-    """Merge stations within `NEAR` of like name and kind into the first, which gets what it lacks."""
+    """Merge duplicates within `NEAR` into the first station, which takes over missing values."""
     into = duplicates(merged.stations)
     if not into:
         return
@@ -193,11 +196,11 @@ def _merge_duplicates(merged: _Merged) -> None:
     ]
     merged.areas = [replace(each, station=into.get(each.station, each.station)) for each in merged.areas]
     what = "duplicate" if len(into) == 1 else "duplicates"
-    merged.messages.append(f"{len(into):,} {what} merged: within {NEAR:g} m, of like name and kind")
+    merged.messages.append(f"{len(into):,} {what} merged (within {NEAR:g} m, similar name, same kind)")
 
 
 def duplicates(stations: Sequence[Station]) -> dict[int, int]:
-    """Number of the station that each duplicate is merged into; those of exercises are never merged."""
+    """Map the number of each duplicate to the station that keeps it; exercise stations are never merged."""
     latitude = np.array([each.latitude for each in stations])
     order = np.argsort(latitude, kind="stable")
     ends = np.searchsorted(latitude[order], latitude[order] + NEAR / (_DEGREE - 500.0), "right")
@@ -205,7 +208,7 @@ def duplicates(stations: Sequence[Station]) -> dict[int, int]:
         (int(order[low]), int(order[high]))
         for low, end in enumerate(ends.tolist())
         for high in range(low + 1, end)
-        if _alike(stations[order[low]], stations[order[high]])
+        if _may_be_duplicates(stations[order[low]], stations[order[high]])
     ]
     into: dict[int, int] = {}
     for one, other in sorted((min(pair), max(pair)) for pair in pairs):
@@ -218,11 +221,11 @@ def duplicates(stations: Sequence[Station]) -> dict[int, int]:
     return into
 
 
-def _alike(one: Station, other: Station) -> bool:
-    """Whether two stations of about one latitude may be the same, without their distance."""
+def _may_be_duplicates(one: Station, other: Station) -> bool:
+    """Return True if two stations of similar latitude can be duplicates; distance is checked later."""
     return (
         abs(one.longitude - other.longitude) < 0.1
         and one.kind == other.kind
         and "exercise" not in (one.origin, other.origin)
-        and names.alike(one.name, other.name)
+        and names.may_be_equal(one.name, other.name)
     )

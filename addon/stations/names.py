@@ -1,4 +1,4 @@
-"""Names of stations: upper case made readable, and whether two names mean the same."""
+"""Names of stations: conversion of upper case, and comparison of names."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _COMMON = {
 
 
 def readable(text: str) -> str:
-    """Text with single blanks; text all in capitals gets capitals at the beginning of words alone."""
+    """Normalise blanks; convert a text in capitals to capitalised words."""
     text = " ".join(text.split())
     if not text.isupper():
         return text
@@ -35,10 +35,10 @@ def _cased(word: str, at: int) -> str:
     return word.capitalize()
 
 
-def alike(one: str, other: str) -> bool:
-    """Whether two names may be of one station: the same numbers, and words of one within the other's.
+def may_be_equal(one: str, other: str) -> bool:
+    """Return True if two names can belong to one station: equal numbers, and the words of one in the other.
 
-    Words that most names have, such as fire and station, do not count.
+    Common words, such as fire and station, do not count.
     """
     (words, numbers), (others, other_numbers) = _parts(one), _parts(other)
     if numbers and other_numbers and numbers != other_numbers:
@@ -49,7 +49,7 @@ def alike(one: str, other: str) -> bool:
 
 
 def _parts(name: str) -> tuple[set[str], set[str]]:
-    """Distinctive words and numbers of a name."""
+    """Split a name into distinctive words and numbers."""
     tokens = re.findall(r"[a-z]+|\d+", name.lower().replace("'", ""))
     words = {token for token in tokens if token.isalpha() and token not in _COMMON}
     return words, {token.lstrip("0") for token in tokens if token.isdigit()}

@@ -1,4 +1,4 @@
-"""Answers of searches and content of files: as data for programs and as text for people."""
+"""Search results and file contents, as JSON data and as text."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from .station_file import StationFile
 
 @dataclass(frozen=True)
 class Answer:
-    """Answer of a search, with the fire of a run where one is named."""
+    """Result of a search, with the fire of a run if a run is given."""
 
     station_file: StationFile
     query: Query
@@ -37,21 +37,21 @@ class Answer:
 
     @property
     def matches(self) -> Sequence[search.Match | station_search.StationMatch]:
-        """What is listed."""
+        """Matches in the order of the list."""
         return self.found.matches
 
     @cached_property
     def arrivals(self) -> fire_arrival.Arrivals | None:
-        """When the fire reaches the station of each match."""
+        """Arrival of the fire at the station of each match."""
         if self.run is None:
             return None
         at = [each.station for each in self.matches]
         return fire_arrival.sample(self.run, [each.latitude for each in at], [each.longitude for each in at])
 
     def ahead(self, clearance_km: float) -> Answer:
-        """Matches whose station the fire reaches or comes close to, after the query's time if it has one.
+        """Select the stations that the fire reaches or approaches, after the time of the query if it has one.
 
-        They come by that time. What already burned before the run is left out.
+        They are sorted by this time. Stations on ground that burned before the run are omitted.
         """
         found, arrivals, run = self.found, self.arrivals, self.run
         if arrivals is None or run is None:
@@ -70,40 +70,40 @@ class Answer:
 
     @property
     def exercise(self) -> bool:
-        """Whether anything in the file was invented."""
+        """True if a row of the file was invented."""
         return self.station_file.exercise
 
     @property
     def sources(self) -> list[Source]:
-        """Sources of all that is listed."""
+        """Sources of all matches."""
         used = {number for each in self.matches for number in _sources(each)}
         return [source for source in self.station_file.sources if source.id in used]
 
     def assumptions(self) -> list[str]:
-        """Units and assumptions of what is listed."""
+        """Return units and assumptions of the list."""
         query, of_resources = self.query, isinstance(self.found, search.Found)
         lines = []
         if query.near is not None:
             lines.append(f"distances: straight to {query.near[0]:.4f}, {query.near[1]:.4f}, km")
         if of_resources:
             lines += [
-                f"minutes: mobilising and the way; roads are {query.detour:g} times the straight distance, "
+                f"minutes: mobilisation and travel; roads are {query.detour:g} times the straight distance, "
                 "aircraft fly straight",
-                f"cost: mobilising and {query.hours:g} h of work",
-                "t/h: its load, else its type's least tank of water; round trips to a place of refilling "
-                f"{query.refill_km:g} km away, of air tankers to their base; {query.turnaround_min:g} min to "
-                "fill and to discharge",
+                f"cost: mobilisation and {query.hours:g} h of work",
+                "t/h: load, or the minimum tank of the type full of water, by round trips to a refill point "
+                f"{query.refill_km:g} km away (air tankers: to their base), with "
+                f"{query.turnaround_min:g} min to fill and discharge",
             ]
         if self.run is not None:
-            lines.append(f"fire: of the run {self.run.name}, until {self._text(float(self.run.times[-1]))}")
+            lines.append(f"fire: run {self.run.name}, until {self._text(float(self.run.times[-1]))}")
             if not self.run.has(fire_arrival.OWN):
                 lines.append(
-                    "fire: times are estimated from heat fluxes; what burned before the run counts as never"
+                    "fire: times are estimated from heat fluxes; ground burned before the run counts as never"
                 )
         return lines
 
     def plain(self) -> dict[str, Any]:
-        """Data for programs; lengths in km, times in UTC."""
+        """Return JSON data; lengths in km, times in UTC."""
         query = asdict(self.query)
         query["at"] = times.iso(self.query.at) if self.query.at else None
         answer = {
@@ -128,7 +128,7 @@ class Answer:
         return answer
 
     def page(self) -> str:
-        """Text for people."""
+        """Format the result as text."""
         found, lines = self.found, [EXERCISE] if self.exercise else []
         rows = [self._row(k, each) for k, each in enumerate(self.matches)]
         if rows:
@@ -172,7 +172,7 @@ class Answer:
         ]  # fmt: skip
 
     def _fire(self, index: int) -> dict[str, Any]:
-        """When the fire reaches a match: its state, and UTC of the time, the earliest and the latest."""
+        """Return the arrival of the fire at a match: state, and time, earliest and latest time in UTC."""
         arrivals, run = self.arrivals, self.run
         assert arrivals is not None and run is not None  # noqa: PT018
         known = arrivals.utc(run, index)
@@ -196,7 +196,7 @@ class Answer:
 
 
 def facts(station_file: StationFile) -> dict[str, Any]:
-    """What `firetwin stations info` shows."""
+    """Return the content of a file for `firetwin stations info`."""
     latitude, longitude = station_file.positions
     there = len(latitude) > 0
     begins, ends = (
@@ -221,7 +221,7 @@ def facts(station_file: StationFile) -> dict[str, Any]:
 
 
 def info(known: dict[str, Any]) -> str:
-    """Text of `facts`."""
+    """Format `facts` as text."""
     lines = [known["label"]] if known["exercise"] else []
     lines.append(f"stations   {known['stations']:,}")
     if known["latitude"]:
@@ -259,7 +259,7 @@ def _number(value: float | None, digits: int) -> str:
 
 
 def _table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
-    """Lines of a table: numbers to the right, words to the left."""
+    """Format the lines of a table: numbers right-aligned, words left-aligned."""
     widths = [max(map(len, column)) for column in zip(heads, *rows, strict=True)]
     right = [head in ("min", "km", "t/h") or head.startswith("cost") for head in heads]
     return [

@@ -1,7 +1,7 @@
-"""Picture of stations on a small map: hill shading, what has burned at a time, and dots; by NumPy alone.
+"""Small map of stations: hill shading, burned ground at a time, and dots; drawn by NumPy.
 
-Blender, in whose window it is shown, has neither matplotlib nor Pillow. The map is a square, true to scale at
-its middle, in equal steps of latitude and of longitude. Pixels run from the south and the west.
+Blender, which shows it, has neither matplotlib nor Pillow. The map is a square with equal steps of latitude
+and equal steps of longitude, true to scale at its centre. Pixels start in the south-west.
 """
 
 from __future__ import annotations
@@ -20,15 +20,15 @@ from .records import EXERCISE
 SIDE = 512
 """Width and height of the map, pixels."""
 
-RECENT = 1800.0  # s; ground that burned since is shown as the fire
-_MARGIN = 0.05  # of the map's half, around what is on it
-_AROUND = 1.0  # stations are on the map up to so many sizes of the run away from it
+RECENT = 1800.0  # s; ground that burned in this time is shown as the fire
+_MARGIN = 0.05  # margin around the content, of half the map's width
+_AROUND = 1.0  # distance from the run to which stations are shown, in sizes of the run
 _EMPTY = (0.30, 0.31, 0.32)  # beyond the run
 _GROUND, _BURNED, _FIRE = (0.80, 0.78, 0.70), (0.22, 0.18, 0.17), (0.98, 0.42, 0.08)  # by eye
-_SHARE = 0.85  # of the colour of what burned, over the shading
+_SHARE = 0.85  # share of the colour of burned ground, over the shading
 _DOT, _RIM, _RING = 4.0, 5.5, (8.5, 11.0)  # pixels: radius of a dot, with its rim; of the ring around one
 COLOURS = {"fact": (0.95, 0.95, 0.92), "exercise": (1.0, 0.70, 0.15), "user": (0.45, 0.75, 1.0)}
-"""Colours of dots by origin: white, amber, blue, as signs have them."""
+"""Colours of dots by origin: white, amber, blue, as on signs."""
 
 Array = NDArray[np.float64]
 Pixels = NDArray[np.float32]
@@ -36,7 +36,10 @@ Pixels = NDArray[np.float32]
 
 @dataclass(frozen=True)
 class Field:
-    """Ground of a run: axes (ny,), (nx,), degrees; elevation (ny, nx), m; arrival (ny, nx), s, NaN: never."""
+    """Terrain of a run: axes (ny,), (nx,), degrees; elevation (ny, nx), m; arrival time (ny, nx), s.
+
+    The arrival time is NaN in cells that never burn.
+    """
 
     latitude: Array
     longitude: Array
@@ -46,7 +49,7 @@ class Field:
 
 @dataclass(frozen=True)
 class Map:
-    """What of a map stays the same: its square, shaded ground (SIDE, SIDE, 3), and arrival times, s."""
+    """Static content of a map: extent, shaded ground (SIDE, SIDE, 3), and arrival times, s."""
 
     south: float
     north: float
@@ -56,21 +59,21 @@ class Map:
     arrival: Array
 
     def pixels(self, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
-        """Rows and columns of places, fractional; places beyond the map have others than its pixels."""
+        """Return fractional rows and columns of points; points beyond the map are outside of its pixels."""
         turned = areas.turned(longitude, 0.5 * (self.west + self.east))
         row = (np.asarray(latitude, np.float64) - self.south) / (self.north - self.south)
         column = (turned - self.west) / (self.east - self.west)
         return row * SIDE - 0.5, column * SIDE - 0.5
 
     def nearest(self, latitude: ArrayLike, longitude: ArrayLike, at: tuple[float, float]) -> int | None:
-        """Index of the place nearest to a point of the map, (up, along) from 0 to 1; None without any."""
+        """Return the index of the point nearest to a position on the map, (up, along) from 0 to 1."""
         row, column = self.pixels(latitude, longitude)
         far = np.hypot(row + 0.5 - at[0] * SIDE, column + 0.5 - at[1] * SIDE)
         return int(np.argmin(far)) if far.size else None
 
 
 def prepare(field: Field | None, latitude: ArrayLike, longitude: ArrayLike) -> Map | None:
-    """Map of a run's ground and of the stations around it; None without either."""
+    """Prepare the map of a run's ground and of the stations around it; None without either."""
     y, x = np.asarray(latitude, np.float64), np.asarray(longitude, np.float64)
     if field is None and not y.size:
         return None
@@ -95,16 +98,17 @@ def draw(
     origins: list[str],
     selected: int | None,
 ) -> Pixels:
-    """Picture (SIDE, SIDE, 4), sRGB and alpha from 0 to 1, south first.
+    """Draw the picture (SIDE, SIDE, 4), sRGB and alpha from 0 to 1, south first.
 
     Parameters
     ----------
     time
         Model time, s.
     origins
-        Of each station (n,), which its dot's colour shows. With one of an exercise the map says so.
+        Origin of each station (n,), which gives the colour of its dot. A map with exercise stations is
+        labelled.
     selected
-        Index of the station with a ring.
+        Index of the selected station, which has a ring.
     """
     picture = np.ones((SIDE, SIDE, 4), np.float32)
     picture[..., :3] = plan.ground
@@ -126,7 +130,7 @@ def draw(
 
 
 def _box(field: Field | None, y: Array, x: Array) -> tuple[float, float, float, float]:
-    """South, north, west and east of the run and of the stations near to it."""
+    """Return south, north, west and east of the run and of the stations near it."""
     if field is None:
         return float(y.min()), float(y.max()), float(x.min()), float(x.max())
     (south, north), (west, east) = (np.sort(axis[[0, -1]]) for axis in (field.latitude, field.longitude))
@@ -137,7 +141,7 @@ def _box(field: Field | None, y: Array, x: Array) -> tuple[float, float, float, 
 
 
 def _lay(field: Field, box: tuple[float, float, float, float], ground: Pixels, arrival: Array) -> None:
-    """Put the run's shaded ground and its arrival times onto the map."""
+    """Draw the shaded ground and the arrival times of the run onto the map."""
     south, north, west, east = box
     centre = (np.arange(SIDE) + 0.5) / SIDE
     row = _index(field.latitude, south + centre * (north - south))
@@ -155,9 +159,9 @@ def _lay(field: Field, box: tuple[float, float, float, float], ground: Pixels, a
 
 
 def shade(height: Array, step: tuple[float, float]) -> Pixels:
-    """Hill shading (h, w) from 0.3 to 1 of heights, m, lit from the north-west at 45 degrees.
+    """Compute hill shading (h, w) from 0.3 to 1 of heights, m, lit from the north-west at 45 degrees.
 
-    Lambert's cosine of heights that are twice as high; `step` is the size of a pixel upwards and along, m.
+    Lambert's cosine law with heights exaggerated by 2; `step` is the size of a pixel upwards and along, m.
     """
     if min(height.shape) < 2:
         return np.full(height.shape, 0.8, np.float32)
@@ -167,7 +171,7 @@ def shade(height: Array, step: tuple[float, float]) -> Pixels:
 
 
 def _index(axis: Array, at: Array) -> Array:
-    """Fractional index of values along an axis, NaN beyond its cells' edges."""
+    """Return the fractional index of values along an axis; NaN beyond the edges of its cells."""
     order = 1 if axis[-1] >= axis[0] else -1
     places = np.arange(len(axis), dtype=np.float64)[::order]
     found = np.interp(at, axis[::order], places)
@@ -178,7 +182,7 @@ def _index(axis: Array, at: Array) -> Array:
 def _ring(
     picture: Pixels, row: float, column: float, inner: float, outer: float, colour: tuple[float, ...]
 ) -> None:
-    """Draw a ring, or a disc, with smooth edges; what lies beyond the picture is left out."""
+    """Draw a ring or a disc with antialiased edges, clipped to the picture."""
     reach = int(np.ceil(outer)) + 1
     if not (-reach < row < SIDE + reach and -reach < column < SIDE + reach):
         return

@@ -10,36 +10,36 @@ from .records import DETOUR
 
 @dataclass(frozen=True)
 class Query:
-    """What is looked for; None and empty values look for all.
+    """Conditions of a search; None and empty values match everything.
 
     Attributes
     ----------
     near
-        Place that resources go to, degrees north and east; distances, times and tonnage need it.
+        Destination of the resources, degrees north and east; distances, times and delivery need it.
     within_km
-        Greatest straight distance, km.
+        Maximum straight distance, km.
     minutes
-        Greatest time from the order to the arrival, min.
+        Maximum time from the order to the arrival, min.
     kinds, types, modes, staffing
         Kinds (``engine``), types without kind (``3``, ``VLAT``), operational modes, employment.
     night
-        Only what works at night.
+        Only resources that work at night.
     at
-        Time (UTC) at which its status is ``available``.
+        Time (UTC) at which the status must be ``available``.
     tonnes_per_hour
-        Water or retardant that the set has to deliver, t/h.
+        Minimum delivery of water or retardant by the set, t/h.
     budget
-        Greatest cost of the set, in `currency`.
+        Maximum cost of the set, in `currency`.
     currency
-        Currency of costs; what costs another one is left out of sets.
+        Currency of costs; sets omit resources with costs in another currency.
     hours
-        Hours of work that are paid, h.
+        Paid hours of work, h.
     detour
-        Length of roads by straight distance.
+        Ratio of road length to straight distance.
     refill_km
-        Straight distance to the place of refilling, km; air tankers go back to their station.
+        Straight distance to the refill point, km; air tankers return to their station.
     turnaround_min
-        Time to fill and to discharge in each round trip, min.
+        Time to fill and discharge in each round trip, min.
     """
 
     near: tuple[float, float] | None = None

@@ -1,4 +1,4 @@
-"""Reading of a file of places, also of one that QGIS edited."""
+"""Reader of station files, including files edited in QGIS."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from .station_file import StationFile
 
 Record = TypeVar("Record", Source, Type, Resource)
 
-_NOT_STATIONS = "is no file of places; make one: firetwin stations import FILE --out STATIONS.gpkg"
+_NOT_STATIONS = "is not a station file; make one: firetwin stations import FILE --out STATIONS.gpkg"
 
 
 def read(path: Path) -> StationFile:
-    """Read all tables; the position of a station is that of its geometry.
+    """Read all tables; the geometry of a station is its position.
 
     Raises
     ------
     InputError
-        The file is missing, is no file of places, or a row is damaged.
+        The file is missing, is not a station file, or a row is damaged.
     """
     if not path.is_file():
         raise input_error(path, "there is no such file; check the path")
@@ -45,7 +45,7 @@ def read(path: Path) -> StationFile:
 
 
 def _text(value: Any) -> str:
-    """Text of a column, into which SQLite lets other programs write anything."""
+    """Convert a value to text, as SQLite allows any type in a column."""
     if isinstance(value, str):
         return value
     return "" if value is None else str(value)
@@ -68,7 +68,7 @@ class _Reader:
         return station_file
 
     def records(self, kind: type[Record], table: str, key: str) -> tuple[Record, ...]:
-        """Records whose fields are named as the table's columns are; a text that is missing is empty."""
+        """Read records whose fields have the names of the columns; a missing text is empty."""
         names = [each.name for each in fields(kind)]
         texts = [k for k, each in enumerate(fields(kind)) if each.type == "str"]
         flags = [k for k, each in enumerate(fields(kind)) if each.type == "bool"]
@@ -135,7 +135,7 @@ class _Reader:
         return tuple(found)
 
     def check(self, station_file: StationFile) -> None:
-        """Check what other programs may have written: references, words and numbers."""
+        """Check references, words and numbers that other programs may have written."""
         stations, sources = station_file.station_row, station_file.source_of
         resources = {each.id for each in station_file.resources}
         for station in station_file.stations:
@@ -143,40 +143,40 @@ class _Reader:
         for each in station_file.resources:
             self.origin("resource", each.id, each.origin, each.source in sources)
             if each.station not in stations:
-                self.wrong("resource", each.id, f"stands at station {each.station}, which there is not")
+                self.wrong("resource", each.id, f"names station {each.station}, which does not exist")
             if each.type not in station_file.type_of:
-                self.wrong("resource", each.id, f'has type "{each.type}", which table type has not')
+                self.wrong("resource", each.id, f'has type "{each.type}", which is not in table type')
             if each.mode not in MODES:
-                self.wrong("resource", each.id, f'has mode "{each.mode}"; modes are {", ".join(MODES)}')
+                self.wrong("resource", each.id, f'has mode "{each.mode}"; use one of {", ".join(MODES)}')
             self.numbers(each)
         for window in station_file.availability:
             if window.resource not in resources:
-                self.wrong("resource", window.resource, "has a window of availability, and is not there")
+                self.wrong("resource", window.resource, "has a window of availability but does not exist")
             if window.status not in STATUSES:
-                reason = f'has status "{window.status}"; they are {", ".join(STATUSES)}'
+                reason = f'has status "{window.status}"; use one of {", ".join(STATUSES)}'
                 self.wrong("resource", window.resource, reason)
         for area in station_file.areas:
             if area.station not in stations:
-                self.wrong("area", area.id, f"is of station {area.station}, which there is not")
+                self.wrong("area", area.id, f"names station {area.station}, which does not exist")
 
     def origin(self, table: str, number: int, origin: str, known: bool) -> None:
         if origin not in ORIGINS:
-            self.wrong(table, number, f'has origin "{origin}"; it is one of {", ".join(ORIGINS)}')
+            self.wrong(table, number, f'has origin "{origin}"; use one of {", ".join(ORIGINS)}')
         if not known:
-            self.wrong(table, number, "has no source; each row names one of table source")
+            self.wrong(table, number, "has no source; enter an id of table source")
 
     def numbers(self, each: Resource) -> None:
-        """Check that numbers are finite and not negative, that a speed is above 0, and that it counts."""
+        """Check that numbers are finite and not negative, the speed above 0, and the count at least 1."""
         for name in NUMBERS:
             value = getattr(each, name)
             if value is None:
                 continue
             if not isinstance(value, int | float) or not 0.0 <= value < math.inf:
-                self.wrong("resource", each.id, f"has {name} {value!r}; it is a number from 0")
+                self.wrong("resource", each.id, f"has {name} {value!r}; enter a number of at least 0")
         if each.speed_km_h == 0.0:
-            self.wrong("resource", each.id, "has speed_km_h 0; leave it empty where it is not known")
+            self.wrong("resource", each.id, "has speed_km_h 0; leave it empty if it is unknown")
         if not isinstance(each.count, int) or each.count < 1:
-            self.wrong("resource", each.id, f"has count {each.count!r}; it is a whole number from 1")
+            self.wrong("resource", each.id, f"has count {each.count!r}; enter a whole number of at least 1")
 
     def wrong(self, table: str, number: int, reason: str) -> NoReturn:
         raise input_error(self.path, f"{table} {number} {reason}")
@@ -192,4 +192,4 @@ NUMBERS = (
     "cost_hour",
     "cost_day",
 )
-"""Numbers of a resource, each of which may be unknown."""
+"""Numeric fields of a resource; each may be unknown."""

@@ -1,4 +1,4 @@
-"""What a file of places holds: sources, types, stations, resources, availability and areas."""
+"""Records of a station file: sources, types, stations, resources, availability and areas."""
 
 from __future__ import annotations
 
@@ -11,31 +11,31 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 ORIGINS = ("fact", "exercise", "user")
-"""A published fact with its source; invented for an exercise; or given by the user."""
+"""Published fact with its source; invented for an exercise; entered by the user."""
 
 MODES = ("attack", "structure", "drop", "line", "water", "lift", "command")
-"""Operational modes: attack on the ground, protection of structures, drops from the air, building line,
-supply of water, carrying people and loads, command and reconnaissance."""
+"""Operational modes: ground attack, structure protection, air drop, line construction, water supply,
+transport of people and loads, command and reconnaissance."""
 
 STAFFING = ("career", "seasonal", "volunteer", "call-when-needed")
-"""How the people of a resource are employed."""
+"""Employment of the people of a resource."""
 
 STATUSES = ("available", "committed", "reserved", "unavailable")
-"""Status of a resource in a window of time, in the words of the interagency resource ordering system IROC."""
+"""Status of a resource in a time window, in terms of the interagency resource ordering system IROC."""
 
 AIR = ("airtanker", "helicopter")
-"""Kinds that fly straight; all others follow roads."""
+"""Kinds that fly straight; all other kinds follow roads."""
 
 DETOUR = 1.4
-"""Length of roads by straight distance, an assumption: there is no road network."""
+"""Ratio of road length to straight distance, an assumption, as the program has no road network."""
 
 EXERCISE = "Exercise: not operational advice"
-"""What stands on everything that shows an exercise's places."""
+"""Label of everything that shows an exercise."""
 
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """Where rows come from: name, licence, day of the data (ISO 8601), address, and hash of the file."""
+    """Source of rows: name, licence, date of the data (ISO 8601), address, and hash of the file."""
 
     id: int
     name: str
@@ -47,20 +47,20 @@ class Source:
 
 @dataclass(frozen=True, slots=True)
 class Type:
-    """A type of resource by a typing standard, such as ``engine/3``; None where it has no such minimum.
+    """Type of resource in a typing standard, such as ``engine/3``; None: no such minimum.
 
     Attributes
     ----------
     tank_l
-        Least water or retardant carried, l.
+        Minimum water or retardant carried, l.
     payload_kg
-        Least payload, kg.
+        Minimum payload, kg.
     pump_l_min
-        Least flow of the pump, l/min.
+        Minimum flow of the pump, l/min.
     people
-        Least number of people.
+        Minimum number of people.
     standard
-        The standard, and the day when it was read.
+        The standard, and the date of the version.
     """
 
     code: str
@@ -76,20 +76,20 @@ class Type:
 
 @dataclass(frozen=True, slots=True)
 class Station:
-    """A place that resources start from, in degrees north and east (WGS84).
+    """Station: starting point of resources, in degrees north and east (WGS84).
 
     Attributes
     ----------
     kind
-        What it is, such as ``fire station`` or ``exercise base``.
+        Kind of station, such as ``fire station`` or ``exercise base``.
     source
         `Source.id`.
     source_id
-        Its name or number in the source.
+        Name or number in the source.
     origin
         One of `ORIGINS`.
     picture
-        Name of a picture file; empty without one.
+        Name of a picture file, or empty.
     """
 
     id: int
@@ -106,13 +106,13 @@ class Station:
 
     @property
     def title(self) -> str:
-        """Its name; without one, its number: ``station 7``."""
+        """Name, or number if the name is empty: ``station 7``."""
         return self.name if self.name.strip() else f"station {self.id}"
 
 
 @dataclass(frozen=True, slots=True)
 class Resource:
-    """What stands at a station. A row of several (`count`) is sent as a whole. None is not known.
+    """Resource of a station. The `count` units of a row are sent together. None: unknown.
 
     Attributes
     ----------
@@ -127,23 +127,23 @@ class Resource:
     count
         Number of units.
     load_kg
-        Water or retardant of one unit in a trip, kg.
+        Water or retardant that one unit carries in a trip, kg.
     speed_km_h
-        Mean speed on the way, km/h.
+        Mean travel speed, km/h.
     mobilise_min
-        Minutes from the order to the departure.
+        Mobilisation time: minutes from the order to the departure.
     radius_km
         Radius of its area of coverage, km.
     line_m_h
-        Line that one unit builds, m/h.
+        Line production rate of one unit, m/h.
     cost_mobilise, cost_hour, cost_day
         Cost of one unit: once, for an hour, for a day, in `currency`.
     mode
         One of `MODES`.
     staffing
-        One of `STAFFING`; empty where it is not known.
+        One of `STAFFING`; empty: unknown.
     night
-        Whether it works at night.
+        True if it works at night.
     """
 
     id: int
@@ -170,7 +170,7 @@ class Resource:
 
 @dataclass(frozen=True, slots=True)
 class Availability:
-    """Status of a resource from `begins` until before `ends`, UTC; `area` is where it may be sent."""
+    """Status of a resource from `begins` until before `ends`, UTC; `area` limits its use."""
 
     resource: int
     begins: datetime

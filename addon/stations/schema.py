@@ -1,7 +1,7 @@
-"""Tables of a file of places: what a GeoPackage (OGC 12-128, version 1.4) wants, then our own.
+"""Tables of a station file: the tables of a GeoPackage (OGC 12-128, version 1.4), and Firetwin's tables.
 
-`station` and `area` are features; the other tables are attributes. Geometry is WGS84. The index of
-stations is that of the GeoPackage's own extension (Annex F.3), so that QGIS uses it and keeps it right.
+`station` and `area` are features; the other tables are attributes. Geometry is WGS84. Stations have the
+spatial index of the GeoPackage extension (Annex F.3), so that QGIS uses and updates it.
 """
 
 from __future__ import annotations
@@ -108,7 +108,7 @@ TRIGGERS = (
     + _trigger("update7", "UPDATE OF geom", f"OLD.fid = NEW.fid AND {_NEW} AND NOT {_OLD}", _INSERT)
     + _trigger("delete", "DELETE", "OLD.geom NOT NULL", _DELETE)
 )
-"""Keep the index of stations; their functions are those of the program that edits the file, such as QGIS."""
+"""Triggers that update the spatial index; their functions come from the editing program, such as QGIS."""
 
 _WKT = (
     'GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563,AUTHORITY["EPSG","7030"]],'
@@ -121,7 +121,7 @@ SYSTEMS = (
     ("Undefined Cartesian SRS", -1, "NONE", -1, "undefined", "undefined Cartesian coordinates"),
     ("Undefined geographic SRS", 0, "NONE", 0, "undefined", "undefined geographic coordinates"),
 )
-"""Rows of gpkg_spatial_ref_sys, all of which the standard demands."""
+"""Rows of gpkg_spatial_ref_sys; the standard requires all of them."""
 
 EXTENSION = (
     "station",

@@ -1,9 +1,9 @@
-"""Search: which resources answer a query, when they are there, what they cost and what they deliver.
+"""Search: resources that match a query, with arrival time, cost and delivery.
 
-Five words of a query have one meaning each. Area of coverage: the polygons of the station's areas, else the
-resource's radius, else what it reaches within the query's minutes. Budget: mobilising and the hours of work,
-summed over the set. Tonnage: water or retardant that the set delivers by round trips, t/h. Operational mode:
-one of `records.MODES`. Availability: the status at the query's time.
+Five terms of a query are defined as follows. Area of coverage: the polygons of the station, otherwise the
+radius of the resource, otherwise the area within the travel time of the query. Budget: mobilisation and hours
+of work, summed over the set. Tonnage: water or retardant that the set delivers by round trips, t/h.
+Operational mode: one of `records.MODES`. Availability: the status at the time of the query.
 """
 
 from __future__ import annotations
@@ -23,20 +23,20 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True)
 class Match:
-    """A resource that answers a query; None is not known. Values are of all units of its row.
+    """Resource that matches a query; None: unknown. Values include all units of its row.
 
     Attributes
     ----------
     distance_km
         Straight distance, km.
     minutes
-        Minutes from the order to the arrival: mobilising and the way.
+        Time from the order to the arrival, min: mobilisation and travel.
     cost
-        Mobilising and the query's hours of work, in the resource's currency.
+        Mobilisation and the hours of work of the query, in the currency of the resource.
     tonnes_per_hour
         Water or retardant delivered by round trips, t/h.
     coverage
-        What its area of coverage is: ``area`` (a polygon), ``radius``, or ``time``.
+        Kind of area of coverage: ``area`` (a polygon), ``radius``, or ``time``.
     """
 
     resource: Resource
@@ -50,18 +50,18 @@ class Match:
 
 @dataclass(frozen=True)
 class Found:
-    """Answer of a search.
+    """Result of a search.
 
     Attributes
     ----------
     matches
-        By minutes, then by number; where the query has a budget or a tonnage, those of the set alone.
+        By minutes, then by number; with a budget or a tonnage, only the resources of the set.
     left_out
-        Number of resources that each reason left out; the first reason of each counts.
+        Number of omitted resources by reason; the first reason of each resource counts.
     candidates
-        Number of resources that the set was chosen from.
+        Number of resources from which the set was chosen.
     shortfall
-        Why there is no set that delivers enough; empty where there is one.
+        Reason why no set delivers enough; empty if there is a set.
     """
 
     matches: list[Match]
@@ -81,16 +81,16 @@ class Found:
 
 
 def find(station_file: StationFile, query: Query) -> list[Match]:
-    """Resources that answer a query, by minutes, then by number; see `survey` for what was left out."""
+    """Find the resources that match a query, by minutes, then by number; `survey` also counts omissions."""
     return survey(station_file, query).matches
 
 
 def survey(station_file: StationFile, query: Query) -> Found:
-    """Resources that answer a query, and how many each reason left out.
+    """Find the resources that match a query, and count the omitted resources by reason.
 
-    Without budget and tonnage these are all that pass the other conditions. With a tonnage it is the cheapest
-    set that delivers it, by `cover.cheapest`, within the budget if there is one. With a budget alone it is
-    what arrives first, as far as the budget goes.
+    Without budget and tonnage these are all resources that meet the other conditions. With a tonnage it is
+    the cheapest set that delivers it (`cover.cheapest`), within the budget if there is one. With a budget
+    only, these are the earliest resources that the budget pays for.
     """
     measured = measures.measure(station_file, query)
     left_out: dict[str, int] = {}
@@ -109,7 +109,7 @@ def survey(station_file: StationFile, query: Query) -> Found:
 
 
 def _set(rows: NDArray[np.int64], measured: measures.Measures, query: Query) -> tuple[NDArray[np.int64], str]:
-    """Rows of the set that the budget and the tonnage of a query choose, and why there is none."""
+    """Choose the rows of the set for the budget and the tonnage of a query; else return the reason."""
     if query.tonnes_per_hour is None:
         return (rows, "") if query.budget is None else (_first(rows, measured.cents[rows], query.budget), "")
     by_id = np.sort(rows)
@@ -126,7 +126,7 @@ def _set(rows: NDArray[np.int64], measured: measures.Measures, query: Query) -> 
 
 
 def _first(rows: NDArray[np.int64], cents: NDArray[np.int64], budget: float) -> NDArray[np.int64]:
-    """Rows in their order that a budget still pays; one that it does not pay is passed over."""
+    """Select rows in their order while the budget pays for them; rows that are too expensive are skipped."""
     left, taken = round(budget * 100), []
     for row, cost in zip(rows.tolist(), cents.tolist(), strict=True):
         if cost <= left:
@@ -136,7 +136,7 @@ def _first(rows: NDArray[np.int64], cents: NDArray[np.int64], budget: float) -> 
 
 
 def _matches(station_file: StationFile, measured: measures.Measures, rows: NDArray[np.int64]) -> list[Match]:
-    """Matches of rows, in their order."""
+    """Return the matches of rows, in their order."""
     values = (
         [None if value != value else value for value in column[rows].tolist()]
         for column in (measured.distance_km, measured.minutes, measured.cost, measured.tonnes_per_hour)

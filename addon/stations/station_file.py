@@ -19,16 +19,16 @@ WATER_KG_L = 1.0  # density of water, kg/l
 
 @dataclass(frozen=True)
 class Columns:
-    """Values of all resources (n,), in the order of `StationFile.resources`; NaN where one is not known.
+    """Values of all resources (n,), in the order of `StationFile.resources`; NaN: unknown.
 
     Attributes
     ----------
     station
         Index into `StationFile.stations`.
     latitude, longitude
-        Degrees of its station.
+        Position of the station, degrees.
     load_kg
-        Load of one unit; where the resource gives none, its type's least tank of water.
+        Load of one unit; if unknown, the minimum tank of its type, full of water.
     """
 
     id: NDArray[np.int64]
@@ -49,7 +49,7 @@ class Columns:
 
 @dataclass(frozen=True)
 class Windows:
-    """Windows of availability (m,), by their beginning.
+    """Windows of availability (m,), by start time.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ class Windows:
     begins, ends
         Seconds since 1970.
     available
-        Whether the status is ``available``.
+        True if the status is ``available``.
     """
 
     row: NDArray[np.int64]
@@ -72,7 +72,7 @@ class Windows:
 
 @dataclass(frozen=True)
 class Codes:
-    """Words of all resources, in the order of `StationFile.resources`; `type` is without its kind."""
+    """Categorical columns of all resources, in the order of `StationFile.resources`; `type` without kind."""
 
     kind: Categorical
     type: Categorical
@@ -83,7 +83,7 @@ class Codes:
 
 @dataclass(frozen=True)
 class StationFile:
-    """Content of a file of places, or of several."""
+    """Content of one station file, or of several merged ones."""
 
     stations: tuple[Station, ...] = ()
     resources: tuple[Resource, ...] = ()
@@ -94,22 +94,22 @@ class StationFile:
 
     @cached_property
     def source_of(self) -> dict[int, Source]:
-        """Sources by their number."""
+        """Sources by number."""
         return {source.id: source for source in self.sources}
 
     @cached_property
     def type_of(self) -> dict[str, Type]:
-        """Types by their code."""
+        """Types by code."""
         return {each.code: each for each in self.types}
 
     @cached_property
     def station_row(self) -> dict[int, int]:
-        """Index into `stations` by a station's number."""
+        """Index into `stations` by the number of a station."""
         return {station.id: row for row, station in enumerate(self.stations)}
 
     @cached_property
     def resources_of(self) -> dict[int, list[Resource]]:
-        """Resources of each station by its number; none of a station without any."""
+        """Resources of each station by its number; an empty list for a station without resources."""
         found: dict[int, list[Resource]] = {station.id: [] for station in self.stations}
         for each in self.resources:
             found[each.station].append(each)
@@ -117,7 +117,7 @@ class StationFile:
 
     @cached_property
     def windows_of(self) -> dict[int, list[Availability]]:
-        """Windows of availability of each resource by its number, by their beginning."""
+        """Windows of availability of each resource by its number, by start time."""
         found: dict[int, list[Availability]] = {each.id: [] for each in self.resources}
         for window in sorted(self.availability, key=lambda each: each.begins):
             found[window.resource].append(window)
@@ -125,7 +125,7 @@ class StationFile:
 
     @property
     def exercise(self) -> bool:
-        """Whether any row was invented for an exercise; what shows it says so."""
+        """True if a row was invented for an exercise; every view of the file is labelled then."""
         return any(each.origin == "exercise" for rows in (self.stations, self.resources) for each in rows)
 
     @cached_property
@@ -178,7 +178,7 @@ class StationFile:
 
     @cached_property
     def codes(self) -> Codes:
-        """Words of all resources."""
+        """Categorical columns of all resources."""
         types, resources = self.type_of, self.resources
         return Codes(
             kind=Categorical.from_values(types[each.type].kind for each in resources),

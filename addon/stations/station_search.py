@@ -1,4 +1,4 @@
-"""Search among stations alone, by distance."""
+"""Search for stations by distance, without conditions on resources."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .station_file import StationFile
 
 @dataclass(frozen=True)
 class StationMatch:
-    """A station that answers a query, and its straight distance, km; None without a place to go to."""
+    """Station that matches a query, and its straight distance, km; None without a destination."""
 
     station: Station
     distance_km: float | None
@@ -22,14 +22,14 @@ class StationMatch:
 
 @dataclass(frozen=True)
 class Found:
-    """Stations by distance, then by number, and how many each reason left out."""
+    """Stations by distance, then by number, and the number of omitted stations by reason."""
 
     matches: list[StationMatch]
     left_out: dict[str, int] = field(default_factory=dict)
 
 
 def survey(station_file: StationFile, query: Query) -> Found:
-    """Stations within the query's distance; its conditions on resources are not looked at."""
+    """Find the stations within the distance of a query; its conditions on resources are ignored."""
     number = np.array([each.id for each in station_file.stations], np.int64)
     if query.near is None:
         order = np.argsort(number, kind="stable")

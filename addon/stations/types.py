@@ -1,8 +1,8 @@
-"""Types of fire resources by NWCG PMS 200, and how their codes are written.
+"""Types of fire resources in NWCG PMS 200, and their codes.
 
 Source: NWCG Standards for Wildland Fire Resource Typing, PMS 200, with its tables of equipment, aircraft
 and crews (https://www.nwcg.gov/publications/pms200), read in November 2026. All values are minima. The tables
-have no tank of helicopters, so none stands here.
+give no tank of helicopters, so it is missing here.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from .records import AIR, Type
 
 STANDARD = "NWCG PMS 200, read in November 2026"
 OWN = "user"
-"""Standard of a type that PMS 200 does not know."""
+"""Standard of a type that is not in PMS 200."""
 
 _GALLON, _POUND = 3.785411784, 0.45359237  # l, kg
 
@@ -27,7 +27,7 @@ _ENGINES: dict[str, tuple[float, float, int]] = {
     "6": (150, 50, 2),
     "7": (50, 10, 2),
 }
-# gal of each type; of type 4 the standard has a maximum (799) alone
+# gal of each type; the standard gives only a maximum (799) for type 4
 _AIRTANKERS: dict[str, float | None] = {"VLAT": 8000, "1": 3000, "2": 1800, "3": 800, "4": None}
 _HELICOPTERS = {"1": 5000, "2": 2500, "3": 1200}  # payload of each type, lb at 59 F and sea level
 _DOZERS = ("1", "2", "3", "4")
@@ -44,11 +44,11 @@ MODE_OF = {
     "tender": "water",
     "command": "command",
 }
-"""Operational mode of a kind whose mode is not said; others attack on the ground."""
+"""Default operational mode by kind; other kinds attack on the ground."""
 
 
 def standard_types() -> tuple[Type, ...]:
-    """All types of the standard."""
+    """Return all types of the standard."""
     engines = (
         Type(f"engine/{n}", "engine", "structure" if n in "12" else "wildland", n, tank * _GALLON,
              pump_l_min=pump * _GALLON, people=people, standard=STANDARD)
@@ -70,7 +70,7 @@ def standard_types() -> tuple[Type, ...]:
 
 
 def own_type(code: str) -> Type | None:
-    """Type of a user's own code, such as ``tender/1``; None for text of another form."""
+    """Make a type from a user-defined code, such as ``tender/1``; None if the code has another form."""
     if not _CODE.fullmatch(code):
         return None
     kind, _, number = code.partition("/")
@@ -78,7 +78,7 @@ def own_type(code: str) -> Type | None:
 
 
 def mode_of(code: str) -> str:
-    """Operational mode of a type whose mode is not said: engines of types 1 and 2 protect structures."""
+    """Return the default operational mode of a type; engines of types 1 and 2 protect structures."""
     if code in ("engine/1", "engine/2"):
         return "structure"
     return MODE_OF.get(code.partition("/")[0], "attack")

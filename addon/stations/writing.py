@@ -1,4 +1,4 @@
-"""Writing of a file of places."""
+"""Writer of station files."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from .station_file import StationFile
 
 
 def write(station_file: StationFile, path: Path) -> None:
-    """Write a file of places, which replaces another one once it is complete.
+    """Write a station file; an existing file is replaced when the new one is complete.
 
     Raises
     ------
@@ -37,7 +37,7 @@ def write(station_file: StationFile, path: Path) -> None:
     try:
         files.write(path, put)
     except sqlite3.IntegrityError as error:
-        raise input_error(path, f"cannot hold these places: {error}") from error
+        raise input_error(path, f"cannot store these stations: {error}") from error
 
 
 def _fill(base: sqlite3.Connection, station_file: StationFile) -> None:
@@ -55,7 +55,7 @@ def _fill(base: sqlite3.Connection, station_file: StationFile) -> None:
 
 
 def _contents(base: sqlite3.Connection, station_file: StationFile) -> None:
-    """Rows of gpkg_contents and gpkg_geometry_columns; the day of change is that of the newest source."""
+    """Write gpkg_contents and gpkg_geometry_columns; the newest source gives the date of change."""
     newest = max((each.retrieved for each in station_file.sources), default="") or "1970-01-01"
     change = f"{newest[:10]}T00:00:00.000Z"
     latitude, longitude = station_file.positions
@@ -75,7 +75,7 @@ def _contents(base: sqlite3.Connection, station_file: StationFile) -> None:
 
 
 def _rows(base: sqlite3.Connection, station_file: StationFile) -> None:
-    """Rows of our tables; numbers of rows are those of the records."""
+    """Write Firetwin's tables; the ids of the records number the rows."""
     _records(base, "source", Source, station_file.sources)
     types = ((number, *astuple(each)) for number, each in enumerate(station_file.types, 1))
     _many(base, "type", types, "fid", *(each.name for each in fields(Type)))
@@ -98,12 +98,12 @@ def _rows(base: sqlite3.Connection, station_file: StationFile) -> None:
 
 
 def datetime_text(when: datetime) -> str:
-    """Time as a GeoPackage has it: ``2014-09-17T22:42:00.000Z``."""
+    """Format a time as in a GeoPackage: ``2014-09-17T22:42:00.000Z``."""
     return when.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%S.000Z")
 
 
 def _records(base: sqlite3.Connection, table: str, kind: type, rows: Iterable[Any]) -> None:
-    """Rows of records whose fields are named as the table's columns are."""
+    """Write records whose fields have the names of the columns."""
     names = [each.name for each in fields(kind)]
     _many(base, table, (tuple(getattr(row, name) for name in names) for row in rows), *names)
 

@@ -193,8 +193,14 @@ def simple(**request):
     ("request_", "words"),
     [
         ({"budget": 4500.0}, "budget of 4,500.00 is too small by 500.00: the cheapest .* costs 5,000.00"),
-        ({"response": {"engine": 2}}, "lacks 1 of 2 engine: 1 can arrive within 60 min; with 70 min"),
-        ({"response": {"crew/IHC": 2}}, "lacks 2 of 2 crew/IHC: 0 can .* within 60 min, and the list has 0"),
+        (
+            {"response": {"engine": 2}},
+            "is short of 1 of 2 engine: 1 can arrive within 60 min; 2 can arrive within 70 min",
+        ),
+        (
+            {"response": {"crew/IHC": 2}},
+            "is short of 2 of 2 crew/IHC: 0 can .* within 60 min; the file has 0",
+        ),
     ],
 )
 def test_it_says_why_there_is_none(request_, words):
@@ -209,7 +215,7 @@ def test_it_says_how_much_line_is_missing():
     problem = replace(simple(), perimeter=np.array([[500.0, 600.0]]))
     assert containment.solve(problem, EXACT) is None
     (reason,) = shortfall.reasons(problem, ("C",), EXACT)
-    assert "lack 117 m of the 600 m of division C at hour 2, which is 58 m/h" in reason
+    assert "117 m of the 600 m of division C at hour 2 are missing, a rate of 58 m/h" in reason
     lacking, _ = containment.shortest_line(problem, EXACT)
     assert lacking[0] == pytest.approx(600.0 - 100.0 - 250.0 / 3.0 - 300.0)
 
@@ -300,7 +306,7 @@ def test_a_suggestion_says_what_it_is(round_run):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"hours": 9}, "--hours: the run ends 2 h after the order; ask for at most 2"),
+        ({"hours": 9}, "--hours: the run ends 2 h after the order; give at most 2"),
         (
             {"start": START + timedelta(hours=3)},
             "--from: an hour from 2014-09-17T07:45:00Z is not in the run",
@@ -406,6 +412,6 @@ def test_the_command_prints_a_suggestion_or_why_there_is_none(round_run, station
 
 @pytest.mark.parametrize("text", ["engine", "engine=0", "engine=x", "=3", "engine=1,engine=2", ""])
 def test_a_response_that_cannot_be_read_is_told(text):
-    with pytest.raises(argparse.ArgumentTypeError, match=r"must be as|names engine twice"):
+    with pytest.raises(argparse.ArgumentTypeError, match=r"must have the form|names engine twice"):
         arguments.response(text)
     assert arguments.response("engine/3=4, dozer=1") == {"engine/3": 4, "dozer": 1}

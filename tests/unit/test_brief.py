@@ -395,7 +395,7 @@ def test_what_burns_after_the_run_ends_is_never_reached_in_it(folder):
 def test_a_file_that_is_none_of_places_is_one_clear_error(folder, tmp_path):
     (tmp_path / "notes.gpkg").write_text("notes " * 100)
     with pytest.raises(
-        InputError, match=r"notes.gpkg: is no file of places; make one: firetwin stations import"
+        InputError, match=r"notes.gpkg: is not a station file; make one: firetwin stations import"
     ):
         parts(folder, stations=tmp_path / "notes.gpkg")
 

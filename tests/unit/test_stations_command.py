@@ -51,7 +51,7 @@ def test_import_says_what_it_did_and_info_lists_it(tmp_path, capsys):
     )
     assert (status, printed) == (0, f"{out}\n")
     assert "4 stations; source HIFLD fire stations, licence mine, data of 2026-11-01" in said
-    assert said.count("refused") == 3
+    assert said.count("rejected") == 3
     status, printed, _ = firetwin(capsys, "stations", "info", out)
     assert status == 0
     assert "stations   3" in printed
@@ -74,7 +74,7 @@ def test_an_exercise_elsewhere_needs_bases(tmp_path, make_run, capsys):
     out = tmp_path / "exercise.gpkg"
     status, _, said = firetwin(capsys, "stations", "exercise", folder, "--out", out)
     assert status == 1
-    assert "name a list of bases by --towns" in said
+    assert "name a list of bases with --towns" in said
     (tmp_path / "towns.csv").write_text("name,lat,lon\nCamp,38.9,-120.6\n")
     towns = ("--towns", tmp_path / "towns.csv", "--seed", "4")
     assert firetwin(capsys, "stations", "exercise", folder, "--out", out, *towns)[0] == 0
@@ -173,23 +173,23 @@ def test_the_head_is_where_the_fire_is_then(exercise, run, capsys):
         capsys, "resources", exercise, "--run", run, "--near", "head", "--available-at", before
     )
     assert status == 1
-    assert "has no fire, so no head" in said
+    assert "has no fire and therefore no head" in said
     assert commands._fire(run).head(times.utc(opened, -60.0)) is None
 
 
 @pytest.mark.parametrize(
     ("options", "reason"),
     [
-        (["--near", "ignition"], "--near: ignition is that of a run's fire; name the run by --run"),
-        (["--within", "60km"], "--within: needs a place to go to"),
-        (["--tonnes-per-hour", "2"], "--tonnes-per-hour: needs a place"),
+        (["--near", "ignition"], "--near: ignition needs the fire of a run; name it with --run"),
+        (["--within", "60km"], "--within: needs a destination"),
+        (["--tonnes-per-hour", "2"], "--tonnes-per-hour: needs a destination"),
         (["--ahead"], "--ahead: needs the fire of a run"),
         (["--near", "38.9"], "must be ignition, head, or degrees"),
         (["--near", "98.9,1"], "must be ignition, head, or degrees"),
         (["--within", "60 furlongs"], "must be a length such as 60km"),
         (["--minutes", "0"], "must be a number above 0"),
         (["--type", "3-1"], "goes backwards; write 1-3"),
-        (["--mode", "shopping"], "is none of attack, structure"),
+        (["--mode", "shopping"], "is not one of attack, structure"),
         (["--available-at", "noon"], "must be a time with its zone"),
         (["--kind", ","], "is empty"),
         (["--stations", "--kind", "engine"], "--kind: is a condition on resources"),
@@ -204,7 +204,7 @@ def test_mistakes_are_named(exercise, capsys, options, reason):
 def test_a_head_needs_a_time(exercise, run, capsys):
     status, _, said = firetwin(capsys, "resources", exercise, "--run", run, "--near", "head")
     assert status == 2
-    assert "name it by --available-at" in said
+    assert "give it with --available-at" in said
 
 
 def test_a_file_that_is_there_is_kept(exercise, run, capsys):
@@ -226,7 +226,7 @@ def test_a_file_without_any_station_is_not_written(tmp_path, capsys):
         capsys, "stations", "import", tmp_path / "stations.csv", "--out", tmp_path / "p.gpkg"
     )
     assert status == 1
-    assert "has no station that can be kept" in said
+    assert "has no valid station" in said
     assert not (tmp_path / "p.gpkg").exists()
 
 

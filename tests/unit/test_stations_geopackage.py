@@ -158,7 +158,7 @@ def test_a_row_without_a_true_origin_cannot_be_written(tmp_path):
         ("UPDATE station SET geom = 'here' WHERE fid = 7", "station 7 has no position in degrees"),
         (
             "UPDATE resource SET station = 1 WHERE id = 100",
-            "resource 100 stands at station 1, which there is not",
+            "resource 100 names station 1, which does not exist",
         ),
         ("UPDATE resource SET type = 'x' WHERE id = 100", 'resource 100 has type "x"'),
         ("UPDATE resource SET mode = 'x' WHERE id = 100", 'resource 100 has mode "x"'),
@@ -168,10 +168,13 @@ def test_a_row_without_a_true_origin_cannot_be_written(tmp_path):
         ("UPDATE resource SET count = 0 WHERE id = 100", "has count 0"),
         ("UPDATE availability SET begins = 'soon'", "has no time in begins"),
         ("UPDATE availability SET status = 'lost'", 'has status "lost"'),
-        ("UPDATE availability SET resource = 1", "resource 1 has a window of availability, and is not there"),
+        (
+            "UPDATE availability SET resource = 1",
+            "resource 1 has a window of availability but does not exist",
+        ),
         ("UPDATE area SET geom = x'00'", "area 1 has no polygon"),
-        ("UPDATE area SET station = 1", "area 1 is of station 1, which there is not"),
-        ("DROP TABLE availability", "is no file of places"),
+        ("UPDATE area SET station = 1", "area 1 names station 1, which does not exist"),
+        ("DROP TABLE availability", "is not a station file"),
         ("ALTER TABLE resource DROP COLUMN note", "cannot be read: no such column: note"),
     ],
 )
@@ -233,5 +236,5 @@ def test_no_file_and_no_database(tmp_path):
     with pytest.raises(InputError, match="there is no such file"):
         reading.read(tmp_path / "none.gpkg")
     (tmp_path / "text.gpkg").write_text("not a database, and long enough that SQLite looks at it" * 20)
-    with pytest.raises(InputError, match="is no file of places"):
+    with pytest.raises(InputError, match="is not a station file"):
         reading.read(tmp_path / "text.gpkg")

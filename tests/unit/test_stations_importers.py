@@ -51,12 +51,12 @@ def test_hifld_is_made_readable_merged_and_refused_by_reason(tmp_path):
     assert source.retrieved == "2010-03-22"
     assert len(source.sha256) == 64
     told = "\n".join(messages)
-    assert "1 duplicate merged: within 150 m" in told
+    assert "1 duplicate merged (within 150 m, similar name, same kind)" in told
     for line in (
-        "2 refused without coordinates, the first in line 7",
-        "1 refused of ambulances or medical services alone, without a fire station, the first in line 6",
-        "1 refused with coordinates that are no degrees (save them in WGS84, EPSG:4326), the first in line 9",
-        "telephones and persons are not kept (EMERGPHONE, EMERGTITLE, PHONELOC, TELEPHONE)",
+        "2 rejected, the first in line 7: no coordinates",
+        "1 rejected, the first in line 6: ambulance or medical service, not a fire station",
+        "1 rejected, the first in line 9: coordinates are not in degrees (save them in WGS84, EPSG:4326)",
+        "telephone numbers and persons are not stored (EMERGPHONE, EMERGTITLE, PHONELOC, TELEPHONE)",
     ):
         assert line in told
 
@@ -95,8 +95,8 @@ def test_usgs_fire_stations_among_structures(tmp_path, form):
     assert (station.name, station.latitude, station.longitude) == ("Made Up Fire Station 7", 38.8, -120.6)
     assert station.source_id == usgs_row()["PERMANENT_IDENTIFIER"]
     assert station_file.sources[0].retrieved == "2023-05-04"
-    assert "1 refused of other structures" in "\n".join(messages)
-    assert "1 refused without coordinates" in "\n".join(messages)
+    assert ": other structure (FCODE is not 74026)" in "\n".join(messages)
+    assert ": no coordinates" in "\n".join(messages)
     assert importers.importer(path) is usgs
 
 
@@ -120,8 +120,8 @@ def test_overpass_nodes_and_centres_of_ways_and_relations(tmp_path):
     (source,) = station_file.sources
     assert (source.name, source.licence, source.retrieved) == (osm.NAME, "ODbL 1.0", "2026-10-01")
     told = "\n".join(messages)
-    assert "1 refused without coordinates, the first in element 5" in told  # without `out center`
-    assert "1 refused of ambulances" in told
+    assert "1 rejected, the first in element 5: no coordinates" in told  # without `out center`
+    assert ": ambulance or medical service" in told
     assert "(contact:email, phone)" in told
 
 
@@ -133,7 +133,7 @@ def test_geojson_of_openstreetmap_with_outlines(tmp_path):
     (station,) = station_file.stations
     assert (station.latitude, station.longitude) == pytest.approx((38.95, -120.55))
     assert station.source_id == "way/9"
-    assert "1 refused without amenity=fire_station" in "\n".join(messages)
+    assert ": not tagged amenity=fire_station" in "\n".join(messages)
 
 
 STATIONS = """name,lat,lon,kind,id,phone
@@ -177,8 +177,8 @@ def test_tables_of_the_users_own(tmp_path):
         ("me", "CC0", "2026-01-02", "here")
     }
     told = "\n".join(messages)
-    assert "1 refused of a station that is not there, the first in line 6" in told
-    assert "1 refused without a name and without a number, the first in line 5" in told
+    assert "1 rejected, the first in line 6: unknown station" in told
+    assert "1 rejected, the first in line 5: no name and no number" in told
 
 
 def test_a_station_named_by_what_several_have_is_refused(tmp_path):
@@ -187,17 +187,17 @@ def test_a_station_named_by_what_several_have_is_refused(tmp_path):
     resources.write_text("station,type\nCamp,engine/3\n")
     station_file, messages = merged(stations, resources)
     assert station_file.resources == ()
-    assert "whose name several have" in "\n".join(messages)
+    assert "several stations have this name (use the number)" in "\n".join(messages)
 
 
 @pytest.mark.parametrize(
     ("row", "reason"),
     [
         ("C1,Engine Three,,,", 'has type "Engine Three"; write kind/type'),
-        ("C1,engine/3,fast,,", 'has speed_km_h "fast"; it is a number above 0'),
-        ("C1,engine/3,0,,", "it is a number above 0"),
-        ("C1,engine/3,nan,,", "it is a number above 0"),
-        ("C1,engine/3,,shopping,", 'has mode "shopping"; it is one of attack'),
+        ("C1,engine/3,fast,,", 'has speed_km_h "fast"; enter a number above 0'),
+        ("C1,engine/3,0,,", "enter a number above 0"),
+        ("C1,engine/3,nan,,", "enter a number above 0"),
+        ("C1,engine/3,,shopping,", 'has mode "shopping"; use one of attack'),
         ("C1,engine/3,,,2014-09-17T06:00", "write a time with its zone"),
     ],
 )
@@ -231,15 +231,15 @@ def test_a_file_of_places_is_taken_over_beside_others(tmp_path):
 @pytest.mark.parametrize(
     ("content", "reason"),
     [
-        (b"", "has no known format"),
-        (b"a,b\n1,2\n", "has no known format"),
-        (b"\x00\xff\xfe", "has no known format"),
+        (b"", "has an unknown format"),
+        (b"a,b\n1,2\n", "has an unknown format"),
+        (b"\x00\xff\xfe", "has an unknown format"),
         (b'{"elements": [{"tags": 3}', "not valid JSON"),
-        (b'{"osm3s": {}, "elements": 3}', "are no list"),
-        (b'{"osm3s": {}, "elements": [3]}', "element 1 is no table"),
-        (b"name,lat,lon\nA\xff,1,2\n", "is no text in UTF-8"),
+        (b'{"osm3s": {}, "elements": 3}', "is not a list"),
+        (b'{"osm3s": {}, "elements": [3]}', "element 1 is not an object"),
+        (b"name,lat,lon\nA\xff,1,2\n", "is not UTF-8 text"),
         (b"name,lat,lon,origin\nA,1,2,rumour\n", 'has origin "rumour"'),
-        (b"SQLite format 3\0 and nothing else", "has no known format"),
+        (b"SQLite format 3\0 and nothing else", "has an unknown format"),
     ],
 )
 def test_other_files_are_named(tmp_path, content, reason):
@@ -256,13 +256,13 @@ def test_lines_may_end_as_on_any_system(tmp_path, end):
     path.write_bytes(end.join(["name,lat,lon", "A,1,2", "B,,"]).encode())
     batch = importers.read(path)
     assert [each.name for each in batch.stations] == ["A"]
-    assert batch.refused.first == {import_rows.MISSING: "line 3"}
+    assert batch.rejected.first == {import_rows.MISSING: "line 3"}
 
 
 def test_a_missing_file_and_a_folder(tmp_path):
     with pytest.raises(InputError, match="there is no such file"):
         importers.read(tmp_path / "none.csv")
-    with pytest.raises(InputError, match="is no file"):
+    with pytest.raises(InputError, match="is not a file"):
         importers.read(tmp_path)
 
 
@@ -278,8 +278,8 @@ def test_a_missing_file_and_a_folder(tmp_path):
     ],
 )
 def test_names_that_mean_the_same(one, other, same):
-    assert names.alike(one, other) is same
-    assert names.alike(other, one) is same
+    assert names.may_be_equal(one, other) is same
+    assert names.may_be_equal(other, one) is same
 
 
 def test_capitals_are_made_readable_and_others_are_left():
@@ -329,7 +329,7 @@ def test_a_geopackage_of_something_else_is_no_file_of_places(tmp_path):
     base.execute("CREATE TABLE station (name)")
     base.commit()
     base.close()
-    with pytest.raises(InputError, match="has no known format"):
+    with pytest.raises(InputError, match="has an unknown format"):
         importers.read(path)
-    with pytest.raises(InputError, match="is no file of places"):
+    with pytest.raises(InputError, match="is not a station file"):
         reading.read(path)

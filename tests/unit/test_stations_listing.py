@@ -62,7 +62,7 @@ def test_a_station_is_found_by_number_and_name_or_by_its_only_name():
 def test_facts_of_a_station_name_its_source_and_tell_an_exercise():
     near, base, _ = (dict(listing.facts(STATION_FILE, each)) for each in STATION_FILE.stations)
     assert near["Source"] == "Made up list, public domain, 2026-11-01"
-    assert (near["Origin"], near["Resources"]) == ("fact", "none known")
+    assert (near["Origin"], near["Resources"]) == ("fact", "unknown")
     assert "" not in near
     assert base["Resources"] == "1 x engine/3, 1 x dozer/2"
     assert base[""] == EXERCISE

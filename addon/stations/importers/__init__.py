@@ -1,7 +1,8 @@
 """Importers of stations and resources: each module reads one format, recognised by file content.
 
-A module has ``NAME``, the format's name for people, ``sniff(path, head) -> bool``, whether a file with these
-first bytes has the format, and ``read(path) -> Batch``. `MODULES` is the order in which they are tried.
+A module has ``NAME``, the name of the format, ``sniff(path, head) -> bool``, which recognises the format by
+the first bytes of a file, and ``read(path) -> Batch``. `MODULES` lists the modules in the order of the
+attempts.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from ...errors import Error, input_error
 from ..import_rows import Batch
 
 MODULES = ("firetwin", "usgs", "hifld", "osm", "resources_csv", "stations_csv")
-_HEAD = 65536  # bytes by which a format is recognised
+_HEAD = 65536  # bytes passed to `sniff`
 
 
 def importer(path: Path) -> ModuleType:
@@ -23,12 +24,12 @@ def importer(path: Path) -> ModuleType:
     Raises
     ------
     InputError
-        The file is missing, is no file, or has no known format.
+        The file is missing, is not a regular file, or has an unknown format.
     """
     if not path.exists():
         raise input_error(path, "there is no such file; check the path")
     if not path.is_file():  # opening a pipe would block
-        raise input_error(path, "is no file; name a CSV, GeoJSON, Overpass JSON or GeoPackage")
+        raise input_error(path, "is not a file; name a CSV, GeoJSON, Overpass JSON or GeoPackage file")
     with path.open("rb") as file:
         head = file.read(_HEAD)
     for name in MODULES:
@@ -44,7 +45,7 @@ def read(path: Path) -> Batch:
     Raises
     ------
     InputError
-        The file is missing, has no known format, or is damaged.
+        The file is missing, has an unknown format, or is damaged.
     """
     try:
         return importer(path).read(path)
@@ -53,7 +54,7 @@ def read(path: Path) -> Batch:
     except OSError as error:
         raise input_error(path, (error.strerror or str(error)).lower()) from None
     except UnicodeDecodeError:
-        raise input_error(path, "is no text in UTF-8; save it as UTF-8") from None
+        raise input_error(path, "is not UTF-8 text; save it as UTF-8") from None
     except Exception as error:  # Python's errors from unexpected content
         reason = " ".join(str(error).split()) or type(error).__name__
         raise input_error(path, f"is damaged or incomplete: {reason}") from error
@@ -64,4 +65,4 @@ def _unknown() -> str:
         "HIFLD fire stations (CSV, GeoJSON), USGS structures (GeoPackage, GeoJSON), OpenStreetMap (Overpass "
         "JSON, GeoJSON), CSV of stations (name, latitude, longitude) and of resources (station, type)"
     )
-    return f"has no known format: {known}"
+    return f"has an unknown format; known formats: {known}"

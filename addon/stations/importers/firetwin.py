@@ -1,4 +1,4 @@
-"""A file of places of Firetwin's own: it is taken over as it is, so that others can be added to it."""
+"""Station files of Firetwin: read unchanged, so that other files can be added."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from pathlib import Path
 from .. import reading
 from ..import_rows import Batch
 
-NAME = "places"
+NAME = "station file"
 
 
 def sniff(path: Path, head: bytes) -> bool:
-    """Whether it is a GeoPackage with our tables."""
+    """Return True for a GeoPackage with Firetwin's tables."""
     if not head.startswith(b"SQLite format 3\0"):
         return False
     with contextlib.closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
@@ -25,5 +25,5 @@ def sniff(path: Path, head: bytes) -> bool:
 
 
 def read(path: Path) -> Batch:
-    """Read it."""
-    return Batch(whole=reading.read(path), name=NAME)
+    """Read a station file."""
+    return Batch(station_file=reading.read(path), name=NAME)

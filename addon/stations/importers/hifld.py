@@ -25,7 +25,7 @@ _MARKS = {"name", "naicscode", "geoprec"}
 
 
 def sniff(path: Path, head: bytes) -> bool:
-    """Whether the columns or properties are HIFLD's."""
+    """Return True if the columns or properties are from HIFLD."""
     if tables.columns(head) >= _MARKS:
         return True
     marks = [f'"{mark}"'.encode() for mark in _MARKS]
@@ -84,6 +84,6 @@ def _add(batch: Batch, row: Mapping[str, Any], latitude: Any, longitude: Any, pl
 
 
 def _text(row: Mapping[str, Any], key: str) -> str:
-    """Text of a column; HIFLD writes NOT AVAILABLE and -999 for none."""
+    """Return the text of a column; HIFLD writes NOT AVAILABLE and -999 for missing values."""
     value = str(row.get(key) if row.get(key) is not None else "").strip()
     return "" if value.upper() in ("NOT AVAILABLE", "UNKNOWN", "-999", "NONE", "NULL") else value

@@ -1,7 +1,7 @@
 """Fire stations of OpenStreetMap: JSON of the Overpass API (``out center``), or GeoJSON with ``@id``.
 
 Tags amenity=fire_station, name, operator, ref, addr:*. Telephones and contacts are not read. The data are
-under the Open Database License: "(c) OpenStreetMap contributors" has to stand on what shows them.
+under the Open Database License: publications must show "(c) OpenStreetMap contributors".
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ NAME = "OpenStreetMap, (c) OpenStreetMap contributors"
 LICENCE = "ODbL 1.0"
 URL = "https://www.openstreetmap.org/copyright"
 
-_OTHER = "without amenity=fire_station"
+_OTHER = "not tagged amenity=fire_station"
 _AMBULANCE = ("ambulance_station",)
 
 
 def sniff(path: Path, head: bytes) -> bool:
-    """Whether there are elements of Overpass, or features with ``@id``."""
+    """Return True for elements of Overpass, or features with ``@id``."""
     if not head.lstrip(b"\xef\xbb\xbf \r\n").startswith(b"{"):
         return False
     overpass = b'"elements"' in head and (b'"osm3s"' in head or b'"tags"' in head)
@@ -56,13 +56,13 @@ def read(path: Path) -> Batch:
 def _read_elements(path: Path, whole: Mapping[str, Any], batch: Batch) -> None:
     elements = whole["elements"]
     if not isinstance(elements, list):
-        raise input_error(path, 'no answer of Overpass: its "elements" are no list')
+        raise input_error(path, 'not an Overpass response: "elements" is not a list')
     about = whole.get("osm3s")
     if isinstance(about, dict):
         batch.retrieved = str(about.get("timestamp_osm_base", ""))[:10]
     for number, element in enumerate(elements, 1):
         if not isinstance(element, dict):
-            raise input_error(path, f"element {number} is no table")
+            raise input_error(path, f"element {number} is not an object")
         tags = element.get("tags")
         if not isinstance(tags, dict):
             continue  # a node of a way
@@ -72,7 +72,7 @@ def _read_elements(path: Path, whole: Mapping[str, Any], batch: Batch) -> None:
 
 
 def _centre(element: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Centre of a way or relation, which ``out center`` gives; else the middle of its ``bounds``."""
+    """Return the centre of a way or relation (``out center``), or the middle of its ``bounds``."""
     centre, bounds = element.get("center"), element.get("bounds")
     if isinstance(centre, dict):
         return centre
@@ -100,7 +100,7 @@ def _add(
     batch.dropped = sorted({*batch.dropped, *import_rows.private(map(str, tags))})
     if tags.get("amenity") != "fire_station":
         medical = tags.get("emergency") in _AMBULANCE or tags.get("amenity") in _AMBULANCE
-        batch.refused.add(import_rows.EMS if medical else _OTHER, place)
+        batch.rejected.add(import_rows.EMS if medical else _OTHER, place)
         return
     name, number = (_text(tags, key) for key in ("name", "ref"))
     street = " ".join(filter(None, (_text(tags, "addr:housenumber"), _text(tags, "addr:street"))))

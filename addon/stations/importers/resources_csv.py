@@ -1,7 +1,7 @@
-"""Resources of the user's own: CSV with the station and the type of each, and what is known of it.
+"""Resources of the user: CSV with station, type and optional columns.
 
-The station is named as in a file of stations, by its name or its number. A row with begins, ends and status
-says when it is available; more rows of the same name and station add windows.
+The station is given by name or number, as in a file of stations. A row with begins, ends and status is a
+window of availability; further rows with the same name and station add windows.
 """
 
 from __future__ import annotations
@@ -33,13 +33,13 @@ _YES = {"": False, "no": False, "0": False, "false": False, "yes": True, "1": Tr
 
 
 def sniff(path: Path, head: bytes) -> bool:
-    """Whether the first line names station and type, and no position."""
+    """Return True if the first line names station and type, and no position."""
     found = tables.columns(head)
     return all(_NAMES[need] & found for need in _NEEDED) and not {"latitude", "lat"} & found
 
 
 def read(path: Path) -> Batch:
-    """Read all resources; their origin is the user's, unless a column says otherwise."""
+    """Read all resources; their origin is ``user``, unless a column gives another."""
     batch = Batch(name=path.stem, dropped=import_rows.private(tables.header(path).values()))
     help = 'station and type, such as "engine/3"'
     for line, row in tables.rows(path, _NAMES, _NEEDED, help):
@@ -75,14 +75,14 @@ def _words(path: Path, line: int, row: Mapping[str, str]) -> Any:
         value = row.get(key, "").lower()
         if value and value not in known:
             listed = ", ".join(each for each in known if each)
-            raise input_error(path, f'has {key} "{value}"; it is one of {listed}', line=line)
+            raise input_error(path, f'has {key} "{value}"; use one of {listed}', line=line)
         return value or usual
 
     return word
 
 
 def _number(path: Path, line: int, name: str, text: str) -> float | None:
-    """Number of a column; None where it is empty."""
+    """Parse a number; None if it is empty."""
     if not text:
         return None
     try:
@@ -90,14 +90,14 @@ def _number(path: Path, line: int, name: str, text: str) -> float | None:
     except ValueError:
         value = math.nan
     if not 0.0 <= value < math.inf or (name == "speed_km_h" and value == 0.0):
-        least = "above 0" if name == "speed_km_h" else "from 0"
-        raise input_error(path, f'has {name} "{text}"; it is a number {least}, or empty', line=line)
+        least = "above 0" if name == "speed_km_h" else "of at least 0"
+        raise input_error(path, f'has {name} "{text}"; enter a number {least}, or leave it empty', line=line)
     return value
 
 
 def _count(path: Path, line: int, text: str) -> int:
     if text and not (text.isascii() and text.isdecimal() and 1 <= int(text) <= 10_000):
-        raise input_error(path, f'has count "{text}"; it is a whole number from 1 to 10000', line=line)
+        raise input_error(path, f'has count "{text}"; enter a whole number from 1 to 10000', line=line)
     return int(text or 1)
 
 
@@ -108,7 +108,7 @@ def _window(path: Path, line: int, row: Mapping[str, str]) -> tuple[datetime, da
         return None
     begins, ends = (_time(path, line, key, row.get(key, "")) for key in ("begins", "ends"))
     if not begins < ends:
-        raise input_error(path, "has begins that is not before ends", line=line)
+        raise input_error(path, "begins is not before ends; correct one of them", line=line)
     status = _words(path, line, row)("status", STATUSES, "available")
     return begins, ends, status, row.get("area", "")
 

@@ -1,4 +1,4 @@
-"""Stations of the user's own: CSV with name, latitude and longitude, and optional columns."""
+"""Stations of the user: CSV with name, latitude and longitude, and optional columns."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ _NEEDED = ("name", "latitude", "longitude")
 
 
 def sniff(path: Path, head: bytes) -> bool:
-    """Whether the first line names the three columns."""
+    """Return True if the first line names the three columns."""
     found = tables.columns(head)
     return all(_NAMES[need] & found for need in _NEEDED)
 
 
 def read(path: Path) -> Batch:
-    """Read all stations; their origin is the user's, unless a column says otherwise."""
+    """Read all stations; their origin is ``user``, unless a column gives another."""
     batch = Batch(name=path.stem, dropped=import_rows.private(tables.header(path).values()))
     for line, row in tables.rows(path, _NAMES, _NEEDED, "name, latitude and longitude (degrees)"):
         origin = row.get("origin", "").strip().lower() or "user"
         if origin not in ORIGINS:
-            raise input_error(path, f'has origin "{origin}"; it is one of {", ".join(ORIGINS)}', line=line)
+            raise input_error(path, f'has origin "{origin}"; use one of {", ".join(ORIGINS)}', line=line)
         draft = Draft(
             row["name"], 0.0, 0.0, kind=row.get("kind", "").strip() or "fire station",
             agency=row.get("agency", ""), address=row.get("address", ""),

@@ -1,4 +1,4 @@
-"""Text of tables: the columns that a file names, and its rows by their meaning."""
+"""CSV tables: column names of a file, and its rows by meaning."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ...run import tables
 
 
 def columns(head: bytes) -> set[str]:
-    """Names of the columns in the first line of a CSV, in lower case; none of what is no text."""
+    """Return the column names in the first line of a CSV, in lower case; empty if it is not text."""
     line = "\n".join(head.decode("utf-8-sig", "replace").splitlines()[:1]).strip()
     if not line or line[0] in "{[" or "\0" in line:
         return set()
@@ -18,14 +18,14 @@ def columns(head: bytes) -> set[str]:
 
 
 def named(line: str) -> dict[str, str]:
-    """Names of the columns of a first line, by their name in lower case without a unit in brackets."""
+    """Map column names of a first line, in lower case and without a unit in brackets, to their spelling."""
     comma = max(",;\t", key=line.count)
     found = next(csv.reader([line], delimiter=comma), [])
     return {name.partition("(")[0].partition("[")[0].strip().lower(): name.strip() for name in found}
 
 
 def header(path: Path) -> dict[str, str]:
-    """Names of the columns of a file, by their name in lower case."""
+    """Map column names of a file, in lower case, to their spelling."""
     with path.open(encoding="utf-8-sig") as file:
         return named(file.readline().strip())
 
@@ -33,6 +33,6 @@ def header(path: Path) -> dict[str, str]:
 def rows(
     path: Path, names: Mapping[str, set[str]], needed: Collection[str], help: str
 ) -> Iterator[tuple[int, dict[str, str]]]:
-    """Rows of a file: number of the line, and values by their meaning, as `run.tables.rows`."""
+    """Iterate over rows: line number, and values by meaning, as in `run.tables.rows`."""
     with path.open(encoding="utf-8-sig", newline=None) as file:
         yield from tables.rows(path, iter(file), names, needed, help)

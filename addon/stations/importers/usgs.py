@@ -1,7 +1,7 @@
 """Fire stations of the USGS National Structures Dataset: GeoPackage or GeoJSON.
 
 Points with NAME, ADDRESS, CITY, STATE, ZIPCODE, FTYPE, FCODE, PERMANENT_IDENTIFIER, LOADDATE. Fire stations
-are FTYPE 740 (emergency response and law enforcement) with FCODE 74026; other structures are passed over.
+are FTYPE 740 (emergency response and law enforcement) with FCODE 74026; other structures are skipped.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ URL = "https://www.usgs.gov/national-structures-dataset"
 
 FTYPE, FCODE = 740, 74026
 _SQLITE = b"SQLite format 3\0"
-_OTHER = f"of other structures (FCODE is not {FCODE})"
+_OTHER = f"other structure (FCODE is not {FCODE})"
 
 
 def sniff(path: Path, head: bytes) -> bool:
-    """Whether there are features with FTYPE and FCODE."""
+    """Return True if there are features with FTYPE and FCODE."""
     if not head.startswith(_SQLITE):
         text = head.lower()
         start = head.lstrip(b"\xef\xbb\xbf \r\n").startswith(b"{")
@@ -57,7 +57,7 @@ def read(path: Path) -> Batch:
         row = {str(key).lower(): value for key, value in feature.properties.items()}
         names |= set(map(str, feature.properties))
         if _number(row.get("fcode")) != FCODE or _number(row.get("ftype")) not in (FTYPE, None):
-            batch.refused.add(_OTHER, feature.place)
+            batch.rejected.add(_OTHER, feature.place)
             continue
         x, y = feature.points[0] if len(feature.points) else (None, None)
         address = [_text(row, key) for key in ("address", "city", "state", "zipcode")]
@@ -84,7 +84,7 @@ def _number(value: Any) -> int | None:
 
 
 def _day(value: Any) -> str:
-    """Day of a date: text of ISO 8601, or milliseconds since 1970; empty for none."""
+    """Parse a date, in ISO 8601 or in ms since 1970; empty if there is none."""
     if isinstance(value, int | float) and 1e11 < value < 1e14:
         return datetime.fromtimestamp(value / 1e3, UTC).date().isoformat()
     text = str(value or "")[:10].replace("/", "-")
