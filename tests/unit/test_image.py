@@ -1,4 +1,4 @@
-"""Image files: round trips, OpenImageIO's tool as a second reader, and rejected files."""
+"""Image files and encoded images in memory: round trips, oiiotool as a second reader, rejected input."""
 
 import contextlib
 import re
