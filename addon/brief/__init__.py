@@ -1,4 +1,4 @@
-"""Briefing page: one HTML file of a run, with map, fronts by time, stations, pictures, scores and sources.
+"""Briefing page: one HTML file of a run with map, fronts by time, stations, pictures, scores and sources.
 
-The page needs no network: scripts, styles, pictures and clips are in the file (see `page`).
+The page needs no network, as scripts, styles, pictures and clips are in the file (see `page`).
 """

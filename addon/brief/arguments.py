@@ -1,4 +1,4 @@
-"""The command line of `firetwin brief`; nothing heavy is imported here."""
+"""Command line of `firetwin brief`, without imports that take time."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from pathlib import Path
 LIMIT = 32_000_000  # bytes
 
 DETAIL = """\
-Writes one HTML file that opens without a network: a map with hill shading, fuel and arrival time, fronts by
-time with a slider, when the fire reaches stations and places, burned area beside reports, pictures and clips
-of a film, scores against observations, and the sources and licences of everything. The page loads nothing
-from elsewhere. Rows of FILE.gpkg that are invented say "exercise", and so does the page."""
+Writes one HTML file that opens without a network connection. It has a map with hill shading, fuel and
+arrival time, fire fronts with a time slider, arrival times at stations and places, burned area compared with
+reports, pictures and clips of a film, scores against observations, and all sources and licences. The page
+loads no other files. Invented rows of FILE.gpkg are marked "exercise" in the page."""
 
 
 def add(parser: argparse.ArgumentParser, path: Callable[[str], Path], size: Callable[[str], int]) -> None:
-    """Add arguments; `path` and `size` parse theirs."""
+    """Add the arguments; `path` and `size` are argument types."""
     parser.add_argument("scene", metavar="SCENE|RUN", type=path, help="scene file, or run folder")
     parser.add_argument("--out", metavar="X.html", type=path, required=True, help="file to write")
     parser.add_argument(
@@ -37,5 +37,5 @@ def add(parser: argparse.ArgumentParser, path: Callable[[str], Path], size: Call
         metavar="SIZE",
         type=size,
         default=LIMIT,
-        help="size of the page at most, such as 8MB (32MB)",
+        help="maximum size of the page, such as 8MB (32MB)",
     )

@@ -1,4 +1,4 @@
-"""Briefing: content of the page, gathered from a run, its scene file, stations, film and observations."""
+"""Content of the briefing page, gathered from a run, its scene file, stations, film and observations."""
 
 from __future__ import annotations
 
@@ -30,18 +30,18 @@ from .reached import Reached
 
 @dataclass(frozen=True)
 class Request:
-    """What the page is made of.
+    """Inputs of the page.
 
     Attributes
     ----------
     scene
         Scene file, or run folder.
     stations, film
-        GeoPackage of stations, and folder of a film; None: the page has none.
+        GeoPackage of stations, and folder of a film; None to omit them.
     against
-        Files of observations; empty: those in the run's folder.
+        Files of observations; if empty, the files in the folder of the run.
     limit
-        Bytes of the page at most.
+        Maximum size of the page, bytes.
     """
 
     scene: Path
@@ -58,7 +58,7 @@ class Point:
     Attributes
     ----------
     id
-        Of the place in this page.
+        Identifier within this page.
     latitude, longitude
         Degrees.
     """
@@ -85,17 +85,17 @@ class Briefing:
     facts
         See `info.gather`.
     tolerance
-        By which lines of fronts may differ from the run's, m.
+        Maximum deviation of the simplified fronts, m.
     points
         Stations, then named places.
     observed
         Perimeters within the run's time.
     scores
-        See `score.score`; None without observations. Else `no_scores` may say why there are none.
+        See `score.score`; None without observations, or for the reason in `no_scores`.
     others
-        Names of the scene file's comparison runs, which the page leaves out.
+        Names of the comparison runs of the scene file, which the page omits.
     inputs
-        What was drawn, and the names of files whose licences Firetwin does not know.
+        Files with unknown licences: role and file name.
     """
 
     run: Run
@@ -119,21 +119,21 @@ class Briefing:
         return [times.text(front.utc, self.zone) for front in self.fronts]
 
     def resources(self, station: Station) -> list[Resource]:
-        """Resources of a station."""
+        """Return the resources of a station."""
         return self.station_file.resources_of[station.id] if self.station_file else []
 
     def origins(self, station: Station) -> set[str]:
-        """Origins of a station and of its resources."""
+        """Collect the origins of a station and of its resources."""
         return {station.origin, *(each.origin for each in self.resources(station))}
 
 
 def gather(request: Request) -> Briefing:
-    """Gather the content; clips get the room that half of the page's limit leaves.
+    """Gather the content. Clips may fill half of the size limit of the page.
 
     Raises
     ------
     InputError
-        A file cannot be used; the error names it and what to do.
+        A file cannot be used; the message names the file and a remedy.
     """
     run, settings, elevation = _open(request.scene)
     station_file = reading.read(request.stations) if request.stations else None
@@ -163,14 +163,16 @@ def gather(request: Request) -> Briefing:
 
 
 def _hashes(run: Run) -> dict[str, str]:
-    """Hashes of the fields that tell runs apart, which are small."""
+    """Compute hashes of the small fields that distinguish runs."""
     few = {"elevation", "fuel_arrival_time", "fuel_latitude", "fuel_longitude", "latitude", "longitude"}
     hashes = content.inputs(run, Path("cache"), set(run.fields) - few)
-    return {name: value for name, value in hashes.items() if name != "run.toml"}  # a name may change
+    return {
+        name: value for name, value in hashes.items() if name != "run.toml"
+    }  # the name of a run can change
 
 
 def _points(run: Run, settings: Settings | None, station_file: StationFile | None) -> list[Point]:
-    """Stations, then named places within the run's grid, and how the fire reaches each."""
+    """List stations, then named places within the grid, with the arrival of the fire at each."""
     file = settings.labels.file if settings else None
     towns = labels.read(file) if file else labels.known(run)
     by_name = sorted(station_file.stations, key=lambda each: (each.title, each.id)) if station_file else ()
@@ -189,7 +191,7 @@ def _points(run: Run, settings: Settings | None, station_file: StationFile | Non
 
 
 def _open(scene: Path) -> tuple[Run, Settings | None, Elevation]:
-    """Run, settings and elevation of a scene file; of a run folder there are no settings."""
+    """Open run, settings and elevation of a scene file; a run folder has no settings (None)."""
     if scene.suffix == ".toml" and scene.is_file():
         shot = ShotSource(scene=str(scene)).shot()
         return shot.run, shot.settings, shot.relief
@@ -200,12 +202,12 @@ def _open(scene: Path) -> tuple[Run, Settings | None, Elevation]:
 def _scores(
     run: Run, seen: observations.Observations, clock: str, asked: bool
 ) -> tuple[dict[str, Any] | None, str]:
-    """Scores; else why there are none, if there are observations.
+    """Score the run; returns scores, or None and the reason if there are observations.
 
     Raises
     ------
     UsageError
-        Scores were asked for, and a package is missing.
+        Scores were requested (`asked`), and a package is missing.
     """
     if not seen.perimeters and not seen.detections:
         return None, ""
@@ -218,7 +220,7 @@ def _scores(
 
 
 def _inputs(settings: Settings | None) -> list[tuple[str, str]]:
-    """Files of a scene file that were drawn."""
+    """List the input files of a scene file: role and name."""
     if settings is None:
         return []
     named = (

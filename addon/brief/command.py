@@ -19,7 +19,7 @@ def run(arguments: argparse.Namespace) -> None:
     """
     if arguments.out.suffix.lower() != ".html":
         raise UsageError(f"--out: {arguments.out} does not end in .html; name an .html file")
-    from . import briefing, page, text  # after the check, which answers at once
+    from . import briefing, page, text  # imported after the quick check
 
     request = briefing.Request(
         arguments.scene, arguments.stations, arguments.film, arguments.against, arguments.limit
@@ -30,5 +30,5 @@ def run(arguments: argparse.Namespace) -> None:
         say(note)
     made = page.html(found, arguments.limit)
     files.write_text(arguments.out, made, newline="\n")
-    say(f"one file of {text.size(len(made.encode()))}, which loads nothing from elsewhere")
+    say(f"wrote one file of {text.size(len(made.encode()))}, which loads no other files")
     result(arguments.out)

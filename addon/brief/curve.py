@@ -1,4 +1,4 @@
-"""Curve of burned area by time, as SVG that takes its colours from the page, beside reported areas."""
+"""Chart of burned area by time with reported areas, as SVG in the colours of the page."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ..run import times
 from .fronts import Front
 from .text import quote
 
-WIDTH, HEIGHT = 900, 300  # of the drawing; the page scales it
+WIDTH, HEIGHT = 900, 300  # of the drawing, which the page scales
 LEFT, RIGHT, TOP, BOTTOM = 66, 58, 20, 52
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
 _HOURS = (1, 2, 3, 6, 12, 24, 48, 96, 240)
@@ -24,31 +24,31 @@ _MOST_DATES = 7
 
 @dataclass(frozen=True)
 class Axes:
-    """Place in the drawing of times (UTC) and areas (m2)."""
+    """Coordinates in the drawing for times (UTC) and areas (m2)."""
 
     first: datetime
     last: datetime
     high: float
 
     def x(self, when: datetime) -> float:
-        """Horizontal place of a time."""
+        """Return the horizontal coordinate of a time."""
         span = max((self.last - self.first).total_seconds(), 1.0)
         share = (when - self.first).total_seconds() / span
         return round(LEFT + share * (WIDTH - LEFT - RIGHT), 1)
 
     def y(self, area: float) -> float:
-        """Vertical place of an area."""
+        """Return the vertical coordinate of an area."""
         return round(HEIGHT - BOTTOM - area / self.high * (HEIGHT - TOP - BOTTOM), 1)
 
 
 def axes(fronts: Sequence[Front], reported: Sequence[dict[str, Any]]) -> Axes:
-    """Axes that hold the run, and the reports of its time."""
+    """Choose axes that cover the run and the reports within its time."""
     areas = [front.area for front in fronts] + [row["reported"] for row in _covered(reported)]
     return Axes(fronts[0].utc, fronts[-1].utc, max(*areas, 1.0) * 1.06)
 
 
 def svg(fronts: Sequence[Front], reported: Sequence[dict[str, Any]], zone: str) -> str:
-    """Curve of the run, dots of reported acres, acres on the left and hectares on the right."""
+    """Draw the curve of the run and dots for reports; acres on the left axis, hectares on the right."""
     place = axes(fronts, reported)
     line = " ".join(f"{place.x(front.utc)},{place.y(front.area)}" for front in fronts)
     foot = HEIGHT - BOTTOM
@@ -61,7 +61,7 @@ def svg(fronts: Sequence[Front], reported: Sequence[dict[str, Any]], zone: str) 
         f'<line id="cursor" class="cursor" x1="{LEFT}" x2="{LEFT}" y1="{TOP}" y2="{foot}"/>',
         *(_dot(place, row, zone) for row in _covered(reported)),
     ]
-    label = "Burned area by time, of the run and as reported; the table below has the reports' numbers"
+    label = "Burned area by time: run and reports; the table below has the numbers of the reports"
     return (
         f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{label}" class="curve">'
         + "".join(parts)
@@ -70,7 +70,7 @@ def svg(fronts: Sequence[Front], reported: Sequence[dict[str, Any]], zone: str) 
 
 
 def _covered(reported: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Reports of the run's time."""
+    """Select the reports within the time of the run."""
     return [row for row in reported if row["run"] is not None]
 
 
@@ -83,7 +83,7 @@ def _dot(place: Axes, row: dict[str, Any], zone: str) -> str:
 
 
 def _scale(place: Axes, unit: float, x: float, anchor: str, name: str, lines: bool) -> Iterator[str]:
-    """Ticks of an area axis in a unit (m2)."""
+    """Draw the ticks of an area axis in a unit (m2)."""
     high = place.high / unit
     power = 10.0 ** np.floor(np.log10(high / 4.0))
     step = next(step * power for step in _STEPS if step * power >= high / 4.0 * 0.999)
@@ -96,7 +96,7 @@ def _scale(place: Axes, unit: float, x: float, anchor: str, name: str, lines: bo
 
 
 def _dates(place: Axes, zone: str) -> Iterator[str]:
-    """Round hours of the zone's clock below the curve."""
+    """Draw ticks at round local hours below the curve."""
     hours = (place.last - place.first).total_seconds() / 3600.0
     if hours < 2.0:
         ticks = [place.first, place.last]

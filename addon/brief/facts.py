@@ -1,4 +1,4 @@
-"""What the page says of a resource: its facts with units, and its availability in the run's time."""
+"""Facts of a resource with units, and its availability during the run."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _OF_TYPE = {
     "pump_l_min": ("pump", "l/min"),
     "people": ("people", ""),
 }
-"""Label and unit of numbers of a type, which are minima."""
+"""Label and unit of the minimum values of a resource type."""
 _OWN = {
     "load_kg": ("load", "kg"),
     "line_m_h": ("line", "m/h"),
@@ -23,12 +23,12 @@ _OWN = {
     "mobilise_min": ("mobilises in", "min"),
     "radius_km": ("radius", "km"),
 }
-"""Label and unit of a resource's own numbers."""
+"""Label and unit of the values of a single resource."""
 _COSTS = {"cost_mobilise": "to mobilise", "cost_hour": "per hour", "cost_day": "per day"}
 
 
 def facts(station_file: StationFile, resource: Resource) -> str:
-    """What is known of one unit: ``tank at least 1,893 l, speed 60 km/h, cost 110 USD per hour, ...``."""
+    """Describe one unit: ``tank at least 1,893 l, speed 60 km/h, cost 110 USD per hour, ...``."""
     type_ = station_file.type_of[resource.type]
     return ", ".join((*_numbers(type_, _OF_TYPE, " at least"), *_numbers(resource, _OWN), *_words(resource)))
 
@@ -57,7 +57,7 @@ def _number(value: float) -> str:
 def availability(
     station_file: StationFile, resource: Resource, zone: str, span: tuple[datetime, datetime]
 ) -> Iterator[str]:
-    """Windows that overlap a span of time (UTC), in local time; how many do not."""
+    """Describe the windows that overlap a time span (UTC) in local time, and count the others."""
     first, last = span
     windows = station_file.windows_of[resource.id]
     shown = [each for each in windows if each.begins <= last and each.ends > first]

@@ -1,4 +1,4 @@
-"""Chosen frames of a film, made smaller, and its clips, as data of the page."""
+"""Selected frames of a film, reduced in size, and its clips, as data URIs."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from ..progress import count
 from ..render import manifest
 from .text import data_uri, size
 
-WIDTH = 960  # pixels of a frame in the page at most
-EACH = 3  # frames of a camera in a pass
-MOST = 24  # frames of a page
-CLIP = 12_000_000  # bytes of a clip at most
+WIDTH = 960  # maximum width of a frame, pixels
+EACH = 3  # frames per camera and pass
+MOST = 24  # maximum frames of a page
+CLIP = 12_000_000  # maximum size of a clip, bytes
 _QUALITY = 82  # of JPEG
 
 
@@ -33,7 +33,7 @@ class Shown:
     camera, name
         Camera and pass.
     time
-        UTC of a frame; None of a clip, and where it is not known.
+        UTC of a frame; None for a clip, or if unknown.
     uri
         Data URI of the JPEG or MP4.
     """
@@ -46,7 +46,7 @@ class Shown:
 
 @dataclass(frozen=True)
 class Film:
-    """Frames and clips of a folder, and a sentence on each thing that is left out."""
+    """Frames and clips of a folder, and messages on omitted files."""
 
     frames: list[Shown]
     clips: list[Shown]
@@ -61,7 +61,7 @@ def read(out: Path, hashes: Mapping[str, str], room: int) -> Film:
     hashes
         SHA-256 of fields of the page's run, by file.
     room
-        Bytes of the page for all clips; what does not fit is left out, the largest first.
+        Maximum size of all clips, bytes; the largest clips are omitted first.
 
     Raises
     ------
@@ -94,19 +94,19 @@ def _check_run(
         differing = [name for name in known.keys() & hashes.keys() if known[name] != hashes[name]]
         if differing and "@" not in entry.get("camera", ""):
             names = ", ".join(sorted(differing))
-            reason = f"shows another run: {names} differ from those of {path}; name a film of this run"
+            reason = f"shows another run ({path} has other {names}); name a film of this run"
             raise input_error(out, reason)
 
 
 def _is_within(out: Path, path: str) -> bool:
-    """Whether a path of a manifest stays in its folder."""
+    """Check that a path of a manifest does not leave the folder."""
     return (out / path).resolve().is_relative_to(out.resolve())
 
 
 def _by_view(
     pictures: Iterable[tuple[str, dict[str, Any]]],
 ) -> dict[tuple[str, str], list[tuple[str, dict[str, Any]]]]:
-    """Pictures by camera and pass, in order of frames."""
+    """Group pictures by camera and pass, in the order of their frames."""
     found: dict[tuple[str, str], list[tuple[str, dict[str, Any]]]] = {}
     for path, entry in sorted(pictures):
         if {"camera", "pass"} <= entry.keys():
@@ -115,7 +115,7 @@ def _by_view(
 
 
 def _spread(pictures: list[Any], most: int) -> list[Any]:
-    """Some of many, evenly spread, with the first and the last; of one alone the middle."""
+    """Select evenly spaced pictures with the first and the last; only the middle one if `most` is 1."""
     if most == 1:
         return [pictures[len(pictures) // 2]]
     index = np.unique(np.linspace(0, len(pictures) - 1, min(most, len(pictures))).round().astype(int))
@@ -144,14 +144,16 @@ def _jpeg(path: Path) -> str:
 def _clips(
     out: Path, entries: dict[str, dict[str, Any]], paths: list[str], room: int
 ) -> tuple[list[Shown], list[str]]:
-    """Clips that fit, in the order of their names, the smallest chosen first; and what does not fit."""
+    """Select clips, smallest first, and return them by name; also describe the clips that do not fit."""
     bytes_of = {path: (out / path).stat().st_size for path in paths}
     kept, left_out = set(), []
     for path in sorted(paths, key=lambda path: (bytes_of[path], path)):
-        coded = 4 * -(-bytes_of[path] // 3)  # of base64
+        coded = 4 * -(-bytes_of[path] // 3)  # size in base64
         if bytes_of[path] > CLIP or coded > room:
             limit = (
-                f"a clip has {size(CLIP)} at most" if bytes_of[path] > CLIP else "the page would be too large"
+                f"the limit of a clip is {size(CLIP)}"
+                if bytes_of[path] > CLIP
+                else "the page would be too large"
             )
             left_out.append(f"{path} of {size(bytes_of[path])}: {limit}")
             continue

@@ -1,4 +1,4 @@
-"""Fronts by time for the page's map: GeoJSON lines, and the burned area at each time."""
+"""Fire fronts by time as GeoJSON lines, with the burned area at each time."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from ..run.front import Reach, reach
 from ..run.observations import Perimeter
 
 MOST = 48
-"""Times between the first and the last, at most."""
+"""Maximum number of times between the first and the last."""
 _STEPS = (60, 120, 300, 600, 900, 1800, 3600, 7200, 10800, 21600, 43200, 86400)  # s
-_TOLERANCE = 0.5  # of a fuel cell, by which a line may differ from the front
-_MOST_POINTS = 150_000  # of all fronts, about 3 MB; for more the tolerance is doubled
+_TOLERANCE = 0.5  # maximum deviation of a line, in fuel cells
+_MOST_POINTS = 150_000  # all fronts, about 3 MB; above it the tolerance is doubled
 
 Line = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Front:
-    """Front at a model time (s): its UTC, closed lines of degrees east and north (n, 2), burned area, m2."""
+    """Front at a model time (s): UTC, closed lines of degrees east and north (n, 2), and burned area, m2."""
 
     time: float
     utc: datetime
@@ -37,14 +37,14 @@ class Front:
 
 
 def find(run: Run, zone: str) -> tuple[list[Front], float]:
-    """Fronts of a run at round times of a zone's clock, and at the first and the last time of the run.
+    """Trace the fronts of a run at round local times, and at the first and the last time of the run.
 
     Returns
     -------
     list of Front
-        Simplified lines, of `_MOST_POINTS` points together at most.
+        Simplified lines with at most `_MOST_POINTS` points in total.
     float
-        Tolerance, m, by which lines may differ from the front: half a fuel cell, or more for a long front.
+        Maximum deviation of the lines, m: half a fuel cell, or more for long fronts.
     """
     moments = choose_times(run, zone)
     fire = reach(run)
@@ -59,12 +59,12 @@ def find(run: Run, zone: str) -> tuple[list[Front], float]:
 
 
 def cell_tolerance(fire: Reach) -> float:
-    """Half of a fuel cell, m."""
+    """Return half of the fuel cell size, m."""
     return _TOLERANCE * min(areas.cell_size(fire.latitude, fire.longitude))
 
 
 def choose_times(run: Run, zone: str) -> list[float]:
-    """Model times (s), ascending: even steps of the zone's clock between the run's first and last time."""
+    """Choose ascending model times (s): round local times between the first and the last time of the run."""
     first, last = float(run.times[0]), float(run.times[-1])
     span = last - first
     step = next((step for step in _STEPS if span / step <= MOST), 86400 * int(np.ceil(span / 86400 / MOST)))
@@ -77,7 +77,7 @@ def choose_times(run: Run, zone: str) -> list[float]:
 
 
 def trace(fire: Reach, time: float) -> list[Line]:
-    """Closed lines of the front at a model time (s); the first point is also the last."""
+    """Trace closed lines of the front at a model time (s); the first point is repeated at the end."""
     latitude, longitude, after = fire.line(time)
     lines, left = [], np.ones(len(after), bool)
     for start in range(len(after)):
@@ -93,7 +93,7 @@ def trace(fire: Reach, time: float) -> list[Line]:
 
 
 def _simplified(fronts: list[list[Line]], fire: Reach, tolerance: float) -> list[list[Line]]:
-    """Simplified lines; islands smaller than the tolerance are left out once it exceeds that of the cells."""
+    """Simplify all lines; if the tolerance exceeds the cell tolerance, smaller islands are removed."""
     scale = _scale(fire, tolerance)
     least = 0.0 if tolerance <= cell_tolerance(fire) else 2.0
     return [
@@ -103,21 +103,21 @@ def _simplified(fronts: list[list[Line]], fire: Reach, tolerance: float) -> list
 
 
 def _is_long(lines: list[Line]) -> bool:
-    """Whether a front still can be simplified: it has more than a few points."""
+    """Check whether a front has enough points for further simplification."""
     return any(len(line) > 9 for line in lines)
 
 
 def _scale(fire: Reach, tolerance: float) -> NDArray[np.float64]:
-    """Tolerances (m) in a degree east and north."""
+    """Compute the number of tolerances (m) per degree east and north."""
     north, east = metres_per_degree(float(fire.latitude.mean()))
     return np.array([east, north]) / tolerance
 
 
 def simplify(points: Line, scale: NDArray[np.float64]) -> Line:
-    """Closed line with fewer points, each left out by less than one unit of `scale` (per degree).
+    """Simplify a closed line; removed points are less than one unit of `scale` (per degree) from the line.
 
-    Douglas and Peucker, The Canadian Cartographer 10(2) (1973), from the first point and the one farthest
-    from it.
+    Douglas and Peucker, The Canadian Cartographer 10(2) (1973), starting from the first point and the point
+    farthest from it.
     """
     xy = (points - points[0]) * scale
     half = int(np.argmax(np.hypot(*xy.T)))
@@ -140,7 +140,7 @@ def simplify(points: Line, scale: NDArray[np.float64]) -> Line:
 
 
 def feature_collection(fronts: list[Front], tolerance: float) -> dict[str, Any]:
-    """GeoJSON (RFC 7946) of all fronts, with their time (UTC) and burned area (m2)."""
+    """Convert all fronts to GeoJSON (RFC 7946) with time (UTC) and burned area (m2)."""
     features = [
         _feature({"time": times.iso(front.utc), "area": round(front.area)}, front.lines, tolerance)
         for front in fronts
@@ -149,7 +149,7 @@ def feature_collection(fronts: list[Front], tolerance: float) -> dict[str, Any]:
 
 
 def perimeter_collection(run: Run, perimeters: Sequence[Perimeter]) -> dict[str, Any]:
-    """GeoJSON of observed perimeters, simplified by half a fuel cell, with their time (UTC) and file."""
+    """Convert observed perimeters, simplified by half a fuel cell, to GeoJSON with time (UTC) and file."""
     fire, middle = reach(run), 0.5 * float(run.longitude[0] + run.longitude[-1])
     tolerance = cell_tolerance(fire)
     features = []
@@ -164,7 +164,7 @@ def perimeter_collection(run: Run, perimeters: Sequence[Perimeter]) -> dict[str,
 
 
 def _feature(properties: dict[str, Any], lines: list[Line], tolerance: float) -> dict[str, Any]:
-    """Lines with as many digits as the tolerance (m) needs: a step is a third of it at most."""
+    """Round lines to a step of at most a third of the tolerance (m)."""
     digits = int(np.ceil(-np.log10(tolerance / 3.0 / metres_per_degree(0.0)[0])))
     coordinates = [np.round(line, digits).tolist() for line in lines]
     geometry = {"type": "MultiLineString", "coordinates": coordinates}

@@ -1,4 +1,4 @@
-"""Layers of the page's map: hill shading, fuel and arrival time, as PNG pictures in Web Mercator."""
+"""Map layers as PNG pictures in Web Mercator: hill shading, fuel and arrival time."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ from ..run import areas, thumbnails, times
 from . import mercator
 from .mercator import Box
 
-LONGEST = 1100  # pixels of a picture's longer side at most
-_LEAST = 600  # pixels, so that a coarse grid's hill shading is smooth
+LONGEST = 1100  # maximum length of the longer side, pixels
+_LEAST = 600  # pixels, for smooth hill shading of coarse grids
 _LEVELS = 24  # colours of a ramp
 _GREYS = 48  # levels of the hill shading
-_BEFORE = "#6b6560"  # burned before the run began
+_BEFORE = "#6b6560"  # burned before the start of the run
 _ARRIVAL = [to_hex(c) for c in matplotlib.colormaps["plasma"](np.linspace(0.05, 0.97, _LEVELS))]
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
 
 
 @dataclass(frozen=True)
 class Legend:
-    """Colours from low to high, labels at places from 0 to 1, and colours with a meaning of their own."""
+    """Colour ramp from low to high, tick labels at positions from 0 to 1, and separately labelled colours."""
 
     title: str
     colours: tuple[str, ...]
@@ -38,14 +38,14 @@ class Legend:
 
 @dataclass(frozen=True)
 class Layer:
-    """A picture over its box; `legend` is None where colours mean nothing by themselves.
+    """Picture of a map box; `legend` is None for hill shading.
 
     Attributes
     ----------
     opacity
-        From 0 to 1, as the page opens.
+        Initial opacity, from 0 to 1.
     shown
-        Whether the page opens with it.
+        True if the layer is initially visible.
     """
 
     name: str
@@ -58,12 +58,12 @@ class Layer:
 
 
 def draw(run: Run, elevation: NDArray[np.floating], zone: str) -> list[Layer]:
-    """Draw all layers of a run, the lowest first.
+    """Draw all layers of a run, lowest first.
 
     Parameters
     ----------
     elevation
-        (fy, fx) m on the fuel grid, which may come from a user's elevation model.
+        (fy, fx) on the fuel grid, m; can come from a user's elevation model.
     zone
         Time zone of the legend.
     """
@@ -71,7 +71,7 @@ def draw(run: Run, elevation: NDArray[np.floating], zone: str) -> list[Layer]:
 
 
 def _hillshade(run: Run, elevation: NDArray[np.floating]) -> Layer:
-    """Hill shading, lit from the north-west."""
+    """Draw hill shading with light from the north-west."""
     known = elevation[np.isfinite(elevation)]
     height = np.nan_to_num(elevation.astype(np.float64), nan=float(known.min()) if known.size else 0.0)
     latitude, longitude = np.argsort(-run.fuel_latitude), np.argsort(run.fuel_longitude)
@@ -89,7 +89,7 @@ def _hillshade(run: Run, elevation: NDArray[np.floating]) -> Layer:
 
 
 def _fuel(run: Run) -> Layer:
-    """Surface and canopy fuel, kg/m2; transparent without fuel."""
+    """Draw the sum of surface and canopy fuel, kg/m2; transparent without fuel."""
     fuel = np.nan_to_num(run.surface_fuel) + np.nan_to_num(run.canopy_fuel)
     burnable = fuel[fuel > 0.0]
     high = _round_up(float(np.percentile(burnable, 99.5))) if burnable.size else 1.0
@@ -98,12 +98,12 @@ def _fuel(run: Run) -> Layer:
     colours = tuple(to_hex(colour) for colour in ramp.reshape(-1, 3))
     box, pixels = _sampled(run, index)
     ticks = [(share, f"{share * high:g}") for share in (0.0, 0.25, 0.5)]
-    legend = Legend("Fuel load, kg/m²", colours, (*ticks, (1.0, f"{high:g} and more")))
+    legend = Legend("Fuel load, kg/m²", colours, (*ticks, (1.0, f"≥ {high:g}")))
     return Layer("fuel", "Fuel load", box, _indexed(pixels, ["#000000", *colours]), legend, 0.75, False)
 
 
 def _arrival(run: Run, zone: str) -> Layer:
-    """When the fire arrives at each fuel cell; transparent where it does not within the run."""
+    """Draw the arrival time at each fuel cell; transparent where the fire does not arrive."""
     arrival = np.asarray(run.fuel_arrival_time(), np.float64)
     first, last = float(run.times[0]), float(run.times[-1])
     share = np.clip(np.nan_to_num((arrival - first) / max(last - first, 1.0)), 0.0, 1.0)
@@ -113,14 +113,14 @@ def _arrival(run: Run, zone: str) -> Layer:
         index[~(arrival <= last)] = 0
     box, pixels = _sampled(run, index)
     ticks = tuple((at, _clock(run, first + at * (last - first), zone)) for at in (0.0, 0.5, 1.0))
-    notes = ((_BEFORE, "burned before this run"),) if (index == 1).any() else ()
-    legend = Legend(f"Fire arrives, {_zone_name(run, zone)}", tuple(_ARRIVAL), ticks, notes)
+    notes = ((_BEFORE, "burned before the run"),) if (index == 1).any() else ()
+    legend = Legend(f"Fire arrival, {_zone_name(run, zone)}", tuple(_ARRIVAL), ticks, notes)
     png = _indexed(pixels, ["#000000", _BEFORE, *_ARRIVAL])
-    return Layer("arrival", "Arrival time of the fire", box, png, legend, 0.8, True)
+    return Layer("arrival", "Fire arrival time", box, png, legend, 0.8, True)
 
 
 def _sampled(run: Run, values: NDArray[np.uint8], least: int = 0) -> tuple[Box, NDArray[np.uint8]]:
-    """Values of the fuel cells (fy, fx) as pixels in Web Mercator, from north and west."""
+    """Resample fuel cells (fy, fx) to Web Mercator pixels, starting in the north-west."""
     latitude, longitude = run.fuel_latitude, run.fuel_longitude
     box = Box.of_grid(run, latitude, longitude)
     columns, rows = box.size(min(max(*values.shape, least), LONGEST))
@@ -129,7 +129,7 @@ def _sampled(run: Run, values: NDArray[np.uint8], least: int = 0) -> tuple[Box, 
 
 
 def _indexed(pixels: NDArray[np.uint8], colours: Sequence[str]) -> bytes:
-    """PNG with a palette; the first colour is transparent."""
+    """Encode a PNG with a palette, whose first colour is transparent."""
     picture = Image.fromarray(pixels)
     picture.putpalette([int(colour[i : i + 2], 16) for colour in colours for i in (1, 3, 5)])
     return _png(picture, transparency=0)
@@ -142,13 +142,13 @@ def _png(picture: Image.Image, **options: int) -> bytes:
 
 
 def _round_up(value: float) -> float:
-    """Next of 1, 2, 2.5 and 5 times a power of ten."""
+    """Round up to 1, 2, 2.5 or 5 times a power of ten."""
     unit = 10.0 ** np.floor(np.log10(value))
     return float(next(step * unit for step in _STEPS if step * unit >= value * (1.0 - 1e-9)))
 
 
 def _clock(run: Run, time: float, zone: str) -> str:
-    """Day and hour of a model time (s)."""
+    """Format day and hour of a model time (s)."""
     return (
         times.text(times.utc(run, time), zone).rpartition(" ")[0].replace(f" {times.utc(run, time):%Y} ", " ")
     )

@@ -1,4 +1,4 @@
-"""Lists of the page: stations with their resources, and named places, with the time the fire reaches each."""
+"""Lists of stations with their resources, and of named places, with fire arrival times."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ from .text import quote
 _FIRE = (
     ("", "any"),
     ("now", "reached by the time shown"),
-    ("reached", "reached in the run"),
-    ("never", "never reached"),
+    ("reached", "reached during the run"),
+    ("never", "not reached"),
 )
 
 
 def section(briefing: Briefing) -> str:
-    """Search, filters and lists; empty without any place."""
+    """Build search, filters and lists; empty without places."""
     if not briefing.points:
         return ""
     stations = [point for point in briefing.points if point.station is not None]
     towns = [point for point in briefing.points if point.station is None]
-    title = "Stations and when the fire reaches them" if stations else "When the fire reaches places"
+    title = "Fire arrival at stations and places" if stations else "Fire arrival at places"
     return "\n".join(
         (
             f'<section aria-labelledby="places-title"><h2 id="places-title">{title}</h2>',
@@ -43,22 +43,22 @@ def section(briefing: Briefing) -> str:
 
 
 def reach_text(briefing: Briefing, reached: Reached) -> tuple[str, str]:
-    """When the fire reaches a place, and a note on it: UTC, or how near it came."""
+    """Format the arrival time at a place and a note: UTC and range, or the nearest distance."""
     run, zone = briefing.run, briefing.zone
     if reached.span is not None:
         moment, earliest, latest = (times.utc(run, time) for time in reached.span)
         between = f"between {earliest:%d %b %H:%M} and {latest:%d %b %H:%M}"
         return times.text(moment, zone), f"{moment:%d %b %H:%M} UTC, {between}"
     if reached.state == "before":
-        return "before the run began", f"by {briefing.moments[0]}"
+        return "before the run", f"by {briefing.moments[0]}"
     if reached.state == "outside":
-        return "not known", "outside of the run's grid"
-    near = "" if reached.distance is None else f"; fire then {distance(reached.distance)} away"
-    return "never", f"until {briefing.moments[-1]}{near}"
+        return "unknown", "outside the grid of the run"
+    near = "" if reached.distance is None else f"; nearest fire {distance(reached.distance)} away"
+    return "not reached", f"by {briefing.moments[-1]}{near}"
 
 
 def distance(metres: float) -> str:
-    """A distance in km and miles, to about two digits."""
+    """Format a distance in km and miles with about two digits."""
     km = metres / 1000.0
     digits = max(0, min(2, 1 - math.floor(math.log10(max(km, 0.1)))))
     return f"{km:.{digits}f} km ({km / 1.609344:.{digits}f} mi)"
@@ -67,8 +67,8 @@ def distance(metres: float) -> str:
 def _warning(briefing: Briefing) -> Iterator[str]:
     if briefing.station_file is not None and briefing.station_file.exercise:
         yield (
-            f'<p class="warn"><b>{EXERCISE}.</b> Rows marked "exercise" are made up: which engine stands '
-            "where, its crew, its times and its costs.</p>"
+            f'<p class="warn"><b>{EXERCISE}.</b> Rows marked "exercise" are invented: positions of '
+            "engines, crews, times and costs.</p>"
         )
 
 
@@ -99,7 +99,7 @@ def _select(name: str, label: str, options: Iterable[tuple[str, str]]) -> str:
 
 
 def _stations(briefing: Briefing, points: Sequence[Point]) -> str:
-    head = ("Station, resource", "What", "Fire arrives", "Origin and source", "Position")
+    head = ("Station, resource", "Kind and details", "Fire arrival", "Origin and source", "Position")
     inside = "\n".join(_station(briefing, point) for point in points)
     return _table("Stations and resources", head, inside)
 
@@ -141,7 +141,7 @@ def _resource(briefing: Briefing, station_file: StationFile, station: Station, r
 
 def _towns(briefing: Briefing, points: Sequence[Point]) -> str:
     rows = "\n".join(_town(briefing, point) for point in points)
-    head = ("Place", "Fire arrives", "Position")
+    head = ("Place", "Fire arrival", "Position")
     return _table("Named places", head, f"<tbody>{rows}</tbody>", ' class="plain"')
 
 
@@ -173,7 +173,7 @@ def _origin(origin: str, source: str) -> str:
 
 
 def _web_map(point: Point) -> str:
-    """Ordinary link, which loads nothing until a reader follows it."""
+    """Build a plain link, which loads nothing until it is followed."""
     at, address = degrees(point.latitude, point.longitude), web_map_address(point.latitude, point.longitude)
     label = quote(f"Open {point.name} in web map")
     return (
@@ -183,8 +183,7 @@ def _web_map(point: Point) -> str:
 
 
 _METHOD = (
-    '<p class="soft">A place burns when the front passes it, which moves at constant speed between the '
-    "middles of fuel cells; the times between which it comes are those of the four cells around. A place "
-    "without fuel never burns, even with fire around it: mind the distance. The run's fire does not feel "
-    "what crews do.</p>"
+    '<p class="soft">The arrival time at a place is interpolated between the centres of the four surrounding '
+    "fuel cells, whose times also give the range. A place without fuel is never reached, even if fire "
+    "surrounds it: note the distance. The simulated fire is not affected by suppression.</p>"
 )

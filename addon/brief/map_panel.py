@@ -1,4 +1,4 @@
-"""Layers of the map: their switches and legends, and the map as a still picture for print."""
+"""Switches and legends of map layers, and a static map for print."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from .layers import Layer, Legend
 from .mercator import Box
 from .text import data_uri, quote
 
-_WIDTH = 1000  # of the still picture's drawing
+_WIDTH = 1000  # width of the static drawing
 _STILL_FRONTS = 6
-_NAME, _NAMES_APART = 260, 30  # of the drawing, room of a name
+_NAME, _NAMES_APART = 260, 30  # space of a name in the drawing
 
 
 def bounds(layers: Sequence[Layer]) -> Box:
-    """Box of all layers."""
+    """Return the bounding box of all layers."""
     box = layers[0].box
     for layer in layers[1:]:
         box = box.joined(layer.box)
@@ -26,7 +26,7 @@ def bounds(layers: Sequence[Layer]) -> Box:
 
 
 def view(fronts: Sequence[Front], whole: Box) -> Box:
-    """What the map shows at first: the fronts with a margin, at least an eighth of the run's box."""
+    """Choose the initial view: the fronts with a margin, at least an eighth of the box of the run."""
     lines = [line for front in fronts for line in front.lines]
     if not lines:
         return whole
@@ -43,10 +43,10 @@ def view(fronts: Sequence[Front], whole: Box) -> Box:
 
 
 def switches(briefing: Briefing) -> str:
-    """Switch, opacity and legend of each layer, the topmost first."""
-    made = [_drawn("front", "Front at the time shown", '<i style="background:#ff3b14"></i>burned by then')]
+    """Build switch, opacity and legend of each layer, topmost first."""
+    made = [_drawn("front", "Front at this time", '<i style="background:#ff3b14"></i>burned by this time')]
     if briefing.observed:
-        key = '<i style="background:#0b4fa8"></i>latest perimeter seen by then'
+        key = '<i style="background:#0b4fa8"></i>latest perimeter up to this time'
         made.append(_drawn("observed", "Observed perimeters", key))
     made += [_switch(layer) for layer in reversed(briefing.layers)]
     return "\n".join(made)
@@ -92,9 +92,9 @@ def _legend(legend: Legend | None) -> str:
 
 
 def still(briefing: Briefing) -> str:
-    """The map as a figure without scripts: all layers' pictures, some fronts, and places.
+    """Build the static map without scripts: pictures of all layers, some fronts, and places.
 
-    The map that scripts draw takes its pictures from here, so that the page holds each once.
+    The interactive map uses the same pictures, so that the page contains each of them once.
     """
     box = bounds(briefing.layers)
     wide, high = box.metres
@@ -106,8 +106,8 @@ def still(briefing: Briefing) -> str:
         '<figure class="static-map"><div class="sheet" '
         f'style="aspect-ratio:{wide:.0f}/{high:.0f}">{pictures}'
         f'<svg viewBox="0 0 {_WIDTH} {height:.0f}" role="img" aria-label="Map of the fire">{drawing}</svg>'
-        f"</div><figcaption>Arrival of the fire over hill shading; lines: fronts, the bold one at "
-        f"{quote(last)}. Filled marks: burned by then. Web Mercator, north is up.</figcaption></figure>"
+        f"</div><figcaption>Fire arrival time over hill shading. Lines: fronts; bold: "
+        f"{quote(last)}. Filled marks: burned by this time. Web Mercator, north is up.</figcaption></figure>"
     )
 
 
@@ -143,7 +143,7 @@ def _path(line: np.ndarray, box: Box, height: float) -> str:
 
 
 def _places(briefing: Briefing, box: Box, height: float) -> Iterator[str]:
-    """Marks of towns and stations, with names where there is room for them."""
+    """Draw marks of towns and stations, with names if there is space."""
     taken: list[tuple[float, float]] = []
     for place in briefing.points:
         x, y = box.share(place.latitude, place.longitude)

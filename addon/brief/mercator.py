@@ -1,7 +1,7 @@
-"""Web Mercator (EPSG:3857), the projection of the page's map, and boxes in it.
+"""Web Mercator (EPSG:3857), the projection of the map, and bounding boxes.
 
 x = R lambda, y = R ln tan(pi/4 + phi/2) with R = 6378137 m (IOGP Guidance Note 7-2, Popular Visualisation
-Pseudo-Mercator). Columns of a picture are even in longitude, rows are even in y.
+Pseudo-Mercator). Columns of a picture are equally spaced in longitude, rows in y.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from ..errors import input_error
 from ..run import areas
 
 RADIUS = 6378137.0  # m
-LIMIT = 85.05  # degrees; Web Mercator ends a little beyond
+LIMIT = 85.05  # degrees; Web Mercator ends at 85.0511
 
 Array = NDArray[np.float64]
 
@@ -29,7 +29,7 @@ def forward(latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
 
 
 def inverse(x: ArrayLike, y: ArrayLike) -> tuple[Array, Array]:
-    """Latitude and longitude (degrees) of x and y, m."""
+    """Convert x and y (m) to latitude and longitude, degrees."""
     latitude = np.degrees(np.arcsin(np.tanh(np.asarray(y, np.float64) / RADIUS)))
     return latitude, np.degrees(np.asarray(x, np.float64) / RADIUS)
 
@@ -45,12 +45,12 @@ class Box:
 
     @classmethod
     def of_grid(cls, run: Run, latitude: Array, longitude: Array) -> Box:
-        """Outline of a run's grid: the outer edges of its cells.
+        """Compute the outline of a run's grid from the outer edges of its cells.
 
         Raises
         ------
         InputError
-            The grid reaches beyond the end of Web Mercator.
+            The grid exceeds the latitude limit of Web Mercator.
         """
         width, height = areas.cell_size(latitude, longitude)
         north, east = metres_per_degree(float(np.mean(latitude)))
@@ -60,12 +60,14 @@ class Box:
             sides.append((float(edges.min()), float(edges.max())))
         (low, high), (left, right) = sides
         if max(-low, high) > LIMIT:
-            reason = f"reaches beyond {LIMIT:g} degrees of latitude, where the map of the briefing page ends"
+            reason = (
+                f"extends beyond {LIMIT:g} degrees of latitude, the limit of the map in the briefing page"
+            )
             raise input_error(run.path, reason)
         return cls(low, left, high, right)
 
     def joined(self, other: Box) -> Box:
-        """Smallest box that holds both."""
+        """Return the smallest box that contains both."""
         return Box(
             min(self.south, other.south),
             min(self.west, other.west),
@@ -80,32 +82,32 @@ class Box:
         return float(east - west), float(north - south)
 
     def rows(self, count: int) -> Array:
-        """Latitudes (count,) of the centres of a picture's rows, north first."""
+        """Compute the latitudes (count,) of the centres of a picture's rows, north first."""
         _, (south, north) = forward([self.south, self.north], [0.0, 0.0])
         return inverse(0.0, north - (np.arange(count) + 0.5) * (north - south) / count)[0]
 
     def columns(self, count: int) -> Array:
-        """Longitudes (count,) of the centres of a picture's columns, west first."""
+        """Compute the longitudes (count,) of the centres of a picture's columns, west first."""
         return self.west + (np.arange(count) + 0.5) * (self.east - self.west) / count
 
     def share(self, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
-        """Position in a picture of the box: 0 to 1 from west to east, and from north to south."""
+        """Compute the position in a picture of the box: 0 to 1 from west to east, and from north to south."""
         x, y = forward(latitude, longitude)
         (west, _), (_, north) = forward([self.south, self.north], [self.west, self.east])
         wide, high = self.metres
         return (x - west) / wide, (north - y) / high
 
     def size(self, longest: int) -> tuple[int, int]:
-        """Columns and rows of a picture with square pixels and this longer side."""
+        """Compute columns and rows of a picture with square pixels and this longer side."""
         wide, high = self.metres
         scale = longest / max(wide, high)
         return max(round(wide * scale), 1), max(round(high * scale), 1)
 
 
 def cells(axis: Array, places: Array) -> NDArray[np.int64]:
-    """Index of the grid cell, along one axis (n,), that contains each place; the nearest one outside.
+    """Find the grid cell along one axis (n,) that contains each place, or the nearest cell outside.
 
-    The axis ascends or descends.
+    The axis can ascend or descend.
     """
     rising = np.argsort(axis)
     middles = areas.edges(axis[rising])[1:-1] if axis.size > 1 else np.empty(0)

@@ -1,4 +1,4 @@
-// The briefing page's own script: map, time, lists, themes and keys. Texts of files enter by textContent alone.
+// Script of the briefing page: map, time, lists, themes and keys. Texts of files are inserted by textContent only.
 "use strict";
 (() => {
   const data = JSON.parse(document.getElementById("data").textContent);
@@ -69,7 +69,7 @@
         permanent: true, direction: "right", className: "town", offset: [2, 0],
       });
       dot.on("click", () => select(point.id, false));
-      const skip = () => dot.getElement().setAttribute("tabindex", "-1"); // the list has the same, by Tab
+      const skip = () => dot.getElement().setAttribute("tabindex", "-1"); // Tab reaches the same places in the list
       dot.on("add", skip);
       skip();
       made.set(point.id, { point, dot, row: document.querySelector(`[data-id="${point.id}"]`) });

@@ -1,6 +1,6 @@
-"""Briefing page as one HTML file, from `page.html`, `page.css`, `page.js` and Leaflet beside this module.
+"""Briefing page as one HTML file, from `page.html`, `page.css`, `page.js` and Leaflet in this folder.
 
-Its content security policy lets nothing be loaded and nothing be sent, by any script or text.
+Its content security policy blocks all requests, by scripts as well as by content.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ POLICY = (
     "script-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
 )
 _FOLDER = Path(__file__).parent
-_PLAY_MS = 12_000.0  # of all steps
+_PLAY_MS = 12_000.0  # duration of all steps
 _STEP_MS = (120.0, 700.0)
-_CREDIT = 48  # characters of a source's name in the map's corner
+_CREDIT = 48  # characters of a source in the attribution of the map
 
 
 def html(briefing: Briefing, limit: int) -> str:
@@ -37,12 +37,12 @@ def html(briefing: Briefing, limit: int) -> str:
     Parameters
     ----------
     limit
-        Bytes of the page at most.
+        Maximum size of the page, bytes.
 
     Raises
     ------
     UsageError
-        The page is larger.
+        The page exceeds the limit.
     """
     parts = {
         "policy": POLICY,
@@ -67,21 +67,21 @@ def html(briefing: Briefing, limit: int) -> str:
     template = Template(_read("page.html"))
     count = len(template.substitute(parts).encode())
     if count > limit:
-        words = f"the page would have {size(count)}, more than {size(limit)}"
-        raise UsageError(f"{words}; leave --film out, or allow more with --limit")
-    parts["foot"] = f"This page is one file of {size(count)} and loads nothing from elsewhere."
+        words = f"the page has {size(count)}, above the limit of {size(limit)}"
+        raise UsageError(f"{words}; omit --film, or raise --limit")
+    parts["foot"] = f"This page is a single file of {size(count)} and loads no other files."
     return template.substitute(parts)
 
 
 def notes(briefing: Briefing) -> list[str]:
-    """What whoever makes the page should know: what is made up, left out or not computed."""
-    made_up = ["this run is synthetic, and the page says so"] if briefing.run.synthetic else []
+    """List notes for the author of the page: invented, omitted and missing content."""
+    invented = ["this run is synthetic; the page states it"] if briefing.run.synthetic else []
     if briefing.station_file is not None and briefing.station_file.exercise:
-        made_up.append(f'the page says "{EXERCISE}": rows of its stations are made up')
-    left_out = [f"left out: {text}" for text in briefing.film.left_out] if briefing.film else []
+        invented.append(f'the page is marked "{EXERCISE}": rows of its stations are invented')
+    omitted = [f"omitted: {text}" for text in briefing.film.left_out] if briefing.film else []
     unscored = [f"no scores: {briefing.no_scores}"] if briefing.no_scores else []
-    others = f"only the first run is in the page, not: {', '.join(briefing.others)}"
-    return [*made_up, *left_out, *unscored, *([others] if briefing.others else [])]
+    others = f"the page shows the first run only, without: {', '.join(briefing.others)}"
+    return [*invented, *omitted, *unscored, *([others] if briefing.others else [])]
 
 
 def _read(name: str) -> str:
@@ -89,17 +89,17 @@ def _read(name: str) -> str:
 
 
 def _leaflet_style() -> str:
-    """Leaflet's style without the pictures that it would load; the page uses none of them."""
+    """Read Leaflet's style sheet without references to pictures, which the page does not use."""
     return re.sub(r"[\w-]+:\s*url\([^)]*\);?", "", _read("leaflet/leaflet.css"))
 
 
 def _leaflet_script() -> str:
-    """Leaflet's script without the address of its source map."""
+    """Read Leaflet's script without the reference to its source map."""
     return re.sub(r"\n//# sourceMappingURL=.*\s*$", "\n", _read("leaflet/leaflet.js"))
 
 
 def _data(briefing: Briefing) -> dict[str, Any]:
-    """What the page's script reads."""
+    """Collect the data for the script of the page."""
     whole = map_panel.bounds(briefing.layers)
     count = max(len(briefing.fronts) - 1, 1)
     sources = briefing.station_file.sources if briefing.station_file else ()
@@ -122,7 +122,7 @@ def _data(briefing: Briefing) -> dict[str, Any]:
 
 
 def _short(name: str) -> str:
-    """Name for the corner of the map; the list of sources has the whole."""
+    """Shorten a name for the attribution of the map; the list of sources has the full name."""
     return name if len(name) <= _CREDIT else f"{name[: _CREDIT - 1]}…"
 
 

@@ -1,4 +1,4 @@
-"""Arrival of a run's fire at the places of the page (`stations.fire_arrival`), until the run's last time."""
+"""Fire arrival at the places of the page until the end of the run (see `stations.fire_arrival`)."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ _STATES: dict[int, State] = {
 
 @dataclass(frozen=True)
 class Reached:
-    """How a fire reaches a place.
+    """Arrival of the fire at a place.
 
     Attributes
     ----------
     state
-        "reached"; "before" the run's first time; "never" until its last; "outside" of its grid.
+        "reached" during the run; "before" its first time; "never" until its last; "outside" the grid.
     span
-        Model times (s) of "reached", else None: its time, the earliest and the latest (see
+        Model times (s) for "reached", otherwise None: arrival time, earliest and latest (see
         `fire_arrival.Arrivals`).
     distance
-        To the nearest cell that burns, m, of "never"; else None, and where nothing burns.
+        For "never", the distance to the nearest burning cell, m; None for other states, or without fire.
     """
 
     state: State
@@ -41,12 +41,12 @@ class Reached:
 
     @property
     def time(self) -> float | None:
-        """Model time (s) of "reached", else None."""
+        """Model time (s) for "reached", otherwise None."""
         return self.span[0] if self.span else None
 
 
 def find(run: Run, latitude: ArrayLike, longitude: ArrayLike) -> list[Reached]:
-    """How the fire reaches places (n,), degrees north and east."""
+    """Find the arrival of the fire at places (n,), degrees north and east."""
     latitude, longitude = (np.atleast_1d(np.asarray(each, np.float64)) for each in (latitude, longitude))
     if not latitude.size:
         return []

@@ -1,4 +1,4 @@
-"""Parts of the page other than map and lists: title, burned area, film, scores, sources and licences."""
+"""Sections of the page: title, burned area, film, scores, sources and licences."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ from .film import CLIP, WIDTH, Film, Shown
 from .text import quote, size
 
 _LEAFLET = Path(__file__).parent / "leaflet"
-_NOT_KNOWN = "its licence is its maker's; Firetwin does not know it"
+_NOT_KNOWN = "licence unknown to Firetwin; see the publisher"
 
 
 def area(square_metres: float) -> str:
-    """Area in acres and hectares."""
+    """Format an area in acres and hectares."""
     return f"{square_metres / SQUARE_METRES_PER_ACRE:,.0f} acres ({square_metres / 1e4:,.0f} ha)"
 
 
 def head(briefing: Briefing) -> str:
-    """Times, warnings and key facts below the title."""
+    """Build times, warnings and key facts below the title."""
     return "\n".join(_head(briefing))
 
 
@@ -39,8 +39,8 @@ def _head(briefing: Briefing) -> Iterator[str]:
     warnings = []
     if briefing.run.synthetic:
         warnings.append(
-            "<b>This run is synthetic:</b> made up, not the output of a fire model. "
-            "It says nothing of where a fire went or will go."
+            "<b>This run is synthetic</b>, not the output of a fire model. "
+            "It does not show where a fire burned or will burn."
         )
     if briefing.station_file is not None and briefing.station_file.exercise:
         warnings.append(f"<b>{EXERCISE}.</b>")
@@ -48,9 +48,9 @@ def _head(briefing: Briefing) -> Iterator[str]:
         yield f'<p class="warn">{"<br>".join(warnings)}</p>'
     grid = briefing.facts["grid"]
     facts = (
-        ("Burned at first", area(first.area)),
-        ("Burned at last", area(last.area)),
-        ("Area of the run", " x ".join(f"{side / 1e3:.1f}" for side in reversed(grid["extent"])) + " km"),
+        ("Burned area at the start", area(first.area)),
+        ("Burned area at the end", area(last.area)),
+        ("Extent of the run", " x ".join(f"{side / 1e3:.1f}" for side in reversed(grid["extent"])) + " km"),
         ("Units", f"acres and hectares, km, kg/m²; times are UTC and {briefing.zone}"),
     )
     pairs = "".join(f"<div><dt>{name}</dt><dd>{quote(value)}</dd></div>" for name, value in facts)
@@ -58,17 +58,15 @@ def _head(briefing: Briefing) -> Iterator[str]:
 
 
 def growth(briefing: Briefing) -> str:
-    """Curve of burned area, and a table of reports beside the run."""
+    """Build the chart of burned area, and a table that compares reports with the run."""
     reported = briefing.facts["reported"]
     key = '<span><i style="background:var(--fire)"></i>this run</span>'
     rows = [row for row in reported if row["run"] is not None]
     if rows:
-        key += '<span><i style="background:var(--ink);border-radius:50%"></i>reported at the time</span>'
+        key += '<span><i style="background:var(--ink);border-radius:50%"></i>reported</span>'
     outside = len(reported) - len(rows)
     more = (
-        f"<p class='soft'>{outside} more reports are of times before or after this run.</p>"
-        if outside
-        else ""
+        f"<p class='soft'>{outside} other reports are from before or after this run.</p>" if outside else ""
     )
     drawn = curve.svg(briefing.fronts, reported, briefing.zone)
     table = _reports(rows, briefing.zone, briefing.run.synthetic) if rows else ""
@@ -87,7 +85,7 @@ def _reports(rows: Sequence[dict[str, Any]], zone: str, synthetic: bool) -> str:
     titles = ("time", "run, acres", "reported, acres", "difference")
     head = "".join(f'<th scope="col">{title}</th>' for title in titles)
     tuned = (
-        '<p class="soft">The synthetic run was tuned to these reports: that they agree proves nothing.</p>'
+        '<p class="soft">The synthetic run was tuned to these reports; agreement does not validate it.</p>'
         if synthetic
         else ""
     )
@@ -98,7 +96,7 @@ def _reports(rows: Sequence[dict[str, Any]], zone: str, synthetic: bool) -> str:
 
 
 def film(briefing: Briefing) -> str:
-    """Frames and clips; empty without a film."""
+    """Build the gallery of frames and clips; empty without a film."""
     if briefing.film is None:
         return ""
     shown = briefing.film
@@ -110,8 +108,8 @@ def film(briefing: Briefing) -> str:
     return (
         '<section aria-labelledby="film-title"><h2 id="film-title">Pictures</h2>'
         f"{''.join(parts)}{_left_out(shown)}"
-        f'<p class="soft">Rendered with Blender from this run, at most {WIDTH} pixels wide here. They are '
-        "drawings of what the run says, not photographs.</p></section>"
+        f'<p class="soft">Rendered with Blender from this run, at most {WIDTH} pixels wide here. '
+        "They visualise the run and are not photographs.</p></section>"
     )
 
 
@@ -137,12 +135,12 @@ def _left_out(shown: Film) -> str:
     if not shown.left_out:
         return ""
     items = "".join(f"<li>{quote(text)}</li>" for text in shown.left_out)
-    title = f"Left out of this page (a clip has {size(CLIP)} at most):"
+    title = f"Omitted from this page (limit of a clip: {size(CLIP)}):"
     return f'<p class="soft">{title}</p><ul class="soft">{items}</ul>'
 
 
 def scores(briefing: Briefing) -> str:
-    """Scores against observations with their error; empty without observations."""
+    """Build the tables of scores with their errors; empty without observations."""
     if briefing.scores is None and not briefing.no_scores:
         return ""
     if briefing.scores is None:
@@ -151,14 +149,14 @@ def scores(briefing: Briefing) -> str:
         inside = "".join(report.tables(briefing.scores))
         none = used.nothing(briefing.scores["uses"])
         if not none and briefing.run.synthetic:
-            warning = "Of a synthetic run scores say how the tools work, and nothing of a model."
+            warning = "Scores of a synthetic run show that the tools work; they say nothing about a model."
             inside = f'<p class="soft">{warning}</p>{inside}'
     title = '<h2 id="scores-title">Scores against observations</h2>'
     return f'<section aria-labelledby="scores-title">{title}{inside}</section>'
 
 
 def sources(briefing: Briefing) -> str:
-    """Where everything in the page comes from, and under which licence."""
+    """Build the list of all sources with their licences."""
     items = "".join(f"<li>{item}</li>" for item in _sources(briefing))
     licence = quote((_LEAFLET / "LICENSE").read_text(encoding="utf-8").replace("\n", "\f")).replace(
         "\\x0c", "\n"
@@ -177,7 +175,7 @@ def _sources(briefing: Briefing) -> Iterator[str]:
     licence = "" if kind else f"; {_NOT_KNOWN}"
     yield (
         f"<b>Run</b>: {quote(run.name)}{quote(made)}{kind}{licence}. "
-        "Terrain, fuel, arrival times and fronts are its; the map's fronts are simplified by at most "
+        "Source of terrain, fuel, arrival times and fronts; fronts on the map are simplified by at most "
         f"{briefing.tolerance:.3g} m."
     )
     for text in source.get("assumptions", []):
@@ -185,11 +183,11 @@ def _sources(briefing: Briefing) -> Iterator[str]:
     for what, name in briefing.inputs:
         yield f"<b>{what}</b>: {quote(name)}; {_NOT_KNOWN}"
     if briefing.facts["reported"]:
-        yield "<b>Reported areas</b>: agencies and newspapers as named beside each number; facts as printed"
+        yield "<b>Reported areas</b>: figures as published by the agencies and newspapers named in the table"
     if any(point.station is None for point in briefing.points) and not any(
         what == "Named places" for what, _ in briefing.inputs
     ):
-        yield "<b>Named places</b>: positions as gazetteers print them (Firetwin's data/king_fire.toml)"
+        yield "<b>Named places</b>: positions from gazetteers (data/king_fire.toml of Firetwin)"
     for each in briefing.station_file.sources if briefing.station_file else ():
         yield f"<b>Stations and resources</b>: {_source(each)}"
     if briefing.film:
@@ -197,19 +195,19 @@ def _sources(briefing: Briefing) -> Iterator[str]:
     if briefing.points:
         yield (
             "<b>Open in web map</b>: links to openstreetmap.org, whose map is © OpenStreetMap contributors "
-            "(ODbL); nothing of it is in this page, and nothing is loaded before a link is followed"
+            "(ODbL). This page contains no data of that map and loads none until a link is followed"
         )
     yield (
         '<b>Map script</b>: <a href="https://leafletjs.com" rel="noopener noreferrer">Leaflet</a> 1.9.4, '
         "© 2010-2023 Volodymyr Agafonkin, © 2010-2011 CloudMade, BSD-2-Clause (below)"
     )
     version = firetwin_core.__version__
-    yield f"<b>This page</b>: its own script and style are Firetwin's {version}, GPL-3.0-or-later"
+    yield f"<b>This page</b>: script and style are part of Firetwin {version}, GPL-3.0-or-later"
 
 
 def _source(source: Source) -> str:
-    date = f", data of {source.retrieved}" if source.retrieved else ", date of the data not known"
+    date = f", data of {source.retrieved}" if source.retrieved else ", date of the data unknown"
     name = quote(source.name)
     if source.url.startswith(("https://", "http://")):
         name = f'<a href="{quote(source.url)}" rel="noopener noreferrer">{name}</a>'
-    return f"{name}{quote(date)}; licence: {quote(source.licence or 'not known')}"
+    return f"{name}{quote(date)}; licence: {quote(source.licence or 'unknown')}"

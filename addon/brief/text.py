@@ -1,4 +1,4 @@
-"""Text and data inside of HTML: escaped, so that no text of a file becomes a tag, a script or a reference."""
+"""Text and data in HTML, escaped so that no text of a file becomes a tag, script or reference."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ _IN_SCRIPT = {character: f"\\u{ord(character):04x}" for character in "<>&\u2028\
 
 
 def quote(text: object) -> str:
-    """Text for an element or an attribute in quotes; controls and marks that turn text are spelt out."""
+    """Escape text for an element or a quoted attribute, including control and bidirectional characters."""
     return html.escape(escaped(str(text)), quote=True)
 
 
 def script_json(value: Any) -> str:
-    """JSON for a script element: no "</script>" and no "<!--" can occur in it.
+    """Encode JSON for a script element, without "</script>" and "<!--".
 
     Raises
     ------
     ValueError
-        A number is NaN or infinite, which JSON lacks.
+        A number is NaN or infinite, which JSON cannot represent.
     """
     text = json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
     return "".join(_IN_SCRIPT.get(character, character) for character in text)
 
 
 def data_uri(kind: str, content: bytes) -> str:
-    """Content of a media type such as "image/png" as a data URI."""
+    """Encode content of a media type such as "image/png" as a data URI."""
     return f"data:{kind};base64,{base64.b64encode(content).decode('ascii')}"
 
 

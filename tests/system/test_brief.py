@@ -305,7 +305,7 @@ def test_the_printed_document_has_every_row_and_the_map(opened, tmp_path, theme)
     for words in (
         "Exercise: not operational advice",
         "This run is synthetic",
-        "Arrival of the fire over hill shading",
+        "Fire arrival time over hill shading",
         "BSD 2-Clause License",
         "Scores against observations",
     ):
@@ -367,7 +367,7 @@ def test_without_scripts_the_page_is_whole(browser, page):
         browser.get(page.as_uri())
         assert browser.find_element(By.CSS_SELECTOR, ".static-map").is_displayed()
         assert not browser.find_element(By.ID, "map").is_displayed()
-        assert "Scripts are off" in browser.find_element(By.TAG_NAME, "noscript").text
+        assert "Scripts are disabled" in browser.find_element(By.TAG_NAME, "noscript").text
         assert browser.find_element(By.CSS_SELECTOR, "tbody[data-id]").is_displayed()
     finally:
         browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})

@@ -78,7 +78,7 @@ def test_the_page_says_what_is_where_and_when(folder):
     assert "times are UTC and Etc/GMT+8" in made.text
     run = runs.open(folder)
     acres = np.isfinite(run.fuel_arrival_time()).sum() * 3600.0 / history.SQUARE_METRES_PER_ACRE
-    assert f"Burned at last {acres:,.0f} acres" in made.text
+    assert f"Burned area at the end {acres:,.0f} acres" in made.text
     assert [each["utc"] for each in made.data["times"]][:: len(made.data["times"]) - 1] == [
         "2014-09-17T04:00:00Z",
         "2014-09-17T10:00:00Z",
@@ -93,7 +93,7 @@ def test_the_page_says_what_is_where_and_when(folder):
 
 def test_a_synthetic_run_is_called_synthetic(own):
     change(own, synthetic=True)
-    assert "This run is synthetic: made up, not the output of a fire model." in parts(own).text
+    assert "This run is synthetic, not the output of a fire model." in parts(own).text
 
 
 def test_nothing_can_be_loaded_or_sent(folder, gpkg):
@@ -251,7 +251,7 @@ def test_what_a_list_says_of_a_place(folder, gpkg):
     moment = r"17 Sep 04:\d\d"
     told = rf"16 Sep 2014 20:\d\d -08, {moment} UTC, between {moment} and {moment}"
     assert re.fullmatch(told, states["Alpha"][1])
-    assert states["Far"] == ("outside", "not known, outside of the run's grid")
+    assert states["Far"] == ("outside", "unknown, outside the grid of the run")
     assert lists.distance(140.0) == "0.14 km (0.09 mi)"
     assert lists.distance(14_000.0) == "14 km (9 mi)"
 
@@ -268,7 +268,7 @@ def test_burned_area_stands_beside_reports(make_run):
     made = parts(make_run("npy"))
     assert "11,520" in made.text
     assert "Wikipedia (earlier revision)" in made.text
-    assert "more reports are of times before or after this run" in made.text
+    assert "other reports are from before or after this run" in made.text
 
 
 def test_the_curve_has_its_points_where_the_axes_say(folder):
@@ -348,7 +348,7 @@ def test_clips_without_room_are_left_out_and_told(folder, tmp_path, monkeypatch)
     ]
     assert film.read(out, {}, 40_000).left_out == []
     monkeypatch.setattr(film, "CLIP", 29_999)
-    assert "a clip has 30 kB at most" in film.read(out, {}, 40_000).left_out[0]
+    assert "the limit of a clip is 30 kB" in film.read(out, {}, 40_000).left_out[0]
     made = parts(folder, film=out)
     assert not made.all("video")
     assert "drone/drone_rgb.mp4" in made.text
@@ -356,7 +356,7 @@ def test_clips_without_room_are_left_out_and_told(folder, tmp_path, monkeypatch)
 
 def test_a_film_of_another_run_is_refused(folder, tmp_path):
     out = rendered(tmp_path / "film", folder, **{"elevation.npy": "0"})
-    with pytest.raises(InputError, match=r"shows another run: elevation.npy differ"):
+    with pytest.raises(InputError, match=r"shows another run \(.* has other elevation.npy"):
         parts(folder, film=out)
 
 
@@ -431,9 +431,9 @@ def test_the_page_says_its_size_and_has_a_limit(folder):
     found = briefing.gather(briefing.Request(folder))
     made = page.html(found, 10_000_000)
     assert len(made.encode()) < 1_000_000  # of a small run: Leaflet is 0.16 MB of it
-    told = f"This page is one file of {text.size(len(made.encode()))} and loads nothing from elsewhere."
+    told = f"This page is a single file of {text.size(len(made.encode()))} and loads no other files."
     assert told in PageParts(made).text
-    with pytest.raises(UsageError, match=r"the page would have \d+ kB, more than 100 kB; .* --limit"):
+    with pytest.raises(UsageError, match=r"the page has \d+ kB, above the limit of 100 kB; .* --limit"):
         page.html(found, 100_000)
 
 
@@ -451,7 +451,7 @@ def test_the_command_writes_the_file_and_tells_what_to_know(folder, gpkg, tmp_pa
     told = capsys.readouterr()
     assert told.out.strip() == str(out)
     assert "Exercise: not operational advice" in told.err
-    assert "kB, which loads nothing from elsewhere" in told.err
+    assert "kB, which loads no other files" in told.err
     assert out.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
 
 
@@ -463,4 +463,4 @@ def test_the_command_wants_an_html_file(folder, tmp_path, capsys):
 def test_a_page_has_32_megabytes_at_most_unless_more_is_asked_for(folder, tmp_path, capsys):
     assert arguments.LIMIT == 32_000_000
     assert cli.main(["brief", str(folder), "--out", str(tmp_path / "page.html"), "--limit", "10KB"]) == 2
-    assert "more than 10 kB" in capsys.readouterr().err
+    assert "above the limit of 10 kB" in capsys.readouterr().err

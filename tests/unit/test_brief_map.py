@@ -108,7 +108,7 @@ def test_ground_that_does_not_burn_is_transparent_in_the_arrival_layer(run):
 
 def test_a_run_beyond_the_end_of_web_mercator_is_refused(tmp_path):
     run = runs.open(whole_run.write(tmp_path / "run", cell=500.0, cells=40, at=(85.0, 20.0)))
-    with pytest.raises(InputError, match=r"reaches beyond 85.05 degrees"):
+    with pytest.raises(InputError, match=r"extends beyond 85.05 degrees"):
         layers.draw(run, run.fuel_elevation, "UTC")
 
 
