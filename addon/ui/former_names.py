@@ -1,6 +1,11 @@
-"""Migration of .blend files with former names of sections or keys."""
+"""Migration of .blend files with former names of sections or keys.
+
+Choices are stored as numbers, which do not change when their names do.
+"""
 
 from __future__ import annotations
+
+import json
 
 import bpy
 
@@ -25,9 +30,13 @@ def adopt(*_: object) -> None:
                     del stored[gone]
                 stored[name] = kept
         for (section, former), name in FORMER_KEYS.items():
-            if former in stored.get(section, {}):
-                stored[section][name] = stored[section][former]
-                del stored[section][former]
+            kept = stored.get(section, {})
+            if former in kept:
+                kept[name] = kept[former]
+                del kept[former]
+            exact = json.loads(kept.get("exact") or "{}")  # see `keys`
+            if former in exact:
+                kept["exact"] = json.dumps(exact | {name: exact.pop(former)})
 
 
 def register() -> None:

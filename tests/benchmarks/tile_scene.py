@@ -43,7 +43,9 @@ def shot_of(folder: Path, count: int, side: int) -> Shot:
     shown = auto_framing.fit_folder(folder / "run", Path("run"), Path("cache")).settings
     shot = Shot(replace(shown, path=folder / "scene.toml", run=folder / "run"), readers.open(folder / "run"))
     tile_grid.write(folder / "set", shot.ground.frame, count, side)
-    known = replace(shot.settings.tiles, sources=(str(folder / "set"),), error=0.1, geoid=-24.9)
+    known = replace(
+        shot.settings.tiles, sources=(str(folder / "set"),), max_screen_space_error=0.1, geoid=-24.9
+    )
     return Shot(replace(shot.settings, tiles=known, cache=folder / "cache"), shot.run)
 
 

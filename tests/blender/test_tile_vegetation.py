@@ -28,15 +28,15 @@ def seen(shot, tmp_path, decoded_here):
     made = photogrammetry.scene(shot.bare_ground.up, middle, HALF, OFF)
     folder = photogrammetry.write(tmp_path / "set", shot.ground.frame, made)
 
-    def make(trees="ours", stand="elevation"):
-        known = replace(shot.settings.tiles, sources=(str(folder),), geoid=0.0, trees=trees)
-        terrain = replace(shot.settings.terrain, stand="elevation")
+    def make(vegetation="scene", height_source="elevation"):
+        known = replace(shot.settings.tiles, sources=(str(folder),), geoid=0.0, vegetation=vegetation)
+        terrain = replace(shot.settings.terrain, height_source="elevation")
         settings = replace(shot.settings, tiles=known, cache=tmp_path / "cache", terrain=terrain)
         first = Shot(settings, shot.run)
         selection.make(first, uses=tile_terms.of_scene(settings))
-        if stand == "elevation":
+        if height_source == "elevation":
             return first
-        settings = replace(settings, terrain=replace(terrain, stand=stand))
+        settings = replace(settings, terrain=replace(terrain, height_source=height_source))
         heights = tile_cut.location(first).with_suffix(tile_cut.HEIGHTS)
         tile_heights_file.location(settings, shot.run).write_bytes(heights.read_bytes())
         second = Shot(settings, shot.run)
@@ -74,7 +74,7 @@ def test_ground_below_the_wood_and_the_houses(seen):
 
 def test_growth_is_pushed_down_and_houses_stay(seen):
     make, made = seen
-    shot = make("ours")
+    shot = make("scene")
     tile = the_tile(shot)
     flat = flatten.flatten(shot, tile)
     number = vertices_of(made, tile)
@@ -88,15 +88,15 @@ def test_growth_is_pushed_down_and_houses_stay(seen):
     slope = np.gradient(made.ground, photogrammetry.STEP)
     steepest = np.hypot(*slope).max()
     assert flat.normal[wood, 2].min() > 0.8 / np.hypot(1.0, steepest)
-    assert flatten.flatten(make("theirs"), tile) is tile
+    assert flatten.flatten(make("tileset"), tile) is tile
 
 
 def test_where_it_burns_is_the_burned_area_and_around(seen):
     make, made = seen
-    shot = make("ours where it burns")
+    shot = make("scene_near_burn")
     east, north = made.east.ravel(), made.north.ravel()
     place = np.column_stack([east, north])
-    ours = tile_vegetation.are_ours(shot, place)
+    ours = tile_vegetation.is_of_scene(shot, place)
     row, column = shot.ground.indices(*shot.ground.geodetic(east, north))
     burned = shot.ground.burned[np.round(row).astype(int), np.round(column).astype(int)] > 0
     assert ours[burned].all()
@@ -107,26 +107,26 @@ def test_where_it_burns_is_the_burned_area_and_around(seen):
             (column[:, None] - everywhere[:, 1]) * shot.ground.cell[1],
         )
     ).min(axis=1)
-    assert not ours[away > tile_vegetation.AROUND + 2.5 * max(shot.ground.cell)].any()
+    assert not ours[away > tile_vegetation.MARGIN + 2.5 * max(shot.ground.cell)].any()
 
 
 def test_no_tree_stands_in_a_house_or_in_the_tiles_wood(seen):
     make, made = seen
     place = np.column_stack([made.east.ravel(), made.north.ravel(), made.ground.ravel()])
     roof = made.roof.ravel()
-    ours, theirs = (tile_vegetation.may_stand(make(trees), place) for trees in ("ours", "theirs"))
+    ours, theirs = (tile_vegetation.may_grow(make(each), place) for each in ("scene", "tileset"))
     assert ours[~roof].mean() > 0.9
     assert ours[roof].mean() < 0.1
     edge = np.zeros(made.east.shape, bool)
     edge[[0, 1, -2, -1]] = edge[:, [0, 1, -2, -1]] = True
     assert not theirs[~edge.ravel()].any()
     beyond = place + np.array([4.0 * HALF, 0.0, 0.0])
-    assert tile_vegetation.may_stand(make("theirs"), beyond).all()
+    assert tile_vegetation.may_grow(make("tileset"), beyond).all()
 
 
 def test_things_stand_on_the_ground_and_cameras_clear_the_crowns(seen):
     make, made = seen
-    shot = make("theirs", stand="tiles")
+    shot = make("tileset", height_source="tiles")
     inner = (
         np.maximum(np.abs(made.east - made.east.mean()), np.abs(made.north - made.north.mean())) < 0.7 * HALF
     )
@@ -143,8 +143,8 @@ def test_the_border_has_no_step(seen):
     edge[[0, -1]] = edge[:, [0, -1]] = True
     edge &= (made.growth == 0.0) & ~made.roof
     steps = [
-        np.abs(make("ours", stand).ground.up(made.east[edge], made.north[edge]) - made.ground[edge]).max()
-        for stand in ("elevation", "tiles")
+        np.abs(make("scene", source).ground.up(made.east[edge], made.north[edge]) - made.ground[edge]).max()
+        for source in ("elevation", "tiles")
     ]
     assert steps[0] > 1.4  # OFF
     assert steps[1] < 0.3
@@ -172,6 +172,6 @@ def test_what_may_not_be_changed_is_refused(seen, monkeypatch):
         "firetwin.tiles.policies.OPEN", policy := Policy("Somebody's tiles", may_flatten=False)
     )
     monkeypatch.setattr(Source, "policy", policy)
-    make("theirs")
-    with pytest.raises(InputError, match=r"Somebody's tiles does not allow that .* leave out tiles\.trees"):
-        make("ours")
+    make("tileset")
+    with pytest.raises(InputError, match=r"Somebody's tiles does not allow .* leave out tiles\.vegetation"):
+        make("scene")

@@ -92,7 +92,7 @@ def test_pictures_that_are_too_small_for_credits_are_refused(tiled):
 
 
 def test_tiles_that_were_not_prepared_are_an_error(tiled):
-    moved = replace(tiled.settings.tiles, error=3.0)
+    moved = replace(tiled.settings.tiles, max_screen_space_error=3.0)
     with pytest.raises(InputError, match="were not prepared"):
         tile_cut.of_shot(tiled._with_settings(replace(tiled.settings, tiles=moved)))
 

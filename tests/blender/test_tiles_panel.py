@@ -48,7 +48,7 @@ def tiled_panel(panel, here, settings, shot, tmp_path, monkeypatch):
     monkeypatch.setattr(tile_heights, "_MOST", 200)  # points of heights, which nothing here looks at
     panel.output = str(tmp_path / "out")
     bare = replace(settings.forest, trees=False)
-    named = replace(settings.tiles, sources=("set",), error=2.0, geoid=-24.9)
+    named = replace(settings.tiles, sources=("set",), max_screen_space_error=2.0, geoid=-24.9)
     scene_file.fill(panel.id_data, replace(settings, tiles=named, forest=bare))
     assert not panel.problem
     return bpy.context.scene.firetwin

@@ -5,7 +5,7 @@ from dataclasses import asdict, replace
 
 import pytest
 from firetwin.blender import nodes
-from firetwin.jobs.tiles import make, selection
+from firetwin.jobs.tiles import decode, make, selection
 from firetwin.scene.terrain import material
 
 __all__ = ["decoded_here", "plain_tiles", "tiled"]
@@ -28,18 +28,20 @@ def plain_tiles(monkeypatch):
 def decoded_here(monkeypatch):
     """Decode within this process."""
 
-    def decode(contents, progress):
+    def here(contents, progress):
         return decode.in_process([asdict(each) for each in contents], progress, print)
 
     monkeypatch.setattr(decode, "_limit", lambda memory: None)
-    monkeypatch.setattr(decode, "run", decode)
+    monkeypatch.setattr(decode, "run", here)
 
 
 @pytest.fixture
 def tiled(shot, tmp_path, decoded_here):
     """A shot on tiles made of its ground in `tmp_path`/set, prepared within this process."""
     make.run(shot, make.TilesRequest(tmp_path / "set", credit="Somebody", geoid=-24.9))
-    known = replace(shot.settings.tiles, sources=(str(tmp_path / "set"),), error=2.0, geoid=-24.9)
+    known = replace(
+        shot.settings.tiles, sources=(str(tmp_path / "set"),), max_screen_space_error=2.0, geoid=-24.9
+    )
     found = shot._with_settings(replace(shot.settings, tiles=known, cache=tmp_path / "cache"))
     told = selection.make(found)
     assert told[0] == "credits of tiles, which pictures show: Somebody"

@@ -39,7 +39,7 @@ def folder(run_folder, tmp_path_factory):
     folder = tmp_path_factory.mktemp("tiles")
     for name, tiles in (
         ("plain", ""),
-        ("scene", 'tiles = { sources = ["set"], error = 1.0, geoid = -24.9 }'),
+        ("scene", 'tiles = { sources = ["set"], max_screen_space_error = 1.0, geoid = -24.9 }'),
     ):
         (folder / f"{name}.toml").write_text(SCENE.format(run=run_folder, tiles=tiles))
     run(

@@ -4,6 +4,7 @@ import dataclasses
 import tomllib
 import typing
 from collections import Counter
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from firetwin.shot import schema
 from firetwin.shot.cameras.rigs import kinds
 from firetwin.shot.schema import scene_text
 from firetwin.shot.schema import toml_positions as places
+from firetwin.shot.schema.former import FORMER, FORMER_KEYS, FORMER_VALUES
 from firetwin.shot.schema.frame_list import FrameList
 from firetwin.shot.sections import TerrainSettings, Time
 from firetwin.shot.settings import Camera, OtherRun, Settings, scene_file
@@ -400,3 +402,47 @@ def test_former_names_of_sections_are_read_and_noted(tmp_path):
     path.write_text("[ground]\napron = -1.0\n")
     with pytest.raises(scene_file.InputError, match=r":2:1: terrain\.apron"):
         scene_file.read(path)
+
+
+FORMER_TEXT = """[ground]
+stand = "tiles"
+[places]
+enabled = true
+[render]
+skip = false
+[tiles]
+sources = ["set"]
+error = 3.0
+trees = "{}"
+"""
+PRESENT_TEXT = """[terrain]
+height_source = "tiles"
+[labels]
+enabled = true
+[render]
+cull = false
+[tiles]
+sources = ["set"]
+max_screen_space_error = 3.0
+vegetation = "{}"
+"""
+
+
+def test_every_former_name_and_value_gives_equal_settings_and_one_note(tmp_path):
+    path = tmp_path / "scene.toml"
+    values = FORMER_VALUES["tiles", "vegetation"]
+    for then, now in values.items():
+        path.write_text(FORMER_TEXT.format(then))
+        former = scene_file.read(path)
+        path.write_text(PRESENT_TEXT.format(now))
+        present = scene_file.read(path)
+        assert replace(former, notes=()) == present
+        assert not present.notes
+        assert len(former.notes) == len(FORMER) + len(FORMER_KEYS) + 1
+        assert former.notes[-1].startswith(f'{path}:10:1: tiles.vegetation = "{then}" is called "{now}" now')
+    known = {
+        *(name for name in FORMER if f"[{name}]" in FORMER_TEXT),
+        *(each for each in FORMER_KEYS if f"\n{each[1]} = " in FORMER_TEXT),
+    }
+    assert known == {*FORMER, *FORMER_KEYS}
+    assert set(FORMER_VALUES) == {("tiles", "vegetation")}

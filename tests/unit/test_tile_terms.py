@@ -16,7 +16,7 @@ from firetwin.tiles.policies import Policy, google, ion
 
 GOOGLE = "https://tile.googleapis.com/v1/3dtiles/root.json"
 TEXT = """run = "sample"
-tiles = {{ sources = ["set", "{place}"], trees = "theirs" }}
+tiles = {{ sources = ["set", "{place}"], vegetation = "tileset" }}
 {more}
 [[cameras]]
 name = "drone"
@@ -100,7 +100,7 @@ def _refused(choice, use):
 @pytest.mark.parametrize(
     ("more", "use"),
     [
-        ('terrain = { stand = "tiles" }', r'leave out terrain.stand = "tiles"'),
+        ('terrain = { height_source = "tiles" }', r'leave out terrain.height_source = "tiles"'),
         ("labels = { enabled = true }", "other gazetteers.*labels.enabled"),
     ],
 )
@@ -130,7 +130,8 @@ def test_each_job_asks(scene, run_folder_of_sample, tmp_path):
     from firetwin.farm import plan
 
     _refused(lambda: plan.make_job(choice.shot(), scene()), "the farm")
-    stood = ShotSource(scene=str(scene(more='terrain = { stand = "tiles" }')), run=str(run_folder_of_sample))
+    on_tiles = scene(more='terrain = { height_source = "tiles" }')
+    stood = ShotSource(scene=str(on_tiles), run=str(run_folder_of_sample))
     shot = choice.shot()
     shot.settings = stood.settings()
     _refused(lambda: make.run(shot, make.TilesRequest(tmp_path / "set")), "tiles make")

@@ -172,3 +172,13 @@ def test_former_names_give_way_to_present_ones_in_their_places(cull):
     expected = text.replace("[ground]", "[terrain]").replace("skip = false", f"cull = {str(cull).lower()}")
     assert toml_update.updated(text, wanted) == expected
     assert read(expected).notes == ()
+
+
+def test_several_former_names_of_a_line_and_former_values_give_way_too():
+    text = 'tiles = { error = 3.0, trees = "ours where it burns", sources = ["a"] } # ours\n'
+    found = read(text)
+    expected = (
+        'tiles = { max_screen_space_error = 3.0, vegetation = "scene_near_burn", sources = ["a"] } # ours\n'
+    )
+    assert toml_update.updated(text, found) == expected
+    assert read(expected).notes == ()

@@ -65,7 +65,7 @@ def run(
         The folder holds something else, the footprints cannot be read, or the heights are those of tiles
         that must not be written to other formats.
     """
-    if shot.settings.terrain.stand == "tiles":
+    if shot.settings.terrain.height_source == "tiles":
         tile_terms.check(shot.settings, [("export", "`firetwin tiles make`")])
     surface = surface_of(shot, request.geoid)
     built = []

@@ -91,11 +91,11 @@ def prepare(
 def coarse(shot: Shot) -> Shot:
     """The same shot with a coarse choice of tiles, for the window: soon there, and small."""
     tiles, terrain = shot.settings.tiles, shot.settings.terrain
-    least, most = max(tiles.error, PREVIEW_ERROR), min(tiles.max_size, PREVIEW_SIZE)
+    least, most = max(tiles.max_screen_space_error, PREVIEW_ERROR), min(tiles.max_size, PREVIEW_SIZE)
     settings = replace(
         shot.settings,
-        tiles=replace(tiles, error=least, max_size=most),
-        terrain=replace(terrain, stand="elevation"),
+        tiles=replace(tiles, max_screen_space_error=least, max_size=most),
+        terrain=replace(terrain, height_source="elevation"),
     )
     return Shot(settings, shot.run)
 
@@ -117,8 +117,8 @@ def in_process(
     if preview:
         make(coarse(shot), progress, how, wanted)
         return
-    if shot.settings.terrain.stand == "tiles":
-        terrain = replace(shot.settings.terrain, stand="elevation")
+    if shot.settings.terrain.height_source == "tiles":
+        terrain = replace(shot.settings.terrain, height_source="elevation")
         first = Shot(replace(shot.settings, terrain=terrain), shot.run)
         heights = tile_heights_file.location(shot.settings, shot.run)
         if not (_kept(first, keep) and heights.exists()):
@@ -215,7 +215,7 @@ def _told(cut: TileCut, prepared: Sequence[PreparedTiles]) -> Iterator[str]:
         if each.advised:
             yield (
                 f"{each.policy.name} recommends tiles to {each.choice.asked:g} pixels; "
-                "tiles.error sets another value"
+                "tiles.max_screen_space_error sets another value"
             )
         if sentence := each.choice.sentence():
             yield sentence

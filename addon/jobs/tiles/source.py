@@ -123,8 +123,11 @@ class TileSource:
         source = open_place(shot, number, access)
         self.policy = source.policy
         tile_terms.check_source(shot.settings, number, self.policy, uses)
-        self.advised = self.policy.pixel_error > 0.0 and self.settings.error == TileSettings().error
-        self.error = self.policy.pixel_error if self.advised else self.settings.error
+        self.advised = (
+            self.policy.pixel_error > 0.0
+            and self.settings.max_screen_space_error == TileSettings().max_screen_space_error
+        )
+        self.error = self.policy.pixel_error if self.advised else self.settings.max_screen_space_error
         self.loader: Loader = Loader(source)
         self.matrix = matrix
         view_set, heights, halves, eyes = shot.visibility.all_views()

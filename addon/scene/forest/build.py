@@ -71,7 +71,7 @@ def algorithm2(shot: Shot) -> dict[str, NDArray]:
     )
     position = visibility.settled(shot.ground, trees.position)
     there = visibility.visible(shot, position, trees.scale, reach)
-    kept = np.flatnonzero(there & tile_vegetation.may_stand(shot, position))
+    kept = np.flatnonzero(there & tile_vegetation.may_grow(shot, position))
     cell = trees.cell[kept]
     first = np.array([models.FIRST_MODEL[k] for k in (0, 1, 2)])[trees.size_class[kept]]
     model = first + trees.model[kept]
@@ -111,7 +111,7 @@ def _grass(shot: Shot) -> dict[str, NDArray]:
     moved = np.abs(position[:, 2] - clumps.position[:, 2]) > 0.0
     position[moved, 2] -= 0.7
     there = visibility.visible(shot, position, _GRASS, GRASS_DISTANCE)
-    kept = np.flatnonzero(there & tile_vegetation.may_stand(shot, position))
+    kept = np.flatnonzero(there & tile_vegetation.may_grow(shot, position))
     cell, position = clumps.cell[kept], position[kept]
     model = (noise.uniform(cell, 7, seed) < 0.5).astype(np.int64)
     scale, width = clumps.scale[kept], np.ones(len(cell))

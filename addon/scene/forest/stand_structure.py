@@ -73,7 +73,7 @@ def retained(shot: Shot, position: Array) -> Array:
     if shot.settings.terrain.land_use is not None:
         wet = np.where(land_use.keeps_out(shot, position), 1.0, wet)
     part: Array = np.maximum(stand, lone)
-    return part * (wet < 0.3) * tile_vegetation.may_stand(shot, position)
+    return part * (wet < 0.3) * tile_vegetation.may_grow(shot, position)
 
 
 def _scattered(shot: Shot, part: float, position: Array) -> Array:

@@ -254,7 +254,7 @@ def _scattered(shot: Shot, kind: PlantKind, number: int, pixel: float, budget: i
         density = density * kind.also(place)
     if shot.settings.terrain.land_use is not None:
         density = density * ~land_use.keeps_out(shot, place)
-    density = density * tile_vegetation.may_stand(shot, place)
+    density = density * tile_vegetation.may_grow(shot, place)
     stands = np.flatnonzero(lot(2, cells) < density * width**2)
     cells, place, height, tall = cells[stands], place[stands], height[stands], tall[stands]
     position = np.column_stack([place, shot.ground.up(*place.T)]) if len(place) else np.empty((0, 3))

@@ -18,13 +18,13 @@ LEAST = 1.0
 def flatten(shot: Shot, tile: Decoded) -> Decoded:
     """A tile without its growth: vertices in growth lie on the ground, and normals follow. Buildings stay."""
     heights = tile_cut.heights(shot)
-    if heights is None or shot.settings.tiles.trees == "theirs":
+    if heights is None or shot.settings.tiles.vegetation == "tileset":
         return tile
     place = tile.position.astype(np.float64) + tile.origin
     growing = np.flatnonzero(heights.growth(place[:, 0], place[:, 1]))
     ground = heights.up(place[growing, 0], place[growing, 1])
     high = place[growing, 2] - ground > LEAST
-    high[high] = tile_vegetation.are_ours(shot, place[growing[high]])
+    high[high] = tile_vegetation.is_of_scene(shot, place[growing[high]])
     if not high.any():
         return tile
     moved = growing[high]

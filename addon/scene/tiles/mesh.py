@@ -24,8 +24,8 @@ UV = "tile_uv"
 def fill(data: bpy.types.Mesh, shot: Shot, tile: Decoded, slots: Mapping[str, Slot]) -> str:
     """Write the triangles of a tile into an empty mesh, with the attributes of the ground.
 
-    Growth that it shows is flattened where the scene plants its own (`tiles.trees`). It has a skirt at the
-    tiles' border.
+    Vegetation of the tile is flattened where the scene plants its own (`tiles.vegetation`). The mesh has a
+    skirt at the border of the tiles.
 
     Returns
     -------

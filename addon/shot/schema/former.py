@@ -6,8 +6,17 @@ from .toml_positions import Where
 
 FORMER = {"ground": "terrain", "places": "labels"}
 """Sections: former name to present name."""
-FORMER_KEYS = {("render", "skip"): "cull"}
+FORMER_KEYS = {
+    ("render", "skip"): "cull",
+    ("terrain", "stand"): "height_source",
+    ("tiles", "error"): "max_screen_space_error",
+    ("tiles", "trees"): "vegetation",
+}
 """Keys: present section and former key to present key."""
+FORMER_VALUES = {
+    ("tiles", "vegetation"): {"ours": "scene", "theirs": "tileset", "ours where it burns": "scene_near_burn"},
+}
+"""Choices: present section and key to present value by former value."""
 
 
 def current(where: Where) -> Where:

@@ -126,9 +126,9 @@ class TerrainSettings:
         "footprints of buildings, every polygon one: .geojson, .gpkg, .kml or .shp",
         affects=(),
     )
-    stand: str = key(
+    height_source: str = key(
         "elevation",
-        "heights that trees, flames and cameras stand on",
+        "source of ground heights",
         choices={"elevation": "run or model", "tiles": "3-D Tiles"},
         affects=(),
     )
@@ -169,9 +169,9 @@ class TileSettings:
         "tilesets: folders, tileset.json, .3tz archives or URLs; paths start at the scene file's folder",
         affects=("terrain",),
     )
-    error: float = key(
+    max_screen_space_error: float = key(
         2.0,
-        "largest screen-space error of a tile; 16 is usual on screens",
+        "largest screen-space error of a tile; interactive viewers often use 16",
         unit="pixels",
         at_least=0.1,
         at_most=10_000,
@@ -203,10 +203,10 @@ class TileSettings:
         at_most=200,
         affects=("terrain",),
     )
-    trees: str = key(
-        "ours",
-        "trees on tiles",
-        choices={"ours": "the tiles' growth is flattened", "theirs": "", "ours where it burns": ""},
+    vegetation: str = key(
+        "scene",
+        "vegetation on tiles",
+        choices={"scene": "that of the tileset is flattened", "tileset": "", "scene_near_burn": ""},
         affects=("terrain", "forest"),
     )
 

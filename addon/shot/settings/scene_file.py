@@ -15,7 +15,7 @@ from typing import Any
 from ...errors import InputError, input_error
 from ..schema import Field, Key, Where, either, fields, items, validate
 from ..schema.did_you_mean import suggestion
-from ..schema.former import FORMER, FORMER_KEYS
+from ..schema.former import FORMER, FORMER_KEYS, FORMER_VALUES
 from ..schema.frame_list import FrameList
 from ..schema.scene_text import SceneText, load
 from . import Settings
@@ -72,12 +72,19 @@ class _Reader(SceneText):
         self.former: list[str] = []
 
     def current(self, values: dict[str, Any]) -> dict[str, Any]:
-        """Rename former sections and keys to their present names, with a note."""
+        """Translate former sections, keys and values to their present names, with a note."""
         renamed = self.renamed(values, {(name,): now for name, now in FORMER.items()}, (), "[{}]")
         keys: dict[Where, str] = {(*where,): now for where, now in FORMER_KEYS.items()}
         for section in {section for section, _ in FORMER_KEYS}:
             if isinstance(renamed.get(section), dict):
                 renamed[section] = self.renamed(renamed[section], keys, (section,), f"{section}.{{}}")
+        for (section, key), known in FORMER_VALUES.items():
+            table = renamed.get(section)
+            then = table.get(key) if isinstance(table, dict) else None
+            if isinstance(then, str) and then in known:
+                reason = f'{section}.{key} = "{then}" is called "{known[then]}" now; the old value is read'
+                self.former.append(str(self.error((section, key), f"{reason} in this version only")))
+                renamed[section] = {**table, key: known[then]}
         return renamed
 
     def renamed(
@@ -94,8 +101,7 @@ class _Reader(SceneText):
                     here, f"{then} is the former name of {shown.format(now)}, which is there too"
                 )
             reason = f"{then} is called {shown.format(now)} now; the old name is read in this version only"
-            line, column = self.places[here]
-            self.former.append(str(input_error(self.path, reason, line=line, column=column)))
+            self.former.append(str(self.error(here, reason)))
         return {names[name]: value for name, value in values.items()}
 
     def table(self, kind: type, values: dict[str, Any], where: Where) -> Any:

@@ -19,7 +19,7 @@ from tomlkit.items import AoT
 
 from ... import files
 from ...errors import Error
-from ..schema.former import FORMER, FORMER_KEYS
+from ..schema.former import FORMER, FORMER_KEYS, FORMER_VALUES
 from ..schema.toml_positions import Where, places, tables
 from . import Settings
 from .scene_file import parse, text
@@ -76,17 +76,25 @@ def _values(there: str, whole: Settings) -> Values:
 
 
 def _with_current_names(there: str) -> str:
-    """Replace former names of sections and keys in a text by the present names."""
+    """Replace former names of sections, keys and values in a text by the present names."""
     for former, now in FORMER.items():
         there = re.sub(rf"(?m)^(\s*\[\s*){former}(?=\s*[\].])", rf"\g<1>{now}", there)
     tomllib.loads(there)  # only a valid text has positions
     lines, positions = there.split("\n"), places(there)
-    for (section, former), now in FORMER_KEYS.items():
-        line, column = positions.get((section, former), (1, 1))
-        before, key = lines[line - 1][: column - 1], lines[line - 1][column - 1 :]
-        if key.startswith(former):
-            lines[line - 1] = before + now + key.removeprefix(former)
+    found = [(positions[each], *each) for each in FORMER_KEYS if each in positions]
+    for (line, column), section, former in sorted(found, reverse=True):  # from the end of each line
+        now = FORMER_KEYS[section, former]
+        before, pair = lines[line - 1][: column - 1], lines[line - 1][column - 1 :]
+        if pair.startswith(former):
+            lines[line - 1] = before + _with_current_value(section, now, pair.removeprefix(former))
     return "\n".join(lines)
+
+
+def _with_current_value(section: str, key: str, rest: str) -> str:
+    """Write a key and the rest of its line, in which a former value is replaced."""
+    for former, now in FORMER_VALUES.get((section, key), {}).items():
+        rest = re.sub(rf"^(\s*=\s*)([\"']){former}\2", rf"\g<1>\g<2>{now}\g<2>", rest)
+    return key + rest
 
 
 def _written(there: str, fresh: str, whole: Settings) -> str:

@@ -26,7 +26,9 @@ def measure(tiles: TileHeights, settings: Settings, run: Run) -> Difference | No
 
     The scene's own ground is that of the run, or of the elevation model, at the points of the fuel grid.
     """
-    own = elevation.resolve(replace(settings, terrain=replace(settings.terrain, stand="elevation")), run)
+    own = elevation.resolve(
+        replace(settings, terrain=replace(settings.terrain, height_source="elevation")), run
+    )
     off = tiles.on_grid(run.fuel_latitude, run.fuel_longitude)[0] - own.fuel
     off = off[np.isfinite(off)]
     if not len(off):

@@ -77,10 +77,10 @@ def of_passes(names: Iterable[str]) -> list[Use]:
 def of_scene(settings: Settings) -> list[Use]:
     """Uses by a scene's own settings."""
     found: list[Use] = []
-    if settings.terrain.stand == "tiles":
-        found.append(("analyse", 'terrain.stand = "tiles"'))
-    if settings.tiles.trees != "theirs":
-        found.append(("flatten", f'tiles.trees = "{settings.tiles.trees}" (write "theirs")'))
+    if settings.terrain.height_source == "tiles":
+        found.append(("analyse", 'terrain.height_source = "tiles"'))
+    if settings.tiles.vegetation != "tileset":
+        found.append(("flatten", f'tiles.vegetation = "{settings.tiles.vegetation}" (write "tileset")'))
     if settings.labels.enabled:
         found.append(("other_geocoder", "labels.enabled = true"))
     return found
