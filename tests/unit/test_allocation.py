@@ -44,7 +44,7 @@ START = datetime(2014, 9, 17, 4, 45, tzinfo=UTC)
 
 
 def made(seed, n, k, t, **request):
-    """A problem of random numbers; some resources are alike, and some costs are the same."""
+    """A problem of random numbers; some resources are identical, and some costs are equal."""
     rng = np.random.default_rng(seed)
     like = np.sort(rng.integers(0, max(n - n // 3, 1), n))
     perimeter = 100.0 + np.abs(np.cumsum(rng.uniform(-500, 900, (k, t)), axis=1))
@@ -144,7 +144,7 @@ def test_of_the_same_resources_the_lowest_ids_go():
 @given(st.integers(0, 10**6), st.sampled_from([0.0, 1e-3, 0.3]), st.sampled_from([{}, {"engine": 2}]))
 @settings(deadline=None, max_examples=40)
 def test_ties_are_decided_exactly_whatever_the_gap_of_the_solver(seed, gap, response):
-    """Without losses and with free resources: the first hour counts, and no resource is sent in vain."""
+    """Without losses and with free resources: the first hour counts, and every sent resource helps."""
     problem = made(seed, 14, 2, 4, escape=1e5, response=response, limit=120.0)
     free = np.where(np.arange(14) % 3 == 0, 0.0, problem.cost)
     problem = replace(problem, cost=free, loss=np.zeros_like(problem.loss))

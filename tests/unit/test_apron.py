@@ -52,7 +52,7 @@ def test_nothing_of_the_grid_is_changed_and_the_apron_has_the_grids_fuels(fields
 
 
 def test_land_goes_on_across_the_edge_as_it_is_within(fields):
-    """No streak: along the edge and away from it fuels vary alike. No kink: slopes there are as elsewhere."""
+    """No streak: fuels vary equally along the edge and across it. No kink: slopes there are as elsewhere."""
     made = apron.extend(fields, CELL, 60_000.0, 1)
     margin = made.margin
     for turn in range(4):

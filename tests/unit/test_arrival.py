@@ -126,7 +126,7 @@ def test_the_front_goes_on_evenly_until_the_last_moment(make_run, speed):
 
 
 def test_light_fuel_burns_beside_heavy_fuel(make_run):
-    """Where the fire has stopped a cell of light fuel gives little heat, and burned all the same."""
+    """At the rim of the fire a cell of light fuel releases little heat, but it burned."""
     load = np.repeat(np.where(np.arange(CELLS) // 2 % 2, 4.0, 0.5), CELLS).reshape(CELLS, CELLS)
     x = np.arange(CELLS)
     lit = np.where(x < 12, x * STEP * 4, np.inf)

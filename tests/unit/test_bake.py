@@ -27,7 +27,7 @@ def choice(tmp_path, make_run):
 
 def test_baking_needs_no_blender(tmp_path, choice, monkeypatch):
     (tmp_path / "without").mkdir()
-    (tmp_path / "without/bpy.py").write_text("raise ImportError('Blender was asked for')")
+    (tmp_path / "without/bpy.py").write_text("raise ImportError('Blender was imported')")
     monkeypatch.setenv("PYTHONPATH", f"{tmp_path / 'without'}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
     (folder,) = bake.run(choice)
     assert any(folder.glob("**/*.vdb"))

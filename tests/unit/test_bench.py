@@ -18,7 +18,7 @@ from firetwin_core import sensor
 def bench():
     bench = Bench()
     for subject in ("text", "geodesy"):
-        bench.begin(subject, f"What {subject} does, beside a slow one.")
+        bench.begin(subject, f"Speed of {subject}, against a slow tool.")
         for side, seconds in ((144, 1e-3), (720, 2e-2)):
             for tool, slower in (("firetwin", 1), ("slow", 8)):
                 bench.row(
@@ -53,12 +53,12 @@ def test_tables_say_what_is_met_and_what_is_not_with_ranges(report):
     assert "| geodesy | Speed / slow | 8 x (7.5 to 12) | at least 4 x | MET |" in lines
     assert "| geodesy | error | 6 nm | at most 5 nm | MISSED |" in lines
     assert "| geodesy | front error | 24 %, linear blending 47 % | at most linear blending | MET |" in lines
-    assert "- text: What text does, beside a slow one." in lines
+    assert "- text: Speed of text, against a slow tool." in lines
     assert any("repetitions in one run" in line for line in lines)
     assert any("no_such_package is not installed" in line for line in lines)
     page = table.page(report)
     assert "MISSED" in page
-    assert "text: What text does, beside a slow one." in page
+    assert "text: Speed of text, against a slow tool." in page
 
 
 def test_another_run_adds_to_the_ranges(bench):
@@ -85,7 +85,7 @@ def test_json_is_complete(report):
 
 
 def test_tools_take_turns():
-    """What disturbs the machine for a while meets all of them, and the first call of each does not count."""
+    """A disturbance of the machine affects all tools, and the first call of each does not count."""
     calls = []
 
     def slow(name):

@@ -71,7 +71,7 @@ def test_a_category_outweighs_the_load(make_run):
     number[0], number[1] = np.nan, 98.0
     folder = make_run(canopy_fuel=filled(0.0), surface_fuel=filled(1.5), fuel_category=number)
     land = biomes.land(runs.open(folder))
-    assert (land.grass, land.shrub) == pytest.approx((6 / 7, 1 / 7))  # water is no land
+    assert (land.grass, land.shrub) == pytest.approx((6 / 7, 1 / 7))  # water is not land
 
 
 def test_the_sample_fires_september_is_dry_and_as_it_was():
@@ -148,7 +148,7 @@ def test_fields_are_between_their_edges():
     off, row, number = field_lines.fields(field_lines.NUMPY, x, y, (230.0, 160.0))
     assert off.min() >= 0.0
     assert off.max() <= 80.0 + 1e-9
-    # Places a metre apart that lie in different fields are near an edge of theirs.
+    # Places a metre apart in different fields are near the edge between them.
     _, other_row, other_number = field_lines.fields(field_lines.NUMPY, x + 1.0, y, (230.0, 160.0))
     crossed = (row != other_row) | (number != other_number)
     assert 0.002 < crossed.mean() < 0.05

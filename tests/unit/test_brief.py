@@ -285,7 +285,7 @@ def test_the_curve_has_its_points_where_the_axes_say(folder):
 
 
 def perimeter(path, folder):
-    """Observation: the box of what the run burned by its end."""
+    """Observation: the box of the area burned by the end of the run."""
     run = runs.open(folder)
     row, column = (np.flatnonzero(np.isfinite(run.fuel_arrival_time()).any(axis)) for axis in (1, 0))
     south, north = (float(run.fuel_latitude[i]) for i in row[[0, -1]])

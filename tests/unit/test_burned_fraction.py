@@ -19,7 +19,7 @@ AXES = "fuel_latitude", "fuel_longitude"
 
 
 def shares(seed=3):
-    """Of a fire that grows: burned in the south, in part beside it, not at all in the north."""
+    """Fractions of a fire that grows: 1 in the south, partial next to it, 0 in the north."""
     rng = np.random.default_rng(seed)
     share = np.zeros((NT, FY, FX), np.float32)
     for k in range(NT):

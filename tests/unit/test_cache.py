@@ -19,7 +19,7 @@ def no_answers(tmp_path, monkeypatch):
 
 @pytest.fixture
 def kept(tmp_path):
-    """A cache with volumes of 1, 2 and 3 MB used 1, 2 and 3 hours ago, and things that are not ours."""
+    """A cache with volumes of 1, 2 and 3 MB used 1, 2 and 3 hours ago, and foreign files."""
     place = tmp_path / "cache"
     for size in (1, 2, 3):
         folder = place / f"{size:016x}"

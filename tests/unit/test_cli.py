@@ -177,7 +177,7 @@ def test_pictures_do_not_go_into_a_run(make_run, tmp_path, capfd):
 
 
 def test_an_imager_says_what_is_in_its_way(make_run, tmp_path, capfd):
-    """A domain smaller than a pixel is no fault of the satellite's longitude."""
+    """A domain smaller than a pixel is not blamed on the satellite's longitude."""
     folder, out = make_run(), tmp_path / "seen"
     assert cli.main(["imager", str(folder), "--out", str(out)]) == 1
     assert f"{folder}: the domain of the run holds no whole pixel" in (said := capfd.readouterr().err)
@@ -244,7 +244,7 @@ def test_new_films_the_moments_that_are_asked_for(make_run, tmp_path):
 
 
 def test_a_run_folder_stands_for_a_scene_file_that_fits_it(make_run, tmp_path):
-    """What `new` would write is written into the cache, and used."""
+    """The scene file of `new` is written into the cache, and used."""
     folder = make_run()
     result = firetwin("track", folder, "--camera", "chase", "--out", "way.gpx", cwd=tmp_path)
     assert result.returncode == 0, result.stderr
@@ -357,7 +357,7 @@ def test_a_blend_file_must_be_named_so_and_its_folder_be_there(scene, tmp_path):
 
 
 def test_a_reader_that_has_gone_is_no_traceback():
-    """As in `firetwin schema | head -1`."""
+    """Close the pipe early, as `firetwin schema | head -1` does."""
     command = [sys.executable, "-m", "firetwin", "schema"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         process.stdout.close()

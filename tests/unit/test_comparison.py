@@ -40,7 +40,7 @@ def arrival(shape, cells, first=0.0, step=10.0):
 
 @pytest.fixture
 def scene(tmp_path):
-    """Two runs that are alike on the ground, of other grids and starts: the second burns two columns less."""
+    """Two runs of equal fires, on other grids and with other starts: the second burns two columns less."""
     toml = RUN_TOML.replace("[units]", '[units]\nfuel_arrival_time = "s"')
     fields = small_fields()
     write_run(tmp_path / "a", toml, **fields, fuel_arrival_time=arrival((8, 10), FIRST))

@@ -30,7 +30,7 @@ def surfaces(shown, distance, **changes):
 
 
 def even_smoke(seen, extinction=1e-3, shine=2.0):
-    """What a march through even smoke gives at distances."""
+    """Result of a march through uniform smoke at distances."""
     through = np.exp(-extinction * np.minimum(seen, 1e5))[..., None].astype(np.float32)
     return np.concatenate([np.repeat(shine * (1.0 - through), 3, axis=-1), through], axis=-1)
 
@@ -118,7 +118,7 @@ def test_flames_are_as_bright_as_the_denoiser_left_them():
 
 
 def test_grain_of_flames_leaves_none_behind_smoke():
-    """Few rays meet flames: what a denoiser has made even stays so, though their light is known in grains."""
+    """Few rays hit flames: a denoised picture stays smooth, though their light is sampled."""
     random = np.random.default_rng(2)
     grains = (random.uniform(size=(60, 80, 1)) < 0.5) * np.full(3, 20.0, np.float32)
     spread = np.full((60, 80, 3), 11.0, np.float32)

@@ -27,7 +27,7 @@ def in_process(paths, out, **options):
 @pytest.mark.parametrize("kind", damage.KINDS)
 @pytest.mark.skipif(sys.platform != "linux", reason="forks")
 def test_damaged_files_are_a_run_or_one_line(tmp_path, kind):
-    """A signal (a crash inside of HDF5) is no failure here: that process is not the user's, see below."""
+    """A signal (a crash inside HDF5) does not fail the test: that is not the user's process, see below."""
     ends = list(damage.tried(kind, tmp_path, count=24, seed=5))
     assert len(ends) == 24
     assert not [end for end in ends if end.wrong]
@@ -38,7 +38,7 @@ def test_damaged_files_are_a_run_or_one_line(tmp_path, kind):
 @pytest.mark.parametrize("records", [0, 1, 3])
 @pytest.mark.parametrize("types", [("f4", "i2", "S1", "f8"), ("i2",)])
 def test_a_classic_file_that_is_cut_off_is_no_file(tmp_path, kind, records, types):
-    """netCDF itself gives zeros for what is not there."""
+    """netCDF reads missing data as zeros."""
     path = tmp_path / "a.nc"
     with made.netCDF4.Dataset(path, "w", format=kind) as file:
         file.title, file.numbers = "a b c", np.arange(3, dtype=np.int16)
@@ -195,7 +195,7 @@ def test_a_stopped_conversion_goes_on_and_is_no_run_before(tmp_path, monkeypatch
         runs.open(write.part_of(out))
     asked.clear()
     convert.in_process(*words, progress=stop_at(-1))
-    assert asked[0] == 4  # what was done is not done again
+    assert asked[0] == 4  # finished work is not repeated
     assert not write.part_of(out).exists()
     for name in ("heat_flux", "wind_east", "fuel_arrival_time", "elevation"):
         assert (out / f"{name}.npy").read_bytes() == (tmp_path / "whole" / f"{name}.npy").read_bytes()
@@ -280,7 +280,7 @@ def test_a_task_without_blender(monkeypatch):
 
 
 def test_what_is_no_models_output_is_told_apart(tmp_path):
-    """One line each, by what is wrong; a damaged file of a model is not said to be of another kind."""
+    """One line each, with the fault; a damaged file of a model is not reported as another kind."""
     arrival = np.hypot(*np.mgrid[-8:9, -8:9])
     (tmp_path / "empty").mkdir()
     (cut,) = made.wrf(tmp_path, times=(60,))[0]

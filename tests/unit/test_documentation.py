@@ -69,7 +69,7 @@ def defaults(arguments):
 
 @pytest.mark.parametrize(("module", "path", "node"), list(functions()))
 def test_what_is_bound_takes_what_the_stub_says(module, path, node):
-    """pybind11 tells the signature that it goes by when it is called with what it does not take."""
+    """pybind11 reports its signature if a call has unknown arguments."""
     thing = importlib.import_module(module)
     for name in path:
         thing = getattr(thing, name)
@@ -126,7 +126,7 @@ def test_what_is_made_for_the_build(tmp_path):
 
 
 def known_differences():
-    """What pybind11 does otherwise: its own metaclass, and an __init__ even where nobody may make one."""
+    """Differences of pybind11: its metaclass, and an __init__ even in classes without a constructor."""
     for module, path, node in names():
         if isinstance(node, ast.ClassDef):
             name = ".".join((module, *path))

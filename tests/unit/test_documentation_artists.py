@@ -9,7 +9,7 @@ PAGE = ROOT / "docs/artists.md"
 
 
 def followed():
-    """What the test in the window presses and types, in its order."""
+    """Find the buttons and texts of the test in the window, in order."""
     calls = [
         node
         for node in ast.walk(ast.parse((ROOT / "tests/system/window/page.py").read_text("utf-8")))

@@ -27,14 +27,14 @@ NO_NAMES = (
     ),
     *("boxes", "headway", "made", "needed", "classic", "standing", "fate", "openings", "aims", "named"),
 )
-"""Words that say too little of what a module is, such as `claims` of leases."""
+"""Words that say too little about a module, such as `claims` for leases."""
 RIDDLES = (
     *("what is far", "can tell", "is told", "are told", "thing", "somebody", "no camera sees", "who wants"),
     *("where it is", "where it ends", "how far", "how long", "how strong", "how much", "how many"),
     *("moment", "edge of the world", "the world", "as it stands", "goes on", "take away", "beside the first"),
     *("made up", "made-up", "nowhere", "for ever", "whatever", "wherever", "rivals", "know no", "knows no"),
 )
-"""Phrases that stand for a word of the field or for a plain sentence: "what is far" for attenuation."""
+"""Phrases that replace a term of the field or a plain sentence."""
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row[0].strip("| "))
@@ -66,7 +66,7 @@ def helps_of_settings():
 
 
 def help_of_command(line, capsys):
-    """What a command line prints with --help."""
+    """Return the output of a command line with --help."""
     with pytest.raises(SystemExit):
         cli.main([*line, "--help"])
     return capsys.readouterr().out

@@ -128,7 +128,7 @@ def test_near_cameras_the_ground_is_as_fine_as_the_model(make, tiff, axes):
 
 
 def test_no_ground_of_the_model_is_under_the_floor(make, tiff, axes):
-    """What hides in `sights` is the floor: it must not hide what is above the true ground."""
+    """The occluder in `sights` is the floor: it must not occlude points above the true ground."""
     tiff(lambda *place: plane(*place) + 8.0 * (waves(*place) - plane(*place)), step=4.0)
     ground = make(near=4000.0).shot().ground
     floor = ground.floor()

@@ -42,7 +42,7 @@ def test_the_number_of_a_fuel_model_says_more_than_loads():
 
 @pytest.mark.parametrize(("load", "kind"), [(0.3, GRASS), (1.5, SHRUB)])
 def test_smoke_is_emission_factor_times_fuel_burned(make_run, load, kind):
-    """Of open fuels both phases have one factor: the run's whole heat says how much there is."""
+    """Open fuels have one factor for both phases: the total heat of the run determines the mass."""
     fire = fire_of(make_run, load)
     burned = (
         sum(fire.sources(time).power.sum() for time in np.arange(1.0, 300.0)) / constants.HEAT_OF_COMBUSTION

@@ -41,7 +41,7 @@ def test_a_long_message_keeps_its_beginning_and_its_end():
 
 
 class Terminal:
-    """What a terminal is told."""
+    """Texts for a terminal."""
 
     def __init__(self):
         self.text = ""

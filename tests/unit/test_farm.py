@@ -232,7 +232,7 @@ def film(tmp_path):
 
 
 def render(out, made_with, number, frames, ended: int | None = 0, content_of=b"picture %d"):
-    """What a task leaves behind that has rendered frames."""
+    """Files of a task that has rendered frames."""
     key = content.fingerprint(made_with["drone", "rgb"])
     with entries.attempt(out, number) as log:
         for frame in frames:

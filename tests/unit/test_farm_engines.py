@@ -28,7 +28,7 @@ log.write_text("\\n".join([*calls, json.dumps(sys.argv)]) + "\\n")
 
 @pytest.fixture
 def asked(tmp_path, monkeypatch):
-    """Commands that record how they are called: asked(what they say, names...) -> a function that tells."""
+    """Commands that record their calls: asked(outputs, names...) -> a function that returns the calls."""
 
     def make(says, *names):
         place, log = tmp_path / "bin", tmp_path / "calls.txt"

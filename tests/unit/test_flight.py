@@ -177,7 +177,7 @@ def test_a_lens_and_its_chip_give_the_view(run):
 
 
 def test_ridges_before_a_long_film_are_those_before_each_of_its_frames(run):
-    """5,000 frames along 20 km, 100 m over the ground: 600 are looked at; those between miss little."""
+    """5,000 frames along 20 km, 100 m over the ground: 600 are checked; the frames between differ little."""
     keys = (CameraKey(0.0, 38.85, -120.65, 100.0, "ahead"), CameraKey(1.0, 38.97, -120.48, 100.0, "ahead"))
     shot, flown_way = flown(run, 5000, keys=keys)
     target = shot.ground.point([38.90], [-120.60], 200.0) + np.zeros((5000, 1))

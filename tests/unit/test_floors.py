@@ -34,10 +34,10 @@ NEVER_BPY = (
     *(f"firetwin.scene.fire.{name}" for name in ("firebrands", "flames", "lamps")),
     *(f"firetwin.scene.forest.{name}" for name in ("fire_effects", "stand", "understorey", "visibility")),
 )
-"""Packages and modules that load without Blender; those of `run` to `smoke` never ask for it at all."""
+"""Packages and modules that load without Blender; `run` to `smoke` never import it at all."""
 
 WITH_BPY = {"firetwin.jobs.worker_scene", "firetwin.data.spread", "firetwin.data.simulate"}
-"""In those packages: what runs in the worker process alone, and what needs packages to make the sample."""
+"""Exceptions: modules of the worker process, and modules that need packages to make the sample."""
 
 
 def modules() -> dict[str, Path]:

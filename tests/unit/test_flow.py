@@ -48,12 +48,12 @@ def plume(solver, power=5e9, at=None):
 
 
 def volumes(solver):
-    """Of cells over even ground, m3 (level, 1, 1)."""
+    """Volumes of cells over level ground, m3 (level, 1, 1)."""
     return (np.diff(solver.levels) * solver.spacing**2)[:, None, None]
 
 
 def same(a, b):
-    """Whether two states are the same to the bit."""
+    """Return True if two states are identical bit by bit."""
     return a.keys() == b.keys() and all(np.array_equal(a[key], b[key]) for key in a)
 
 

@@ -206,7 +206,7 @@ def test_calm_old_smoke_makes_no_cloud():
 
 
 def test_thin_rising_smoke_is_not_torn_to_pieces():
-    """A layer that is as dense everywhere stays whole."""
+    """A layer of uniform density has no holes."""
     z = np.arange(N)[:, None, None] - 5.0
     layer = 1e-9 * np.exp(np.broadcast_to(6.6 - z**2, (N, N, N)))
     density = painted(smoke=layer, rise=np.full((N, N, N), 5.0))[0]

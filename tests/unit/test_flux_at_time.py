@@ -223,7 +223,7 @@ def test_what_burns_is_what_is_not_0(front_run):
 
 
 def test_frames_asked_for_in_order_are_read_once(make_run):
-    """What is gone from the disk cannot be read again, and need not be."""
+    """Deleted frames cannot be read again, and need not be."""
     run = runs.open(make_run("text"))
     shared = Interpolator(run)
     first = [shared.at(t) for t in (0.0, 20.0, 60.0, 80.0)]

@@ -18,7 +18,7 @@ from lying_server import Reply, serving
 
 @pytest.fixture
 def make(tmp_path):
-    """make(answers, row="{y}"): a tile server of ours that answers so."""
+    """make(answers, row="{y}"): a tile server with these answers."""
     with serving() as server:
         sources = []
 
@@ -59,7 +59,7 @@ PLACES = {
 @pytest.mark.parametrize("place", PLACES.values(), ids=PLACES)
 def test_a_place_has_the_colour_of_its_tile(make, tmp_path, level, place, rows):
     mercantile = pytest.importorskip("mercantile", reason="needs mercantile")
-    if abs(place[1]) == 180.0:  # a third of a tile beside it
+    if abs(place[1]) == 180.0:  # a third of a tile next to it
         place = place[0], place[1] * (1.0 - 2.0 / 3.0 / 2**level)
     wanted = mercantile.tile(place[1], place[0], level)
     past = place[1] < 0.0 and wanted.x == 0  # a run across the line goes on in the east

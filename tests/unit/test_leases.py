@@ -32,7 +32,7 @@ def opened(folder):
 
 @pytest.fixture
 def holder(tmp_path):
-    """A process that works alone, and what it holds."""
+    """A process that works alone, with its lease."""
     with subprocess.Popen([sys.executable, "-c", HOLD, tmp_path / "lock"], stdout=subprocess.PIPE) as process:
         assert process.stdout.readline() == b"True\n"
         yield process, tmp_path / "lock"
@@ -184,7 +184,7 @@ class Sharing(RuleBasedStateMachine):
 
     @rule(owner=owners)
     def live_on(self, owner):
-        """Who gave a sign of life since the last look is not buried."""
+        """An owner with a heartbeat since the last check does not expire."""
         beat = leases._beats(self.data).get(owner)
         self.claims[owner]._send_heartbeat()
         leases.leave(self.data, owner, beat)

@@ -36,7 +36,7 @@ print(there - before, memory.peak() - there)
 
 
 def _numbers(code):
-    """What a process of its own prints."""
+    """Return the output of a separate process."""
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     return map(int, result.stdout.split())
 

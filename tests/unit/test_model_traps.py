@@ -7,7 +7,7 @@ CFBM: 32-bit longitudes, 0.65 m coarse                  here: test_coarse_longit
 CFBM: turned grid, wind along its axes                  test_models::test_cfbm_turned_wind
 CFBM: last rows and columns are real                    test_models::test_cfbm
 CFBM: flux is a mean of the last step                   here: test_of_what_fluxes_are_means
-CFBM: fluxes of 1e-38 W/m2 are no fire                  here: test_a_trace_of_heat_is_no_fire
+CFBM: fluxes of 1e-38 W/m2 are not fire                 here: test_a_trace_of_heat_is_no_fire
 CFBM: flux of the first file was never set              test_models::test_cfbm
 CFBM: level function level before ignition, no arrival  test_models::test_cfbm
 CFBM: fuel 14 is none, as a decimal number              here: test_fuel_14_is_none
@@ -99,7 +99,7 @@ def test_degrees_on_a_sphere_stay_as_they_are(tmp_path, converted, model):
 
 
 def test_what_burned_before_the_first_time(tmp_path, converted):
-    """FIRE_AREA is above 0 there, and no flux is: burned by then, and without heat of its own."""
+    """FIRE_AREA is above 0 there, and the flux is 0: burned by then, without heat."""
     paths, truth = made.wrf(tmp_path, times=(60, 120), without=("TIGN_G", "LFN"))
     with made.netCDF4.Dataset(paths[0], "a") as file:
         file["FGRNHFX"][0] = 0.0
@@ -120,7 +120,7 @@ TABLE = """Index;Rhod;Rhol;Md;Ml;sd;sl;e;Sigmad;Sigmal
 
 
 def test_a_landscape_larger_than_the_map(tmp_path, converted):
-    """Each of its variables has dimensions of its own; the map is its upper right quarter."""
+    """Each of its variables has separate dimensions; the map is its upper right quarter."""
     arrival = np.hypot(*np.mgrid[-10:10, -10:10]) * 20.0
     made.forefire(tmp_path / "ForeFire.0.nc", arrival, lx=1000.0, ly=1000.0, west=1000.0, south=1000.0)
     fuel, altitude = np.ones((1, 1, 4, 4), np.int16), np.zeros((1, 1, 8, 8), np.int16)
@@ -191,7 +191,7 @@ def test_the_ground_burns_where_the_model_says(tmp_path, converted):
 
 
 def test_bil(tmp_path, converted):
-    """As ELMFIRE writes before it converts: a .hdr beside it, rows from the north."""
+    """Write a raster as ELMFIRE does before conversion: with a .hdr, rows from the north."""
     rasterio = pytest.importorskip("rasterio")
     arrival = np.arange(12, dtype=np.float32).reshape(3, 4) * 60
     arrival[2, 3] = -9999

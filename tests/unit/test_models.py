@@ -110,7 +110,7 @@ def test_wrf_sfire_without_heights_of_the_fire_grid(tmp_path, converted):
 
 
 def disc(x, y):
-    """A fire of 1 m/s from a place that is no cell's middle."""
+    """A fire of 1 m/s from a point that is not the centre of a cell."""
     return np.hypot(x - 5_720.0, y - 4_390.0)
 
 
@@ -161,7 +161,7 @@ def test_wrf_sfire_in_metres(tmp_path, converted):
 
 
 def test_wrf_sfire_turned(tmp_path, converted):
-    """Of a turned grid each value is the nearest cell's, the wind is turned, and the error is said."""
+    """On a rotated grid each value is the nearest cell's, the wind is rotated, and the error is printed."""
     paths, truth = made.wrf(tmp_path, turn=20.0)
     run = converted(paths)
     assert "turned or curved" in said(run)
@@ -259,7 +259,7 @@ def test_forefire(tmp_path, converted):
     burned = (arrival > -9999).sum() * 600.0
     assert released.energy(run) == pytest.approx(
         burned * constants.HEAT_OF_COMBUSTION, rel=3e-3
-    )  # 1 kg/m2, as is said
+    )  # 1 kg/m2, as printed
     assert "1 kg/m2" in said(run)
 
 
@@ -283,7 +283,7 @@ def test_forefire_fronts_place_and_date_it(tmp_path, converted):
 
 
 def test_forefire_itself(tmp_path):
-    """The model runs, and what it wrote comes back: area, place and time."""
+    """The model runs, and its output is converted: area, position and time."""
     pytest.importorskip("pyforefire", reason="pip install forefire")
     import subprocess
     import sys
@@ -439,7 +439,7 @@ def two_fires(folder, *, speed=True, fuel=True):
 @pytest.mark.parametrize("speed", [True, False])
 @pytest.mark.parametrize("fuel", [True, False])
 def test_no_cell_releases_more_than_its_fuel(tmp_path, converted, speed, fuel):
-    """Nor does all of it release less; the rasters lie beside files that are named without them."""
+    """Nor is less released in total; the rasters are next to files that are named without them."""
     paths, load = two_fires(tmp_path / "elmfire", speed=speed, fuel=fuel)
     run = converted(paths, start="2020-07-01T20:00:00Z")
     burned = np.isfinite(run.fuel_arrival_time())
@@ -464,7 +464,7 @@ def test_fuels_that_lie_elsewhere_are_not_used(tmp_path, converted):
 
 
 def test_rasters_of_no_projection_lie_where_their_fuels_say(tmp_path, converted):
-    """As ELMFIRE's own, before they are converted: the fuels beside them have one."""
+    """Rasters of ELMFIRE without a projection, before conversion: the fuels next to them have one."""
     arrival, number = plane()
     values = np.where(np.isnan(arrival), -9999, arrival).astype(np.float32)
     bare = made.tiff(tmp_path / "time_of_arrival_0000001_0001200.tif", values, projection=None)
@@ -569,7 +569,7 @@ def test_any_netcdf_by_a_mapping(tmp_path, converted):
 
 
 def test_many_netcdf_files_are_each_read_for_what_is_theirs(tmp_path, converted):
-    """More than are open at once: what is said of the first is not read from another in its place."""
+    """More files than are open at once: facts about the first are not read from another."""
     paths = [made.cf(tmp_path / f"{k:02}.nc", name="heat_flux", times=(60 * k,))[0] for k in range(12)]
     for k, path in enumerate(paths):
         with made.netCDF4.Dataset(path, "a") as f:
@@ -582,7 +582,7 @@ def test_many_netcdf_files_are_each_read_for_what_is_theirs(tmp_path, converted)
 
 
 def test_chunks_of_several_times_are_unpacked_once(tmp_path):
-    """As libraries choose them where time does not grow."""
+    """Chunks as libraries choose them if time is not unlimited."""
     from firetwin.run.models import netcdf
 
     with made.netCDF4.Dataset(tmp_path / "a.nc", "w") as f:

@@ -248,7 +248,7 @@ def test_the_index_lists_frames_that_have_picture_and_sidecar(shot, tmp_path):
     assert (tmp_path / "drone" / frame["passes"]["masks"][0]).exists()
     (tmp_path / passes.file_of("drone", "pose", 1, "json")).unlink()
     with Store(tmp_path) as store:
-        dataset.write(store)  # what people removed is no reason to fail
+        dataset.write(store)  # a removed pass does not fail
 
 
 @pytest.fixture
@@ -376,7 +376,7 @@ def test_the_map_shows_front_and_scar_whatever_its_ground(make_run, tmp_path, mi
     canvas.draw()
     shown = np.asarray(canvas.buffer_rgba())[..., :3] / 255.0
 
-    def at(column):  # of the fuel grid, beside the camera and its way
+    def at(column):  # of the fuel grid, next to the camera and its path
         place = made.local_frame.forward(
             made.run.fuel_latitude[1:2],
             np.interp([column], range(columns), made.run.fuel_longitude),

@@ -175,7 +175,7 @@ BAD = {
     ),
     "bomb.kml": ('<!DOCTYPE a [<!ENTITY b "c">]><kml/>', "entities"),
     "a.kmz": ("not a zip", "no KMZ"),
-    "a.gpkg": ("not a base at all, but long enough to be looked at by SQLite" * 9, "no GeoPackage"),
+    "a.gpkg": ("not a base at all, but long enough for a check by SQLite" * 9, "no GeoPackage"),
     "a.csv": ("lat,lon\n1,2\n", "no column latitude"),
     "b.csv": (FIRMS + "38.9,-120.6,340.1,0.5,0.4,2014-13-17,930,N,VIIRS,n,0\n", "b.csv:6: acq_date"),
     "c.csv": (FIRMS + f"{'9' * 200000},", "is damaged or incomplete: field larger"),
@@ -196,7 +196,7 @@ def test_bad_files_say_what_and_where_in_one_line(tmp_path, name):
 
 @pytest.mark.filterwarnings("ignore")
 def test_damaged_bytes_end_in_a_clear_error(tmp_path):
-    """Of binary formats, each byte in turn or cut: read or refused, never another exception."""
+    """Binary formats with each byte inverted in turn, or cut: read or rejected, never another exception."""
     rng = np.random.default_rng(3)
     for maker, name in ((shapefile, "s.shp"), (geopackage, "g.gpkg"), (kmz, "k.kmz")):
         path = maker(tmp_path / name)

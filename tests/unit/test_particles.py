@@ -80,7 +80,7 @@ def gust(t):
 
 
 def reference_in_gusts(velocity, tau, lift, duration):
-    """Runge-Kutta 4 with steps of 2 ms: its error is far below that of either method compared."""
+    """Runge-Kutta 4 with steps of 2 ms: its error is far below the error of both methods compared."""
 
     def rate(t, v):
         return (gust(t) - v) / tau + np.array([0, 0, lift])

@@ -8,7 +8,7 @@ SHAPE = (60, 80)
 
 
 def picture(found):
-    """The whole picture of what is covered."""
+    """The complete picture of covered pixels."""
     whole = np.zeros(SHAPE)
     window, cover = found
     whole[window] = cover
@@ -36,7 +36,7 @@ def test_what_lies_beyond_the_picture_is_cut_off():
 
 @pytest.mark.parametrize("width", [0.4, 1.0, 3.0, 7.0])
 def test_a_line_covers_as_much_as_it_is_wide(width):
-    """Also where that is less than a pixel."""
+    """Also for less than a pixel."""
     line = np.array([[10.0, 10.3], [40.0, 31.0], [70.0, 40.2]])
     length = np.hypot(*np.diff(line, axis=0).T).sum()
     whole = picture(rasterize.stroked(line, width, SHAPE))

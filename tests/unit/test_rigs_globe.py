@@ -177,7 +177,7 @@ def test_clip_planes_do_not_jump(whole):
 
 
 def test_chunks_of_a_film_fly_the_same_way(whole):
-    """Frames that are built by themselves have the places, views and clip planes of the whole film."""
+    """Frames that are built alone have the positions, views and clip planes of the complete film."""
     shot = shot_of(whole)
     part = shot.for_frames([40, 41, 42])
     for name in ("position", "rotation", "clips"):

@@ -129,7 +129,7 @@ def test_flux_range_of_nothing(make_run):
 
 
 def test_arrival_time(make_run, form):
-    """Of two cells the one begins in the first interval, the other in the second."""
+    """One cell begins in the first interval, the other in the second."""
     run = runs.open(make_run(form))
     found = run.arrival_time()
     assert np.argwhere(np.isfinite(found)).tolist() == [[1, 2], [2, 2]]
@@ -216,7 +216,7 @@ def test_units_in_their_usual_spellings(make_run):
 
 
 def test_the_air_may_have_a_grid_of_its_own(make_run, form):
-    """What is bilinear there is exact on the model grid; beyond its outermost places it goes on even."""
+    """A bilinear field is exact on the model grid; beyond its outermost points it is constant."""
     latitude, longitude = np.array([38.902, 38.907]), np.array([-120.598, -120.592, -120.586])
     y, x = np.meshgrid(latitude, longitude, indexing="ij")
     values = np.stack([k + 1e3 * (y - 38.9) + 2e3 * (x + 120.6) for k in range(3)]).astype(np.float32)

@@ -1,6 +1,6 @@
 """Hostile and odd inputs: each has one defined outcome, and none ends the process.
 
-What single readers refuse is in test_text, test_npy, test_manifest and test_run_errors; here are whole runs.
+Rejections of single readers are in test_text, test_npy, test_manifest and test_run_errors.
 """
 
 import os
@@ -53,7 +53,7 @@ def test_junk_in_place_of_a_file(make_run, file, name):
     if "/" not in file:
         assert refusal(folder).path.endswith(file)
         return
-    run = runs.open(folder)  # frames stay on disk until they are asked for
+    run = runs.open(folder)  # frames stay on disk until they are needed
     with pytest.raises(core.InputError, match=r"000000\.txt"):
         run.heat_flux(0)
 

@@ -24,7 +24,7 @@ def folder(tmp_path_factory):
     return out
 
 
-# What is stored
+# The store
 
 
 def test_as_many_trees_and_grass_clumps_as_published(store):
@@ -174,7 +174,7 @@ def test_heat_released_is_burned_fuel_times_heat_of_combustion(store):
         burned += np.sum(parts.heat / JOULES_PER_KG * (left[0] - left[1])) / 200
     assert total == pytest.approx(burned * JOULES_PER_KG, rel=0.01)
 
-    # Where all of the fire falls into the run, all fuel is consumed.
+    # If the fire is completely within the run, all fuel is consumed.
     inside = (store.arrival > 0) & (store.arrival < stored.MINUTES * 60 - 6 * 3600)
     whole = grid.block_mean((inside | ~np.isfinite(store.arrival)).astype(float)) == 1
     fuel = grid.block_mean(release.consumed_fuel(store)) * 370.0**2

@@ -89,7 +89,7 @@ def test_folders_may_be_absolute_or_at_home(load, monkeypatch, tmp_path):
     assert load('run = "~nobody-is-called-so/run"').run == tmp_path / "~nobody-is-called-so" / "run"
 
 
-# What is replaced by what, the line and column of the complaint, and words it must hold.
+# Text, replacement, line and column of the error, and words in it.
 MISTAKES = [
     ("kind =", "kidn =", 20, 1, ['unknown key "kidn"', 'did you mean "kind"?']),
     ("[render]", "[rendr]", 8, 2, ['unknown key "rendr"', '"render"']),
@@ -175,7 +175,7 @@ def test_what_is_found_later_has_a_place_too(load):
     error = scene_text.error_at(loaded.path, ("cameras", 0, "keys", 1, "latitude"), "is far away")
     assert str(error) == f"{loaded.path}:16:20: is far away"
     error = scene_text.error_at(loaded.path, ("cameras", 1, "keys", 0, "latitude"), "is far away")
-    assert str(error) == f"{loaded.path}:18:3: is far away"  # what is not written stands where its table does
+    assert str(error) == f"{loaded.path}:18:3: is far away"  # a key that is not written is at its table
 
 
 def test_a_missing_file_and_one_that_is_not_text(tmp_path):
@@ -273,7 +273,7 @@ def test_times_are_written_in_the_zone_of_the_films(moment, zone, written):
 
 
 def test_every_number_has_bounds():
-    """What has none may be anything, and no code expects that."""
+    """A value without bounds may be anything, and no code expects that."""
     for section, part in schema.walk(Settings):
         inner = {part.type, *typing.get_args(part.type)}
         if inner & {int, float} and part.name != "photo_extent":
@@ -329,7 +329,7 @@ def moved(table, folder, *names):
     }
 
 
-# What reading stands on.
+# Parts of reading.
 
 
 def test_places_of_keys_in_every_kind_of_toml():

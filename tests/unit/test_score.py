@@ -116,7 +116,7 @@ def test_squares_with_known_distances():
 
 
 def _mean_distance(side, shift):
-    """Mean distance of the rim of a square from that of one `shift` beyond, by points in small steps."""
+    """Mean distance of the rim of a square from the rim of a square `shift` beyond, in small steps."""
     at = np.linspace(0, side, 4001)
     west = np.full_like(at, shift)  # straight to the other's west side
     east = np.minimum(shift, np.minimum(at, side - at))  # inside of the other
@@ -307,7 +307,7 @@ def test_without_shapely_the_command_says_what_to_install(monkeypatch):
 
 
 class _Page(HTMLParser):
-    """Tags that open and close, pictures, and whatever is asked for from elsewhere."""
+    """Tags that open and close, pictures, and requests to elsewhere."""
 
     def __init__(self, text):
         super().__init__()
@@ -370,7 +370,7 @@ def _nearest_of(pixel):
 
 
 def test_the_king_fires_own_score_says_what_it_cannot_show(make_run):
-    """The small run depicts the King Fire and is synthetic: reported areas, no overlap, and both are said."""
+    """The small run depicts the King Fire and is synthetic: reported areas, no overlap, and notes on both."""
     found = scores.score(readers.open(make_run()), observations.Observations())
     assert [row["time"] for row in found["reported"]][1] == "2014-09-17T04:45:00Z"
     text = page.page(found)

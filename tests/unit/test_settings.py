@@ -58,7 +58,7 @@ def test_every_default_is_right():
     assert Camera().kind == "drone"
 
 
-# Where, what is put there, where the complaint is and words that it must hold.
+# Path, value, path of the error, and words in it.
 WRONG = [
     (("time", "frames"), 0, ["time.frames", "from 1 to 100,000, not 0"]),
     (("terrain", "error"), 0.0, ["terrain.error", "from 0.001 to 1,000, not 0"]),
@@ -86,7 +86,7 @@ WRONG = [
 @pytest.mark.parametrize(("path", "value", "words"), WRONG)
 def test_settings_made_by_hand_are_checked_like_a_file(path, value, words):
     where, reason = schema.validate(with_(SETTINGS, path, value))
-    assert where == tuple(name for name in path if name != "rig")  # a rig's keys lie flat
+    assert where == tuple(name for name in path if name != "rig")  # keys of a rig are in the camera's table
     assert all(word in reason for word in words), reason
 
 
@@ -158,7 +158,7 @@ def test_the_pass_thermal_depends_on_smoke_and_its_own_settings():
     assert schema.select(changed, depth) == schema.select(SETTINGS, depth)
 
 
-# What editors are given.
+# Files for editors.
 
 VALIDATOR = jsonschema.Draft202012Validator(json_schema(Settings))
 

@@ -52,7 +52,7 @@ def test_a_file_holds_the_airborne_mass(tmp_path_factory, time, voxel, seed):
     path = tmp_path_factory.mktemp("mass") / "smoke.vdb"
     puffs = smoke(time, cells=burn(30, seed), smallest=150.0, max_age=4000.0)
     frame = volume.write_smoke(path, puffs, voxel)
-    if frame.active_voxels == 0:  # everywhere thinner than what is shown, dilution 0.002
+    if frame.active_voxels == 0:  # everywhere below the visible dilution of 0.002
         assert puffs.mass.sum() < 100.0
     else:
         assert frame.mass == pytest.approx(puffs.mass.sum(), rel=1e-6)
@@ -78,7 +78,7 @@ def test_small_puffs_do_not_flicker_as_they_drift(tmp_path, voxel):
 
 @pytest.mark.parametrize(("power", "wind"), [(1.0e10, 5.0), (5.0e10, 8.0), (2.0e9, 3.0)])
 def test_a_steady_plume_in_a_file_is_as_high_as_briggs_says(tmp_path, power, wind):
-    """Mean height within 2 % of the rise or half a voxel; the top within a voxel of that of the puffs."""
+    """Mean height within 2 % of the rise or half a voxel; the top within a voxel of the top of the puffs."""
     voxel, ground, path = 100.0, 500.0, tmp_path / "plume.vdb"
     puffs = volume.puffs(
         7000.0, *steady(power), (wind, 0.0), CELL**2, max_age=6000.0, burn_time=7200.0, turbulence=0.0

@@ -29,7 +29,7 @@ LIGHT = volume.Illumination(
 
 
 def smoke_of(seed, cells, glows):
-    """A few lumps of smoke of any age, some of which rise; and where they are painted."""
+    """A few lumps of smoke of any age, some of which rise, and their painted voxels."""
     rng = np.random.default_rng(seed)
     smoke = np.zeros((N, N, N))
     smoke[tuple(rng.integers(0, N, (3, cells)))] = 10.0 ** rng.uniform(-9.0, -5.0, cells)
@@ -60,7 +60,7 @@ def sparse(detail, shape, end, direction, beyond):
 
 
 def seen(bricks):
-    """What rays find up each column of voxels, and along as many slanted ways."""
+    """Results of rays up each column of voxels, and along as many slanted paths."""
     shape = np.array(bricks.shape)
     i, j = (at.ravel() for at in np.indices(shape[:2]))
     up = np.stack([i, j, np.zeros_like(i)], axis=1) * VOXEL

@@ -41,7 +41,7 @@ SOURCE = Soot
 
 @pytest.fixture
 def soot(tmp_path, monkeypatch):
-    """Add a source by a file of its own, which says this."""
+    """Add a source by a separate file with this content."""
 
     def add(says):
         folder = tmp_path / "more"

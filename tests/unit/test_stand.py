@@ -48,7 +48,7 @@ def test_as_many_trees_as_there_are_stems(fuel, kept):
     field = site(side, side, fuel)
     wanted = kept * forest.stems(fuel) * area(side, side)
     found = len(stand(field, retained=np.full(field[0].shape, kept)))
-    # a hard core scatters less than a Poisson process; 1 % for what the reach and late births leave out
+    # a hard core scatters less than a Poisson process; 1 % for the omissions of reach and late births
     assert found == pytest.approx(wanted, abs=4.0 * np.sqrt(wanted) + 0.01 * wanted)
 
 
@@ -82,7 +82,7 @@ def test_trees_keep_their_distance_and_know_nothing_of_those_far_away(kept):
 def _peak(place, step):
     """Largest structure factor at waves of 6 to 80 m along and across, in a square, without its own shape.
 
-    Waves fit the square, so that it has none of its own; of N trees on a lattice the largest is N.
+    Waves fit the square, so that it has no peak; for N trees on a lattice the largest is N.
     """
     side = np.ptp(place, axis=0)
     number = np.arange(1, int(side.min() / step)) * 1.0
@@ -103,7 +103,7 @@ def test_the_spectrum_has_no_peaks():
     lattice = np.stack(np.meshgrid(np.arange(n), np.arange(n)), -1).reshape(-1, 2).astype(float)
     jittered = lattice + 0.85 * np.random.default_rng(1).random(lattice.shape)
     jittered *= np.ptp(place, axis=0) / n
-    assert _peak(jittered, 4.0) > 50.0  # the measure finds what it looks for
+    assert _peak(jittered, 4.0) > 50.0  # the measure finds the lattice
 
 
 FIELD = site(6, 7)

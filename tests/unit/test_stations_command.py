@@ -151,7 +151,7 @@ def test_what_lies_ahead_of_the_fire_and_when(tmp_path, run, capsys):
     assert "Middle" in middle
     assert "PDT (16 Sep" in middle
     assert "North" in north
-    assert "never; at 0.2 km 16 Sep" in north  # its cell does not burn, the one beside it does
+    assert "never; at 0.2 km 16 Sep" in north  # its cell does not burn, but the next cell does
     printed = firetwin(capsys, *asked, "--clearance", "50m")[1]
     for line in ("1 fire: there before that time", "1 fire: never", "1 fire: outside of the run"):
         assert f"left out: {line}" in printed

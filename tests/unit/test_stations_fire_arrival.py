@@ -11,7 +11,7 @@ from small_run import small_fields
 
 @pytest.fixture
 def burning(make_run):
-    """A run with arrival times of its own: a straight front to the north-east, and a corner that stays."""
+    """A run with arrival times: a straight front to the north-east, and a corner that stays."""
     fields = small_fields()
     y, x = np.meshgrid(fields["fuel_latitude"], fields["fuel_longitude"], indexing="ij")
     arrival = 5.0 + 4000.0 * (y - y.min()) + 2000.0 * (x - x.min())

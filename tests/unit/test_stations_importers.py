@@ -296,7 +296,7 @@ def test_duplicates_are_those_within_150_metres():
 
     assert into(station(1, 0.0), station(2, 149.0)) == {2: 1}
     assert into(station(1, 0.0), station(2, 151.0)) == {}
-    assert into(station(2, 149.0), station(1, 0.0)) == {1: 2}  # the first of the list is kept
+    assert into(station(2, 149.0), station(1, 0.0)) == {1: 2}  # the first of the list stays
     assert into(station(1, 0.0), station(2, 10.0, kind="camp")) == {}
     assert into(station(1, 0.0), station(2, 10.0, origin="exercise")) == {}
     assert into(station(1, 0.0), station(2, 100.0), station(3, 200.0)) == {2: 1}

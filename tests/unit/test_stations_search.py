@@ -17,7 +17,7 @@ from random_stations import CENTRE, NOON, random_stations
 
 
 def one_by_one(station_file, query):
-    """Each resource by itself, in plain Python: those that pass, with minutes, cost and tonnes."""
+    """Check each resource in plain Python: results with minutes, cost and tonnes."""
     found = []
     for each in station_file.resources:
         kind, number = each.type.split("/")

@@ -246,7 +246,7 @@ def test_a_picture_depends_on_the_settings_that_it_shows():
     assert changes(smoke=sections.SmokeSettings(max_age=9.0)) == lit | {"masks"}
     assert changes(render=s.Render(thermal_high=900.0)) == {"thermal", "overlay", "fused"}
     assert changes(render=s.Render(passes=("rgb",), video=False, device="cpu")) == {"pose"}
-    # What is built, and how finely, depends on what is filmed of it.
+    # Built objects and their detail depend on the filmed frames.
     assert changes(cameras=(replace(CAMERAS[0], frames="1"), CAMERAS[1])) == everything
     assert changes(cameras=(CAMERAS[0], replace(CAMERAS[1], frames="1"))) == set()
     assert key(SETTINGS, "rgb", "1") != key(SETTINGS, "rgb")
@@ -256,7 +256,7 @@ def test_a_picture_depends_on_the_settings_that_it_shows():
     ("listed", "chunk", "same"), [("", 0, True), ("", 9, True), ("", 2, False), ("1-2", 2, True)]
 )
 def test_a_longer_chunk_spoils_nothing_that_is_built_at_once(listed, chunk, same):
-    """What is built together decides the picture, not how much more might be."""
+    """The frames of a chunk determine the picture, not the number of other frames."""
 
     def key(chunk):
         changed = replace(

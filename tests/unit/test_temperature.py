@@ -53,7 +53,7 @@ def test_the_suns_height_alone_changes_it_and_smoothly(run):
         for time in minutes
     ]
     assert below[0] == 0.0
-    assert np.all(np.diff(below) > -1e-2)  # the air cools too, and with it what the sky takes
+    assert np.all(np.diff(below) > -1e-2)  # the air cools too, and with it the radiation to the sky
     assert np.abs(np.diff(below)).max() < 0.2
     assert below[-1] > 3.0
 

@@ -29,7 +29,7 @@ class Model:
 
 
 def on_tiles(run, model, middle):
-    """The run's ground with tiles on its middle, `OFF` above what is there and with detail of their own."""
+    """The run's ground with tiles on its middle, `OFF` above it and with additional detail."""
     beside = Terrain(SETTINGS, run, np.full((8, 10), np.nan), Elevation(run, model)).seen_from(
         [[*middle, 100.0]]
     )

@@ -54,7 +54,7 @@ def test_another_axis_may_point_up(axis, expected):
     "wrap", [made.b3dm, lambda g: made.b3dm_legacy(g, 20), lambda g: made.b3dm_legacy(g, 24)]
 )
 def test_every_b3dm_header(wrap):
-    """The glb within is cut to its own length: what follows may be anything."""
+    """The glb within is cut to its length: any bytes may follow."""
     content = wrap(made.square().glb() + b"\xff" * 12)
     np.testing.assert_allclose(places(decode(content)), SQUARE, atol=1e-7)
     assert tiles.content_type(content, "x") == "b3dm"

@@ -1,7 +1,7 @@
 """Faults of tiles, line by line, from a server to the selection: fetch, decode, select.
 
-The lines are those of the table in docs/tiles.md. In each case the job goes on with what there is, says what
-is missing, and fails where it is to be strict; or it stops with the service's own words.
+The lines are in the table of docs/tiles.md. In each case the job continues with the available tiles, reports
+missing tiles, and fails if it is strict; or it stops with the service's message.
 """
 
 import errno
@@ -112,7 +112,7 @@ class Chain:
         return self.shot._with_settings(replace(self.shot.settings, tiles=known, cache=self.folder / "cache"))
 
     def make(self, **access):
-        """The cut, and what is said of it."""
+        """The cut and its messages."""
         shot = self.shot_of()
         told = selection.make(shot, access=TileAccess(**access))
         return tile_cut.of_shot(shot), "\n".join(told)
@@ -167,7 +167,7 @@ def chain(ground, server, tmp_path, monkeypatch, clock):
 
 
 def missing(chain, leaf, why, whole):
-    """An ancestor stands in for a leaf and its neighbours; it is said, and fails where it is to be strict."""
+    """An ancestor replaces a leaf and its neighbours; the job reports it, and fails if it is strict."""
     cut, told = chain.make()
     (reason,) = cut.missing
     assert reason.startswith(f"{chain.server.url}{leaf}: ")
@@ -192,7 +192,7 @@ def test_a_file_that_is_not_there(chain, status):
 
 
 def test_a_file_beside_a_tile_that_is_not_there(chain):
-    """A glTF names a buffer of its own."""
+    """A glTF names an external buffer."""
     leaf, whole = chain.leaf()
     content = {"asset": {"version": "2.0"}, "buffers": [{"uri": "gone.bin", "byteLength": 12}]}
     chain.server.answers[leaf] = Reply(200, json.dumps(content).encode(), FRESH)
@@ -319,11 +319,11 @@ def test_what_ends_early_is_asked_for_once_more(chain, fault):
     missing(chain, leaf, "ends early", whole)
     asked = chain.server.asked.count(leaf)
     chain.make()
-    assert chain.server.asked.count(leaf) == asked + 2  # nothing of it was kept
+    assert chain.server.asked.count(leaf) == asked + 2  # it was not cached
 
 
 def swapped(monkeypatch, leaf, file):
-    """Let decoders, in processes of their own, read another file in place of a tile's."""
+    """Let decoders, in separate processes, read another file in place of a tile's."""
     monkeypatch.setattr(decode, "run", IN_PROCESSES)
     before = source.TileSource._content
 
@@ -465,7 +465,7 @@ def test_a_damaged_cache_is_as_none(chain, place):
     assert harmed
     for path in harmed:
         path.write_bytes(b"damaged" * 9)
-    if place == "content":  # what was decoded of it is gone too
+    if place == "content":  # its decoded file is gone too
         for name in whole.tiles:
             (own / name).unlink()
     cut, _ = chain.make(strict=True)
@@ -475,7 +475,7 @@ def test_a_damaged_cache_is_as_none(chain, place):
 
 
 def test_without_permission_the_cache_is_used_and_the_setting_is_named(chain):
-    """What is fresh in the cache needs no server; what is not there is missing."""
+    """Fresh answers in the cache need no server; others are missing."""
     offline = {"online": False, "setting": PREFERENCE}
     with pytest.raises(InputError, match="System > Network > Allow Online Access"):
         chain.make(**offline)
@@ -488,13 +488,13 @@ def test_without_permission_the_cache_is_used_and_the_setting_is_named(chain):
     cache.put(f"{chain.server.url}{leaf}", b"", {"Cache-Control": "no-store"}, time.time())
     cache.close()
     cut, told = chain.make(**offline)
-    assert leaf in "".join(cut.missing)  # and its ancestors, which were never asked for
+    assert leaf in "".join(cut.missing)  # and its ancestors, which were never requested
     assert "is not in the cache, and the network may not be used: allow it by Edit > Preferences" in told
     assert chain.server.asked == []
 
 
 def test_a_film_is_continued_with_its_tiles_while_the_server_has_others(chain):
-    """Only a choice that is whole stays; what was missing is asked for again."""
+    """Only a complete selection stays; missing tiles are requested again."""
     leaf, whole = chain.leaf()
     shot = chain.shot_of()
     chain.make()

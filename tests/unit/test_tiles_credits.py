@@ -57,7 +57,7 @@ def test_a_panorama_has_a_block_below_the_horizon_of_each_eye():
     st.integers(36, 1200),
 )
 def test_no_credit_is_left_out(data, logo, width, height):
-    """Whatever is to be said: every letter of it is there, in lines that fit; or it is refused."""
+    """Credits of any text: every letter is drawn, in lines that fit, or the text is rejected."""
     words = Credits(tuple(data), tuple(logo))
     try:
         found = credits.blocks(words, width, height)

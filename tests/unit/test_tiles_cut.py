@@ -13,7 +13,7 @@ from tilesets import GLB, Memory, box, load, subtree, tile, tileset
 
 
 def random_tileset(rng, files, depth=0, place=(0.0, 0.0, 0.0), half=40.0):
-    """A tile and what is below it; some of it goes into files of its own."""
+    """A tile and its descendants; some of them go into separate files."""
     name = f"{len(files)}.glb"
     made = tile(half * rng.uniform(0.05, 0.3), None, volume=box(*place, half=half))
     if rng.random() < 0.85:
@@ -55,7 +55,7 @@ def brute(files, views, eyes, target):
         return any(np.linalg.norm(eye - place) <= radius for eye in eyes)
 
     def visit(each, above, inherited, forced):
-        """Contents of a tile that is asked for; None where it is left out."""
+        """Contents of a requested tile; None if it is omitted."""
         error = sees(each)
         if not inside(each) or (error < 0 and not forced):
             return None

@@ -30,7 +30,7 @@ def test_a_tile_comes_back_as_it_was_decoded(tmp_path):
     assert tile.material_index.tolist() == [0, 0]
     before = os.stat(good.out).st_mtime_ns
     assert decode.run([good]) == {}
-    assert os.stat(good.out).st_mtime_ns == before  # what is there is not decoded again
+    assert os.stat(good.out).st_mtime_ns == before  # an existing file is not decoded again
 
 
 def test_a_wrong_tile_is_named_and_the_others_go_on(tmp_path):

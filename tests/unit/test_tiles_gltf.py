@@ -191,7 +191,7 @@ def test_instances_that_stand_upright():
 
 
 def test_files_beside_the_content():
-    """An i3dm's model by uri, whose buffer and picture lie beside it."""
+    """An i3dm's model by uri, whose buffer and picture are in its folder."""
     content = made.square(
         materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
         images=[{"uri": "wood.png"}],

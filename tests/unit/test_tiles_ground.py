@@ -15,7 +15,7 @@ CROWNS = [(x, y, 12.0, 4.0) for x in (30.0, 38.0, 62.0, 90.0) for y in (130.0, 1
 
 
 def boxes():
-    """Which points are roofs, and their level heights above the highest ground below."""
+    """Find points on roofs, and their level heights above the highest ground below."""
     roof, height = np.zeros(X.shape, bool), np.zeros(X.shape)
     for x, y, wide, long, tall in BOXES:
         inside = (np.abs(X - x) <= wide / 2) & (np.abs(Y - y) <= long / 2)

@@ -21,7 +21,7 @@ def at(latitude, longitude, height):
 
 
 def blocked(eye, points):
-    """Whether the ellipsoid, a kilometre smaller, is between an eye and points (n, 3): quadratics."""
+    """Return True if the ellipsoid, a kilometre smaller, is between an eye and points (n, 3): quadratics."""
     axes = AXES - horizon.LOWEST
     start, way = eye / axes, (points - eye) / axes
     a = np.einsum("ni,ni->n", way, way)

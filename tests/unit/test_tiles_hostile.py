@@ -63,7 +63,7 @@ def damaged(value, rng):
 
 
 def refusal(files):
-    """Why a tileset is refused; None where it is read."""
+    """Return the reason why a tileset is rejected; None if it is read."""
     try:
         loader = Loader(Memory(files))
         loader.expand_all()

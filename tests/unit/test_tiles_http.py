@@ -417,7 +417,7 @@ def test_private_networks_are_allowed_if_asked_for_but_never_this_machine():
 
 
 def test_certificates_are_verified(monkeypatch, clock, tmp_path):
-    """A server with a certificate of its own making."""
+    """A server with a self-signed certificate."""
     import ssl
     import subprocess
 
@@ -456,7 +456,7 @@ def test_sizes_and_growth_are_limited(server, opened, clock):
         source.read(f"{server.url}/t/odd")
     server.answers["/t/fine"] = Reply(200, gzip.compress(GLB), {"Content-Encoding": "gzip"})
     assert source.read(f"{server.url}/t/fine") == GLB
-    assert clock.slept == []  # what was left of an answer is not taken for the next one
+    assert clock.slept == []  # the rest of an answer is not read as the next answer
 
 
 def test_no_secret_is_in_logs_messages_keys_and_files(server, opened, tmp_path, caplog):

@@ -106,7 +106,7 @@ def test_regions_are_divided_across_the_date_line():
 
 
 def test_a_volume_of_a_deep_level_is_divided_once():
-    """Its edges are those of the whole divided by a power of two, to the last bit."""
+    """Its edges are the edges of the root divided by a power of two, to the last bit."""
     at = np.array([[29, 123_456_789, 1, 0]])
     made = implicit.divide("box", np.array([0.1, 0, 0, 0.3, 0, 0, 0, 0.7, 0, 0, 0, 1.0]), at, 4)
     assert made[0, 3] == 0.3 / 2**29

@@ -31,7 +31,7 @@ def brute(parent, flags, error, target):
     children = [[c for c in range(len(parent)) if parent[c] == i] for i in range(len(parent))]
 
     def visit(i, forced):
-        """(tiles, failed) of what is asked for; None where it is left out."""
+        """(tiles, failed) of requested tiles; None if a tile is omitted."""
         has = lambda flag: bool(flags[i] & flag)  # noqa: E731
         seen = error[i] >= 0
         if has(S) or not (seen or forced):

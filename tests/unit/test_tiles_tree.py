@@ -263,7 +263,7 @@ def test_many_tiles_are_read_in_linear_time():
 
 
 def inside(volume, places):
-    """How far places (n, 3) lie outside of the first box, m."""
+    """Return the distances of points (n, 3) from the first box, m."""
     along = np.abs((places - volume.centre[0]) @ volume.axis[0].T) - volume.half[0]
     return along.max()
 

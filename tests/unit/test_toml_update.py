@@ -159,7 +159,7 @@ def test_any_scene_file_saved_over_any_other_reads_back(before, after):
     found = toml_update.updated(there, after)
     assert tomllib.loads(scene_file.text(read(found))) == tomllib.loads(scene_file.text(after))
     known, kept = (re.findall(r"(?m)^# (\d+)$", each) for each in (there, found))
-    assert kept[0] == "0"  # its layout was kept
+    assert kept[0] == "0"  # its layout stayed
     assert kept == known or before.cameras or before.runs
     assert toml_update.updated(found, after) == found
 

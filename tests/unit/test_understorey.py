@@ -26,7 +26,7 @@ def camera(name, north=0.0, height=3.0, **more):
 
 @pytest.fixture
 def film(make_run):
-    """A shot of a hillside where fuels are alike everywhere: film(cameras, canopy, surface, budget)."""
+    """A shot of a hillside with uniform fuels: film(cameras, canopy, surface, budget)."""
     folder = []
 
     def shot(*cameras, canopy=1.0, surface=1.0, level=False, **forest):
@@ -47,12 +47,12 @@ def film(make_run):
 
 
 def kinds(things):
-    """Numbers of things of each kind of `understorey.KINDS`."""
+    """Number of objects of each kind of `understorey.KINDS`."""
     return {name: int(np.isin(things.model, kind.models).sum()) for name, kind in understorey.KINDS.items()}
 
 
 def rows(things):
-    """What each is, by its cell and kind."""
+    """Objects by cell and kind."""
     kind = things.model * 10**8
     columns = things.position, things.height, things.width, things.rotation, things.pitch, things.roll
     values = np.column_stack([*columns, things.model, things.burned])
@@ -66,7 +66,7 @@ def test_it_is_the_same_for_every_camera_and_every_time(film):
     assert len(known) > 1000
     assert all(np.array_equal(row, again[key]) for key, row in known.items())
     shared = known.keys() & more.keys()
-    assert len(shared) > 0.9 * len(known)  # but what is in the way of the other
+    assert len(shared) > 0.9 * len(known)  # except objects in the way of the other
     assert all(more[key] == pytest.approx(known[key], abs=0.02) for key in shared)
 
 

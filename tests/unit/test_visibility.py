@@ -60,7 +60,7 @@ def test_frames_that_are_not_filmed_do_not_count(film):
 
 
 def test_satellites_can_be_asked_alone(film):
-    """What they see and what cameras in perspective see is what all see: nobody need be asked twice."""
+    """Their visible spheres and those that perspective cameras see are all visible spheres."""
     shot = film(Camera("a", ORBIT), Camera("above", Satellite(swath=2000.0)))
     places = np.random.default_rng(5).uniform((-3e3, -3e3, 1.1e3), (3e3, 3e3, 1.4e3), (3000, 3))
     near, all_of_them = (shot.visibility.visible_mask(places, 5.0, pixel=pixel) for pixel in (0.0, np.inf))
@@ -152,7 +152,7 @@ def test_ground_that_shades_what_is_seen_counts(bearing):
         )
         assert found[row, column] == (away < 1.0), away
         found[row, column] = False
-        assert found.sum() < 60  # a few blocks round what is seen, for all count as wider than they are
+        assert found.sum() < 60  # a few blocks around visible ones, because all count as wider than they are
 
 
 def test_no_drawn_ground_is_under_its_floor(film):

@@ -16,7 +16,7 @@ ROWS, COLUMNS = 61, 83
 
 @pytest.fixture
 def film(make_run):
-    """Of a camera over rugged land that looks to the north."""
+    """Cells of a camera over rugged land that looks to the north."""
     run = runs.open(make_run())
     place = float(np.mean(run.fuel_latitude)), float(np.mean(run.fuel_longitude))
     key = CameraKey(0.0, *place, 1500.0, "point", place[0] + 0.02, place[1], 0.0)

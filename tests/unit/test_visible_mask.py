@@ -126,7 +126,7 @@ def flight(rng, frames, turns, length, parallel=False):
 
 
 def in_a_frame(place, camera, rotation, half, parallel, max_distance=np.inf):
-    """Which places are in the picture of any frame: each projected into every one."""
+    """Find points in the picture of any frame, each projected into every frame."""
     found = np.zeros(len(place), bool)
     for eye, axes in zip(camera, rotation, strict=True):
         x, y, z = ((place - eye) @ axes).T
@@ -242,7 +242,7 @@ def hills(rng, columns=26, size=1000.0):
 
 
 def ray_is_free(nodes, start, ends):
-    """Whether segments from a place to others (n, 3) meet no triangle of the surface (Moeller, Trumbore)."""
+    """Return True if segments from a point to others (n, 3) hit no triangle (Moeller, Trumbore)."""
     a, b = nodes[:-1, :-1].reshape(-1, 3), nodes[:-1, 1:].reshape(-1, 3)
     c, d = nodes[1:, 1:].reshape(-1, 3), nodes[1:, :-1].reshape(-1, 3)
     corner = np.concatenate([a, a])
@@ -303,7 +303,7 @@ def slope(up):
 
 @pytest.mark.parametrize(("height", "counts"), [(60.0, True), (0.5, False), (-20.0, False)])
 def test_what_shadows_the_view_counts(height, counts):
-    """A ball beside the view, whose shadow falls 3 km further east into it."""
+    """A sphere next to the view, whose shadow falls 3 km further east into it."""
     views = {"camera": [(0, 0, 1000)], "half": np.tan(np.radians((30, 20)))}
     blocked = (-6000.0, 6000.0, 1000.0 + 6000.0 * np.tan(np.radians(max(height, 0.0))))
     assert seen(blocked, 100.0, views={"sun": slope(height)}, shadows=True, **views) == [counts]
@@ -325,9 +325,9 @@ def test_shadows_end_on_the_ground():
 @settings(deadline=None, max_examples=40)
 @given(st.integers(0, 2**32 - 1), st.sampled_from([1, 3, 40]))
 def test_no_shadow_slips_through(seed, frames):
-    """Whatever has a point up the sun's rays from a point in a narrow view counts; not all else does.
+    """Spheres up the sun's rays from a point in a narrow view count; not all others do.
 
-    Of 1500 seeds the worst have 0.37, 0.68 and 0.97 of it counted, for 1, 3 and 40 frames.
+    The worst of 1500 seeds count 0.37, 0.68 and 0.97 of the others, for 1, 3 and 40 frames.
     """
     rng = np.random.default_rng(seed)
     half = np.tan(np.radians([0.75, 0.5]))

@@ -112,7 +112,7 @@ def test_vdb_print_reads_several_fields(tmp_path):
 
 
 def test_what_no_camera_sees_is_left_out(tmp_path):
-    """Blocks that count are there whole, others not at all; mass is told of both."""
+    """Visible blocks are complete, others are absent; the mass includes both."""
     openvdb = bundled_openvdb()
     random = np.random.default_rng(1)
     shape, voxel, origin = (150, 140, 40), 50.0, (-3000.0, -2000.0, 500.0)
@@ -150,7 +150,7 @@ def test_what_is_not_seen_is_not_looked_at_but_for_its_mass(tmp_path):
 
 
 def test_grids_keep_within_the_blocks_of_one(tmp_path):
-    """Of the others all is there where it has a voxel, or one value all over, and nothing elsewhere."""
+    """Other grids are complete in blocks with voxels or with one value, and absent elsewhere."""
     openvdb = bundled_openvdb()
     random, path = np.random.default_rng(2), tmp_path / "within.vdb"
     fields = {name: random.random((28, 20, 16), np.float32) + 0.1 for name in ("after", "smoke", "zero")}

@@ -174,7 +174,7 @@ def test_a_cloud_lies_where_its_cells_are(tmp_path):
         smoke[level, row, column] = 1e-3
         path = tmp_path / "cloud.vdb"
         frame = write(path, smoke, 100.0, grids=["dilution"])
-        # Again under a veil that is just thick enough to be kept, so that all leaves are looked at.
+        # Again under a veil that is just above the threshold, so that all leaves are checked.
         veil = np.where(smoke > 0, smoke, 3e-8).astype(np.float32)
         everywhere = write(tmp_path / "veil.vdb", veil, 100.0, grids=["dilution"])
         assert everywhere.active_voxels > frame.active_voxels > 0

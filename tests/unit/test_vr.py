@@ -77,7 +77,7 @@ def test_its_files_hang_on_the_code_of_the_drone_too(run):
     assert "shot/cameras/rigs/vr.py" not in made["drone"]
 
 
-# What it sees.
+# Its view.
 
 
 def test_it_sees_to_all_sides_and_up_and_down(run):
@@ -161,7 +161,7 @@ def test_pixels_of_two_eyes_are_where_the_picture_has_them():
     assert np.sign(along[1, [1, 6], 0]).tolist() == [-1.0, 1.0]  # left, right
 
 
-# What tells players.
+# Metadata for players.
 
 
 def test_a_still_says_how_it_is_to_be_shown(tmp_path):
