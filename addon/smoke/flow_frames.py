@@ -63,7 +63,7 @@ Eyes = tuple[Array, Array]
 
 
 @dataclass(frozen=True)
-class Beyond:
+class OuterLayer:
     """Outer layer's effect on the next: optical depth towards the sun, and occluding extinction (1/m)."""
 
     depths: Brick | None = None
@@ -71,7 +71,7 @@ class Beyond:
 
 
 @dataclass(frozen=True)
-class _Painted:
+class _PaintedLayer:
     """Painted layer: smoke with its light, blend weight of columns (nx, ny), and the flow's masses (kg)."""
 
     lit: volume.LitSmoke
@@ -152,8 +152,8 @@ class Painter:
         views: lod.ViewSet | None,
         metadata: dict[str, str],
         eyes: Eyes | None = None,
-        beyond: Beyond | None = None,
-    ) -> tuple[volume.VdbSummary, Beyond]:
+        beyond: OuterLayer | None = None,
+    ) -> tuple[volume.VdbSummary, OuterLayer]:
         """Write a frame's volume, culled to visible blocks.
 
         Parameters
@@ -189,16 +189,16 @@ class Painter:
             views=views,
             within="density",
         )
-        return written, Beyond(painted.lit.depths, smoke)
+        return written, OuterLayer(painted.lit.depths, smoke)
 
     def bricks(
         self,
         frame: int,
         lights: tuple[Array, Array] | None,
         views: lod.ViewSet | None,
-        beyond: Beyond | None = None,
+        beyond: OuterLayer | None = None,
         window: Window | None = None,
-    ) -> tuple[volume.Bricks, Beyond]:
+    ) -> tuple[volume.Bricks, OuterLayer]:
         """Paint a frame as bricks for ray marching, without a file.
 
         Parameters
@@ -207,16 +207,16 @@ class Painter:
             Close-up window that is painted again on finer voxels.
         """
         painted = self._paint(frame, lights, views, beyond, window)
-        return painted.lit.bricks(painted.share, self._thin), Beyond(painted.lit.depths)
+        return painted.lit.bricks(painted.share, self._thin), OuterLayer(painted.lit.depths)
 
     def _paint(
         self,
         frame: int,
         lights: tuple[Array, Array] | None,
         views: lod.ViewSet | None,
-        beyond: Beyond | None,
+        beyond: OuterLayer | None,
         window: Window | None = None,
-    ) -> _Painted:
+    ) -> _PaintedLayer:
         snapshot = snapshots.load(self.layer.domain.snapshot_path(frame))
         voxel = self.layer.voxel
         origin, surface, end, share, count = self._brick(snapshot, window)
@@ -226,7 +226,7 @@ class Painter:
         )
         toward = sun.toward_light(self.shot.run, float(self.shot.frames.times[frame - 1]))
         lit = volume.LitSmoke(smoke, toward.tolist(), *LIGHT, beyond.depths if beyond else None)
-        return _Painted(lit, share, origin, snapshot.mass)
+        return _PaintedLayer(lit, share, origin, snapshot.mass)
 
     @functools.cached_property
     def _heights(self) -> Array:

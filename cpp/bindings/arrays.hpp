@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-/// NumPy arrays across the border: checked and converted on the way in, handed over without a copy
-/// on the way out.
+/// NumPy arrays as arguments and results: arguments are checked and converted, results are returned
+/// without a copy.
 namespace firetwin::bindings {
 
 /// C-contiguous array of T.
@@ -26,7 +26,7 @@ inline std::string shape_text(const pybind11::array& array) {
   return pybind11::str(array.attr("shape")).cast<std::string>();
 }
 
-/// Whether every value of an integer array is one of type T.
+/// Returns whether every value of an integer array fits into type T.
 template <class T> bool fits(const pybind11::array& array) {
   namespace py = pybind11;
   const py::module_ numpy = py::module_::import("numpy");
@@ -40,8 +40,8 @@ template <class T> bool fits(const pybind11::array& array) {
          python(array.attr("max")()) <= limits.attr("max");
 }
 
-/// Anything array-like of real numbers -> contiguous T. Text, complex numbers and objects are
-/// refused; where T is an integer, so is what is not one, or lies beyond T.
+/// Converts array-likes of real numbers to contiguous T. Rejects text, complex numbers and objects;
+/// for integer T also fractions and values beyond its range.
 template <class T> Array<T> to_array(const pybind11::handle& object, const std::string& name) {
   namespace py = pybind11;
   const py::array any = py::array::ensure(object);
@@ -51,21 +51,21 @@ template <class T> Array<T> to_array(const pybind11::handle& object, const std::
   }
   const char kind = any.dtype().kind();
   if (kind != 'f' && kind != 'i' && kind != 'u' && kind != 'b') {
-    wrong(name, "must hold real numbers, not " + py::str(any.dtype()).cast<std::string>());
+    wrong(name, "must contain real numbers, not " + py::str(any.dtype()).cast<std::string>());
   }
   if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
-    if (any.size() > 0 && kind == 'f') { // an empty list is an array of floats
-      wrong(name, "must hold integers, not " + py::str(any.dtype()).cast<std::string>());
+    if (any.size() > 0 && kind == 'f') { // an empty list is converted to floats
+      wrong(name, "must contain integers, not " + py::str(any.dtype()).cast<std::string>());
     }
     if (!fits<T>(any)) {
-      wrong(name, "holds an integer too large or too small for " +
+      wrong(name, "contains an integer out of range for " +
                       py::str(py::dtype::of<T>()).cast<std::string>());
     }
   }
   return py::array_t < T, py::array::c_style | py::array::forcecast > (any);
 }
 
-/// The same with a required shape; -1 leaves a length open.
+/// Also requires a shape; -1 accepts any length.
 template <class T>
 Array<T> to_array(const pybind11::handle& object, const std::string& name,
                   const std::vector<pybind11::ssize_t>& shape) {
@@ -87,7 +87,7 @@ template <class T> std::span<const T> view(const Array<T>& array) {
   return {array.data(), static_cast<std::size_t>(array.size())};
 }
 
-/// A new array, and its memory as a span.
+/// Makes a new array.
 template <class T> Array<T> new_array(std::vector<pybind11::ssize_t> shape) {
   return Array<T>(std::move(shape));
 }
@@ -95,13 +95,13 @@ template <class T> std::span<T> writable(Array<T>& array) {
   return {array.mutable_data(), static_cast<std::size_t>(array.size())};
 }
 
-/// NumPy's zeros of float32, which take no memory where nothing is written.
+/// Makes a NumPy array of zeros (float32), which uses no memory until it is written to.
 inline Array<float> zeros(const std::vector<pybind11::ssize_t>& shape) {
   namespace py = pybind11;
   return py::module_::import("numpy").attr("zeros")(shape, "float32").cast<Array<float>>();
 }
 
-/// Hands a vector's memory to NumPy.
+/// Transfers a vector's memory to NumPy.
 template <class T> Array<T> give(std::vector<T>&& values, std::vector<pybind11::ssize_t> shape) {
   auto owner = std::make_unique<std::vector<T>>(std::move(values));
   T* data = owner->data();
@@ -111,7 +111,7 @@ template <class T> Array<T> give(std::vector<T>&& values, std::vector<pybind11::
   return Array<T>(std::move(shape), data, capsule);
 }
 
-/// A read-only view of memory that `owner` keeps alive.
+/// Makes a read-only view of memory that `owner` keeps alive.
 template <class T>
 Array<T> lend(std::span<const T> values, std::vector<pybind11::ssize_t> shape,
               const pybind11::handle& owner) {

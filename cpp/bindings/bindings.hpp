@@ -8,7 +8,7 @@
 
 namespace firetwin::bindings {
 
-/// For people to read: bytes that are not UTF-8, as in some file names, are shown as \xNN.
+/// Decodes text for messages: bytes that are not UTF-8, as in some file names, become \xNN.
 pybind11::str readable(const std::string& bytes);
 
 void init_errors(Module& module);

@@ -6,7 +6,7 @@
 
 namespace firetwin::bindings {
 
-/// A new array of this shape, filled from anything that broadcasts to it.
+/// Makes a new array of this shape from anything that broadcasts to it.
 template <class T>
 Array<T> spread(const pybind11::object& object, const std::string& name,
                 const std::vector<pybind11::ssize_t>& shape) {

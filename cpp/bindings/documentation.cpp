@@ -28,7 +28,8 @@ const char* documentation(const std::string& name) {
   if (is_special(name)) {
     return "";
   }
-  throw std::logic_error(name + " is bound, but not in the stubs, which have its docstring");
+  throw std::logic_error(name +
+                         " is bound but has no stub; add it with its docstring to the stubs");
 }
 
 Module::Module(const pybind11::module_& module) : pybind11::module_(module) {

@@ -7,27 +7,28 @@
 #include <type_traits>
 #include <utility>
 
-/// What `help` says of a name comes from the stubs, where it is written once (documentation.py).
-/// Module and Class bind as pybind11's do and look it up by the name that they bind.
+/// Docstrings at run time: the stubs are their only source (documentation.py). Module and Class
+/// bind like pybind11's, and look up the docstring by the bound name.
 namespace firetwin::bindings {
 
 /// Docstrings by name within the module, such as "flux.Emitters.cell".
 const std::map<std::string, const char*>& documentation_table();
 
-/// The docstring of a name; special methods may have none.
-/// @throws std::logic_error when the stubs do not know it, so that the module cannot be imported.
+/// Returns the docstring of a name; special methods may have none.
+/// @throws std::logic_error if the stubs do not have the name, so that the module cannot be
+/// imported
 const char* documentation(const std::string& name);
 
-/// Arguments and policies of a binding, but no text.
+/// True if the arguments of a binding contain no docstring.
 template <class... Extra>
 constexpr bool without_text = (!std::is_convertible_v<const Extra&, const char*> && ...);
 
-/// A module whose functions and classes take their docstrings from the stubs.
+/// A module whose functions and classes have the stubs' docstrings.
 class Module : public pybind11::module_ {
 public:
-  Module(const pybind11::module_& module); // NOLINT: whoever makes a module makes one of these
+  Module(const pybind11::module_& module); // implicit, for def_submodule
 
-  /// "flux.", or nothing for the module that holds all others.
+  /// Prefix of names, such as "flux."; empty for the top module.
   const std::string& scope() const { return scope_; }
 
   template <class Function, class... Extra>
@@ -41,7 +42,7 @@ private:
   std::string scope_;
 };
 
-/// A class whose members take their docstrings from the stubs.
+/// A class whose members have the stubs' docstrings.
 template <class T, class... Options> class Class : public pybind11::class_<T, Options...> {
   using Base = pybind11::class_<T, Options...>;
 
@@ -57,7 +58,7 @@ public:
     return *this;
   }
 
-  /// A constructor.
+  /// Binds a constructor.
   template <class Init, class... Extra>
     requires(!std::is_convertible_v<Init, const char*>)
   Class& def(Init&& init, const Extra&... extra) {

@@ -129,7 +129,7 @@ py::dict heat(const Solver& solver) {
   return named({{"given", h.given}, {"warmed", h.warmed}, {"held", h.held}});
 }
 
-/// The fields that a state is made of: f(name, field, levels, rows, columns).
+/// Calls f(name, field, levels, rows, columns) for each field of a state.
 template <class Function> void parts(const Solver& solver, flow::State& s, const Function& f) {
   const flow::Lattice& l = solver.lattice();
   f("u", s.wind.u, l.nz, l.ny, l.nx + 1);
@@ -173,7 +173,7 @@ py::dict state(Solver& solver) {
 void restore(Solver& solver, const py::dict& state) {
   const auto get = [&](const char* name) -> py::object {
     if (!state.contains(name)) {
-      throw py::value_error("the state lacks " + std::string(name));
+      throw py::value_error("the state has no field " + std::string(name));
     }
     return state[name];
   };
@@ -245,7 +245,7 @@ void bind_settings(const Module& module) {
       .def_property_readonly("seed", [](const SolverSettings& s) { return s.gusts.seed; });
 }
 
-/// Where the air is solved, and the air before the fire.
+/// Binds the domain and the ambient profile.
 void bind_domain(const Module& module) {
   using namespace py::literals;
   Class<flow::Domain>(module, "Domain")

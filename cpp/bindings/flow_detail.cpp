@@ -87,7 +87,7 @@ std::shared_ptr<SparseSmoke> paint_sparse(const Detail& detail, const std::array
   return std::make_shared<SparseSmoke>(detail.paint(brick, min_extinction));
 }
 
-/// The same, dense.
+/// Paints dense voxels.
 py::tuple paint(const Detail& detail, const std::array<double, 3>& origin, double voxel,
                 const py::object& surface, const py::object& share, Index layers,
                 const py::object& wanted) {

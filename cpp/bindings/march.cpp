@@ -36,7 +36,7 @@ std::shared_ptr<Bricks> make_bricks(const py::object& density, const py::object&
                                   voxel_size, origin);
 }
 
-/// Arrays of rays, and what is given with them.
+/// Converted arrays of rays and layers.
 class RayArrays {
 public:
   RayArrays(const std::vector<std::shared_ptr<Bricks>>& layers, const py::object& origins,
@@ -61,27 +61,27 @@ using LayerList = std::vector<std::shared_ptr<Bricks>>;
 
 Array<float> march(const LayerList& layers, const py::object& origins, const py::object& directions,
                    const py::object& distances, const Illumination& light, double step,
-                   double stop) {
+                   double min_transmittance) {
   const RayArrays given(layers, origins, directions);
   const auto taps = to_array<float>(distances, "distances", {given.size(), -1});
   auto found = new_array<float>({given.size(), taps.shape(1), 4});
   const std::span<float> out = writable(found);
   const py::gil_scoped_release release;
   volume::march(given.layers(), given.rays(), {view(taps), static_cast<std::size_t>(taps.shape(1))},
-                light, {step, stop}, out);
+                light, {step, min_transmittance}, out);
   return found;
 }
 
 Array<float> optical_depth(const LayerList& layers, const py::object& origins,
                            const py::object& directions, const py::object& distances, double step,
-                           double enough) {
+                           double max_depth) {
   const RayArrays given(layers, origins, directions);
   const auto ends = to_array<float>(distances, "distances", {given.size()});
   auto found = new_array<float>({given.size()});
   const std::span<float> out = writable(found);
   const py::gil_scoped_release release;
-  volume::optical_depth(given.layers(), given.rays(), view(ends), step, static_cast<float>(enough),
-                        out);
+  volume::optical_depth(given.layers(), given.rays(), view(ends), step,
+                        static_cast<float>(max_depth), out);
   return found;
 }
 
@@ -133,12 +133,12 @@ void init_march(Module module) {
            "haze"_a, "haze_height"_a);
   const volume::MarchSettings defaults;
   module.def("march", &march, "layers"_a, "origins"_a, "directions"_a, "distances"_a, "light"_a,
-             "step"_a = defaults.step, "stop"_a = defaults.stop);
+             "step"_a = defaults.step, "min_transmittance"_a = defaults.min_transmittance);
   module.def("march_infrared", &march_infrared, "layers"_a, "origins"_a, "directions"_a,
              "distances"_a, py::kw_only(), "kelvin"_a, "elevation"_a, "corner"_a, "spacing"_a,
              "lapse"_a, "radiance"_a, "coldest"_a, "kelvin_step"_a, "absorption"_a, "step"_a = 4.0);
   module.def("optical_depth", &optical_depth, "layers"_a, "origins"_a, "directions"_a,
-             "distances"_a, "step"_a = 2.0, "enough"_a = 20.0);
+             "distances"_a, "step"_a = 2.0, "max_depth"_a = 20.0);
 }
 
 } // namespace firetwin::bindings

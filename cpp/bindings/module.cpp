@@ -15,7 +15,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// Limits the worker threads of every function in this module; 0 means all cores.
+/// Limits the worker threads of every function in this module; 0: all cores.
 void set_threads(int threads) {
   static std::unique_ptr<tbb::global_control> limit;
   if (threads < 0) {
@@ -40,7 +40,8 @@ std::map<std::string, std::string> build_info() {
 PYBIND11_MODULE(firetwin_core, whole) {
   namespace bindings = firetwin::bindings;
   py::options options;
-  options.disable_function_signatures(); // the docstrings begin with them, as Python's own do
+  options.disable_function_signatures(); // the docstrings begin with the signature, in the format
+                                         // of Python's C functions
   bindings::Module module(whole);
   module.attr("__version__") = FIRETWIN_VERSION;
   module.def("set_threads", &set_threads, py::arg("threads"));

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <utility>
 
-/// Bricks across the border.
+/// Voxel grids as arguments.
 namespace firetwin::bindings {
 
 inline volume::VoxelGrid brick(const Array<float>& values, double voxel_size,
@@ -26,7 +26,7 @@ inline pybind11::tuple placed(volume::OwnedVoxelGrid&& brick) {
                               brick.origin);
 }
 
-/// A brick that may be left out, with its array.
+/// An optional voxel grid; owns its array.
 class Beyond {
 public:
   explicit Beyond(const std::optional<Placed>& given) {

@@ -17,19 +17,19 @@ namespace py = pybind11;
 namespace {
 
 using volume::Bricks;
-using volume::Drawn;
 using volume::LitSmoke;
+using volume::VisibleShare;
 
 std::shared_ptr<LitSmoke> make_lit(std::shared_ptr<SparseSmoke> smoke, const Vector& direction,
-                                   double sun_part, double sky_part,
+                                   double sun_factor, double sky_factor,
                                    const std::optional<Placed>& beyond) {
   const Beyond outside(beyond);
   const py::gil_scoped_release release;
   return std::make_shared<LitSmoke>(std::move(smoke), direction, outside.get(),
-                                    std::array{sun_part, sky_part});
+                                    std::array{sun_factor, sky_factor});
 }
 
-/// Depths that `self` keeps alive.
+/// Returns the optical depths as a view that `self` keeps alive.
 py::tuple depths(const py::object& self) {
   const auto& found = self.cast<const LitSmoke&>().depths();
   const auto [nx, ny, nz] = found.shape;
@@ -43,14 +43,14 @@ Array<double> share_of(const LitSmoke& lit, const py::object& share) {
 
 std::shared_ptr<Bricks> make_bricks(const LitSmoke& lit, const py::object& share,
                                     float min_extinction) {
-  const auto part = share_of(lit, share);
+  const auto shares = share_of(lit, share);
   const py::gil_scoped_release release;
-  return std::make_shared<Bricks>(lit, Drawn{view(part), min_extinction});
+  return std::make_shared<Bricks>(lit, VisibleShare{view(shares), min_extinction});
 }
 
-/// All fields of smoke and its light by name, dense.
+/// Returns all fields of smoke and its light by name, as dense arrays.
 py::dict grids(const LitSmoke& lit, const py::object& share, float min_extinction) {
-  const auto part = share_of(lit, share);
+  const auto shares = share_of(lit, share);
   const SparseSmoke& smoke = lit.smoke();
   const auto& shape = smoke.shape();
   py::dict found;
@@ -62,11 +62,11 @@ py::dict grids(const LitSmoke& lit, const py::object& share, float min_extinctio
   const auto density = add("density"), fresh = add("fresh"), sun = add("sun"), sky = add("sky");
   const auto glow = smoke.glows() ? add("glow") : std::span<float>{};
   const py::gil_scoped_release release;
-  const Drawn drawn{view(part), min_extinction};
+  const VisibleShare visible{view(shares), min_extinction};
   smoke.spread(SparseSmoke::density, density,
-               [&](float all, std::size_t column) { return drawn.density(all, column); });
+               [&](float all, std::size_t column) { return visible.density(all, column); });
   smoke.spread(SparseSmoke::fresh, fresh);
-  lit.spread(sun, sky);
+  lit.write_dense(sun, sky);
   if (smoke.glows()) {
     smoke.spread(SparseSmoke::glow, glow);
   }
@@ -74,16 +74,16 @@ py::dict grids(const LitSmoke& lit, const py::object& share, float min_extinctio
 }
 
 py::tuple smoke_light(const py::object& extinction, double voxel_size, const Vector& direction,
-                      double sun_part, double sky_part, const Vector& origin,
+                      double sun_factor, double sky_factor, const Vector& origin,
                       const std::optional<Placed>& beyond) {
   const auto dense = to_array<float>(extinction, "extinction", {-1, -1, -1});
   const std::vector<py::ssize_t> shape{dense.shape(0), dense.shape(1), dense.shape(2)};
   auto smoke = std::make_shared<SparseSmoke>(SparseSmoke::Place{shape[0], shape[1], shape[2]},
                                              voxel_size, origin, false);
   smoke->keep_all(view(dense));
-  const auto found = make_lit(smoke, direction, sun_part, sky_part, beyond);
+  const auto found = make_lit(smoke, direction, sun_factor, sky_factor, beyond);
   auto sun = zeros(shape), sky = zeros(shape);
-  found->spread(writable(sun), writable(sky));
+  found->write_dense(writable(sun), writable(sky));
   return py::make_tuple(sun, sky, depths(py::cast(found)));
 }
 
@@ -97,13 +97,13 @@ void init_smoke(Module module) {
       .def_property_readonly("shape", &SparseSmoke::shape)
       .def_property_readonly("used", &SparseSmoke::used);
   Class<LitSmoke, std::shared_ptr<LitSmoke>>(module, "LitSmoke")
-      .def(py::init(&make_lit), "smoke"_a, "direction"_a, "sun_part"_a, "sky_part"_a,
+      .def(py::init(&make_lit), "smoke"_a, "direction"_a, "sun_factor"_a, "sky_factor"_a,
            "beyond"_a = py::none())
       .def_property_readonly("depths", &depths)
       .def("bricks", &make_bricks, "share"_a, "min_extinction"_a)
       .def("grids", &grids, "share"_a, "min_extinction"_a);
   module.def("smoke_light", &smoke_light, "extinction"_a, "voxel_size"_a, "direction"_a,
-             "sun_part"_a, "sky_part"_a, "origin"_a = Vector{}, "beyond"_a = py::none());
+             "sun_factor"_a, "sky_factor"_a, "origin"_a = Vector{}, "beyond"_a = py::none());
 }
 
 } // namespace firetwin::bindings

@@ -27,7 +27,7 @@ using volume::PuffSettings;
 using volume::VdbSummary;
 using Path = std::filesystem::path;
 
-constexpr py::ssize_t longest_side = 1 << 30; // voxels, far from the largest 32-bit integer
+constexpr py::ssize_t longest_side = 1 << 30; // voxels, far below overflow of 32-bit integers
 
 Puffs puffs(double time, const py::object& arrival_object, const py::object& fuel_object,
             const py::object& position_object, const py::object& wind_object, double cell_area,
@@ -42,14 +42,14 @@ Puffs puffs(double time, const py::object& arrival_object, const py::object& fue
   return volume::puffs(time, burn, settings);
 }
 
-/// What both kinds of smoke take besides the smoke; keeps the arrays of the flames.
+/// Arguments that puffs and model smoke share; owns the arrays of the flames.
 class GridRequestArrays {
 public:
   GridRequestArrays(const py::object& flame_position, const py::object& flame_power,
                     const std::optional<std::vector<std::string>>& grids, const ViewSet* view_set,
                     const std::optional<io::Metadata>& metadata) {
     if (flame_position.is_none() != flame_power.is_none()) {
-      wrong("flame_position", "and flame_power must be given together");
+      wrong("flame_position", "and flame_power must both be set, or neither");
     }
     if (!flame_power.is_none()) {
       power_ = to_array<double>(flame_power, "flame_power", {-1});
@@ -82,7 +82,7 @@ VdbSummary write_smoke(const Path& path, const Puffs& smoke, double voxel_size,
   return volume::write_smoke(path, smoke, voxel_size, arrays.wanted);
 }
 
-/// Smoke on levels, with its arrays.
+/// Smoke on levels; owns its arrays.
 struct LevelArrays {
   Array<double> latitude;
   Array<double> longitude;
@@ -106,7 +106,7 @@ struct LevelArrays {
     check_finite(view(latitude), "latitude");
     check_finite(view(longitude), "longitude");
     if (shape[0] < 2 || shape[1] < 2 || shape[2] < 2) {
-      wrong("height", "must have two or more levels, latitudes and longitudes");
+      wrong("height", "must have at least two levels, latitudes and longitudes");
     }
   }
 
@@ -144,7 +144,7 @@ VdbSummary write(const Path& path, const std::map<std::string, py::object>& grid
   for (const auto& [name, object] : grids) {
     const auto array = to_array<float>(object, name, {-1, -1, -1});
     if (array.size() == 0) {
-      wrong(name, "must hold a number or more");
+      wrong(name, "must not be empty");
     }
     if (*std::max_element(array.shape(), array.shape() + 3) > longest_side) {
       wrong(name, "must be at most " + std::to_string(longest_side) + " voxels long");

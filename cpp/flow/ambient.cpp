@@ -23,14 +23,14 @@ void check_profile(const Profile& p) {
   const std::size_t n = p.height.size();
   if (n == 0 || p.potential_temperature.size() != n || p.wind.size() != n ||
       (!p.water.empty() && p.water.size() != n)) {
-    throw std::invalid_argument("the profile's arrays must have one length of 1 or more");
+    throw std::invalid_argument("the arrays of the profile must have the same length, at least 1");
   }
   check_finite(p.height, "height");
   check_finite(p.potential_temperature, "potential_temperature");
   check_above_zero(p.pressure, "pressure");
   for (std::size_t i = 0; i < n; ++i) {
     if (i > 0 && !(p.height[i] > p.height[i - 1])) {
-      throw std::invalid_argument("height must rise");
+      throw std::invalid_argument("height must be strictly increasing");
     }
     if (!(p.potential_temperature[i] > 100.0 && p.potential_temperature[i] < 1000.0)) {
       throw std::invalid_argument("potential_temperature must be in kelvin");
@@ -80,7 +80,8 @@ void Terrain::take(const Lattice& lattice, const std::vector<double>& height) {
   flat_ = std::all_of(above_.begin(), above_.end(), [](double h) { return h == 0.0; });
   if (std::any_of(above_.begin(), above_.end(),
                   [&](double h) { return std::abs(h) > 0.5 * top_; })) {
-    throw std::invalid_argument("ground must stay within half the domain's height from its mean");
+    throw std::invalid_argument(
+        "ground must differ from its mean by less than half the height of the domain");
   }
 }
 
@@ -89,13 +90,13 @@ Ambient::Ambient(const Lattice& lattice, const Terrain& ground, const Profile& p
       water_(lattice, moist_ ? lattice.nz : 0), virtual_theta_(lattice, moist_ ? lattice.nz : 0) {
   check_profile(profile);
   reference_ = std::round(interpolated(profile.height, profile.potential_temperature, 0.0));
-  weigh(lattice, profile);
+  set_hydrostatic(lattice, profile);
   set_wind(lattice, profile);
   rest(lattice, ground, profile);
 }
 
-/// Hydrostatic balance: d(Exner function) / dz = -g / (cp theta).
-void Ambient::weigh(const Lattice& lattice, const Profile& p) {
+/// Integrates hydrostatic balance: d(Exner function) / dz = -g / (cp theta).
+void Ambient::set_hydrostatic(const Lattice& lattice, const Profile& p) {
   const auto theta = [&](double z) { return interpolated(p.height, p.potential_temperature, z); };
   double exner = std::pow(p.pressure / constants::reference_pressure,
                           constants::gas_constant / constants::specific_heat);
@@ -105,7 +106,8 @@ void Ambient::weigh(const Lattice& lattice, const Profile& p) {
     exner -= constants::gravity * (z - height) / (constants::specific_heat * mean);
     height = z;
     if (!(exner > 0.05)) {
-      throw std::invalid_argument("levels reach above the air");
+      throw std::invalid_argument(
+          "levels extend above the atmosphere; lower the top of the domain");
     }
     return constants::reference_pressure *
            std::pow(exner, constants::specific_heat / constants::gas_constant);

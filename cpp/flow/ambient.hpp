@@ -19,7 +19,7 @@ struct Profile {
   double pressure = 101325.0;              ///< at height 0, Pa
 };
 
-/// Linear between points, constant outside.
+/// Interpolates linearly between points, constant outside.
 double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at);
 
 /// Terrain-following coordinate (Gal-Chen and Somerville 1975): a point at height z' above ground
@@ -27,12 +27,12 @@ double interpolated(const std::vector<double>& x, const std::vector<double>& y, 
 class Terrain {
 public:
   Terrain(const Lattice& lattice, std::vector<double> height);
-  /// Terrain of a nest: it has the mean and the top of the outer domain.
+  /// Terrain of a nest, with the mean and the top of the outer domain.
   Terrain(const Lattice& lattice, std::vector<double> height, const Terrain& around);
 
   /// Height of the ground above its mean, m.
   double above(Index j, Index i) const { return above_[static_cast<std::size_t>(j * nx_ + i)]; }
-  /// Share of the terrain's shape that levels keep at height z'.
+  /// Share of the terrain's relief that levels at height z' have.
   double share(double height) const { return height < top_ ? 1.0 - height / top_ : 0.0; }
   /// Jacobian: thickness of a layer over its thickness above the mean ground.
   double thickness(Index j, Index i) const { return 1.0 - above(j, i) / top_; }
@@ -49,7 +49,8 @@ private:
   std::vector<double> above_;
 };
 
-/// Ambient (base) state on a lattice: density, Exner function, pressure and the state of rest.
+/// Ambient (base) state on a lattice: density, Exner function, pressure, and temperature and wind
+/// at rest.
 class Ambient {
 public:
   Ambient(const Lattice& lattice, const Terrain& ground, const Profile& profile);
@@ -59,16 +60,17 @@ public:
   double density(Index k) const { return density_[static_cast<std::size_t>(k)]; }
   double exner(Index k) const { return exner_[static_cast<std::size_t>(k)]; }
   double pressure(Index k) const { return pressure_[static_cast<std::size_t>(k)]; }
-  /// Reference potential temperature, K. Fields store the difference from it, for four more digits.
+  /// Reference potential temperature, K. Fields store the difference from it, which gains four
+  /// digits.
   double reference() const { return reference_; }
-  const Field& theta() const { return theta_; } ///< potential temperature less the reference, K
+  const Field& theta() const { return theta_; } ///< potential temperature minus the reference, K
   const Field& water() const { return water_; }
   const Field& virtual_theta() const {
     return virtual_theta_;
   } ///< virtual potential temperature, K
   const std::vector<std::array<float, 2>>& wind() const { return wind_; } ///< [nz]
 
-  /// @return the change of each level's wind, m/s
+  /// Changes the ambient wind. @return the change of each level's wind, m/s
   std::vector<std::array<float, 2>> set_wind(const Lattice& lattice, const Profile& profile);
 
   /// Reference values of level k for `virtual_row`.
@@ -78,7 +80,7 @@ public:
   }
 
 private:
-  void weigh(const Lattice& lattice, const Profile& profile);
+  void set_hydrostatic(const Lattice& lattice, const Profile& profile);
   void rest(const Lattice& lattice, const Terrain& ground, const Profile& profile);
 
   bool moist_;

@@ -11,7 +11,8 @@
 namespace firetwin::flow {
 namespace {
 
-/// (1 - distance / width)^2 for points 0 to count - 1, the first `offset` cells from the side.
+/// Computes (1 - distance / width)^2 for points 0 to count - 1, the first `offset` cells from the
+/// side.
 std::vector<float> weights(Index count, double offset, double width) {
   std::vector<float> result;
   for (Index i = 0; i < count; ++i) {
@@ -26,7 +27,7 @@ double share(double dt, double time) {
   return -std::expm1(-dt / time);
 }
 
-/// target(first, n, row-relative pointer) of every part of a row where the sides reach.
+/// Calls target(first, n, row-relative pointer) for each part of a row within the boundary zone.
 template <class Function>
 void near_sides(const std::vector<float>& x, float y, Index reach, const Function& f) {
   const auto n = static_cast<Index>(x.size());
@@ -42,7 +43,7 @@ void near_sides(const std::vector<float>& x, float y, Index reach, const Functio
   }
 }
 
-/// Ghost points of one row: `n` of its own from `first` on.
+/// Copies ghost points of one row, `n` points from `first`.
 void copy_ends(Index first, Index n, const float* from, float* to) {
   std::copy_n(from + first - halo, halo, to + first - halo);
   std::copy_n(from + first + n, halo, to + first + n);
@@ -53,7 +54,7 @@ void fill_ends(Index first, Index n, float value, float* to) {
   std::fill_n(to + first + n, halo, value);
 }
 
-/// @param row where the field's own rows begin; @param value of the ambient where outside is null
+/// @param row first row of the field itself; @param value ambient value, used if `outside` is null
 void ghosts(Field& field, const Field* outside, const Lattice& l, Index k, Index x, Index y,
             float value) {
   for (Index j = -halo; j < l.ny + halo; ++j) {
@@ -82,10 +83,10 @@ Boundaries::Boundaries(const Lattice& lattice, const Ambient& ambient, const Rel
   check_above_zero(zone.damping_time, "damping_time");
   check_above_zero(zone.drag_time, "drag_time");
   if (!(zone.damping_share >= 0.0 && zone.damping_share < 1.0)) {
-    throw std::invalid_argument("damping_share must be from 0 to below 1");
+    throw std::invalid_argument("damping_share must be at least 0 and less than 1");
   }
   if (2 * reach_ > std::min(lattice.nx, lattice.ny)) {
-    throw std::invalid_argument("sponge_width must be less than half the domain");
+    throw std::invalid_argument("sponge_width must be less than half of the domain");
   }
   x_ = weights(lattice.nx, 0.5, zone.width);
   y_ = weights(lattice.ny, 0.5, zone.width);
@@ -174,7 +175,8 @@ void Boundaries::fill_ghost_cells(State& state, const State* outside) const {
   balance(state.wind);
 }
 
-/// The pressure cannot change what flows through the sides: the same speed is added to all of them.
+/// Adds one speed to the wind through all lateral faces, so that the net outflow is 0, as the
+/// pressure projection requires.
 void Boundaries::balance(Wind& wind) const {
   const Index nx = lattice_.nx, ny = lattice_.ny;
   double out = 0.0, area = 0.0;

@@ -12,37 +12,37 @@ struct State {
       : wind(lattice), theta(lattice, lattice.nz), smoke(lattice, lattice.nz),
         age(lattice, lattice.nz), water(lattice, moist ? lattice.nz : 0) {}
   Wind wind;
-  Field theta; ///< liquid water potential temperature less Ambient::reference(), K; condensation
-               ///< does not change it
+  Field theta; ///< liquid water potential temperature minus Ambient::reference(), K; conserved in
+               ///< condensation
   Field smoke; ///< smoke mixing ratio, kg/kg
   Field age;   ///< smoke mixing ratio times age, kg/kg s
   Field water; ///< total water mixing ratio (vapour and cloud), kg/kg
 };
 
-/// Relaxation of the domain's outer zone to the air around: a lateral sponge layer, Rayleigh
-/// damping below the top, and surface drag.
+/// Relaxation zone: a lateral sponge layer, Rayleigh damping below the top, and surface drag, all
+/// towards the ambient air.
 struct RelaxationZone {
-  double width = 8.0;          ///< lateral sponge layer, cells; its weight falls as a square
+  double width = 8.0;          ///< lateral sponge layer, cells; quadratic weight
   double time = 40.0;          ///< relaxation time at the lateral boundaries, s
   double damping_share = 0.22; ///< share of the domain's height with Rayleigh damping, 0 to 1
   double damping_time = 60.0;  ///< relaxation time at the top, s
   double drag_time = 300.0;    ///< relaxation time of the lowest level's wind, s
 };
 
-/// Lateral and upper boundary conditions. Relaxes the flow to the air around, fills ghost cells and
-/// sets the wind through the lateral faces. Smoke is not relaxed: it leaves with the wind.
+/// Lateral and upper boundary conditions. Relaxes the flow to the ambient air, fills ghost cells
+/// and sets the wind through the lateral faces. Smoke is not relaxed: it leaves with the wind.
 class Boundaries {
 public:
   Boundaries(const Lattice& lattice, const Ambient& ambient, const RelaxationZone& zone);
 
-  /// Sponge layer, Rayleigh damping and surface drag over a step of dt seconds.
-  /// @param outside the outer flow on this lattice, near the boundaries; null: the ambient air
+  /// Applies sponge layer, Rayleigh damping and surface drag over a step of dt seconds.
+  /// @param outside outer flow on this lattice, near the boundaries; null: the ambient air
   void relax(State& state, const State* outside, double dt) const;
 
   /// Fills ghost cells and sets the wind through the lateral faces. Inflow equals outflow.
   void fill_ghost_cells(State& state, const State* outside) const;
 
-  /// Width, in columns, of the boundary zone that `outside` must hold.
+  /// Width, in columns, of the boundary zone that `outside` must cover.
   Index reach() const { return reach_; }
 
 private:

@@ -8,7 +8,7 @@
 namespace firetwin::flow {
 namespace {
 
-/// g (theta - rest) / (rest + reference)
+/// Computes g (theta - rest) / (rest + reference).
 FIRETWIN_CLONES("avx512f", "avx2")
 void weigh_row(Index n, const float* __restrict theta, const float* __restrict rest,
                float reference, float* __restrict force) {
@@ -18,7 +18,7 @@ void weigh_row(Index n, const float* __restrict theta, const float* __restrict r
   }
 }
 
-/// g (virtual theta - rest) / rest
+/// Computes g (virtual theta - rest) / rest.
 FIRETWIN_CLONES("avx512f", "avx2")
 void outweigh_row(Index n, const float* __restrict here, const float* __restrict rest,
                   float* __restrict force) {
@@ -28,7 +28,7 @@ void outweigh_row(Index n, const float* __restrict here, const float* __restrict
   }
 }
 
-/// q += (a + b) x half
+/// Computes q += (a + b) x half.
 FIRETWIN_CLONES("avx512f", "avx2")
 void push_row(Index n, const float* __restrict a, const float* __restrict b, float half,
               float* __restrict q) {
@@ -42,7 +42,7 @@ void push_row(Index n, const float* __restrict a, const float* __restrict b, flo
 Buoyancy::Buoyancy(const Lattice& lattice, const Terrain& ground, const Ambient& ambient)
     : lattice_(lattice), ground_(ground), ambient_(ambient), force_(lattice, lattice.nz) {}
 
-void Buoyancy::weigh(const State& state, Index k) {
+void Buoyancy::compute_force(const State& state, Index k) {
   std::vector<float> here(static_cast<std::size_t>(lattice_.nx)), cloud(here.size());
   for (Index j = 0; j < lattice_.ny; ++j) {
     const float* theta = state.theta.row(k, j);
@@ -83,7 +83,7 @@ void Buoyancy::along_slope(State& state, float dt, Index k) const {
 }
 
 void Buoyancy::push(State& state, double dt) {
-  each(lattice_.nz, [&](Index k) { weigh(state, k); });
+  each(lattice_.nz, [&](Index k) { compute_force(state, k); });
   each(lattice_.nz, [&](Index k) {
     if (k > 0) {
       lift(state, static_cast<float>(dt), k);

@@ -56,9 +56,9 @@ void curve_levels(const std::int32_t* __restrict low, const float* __restrict pa
   }
 }
 
-/// Cells round a place along an axis, and their weights.
-void stand(float at, Index count, std::array<Index, 2>& near, float& part,
-           std::array<Index, 4>& wide, std::array<float, 4>& weight) {
+/// Computes the cells around a position along an axis, and their weights.
+void interpolation_weights(float at, Index count, std::array<Index, 2>& near, float& part,
+                           std::array<Index, 4>& wide, std::array<float, 4>& weight) {
   const auto interval = interval_within(at, count);
   part = interval.part;
   near = {interval.low, interval.high};
@@ -71,14 +71,14 @@ void stand(float at, Index count, std::array<Index, 2>& near, float& part,
 } // namespace
 
 ColumnStencil::ColumnStencil(float at_column, float at_row, const Shape& shape) {
-  stand(at_row, shape.ny, row, part[0], wide_row, row_weight);
-  stand(at_column, shape.nx, column, part[1], wide_column, column_weight);
+  interpolation_weights(at_row, shape.ny, row, part[0], wide_row, row_weight);
+  interpolation_weights(at_column, shape.nx, column, part[1], wide_column, column_weight);
 }
 
 Columns::Columns(const float* values, const Shape& shape, Index step)
     : shape_(shape), values_(shape.size() + lanes) {
   each(shape.ny, [&](Index row) {
-    for (Index from = 0; from < shape.nx; from += lanes) { // so many stay in the cache
+    for (Index from = 0; from < shape.nx; from += lanes) { // small enough for the cache
       const Index to = std::min(from + lanes, shape.nx);
       for (Index k = 0; k < shape.nz; ++k) {
         const float* level = values + (k * shape.ny + row) * shape.nx * step;

@@ -12,7 +12,7 @@
 namespace firetwin::flow {
 namespace {
 
-/// FFTW makes plans one at a time.
+/// FFTW's planner is not thread-safe.
 std::mutex& planner() {
   static std::mutex mutex;
   return mutex;
@@ -26,8 +26,8 @@ struct Destroy {
 };
 using Plan = std::unique_ptr<fftwf_plan_s, Destroy>;
 
-/// In place, of `half` columns whose real and imaginary parts lie `half` apart. Estimated and not
-/// measured, so that a plan, and every digit, is the same each time.
+/// Plans an in-place transform of `half` columns whose real and imaginary parts are `half` apart.
+/// The plan is estimated, not measured, so that it, and every digit of the result, is reproducible.
 Plan plan(Index length, Index half, float* real, float* imaginary) {
   const int n = static_cast<int>(length), count = static_cast<int>(half), row = 2 * count;
   const fftwf_iodim along{n, row, row}, across{count, 1, 1};
@@ -36,8 +36,8 @@ Plan plan(Index length, Index half, float* real, float* imaginary) {
                                         FFTW_ESTIMATE));
 }
 
-/// A row of modes k, and of modes length - k, of two transforms from one: real and imaginary parts
-/// of its own rows.
+/// Splits a row of modes k and of modes length - k of one complex transform into its two real
+/// transforms.
 FIRETWIN_CLONES("avx512f", "avx2")
 void part_rows(Index half, float cosine, float sine, float* __restrict k, float* __restrict m) {
   for (Index i = 0; i < half; ++i) {
@@ -50,7 +50,7 @@ void part_rows(Index half, float cosine, float sine, float* __restrict k, float*
   }
 }
 
-/// The other way round, for a transform back.
+/// Inverse of the split above, for a backward transform.
 FIRETWIN_CLONES("avx512f", "avx2")
 void join_rows(Index half, float cosine, float sine, float* __restrict k, float* __restrict m) {
   for (Index i = 0; i < half; ++i) {
@@ -85,7 +85,7 @@ CosineTransform::CosineTransform(Index length, Index count)
     cos_.push_back(static_cast<float>(std::cos(angle)));
     sin_.push_back(static_cast<float>(std::sin(angle)));
   }
-  Rows rows = room();
+  Rows rows = make_matrix();
   float* data = rows.data();
   plans_ = std::make_unique<Plans>(
       Plans{plan(length, half_, data, data + half_), plan(length, half_, data + half_, data)});
@@ -93,7 +93,7 @@ CosineTransform::CosineTransform(Index length, Index count)
 
 CosineTransform::~CosineTransform() = default;
 
-/// f(k, length - k) for modes that are not alone: neither the first nor one in the middle.
+/// Calls f(k, length - k) for paired modes: all except the first and the middle one.
 template <class Function> void CosineTransform::pairs(const Function& f) const {
   for (Index k = 1; 2 * k < length_; ++k) {
     f(cos_[static_cast<std::size_t>(k)], sin_[static_cast<std::size_t>(k)], k * stride(),
@@ -101,7 +101,7 @@ template <class Function> void CosineTransform::pairs(const Function& f) const {
   }
 }
 
-void CosineTransform::put(const float* from, float* row) const {
+void CosineTransform::copy_row(const float* from, float* row) const {
   std::copy_n(from, count_, row);
   clear_rest(row);
 }

@@ -10,28 +10,28 @@
 namespace firetwin::flow {
 
 /// Discrete cosine transform along the columns of a matrix: DCT-II forward, DCT-III backward. Two
-/// columns are one complex Fourier transform of their length (Makhoul 1980, "A fast cosine
-/// transform in one and two dimensions", IEEE Trans. Acoust. Speech Signal Process. 28). FFTW runs
-/// complex transforms in SIMD lanes, and its own cosine transforms number by number.
+/// columns are combined into one complex Fourier transform of the same length (Makhoul 1980, "A
+/// fast cosine transform in one and two dimensions", IEEE Trans. Acoust. Speech Signal Process.
+/// 28), because FFTW vectorises complex transforms but not cosine transforms.
 class CosineTransform {
 public:
   using Rows = std::vector<float, tbb::cache_aligned_allocator<float>>;
 
-  /// Of `count` columns of `length` numbers.
+  /// Transforms `count` columns of `length` numbers.
   CosineTransform(Index length, Index count);
   ~CosineTransform();
   CosineTransform(const CosineTransform&) = delete;
   CosineTransform& operator=(const CosineTransform&) = delete;
 
   /// Allocates a matrix of `length` rows, `stride()` floats apart.
-  Rows room() const { return Rows(static_cast<std::size_t>(length_ * stride())); }
+  Rows make_matrix() const { return Rows(static_cast<std::size_t>(length_ * stride())); }
   Index stride() const { return 2 * half_; }
 
   /// Offset of row j in the matrix, before `forward` and after `backward`.
-  Index place(Index j) const { return (j % 2 == 0 ? j / 2 : length_ - 1 - j / 2) * stride(); }
+  Index row_offset(Index j) const { return (j % 2 == 0 ? j / 2 : length_ - 1 - j / 2) * stride(); }
 
   /// Copies numbers into a row and fills its padding with zeros.
-  void put(const float* from, float* row) const;
+  void copy_row(const float* from, float* row) const;
   void clear_rest(float* row) const;
 
   /// Forward transform (DCT-II) to modes in order: mode k is 2 sum(x_j cos(pi k (j + 1/2) /
@@ -49,8 +49,8 @@ private:
 
   Index length_;
   Index count_;
-  Index half_;                   ///< columns, whole lanes of them, each joined to one of the others
-  std::vector<float> cos_, sin_; ///< of pi k / (2 length), to the middle
+  Index half_;                   ///< columns, padded to full lanes; each is paired with another one
+  std::vector<float> cos_, sin_; ///< of pi k / (2 length), up to the middle
   std::unique_ptr<Plans> plans_;
 };
 

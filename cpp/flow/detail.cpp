@@ -11,16 +11,15 @@
 namespace firetwin::flow {
 namespace {
 
-constexpr float lively_rise[] = {0.4F, 2.5F};    // m/s
-constexpr float lively_warmth[] = {0.12F, 0.9F}; // K
-constexpr float lively_age = 420.0F;             // s
-constexpr float crisp_reach[] = {0.8F, 7.0F};    // of noise in the amount
-constexpr float whole[] = {5.5F,
-                           8.5F}; // amount near by that noise of least and of full reach tears
+constexpr float vigorous_rise[] = {0.4F, 2.5F};    // m/s
+constexpr float vigorous_warmth[] = {0.12F, 0.9F}; // K
+constexpr float vigorous_age = 420.0F;             // s
+constexpr float crisp_reach[] = {0.8F, 7.0F};      // amplitude of crisp noise
+constexpr float whole[] = {
+    5.5F, 8.5F}; // local maximum of the amount at which noise has its least and its full amplitude
 constexpr float lump_slope = 1.4F;
-constexpr float cloud_depth =
-    500.0F; // m above the condensation height over which smoke turns to cloud
-constexpr float cloud_ages[] = {600.0F, 1600.0F}; // s, between which droplets evaporate
+constexpr float cloud_depth = 500.0F; // m above the condensation height over which vapour condenses
+constexpr float cloud_ages[] = {600.0F, 1600.0F}; // s, ages between which droplets evaporate
 
 float ramp(float low, float high, float x) {
   return std::clamp((x - low) / (high - low), 0.0F, 1.0F);
@@ -35,7 +34,7 @@ void check(const SmokeSnapshot& m) {
                     (m.glow.empty() || m.glow.size() == n) && m.drift.size() == Drift::parts * n;
   if (!fits || n == 0 || m.shape.nz < 2) {
     throw std::invalid_argument(
-        "the snapshot's arrays must be of one shape, with two levels at least");
+        "the arrays of the snapshot must have the same shape, with at least two levels");
   }
 }
 
@@ -51,7 +50,7 @@ Detail::Detail(const SmokeSnapshot& m, const DetailSettings& settings)
                 static_cast<std::uint32_t>(m.turns[p]);
   }
   for (const float level : levels_) {
-    sinking_.push_back(std::exp(-level / (settings.scale * terrain_fade)));
+    terrain_share_.push_back(std::exp(-level / (settings.scale * terrain_fade)));
   }
   Values amount(shape_.size());
   each(shape_.nz, [&](Index k) {
@@ -84,24 +83,24 @@ void Detail::find_drift(const SmokeSnapshot& m) {
   }
 }
 
-/// How much of vapour that rose to a height has condensed, 0 to 1.
-float Detail::capped(float height) const {
+/// Returns the condensed share of vapour that rose to a height, 0 to 1.
+float Detail::condensed_share(float height) const {
   return smoothstep(settings_.condensation_height, settings_.condensation_height + cloud_depth,
                     height);
 }
 
 void Detail::find_vigour(const SmokeSnapshot& m, const Values& amount) {
   Values near = amount, dense = amount;
-  spread(near, shape_, 2);
+  dilate(near, shape_, 2);
   blur(dense, shape_, {0.7, 0.7, 0.7});
-  spread(dense, shape_, 2);
+  dilate(dense, shape_, 2);
   Values vigour(shape_.size());
   const float speed = std::cbrt(settings_.scale), time = speed * speed;
   for (std::size_t n = 0; n < vigour.size(); ++n) {
-    const float cap = capped(m.heights[n]);
-    const float lively = ramp(lively_rise[0], lively_rise[1], m.rise[n] / speed) +
-                         ramp(lively_warmth[0], lively_warmth[1], m.temperature_excess[n]) +
-                         0.8F * ramp(lively_age, 0.0F, m.age[n] / time) +
+    const float cap = condensed_share(m.heights[n]);
+    const float lively = ramp(vigorous_rise[0], vigorous_rise[1], m.rise[n] / speed) +
+                         ramp(vigorous_warmth[0], vigorous_warmth[1], m.temperature_excess[n]) +
+                         0.8F * ramp(vigorous_age, 0.0F, m.age[n] / time) +
                          cap * ramp(cloud_ages[1], cloud_ages[0], m.age[n]);
     const float droplets = cloud_amount * cap;
     vigour[n] = std::max(std::min(lively, 1.0F) * ramp(5.0F, 6.8F, near[n] + droplets),
@@ -109,7 +108,8 @@ void Detail::find_vigour(const SmokeSnapshot& m, const Values& amount) {
   }
   blur(vigour, shape_, {1.0, 1.0, 1.0});
   for (float& value : vigour) {
-    value = smoothstep(0.1F, 0.7F, value); // few places are neither: half a lump is a blur
+    value = smoothstep(0.1F, 0.7F,
+                       value); // few cells remain in between: half billows, half veils look blurred
   }
   vigour_ = Columns(vigour.data(), shape_);
 }
@@ -144,12 +144,12 @@ void Detail::find_reach(const SmokeSnapshot& m, const Values& amount) {
   blur(square, shape_, {2.0, 2.0, 2.0});
   blur(reach, shape_, {2.0, 2.0, 2.0});
   Values densest = amount;
-  spread(densest, shape_, 2);
+  dilate(densest, shape_, 2);
   blur(densest, shape_, {1.0, 1.0, 1.0});
   Values solid(s.size());
   for (std::size_t n = 0; n < reach.size(); ++n) {
     const float steep = square[n] / std::max(reach[n], 1.0e-6F);
-    const float thick = densest[n] + cloud_amount * capped(m.heights[n]);
+    const float thick = densest[n] + cloud_amount * condensed_share(m.heights[n]);
     const float most = lerp(crisp_reach[0], crisp_reach[1], ramp(whole[0], whole[1], thick));
     solid[n] = ramp(core[0], core[1], thick);
     reach[n] =

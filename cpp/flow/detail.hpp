@@ -13,11 +13,12 @@
 
 namespace firetwin::flow {
 
-/// Smoke of a flow at one time, on all cells or on a block of them that reaches down to the ground.
+/// Smoke of a flow at one time, on all cells or on a block of cells that reaches down to the
+/// ground.
 struct SmokeSnapshot {
   Shape shape;
   double spacing;                            ///< m
-  std::array<double, 2> corner;              ///< of the lowest x and y, m
+  std::array<double, 2> corner;              ///< south-west corner, m
   std::span<const double> levels;            ///< [nz] heights of cell centres above ground, m
   std::span<const float> heights;            ///< [nz][ny][nx] elevation of cell centres, m
   std::span<const float> ground;             ///< [ny][nx] m
@@ -25,7 +26,7 @@ struct SmokeSnapshot {
   std::span<const float> age;                ///< s
   std::span<const float> rise;               ///< m/s
   std::span<const float> temperature_excess; ///< K above the ambient air
-  std::span<const float> glow;               ///< light of flames in any unit; empty: none
+  std::span<const float> glow;               ///< light of flames in any unit; empty: no flames
   std::span<const float> drift;              ///< [nz][ny][nx][Drift::parts] m
   std::array<float, Drift::phases> weights{};
   std::array<std::int64_t, Drift::phases> turns{};
@@ -38,8 +39,9 @@ struct DetailSettings {
   std::array<double, 3> blur{}; ///< Gaussian blur of the drift along levels, rows, columns, cells
   double opacity = 1.0;         ///< factor on the extinction
   float max_extinction = 0.03F; ///< extinction at which thick smoke levels off, 1/m
-  std::array<float, 2> ages{20.0F, 600.0F}; ///< ages of dark and of white smoke, s
-  float condensation_height = 1.0e6F;       ///< elevation above which vapour condenses, m
+  std::array<float, 2> ages{20.0F,
+                            600.0F};  ///< ages between which smoke turns from dark to white, s
+  float condensation_height = 1.0e6F; ///< elevation above which vapour condenses, m
   std::uint32_t seed = 0;
 };
 
@@ -49,8 +51,8 @@ struct VoxelRegion {
   double voxel;                   ///< m
   std::array<Index, 3> shape;     ///< along x, y, z
   std::span<const float> surface; ///< [nx][ny] elevation of the true terrain, m
-  std::span<const float> share;   ///< [nx][ny] factor of the extinction, 0 to 1
-  /// Which blocks of `block` voxels along each side are wanted, in the voxels' order; empty: all.
+  std::span<const float> share;   ///< [nx][ny] factor on the extinction, 0 to 1
+  /// Mask of blocks of `block` voxels along each side to compute, in the voxels' order; empty: all.
   std::span<const std::uint8_t> wanted;
 
   static constexpr Index block = 16;
@@ -64,55 +66,55 @@ struct VoxelRegion {
 /// logarithm of the smoke, and a threshold removes thin smoke.
 ///
 /// - Vigorous smoke (rising, warm, fresh or dense) has billows with crisp edges (Worley noise).
-/// Other
-///   smoke has soft veils (Perlin noise).
-/// - Billows have a size in metres: the noise's amplitude follows the gradient of the logarithm, up
-///   to a limit that keeps thin smoke connected.
+///   Other smoke has soft veils (Perlin noise).
+/// - Billows have a size in metres: the amplitude of the noise follows the gradient of the
+///   logarithm, up to a limit that keeps thin smoke connected.
 /// - Extinction is 4 m2/g (fresh biomass smoke, Reid et al. 2005, doi 10.5194/acp-5-799-2005) times
-///   a gain chosen by eye. It is reduced near the ground, so that flames show.
-/// - Above the condensation height vigorous smoke is white and a few times as thick (droplets).
+///   a gain chosen by eye. It is reduced near the ground, so that flames are visible.
+/// - Above the condensation height vigorous smoke is white and several times as thick (droplets).
 ///
 /// Thresholds and gains are chosen by eye, on cells of 200 m. A smaller fire has the same optical
-/// depths: lengths scale with `DetailSettings::scale`, densities with its inverse, times and speeds
-/// as those of eddies, with the powers 2/3 and 1/3.
+/// depths: lengths scale with `DetailSettings::scale`, densities with its inverse, times with its
+/// power 2/3 and speeds with its power 1/3, like turbulent eddies.
 class Detail {
 public:
   Detail(const SmokeSnapshot& snapshot, const DetailSettings& settings);
 
-  /// Smoke of a region of voxels. Smoke with an extinction below `min_extinction` (1/m) is clear.
-  /// The result has a glow if the snapshot has one.
+  /// Computes the smoke of a region of voxels. Smoke with an extinction below `min_extinction`
+  /// (1/m) is set to clear. The result has a glow if the snapshot has one.
   SparseSmoke paint(const VoxelRegion& brick, float min_extinction) const;
   bool glows() const { return !glow_.empty(); }
 
 private:
   class Brush;
-  static constexpr float unit = 1.0e-9F;        // kg/m3, over the scale
-  static constexpr float least = 1.2F;          // amount without any smoke to see
-  static constexpr std::array core{6.3F, 8.0F}; // of a vigorous core at least, thin and thick
-  static constexpr float cloud_amount = 2.5F;   // of droplets in the amount
+  static constexpr float unit = 1.0e-9F;        // kg/m3, divided by the scale
+  static constexpr float visible_amount = 1.2F; // amount at which smoke becomes visible
+  static constexpr std::array core{6.3F, 8.0F}; // least amount in a vigorous core, thin and thick
+  static constexpr float cloud_amount = 2.5F;   // added to the amount by droplets
   static constexpr float terrain_fade =
-      1000.0F; // m, times the scale, over which levels forget finer ground
+      1000.0F; // m, times the scale: e-folding height of terrain detail in the levels
 
   using Values = std::vector<float>; ///< [nz][ny][nx]
   void find_vigour(const SmokeSnapshot& snapshot, const Values& amount);
   void find_reach(const SmokeSnapshot& snapshot, const Values& amount);
   void find_drift(const SmokeSnapshot& snapshot);
-  float capped(float height) const;
+  float condensed_share(float height) const;
   bool shows(std::size_t phase) const { return weights_[phase] > 0.02F; }
 
   Shape shape_;
   double spacing_;
   std::array<double, 2> corner_;
   std::vector<float> levels_;
-  std::vector<float> sinking_; ///< [nz] how much of finer ground than the flow's a level follows
-  Columns heights_;            ///< m
-  Columns ground_;             ///< of one level, m
-  Columns amount_;             ///< ln(smoke / unit), at least 0
-  Columns vigour_;             ///< 0 to 1
-  Columns reach_;              ///< of crisp noise in the amount
-  Columns solid_;              ///< 0 where smoke is thin all round, 1 where it is thick
+  std::vector<float>
+      terrain_share_; ///< [nz] share of the terrain detail finer than cells that a level follows
+  Columns heights_;   ///< m
+  Columns ground_;    ///< m, one level
+  Columns amount_;    ///< ln(smoke / unit), at least 0
+  Columns vigour_;    ///< 0 to 1
+  Columns reach_;     ///< amplitude of crisp noise
+  Columns solid_;     ///< 0 in thin surroundings, 1 in thick smoke
   Columns age_, glow_;
-  std::array<Columns, Drift::parts> drift_; ///< of the phases that show
+  std::array<Columns, Drift::parts> drift_; ///< of the phases with nonzero weight
   std::array<float, Drift::phases> weights_;
   std::array<std::uint32_t, Drift::phases> seeds_{};
   DetailSettings settings_;

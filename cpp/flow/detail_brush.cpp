@@ -11,14 +11,14 @@
 namespace firetwin::flow {
 namespace {
 
-constexpr float per_kg = 4000.0F; // m2/kg
+constexpr float extinction_per_kg = 4000.0F; // m2/kg
 constexpr float soft_cut[] = {2.4F, 6.2F}, crisp_cut[] = {5.2F, 6.2F};
 constexpr float soft_gain = 1.5F, crisp_gain = 3.5F, veil_gain = 1.0F;
-constexpr float soft_reach = 1.5F; // of noise in the amount
-constexpr float most_noise = 1.2F; // that is reckoned with where smoke ends
+constexpr float soft_reach = 1.5F; // amplitude of soft noise
+constexpr float max_noise = 1.2F;  // largest noise assumed when clear voxels are skipped
 constexpr float root = 0.12F;      // share of the extinction at the ground
 constexpr float root_heights[] = {10.0F, 130.0F};
-constexpr double finest = 1.7; // lumps, voxels
+constexpr double finest = 1.7; // wavelength of the finest noise, voxels
 
 } // namespace
 
@@ -42,7 +42,7 @@ Detail::Brush::Brush(const Detail& d, const VoxelRegion& b, DetailOutput& out)
 }
 
 void Detail::Brush::column(Index i, Index j) {
-  if (!stand(i, j) || !find_levels()) {
+  if (!move_to(i, j) || !find_levels()) {
     return;
   }
   find_heights();
@@ -50,12 +50,12 @@ void Detail::Brush::column(Index i, Index j) {
   if (places_.count > 0) {
     paint_surface();
     find_amount();
-    wait();
+    enqueue();
   }
 }
 
-/// False outside of the flow.
-bool Detail::Brush::stand(Index i, Index j) {
+/// Moves to a column; false if it is outside the flow.
+bool Detail::Brush::move_to(Index i, Index j) {
   const Detail& d = detail_;
   x_ = brick_.origin[0] + static_cast<double>(i) * brick_.voxel;
   y_ = brick_.origin[1] + static_cast<double>(j) * brick_.voxel;
@@ -69,14 +69,14 @@ bool Detail::Brush::stand(Index i, Index j) {
          row <= static_cast<double>(d.shape_.ny - 1);
 }
 
-/// LinearInterpolator which levels there is smoke to see; false if there is none.
+/// Finds the levels with visible smoke; false if there are none.
 bool Detail::Brush::find_levels() {
   const Index top = detail_.shape_.nz - 1;
   float* amount = level_.data() + 1;
   detail_.amount_.linear(at_, 0, top, amount);
-  for (last_ = top; last_ >= 0 && amount[last_] < least; --last_) {
+  for (last_ = top; last_ >= 0 && amount[last_] < visible_amount; --last_) {
   }
-  for (first_ = 0; first_ < last_ && amount[first_] < least; ++first_) {
+  for (first_ = 0; first_ < last_ && amount[first_] < visible_amount; ++first_) {
   }
   low_ = std::max(first_ - 2, Index{0});
   high_ = std::min(last_ + 2, top);
@@ -88,11 +88,11 @@ void Detail::Brush::find_heights() {
   const float higher = brick_.surface[column_] - height_[0];
   detail_.heights_.linear(at_, low_, high_, height_.data());
   for (auto k = static_cast<std::size_t>(low_); k <= static_cast<std::size_t>(high_); ++k) {
-    height_[k] += higher * detail_.sinking_[k];
+    height_[k] += higher * detail_.terrain_share_[k];
   }
 }
 
-/// Those that are wanted, over the ground and in smoke.
+/// Finds the voxels of the column that are requested, above ground and in smoke.
 void Detail::Brush::find_voxels(Index i, Index j) {
   const VoxelRegion& b = brick_;
   const auto blocks = b.blocks();
@@ -128,13 +128,14 @@ void Detail::Brush::find_voxels(Index i, Index j) {
   }
 }
 
-/// If it is in smoke: `way` from a level to the next, less than 0 below the lowest.
+/// Adds a voxel if it is in smoke; `way` is its position between two levels, 0 to 1, or negative
+/// below the lowest level.
 void Detail::Brush::add_voxel(Index voxel, float height, std::size_t k, float way) {
   const float* amount = level_.data() + 1;
   const float held = std::max(way, 0.0F), level = static_cast<float>(k) + held;
   const Index low = std::min(static_cast<Index>(level), detail_.shape_.nz - 2);
   const float part = level - static_cast<float>(low);
-  if (lerp(amount[low], amount[low + 1], part) < least) {
+  if (lerp(amount[low], amount[low + 1], part) < visible_amount) {
     return;
   }
   const auto n = static_cast<std::size_t>(places_.count++);
@@ -146,20 +147,20 @@ void Detail::Brush::add_voxel(Index voxel, float height, std::size_t k, float wa
                          : lerp(detail_.levels_[k], detail_.levels_[k + 1], held);
 }
 
-/// Values at the voxels, between levels linear.
-void Detail::Brush::find(const Columns& of, std::vector<float>& values) {
+/// Interpolates values linearly between levels, at the voxels.
+void Detail::Brush::interpolate(const Columns& of, std::vector<float>& values) {
   of.linear(at_, low_, high_, level_.data() + 1);
   linear_between(places_, level_.data() + 1, values.data());
 }
 
-/// What does not depend on noise: how fresh smoke is, and the flames' light on it.
+/// Computes quantities without noise: freshness, and the light of flames.
 void Detail::Brush::paint_surface() {
   const Detail& d = detail_;
   const auto count = static_cast<std::size_t>(places_.count);
-  find(d.vigour_, vigour_);
-  find(d.age_, value_);
+  interpolate(d.vigour_, vigour_);
+  interpolate(d.age_, value_);
   for (std::size_t n = 0; n < count; ++n) {
-    cloud_[n] = vigour_[n] * d.capped(high_up_[n]);
+    cloud_[n] = vigour_[n] * d.condensed_share(high_up_[n]);
     const float fresh =
         (1.0F - cloud_[n]) * smoothstep(d.settings_.ages[1], d.settings_.ages[0], value_[n]);
     if (fresh > 0.0F) {
@@ -167,18 +168,18 @@ void Detail::Brush::paint_surface() {
     }
   }
   if (out_.glows()) {
-    find(d.glow_, value_);
+    interpolate(d.glow_, value_);
     for (std::size_t n = 0; n < count; ++n) {
       out_.set(SparseSmoke::glow, place(n), value_[n]);
     }
   }
 }
 
-/// What noise is added to, and how much of it.
+/// Computes the amount of smoke before noise, and the amplitude of the noise.
 void Detail::Brush::find_amount() {
   const auto count = static_cast<std::size_t>(places_.count);
-  find(detail_.reach_, reach_);
-  find(detail_.solid_, solid_);
+  interpolate(detail_.reach_, reach_);
+  interpolate(detail_.solid_, solid_);
   float* levels = level_.data() + 1;
   detail_.amount_.cubic(at_, low_, high_, levels);
   levels[low_ - 1] = levels[low_];
@@ -190,9 +191,8 @@ void Detail::Brush::find_amount() {
   }
 }
 
-/// Paints voxels that are not clear whatever the noise, as many at once as make a Row; the last
-/// wait for others.
-void Detail::Brush::wait() {
+/// Queues voxels that some noise could make visible, and paints them as soon as they fill a Row.
+void Detail::Brush::enqueue() {
   for (std::size_t p = 0; p < Drift::parts; ++p) {
     if (detail_.shows(p / 3)) {
       detail_.drift_[p].linear(at_, low_, high_, drift_[p].data());
@@ -201,15 +201,15 @@ void Detail::Brush::wait() {
   for (std::size_t n = 0; n < static_cast<std::size_t>(places_.count); ++n) {
     const float thin = vigour_[n] * (1.0F - solid_[n]);
     const float low = lerp(soft_cut[0], crisp_cut[0], vigour_[n]);
-    if (amount_[n] + most_noise * reach_[n] >= low ||
-        (thin >= 0.02F && amount_[n] + most_noise * soft_reach >= soft_cut[0])) {
+    if (amount_[n] + max_noise * reach_[n] >= low ||
+        (thin >= 0.02F && amount_[n] + max_noise * soft_reach >= soft_cut[0])) {
       wait_for(n);
     }
   }
 }
 
 void Detail::Brush::wait_for(std::size_t n) {
-  Waiting& w = waiting_;
+  PendingVoxels& w = pending_;
   const std::size_t lane = w.count++;
   w.place[lane] = place(n);
   w.share[lane] = brick_.share[column_];
@@ -235,7 +235,7 @@ void Detail::Brush::wait_for(std::size_t n) {
 }
 
 void Detail::Brush::finish() {
-  Waiting& w = waiting_;
+  PendingVoxels& w = pending_;
   Row raise{}, noise;
   for (std::size_t p = 0; p < Drift::phases && w.count > 0; ++p) {
     if (detail_.shows(p)) {
@@ -252,24 +252,24 @@ void Detail::Brush::finish() {
 }
 
 float Detail::Brush::extinction(std::size_t n, float raise) const {
-  const float v = waiting_.vigour[n], amount = waiting_.amount[n], solid = waiting_.solid[n];
-  // Exponentials of what counts nothing are left out: a twelfth of the whole time.
+  const float v = pending_.vigour[n], amount = pending_.amount[n], solid = pending_.solid[n];
+  // Exponentials without effect are skipped: they would take a twelfth of the run time.
   const auto dense = [](float low, float high, float raised, float held, float gain) {
     const float left = gain * smoothstep(low, high, raised);
     return left > 0.0F ? std::exp(held) * left : 0.0F;
   };
   const float low = lerp(soft_cut[0], crisp_cut[0], v), high = lerp(soft_cut[1], crisp_cut[1], v);
-  const float raised = amount + waiting_.reach[n] * raise, veiled = amount + soft_reach * raise;
+  const float raised = amount + pending_.reach[n] * raise, veiled = amount + soft_reach * raise;
   const float held = lerp(raised, std::max(amount, lerp(core[0], core[1], solid)), v);
   const float lumps = dense(low, high, raised, held, lerp(soft_gain, crisp_gain, v));
   const float veil =
       dense(soft_cut[0], soft_cut[1], veiled, veiled, veil_gain * v * (1.0F - solid));
   const float rooted = lerp(
       root, 1.0F,
-      smoothstep(root_heights[0], root_heights[1], waiting_.above[n] / detail_.settings_.scale));
+      smoothstep(root_heights[0], root_heights[1], pending_.above[n] / detail_.settings_.scale));
   const DetailSettings& settings = detail_.settings_;
-  const float full =
-      (lumps + veil) * detail_.unit_ * per_kg * static_cast<float>(settings.opacity) * rooted;
+  const float full = (lumps + veil) * detail_.unit_ * extinction_per_kg *
+                     static_cast<float>(settings.opacity) * rooted;
   return full > 0.0F ? settings.max_extinction * (1.0F - std::exp(-full / settings.max_extinction))
                      : 0.0F;
 }
@@ -280,7 +280,8 @@ SparseSmoke Detail::paint(const VoxelRegion& b, float min_extinction) const {
   const auto blocks = static_cast<std::size_t>(nx * ny * nz);
   if (b.surface.size() != columns || b.share.size() != columns ||
       (!b.wanted.empty() && b.wanted.size() != blocks)) {
-    throw std::invalid_argument("surface, share and what is wanted must have the brick's shape");
+    throw std::invalid_argument(
+        "surface, share and wanted must have the shape of the voxel region");
   }
   SparseSmoke smoke({b.shape[0], b.shape[1], b.shape[2]}, b.voxel, b.origin, glows());
   constexpr Index side = SparseSmoke::side;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float roughness = 0.7F;
 constexpr double finer = 0.47;
-constexpr float calm = 0.02F, lively = 0.98F; // vigour without lumps, and without veils
+constexpr float calm = 0.02F, lively = 0.98F; // vigour: only veils below, only billows above
 
 FIRETWIN_CLONES("avx512f", "avx2")
 void scale(const std::array<double, static_cast<std::size_t>(lanes)>& places, double by, Row& out) {

@@ -19,7 +19,7 @@ public:
   /// @param seeds of each phase's noise
   DetailNoise(double size, double finest, const std::array<std::uint32_t, Drift::phases>& seeds);
 
-  /// Noise of a phase; `vigour`, 0 to 1, blends from veils to billows.
+  /// Computes the noise of a phase; `vigour`, 0 to 1, blends from veils to billows.
   void at(const Origins& places, std::size_t phase, const Row& vigour, Row& noise);
 
 private:

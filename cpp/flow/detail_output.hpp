@@ -9,7 +9,7 @@
 
 namespace firetwin::flow {
 
-/// Output buffer of `Detail`: 8 by 8 columns of voxels, from bottom to top, in the memory layout of
+/// Output buffer of `Detail`: 8 x 8 columns of voxels, from bottom to top, in the memory layout of
 /// the sparse grid's blocks. It fits into a processor's cache and is reused.
 class DetailOutput {
 public:
@@ -36,7 +36,7 @@ public:
 private:
   std::size_t values_of_block_;
   std::vector<float> values_;
-  std::vector<std::uint8_t> used_; ///< of each block, whether anything was painted
+  std::vector<std::uint8_t> used_; ///< by block: has painted voxels
 };
 
 } // namespace firetwin::flow

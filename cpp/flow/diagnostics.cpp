@@ -8,7 +8,7 @@
 namespace firetwin::flow {
 namespace {
 
-/// out = f(k, j, i) for all cells.
+/// Sets out = f(k, j, i) for all cells.
 template <class Function> void fill(const Solver& solver, std::span<float> out, const Function& f) {
   const Lattice& l = solver.lattice();
   each(l.nz, [&](Index k) {
@@ -21,7 +21,7 @@ template <class Function> void fill(const Solver& solver, std::span<float> out, 
   });
 }
 
-/// Cloud water of row j of level k of such air, kg/kg.
+/// Computes the cloud water of row j of level k, kg/kg.
 std::vector<float> cloud_row(const Solver& solver, const Field& theta, const Field& water, Index k,
                              Index j) {
   const Index n = solver.lattice().nx;
@@ -33,7 +33,7 @@ std::vector<float> cloud_row(const Solver& solver, const Field& theta, const Fie
   return found;
 }
 
-/// f(k, j, out) for all rows.
+/// Calls f(k, j, out) for all rows.
 template <class Function>
 void fill_rows(const Solver& solver, std::span<float> out, const Function& f) {
   const Lattice& l = solver.lattice();

@@ -11,10 +11,10 @@
 namespace firetwin::flow {
 namespace {
 
-constexpr Index every = 2; // cells
+constexpr Index coarsening = 2; // cells
 
 Index points(Index cells) {
-  return (cells + every - 1) / every;
+  return (cells + coarsening - 1) / coarsening;
 }
 
 } // namespace
@@ -25,7 +25,7 @@ Drift::Drift(std::shared_ptr<const Solver> solver, double period)
   turns_ = turns_at(time_);
   const Lattice& l = solver_->lattice();
   shape_ = {points(l.nz), points(l.ny), points(l.nx)};
-  for (Index k = 0; k < l.nz; k += every) {
+  for (Index k = 0; k < l.nz; k += coarsening) {
     middle_.push_back(l.middle[static_cast<std::size_t>(k)]);
   }
   speed_.resize(3 * shape_.size());
@@ -59,9 +59,9 @@ std::array<float, Drift::phases> Drift::weights() const {
 void Drift::find_speed() {
   const Lattice& l = solver_->lattice();
   const Wind& wind = solver_->state().wind;
-  const auto across = static_cast<float>(0.5 / (l.spacing * static_cast<double>(every)));
+  const auto across = static_cast<float>(0.5 / (l.spacing * static_cast<double>(coarsening)));
   each(shape_.nz, [&](Index level) {
-    const Index k = level * every, above = std::min(level + 1, shape_.nz - 1),
+    const Index k = level * coarsening, above = std::min(level + 1, shape_.nz - 1),
                 below = std::max(level - 1, Index{0});
     const double gap = shape_.nz > 1 ? (middle_[static_cast<std::size_t>(above)] -
                                         middle_[static_cast<std::size_t>(below)]) /
@@ -69,10 +69,10 @@ void Drift::find_speed() {
                                      : l.depth[0];
     const auto upward = static_cast<float>(0.5 / gap);
     float* to = speed_.data() + 3 * level * shape_.ny * shape_.nx;
-    for (Index j = 0; j < l.ny; j += every) {
+    for (Index j = 0; j < l.ny; j += coarsening) {
       const float *u = wind.u.row(k, j), *front = wind.v.row(k, j), *back = wind.v.row(k, j + 1);
       const float *low = wind.w.row(k, j), *high = wind.w.row(k + 1, j);
-      for (Index i = 0; i < l.nx; i += every, to += 3) {
+      for (Index i = 0; i < l.nx; i += coarsening, to += 3) {
         to[0] = across * (u[i] + u[i + 1]);
         to[1] = across * (front[i] + back[i]);
         to[2] = upward * (low[i] + high[i]);
@@ -81,7 +81,7 @@ void Drift::find_speed() {
   });
 }
 
-/// Of a fractional level, m above ground.
+/// Returns the height of a fractional level, m above ground.
 float Drift::height(float level) const {
   const auto low = static_cast<std::size_t>(
       std::clamp(static_cast<Index>(level), Index{0}, std::max(shape_.nz - 2, Index{0})));
@@ -94,7 +94,7 @@ void Drift::carry(double dt, Index k) {
   const LinearInterpolator<3> speed(shape_.nx, shape_.ny, shape_.nz, speed_.data());
   const LinearInterpolator<parts> drift(shape_.nx, shape_.ny, shape_.nz, values_.data());
   const auto step = static_cast<float>(dt);
-  const auto gap = static_cast<float>(solver_->lattice().spacing * static_cast<double>(every));
+  const auto gap = static_cast<float>(solver_->lattice().spacing * static_cast<double>(coarsening));
   const auto top = static_cast<float>(shape_.nz - 1), z = static_cast<float>(k);
   const float here = height(z), half = 0.5F * step;
   float* out = next_.data() + static_cast<Index>(parts) * k * shape_.ny * shape_.nx;
@@ -135,7 +135,8 @@ void Drift::advance() {
 
 void Drift::restore(double time, std::span<const float> values) {
   if (values.size() != values_.size()) {
-    throw std::invalid_argument("the drift's values belong to another grid");
+    throw std::invalid_argument(
+        "the values of the drift must have the shape of this solver's grid");
   }
   std::copy(values.begin(), values.end(), values_.begin());
   time_ = time;

@@ -10,13 +10,13 @@
 
 namespace firetwin::flow {
 
-/// Advected texture coordinates (Neyret 2003, "Advected textures"): displacement of the air since a
-/// phase's start, so noise at (place - drift) travels with the flow. Shear stretches noise into
+/// Advected texture coordinates (Neyret 2003, "Advected textures"): displacement of the air since
+/// the start of a phase. Noise at (place - drift) travels with the flow. Shear stretches noise into
 /// streaks, so each phase restarts every `period`. Two phases, half a period apart, are blended.
 ///
-/// Advection is semi-Lagrangian (midpoint rule) at the centres of every other cell, linear between.
-/// Its blur is below the size at which drift is used. Components are east, north and up along the
-/// levels, m.
+/// Advection is semi-Lagrangian (midpoint rule) at the centres of every other cell, linear in
+/// between. Its numerical diffusion is below the scale at which drift is used. Components are east,
+/// north and up along the levels, m.
 class Drift {
 public:
   static constexpr int phases = 2;
@@ -32,7 +32,7 @@ public:
   /// Number of restarts of each phase; each restart changes the noise's seed.
   std::array<std::int64_t, phases> turns() const { return turns_; }
   double time() const { return time_; }
-  /// Number of levels, rows and columns (every other cell's).
+  /// Number of levels, rows and columns, at every other cell.
   Shape shape() const { return shape_; }
   /// [levels][rows][columns][phase][3], m
   std::span<const float> values() const { return values_; }
@@ -46,7 +46,7 @@ private:
 
   std::shared_ptr<const Solver> solver_;
   Shape shape_;
-  std::vector<double> middle_; ///< [levels] m above ground
+  std::vector<double> middle_; ///< [levels] cell centres, m above ground
   double period_;
   double time_;
   std::array<std::int64_t, phases> turns_;

@@ -7,8 +7,8 @@
 
 namespace firetwin::flow {
 
-/// Field of floats on a lattice, with ghost cells in x and y. Whole SIMD lanes may be read from any
-/// place in a row: the memory is padded at its end.
+/// Field of floats on a lattice, with ghost cells in x and y. A full SIMD vector may be read from
+/// any position in a row: the memory is padded at its end.
 class Field {
 public:
   Field(const Lattice& lattice, Index levels)
@@ -16,7 +16,7 @@ public:
         values_(static_cast<std::size_t>(levels * lattice.plane + 2 * lanes)) {}
 
   Index levels() const { return levels_; }
-  /// Points at column 0 of row j of level k.
+  /// Points from column 0 of row j of level k.
   float* row(Index k, Index j) { return values_.data() + place(k, j); }
   const float* row(Index k, Index j) const { return values_.data() + place(k, j); }
   void fill_level(Index k, float value) {

@@ -11,13 +11,13 @@
 namespace firetwin::flow {
 namespace {
 
-/// Rows of numbers round one, of the same length, from the first to the last.
+/// Rows within the filter's width, of equal length, in order.
 using Rows = std::span<const float* const>;
 
 using Wide = Simd<float, static_cast<std::size_t>(lanes)>;
 
-/// Sums stay in registers while the rows are gone through: half the time of adding one whole row
-/// after the other. The last two Wides overlap those before.
+/// Accumulates in registers over all rows, which takes half the time of adding row by row. The last
+/// two Wides overlap the previous ones.
 FIRETWIN_CLONES("avx512f", "avx2")
 void weighted(Rows rows, const float* weight, Index n, float* to) {
   if (n < 2 * lanes) {
@@ -55,8 +55,8 @@ void largest(Rows rows, Index n, float* __restrict to) {
   }
 }
 
-/// f(rows, to) for every row of numbers along x, where `rows` are those within `reach` cells along
-/// an axis, held inside. Along x itself, rows are shifted by copying.
+/// Calls f(rows, to) for each row along x; `rows` are those within `reach` cells along an axis,
+/// clamped at the edges. Along x itself, rows are shifted by copying.
 template <class Function>
 void along(const std::vector<float>& values, const Shape& s, int axis, Index reach,
            std::vector<float>& out, const Function& f) {
@@ -85,8 +85,8 @@ void along(const std::vector<float>& values, const Shape& s, int axis, Index rea
   });
 }
 
-/// Weights of the cells within three standard deviations of one.
-std::vector<float> bell(double sigma) {
+/// Computes the weights within three standard deviations.
+std::vector<float> gaussian_weights(double sigma) {
   const auto reach = static_cast<Index>(std::ceil(3.0 * sigma));
   const auto height = [&](Index i) {
     return std::exp(-0.5 * static_cast<double>(i * i) / (sigma * sigma));
@@ -111,14 +111,14 @@ void blur(std::vector<float>& values, const Shape& shape, const std::array<doubl
     if (sigma <= 0.0) {
       continue;
     }
-    const std::vector<float> weight = bell(sigma);
+    const std::vector<float> weight = gaussian_weights(sigma);
     along(values, shape, axis, static_cast<Index>(weight.size() / 2), out,
           [&](Rows rows, float* to) { weighted(rows, weight.data(), shape.nx, to); });
     values.swap(out);
   }
 }
 
-void spread(std::vector<float>& values, const Shape& shape, Index reach) {
+void dilate(std::vector<float>& values, const Shape& shape, Index reach) {
   std::vector<float> out(values.size());
   for (int axis = 0; axis < 3; ++axis) {
     along(values, shape, axis, reach, out,

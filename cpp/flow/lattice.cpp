@@ -14,11 +14,11 @@ constexpr Index most = 4096;
 void check_levels(const std::vector<double>& levels) {
   check_finite(levels, "levels");
   if (levels.size() < 5 || levels.front() != 0.0) {
-    throw std::invalid_argument("levels must be 5 heights or more, the first of them 0");
+    throw std::invalid_argument("levels must be at least 5 heights, the first of them 0");
   }
   for (std::size_t k = 1; k < levels.size(); ++k) {
     if (!(levels[k] > levels[k - 1])) {
-      throw std::invalid_argument("levels must rise");
+      throw std::invalid_argument("levels must be strictly increasing");
     }
   }
 }
@@ -31,7 +31,8 @@ Lattice::Lattice(Index columns, Index rows, double cell, std::vector<double> lev
   check_above_zero(cell, "spacing");
   check_levels(face);
   if (nx < least || ny < least || nx > most || ny > most || nz > most) {
-    throw std::invalid_argument("shape must be 4 to 4096 levels of 8 to 4096 rows and columns");
+    throw std::invalid_argument(
+        "the grid must have 4 to 4096 levels, and 8 to 4096 rows and columns");
   }
   for (std::size_t k = 0; k + 1 < face.size(); ++k) {
     middle.push_back(0.5 * (face[k] + face[k + 1]));

@@ -13,7 +13,7 @@ public:
   LinearInterpolator(Index nx, Index ny, Index nz, const float* values)
       : nx_(nx), ny_(ny), nz_(nz), values_(values) {}
 
-  /// Values at fractional columns, rows and levels; 0 is the centre of the first cell.
+  /// Interpolates at fractional columns, rows and levels; 0 is the centre of the first cell.
   std::array<float, parts> at(float x, float y, float z) const {
     const auto a = interval_within(x, nx_), b = interval_within(y, ny_),
                c = interval_within(z, nz_);

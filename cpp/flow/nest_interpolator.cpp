@@ -14,7 +14,7 @@ bool inside(double low, double high, double length) {
   return low >= 0.0 && high <= length;
 }
 
-/// f(first, n) of the parts of row j that are nearer to a side than `reach`, ghosts included.
+/// Calls f(first, n) for the parts of row j within `reach` of a side, including ghost cells.
 template <class Function>
 void near_sides(const Lattice& l, Index j, Index reach, const Function& f) {
   const Index begin = -halo, end = l.nx + halo;
@@ -40,7 +40,7 @@ NestInterpolator::NestInterpolator(const Lattice& from, const Corner& from_corne
       !inside(offset_[1] - margin, offset_[1] + length(to.ny, to.spacing) + margin,
               length(from.ny, from.spacing)) ||
       to.top() > from.top()) {
-    throw std::invalid_argument("the nest must lie inside the box around it");
+    throw std::invalid_argument("the nest must be inside of its outer domain");
   }
   middle_ = axes(Place::middle);
   u_ = axes(Place::x);

@@ -15,19 +15,19 @@ public:
   NestInterpolator(const Lattice& from, const Corner& from_corner, const Ambient& from_ambient,
                    const Lattice& to, const Corner& to_corner, const Ambient& to_ambient);
 
-  /// Fills `to`, with its ghost cells, in columns within `reach` cells of a lateral boundary.
+  /// Fills `to`, including ghost cells, in columns within `reach` cells of a lateral boundary.
   void interpolate(const State& from, State& to, Index reach) const;
 
 private:
   struct Knot {
     Index low;
-    float part; ///< of the way to low + 1
+    float part; ///< weight of low + 1
   };
   struct Axes {
     std::vector<Knot> x, y, z;
   };
 
-  /// A field, and what it differs from here and there: a constant more, or the fields of rest.
+  /// A field, and its values at rest on both lattices (fields, or a constant).
   struct Part {
     const Field* from;
     Field* to;
@@ -42,7 +42,7 @@ private:
 
   const Lattice& from_;
   const Lattice& to_;
-  Corner offset_; ///< of the finer box's corner in the coarser one, m
+  Corner offset_; ///< corner of the finer lattice in the coarser one, m
   const Ambient& from_ambient_;
   const Ambient& to_ambient_;
   Axes middle_, u_, v_, w_;

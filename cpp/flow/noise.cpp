@@ -34,11 +34,11 @@ inline float perlin_at(float x, float y, float z, std::uint32_t seed) {
   return gradient_noise(rise, c, b, a);
 }
 
-/// The cubes round one, each as many times along x, y and z; the last have no points.
-struct Around {
+/// Offsets of the 27 cubes around a point, repeated to full lanes; padding has no points.
+struct NeighbourCubes {
   static constexpr std::size_t middle = 13;
   std::array<std::int32_t, Worley::points> x{}, y{}, z{};
-  constexpr Around() {
+  constexpr NeighbourCubes() {
     for (std::size_t n = 0; n < 27; ++n) {
       const auto at = static_cast<std::int32_t>(n);
       x[n] = at % 3 - 1;
@@ -48,12 +48,13 @@ struct Around {
   }
 };
 
-/// How much farther the points are from any place in the middle cube than its own is, at least:
-/// the difference of two squares of distances is linear, so that it is least in a corner.
+/// Computes how much farther each point is, at least, from any place in the middle cube than the
+/// cube's own point: the difference of two squared distances is linear, so its minimum is at a
+/// corner.
 FIRETWIN_CLONES("avx512f", "avx2")
 void strew(const std::array<std::int32_t, 3>& cell, std::uint32_t seed, Worley::Points& points,
            std::array<float, Worley::points>& farther) {
-  static constexpr Around around;
+  static constexpr NeighbourCubes around;
   for (std::size_t n = 0; n < Worley::points; ++n) {
     const std::uint32_t h = murmur_finalizer(
         static_cast<std::uint32_t>(cell[0] + around.x[n]) * along_x ^
@@ -63,8 +64,8 @@ void strew(const std::array<std::int32_t, 3>& cell, std::uint32_t seed, Worley::
     points.y[n] = static_cast<float>(around.y[n]) + share(h, 10);
     points.z[n] = static_cast<float>(around.z[n]) + share(h, 20);
   }
-  const float x = points.x[Around::middle], y = points.y[Around::middle],
-              z = points.z[Around::middle];
+  const float x = points.x[NeighbourCubes::middle], y = points.y[NeighbourCubes::middle],
+              z = points.z[NeighbourCubes::middle];
   for (std::size_t n = 0; n < Worley::points; ++n) {
     const auto along = [](float p, float own) { // (p - own) (p + own - 2 t), t from 0 to 1
       return (p - own) * (p + own) - 2.0F * std::max(p - own, 0.0F);
@@ -73,8 +74,8 @@ void strew(const std::array<std::int32_t, 3>& cell, std::uint32_t seed, Worley::
   }
 }
 
-/// Leaves out points that are the nearest to no place in the middle cube: about half of them.
-void thin_out(const std::array<float, Worley::points>& farther, Worley::Points& points) {
+/// Removes points that are nowhere the nearest in the middle cube: about half of them.
+void drop_hidden_points(const std::array<float, Worley::points>& farther, Worley::Points& points) {
   constexpr float rounding = 1.0e-4F, far_away = 99.0F;
   constexpr std::size_t all = 27, together = 8;
   std::size_t count = 0;
@@ -123,12 +124,12 @@ void perlin(const Row& x, const Row& y, const Row& z, std::uint32_t seed, Row& n
 
 const Worley::Points& Worley::around(const std::array<std::int32_t, 3>& cell, std::uint32_t seed) {
   Points& found =
-      strewn_[static_cast<std::size_t>((cell[0] & 3) | (cell[1] & 3) << 2 | (cell[2] & 15) << 4)];
+      cache_[static_cast<std::size_t>((cell[0] & 3) | (cell[1] & 3) << 2 | (cell[2] & 15) << 4)];
   if (found.count == 0 || found.cell[0] != cell[0] || found.cell[1] != cell[1] ||
       found.cell[2] != cell[2] || found.seed != seed) {
     std::array<float, points> farther;
     strew(cell, seed, found, farther);
-    thin_out(farther, found);
+    drop_hidden_points(farther, found);
     found.cell = cell;
     found.seed = seed;
   }

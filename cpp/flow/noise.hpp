@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <vector>
 
-/// Procedural noise, the same on any machine up to rounding.
+/// Procedural noise, equal on all machines up to rounding.
 namespace firetwin::flow {
 
-/// Values of a row of places (SIMD lanes).
+/// Values at a row of positions (SIMD lanes).
 using Row = std::array<float, static_cast<std::size_t>(lanes)>;
 
 /// Perlin's gradient noise (Perlin 2002, "Improving noise"), about -1 to 1, mean 0; one feature per
@@ -18,29 +18,29 @@ using Row = std::array<float, static_cast<std::size_t>(lanes)>;
 void perlin(const Row& x, const Row& y, const Row& z, std::uint32_t seed, Row& noise);
 
 /// Worley (cellular) noise: distance to the nearest feature point, one point per unit cube (Worley
-/// 1996, "A cellular texture basis function"). It is about 0 to 1.2, mean 0.49. It looks like
-/// billows with sharp valleys. The points round recent cubes are cached.
+/// 1996, "A cellular texture basis function"). It is about 0 to 1.2, with mean 0.49, and looks like
+/// billows with sharp valleys. The points around recent cubes are cached.
 class Worley {
 public:
-  Worley() : strewn_(kept) {}
+  Worley() : cache_(cache_size) {}
 
   void at(const Row& x, const Row& y, const Row& z, std::uint32_t seed, Row& distance);
 
-  static constexpr std::size_t points = 32; ///< 27, and some far away that fill the last lanes
-  /// Those that may be the nearest to a place in a cube, and others that make the lanes whole.
+  static constexpr std::size_t points = 32; ///< 27, padded to full lanes with far-away points
+  /// Points that may be the nearest in a cube, padded to full lanes.
   struct Points {
     std::array<float, points> x, y, z;
-    std::size_t count = 0; ///< in whole lanes; 0: none were strewn yet
+    std::size_t count = 0; ///< in full lanes; 0: not computed yet
     std::array<std::int32_t, 3> cell{};
     std::uint32_t seed = 0;
   };
 
 private:
-  static constexpr std::size_t kept = 256;
+  static constexpr std::size_t cache_size = 256;
 
   const Points& around(const std::array<std::int32_t, 3>& cell, std::uint32_t seed);
 
-  std::vector<Points> strewn_; ///< by the last bits of their cubes
+  std::vector<Points> cache_; ///< hashed by the last bits of the cube
 };
 
 } // namespace firetwin::flow

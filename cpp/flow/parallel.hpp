@@ -8,13 +8,13 @@
 
 namespace firetwin::flow {
 
-/// f(i) for 0 <= i < count, on many threads. Each i writes what no other one does, so that any
-/// number of threads gives the same.
+/// Calls f(i) for 0 <= i < count on many threads. Calls must write to disjoint memory, so that the
+/// result does not depend on the number of threads.
 template <class Function> void each(Index count, const Function& f) {
   tbb::parallel_for(Index{0}, count, f);
 }
 
-/// Sum of f(i), each in float64, added in the order of i whatever the threads.
+/// Sums f(i) in float64 in the order of i, for any number of threads.
 template <class Function> double sum_each(Index count, const Function& f) {
   std::vector<double> parts(static_cast<std::size_t>(count));
   each(count, [&](Index i) { parts[static_cast<std::size_t>(i)] = f(i); });
@@ -25,8 +25,8 @@ template <class Function> double sum_each(Index count, const Function& f) {
   return sum;
 }
 
-/// Largest f(i), at least 0.
-template <class Function> double most_each(Index count, const Function& f) {
+/// Returns the largest f(i), at least 0.
+template <class Function> double max_each(Index count, const Function& f) {
   std::vector<double> parts(static_cast<std::size_t>(count));
   each(count, [&](Index i) { parts[static_cast<std::size_t>(i)] = f(i); });
   double most = 0.0;

@@ -11,9 +11,9 @@
 namespace firetwin::flow {
 namespace {
 
-constexpr Index chunk = 512; // modes solved together: their columns stay in the cache
+constexpr Index chunk = 512; // modes solved together, so that their columns stay in the cache
 
-/// Of the second difference of cosine mode m of n, 1/m2.
+/// Returns the eigenvalue of the second difference for cosine mode m of n, 1/m2.
 double eigenvalue(Index m, Index n, double spacing) {
   const double s =
       std::sin(0.5 * std::numbers::pi * static_cast<double>(m) / static_cast<double>(n));
@@ -36,8 +36,8 @@ void substitute(Index n, const float* __restrict upper, float above, const float
   }
 }
 
-/// Turns a matrix of `rows` rows of n numbers over, block by block: place(i) is where row i of the
-/// result begins.
+/// Transposes a matrix of `rows` rows of n numbers, block by block; place(i) is the offset of row i
+/// of the result.
 template <class Place>
 void turn(Index rows, Index n, const float* from, Index stride, float* to, const Place& place) {
   constexpr Index block = 16;
@@ -58,8 +58,8 @@ Pressure::Pressure(const Lattice& lattice, const Air& air)
     : lattice_(lattice), air_(air), size_((lattice.nx * lattice.ny + 15) / 16 * 16),
       modes_(static_cast<std::size_t>(size_ * lattice.nz)), pivot_(modes_.size()),
       below_(lattice.depth.size()), above_(lattice.depth.size()), along_x_(lattice.nx, lattice.ny),
-      along_y_(lattice.ny, lattice.nx), x_room_([this] { return along_x_.room(); }),
-      y_room_([this] { return along_y_.room(); }) {
+      along_y_(lattice.ny, lattice.nx), x_room_([this] { return along_x_.make_matrix(); }),
+      y_room_([this] { return along_y_.make_matrix(); }) {
   const Index nx = lattice.nx, ny = lattice.ny, nz = lattice.nz;
   for (Index k = 0; k < nz; ++k) {
     const auto at = static_cast<std::size_t>(k);
@@ -74,7 +74,8 @@ Pressure::Pressure(const Lattice& lattice, const Air& air)
         const auto at = static_cast<std::size_t>(k);
         const double low = static_cast<double>(below_[at]), up = static_cast<double>(above_[at]);
         const double across = static_cast<double>(air.cell[at]) * wave;
-        const bool free = i == 0 && j == 0 && k == nz - 1; // a constant: 0 at the top
+        const bool free = i == 0 && j == 0 &&
+                          k == nz - 1; // the constant mode is undetermined: set to 0 at the top
         const double under = k > 0 ? static_cast<double>(above_[at - 1]) : 0.0;
         before = free ? 0.0 : 1.0 / (-(low + up + across) - low * under * before);
         pivot_[static_cast<std::size_t>(k * size_ + i * ny + j)] = static_cast<float>(before);
@@ -83,7 +84,7 @@ Pressure::Pressure(const Lattice& lattice, const Air& air)
   });
 }
 
-/// Air that leaves the cells of level k, kg/m2/s.
+/// Computes the net outflow of mass from the cells of level k, kg/m2/s.
 void Pressure::diverge(const Wind& wind, Index k, float* out) const {
   const auto at = static_cast<std::size_t>(k);
   const float across = air_.cell[at] / static_cast<float>(lattice_.spacing);
@@ -97,23 +98,24 @@ void Pressure::diverge(const Wind& wind, Index k, float* out) const {
 }
 
 double Pressure::divergence(const Wind& wind) const {
-  return most_each(lattice_.nz, [&](Index k) {
+  return max_each(lattice_.nz, [&](Index k) {
     std::vector<float> out(static_cast<std::size_t>(size_));
     diverge(wind, k, out.data());
-    return static_cast<double>(most_row(lattice_.nx * lattice_.ny, out.data())) /
+    return static_cast<double>(max_abs_row(lattice_.nx * lattice_.ny, out.data())) /
            static_cast<double>(air_.cell[static_cast<std::size_t>(k)]);
   });
 }
 
-/// To modes [nx][ny] of level k, and back.
+/// Transforms level k to modes [nx][ny].
 void Pressure::transform(Index k) {
   const Index nx = lattice_.nx, ny = lattice_.ny;
   auto &y = y_room_.local(), &x = x_room_.local();
   for (Index j = 0; j < ny; ++j) {
-    along_y_.put(level(k) + j * nx, y.data() + along_y_.place(j));
+    along_y_.copy_row(level(k) + j * nx, y.data() + along_y_.row_offset(j));
   }
   along_y_.forward(y);
-  turn(ny, nx, y.data(), along_y_.stride(), x.data(), [&](Index i) { return along_x_.place(i); });
+  turn(ny, nx, y.data(), along_y_.stride(), x.data(),
+       [&](Index i) { return along_x_.row_offset(i); });
   for (Index i = 0; i < nx; ++i) {
     along_x_.clear_rest(x.data() + i * along_x_.stride());
   }
@@ -127,11 +129,11 @@ void Pressure::transform_back(Index k) {
   const Index nx = lattice_.nx, ny = lattice_.ny;
   auto &y = y_room_.local(), &x = x_room_.local();
   for (Index i = 0; i < nx; ++i) {
-    along_x_.put(level(k) + i * ny, x.data() + i * along_x_.stride());
+    along_x_.copy_row(level(k) + i * ny, x.data() + i * along_x_.stride());
   }
   along_x_.backward(x);
   for (Index i = 0; i < nx; ++i) {
-    std::copy_n(x.data() + along_x_.place(i), ny, level(k) + i * ny);
+    std::copy_n(x.data() + along_x_.row_offset(i), ny, level(k) + i * ny);
   }
   turn(nx, ny, level(k), ny, y.data(), [&](Index j) { return j * along_y_.stride(); });
   for (Index j = 0; j < ny; ++j) {
@@ -139,7 +141,7 @@ void Pressure::transform_back(Index k) {
   }
   along_y_.backward(y);
   for (Index j = 0; j < ny; ++j) {
-    std::copy_n(y.data() + along_y_.place(j), nx, level(k) + j * nx);
+    std::copy_n(y.data() + along_y_.row_offset(j), nx, level(k) + j * nx);
   }
 }
 
@@ -172,18 +174,19 @@ void Pressure::solve() {
 
 void Pressure::descend(Wind& wind) const {
   const Index nx = lattice_.nx, ny = lattice_.ny;
-  const double whole = 4.0 * static_cast<double>(nx) * static_cast<double>(ny); // of transforms
+  const double whole =
+      4.0 * static_cast<double>(nx) * static_cast<double>(ny); // scale of the transforms
   const auto across = static_cast<float>(1.0 / (lattice_.spacing * whole));
   each(lattice_.nz, [&](Index k) {
     const float* p = level(k);
     const float up = k > 0 ? static_cast<float>(1.0 / (lattice_.gap(k) * whole)) : 0.0F;
     for (Index j = 0; j < ny; ++j, p += nx) {
-      descend_row(nx - 1, p + 1, p, across, wind.u.row(k, j) + 1);
+      subtract_gradient_row(nx - 1, p + 1, p, across, wind.u.row(k, j) + 1);
       if (j > 0) {
-        descend_row(nx, p, p - nx, across, wind.v.row(k, j));
+        subtract_gradient_row(nx, p, p - nx, across, wind.v.row(k, j));
       }
       if (k > 0) {
-        descend_row(nx, p, p - size_, up, wind.w.row(k, j));
+        subtract_gradient_row(nx, p, p - size_, up, wind.w.row(k, j));
       }
     }
   });

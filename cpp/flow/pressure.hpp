@@ -20,7 +20,7 @@ public:
 
   void project(Wind& wind);
 
-  /// Largest |div(rho u)| / rho of a wind, 1/s.
+  /// Returns the largest |div(rho u)| / rho of a wind, 1/s.
   double divergence(const Wind& wind) const;
 
 private:
@@ -35,9 +35,9 @@ private:
 
   const Lattice& lattice_;
   const Air& air_;
-  Index size_; ///< floats from a level of modes to the next
+  Index size_; ///< floats between levels of modes
   std::vector<float> modes_;
-  std::vector<float> pivot_;         ///< [nz][modes] 1 / pivot of the elimination
+  std::vector<float> pivot_;         ///< [nz][modes] inverse pivots of the elimination
   std::vector<float> below_, above_; ///< [nz] coefficients of the levels below and above
   CosineTransform along_x_, along_y_;
   tbb::enumerable_thread_specific<CosineTransform::Rows> x_room_, y_room_;

@@ -12,7 +12,7 @@
 namespace firetwin::flow {
 namespace {
 
-constexpr float nothing = 1e-20F; // below it, numbers lose their digits and processors their speed
+constexpr float negligible = 1e-20F; // flushed to 0: near-denormal numbers lose digits and are slow
 
 inline float upwind_share(float flux, float low, float high) {
   const float share = std::fabs(flux) / (flux > 0.0F ? low : high);
@@ -37,8 +37,8 @@ void scale_row(Index n, const float* __restrict from, float factor, float* __res
 }
 
 FIRETWIN_LANES
-void left_row(Index n, const float* __restrict mass, const float* __restrict in,
-              const float* __restrict out, float* __restrict left) {
+void remaining_row(Index n, const float* __restrict mass, const float* __restrict in,
+                   const float* __restrict out, float* __restrict left) {
   for (Index i = 0; i < n; ++i) {
     left[i] = mass[i] + (in[i] - out[i]);
   }
@@ -86,13 +86,13 @@ void inverse_row(Index n, const float* __restrict mass, const float* __restrict 
 }
 
 FIRETWIN_LANES
-void carry_row(Index n, const float* __restrict in, const float* __restrict out,
-               const float* __restrict low, const float* __restrict high,
-               const float* __restrict inverse, float* __restrict q) {
+void advect_row(Index n, const float* __restrict in, const float* __restrict out,
+                const float* __restrict low, const float* __restrict high,
+                const float* __restrict inverse, float* __restrict q) {
   for (Index i = 0; i < n; ++i) {
     const float here = q[i];
     const float there = here + (in[i] * (low[i] - here) - out[i] * (high[i] - here)) * inverse[i];
-    q[i] = std::fabs(there) < nothing ? 0.0F : there;
+    q[i] = std::fabs(there) < negligible ? 0.0F : there;
   }
 }
 
@@ -111,16 +111,17 @@ void exchange_row(Index n, const std::array<const float*, 2>& strength,
 }
 
 FIRETWIN_LANES
-void mixed_row(Index n, const float* __restrict exchange, float factor, const float* __restrict low,
-               const float* __restrict high, float* __restrict mixed) {
+void mixing_flux_row(Index n, const float* __restrict exchange, float factor,
+                     const float* __restrict low, const float* __restrict high,
+                     float* __restrict mixed) {
   for (Index i = 0; i < n; ++i) {
     mixed[i] = exchange[i] * factor * (high[i] - low[i]);
   }
 }
 
 FIRETWIN_LANES
-void stir_row(Index n, const float* __restrict low, const float* __restrict high,
-              const float* __restrict inverse, float* __restrict q) {
+void mix_row(Index n, const float* __restrict low, const float* __restrict high,
+             const float* __restrict inverse, float* __restrict q) {
   for (Index i = 0; i < n; ++i) {
     q[i] += (high[i] - low[i]) * inverse[i];
   }
@@ -151,16 +152,16 @@ void divergence_row(Index n, const Faces& faces, float across, float above, floa
 }
 
 FIRETWIN_LANES
-void descend_row(Index n, const float* __restrict high, const float* __restrict low, float scale,
-                 float* __restrict q) {
+void subtract_gradient_row(Index n, const float* __restrict high, const float* __restrict low,
+                           float scale, float* __restrict q) {
   for (Index i = 0; i < n; ++i) {
     q[i] -= (high[i] - low[i]) * scale;
   }
 }
 
 FIRETWIN_LANES
-void grow_old_row(Index n, const float* __restrict smoke, float dt, float oldest,
-                  float* __restrict age) {
+void age_row(Index n, const float* __restrict smoke, float dt, float oldest,
+             float* __restrict age) {
   for (Index i = 0; i < n; ++i) {
     const float older = age[i] + smoke[i] * dt, most = smoke[i] * oldest;
     age[i] = older < most ? older : most;
@@ -191,7 +192,7 @@ void relax_row(Index n, const float* __restrict target, float share, float* __re
 }
 
 FIRETWIN_LANES
-float most_row(Index n, const float* q) { // sizes are in the order of their bits
+float max_abs_row(Index n, const float* q) { // magnitudes sort like their bits
   std::int32_t most = 0;
   for (Index i = 0; i < n; ++i) {
     const std::int32_t size = std::bit_cast<std::int32_t>(q[i]) & 0x7fffffff;
@@ -201,7 +202,7 @@ float most_row(Index n, const float* q) { // sizes are in the order of their bit
 }
 
 FIRETWIN_LANES
-bool something_row(Index n, const float* q) {
+bool has_nonzero_row(Index n, const float* q) {
   std::int32_t bits = 0;
   for (Index i = 0; i < n; ++i) {
     bits |= std::bit_cast<std::int32_t>(q[i]);
@@ -210,7 +211,7 @@ bool something_row(Index n, const float* q) {
 }
 
 FIRETWIN_LANES
-float least_share_row(Index n, const float* part, const float* whole) {
+float min_ratio_row(Index n, const float* part, const float* whole) {
   float least[lanes];
   std::fill_n(least, lanes, part[0] / whole[0]);
   Index i = 0;

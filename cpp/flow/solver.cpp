@@ -21,7 +21,7 @@ Terrain terrain_of(const Lattice& lattice, const std::vector<double>& height, co
 void check_sources(const Sources& s) {
   const std::size_t n = s.position.size();
   if (s.heat.size() != n || s.smoke.size() != n || (!s.water.empty() && s.water.size() != n)) {
-    throw std::invalid_argument("heat, smoke and water must be one for each position");
+    throw std::invalid_argument("heat, smoke and water must have one value for each position");
   }
   for (std::size_t i = 0; i < n; ++i) {
     check_finite(s.position[i], "position");
@@ -33,7 +33,7 @@ void check_sources(const Sources& s) {
   }
 }
 
-/// a += (b - a) share, whole rows.
+/// Computes a += (b - a) share, for complete rows.
 void blend(const Lattice& l, const Field& b, float share, Field& a) {
   each(a.levels(), [&](Index k) {
     const float* from = b.row(k, -halo) - halo;
@@ -85,17 +85,17 @@ Solver::Solver(Domain domain, Profile profile, const SolverSettings& settings,
   check_zero_or_more(settings.gusts.strength, "gust_strength");
   check_above_zero(settings.gusts.size, "gust_size");
   check_above_zero(settings.gusts.time, "gust_time");
-  start();
+  initialize();
 }
 
-/// Rest and the ambient wind; or the flow around.
-void Solver::start() {
+/// Starts from rest with the ambient wind, or from the outer flow.
+void Solver::initialize() {
   if (outer_) {
     nest_interpolator_.emplace(outer_->lattice_, outer_->corner_, outer_->ambient_, lattice_,
                                corner_, ambient_);
     nest_interpolator_->interpolate(outer_->state_, state_, lattice_.nx);
     outside_ = std::make_unique<State>(lattice_, ambient_.moist());
-    coming_ = std::make_unique<State>(lattice_, ambient_.moist());
+    next_outer_ = std::make_unique<State>(lattice_, ambient_.moist());
     nest_interpolator_->interpolate(outer_->state_, *outside_, boundaries_.reach());
     time_ = outer_->time_;
     outer_step_ = outer_->steps_;
@@ -107,7 +107,7 @@ void Solver::start() {
       state_.wind.v.fill_level(k, ambient_.wind()[static_cast<std::size_t>(k)][1]);
     }
   }
-  settle();
+  enforce_boundaries();
   mass_.initial = airborne();
 }
 
@@ -121,7 +121,7 @@ void Solver::set_sources(Sources sources) {
 
 void Solver::set_wind(const std::vector<std::array<double, 2>>& wind) {
   if (wind.size() != profile_.height.size()) {
-    throw std::invalid_argument("wind must be one for each height of the profile");
+    throw std::invalid_argument("wind must have one vector for each height of the profile");
   }
   for (const auto& w : wind) {
     check_finite(w, "wind");
@@ -134,8 +134,8 @@ void Solver::set_wind(const std::vector<std::array<double, 2>>& wind) {
   }
 }
 
-/// What is around a nest at the end of its step, between two steps of the flow around.
-void Solver::follow(double dt) {
+/// Interpolates the outer flow in time, to the end of the nest's step.
+void Solver::follow_outer(double dt) {
   if (!outer_) {
     return;
   }
@@ -143,26 +143,27 @@ void Solver::follow(double dt) {
     set_wind(outer_->profile_.wind);
   }
   if (outer_step_ != outer_->steps_) {
-    nest_interpolator_->interpolate(outer_->state_, *coming_, boundaries_.reach());
+    nest_interpolator_->interpolate(outer_->state_, *next_outer_, boundaries_.reach());
     outer_step_ = outer_->steps_;
   }
   const double ahead = outer_->time_ - time_;
   if (dt > ahead * (1.0 + 1e-6) + 1e-6) {
-    throw std::invalid_argument("step the flow around first: the nest would overtake it");
+    throw std::invalid_argument(
+        "the nest would overtake the outer flow; step the outer flow first");
   }
   State& now = *outside_;
   if (ahead - dt < 1e-6) {
-    now = *coming_;
+    now = *next_outer_;
     return;
   }
   const auto share = static_cast<float>(dt / ahead);
-  blend(lattice_, coming_->wind.u, share, now.wind.u);
-  blend(lattice_, coming_->wind.v, share, now.wind.v);
-  blend(lattice_, coming_->wind.w, share, now.wind.w);
-  blend(lattice_, coming_->theta, share, now.theta);
-  blend(lattice_, coming_->smoke, share, now.smoke);
-  blend(lattice_, coming_->age, share, now.age);
-  blend(lattice_, coming_->water, share, now.water);
+  blend(lattice_, next_outer_->wind.u, share, now.wind.u);
+  blend(lattice_, next_outer_->wind.v, share, now.wind.v);
+  blend(lattice_, next_outer_->wind.w, share, now.wind.w);
+  blend(lattice_, next_outer_->theta, share, now.theta);
+  blend(lattice_, next_outer_->smoke, share, now.smoke);
+  blend(lattice_, next_outer_->age, share, now.age);
+  blend(lattice_, next_outer_->water, share, now.water);
 }
 
 void Solver::carry(double dt) {
@@ -206,12 +207,12 @@ void Solver::add_to_level(const Deposit& deposit, double dt, Index k) {
   }
 }
 
-/// Smoke grows older, and what burns adds to it.
-void Solver::burn(double dt) {
+/// Ages the smoke, and adds the smoke of sources.
+void Solver::add_smoke(double dt) {
   each(lattice_.nz, [&](Index k) {
     for (Index j = 0; j < lattice_.ny; ++j) {
-      grow_old_row(lattice_.nx, state_.smoke.row(k, j), static_cast<float>(dt),
-                   static_cast<float>(time_ + dt), state_.age.row(k, j));
+      age_row(lattice_.nx, state_.smoke.row(k, j), static_cast<float>(dt),
+              static_cast<float>(time_ + dt), state_.age.row(k, j));
     }
   });
   if (sources_.position.empty()) {
@@ -236,26 +237,26 @@ void Solver::burn(double dt) {
   heat_.warmed += heat * dt * warmed;
 }
 
-/// Boundaries, ghost cells, and wind that keeps the air's mass.
-void Solver::settle() {
+/// Applies boundary conditions, fills ghost cells and projects the wind.
+void Solver::enforce_boundaries() {
   boundaries_.fill_ghost_cells(state_, outside_.get());
   pressure_.project(state_.wind);
 }
 
 void Solver::step(double dt) {
   check_above_zero(dt, "dt");
-  follow(dt);
+  follow_outer(dt);
   carry(dt);
-  burn(dt);
+  add_smoke(dt);
   buoyancy_.push(state_, dt);
   boundaries_.relax(state_, outside_.get(), dt);
-  settle();
+  enforce_boundaries();
   time_ += dt;
   ++steps_;
   const double should = mass_.initial + mass_.emitted + mass_.entered + mass_.rounding - mass_.left;
   const double is = airborne();
   if (!std::isfinite(is) || !std::isfinite(courant())) {
-    throw Error("the flow has become infinite: take shorter steps");
+    throw Error("the flow has diverged to infinity; use a shorter time step");
   }
   mass_.rounding += is - should;
 }
@@ -298,10 +299,11 @@ Solver::Checkpoint Solver::checkpoint() const {
 
 void Solver::restore(const Checkpoint& checkpoint, const std::vector<std::array<double, 2>>& wind) {
   if (wind.size() != profile_.height.size()) {
-    throw std::invalid_argument("wind must be one for each height of the profile");
+    throw std::invalid_argument("wind must have one vector for each height of the profile");
   }
   if (outer_ && std::abs(checkpoint.time - outer_->time_) > 1e-6) {
-    throw std::invalid_argument("restore the flow around first, to the same time");
+    throw std::invalid_argument(
+        "the outer flow is at another time; restore it first, from the same time");
   }
   profile_.wind = wind;
   ambient_.set_wind(lattice_, profile_);

@@ -30,7 +30,7 @@ struct Domain {
 struct SolverSettings {
   RelaxationZone relaxation;
   Gusts gusts;
-  double smagorinsky = 0.18;  ///< Smagorinsky constant; 0 leaves the advection's diffusion alone
+  double smagorinsky = 0.18;  ///< Smagorinsky constant; 0: only numerical diffusion
   double source_depth = 90.0; ///< e-folding height of heat and smoke sources, m
 };
 
@@ -63,25 +63,25 @@ struct HeatBudget {
 /// Limits:
 /// - The anelastic equations hold no sound waves, so winds must be well below the speed of sound.
 /// - There is no rain, no ice and no radiation.
-/// - The pressure solver treats levels as even and columns as of mean depth. Slopes must be well
-///   below 1, and relief well below the domain's height.
+/// - The pressure solver assumes level layers and columns of mean depth. Slopes must be well below
+///   1, and relief well below the domain's height.
 class Solver {
 public:
   Solver(Domain domain, Profile profile, const SolverSettings& settings);
 
   /// A nest: a finer domain inside of `outer`, one-way nested. It starts from the outer flow and
-  /// has boundary conditions from it. The nest keeps `outer` alive.
+  /// takes its boundary values from it. The nest shares ownership of `outer`.
   Solver(Domain domain, const std::shared_ptr<const Solver>& outer, const SolverSettings& settings);
 
   /// Sets the fire's sources from now on.
   void set_sources(Sources sources);
 
   /// Changes the ambient wind, one vector (m/s) for each height of the profile. The change is added
-  /// to the whole flow.
+  /// to the complete flow.
   void set_wind(const std::vector<std::array<double, 2>>& wind);
 
   /// Advances by dt seconds.
-  /// @throws Error when the flow diverges to infinity
+  /// @throws Error if the flow diverges to infinity
   void step(double dt);
 
   double time() const { return time_; } ///< model time since the start, s
@@ -100,7 +100,7 @@ public:
   const State& state() const { return state_; }
   const Profile& profile() const { return profile_; }
 
-  /// Scalars of a checkpoint; with `state()` and the wind profile it restarts the flow.
+  /// Scalars of a checkpoint; with `state()` and the wind profile they restart the flow.
   struct Checkpoint {
     double time = 0.0;
     std::int64_t steps = 0;
@@ -108,7 +108,7 @@ public:
     HeatBudget heat;
   };
   Checkpoint checkpoint() const;
-  /// State to write a checkpoint's fields into; call `fill_ghost_cells()` afterwards.
+  /// State to restore a checkpoint into; call `fill_ghost_cells()` afterwards.
   State& mutable_state() { return state_; }
   void restore(const Checkpoint& checkpoint, const std::vector<std::array<double, 2>>& wind);
   void fill_ghost_cells() { boundaries_.fill_ghost_cells(state_, outside_.get()); }
@@ -116,11 +116,11 @@ public:
 private:
   Solver(Domain domain, Profile profile, const SolverSettings& settings,
          std::shared_ptr<const Solver> outer);
-  void start();
-  void follow(double dt);
+  void initialize();
+  void follow_outer(double dt);
   void carry(double dt);
-  void burn(double dt);
-  void settle();
+  void add_smoke(double dt);
+  void enforce_boundaries();
   void add_to_level(const Deposit& deposit, double dt, Index k);
   double airborne() const;
 
@@ -141,8 +141,8 @@ private:
   Sources sources_;
   std::optional<NestInterpolator> nest_interpolator_;
   std::unique_ptr<State> outside_,
-      coming_;                   ///< of a nest: outer flow at time_ and at the outer time
-  std::int64_t outer_step_ = -1; ///< step of `outer_` that `coming_` holds
+      next_outer_;               ///< nest only: outer flow, interpolated to this lattice
+  std::int64_t outer_step_ = -1; ///< step of `outer_` that `next_outer_` holds
   double time_ = 0.0;
   std::int64_t steps_ = 0;
   int substeps_ = 0;

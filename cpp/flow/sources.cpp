@@ -11,8 +11,8 @@
 namespace firetwin::flow {
 namespace {
 
-/// Normal number of a knot of the noise (Box and Muller 1958).
-double knot(std::uint64_t seed, std::int64_t x, std::int64_t y, std::int64_t t) {
+/// Returns the standard normal value of a lattice point of the noise (Box and Muller 1958).
+double lattice_value(std::uint64_t seed, std::int64_t x, std::int64_t y, std::int64_t t) {
   const auto bits = philox({static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y),
                             static_cast<std::uint64_t>(t), 0},
                            {seed, 0x67757374}); // "gust"
@@ -20,7 +20,7 @@ double knot(std::uint64_t seed, std::int64_t x, std::int64_t y, std::int64_t t) 
          std::cos(2.0 * std::numbers::pi * unit(bits[1]));
 }
 
-/// Normal noise of unit variance, smooth in x, y and t, alike within 1.
+/// Evaluates Gaussian noise of unit variance, smooth in x, y and t, with correlation length 1.
 double noise(std::uint64_t seed, const std::array<double, 3>& at) {
   std::array<std::int64_t, 3> low{};
   std::array<double, 3> part{};
@@ -38,14 +38,14 @@ double noise(std::uint64_t seed, const std::array<double, 3>& at) {
       place[a] += upper;
     }
     if (weight > 0.0) {
-      sum += weight * knot(seed, place[0], place[1], place[2]);
+      sum += weight * lattice_value(seed, place[0], place[1], place[2]);
       squares += weight * weight;
     }
   }
   return sum / std::sqrt(squares);
 }
 
-/// Of each source.
+/// Computes the gust factor of each source.
 std::vector<double> factors(const Sources& sources, const Gusts& gusts, double time) {
   std::vector<double> result(sources.heat.size(), 1.0);
   for (std::size_t i = 0; gusts.strength > 0.0 && i < result.size(); ++i) {
@@ -54,8 +54,9 @@ std::vector<double> factors(const Sources& sources, const Gusts& gusts, double t
   return result;
 }
 
-/// Amounts times their factors, with the amounts' sum.
-std::vector<double> shared(const std::vector<double>& amount, const std::vector<double>& factor) {
+/// Multiplies amounts by their factors and conserves the sum of the amounts.
+std::vector<double> apply_factors(const std::vector<double>& amount,
+                                  const std::vector<double>& factor) {
   const double before = std::accumulate(amount.begin(), amount.end(), 0.0);
   const double after = std::inner_product(amount.begin(), amount.end(), factor.begin(), 0.0);
   std::vector<double> result(amount.size());
@@ -78,8 +79,9 @@ Deposit deposit(const Sources& sources, const Lattice& lattice, const std::array
   Deposit result{std::vector<double>(columns), std::vector<double>(columns),
                  std::vector<double>(sources.water.empty() ? 0 : columns)};
   const std::vector<double> factor = factors(sources, gusts, time);
-  const auto heat = shared(sources.heat, factor), smoke = shared(sources.smoke, factor);
-  const auto water = shared(sources.water, factor);
+  const auto heat = apply_factors(sources.heat, factor),
+             smoke = apply_factors(sources.smoke, factor);
+  const auto water = apply_factors(sources.water, factor);
   for (std::size_t n = 0; n < sources.position.size(); ++n) {
     const double x = (sources.position[n][0] - origin[0]) / lattice.spacing - 0.5;
     const double y = (sources.position[n][1] - origin[1]) / lattice.spacing - 0.5;
@@ -111,7 +113,7 @@ std::vector<double> shares(const Lattice& lattice, double depth) {
   }
   const double sum = std::accumulate(result.begin(), result.end(), 0.0);
   for (double& share : result) {
-    share = share > 1e-4 * sum ? share / sum : 0.0; // far above, it costs more than it does
+    share = share > 1e-4 * sum ? share / sum : 0.0; // higher levels cost time without effect
   }
   const double kept = std::accumulate(result.begin(), result.end(), 0.0);
   for (double& share : result) {

@@ -11,16 +11,16 @@
 namespace firetwin::flow {
 namespace {
 
-/// Rows of the wind and of theta around one row of cells: themselves, in front and behind, below
-/// and above. w's are those at the cells' lower faces and at their upper ones.
-struct Around {
+/// Rows of wind and theta around one row of cells: the row itself and its neighbours in front,
+/// behind, below and above. w is on the cells' lower and upper faces.
+struct RowNeighbours {
   const float *u, *u_front, *u_back, *u_below, *u_above;
   const float *v, *v_next, *v_below, *v_next_below, *v_above, *v_next_above;
   const float *w, *w_up, *w_front, *w_up_front, *w_back, *w_up_back;
   const float *theta_below, *theta_above;
 };
 
-/// 1 over the distances that differences span, 1/m.
+/// Inverse distances of finite differences, 1/m.
 struct Spans {
   float across;   ///< a cell
   float depth;    ///< a cell
@@ -32,7 +32,7 @@ struct Spans {
 };
 
 FIRETWIN_CLONES("avx512f", "avx2")
-void strength_row(Index n, const Around& a, const Spans& s, float* __restrict out) {
+void strength_row(Index n, const RowNeighbours& a, const Spans& s, float* __restrict out) {
   const float quarter = 0.25F * s.across, up = 0.5F * s.vertical;
   for (Index i = 0; i < n; ++i) {
     const float xx = (a.u[i + 1] - a.u[i]) * s.across;
@@ -83,25 +83,25 @@ void SubgridMixing::level(const State& state, Index k, Field& out) const {
                     static_cast<float>(strength_ * strength_ * d * d)};
   const Field &u = state.wind.u, &v = state.wind.v, &w = state.wind.w;
   for (Index j = 0; j < lattice_.ny; ++j) {
-    const Around around{u.row(k, j),
-                        u.row(k, j - 1),
-                        u.row(k, j + 1),
-                        u.row(low, j),
-                        u.row(high, j),
-                        v.row(k, j),
-                        v.row(k, j + 1),
-                        v.row(low, j),
-                        v.row(low, j + 1),
-                        v.row(high, j),
-                        v.row(high, j + 1),
-                        w.row(k, j),
-                        w.row(k + 1, j),
-                        w.row(k, j - 1),
-                        w.row(k + 1, j - 1),
-                        w.row(k, j + 1),
-                        w.row(k + 1, j + 1),
-                        state.theta.row(low, j),
-                        state.theta.row(high, j)};
+    const RowNeighbours around{u.row(k, j),
+                               u.row(k, j - 1),
+                               u.row(k, j + 1),
+                               u.row(low, j),
+                               u.row(high, j),
+                               v.row(k, j),
+                               v.row(k, j + 1),
+                               v.row(low, j),
+                               v.row(low, j + 1),
+                               v.row(high, j),
+                               v.row(high, j + 1),
+                               w.row(k, j),
+                               w.row(k + 1, j),
+                               w.row(k, j - 1),
+                               w.row(k + 1, j - 1),
+                               w.row(k, j + 1),
+                               w.row(k + 1, j + 1),
+                               state.theta.row(low, j),
+                               state.theta.row(high, j)};
     strength_row(lattice_.nx, around, spans, out.row(k, j));
   }
 }

@@ -15,7 +15,7 @@ public:
 
   bool on() const { return strength_ > 0.0; }
 
-  /// Eddy viscosity K of all cells, m2/s.
+  /// Computes the eddy viscosity K of all cells, m2/s.
   void strengths(const State& state, Field& k) const;
 
 private:

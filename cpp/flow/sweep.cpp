@@ -9,11 +9,11 @@
 namespace firetwin::flow {
 namespace {
 
-/// Rows that a sweep works with, whole lanes of them; their number does not depend on that of the
+/// Scratch rows of a sweep, padded to full lanes; their number does not depend on the number of
 /// levels.
-class Desk {
+class RowScratch {
 public:
-  explicit Desk(Index length)
+  explicit RowScratch(Index length)
       : length_(whole_lanes(length + 2)),
         memory_(std::make_unique_for_overwrite<float[]>(
             static_cast<std::size_t>(length_ * (11 + 8 * static_cast<Index>(max_fields)) + 2))) {}
@@ -30,7 +30,7 @@ public:
   float* inverse() { return slot(9); }
 
 private:
-  /// One number lies before a row: the mass of the cell before the first.
+  /// Each row has room for one number before it: the mass of the cell before the first.
   float* slot(Index i) { return memory_.get() + i * length_ + 1; }
 
   Index length_;
@@ -41,10 +41,10 @@ void add(BoundaryFlux& crossed, double inwards) {
   (inwards > 0.0 ? crossed.in : crossed.out) += inwards > 0.0 ? inwards : -inwards;
 }
 
-/// A row of what cells or their faces have, at the sweep's places: as it is, or meant into `room`,
-/// whole lanes of it.
-const float* placed(const Sweep& s, const Field& field, Index k, Index j, Index first, Index n,
-                    float* room) {
+/// Returns a row of a cell or face field at the sweep's position on the staggered grid: the row
+/// itself, or the mean of neighbours in `room`, in full lanes.
+const float* row_at_place(const Sweep& s, const Field& field, Index k, Index j, Index first,
+                          Index n, float* room) {
   const float* here = field.row(k, j) + first;
   if (s.place == Place::middle) {
     return here;
@@ -56,29 +56,30 @@ const float* placed(const Sweep& s, const Field& field, Index k, Index j, Index 
   return room;
 }
 
-void along_x(const Sweep& s, Index k, Index j, Desk& desk, std::span<BoundaryFlux> crossed) {
+void along_x(const Sweep& s, Index k, Index j, RowScratch& scratch,
+             std::span<BoundaryFlux> crossed) {
   const Index first = s.place == Place::x ? 1 : 0;
   const Index n = s.lattice.nx - first, faces = whole_lanes(n + 1);
-  const float* flux = placed(s, s.flux, k, j, first, n + 1, desk.flux(0));
-  const float* mass = placed(s, s.mass, k, j, first - 1, n + 2, desk.mass(0) - 1) + 1;
-  courant_row(faces, flux, mass - 1, mass, desk.courant());
-  inverse_row(faces, mass, flux, flux + 1, desk.inverse());
+  const float* flux = row_at_place(s, s.flux, k, j, first, n + 1, scratch.flux(0));
+  const float* mass = row_at_place(s, s.mass, k, j, first - 1, n + 2, scratch.mass(0) - 1) + 1;
+  courant_row(faces, flux, mass - 1, mass, scratch.courant());
+  inverse_row(faces, mass, flux, flux + 1, scratch.inverse());
   const float* exchange =
-      s.exchange ? placed(s, *s.exchange, k, j, first, n + 1, desk.exchange()) : nullptr;
+      s.exchange ? row_at_place(s, *s.exchange, k, j, first, n + 1, scratch.exchange()) : nullptr;
   for (std::size_t m = 0; m < s.fields.size(); ++m) {
     float* q = s.fields[m]->row(k, j) + first;
-    float* value = desk.value(m, 0);
-    float* mixed = desk.mixed(m, 0);
-    if (m < s.sparse && !something_row(n + 2 * halo, q - halo)) {
+    float* value = scratch.value(m, 0);
+    float* mixed = scratch.mixed(m, 0);
+    if (m < s.sparse && !has_nonzero_row(n + 2 * halo, q - halo)) {
       continue;
     }
-    face_row(faces, flux, desk.courant(), {q - 2, q - 1, q, q + 1}, value);
+    face_row(faces, flux, scratch.courant(), {q - 2, q - 1, q, q + 1}, value);
     if (exchange) {
-      mixed_row(faces, exchange, s.mixing, q - 1, q, mixed);
+      mixing_flux_row(faces, exchange, s.mixing, q - 1, q, mixed);
     }
-    carry_row(n, flux, flux + 1, value, value + 1, desk.inverse(), q);
+    advect_row(n, flux, flux + 1, value, value + 1, scratch.inverse(), q);
     if (exchange) {
-      stir_row(n, mixed, mixed + 1, desk.inverse(), q);
+      mix_row(n, mixed, mixed + 1, scratch.inverse(), q);
     }
     if (m < s.rescaled && !s.rest.empty()) {
       rescale_row(n, mass, flux, flux + 1, s.rest[static_cast<std::size_t>(k)], q);
@@ -90,12 +91,12 @@ void along_x(const Sweep& s, Index k, Index j, Desk& desk, std::span<BoundaryFlu
   }
 }
 
-/// A sweep along y or z of whole rows along x. Rows are changed in place as soon as no face needs
-/// what they were: face f reads rows f - 2 to f + 1.
-class Rolling {
+/// Sweeps rows along y or z. A row is updated in place as soon as no face needs its old values:
+/// face f reads rows f - 2 to f + 1.
+class RollingSweep {
 public:
-  Rolling(const Sweep& sweep, Index across, Desk& desk)
-      : s_(sweep), across_(across), desk_(desk), first_(sweep.place == Place::x ? 1 : 0),
+  RollingSweep(const Sweep& sweep, Index across, RowScratch& scratch)
+      : s_(sweep), across_(across), scratch_(scratch), first_(sweep.place == Place::x ? 1 : 0),
         n_(sweep.lattice.nx - first_), lanes_(whole_lanes(n_)),
         end_(sweep.axis == Axis::y ? sweep.lattice.ny : sweep.lattice.nz),
         begin_((sweep.axis == Axis::y && sweep.place == Place::y) ||
@@ -106,7 +107,7 @@ public:
   void run(std::span<BoundaryFlux> crossed) {
     take_mass(begin_ - 1);
     for (Index p = begin_ - 2; p <= begin_; ++p) {
-      look(p);
+      check_nonzero(p);
     }
     for (Index f = begin_; f <= end_; ++f) {
       open_face(f);
@@ -132,60 +133,61 @@ private:
   void take_mass(Index p) {
     const Index lowest = s_.place == Place::z ? 1 : 0;
     const Index k = std::max(level(p, s_.lattice.nz), lowest);
-    mass_[at(p)] = placed(s_, s_.mass, k, line(p), first_, n_, desk_.mass(p));
+    mass_[at(p)] = row_at_place(s_, s_.mass, k, line(p), first_, n_, scratch_.mass(p));
   }
 
-  /// Whether there is something in a row, before it changes.
-  void look(Index p) {
+  /// Records whether a row has nonzero values before its update.
+  void check_nonzero(Index p) {
     for (std::size_t m = 0; m < s_.sparse; ++m) {
-      something_[m][at(p)] = something_row(n_, row(m, p));
+      nonzero_[m][at(p)] = has_nonzero_row(n_, row(m, p));
     }
   }
 
   bool nothing_beside(std::size_t m) const {
-    const auto& rows = something_[m];
+    const auto& rows = nonzero_[m];
     return m < s_.sparse && !(rows[0] || rows[1] || rows[2] || rows[3]);
   }
 
   void open_face(Index f) {
     take_mass(f);
-    look(f + 1);
-    const float* flux =
-        placed(s_, s_.flux, level(f, s_.flux.levels()), line(f), first_, n_, desk_.flux(f));
+    check_nonzero(f + 1);
+    const float* flux = row_at_place(s_, s_.flux, level(f, s_.flux.levels()), line(f), first_, n_,
+                                     scratch_.flux(f));
     flux_[at(f)] = flux;
-    courant_row(lanes_, flux, mass_[at(f - 1)], mass_[at(f)], desk_.courant());
+    courant_row(lanes_, flux, mass_[at(f - 1)], mass_[at(f)], scratch_.courant());
     const float* exchange = nullptr;
     if (s_.exchange) {
-      exchange = placed(s_, *s_.exchange, level(f, s_.flux.levels()), line(f), first_, n_,
-                        desk_.exchange());
+      exchange = row_at_place(s_, *s_.exchange, level(f, s_.flux.levels()), line(f), first_, n_,
+                              scratch_.exchange());
     }
     for (std::size_t m = 0; m < s_.fields.size(); ++m) {
       const float *low = row(m, f - 1), *high = row(m, f);
       carries_[m][at(f)] = !nothing_beside(m);
       if (!carries_[m][at(f)]) {
-        std::fill_n(desk_.value(m, f), lanes_, 0.0F);
-        std::fill_n(desk_.mixed(m, f), lanes_, 0.0F);
+        std::fill_n(scratch_.value(m, f), lanes_, 0.0F);
+        std::fill_n(scratch_.mixed(m, f), lanes_, 0.0F);
         continue;
       }
-      face_row(lanes_, flux, desk_.courant(), {row(m, f - 2), low, high, row(m, f + 1)},
-               desk_.value(m, f));
+      face_row(lanes_, flux, scratch_.courant(), {row(m, f - 2), low, high, row(m, f + 1)},
+               scratch_.value(m, f));
       if (exchange) {
-        mixed_row(lanes_, exchange, s_.mixing, low, high, desk_.mixed(m, f));
+        mixing_flux_row(lanes_, exchange, s_.mixing, low, high, scratch_.mixed(m, f));
       }
     }
   }
 
   void close_row(Index p) {
     const float *in = flux_[at(p)], *out = flux_[at(p + 1)], *mass = mass_[at(p)];
-    inverse_row(lanes_, mass, in, out, desk_.inverse());
+    inverse_row(lanes_, mass, in, out, scratch_.inverse());
     for (std::size_t m = 0; m < s_.fields.size(); ++m) {
       if (!carries_[m][at(p)] && !carries_[m][at(p + 1)]) {
         continue;
       }
       float* q = row(m, p);
-      carry_row(n_, in, out, desk_.value(m, p), desk_.value(m, p + 1), desk_.inverse(), q);
+      advect_row(n_, in, out, scratch_.value(m, p), scratch_.value(m, p + 1), scratch_.inverse(),
+                 q);
       if (s_.exchange) {
-        stir_row(n_, desk_.mixed(m, p), desk_.mixed(m, p + 1), desk_.inverse(), q);
+        mix_row(n_, scratch_.mixed(m, p), scratch_.mixed(m, p + 1), scratch_.inverse(), q);
       }
       if (m < s_.rescaled && !s_.rest.empty()) {
         const auto k = static_cast<std::size_t>(level(p, s_.lattice.nz));
@@ -196,7 +198,7 @@ private:
 
   void count(Index f, std::span<BoundaryFlux> crossed) {
     for (std::size_t m = 0; m < s_.fields.size(); ++m) {
-      const float *flux = flux_[at(f)], *value = desk_.value(m, f);
+      const float *flux = flux_[at(f)], *value = scratch_.value(m, f);
       for (Index i = 0; i < n_; ++i) {
         const double out = static_cast<double>(flux[i]) * static_cast<double>(value[i]);
         add(crossed[m], f == begin_ ? out : -out);
@@ -211,33 +213,33 @@ private:
 
   const Sweep& s_;
   Index across_;
-  Desk& desk_;
-  Index first_; ///< column
-  Index n_;     ///< columns
-  Index lanes_; ///< and those that fill the last lanes, where nothing is kept
-  Index end_;   ///< after the last row that changes
-  Index begin_; ///< the first row that changes
-  std::array<const float*, 4> flux_{}, mass_{};             ///< of the last four faces and rows
-  std::array<std::array<bool, 4>, max_fields> something_{}; ///< in the last four rows
-  std::array<std::array<bool, 4>, max_fields> carries_{};   ///< the last four faces, anything
+  RowScratch& scratch_;
+  Index first_;                                           ///< column
+  Index n_;                                               ///< columns
+  Index lanes_;                                           ///< n_ rounded up to full lanes
+  Index end_;                                             ///< end of the updated rows
+  Index begin_;                                           ///< first updated row
+  std::array<const float*, 4> flux_{}, mass_{};           ///< last four faces and rows
+  std::array<std::array<bool, 4>, max_fields> nonzero_{}; ///< in the last four rows
+  std::array<std::array<bool, 4>, max_fields> carries_{}; ///< last four faces: nonzero flux
 };
 
 } // namespace
 
 void sweep_level(const Sweep& sweep, Index k, std::span<BoundaryFlux> crossed) {
-  Desk desk(sweep.lattice.stride);
+  RowScratch scratch(sweep.lattice.stride);
   if (sweep.axis == Axis::y) {
-    Rolling(sweep, k, desk).run(crossed);
+    RollingSweep(sweep, k, scratch).run(crossed);
     return;
   }
   for (Index j = sweep.place == Place::y ? 1 : 0; j < sweep.lattice.ny; ++j) {
-    along_x(sweep, k, j, desk, crossed);
+    along_x(sweep, k, j, scratch, crossed);
   }
 }
 
 void sweep_columns(const Sweep& sweep, Index j) {
-  Desk desk(sweep.lattice.stride);
-  Rolling(sweep, j, desk).run({});
+  RowScratch scratch(sweep.lattice.stride);
+  RollingSweep(sweep, j, scratch).run({});
 }
 
 } // namespace firetwin::flow

@@ -13,11 +13,12 @@ constexpr float steepness = 17.625F;
 constexpr float offset = 243.04F; // degrees Celsius
 constexpr float molar_ratio = 0.622F;
 constexpr auto warming = static_cast<float>(latent_heat / constants::specific_heat);
-constexpr int rounds = 4; // of Newton's method
+constexpr int rounds = 4; // iterations of Newton's method
 
-/// exp(x) for |x| < 80, within 2e-7: powers of 2 and a Taylor polynomial. Lanes can follow it.
+/// Computes exp(x) for |x| < 80 within 2e-7 by powers of 2 and a Taylor polynomial, which
+/// vectorise.
 inline float exponential(float x) {
-  constexpr float whole = 12582912.0F; // 1.5 x 2^23: adding it rounds to whole numbers
+  constexpr float whole = 12582912.0F; // 1.5 x 2^23: adding it rounds to integers
   const float y = x * 1.44269504F;
   const float n = (y + whole) - whole;
   const float f = (y - n) * 0.69314718F;
@@ -29,13 +30,13 @@ inline float exponential(float x) {
   return series * std::bit_cast<float>((power + 127) << 23);
 }
 
-/// Water that air can hold as vapour, kg/kg, and how it grows with temperature, 1/K.
-struct Held {
+/// Saturation mixing ratio, kg/kg, and its derivative with temperature, 1/K.
+struct Saturation {
   float water;
   float slope;
 };
 
-inline Held held(float kelvin, float pressure) {
+inline Saturation saturation(float kelvin, float pressure) {
   const float c = kelvin - freezing, low = c < -150.0F ? -150.0F : c;
   const float celsius = low > 90.0F ? 90.0F : low;
   const float inverse = 1.0F / (celsius + offset);
@@ -50,7 +51,7 @@ float most_above_saturation(Index n, const float* __restrict theta, const float*
                             const LevelReference& level, float* __restrict virtual_theta) {
   const float reference = level.reference, exner = level.exner, pressure = level.pressure;
   for (Index i = 0; i < n; ++i) {
-    virtual_theta[i] = water[i] - held((theta[i] + reference) * exner, pressure).water;
+    virtual_theta[i] = water[i] - saturation((theta[i] + reference) * exner, pressure).water;
   }
   float most = 0.0F;
   for (Index i = 0; i < n; ++i) {
@@ -59,8 +60,8 @@ float most_above_saturation(Index n, const float* __restrict theta, const float*
   return most;
 }
 
-/// Newton's method, for all cells as many rounds; where the air holds more, `cloud` comes to less
-/// than nothing, that is to nothing.
+/// Solves by Newton's method, with the same number of iterations for all cells. In unsaturated air
+/// `cloud` becomes negative, and is clamped to 0.
 FIRETWIN_CLONES("avx512f", "avx2")
 void condense(Index n, const float* __restrict theta, const float* __restrict water,
               const LevelReference& level, float* __restrict cloud) {
@@ -69,7 +70,7 @@ void condense(Index n, const float* __restrict theta, const float* __restrict wa
     const float temperature = (theta[i] + reference) * exner, all = water[i];
     float condensed = 0.0F;
     for (int round = 0; round < rounds; ++round) {
-      const Held vapour = held(temperature + warming * condensed, pressure);
+      const Saturation vapour = saturation(temperature + warming * condensed, pressure);
       condensed += (all - condensed - vapour.water) / (1.0F + warming * vapour.slope);
     }
     const float some = condensed > 0.0F ? condensed : 0.0F;

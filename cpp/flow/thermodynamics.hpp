@@ -7,7 +7,7 @@
 namespace firetwin::flow {
 
 inline constexpr double latent_heat = 2.5e6;      // of vapour, J/kg
-inline constexpr double vapour_lightness = 0.608; // of virtual temperature
+inline constexpr double vapour_lightness = 0.608; // virtual temperature coefficient
 
 /// Reference values of one level.
 struct LevelReference {
@@ -16,11 +16,11 @@ struct LevelReference {
   float pressure; ///< Pa
 };
 
-/// Virtual potential temperature (K) and cloud water (kg/kg) of a row of air, by saturation
+/// Computes virtual potential temperature (K) and cloud water (kg/kg) of a row of air by saturation
 /// adjustment. Saturation is over water, with Magnus's vapour pressure (Alduchov and Eskridge 1996,
 /// doi:10.1175/1520-0450(1996)035<0601:IMFAOS>2.0.CO;2). Float32; cloud water is within 2e-7 kg/kg
 /// of float64.
-/// @param theta liquid water potential temperature less the reference, K
+/// @param theta liquid water potential temperature minus the reference, K
 /// @param water total water mixing ratio, kg/kg
 void virtual_row(Index n, const float* theta, const float* water, const LevelReference& level,
                  float* virtual_theta, float* cloud);

@@ -11,12 +11,13 @@ namespace firetwin::flow {
 namespace {
 
 constexpr double most_courant = 0.8;
-constexpr double most_lost = 0.75; // of a cell's air to both sides; faces let pass a quarter more
+constexpr double max_drained =
+    0.75; // share of a cell's air that may leave through both sides; a face may pass a quarter more
 constexpr int most_substeps = 1000;
 constexpr float most_mixing =
-    0.15F; // of the air of a cell or of its neighbour; scalars thrice that
+    0.15F; // share of the air of the smaller cell at a face; three times that for scalars
 
-/// Smoke and its age come first.
+/// Returns the number of leading sparse fields: smoke and its age come first.
 std::size_t sparse(Place place) {
   return place == Place::middle ? 2 : 0;
 }
@@ -44,8 +45,8 @@ const Field* Transport::exchange(Axis axis) const {
   return !mixes_ ? nullptr : axis == Axis::x ? &mix_x_ : axis == Axis::y ? &mix_y_ : &mix_z_;
 }
 
-/// Nothing is mixed through the box's own faces, and never more air than is left where one
-/// direction has drained a cell.
+/// Computes eddy exchange. It is 0 through the domain's faces, and limited by the air that is left
+/// where one direction has drained a cell.
 void Transport::exchanges(const Field& mixing, double dt) {
   const double across = dt / (lattice_.spacing * lattice_.spacing);
   const auto one = [&](Index k, Index j, Index first, Index down, Index front, Index left,
@@ -73,20 +74,20 @@ void Transport::exchanges(const Field& mixing, double dt) {
   });
 }
 
-/// The largest Courant number of a step.
-double Transport::most(const Wind& wind, double dt) const {
+/// Returns the largest Courant number of a step.
+double Transport::max_courant(const Wind& wind, double dt) const {
   const auto mass = [&](Index k) {
     return static_cast<double>(air_.cell[static_cast<std::size_t>(k)]);
   };
-  return most_each(lattice_.nz, [&](Index k) {
+  return max_each(lattice_.nz, [&](Index k) {
     const double up = static_cast<double>(air_.face[static_cast<std::size_t>(k)]) /
                       (k > 0 ? std::min(mass(k - 1), mass(k)) : mass(k));
     float across = 0.0F, along = 0.0F;
     for (Index j = 0; j <= lattice_.ny; ++j) {
-      across = std::max(across, most_row(lattice_.nx, wind.v.row(k, j)));
+      across = std::max(across, max_abs_row(lattice_.nx, wind.v.row(k, j)));
       if (j < lattice_.ny) {
-        across = std::max(across, most_row(lattice_.nx + 1, wind.u.row(k, j)));
-        along = std::max(along, most_row(lattice_.nx, wind.w.row(k, j)));
+        across = std::max(across, max_abs_row(lattice_.nx + 1, wind.u.row(k, j)));
+        along = std::max(along, max_abs_row(lattice_.nx, wind.w.row(k, j)));
       }
     }
     return dt * std::max(static_cast<double>(across) / lattice_.spacing,
@@ -110,49 +111,51 @@ void Transport::fluxes(const Wind& wind, double dt) {
   });
 }
 
-/// The air of cells after one direction more. @return the largest share that a cell lost of it
+/// Computes the air of cells after one more direction. @return the largest share of air that a cell
+/// lost
 double Transport::drain(Axis axis, const Field& before, Field& after) {
   const Field& through = flux(axis);
-  return most_each(lattice_.nz, [&](Index k) {
+  return max_each(lattice_.nz, [&](Index k) {
     float least = 1.0F;
     for (Index j = 0; j < lattice_.ny; ++j) {
       const float* in = through.row(k, j);
       const float* out = axis == Axis::x   ? in + 1
                          : axis == Axis::y ? through.row(k, j + 1)
                                            : through.row(k + 1, j);
-      left_row(lattice_.nx, before.row(k, j), in, out, after.row(k, j));
-      least = std::min(least, least_share_row(lattice_.nx, after.row(k, j), before.row(k, j)));
+      remaining_row(lattice_.nx, before.row(k, j), in, out, after.row(k, j));
+      least = std::min(least, min_ratio_row(lattice_.nx, after.row(k, j), before.row(k, j)));
     }
     return 1.0 - static_cast<double>(least);
   });
 }
 
-/// And what the last direction takes of it, which leaves what there is at rest.
+/// Returns the largest share that cells lose in the last direction, after which they have the air
+/// at rest.
 double Transport::drain_last(const Field& before) const {
-  return most_each(lattice_.nz, [&](Index k) {
+  return max_each(lattice_.nz, [&](Index k) {
     const float rest = air_.cell[static_cast<std::size_t>(k)];
     float most = rest;
     for (Index j = 0; j < lattice_.ny; ++j) {
-      most = std::max(most, most_row(lattice_.nx, before.row(k, j)));
+      most = std::max(most, max_abs_row(lattice_.nx, before.row(k, j)));
     }
     return 1.0 - static_cast<double>(rest / most);
   });
 }
 
 int Transport::prepare(const Wind& wind, double dt, bool backwards) {
-  courant_ = most(wind, dt);
+  courant_ = max_courant(wind, dt);
   for (int substeps = std::max(1, static_cast<int>(std::ceil(courant_ / most_courant)));;
        substeps *= 2) {
     fluxes(wind, dt / substeps);
     const double one = drain(backwards ? Axis::z : Axis::x, rest_, first_);
     const double two = drain(Axis::y, first_, second_);
-    if (std::max({one, two, drain_last(second_)}) < most_lost || substeps >= most_substeps) {
+    if (std::max({one, two, drain_last(second_)}) < max_drained || substeps >= most_substeps) {
       return substeps;
     }
   }
 }
 
-void Transport::levels(Wind& wind, std::span<Field* const> scalars, std::size_t kept,
+void Transport::levels(Wind& wind, std::span<Field* const> scalars, std::size_t conserved,
                        bool backwards, std::span<BoundaryFlux> crossed) {
   const std::array<Axis, 2> order =
       backwards ? std::array{Axis::y, Axis::x} : std::array{Axis::x, Axis::y};
@@ -173,7 +176,7 @@ void Transport::levels(Wind& wind, std::span<Field* const> scalars, std::size_t 
                            : std::span<BoundaryFlux>());
       };
       const std::array<Field*, 3> parts{&wind.u, &wind.v, &wind.w};
-      go(Place::middle, scalars, kept);
+      go(Place::middle, scalars, conserved);
       go(Place::x, std::span(parts).subspan(0, 1), 0);
       go(Place::y, std::span(parts).subspan(1, 1), 0);
       if (k > 0) {
@@ -183,7 +186,7 @@ void Transport::levels(Wind& wind, std::span<Field* const> scalars, std::size_t 
   });
 }
 
-void Transport::columns(Wind& wind, std::span<Field* const> scalars, std::size_t kept,
+void Transport::columns(Wind& wind, std::span<Field* const> scalars, std::size_t conserved,
                         bool backwards) {
   const Field& mass = backwards ? rest_ : second_;
   const auto rest = backwards ? std::span<const float>() : std::span<const float>(air_.cell);
@@ -194,7 +197,7 @@ void Transport::columns(Wind& wind, std::span<Field* const> scalars, std::size_t
                      exchange(Axis::z), place == Place::middle ? scalar_mixing : 1.0F},
                     j);
     };
-    go(Place::middle, scalars, kept);
+    go(Place::middle, scalars, conserved);
     go(Place::x, std::span(parts).subspan(0, 1), 0);
     if (j > 0) {
       go(Place::y, std::span(parts).subspan(1, 1), 0);
@@ -203,25 +206,26 @@ void Transport::columns(Wind& wind, std::span<Field* const> scalars, std::size_t
   });
 }
 
-int Transport::advance(Wind& wind, std::span<Field* const> scalars, std::size_t loose, double dt,
-                       bool backwards, std::span<BoundaryFlux> crossed, const Field* mixing) {
+int Transport::advance(Wind& wind, std::span<Field* const> scalars, std::size_t unconserved,
+                       double dt, bool backwards, std::span<BoundaryFlux> crossed,
+                       const Field* mixing) {
   const int substeps = prepare(wind, dt, backwards);
   mixes_ = mixing != nullptr;
   if (mixing) {
     exchanges(*mixing, dt / substeps);
   }
   if (substeps >= most_substeps) {
-    throw Error("the wind is too strong for the grid: take shorter steps");
+    throw Error("the wind is too strong for the grid; use a shorter time step");
   }
-  const std::size_t kept = scalars.size() - loose;
+  const std::size_t conserved = scalars.size() - unconserved;
   crossed_.assign(scalars.size() * static_cast<std::size_t>(lattice_.nz), {});
   for (int step = 0; step < substeps; ++step) {
     if (backwards) {
-      columns(wind, scalars, kept, backwards);
-      levels(wind, scalars, kept, backwards, crossed_);
+      columns(wind, scalars, conserved, backwards);
+      levels(wind, scalars, conserved, backwards, crossed_);
     } else {
-      levels(wind, scalars, kept, backwards, crossed_);
-      columns(wind, scalars, kept, backwards);
+      levels(wind, scalars, conserved, backwards, crossed_);
+      columns(wind, scalars, conserved, backwards);
     }
   }
   const double area = lattice_.spacing * lattice_.spacing;

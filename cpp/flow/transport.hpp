@@ -24,7 +24,7 @@ struct Air {
   std::vector<float> face; ///< [nz + 1] kg/m3 at the faces
 };
 
-/// Inverse turbulent Prandtl number: ratio of the eddy diffusivity of scalars to eddy viscosity.
+/// Inverse turbulent Prandtl number: eddy diffusivity of scalars / eddy viscosity.
 inline constexpr float scalar_mixing = 3.0F;
 
 /// Advection of scalars and momentum with dimensional splitting: directions alternate their order
@@ -33,26 +33,27 @@ class Transport {
 public:
   Transport(const Lattice& lattice, const Air& air);
 
-  /// @param scalars 2 to `max_fields`, the first two of them 0 in most of the domain; of all
-  /// but the last `loose` ones sums are kept to rounding, of the loose ones constants
-  /// @param crossed [scalars] what came and went through the sides, value x kg
-  /// @param mixing K of eddies in cells, m2/s, or null
+  /// @param scalars 2 to `max_fields`, the first two of them 0 in most of the domain. Sums are
+  /// conserved to rounding, except of the last `unconserved` ones, for which constants stay
+  /// constant
+  /// @param crossed [scalars] amounts that entered and left through the boundaries, value x kg
+  /// @param mixing eddy viscosity of cells, m2/s, or null
   /// @return number of substeps
-  int advance(Wind& wind, std::span<Field* const> scalars, std::size_t loose, double dt,
+  int advance(Wind& wind, std::span<Field* const> scalars, std::size_t unconserved, double dt,
               bool backwards, std::span<BoundaryFlux> crossed, const Field* mixing);
 
-  double courant() const { return courant_; } ///< of the last step as a whole
+  double courant() const { return courant_; } ///< of the last complete step
 
 private:
   int prepare(const Wind& wind, double dt, bool backwards);
-  double most(const Wind& wind, double dt) const;
+  double max_courant(const Wind& wind, double dt) const;
   void fluxes(const Wind& wind, double dt);
   double drain(Axis axis, const Field& before, Field& after);
   double drain_last(const Field& before) const;
   void exchanges(const Field& mixing, double dt);
-  void levels(Wind& wind, std::span<Field* const> scalars, std::size_t kept, bool backwards,
+  void levels(Wind& wind, std::span<Field* const> scalars, std::size_t conserved, bool backwards,
               std::span<BoundaryFlux> crossed);
-  void columns(Wind& wind, std::span<Field* const> scalars, std::size_t kept, bool backwards);
+  void columns(Wind& wind, std::span<Field* const> scalars, std::size_t conserved, bool backwards);
   const Field& flux(Axis axis) const;
   const Field* exchange(Axis axis) const;
 
@@ -60,7 +61,7 @@ private:
   const Air& air_;
   Field x_, y_, z_;             ///< through faces in a substep, kg per m2 of ground
   Field rest_, first_, second_; ///< air of cells at rest, after one direction, after two
-  Field mix_x_, mix_y_, mix_z_; ///< air that eddies exchange through faces in a substep, kg/m2
+  Field mix_x_, mix_y_, mix_z_; ///< air exchanged by eddies through faces in a substep, kg/m2
   bool mixes_ = false;
   std::vector<BoundaryFlux> crossed_;
   double courant_ = 0.0;

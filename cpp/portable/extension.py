@@ -1,6 +1,6 @@
 """Make the Blender extension from addon/, data/ and wheels: ``extension.py OUT WHEELS...``.
 
-Blender's `blender_ext.py` builds and validates the zip; it is part of the `bpy` package of the running Python.
+Blender's `blender_ext.py` builds and validates the zip; it is part of the running Python's `bpy` package.
 WHEELS are folders: the zip contains all their wheels, which determine its platforms.
 """
 

@@ -21,24 +21,25 @@ namespace firetwin::volume {
 namespace {
 
 constexpr std::size_t leaves_per_piece = 32;
-constexpr std::size_t most_pieces = 256; // in memory at once; of 32 to 64 kB each
+constexpr std::size_t max_pieces = 256; // in memory at once, 32 to 64 kB each
 
-/// What a file's header ends with. OpenVDB puts random digits there, with which the same grids
-/// would not make the same file.
-constexpr std::string_view no_tag = "00000000-0000-0000-0000-000000000000";
+/// Last field of a file's header. OpenVDB writes a random UUID there; a fixed one makes files of
+/// the same grids identical.
+constexpr std::string_view fixed_uuid = "00000000-0000-0000-0000-000000000000";
 
 } // namespace
 
-/// What a grid is written in: first everything but the values, then the values of some leaves.
+/// A chunk of a grid's data: first the header (everything but the values), then the values of some
+/// leaves.
 struct VdbArchive::Piece {
   std::size_t grid = 0;
   bool head = true;
-  std::size_t first = 0; ///< leaf, in the order of the file
+  std::size_t first = 0; ///< index of a leaf, in file order
   std::size_t last = 0;
   std::string bytes;
 };
 
-/// The pieces of all grids, in the order of the file.
+/// Iterates over the pieces of all grids in file order.
 class VdbArchive::Pieces {
 public:
   explicit Pieces(const std::vector<LeafGrid>& grids) : leaves_(grids.size()) {
@@ -47,7 +48,7 @@ public:
     }
   }
 
-  /// The next piece, without its bytes.
+  /// Returns the next piece, without its bytes.
   std::optional<Piece> next() {
     if (next_.grid == leaves_.size()) {
       return std::nullopt;
@@ -63,7 +64,7 @@ public:
 
   bool is_last(const Piece& piece) const { return piece.last == leaves_[piece.grid].size(); }
 
-  /// Values of the leaves of a piece.
+  /// Serialises the values of a piece's leaves.
   std::string values(const LeafGrid& from, const Piece& piece) const {
     LeafWriter writer(from.grid->saveFloatAsHalf());
     LeafValues values;
@@ -76,39 +77,39 @@ public:
   }
 
 private:
-  std::vector<std::vector<const Leaf*>> leaves_; ///< of each grid
+  std::vector<std::vector<const Leaf*>> leaves_; ///< by grid
   Piece next_;
 };
 
-/// Puts pieces into a file one after the other, and tells at the head of each grid where its parts
-/// lie.
-class VdbArchive::File {
+/// Writes pieces one after the other, and fills in each grid's offsets in its header.
+class VdbArchive::GridFile {
 public:
-  explicit File(std::ostream& file) : file_(file) {}
+  explicit GridFile(std::ostream& file) : file_(file) {}
 
   void write(const openvdb::GridBase& grid, const Piece& piece, bool is_last) {
     if (piece.head) {
-      place_ = openvdb::io::GridDescriptor(grid.getName(), grid.type(), grid.saveFloatAsHalf());
-      place_.writeHeader(file_);
+      descriptor_ =
+          openvdb::io::GridDescriptor(grid.getName(), grid.type(), grid.saveFloatAsHalf());
+      descriptor_.writeHeader(file_);
       offsets_ = file_.tellp();
-      place_.writeStreamPos(file_); // to be written again
-      place_.setGridPos(file_.tellp());
+      descriptor_.writeStreamPos(file_); // placeholder, rewritten at the end of the grid
+      descriptor_.setGridPos(file_.tellp());
     }
     file_.write(piece.bytes.data(), static_cast<std::streamsize>(piece.bytes.size()));
     if (piece.head) {
-      place_.setBlockPos(file_.tellp());
+      descriptor_.setBlockPos(file_.tellp());
     }
     if (is_last) {
-      place_.setEndPos(file_.tellp());
+      descriptor_.setEndPos(file_.tellp());
       file_.seekp(offsets_);
-      place_.writeStreamPos(file_);
-      file_.seekp(place_.getEndPos());
+      descriptor_.writeStreamPos(file_);
+      file_.seekp(descriptor_.getEndPos());
     }
   }
 
 private:
   std::ostream& file_;
-  openvdb::io::GridDescriptor place_;
+  openvdb::io::GridDescriptor descriptor_;
   std::streampos offsets_;
 };
 
@@ -119,7 +120,7 @@ VdbArchive::VdbArchive() {
 void VdbArchive::describe(const openvdb::GridBase& grid, std::ostream& stream) const {
   openvdb::io::setDataCompression(stream, compression());
   setGridCompression(stream, grid);
-  const auto copy = openvdb::ConstPtrCast<openvdb::GridBase>(grid.copyGrid()); // with the same tree
+  const auto copy = openvdb::ConstPtrCast<openvdb::GridBase>(grid.copyGrid()); // shares the tree
   copy->addStatsMetadata();
   copy->insertMeta(openvdb::GridBase::META_FILE_COMPRESSION,
                    openvdb::StringMetadata(
@@ -152,8 +153,8 @@ VdbSummary VdbArchive::write(const std::filesystem::path& path,
 
 void VdbArchive::write(std::ostream& file, const io::Metadata& metadata) const {
   writeHeader(file, true);
-  file.seekp(-static_cast<std::streamoff>(no_tag.size()), std::ios_base::cur);
-  file << no_tag;
+  file.seekp(-static_cast<std::streamoff>(fixed_uuid.size()), std::ios_base::cur);
+  file << fixed_uuid;
   openvdb::MetaMap entries;
   for (const auto& [key, value] : metadata) {
     entries.insertMeta(key, openvdb::StringMetadata(value));
@@ -163,8 +164,8 @@ void VdbArchive::write(std::ostream& file, const io::Metadata& metadata) const {
   file.write(reinterpret_cast<const char*>(&grids), sizeof grids);
 
   Pieces pieces(grids_);
-  File parts(file);
-  int reason = 0; // every thread has an errno of its own
+  GridFile parts(file);
+  int reason = 0; // errno is thread-local
   const auto take = [&](tbb::flow_control& control) {
     std::optional<Piece> piece = pieces.next();
     if (!piece) {
@@ -193,9 +194,9 @@ void VdbArchive::write(std::ostream& file, const io::Metadata& metadata) const {
   };
   try {
     tbb::parallel_pipeline(
-        most_pieces, tbb::make_filter<void, Piece>(tbb::filter_mode::serial_in_order, take) &
-                         tbb::make_filter<Piece, Piece>(tbb::filter_mode::parallel, fill) &
-                         tbb::make_filter<Piece, void>(tbb::filter_mode::serial_in_order, put));
+        max_pieces, tbb::make_filter<void, Piece>(tbb::filter_mode::serial_in_order, take) &
+                        tbb::make_filter<Piece, Piece>(tbb::filter_mode::parallel, fill) &
+                        tbb::make_filter<Piece, void>(tbb::filter_mode::serial_in_order, put));
   } catch (const std::ios_base::failure&) {
     errno = reason;
     throw;

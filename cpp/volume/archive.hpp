@@ -14,41 +14,40 @@
 
 namespace firetwin::volume {
 
-/// Fills the values of one leaf; those that are not active do not matter. Called on several threads
-/// at once.
+/// Fills the values of one leaf; inactive values are ignored. Called from several threads at once.
 using FillLeaf = std::function<void(const Leaf& leaf, LeafValues& values)>;
 
-/// A grid whose leaves need no values of their own: they are asked for one by one. Grids may share
-/// a tree.
+/// A grid whose leaf values are computed on demand, leaf by leaf. Grids may share a tree.
 struct LeafGrid {
   openvdb::FloatGrid::Ptr grid;
   FillLeaf fill;
 };
 
-/// Writes VDB files, Blosc and active mask, with offsets, so that readers load single grids.
+/// Writes VDB files with Blosc and active-mask compression, and with offsets, so that readers can
+/// load single grids.
 ///
-/// OpenVDB's own writer works through grids and leaves one by one, and compresses each leaf twice
-/// (the first time to learn its size, for "delayed loading"). Here leaves are compressed once, in
-/// parallel, as soon as their values are known, and go to the file a few dozen at a time: no grid
-/// is ever whole in memory. What is written piece by piece is written by OpenVDB's functions; see
-/// its io/Archive.cc for the order. The file does not depend on the number of threads.
+/// OpenVDB's own writer processes grids and leaves one by one, and compresses each leaf twice (the
+/// first time to learn its size, for "delayed loading"). This writer compresses each leaf once, in
+/// parallel, as soon as its values are known, and writes a few dozen leaves at a time, so no grid
+/// is ever complete in memory. Each piece is written by OpenVDB's functions; see its io/Archive.cc
+/// for their order. The file does not depend on the number of threads.
 class VdbArchive : private openvdb::io::Archive {
 public:
   VdbArchive();
 
-  /// Adds a grid, half precision where it says so (saveFloatAsHalf).
+  /// Adds a grid, in half precision if its saveFloatAsHalf is set.
   void add(LeafGrid grid);
 
-  /// @throws InputError when the folder or file cannot be written.
+  /// @throws InputError if the folder or the file cannot be written
   VdbSummary write(const std::filesystem::path& path, const io::Metadata& metadata) const;
 
 private:
   struct Piece;
   class Pieces;
-  class File;
+  class GridFile;
 
   void write(std::ostream& file, const io::Metadata& metadata) const;
-  /// A grid's compression, metadata, transform and topology.
+  /// Writes a grid's compression, metadata, transform and topology.
   void describe(const openvdb::GridBase& grid, std::ostream& stream) const;
 
   std::vector<LeafGrid> grids_;

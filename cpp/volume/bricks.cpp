@@ -15,8 +15,9 @@ using Index = std::int64_t;
 using Place = SparseSmoke::Place;
 static_assert(SparseSmoke::side == Bricks::side);
 
-/// Whether a block, or a border that it shares, has more smoke than counts as clear.
-bool smoky(const SparseSmoke& smoke, const Drawn& drawn, const Place& block) {
+/// Returns whether a block, or the border that it shares with its neighbours, has smoke above the
+/// threshold.
+bool has_smoke(const SparseSmoke& smoke, const VisibleShare& visible, const Place& block) {
   constexpr Index side = SparseSmoke::side;
   for (Index corner = 0; corner < 8; ++corner) {
     const Place high{corner & 1, corner >> 1 & 1, corner >> 2};
@@ -29,7 +30,7 @@ bool smoky(const SparseSmoke& smoke, const Drawn& drawn, const Place& block) {
         const float most = *std::max_element(row, row + end(2));
         const Index column = (at[0] * side + x) * smoke.shape()[1] + at[1] * side + y;
         if (most > 0.0F &&
-            drawn.density(most, static_cast<std::size_t>(column)) > Bricks::min_extinction) {
+            visible.density(most, static_cast<std::size_t>(column)) > Bricks::min_extinction) {
           return true;
         }
       }
@@ -38,10 +39,10 @@ bool smoky(const SparseSmoke& smoke, const Drawn& drawn, const Place& block) {
   return false;
 }
 
-/// Packs a lit block, its borders with it.
+/// Packs a lit block and its borders.
 class Packer {
 public:
-  Packer(const LitSmoke& lit, const Drawn& drawn) : lit_(lit), drawn_(drawn) {}
+  Packer(const LitSmoke& lit, const VisibleShare& visible) : lit_(lit), visible_(visible) {}
 
   void pack(const Place& block, std::uint16_t* out) {
     gather(block);
@@ -85,12 +86,12 @@ private:
                 *sky = light_.sky.data() + row * BlockLight::row;
     for (Index k = 0; k < wide; ++k, out += Bricks::channels) {
       const Index z = std::min(k, last);
-      Bricks::write({drawn_.density(density[z], column), fresh[z], sun[z], sky[z], glow[z]}, out);
+      Bricks::write({visible_.density(density[z], column), fresh[z], sun[z], sky[z], glow[z]}, out);
     }
   }
 
   const LitSmoke& lit_;
-  const Drawn& drawn_;
+  const VisibleShare& visible_;
   Neighbourhood around_;
   BlockLight light_;
   Voxels fresh_{}, glow_{};
@@ -99,11 +100,11 @@ private:
 void check_fields(const Bricks::Fields& fields) {
   for (const auto values : {fields.fresh, fields.sun, fields.sky}) {
     if (values.size() != fields.density.size()) {
-      throw std::invalid_argument("all fields of smoke must have the shape of its density");
+      throw std::invalid_argument("fresh, sun and sky must have the shape of density");
     }
   }
   if (!fields.glow.empty() && fields.glow.size() != fields.density.size()) {
-    throw std::invalid_argument("glow must have the shape of the density");
+    throw std::invalid_argument("glow must have the shape of density");
   }
 }
 
@@ -114,7 +115,8 @@ void Bricks::write(const std::array<float, 5>& voxel, std::uint16_t* out) {
   std::fill(out + voxel.size(), out + channels, std::uint16_t{0});
 }
 
-template <class Smoky, class Filler> void Bricks::build(const Smoky& smoky, const Filler& filler) {
+template <class HasSmoke, class Filler>
+void Bricks::build(const HasSmoke& has_smoke, const Filler& filler) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     blocks_[axis] = std::max((shape_[axis] - 2) / side + 1, Index{1});
   }
@@ -127,7 +129,7 @@ template <class Smoky, class Filler> void Bricks::build(const Smoky& smoky, cons
   };
   each_column([&](Index column, const auto& place) {
     for (Index k = 0; k < blocks_[2]; ++k) {
-      index_[static_cast<std::size_t>(column * blocks_[2] + k)] = smoky(place(k)) ? 0 : -1;
+      index_[static_cast<std::size_t>(column * blocks_[2] + k)] = has_smoke(place(k)) ? 0 : -1;
     }
   });
   for (std::int32_t& number : index_) {
@@ -150,24 +152,24 @@ Bricks::Bricks(const Fields& fields, const std::array<Index, 3>& shape, double v
     : shape_(shape), voxel_(voxel), origin_(origin) {
   check(VoxelGrid{fields.density, shape, voxel, origin});
   check_fields(fields);
-  build([&](const Place& at) { return smoky(fields.density, at); },
+  build([&](const Place& at) { return has_smoke(fields.density, at); },
         [&] { return [&](const Place& at, std::uint16_t* out) { pack(fields, at, out); }; });
 }
 
-Bricks::Bricks(const LitSmoke& lit, const Drawn& drawn)
+Bricks::Bricks(const LitSmoke& lit, const VisibleShare& visible)
     : shape_(lit.smoke().shape()), voxel_(lit.smoke().voxel()), origin_(lit.smoke().origin()) {
-  if (drawn.share.size() != static_cast<std::size_t>(shape_[0] * shape_[1])) {
-    throw std::invalid_argument("share must have the smoke's shape along x and y");
+  if (visible.share.size() != static_cast<std::size_t>(shape_[0] * shape_[1])) {
+    throw std::invalid_argument("share must have the shape of the smoke along x and y");
   }
-  build([&](const Place& at) { return volume::smoky(lit.smoke(), drawn, at); },
+  build([&](const Place& at) { return volume::has_smoke(lit.smoke(), visible, at); },
         [&] {
-          return [packer = std::make_unique<Packer>(lit, drawn)](
+          return [packer = std::make_unique<Packer>(lit, visible)](
                      const Place& at, std::uint16_t* out) { packer->pack(at, out); };
         });
 }
 
-/// Whether a block of dense smoke, its borders with it, has more than counts as clear.
-bool Bricks::smoky(std::span<const float> density, const Place& at) const {
+/// Returns whether a block of dense smoke, or one of its borders, has smoke above the threshold.
+bool Bricks::has_smoke(std::span<const float> density, const Place& at) const {
   const Index i = at[0] * side, j = at[1] * side, k = at[2] * side;
   const Index count = std::min(wide, shape_[2] - k);
   for (Index x = i; x < std::min(i + wide, shape_[0]); ++x) {

@@ -12,10 +12,10 @@
 
 namespace firetwin::volume {
 
-/// What is drawn of smoke that dims the light.
-struct Drawn {
-  std::span<const double> share; ///< [nx][ny] of the density, 0 to 1
-  float min_extinction = 0.0F;   ///< 1/m; what is thinner then is clear
+/// The share of smoke that is visible. All of the smoke attenuates light.
+struct VisibleShare {
+  std::span<const double> share; ///< [nx][ny] factor on the density, 0 to 1
+  float min_extinction = 0.0F;   ///< 1/m; smoke below it is set to clear
 
   float density(float all, std::size_t column) const {
     const auto left = static_cast<float>(static_cast<double>(all) * share[column]);
@@ -25,34 +25,34 @@ struct Drawn {
 
 /// Sparse voxel grid of smoke and light for ray marching.
 ///
-/// Blocks of 8^3 cells, each with the 9^3 voxels at its cells' corners, so that what is between
-/// them is found within one block. A voxel is eight half floats, one after the other.
+/// A block has 8^3 cells and the 9^3 voxels at their corners, so that interpolation needs one block
+/// only. A voxel is eight consecutive half floats.
 class Bricks {
 public:
   static constexpr std::int64_t side = 8; ///< cells
   static constexpr std::int64_t wide = side + 1;
-  static constexpr std::size_t channels = 8; ///< of which three are spare
+  static constexpr std::size_t channels = 8; ///< three of them unused
   static constexpr std::size_t block_size = wide * wide * wide * channels;
-  static constexpr float min_extinction = 2.5e-5F; ///< 1/m; a block without more counts as clear
+  static constexpr float min_extinction = 2.5e-5F; ///< 1/m; a block is stored if a voxel exceeds it
 
-  /// Of a voxel, as they lie in a block.
+  /// Fields of the voxels, in the memory layout of a block.
   struct Fields {
     std::span<const float> density; ///< extinction, 1/m
-    std::span<const float> fresh;   ///< 1 where smoke is young, 0 where it is old
-    std::span<const float> sun;     ///< fourth root of the part of the sun's light that comes there
-    std::span<const float> sky;     ///< part of the sky's light
+    std::span<const float> fresh;   ///< 1 in young smoke, 0 in old smoke
+    std::span<const float> sun;     ///< fourth root of the sunlight's transmittance
+    std::span<const float> sky;     ///< transmittance of skylight
     std::span<const float> glow;    ///< light of flames; may be empty
   };
 
   /// @param shape voxels along x, y and z; z runs fastest
-  /// @param origin of the first voxel's middle, m
+  /// @param origin centre of the first voxel, m
   /// @throws std::invalid_argument
   Bricks(const Fields& fields, const std::array<std::int64_t, 3>& shape, double voxel,
          const Vector& origin);
 
-  /// The same of smoke that is sparse already, a block at a time.
+  /// Packs smoke that is already sparse, block by block.
   /// @throws std::invalid_argument
-  Bricks(const LitSmoke& smoke, const Drawn& drawn);
+  Bricks(const LitSmoke& smoke, const VisibleShare& visible);
 
   double voxel() const { return voxel_; }
   const Vector& origin() const { return origin_; }
@@ -61,7 +61,7 @@ public:
   std::size_t used() const { return used_; }
   std::size_t bytes() const { return used_ * block_size * sizeof(std::uint16_t); }
 
-  /// A block's voxels, or null where it is clear.
+  /// Returns a block's voxels, or null if it is clear.
   const std::uint16_t* block(std::int64_t i, std::int64_t j, std::int64_t k) const {
     const auto at = static_cast<std::size_t>((i * blocks_[1] + j) * blocks_[2] + k);
     return index_[at] < 0 ? nullptr
@@ -74,16 +74,17 @@ public:
 private:
   using Place = std::array<std::int64_t, 3>;
 
-  /// Finds blocks that hold smoke, `smoky(place)`, and fills them; `filler()` gives each column of
-  /// them its own `fill(place, out)`.
-  template <class Smoky, class Filler> void build(const Smoky& smoky, const Filler& filler);
-  bool smoky(std::span<const float> density, const Place& block) const;
+  /// Finds blocks with smoke by `has_smoke(place)`, and fills them; `filler()` makes the function
+  /// `fill(place, out)` for each column of blocks.
+  template <class HasSmoke, class Filler>
+  void build(const HasSmoke& has_smoke, const Filler& filler);
+  bool has_smoke(std::span<const float> density, const Place& block) const;
   void pack(const Fields& fields, const Place& block, std::uint16_t* out) const;
 
   std::array<std::int64_t, 3> shape_, blocks_{};
   double voxel_;
   Vector origin_;
-  std::vector<std::int32_t> index_; ///< of each block in the pool, -1: clear
+  std::vector<std::int32_t> index_; ///< of each block in the pool; -1: clear
   std::size_t used_ = 0;
   std::unique_ptr<std::uint16_t[]> pool_;
 };

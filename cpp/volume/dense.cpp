@@ -17,7 +17,7 @@ namespace {
   copy_leaf(field, at, values);
   std::ostringstream text;
   text << "grid \"" << name << "\" holds " << values[0] << " at [" << at.x() << ", " << at.y()
-       << ", " << at.z() << "]; give finite numbers, up to 65504 for half precision";
+       << ", " << at.z() << "]; values must be finite, and at most 65504 in half precision";
   throw std::invalid_argument(text.str());
 }
 

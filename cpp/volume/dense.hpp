@@ -14,7 +14,7 @@
 
 namespace firetwin::volume {
 
-/// A dense array (nx, ny, nz), z running fastest.
+/// Dense array (nx, ny, nz), z fastest.
 struct DenseField {
   std::span<const float> values;
   std::array<std::int32_t, 3> shape;
@@ -23,19 +23,19 @@ struct DenseField {
 struct DenseSettings {
   double voxel_size = 1.0; ///< m
   Vector origin{};         ///< centre of voxel (0, 0, 0), m
-  bool half = true;        ///< precision
-  float tolerance = 0.0F;  ///< values this near 0 are left out
+  bool half = true;        ///< half precision
+  float tolerance = 0.0F;  ///< values up to this magnitude are not active
   const lod::ViewSet* view_set =
-      nullptr;        ///< leaves that do not count are left out, see LeafCulling
-  std::string within; ///< the field without whose leaves others have none; none: ""
+      nullptr;        ///< leaves that it does not see are culled, see LeafCulling
+  std::string within; ///< name of a field: its empty leaves are left out of all others; "":
+                      ///< no such field
 };
 
-/// Writes dense arrays as sparse fog volumes, each with its own active voxels: those beyond the
-/// tolerance. Leaves of one value become tiles. The frame's mass is the sum of `density` (kg/m3)
-/// over voxels times their volume, where there is such a grid, and `culled_mass` that of what is
-/// left out because it is not seen.
-/// @throws std::invalid_argument when there is no field called `within`, and for values that are
-/// not finite or too large for half precision
+/// Writes dense arrays as sparse fog volumes. Each grid has its own active voxels: the values
+/// beyond the tolerance. Constant leaves become tiles. VdbSummary::mass is the integral of the grid
+/// `density` (kg/m3), if there is one, and `culled_mass` its integral over the culled leaves.
+/// @throws std::invalid_argument if no field is named `within`, or if a value is not finite or too
+/// large for half precision
 VdbSummary write_dense(const std::filesystem::path& path,
                        const std::map<std::string, DenseField>& fields,
                        const DenseSettings& settings, const io::Metadata& metadata);

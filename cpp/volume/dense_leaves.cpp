@@ -18,11 +18,11 @@ namespace firetwin::volume {
 namespace {
 
 constexpr auto side = static_cast<std::int32_t>(leaf_side);
-constexpr std::int32_t block_side = 16 * side; // voxels that are looked for at once
+constexpr std::int32_t block_side = 16 * side; // voxels; blocks are culled before their leaves
 constexpr float largest_half = 65504.0F;
 constexpr std::size_t lanes = 8;
 
-/// Largest magnitude as bits, which are in the order of the numbers; infinite and NaN are the
+/// Returns the largest magnitude as bits, which sort like the numbers; infinity and NaN are the
 /// largest.
 FIRETWIN_CLONES("avx2")
 std::uint32_t largest_bits(const LeafValues& values) {
@@ -35,7 +35,7 @@ std::uint32_t largest_bits(const LeafValues& values) {
   return largest;
 }
 
-/// Sum of the values beyond the tolerance, in eight parts, whatever the processor.
+/// Sums the values beyond the tolerance, in eight partial sums on any processor.
 FIRETWIN_CLONES("avx2")
 double sum_of(const LeafValues& values, float tolerance) {
   std::array<double, lanes> sums{};
@@ -48,7 +48,7 @@ double sum_of(const LeafValues& values, float tolerance) {
   return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
 }
 
-/// 1 for each value beyond the tolerance, else 0.
+/// Writes 1 for each value beyond the tolerance, else 0.
 FIRETWIN_CLONES("avx2")
 void mark(const LeafValues& values, float tolerance, std::array<std::uint8_t, leaf_voxels>& marks) {
   for (std::size_t i = 0; i < leaf_voxels; ++i) {
@@ -63,7 +63,7 @@ LeafMask active(const LeafValues& values, float tolerance) {
   for (openvdb::Index i = 0; i < leaf_voxels / 8; ++i) {
     std::uint64_t eight = 0;
     std::memcpy(&eight, &marks[8 * i], sizeof eight);
-    // The product's highest byte has bit n where byte n of the factor is 1.
+    // In the product's highest byte, bit n is set if byte n of the factor is 1.
     const std::uint64_t bits = eight * 0x0102040810204080U >> 56;
     mask.getWord<LeafMask::Word>(i / 8) |= bits << i % 8 * 8;
   }
@@ -74,18 +74,18 @@ bool is_constant(const LeafValues& values) {
   return std::all_of(values.begin(), values.end(), [&](float v) { return v == values[0]; });
 }
 
-/// The leaves that stand on each other.
+/// Leaves of one column (x, y).
 struct Column {
   DenseLeaves found;
   std::vector<std::unique_ptr<Leaf>> leaves;
   std::vector<std::pair<openvdb::Coord, float>> tiles;
 };
 
-/// Which blocks of 128^3 voxels count. What holds a ball that counts does so itself, so the leaves
-/// of the others need not be asked for.
-class Blocks {
+/// Visibility of blocks of 128^3 voxels. A block that contains a visible bounding sphere is visible
+/// itself, so the leaves of invisible blocks need no test.
+class VisibleBlocks {
 public:
-  Blocks(const DenseField& field, const LeafCulling& seen) {
+  VisibleBlocks(const DenseField& field, const LeafCulling& seen) {
     std::size_t size = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       count_[axis] = (field.shape[axis] - 1) / block_side + 1;
@@ -113,12 +113,12 @@ private:
   std::vector<char> seen_;
 };
 
-/// Looks through a field leaf by leaf.
-class Scan {
+/// Scans a field leaf by leaf.
+class LeafScan {
 public:
-  Scan(const DenseField& field, const DenseSettings& settings, bool wanted,
-       const openvdb::FloatTree* within)
-      : field_(field), settings_(settings), wanted_(wanted), within_(within),
+  LeafScan(const DenseField& field, const DenseSettings& settings, bool sum_culled,
+           const openvdb::FloatTree* within)
+      : field_(field), settings_(settings), sum_culled_(sum_culled), within_(within),
         seen_(settings.view_set, settings.voxel_size, settings.origin), blocks_(field, seen_) {}
 
   void column(std::int32_t x, std::int32_t y, Column& column) const {
@@ -128,14 +128,14 @@ public:
         continue;
       }
       const bool counts = blocks_.is_visible(origin) && seen_.is_visible(origin, side);
-      if (counts || wanted_) {
+      if (counts || sum_culled_) {
         leaf(origin, counts, column);
       }
     }
   }
 
 private:
-  /// Whether a tree has a leaf or a tile there.
+  /// Returns whether a tree has a leaf or a tile at `origin`.
   static bool has(const openvdb::FloatTree& tree, const openvdb::Coord& origin) {
     return tree.probeConstLeaf(origin) != nullptr || tree.isValueOn(origin);
   }
@@ -177,10 +177,10 @@ private:
 
   const DenseField& field_;
   const DenseSettings& settings_;
-  bool wanted_;
+  bool sum_culled_;
   const openvdb::FloatTree* within_;
   LeafCulling seen_;
-  Blocks blocks_;
+  VisibleBlocks blocks_;
 };
 
 } // namespace
@@ -201,7 +201,7 @@ void copy_leaf(const DenseField& field, const openvdb::Coord& origin, LeafValues
       const float* row = field.values.data() + (plane + y) * field.shape[2] + origin.z();
       float* to = &values[static_cast<std::size_t>((x * side + y) * side)];
       if (nz == leaf_side) {
-        std::memcpy(to, row, sizeof(float) * leaf_side); // a length known here is faster
+        std::memcpy(to, row, sizeof(float) * leaf_side); // a constant length is faster
       } else {
         std::memcpy(to, row, sizeof(float) * nz);
       }
@@ -209,9 +209,9 @@ void copy_leaf(const DenseField& field, const openvdb::Coord& origin, LeafValues
   }
 }
 
-DenseLeaves find_leaves(const DenseField& field, const DenseSettings& settings, bool wanted,
+DenseLeaves find_leaves(const DenseField& field, const DenseSettings& settings, bool sum_culled,
                         const openvdb::FloatTree* within, openvdb::FloatTree& tree) {
-  const Scan scan(field, settings, wanted, within);
+  const LeafScan scan(field, settings, sum_culled, within);
   const auto rows = static_cast<std::size_t>((field.shape[1] - 1) / side + 1);
   std::vector<Column> columns(static_cast<std::size_t>((field.shape[0] - 1) / side + 1) * rows);
   tbb::parallel_for(std::size_t{0}, columns.size(), [&](std::size_t i) {
@@ -224,7 +224,7 @@ DenseLeaves find_leaves(const DenseField& field, const DenseSettings& settings, 
     all.culled_sum += column.found.culled_sum;
     all.bad = all.bad ? all.bad : column.found.bad;
     for (std::unique_ptr<Leaf>& leaf : column.leaves) {
-      tree.addLeaf(leaf.release()); // the tree owns it now
+      tree.addLeaf(leaf.release()); // the tree takes ownership
     }
     for (const auto& [origin, value] : column.tiles) {
       tree.addTile(1, origin, value, true);

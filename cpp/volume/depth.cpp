@@ -19,10 +19,10 @@ struct View {
   const float* y;
   const float* z;
   const float* radius;
-  std::size_t count; // whole lanes
+  std::size_t count; // padded to full lanes
 };
 
-/// Depths of one point in all the balls; returns the largest.
+/// Computes the depths of one point in all balls; returns the largest.
 FIRETWIN_CLONES("avx2")
 float depths_at(const View& balls, const float* point, float* depths) {
   Lanes most = Lanes{} + nowhere;
@@ -53,7 +53,7 @@ float depths_at(const View& balls, const float* point, float* depths) {
   return largest;
 }
 
-/// Depth of eight points in their deepest ball and its radius.
+/// Finds the depths of eight points in their deepest balls, and the radii of these balls.
 FIRETWIN_CLONES("avx2")
 void deepest(const View& balls, const float* points, float* depths, float* radii) {
   Lanes px;
@@ -86,7 +86,7 @@ std::size_t voxel_at(std::size_t x, std::size_t y, std::size_t z) {
   return (x * leaf_side + y) * leaf_side + z;
 }
 
-/// The bits of the blocks of 2^3 voxels in a larger one.
+/// Returns the mask of the blocks of 2^3 voxels in a larger block.
 std::uint64_t small_blocks(const std::array<std::size_t, 3>& origin, std::size_t side) {
   const std::size_t count = side / 2;
   std::uint64_t bits = 0;
@@ -118,9 +118,9 @@ void DepthMeter::Balls::add(float ball_x, float ball_y, float ball_z, float ball
   ++count;
 }
 
-void DepthMeter::Balls::keep(const Balls& from, std::span<const float> depths, float least) {
+void DepthMeter::Balls::select(const Balls& from, std::span<const float> depths, float least) {
   count = 0;
-  for (std::size_t i = 0; i < from.count; ++i) { // without branches, which could not be predicted
+  for (std::size_t i = 0; i < from.count; ++i) { // branch-free: the branch would be unpredictable
     x[count] = from.x[i];
     y[count] = from.y[i];
     z[count] = from.z[i];
@@ -160,7 +160,7 @@ void DepthMeter::measure(const Puffs& puffs, std::span<const std::uint32_t> ball
   refine({{0, 0, 0}, leaf_side, 0}, wanted);
 }
 
-std::array<float, 3> DepthMeter::place(const Block& block, float offset) const {
+std::array<float, 3> DepthMeter::point(const Block& block, float offset) const {
   std::array<float, 3> point{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     point[axis] = corner_[axis] + (static_cast<float>(block.origin[axis]) + offset) * voxel_;
@@ -172,11 +172,11 @@ void DepthMeter::refine(const Block& block, std::uint64_t wanted) {
   const Balls& from = balls_[block.round];
   Balls& left = balls_[block.round + 1];
   const float middle = 0.5F * static_cast<float>(block.side - 1);
-  // From the centre to the outermost voxels, and a little for rounding.
+  // Distance from the centre to the outermost voxels, with a margin for rounding.
   const float half = middle * voxel_ * std::numbers::sqrt3_v<float> * 1.0001F + 0.1F;
   const std::size_t lanes = (from.count + lane_count - 1) / lane_count * lane_count;
   const View view{from.x.data(), from.y.data(), from.z.data(), from.radius.data(), lanes};
-  const float most = depths_at(view, place(block, middle).data(), depths_.data());
+  const float most = depths_at(view, point(block, middle).data(), depths_.data());
   if (most < -depth_outside - half) {
     return;
   }
@@ -187,7 +187,7 @@ void DepthMeter::refine(const Block& block, std::uint64_t wanted) {
     return;
   }
   const float limit = std::max(most - 2.0F * half, -depth_outside - half);
-  left.keep(from, depths_, limit);
+  left.select(from, depths_, limit);
   if (block.side == 2) {
     measure_voxels(block, left);
     return;

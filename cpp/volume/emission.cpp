@@ -11,7 +11,7 @@
 namespace firetwin::volume {
 namespace {
 
-/// Seconds of [low, high] during which a cell that caught fire at `arrival` burns.
+/// Returns the seconds of [low, high] during which a cell ignited at `arrival` burns.
 double overlap(double arrival, double burn_time, double low, double high) {
   return std::max(0.0, std::min(high, arrival + burn_time) - std::max(low, arrival));
 }
@@ -19,11 +19,11 @@ double overlap(double arrival, double burn_time, double low, double high) {
 struct Block {
   std::uint64_t key;
   std::uint64_t neighbourhood;
-  double phase; // s by which its intervals are shifted, so that blocks do not puff in step
+  double phase; // s; offsets the intervals, so that blocks do not puff in phase
   std::vector<std::size_t> cells;
 };
 
-std::uint64_t place(double x, double y, double side, std::uint64_t seed) {
+std::uint64_t block_key(double x, double y, double side, std::uint64_t seed) {
   const auto column = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x / side)));
   const auto row = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(y / side)));
   return mix(mix(seed, column), row);
@@ -35,11 +35,11 @@ std::vector<Block> blocks(const Burn& burn, const PuffSettings& settings) {
   for (std::size_t cell = 0; cell < burn.arrival.size(); ++cell) {
     const double x = burn.position[3 * cell];
     const double y = burn.position[3 * cell + 1];
-    const std::uint64_t key = place(x, y, settings.block, settings.seed);
+    const std::uint64_t key = block_key(x, y, settings.block, settings.seed);
     const auto [found, added] = index.try_emplace(key, result.size());
     if (added) {
       result.push_back({key,
-                        place(x, y, 4.0 * settings.block, settings.seed),
+                        block_key(x, y, 4.0 * settings.block, settings.seed),
                         uniform(key, 0) * settings.interval,
                         {}});
     }
@@ -48,7 +48,8 @@ std::vector<Block> blocks(const Burn& burn, const PuffSettings& settings) {
   return result;
 }
 
-/// One source of `block` in interval `number`; burned over the whole interval goes into `power`.
+/// Computes the source of `block` in interval `number`; `power` gets the fuel burned over the full
+/// interval.
 Source source(double time, const Burn& burn, const PuffSettings& settings, const Block& block,
               std::int64_t number) {
   Source result;
@@ -93,7 +94,7 @@ Source source(double time, const Burn& burn, const PuffSettings& settings, const
   return result;
 }
 
-/// Sets merged_power: sources [first, last) burn in the same interval.
+/// Sets merged_power of sources [first, last), which burn in the same interval.
 void merge(std::span<Source> sources, double radius) {
   tbb::parallel_for(std::size_t{0}, sources.size(), [&](std::size_t i) {
     double sum = 0.0;
@@ -123,7 +124,7 @@ Emission gather(double time, const Burn& burn, const PuffSettings& settings) {
                                          std::min(horizon, time));
     }
   }
-  // The last interval of a phase-shifted block starts at most at `time`.
+  // The last interval of a phase-shifted block starts at `time` or earlier.
   const auto last = static_cast<std::int64_t>(std::floor(time / settings.interval));
   const auto first = static_cast<std::int64_t>(std::floor(oldest / settings.interval)) - 1;
   for (std::int64_t number = first; number <= last; ++number) {

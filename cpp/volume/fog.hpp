@@ -8,7 +8,7 @@
 
 namespace firetwin::volume {
 
-/// An empty fog volume of cubic voxels (m); voxel (0, 0, 0) is centred on `origin`.
+/// Makes an empty fog volume with cubic voxels (m); voxel (0, 0, 0) is centred on `origin`.
 openvdb::FloatGrid::Ptr fog_grid(const std::string& name, double voxel_size, const Vector& origin,
                                  const std::string& units);
 

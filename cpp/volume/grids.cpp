@@ -38,13 +38,13 @@ bool is_wanted(const GridRequest& wanted, SmokeGrid grid) {
          std::find(wanted.grids.begin(), wanted.grids.end(), grid) != wanted.grids.end();
 }
 
-/// Power of the flames within 1.5 voxels in GW, at most 1.
+/// Makes the grid of flame power within 1.5 voxels, GW, at most 1.
 openvdb::FloatGrid::Ptr flame_grid(const Flames& flames, double voxel_size) {
   openvdb::FloatGrid::Ptr grid = fog_grid("flame", voxel_size, {0.0, 0.0, 0.0}, "1");
   auto accessor = grid->getAccessor();
   for (std::size_t i = 0; i < flames.power.size(); ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      leaf_number(flames.position[3 * i + axis], voxel_size); // can be counted
+      leaf_number(flames.position[3 * i + axis], voxel_size); // throws if the index overflows
     }
     const openvdb::Vec3d at(flames.position[3 * i] / voxel_size,
                             flames.position[3 * i + 1] / voxel_size,
@@ -64,17 +64,17 @@ openvdb::FloatGrid::Ptr flame_grid(const Flames& flames, double voxel_size) {
   return grid;
 }
 
-/// The grid with its own leaves.
-LeafGrid whole(const openvdb::FloatGrid::Ptr& grid) {
+/// Wraps a grid that has its own leaf values.
+LeafGrid as_leaf_grid(const openvdb::FloatGrid::Ptr& grid) {
   return {grid, [](const Leaf& leaf, LeafValues& values) {
             std::copy_n(leaf.buffer().data(), leaf_voxels, values.begin());
           }};
 }
 
-/// The visible leaves of a source, and their masses.
-class Chosen {
+/// Visible leaves of a source, and their masses.
+class VisibleLeaves {
 public:
-  Chosen(const LeafSource& source, double voxel_size, const lod::ViewSet* view_set)
+  VisibleLeaves(const LeafSource& source, double voxel_size, const lod::ViewSet* view_set)
       : source_(source), voxel_size_(voxel_size), tree_(std::make_shared<openvdb::FloatTree>()),
         mass_(source.leaves.size()) {
     const SharedLeaves& all = source.leaves;
@@ -95,7 +95,7 @@ public:
         auto leaf = std::make_unique<Leaf>(openvdb::PartialCreate(), all.origins[i]);
         leaf->setValueMask(all.masks[i]);
         leaf->setTransientData(static_cast<openvdb::Index32>(i));
-        tree_->addLeaf(leaf.release()); // the tree owns it now
+        tree_->addLeaf(leaf.release()); // the tree takes ownership
       }
     }
   }
@@ -122,9 +122,9 @@ public:
             }};
   }
 
-  /// kg of the dilution that was asked for.
+  /// Returns the mass of the written dilution, kg.
   double mass() const { return std::accumulate(mass_.begin(), mass_.end(), 0.0); }
-  /// kg in culled leaves.
+  /// Returns the mass in culled leaves, kg.
   double culled_mass() const { return culled_; }
 
 private:
@@ -145,17 +145,18 @@ SmokeGrid smoke_grid(const std::string& name) {
     }
     known += (known.empty() ? "" : ", ") + std::string(grid.name);
   }
-  throw std::invalid_argument("there is no smoke grid \"" + name + "\"; choose from " + known);
+  throw std::invalid_argument("unknown smoke grid \"" + name + "\"; choose from " + known);
 }
 
 VdbSummary write_leaves(const std::filesystem::path& path, const LeafSource& source,
                         double voxel_size, const GridRequest& wanted) {
-  Chosen chosen(source, voxel_size, wanted.view_set);
+  VisibleLeaves chosen(source, voxel_size, wanted.view_set);
   VdbArchive archive;
   for (const NamedGrid& named : all_grids) {
     if (is_wanted(wanted, named.grid)) {
-      archive.add(named.grid == SmokeGrid::flame ? whole(flame_grid(wanted.flames, voxel_size))
-                                                 : chosen.grid(named, wanted.flames));
+      archive.add(named.grid == SmokeGrid::flame
+                      ? as_leaf_grid(flame_grid(wanted.flames, voxel_size))
+                      : chosen.grid(named, wanted.flames));
     }
   }
   VdbSummary frame = archive.write(path, wanted.metadata);

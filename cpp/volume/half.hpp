@@ -6,11 +6,11 @@
 #include <bit>
 #include <cstdint>
 
-/// Half floats that are not negative, without the processor's own instructions for them: any
-/// processor gives the same numbers.
+/// Conversion of non-negative half floats without processor-specific instructions, so that all
+/// processors give the same numbers.
 namespace firetwin::volume {
 
-/// Nearest half float; what is more than its largest becomes that.
+/// Rounds to the nearest half float; values beyond the largest are clamped to it.
 inline std::uint16_t to_half(float value) {
   constexpr float scale = 0x1p-112F, largest = 65504.0F;
   const auto bits = std::bit_cast<std::uint32_t>(std::min(value, largest) * scale);
@@ -21,7 +21,7 @@ inline float from_half(std::uint16_t half) {
   return std::bit_cast<float>(static_cast<std::uint32_t>(half) << 13) * 0x1p112F;
 }
 
-/// Eight of them.
+/// Converts eight half floats.
 __attribute__((always_inline)) inline void from_halves(const std::uint16_t* halves, Lanes& out) {
   using Words = Simd<std::uint32_t, lane_count>;
   Simd<std::uint16_t, lane_count> packed;

@@ -9,7 +9,7 @@
 namespace firetwin::volume {
 namespace {
 
-/// Value (rows, columns) at a place, linear between, held outside.
+/// Interpolates (rows, columns) linearly at a place; constant outside.
 float field(std::span<const float> values, const AirTemperature& air,
             const std::array<double, 2>& place) {
   std::array<std::int64_t, 2> low{};
@@ -32,7 +32,7 @@ float field(std::span<const float> values, const AirTemperature& air,
   return south + part[1] * (north - south);
 }
 
-/// Radiance of air at a place.
+/// Returns the black-body radiance of the air at a place.
 float radiance(const AirTemperature& air, const Vector& place) {
   const std::array<double, 2> flat{place[0], place[1]};
   const double above = place[2] - static_cast<double>(field(air.elevation, air, flat));
@@ -44,37 +44,37 @@ float radiance(const AirTemperature& air, const Vector& place) {
   return air.radiance[low] + part * (air.radiance[low + 1] - air.radiance[low]);
 }
 
-/// The first segment that was not gone through, of all layers'; null at the end.
-Crossing* nearest(std::vector<Crossing>& crossings) {
-  Crossing* found = nullptr;
-  for (Crossing& each : crossings) {
-    const bool left = each.at < each.segments.size();
-    if (left &&
-        (found == nullptr || each.segments[each.at].from < found->segments[found->at].from)) {
+/// Returns the layer whose next segment is nearest; null if no segment is left.
+LayerCrossing* nearest(std::vector<LayerCrossing>& crossings) {
+  LayerCrossing* found = nullptr;
+  for (LayerCrossing& each : crossings) {
+    const bool left = each.current < each.segments.size();
+    if (left && (found == nullptr ||
+                 each.segments[each.current].from < found->segments[found->current].from)) {
       found = &each;
     }
   }
   return found;
 }
 
-/// Radiance and transmittance of the smoke on a ray.
-std::array<float, 2> along(RayTraversal& way, const Vector& origin, const Vector& direction,
+/// Computes radiance and transmittance of the smoke on a ray.
+std::array<float, 2> along(RayTraversal& traversal, const Vector& origin, const Vector& direction,
                            const AirTemperature& air, double step) {
-  float light = 0.0F, through = 1.0F;
-  // Layers fade into each other: they are gone through block by block.
-  while (Crossing* crossing = nearest(way.crossings())) {
-    const Segment& segment = crossing->segments[crossing->at++];
+  float light = 0.0F, transmittance = 1.0F;
+  // Layers overlap where they blend: segments are processed in order of distance.
+  while (LayerCrossing* crossing = nearest(traversal.crossings())) {
+    const Segment& segment = crossing->segments[crossing->current++];
     const double depth = depth_of(*crossing, segment, step);
-    const auto kept = static_cast<float>(std::exp(-depth * air.absorption));
-    if (kept < 1.0F) {
-      const double middle = way.entry() + 0.5 * (segment.from + segment.to);
-      light += through * (1.0F - kept) *
+    const auto step_transmittance = static_cast<float>(std::exp(-depth * air.absorption));
+    if (step_transmittance < 1.0F) {
+      const double middle = traversal.entry() + 0.5 * (segment.from + segment.to);
+      light += transmittance * (1.0F - step_transmittance) *
                radiance(air, {origin[0] + direction[0] * middle, origin[1] + direction[1] * middle,
                               origin[2] + direction[2] * middle});
-      through *= kept;
+      transmittance *= step_transmittance;
     }
   }
-  return {light, through};
+  return {light, transmittance};
 }
 
 } // namespace
@@ -85,17 +85,18 @@ void march_infrared(Layers layers, const Rays& rays, std::span<const float> dist
   const auto cells = static_cast<std::size_t>(air.shape[0] * air.shape[1]);
   if (cells < 1 || air.kelvin.size() != cells || air.elevation.size() != cells ||
       air.radiance.size() < 2) {
-    throw std::invalid_argument("air needs temperature and elevation of one shape, and radiances");
+    throw std::invalid_argument(
+        "kelvin and elevation must have the same shape, and radiance at least 2 values");
   }
   for_rays(
       rays.size(), [layers] { return RayTraversal(layers); },
-      [&](RayTraversal& way, std::size_t ray) {
+      [&](RayTraversal& traversal, std::size_t ray) {
         const Vector origin = rays.origin(ray), direction = rays.direction(ray);
-        const bool smoky = way.follow(origin, direction, distances[ray]);
-        const auto [light, through] =
-            smoky ? along(way, origin, direction, air, step) : std::array<float, 2>{0.0F, 1.0F};
+        const bool smoky = traversal.follow(origin, direction, distances[ray]);
+        const auto [light, transmittance] = smoky ? along(traversal, origin, direction, air, step)
+                                                  : std::array<float, 2>{0.0F, 1.0F};
         out[2 * ray] = light;
-        out[2 * ray + 1] = through;
+        out[2 * ray + 1] = transmittance;
       });
 }
 

@@ -8,21 +8,22 @@
 
 namespace firetwin::volume {
 
-/// Air temperature, which is the smoke's, and the band radiance of black bodies.
+/// Air temperature, equal to the smoke's, and black-body band radiance.
 struct AirTemperature {
-  std::span<const float> kelvin;    ///< (rows, columns) at the model's ground, rows to the north
+  std::span<const float> kelvin;    ///< (rows, columns) at the model's ground, K; rows to the north
   std::span<const float> elevation; ///< (rows, columns) of the model's ground, m
   std::array<std::int64_t, 2> shape;
   std::array<double, 2> corner,
-      spacing;                     ///< x and y: the first value's place, and between values, m
+      spacing;                     ///< x and y of the first value, and distance between values, m
   double lapse;                    ///< K/m
-  std::span<const float> radiance; ///< at temperatures that rise in equal steps
-  double coldest, kelvin_step;     ///< the first one's temperature and the step, K
-  double absorption;               ///< per extinction in green light
+  std::span<const float> radiance; ///< at evenly spaced, rising temperatures
+  double coldest, kelvin_step;     ///< temperature of the first radiance, and the spacing, K
+  double absorption;               ///< infrared absorption / extinction in green light
 };
 
-/// Infrared ray marching with absorption and emission and without scattering: (n, 2) radiance and
-/// transmittance up to each ray's distance (n). A block has one temperature.
+/// Ray marching in the infrared with absorption and emission but without scattering: (n, 2)
+/// radiance and transmittance up to each ray's distance (n). The temperature is constant within a
+/// block.
 ///
 /// @throws std::invalid_argument
 void march_infrared(Layers layers, const Rays& rays, std::span<const float> distances,

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-/// Vectors of numbers that processors work on at once.
+/// SIMD vectors of fixed width.
 namespace firetwin::volume {
 
 constexpr std::size_t lane_count = 8;

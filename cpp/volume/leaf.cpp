@@ -10,14 +10,16 @@
 namespace firetwin::volume {
 namespace {
 
-constexpr double smallest_voxel = 1.0e-4; // m; OpenVDB takes far smaller ones for 0
-constexpr double largest_voxel = 1.0e6;   // m; its volume is far from the largest float
+constexpr double smallest_voxel = 1.0e-4; // m; OpenVDB treats far smaller voxels as singular
+constexpr double largest_voxel = 1.0e6;   // m; far below overflow of a voxel's volume in float
 constexpr double most_leaves = 1.0e8;
-constexpr double farthest_leaf = 1 << 27; // its voxels, eight times as many, are 32-bit integers
+constexpr double farthest_leaf =
+    1 << 27; // the voxel index, eight times as large, must fit into 32 bits
 
 [[noreturn]] void too_small(double voxel_size) {
   std::ostringstream text;
-  text << "voxels of " << voxel_size << " m are too small for smoke this wide; use larger ones";
+  text << "voxels of " << voxel_size
+       << " m are too small for smoke of this extent; use larger voxels";
   throw Error(text.str());
 }
 

@@ -5,36 +5,36 @@
 #include <array>
 #include <cstdint>
 
-/// Leaves: the blocks of 8^3 voxels that OpenVDB's trees are made of, and that smoke is computed
-/// in.
+/// Leaves: the blocks of 8^3 voxels that OpenVDB's trees consist of. Smoke is computed leaf by
+/// leaf.
 namespace firetwin::volume {
 
 constexpr std::size_t leaf_side = 8;
 constexpr std::size_t leaf_voxels = leaf_side * leaf_side * leaf_side;
 
-/// A value for each voxel of a leaf, z running fastest.
+/// One value per voxel of a leaf, z fastest.
 using LeafValues = std::array<float, leaf_voxels>;
 using Leaf = openvdb::FloatTree::LeafNodeType;
 using LeafMask = Leaf::NodeMaskType;
 
-/// First voxel of the leaf at `place`, which is counted in leaves.
+/// Returns the first voxel of the leaf with index `place`.
 openvdb::Coord first_voxel(const openvdb::Coord& place);
 
-/// Centre of a leaf's lowest voxel, m.
+/// Returns the centre of a leaf's first voxel, m.
 std::array<float, 3> corner_of(const openvdb::Coord& origin, float voxel_size);
 
-/// Integral over active voxels.
+/// Integrates over active voxels.
 double mass_of(const LeafMask& mask, const LeafValues& values, double voxel_size);
 
-/// @throws std::invalid_argument unless it is 0.1 mm to 1000 km
+/// @throws std::invalid_argument unless the size is 1e-4 to 1e6 m
 void check_voxel_size(double voxel_size);
 
-/// The leaf, counted along an axis, that a place (m) lies in.
-/// @throws Error where voxels are so small that they cannot be counted
+/// Returns the leaf index, along an axis, of a coordinate (m).
+/// @throws Error if voxels are so small that the index overflows
 int leaf_number(double place, double voxel_size);
 
-/// @param count of leaves; a double, for it may be more than an integer holds
-/// @throws Error for more leaves than memory could ever hold.
+/// @param count number of leaves; a double, as it may exceed the range of integers
+/// @throws Error if memory could not hold so many leaves
 void check_leaf_count(double count, double voxel_size);
 
 } // namespace firetwin::volume

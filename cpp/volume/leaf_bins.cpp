@@ -7,8 +7,8 @@
 namespace firetwin::volume {
 namespace {
 
-/// Lists of numbers one after the other, filled in two rounds by `visit`, which hands pairs of a
-/// list and a number to what it is given, the same both times.
+/// Concatenates lists of numbers in two passes (count, then fill). `visit` calls its argument with
+/// pairs of list and number, in both passes with the same pairs.
 template <class Visit>
 void make_lists(std::size_t count, const Visit& visit, std::vector<std::size_t>& starts,
                 std::vector<std::uint32_t>& numbers) {

@@ -12,27 +12,27 @@
 
 namespace firetwin::volume {
 
-/// The box of leaves (8^3 voxels) that balls reach, in planes across x. Nothing is kept for its
-/// leaves, of which most may be empty.
+/// Bounding box, in leaves (8^3 voxels), of the balls' range, as planes across x. It stores nothing
+/// per leaf, as most may be empty.
 struct LeafBox {
   openvdb::Coord low;
   openvdb::Coord count;
 
-  /// `reach[i]` is how far ball i matters, m; 0 leaves it out.
+  /// @param reach range of influence of each ball, m; 0 ignores the ball
   LeafBox(const Puffs& puffs, std::span<const float> reach, double voxel_size);
 
   std::size_t planes() const { return static_cast<std::size_t>(count.x()); }
   std::size_t leaves_in_plane() const;
-  /// First voxel of a leaf of a plane.
+  /// Returns the first voxel of a leaf in a plane.
   openvdb::Coord origin(std::size_t plane, std::size_t leaf) const;
 };
 
-/// Spatial binning of balls to leaves, plane by plane. Balls may reach beyond the box.
+/// Spatial binning of balls to leaves, plane by plane. Balls may extend beyond the box.
 class LeafBins {
 public:
   LeafBins(const LeafBox& box, const Puffs& puffs, std::span<const float> reach, double voxel_size);
 
-  /// For each leaf of a plane a list of ball numbers, ascending.
+  /// Ball numbers for each leaf of a plane, ascending.
   class Plane {
   public:
     Plane(const LeafBins& bins, std::size_t plane);
@@ -47,16 +47,16 @@ public:
   };
 
 private:
-  /// Leaves from and to, both among them.
+  /// First and last leaf, inclusive.
   struct Range {
     std::array<std::int32_t, 3> low;
     std::array<std::int32_t, 3> high;
   };
 
   LeafBox box_;
-  std::vector<Range> ranges_;           ///< of each ball, inside the box
-  std::vector<std::size_t> starts_;     ///< of each plane among the following
-  std::vector<std::uint32_t> crossing_; ///< the balls that reach it
+  std::vector<Range> ranges_;           ///< by ball, clipped to the box
+  std::vector<std::size_t> starts_;     ///< start of each plane in `crossing_`
+  std::vector<std::uint32_t> crossing_; ///< balls that reach a plane
 };
 
 } // namespace firetwin::volume

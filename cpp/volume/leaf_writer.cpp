@@ -12,9 +12,9 @@
 namespace firetwin::volume {
 namespace {
 
-/// Rounds to half floats, nearest or even, as Imath's half does, but without branches: exponents
-/// too small for half are made by adding 1/2 (the sum's last bits are the half's), others by moving
-/// the exponent.
+/// Rounds to half floats, nearest with ties to even, as Imath's half does, but without branches:
+/// for subnormal halves it adds 1/2 (the last bits of the sum are the half's bits), otherwise it
+/// rebiases the exponent.
 FIRETWIN_CLONES("avx2")
 void to_half(const LeafValues& values, HalfValues& halves) {
   constexpr std::uint32_t smallest_normal = 113U << 23; // 2^-14
@@ -38,7 +38,7 @@ void to_half(const LeafValues& values, HalfValues& halves) {
   }
 }
 
-/// Moves the active values to the front. @return how many there are
+/// Moves the active values to the front. @return their number
 template <class T> std::size_t gather(const LeafMask& mask, std::array<T, leaf_voxels>& values) {
   if (mask.isOn()) {
     return leaf_voxels;
@@ -72,7 +72,7 @@ void LeafWriter::put(const LeafMask& mask, const char* values, std::size_t value
   stream_.put(openvdb::io::NO_MASK_OR_INACTIVE_VALS);
   const std::string_view bytes(values, count * value_size);
   if (bytes == known_) {
-    stream_ << known_bytes_; // deep smoke and its shade are the same for leaves on end
+    stream_ << known_bytes_; // neighbouring leaves deep in smoke are often identical
     return;
   }
   const auto before = static_cast<std::size_t>(stream_.tellp());

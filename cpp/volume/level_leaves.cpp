@@ -16,14 +16,14 @@ namespace {
 
 constexpr std::size_t rows_in_band = 16;
 
-/// Leaves, each once, counted in leaves.
+/// Set of leaves, in leaf coordinates.
 class LeafSet {
 public:
   explicit LeafSet(double voxel_size) : voxel_size_(voxel_size) {}
 
   void add(const openvdb::CoordBBox& box) {
     if (last_.isInside(box)) {
-      return; // cells smaller than leaves
+      return; // for cells smaller than leaves
     }
     const openvdb::Vec3d size = box.extents().asVec3d();
     const double added = size[0] * size[1] * size[2];
@@ -46,7 +46,7 @@ public:
   std::vector<openvdb::Coord> first_voxels() const {
     std::vector<openvdb::Coord> result;
     result.reserve(leaves_.activeVoxelCount());
-    for (auto part = leaves_.cbeginValueOn(); part; ++part) { // leaves of the set, or many at once
+    for (auto part = leaves_.cbeginValueOn(); part; ++part) { // single leaves, or tiles of many
       const openvdb::CoordBBox box = part.getBoundingBox();
       for (auto leaf = box.begin(); leaf; ++leaf) {
         result.push_back(first_voxel(*leaf));
@@ -63,21 +63,21 @@ private:
 
   double voxel_size_;
   openvdb::MaskTree leaves_;
-  openvdb::CoordBBox last_; ///< the one added last
-  double unchecked_ = 0.0;  ///< added since the last check, some of it there already
+  openvdb::CoordBBox last_; ///< last box added
+  double unchecked_ = 0.0;  ///< leaves added since the last check, with duplicates
 };
 
-/// Some rows of cells between two levels that follow each other, or between the ground, to which
-/// smoke of the lowest level reaches, and that level.
+/// Some rows of cells between two consecutive levels, or between the ground and the lowest level,
+/// whose smoke reaches down to the ground.
 class Band {
 public:
-  /// @param layer 0 over the ground, n over level n - 1
+  /// @param layer 0: from the ground to level 0; n: from level n - 1 to level n
   Band(const geo::LocalFrame& frame, const Levels& levels, std::size_t layer, std::size_t first,
        std::size_t last)
       : frame_(frame), levels_(levels), columns_(levels.longitude.size()), layer_(layer),
         first_(first), rows_(last - first + 1) {}
 
-  /// Adds the leaves round all its cells with smoke at a corner.
+  /// Adds the leaves around each cell that has smoke at a corner.
   void reach(double voxel_size, LeafSet& leaves) const {
     if (!has_smoke()) {
       return;
@@ -104,14 +104,14 @@ private:
     return {i, i + 1, i + columns_, i + columns_ + 1};
   }
 
-  /// A field's values at the upper or lower nodes of the band.
+  /// Returns a field's values at the nodes of the band on one level.
   std::span<const float> rows(std::span<const float> field, std::size_t level) const {
     const std::size_t plane = levels_.latitude.size() * columns_;
     return field.subspan(level * plane + first_ * columns_, rows_ * columns_);
   }
 
   static bool is_thick(float smoke) {
-    return valid_smoke(smoke) > static_cast<float>(thinnest_dilution * fresh_smoke);
+    return valid_smoke(smoke) > static_cast<float>(min_dilution * fresh_smoke);
   }
 
   bool has_smoke() const {
@@ -131,7 +131,8 @@ private:
     return any(layer_) || (layer_ > 0 && any(layer_ - 1));
   }
 
-  /// Where the band's nodes lie in the local frame: of the ground, or of level `number` - 1.
+  /// Returns the positions of the band's nodes in the local frame: on the ground (0) or on level
+  /// `number` - 1.
   std::vector<double> nodes(std::size_t number) const {
     const std::span<const float> lowest = rows(levels_.height, 0);
     const std::span<const float> from =
@@ -146,7 +147,8 @@ private:
   }
 
   static openvdb::CoordBBox leaves_round(const openvdb::BBoxd& box, double voxel_size) {
-    // A cell's sides are curved: parallels at 85 degrees by d^2 / (8 * 560 km), meridians less.
+    // The sides of a cell are curved: parallels at 85 degrees by d^2 / (8 * 560 km), meridians
+    // less.
     const double bulge = 1.0 + box.extents().lengthSqr() / 4.0e6; // m
     openvdb::CoordBBox leaves;
     for (int axis = 0; axis < 3; ++axis) {
@@ -160,7 +162,7 @@ private:
   const Levels& levels_;
   std::size_t columns_;
   std::size_t layer_;
-  std::size_t first_; ///< row
+  std::size_t first_; ///< first row
   std::size_t rows_;
 };
 
@@ -168,7 +170,7 @@ private:
 
 std::vector<openvdb::Coord> reached_leaves(const geo::LocalFrame& frame, const Levels& levels,
                                            double voxel_size) {
-  const std::size_t cells = levels.latitude.size() - 1; // rows of them
+  const std::size_t cells = levels.latitude.size() - 1; // rows of cells
   const std::size_t bands = (cells + rows_in_band - 1) / rows_in_band;
   tbb::enumerable_thread_specific<LeafSet> sets{LeafSet(voxel_size)};
   tbb::parallel_for(std::size_t{0}, levels.levels * bands, [&](std::size_t i) {

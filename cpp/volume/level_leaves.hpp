@@ -9,9 +9,9 @@
 
 namespace firetwin::volume {
 
-/// First voxels of the leaves that smoke may reach, in the order of their x, y and z. Nothing is
-/// kept for leaves and levels without smoke.
-/// @throws Error when voxels are far too small
+/// Finds the first voxels of all leaves that smoke may reach, sorted by x, y and z. Leaves and
+/// levels without smoke use no memory.
+/// @throws Error if voxels are far too small
 std::vector<openvdb::Coord> reached_leaves(const geo::LocalFrame& frame, const Levels& levels,
                                            double voxel_size);
 

@@ -11,14 +11,13 @@
 
 namespace firetwin::volume {
 
-/// Follows places along an axis, strictly ascending or descending: looks for each beside the one
-/// before.
+/// Interval search along a strictly monotonic axis; each search starts at the previous result.
 class AxisFollower {
 public:
   explicit AxisFollower(std::span<const double> axis)
       : axis_(axis), ascending_(axis.front() < axis.back()) {}
 
-  /// Moves to a place; false where the axis does not reach.
+  /// Moves to a value; false if it is outside the axis.
   bool move(double value) {
     if (before(value, axis_.front()) || before(axis_.back(), value)) {
       return false;
@@ -38,7 +37,7 @@ public:
   }
 
   std::size_t interval() const { return interval_; }
-  double fraction() const { return fraction_; } ///< of the way through the interval
+  double fraction() const { return fraction_; } ///< within the interval, 0 to 1
 
 private:
   bool before(double a, double b) const { return ascending_ ? a < b : a > b; }
@@ -50,7 +49,8 @@ private:
   double fraction_ = 0.0;
 };
 
-/// Reads fields at any place. Keeps where it found the last one, for neighbours lie near.
+/// Interpolates fields at arbitrary positions. The search starts at the previous position, since
+/// consecutive positions are close together.
 class LevelSampler {
 public:
   using Place = std::array<double, 3>; ///< latitude, longitude, height
@@ -59,7 +59,7 @@ public:
       : levels_(levels), row_(levels.latitude), column_(levels.longitude),
         columns_(levels.longitude.size()), plane_(levels.latitude.size() * columns_) {}
 
-  /// Moves to a place; false where there is no smoke to be found.
+  /// Moves to a position; false if there is no smoke data.
   bool move(const Place& place) {
     if (!row_.move(place[0]) || !column_.move(place[1])) {
       return false;
@@ -72,7 +72,7 @@ public:
     return find_level(place[2]);
   }
 
-  /// Smoke where the sampler is, kg/m3.
+  /// Returns the smoke at the current position, kg/m3.
   double smoke() const {
     return between([&](std::size_t i) { return valid_smoke(levels_.smoke[i]); });
   }
@@ -81,7 +81,7 @@ public:
   }
 
 private:
-  /// Linear between the levels below and above.
+  /// Interpolates linearly between the levels below and above.
   template <class Field> double between(const Field& field) const {
     return lerp(on_level(field, level_), on_level(field, level_ + 1), part_);
   }

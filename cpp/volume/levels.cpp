@@ -43,16 +43,16 @@ void check_heights(const Levels& levels) {
       },
       [](std::size_t a, std::size_t b) { return std::min(a, b); });
   if (wrong < levels.height.size()) {
-    throw Error("height_3d: the heights of the levels must be numbers and ascend; level " +
+    throw Error("height_3d: heights must be finite and ascend with the levels, but level " +
                 std::to_string(wrong / plane) + " of cell " + std::to_string(wrong % plane) +
                 " is at " + std::to_string(levels.height[wrong]) + " m");
   }
 }
 
-/// Geodetic place of every voxel of a leaf from those of its corners.
+/// Geodetic positions of a leaf's voxels, interpolated from its corners.
 class LeafPlaces {
 public:
-  /// Longitudes are counted as near `middle` as can be.
+  /// Longitudes are unwrapped to within 180 degrees of `middle`.
   LeafPlaces(const geo::LocalFrame& frame, const openvdb::Coord& origin, double voxel_size,
              double middle) {
     std::array<double, 24> enu{};
@@ -71,7 +71,7 @@ public:
     }
   }
 
-  /// The lowest and the highest voxel of a row along z.
+  /// Returns the lowest and the highest voxel of a row along z.
   std::array<LevelSampler::Place, 2> row(std::size_t x, std::size_t y) const {
     const double east = static_cast<double>(x) / 7.0;
     const double north = static_cast<double>(y) / 7.0;
@@ -108,7 +108,7 @@ std::unique_ptr<SmokeLeaf> sample(const geo::LocalFrame& frame, const Levels& le
         continue;
       }
       const double found = sampler.smoke();
-      if (found <= thinnest_dilution * fresh_smoke) {
+      if (found <= min_dilution * fresh_smoke) {
         continue;
       }
       const double kelvin = levels.temperature.empty()
@@ -116,8 +116,8 @@ std::unique_ptr<SmokeLeaf> sample(const geo::LocalFrame& frame, const Levels& le
                                 : sampler.temperature();
       leaf->mask.setOn(i + z);
       leaf->concentration[i + z] = static_cast<float>(found);
-      leaf->temperature[i + z] =
-          std::clamp(std::isfinite(kelvin) ? static_cast<float>(kelvin) : 0.0F, 0.0F, hottest);
+      leaf->temperature[i + z] = std::clamp(
+          std::isfinite(kelvin) ? static_cast<float>(kelvin) : 0.0F, 0.0F, max_temperature);
     }
   }
   return leaf->mask.isOff() ? nullptr : std::move(leaf);
@@ -133,8 +133,8 @@ void fill(const SmokeLeaf& leaf, SmokeGrid grid, float size, LeafValues& out) {
   }
   for (std::size_t i = 0; i < leaf_voxels; ++i) {
     const float dilution = leaf.concentration[i] / static_cast<float>(fresh_smoke);
-    const float density = smoothstep(static_cast<float>(thinnest_dilution),
-                                     static_cast<float>(thick_dilution), dilution);
+    const float density =
+        smoothstep(static_cast<float>(min_dilution), static_cast<float>(thick_dilution), dilution);
     out[i] = grid == SmokeGrid::density ? density : dilution;
     if (grid == SmokeGrid::shade) {
       out[i] *= smoothstep(edge_low, edge_high, density);
@@ -142,7 +142,7 @@ void fill(const SmokeLeaf& leaf, SmokeGrid grid, float size, LeafValues& out) {
   }
 }
 
-/// Spacing of the columns in the middle of the grid, km.
+/// Returns the column spacing at the centre of the grid, km.
 float spacing(const geo::LocalFrame& frame, const Levels& levels) {
   const std::size_t row = (levels.latitude.size() - 1) / 2;
   const std::size_t column = (levels.longitude.size() - 1) / 2;

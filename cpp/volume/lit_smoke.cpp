@@ -19,7 +19,7 @@ using Index = std::int64_t;
 using Place = SparseSmoke::Place;
 using Row = std::array<float, BlockLight::row>;
 
-constexpr int fine_steps = 4; // as far as the middle of the next voxel but one of twice the size
+constexpr int fine_steps = 4; // up to the centre of the next but one voxel of twice the size
 static_assert(fine_steps <= Neighbourhood::reach && BlockLight::row == GridResampler::lanes);
 
 void check_direction(const Vector& direction) {
@@ -29,7 +29,7 @@ void check_direction(const Vector& direction) {
   }
 }
 
-/// Means of 2^3 voxels; what lies beyond the smoke is clear.
+/// Averages 2^3 voxels; outside the smoke is clear.
 OwnedVoxelGrid halved(const SparseSmoke& smoke) {
   OwnedVoxelGrid coarse{{}, smoke.shape(), 2.0 * smoke.voxel(), smoke.origin()};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -62,7 +62,7 @@ OwnedVoxelGrid halved(const SparseSmoke& smoke) {
   return coarse;
 }
 
-OwnedVoxelGrid sky_over(const OwnedVoxelGrid& smoke, double part) {
+OwnedVoxelGrid sky_light_grid(const OwnedVoxelGrid& smoke, double part) {
   OwnedVoxelGrid open = volume::halved(smoke.view());
   open.values = sky_light(open.view(), part);
   return open;
@@ -81,36 +81,36 @@ void add_weighted(const float* smoke, const std::ptrdiff_t* offsets, const float
   std::copy(sum.begin(), sum.end(), out);
 }
 
-/// The most smoke in each of a block's voxels and the 26 around it, axis by axis.
-class Nearest {
+/// Maximum over the 3 x 3 x 3 neighbourhood of each of a block's voxels, axis by axis.
+class MaxFilter3 {
 public:
-  explicit Nearest(const Neighbourhood& around);
+  explicit MaxFilter3(const Neighbourhood& around);
 
-  const Row& row(Index x, Index y) const { return most_[number(x, y)]; }
+  const Row& row(Index x, Index y) const { return rows_[number(x, y)]; }
 
 private:
   static constexpr Index wide = BlockLight::wide + 2; // one more on each side
   static std::size_t number(Index x, Index y) {
     return static_cast<std::size_t>((x + 1) * wide + y + 1);
   }
-  /// Takes in the rows before and behind; `step` rows in memory.
+  /// Takes the maximum with the previous and the next row; `step` is their distance in rows.
   void widen(Index first, Index step);
 
-  std::array<Row, static_cast<std::size_t>(wide* wide)> most_;
+  std::array<Row, static_cast<std::size_t>(wide* wide)> rows_;
 };
 
 FIRETWIN_CLONES("avx512f", "avx2")
-void most_of_three(const float* a, const float* b, const float* c, float* out) {
+void max_of_three(const float* a, const float* b, const float* c, float* out) {
   for (Index l = 0; l < BlockLight::row; ++l) {
     out[l] = std::max(std::max(a[l], b[l]), c[l]);
   }
 }
 
-Nearest::Nearest(const Neighbourhood& around) {
+MaxFilter3::MaxFilter3(const Neighbourhood& around) {
   for (Index x = -1; x < wide - 1; ++x) {
     for (Index y = -1; y < wide - 1; ++y) {
       const float* row = around.at(x, y);
-      most_of_three(row - 1, row, row + 1, most_[number(x, y)].data());
+      max_of_three(row - 1, row, row + 1, rows_[number(x, y)].data());
     }
   }
   for (Index n = 0; n < wide; ++n) {
@@ -121,18 +121,18 @@ Nearest::Nearest(const Neighbourhood& around) {
   }
 }
 
-void Nearest::widen(Index first, Index step) {
-  Row before = most_[static_cast<std::size_t>(first)];
+void MaxFilter3::widen(Index first, Index step) {
+  Row before = rows_[static_cast<std::size_t>(first)];
   for (Index n = 1; n < wide - 1; ++n) {
-    Row& here = most_[static_cast<std::size_t>(first + n * step)];
+    Row& here = rows_[static_cast<std::size_t>(first + n * step)];
     const Row own = here;
-    most_of_three(before.data(), own.data(),
-                  most_[static_cast<std::size_t>(first + (n + 1) * step)].data(), here.data());
+    max_of_three(before.data(), own.data(),
+                 rows_[static_cast<std::size_t>(first + (n + 1) * step)].data(), here.data());
     before = own;
   }
 }
 
-/// f(block) for blocks that hold smoke, and those beside them.
+/// Calls f(block) for blocks with smoke and for their neighbours.
 template <class Function> void each_near(const SparseSmoke& smoke, const Function& f) {
   const auto [nx, ny, nz] = smoke.blocks();
   tbb::parallel_for(Index{0}, nx * ny, [&, ny, nz](Index column) {
@@ -152,7 +152,8 @@ template <class Function> void each_near(const SparseSmoke& smoke, const Functio
 
 } // namespace
 
-/// The sum of smoke along the first `fine_steps` voxels of the way, linear between voxels.
+/// Computes weights for the sum of smoke along the first `fine_steps` voxels of the ray, linear
+/// between voxels.
 LitSmoke::Stencil::Stencil(const Vector& direction) {
   std::map<Place, double> found;
   for (int step = 0; step < fine_steps; ++step) {
@@ -181,10 +182,10 @@ LitSmoke::Stencil::Stencil(const Vector& direction) {
 }
 
 LitSmoke::LitSmoke(std::shared_ptr<const SparseSmoke> smoke, const Vector& direction,
-                   const VoxelGrid* beyond, std::array<double, 2> parts)
+                   const VoxelGrid* beyond, std::array<double, 2> factors)
     : smoke_((check_direction(direction), std::move(smoke))),
-      thinner_(static_cast<float>(-parts[0])), depths_(halved(*smoke_)),
-      open_(sky_over(depths_, parts[1])), first_steps_(direction) {
+      log_attenuation_(static_cast<float>(-factors[0])), depths_(halved(*smoke_)),
+      sky_light_(sky_light_grid(depths_, factors[1])), first_steps_(direction) {
   depths_.values = optical_depth(depths_.view(), direction, beyond);
   const auto between = [this](const OwnedVoxelGrid& values, double steps, const Vector& way) {
     Vector shift{};
@@ -193,7 +194,7 @@ LitSmoke::LitSmoke(std::shared_ptr<const SparseSmoke> smoke, const Vector& direc
     }
     return GridResampler(values, smoke_->shape(), smoke_->voxel(), smoke_->origin(), shift);
   };
-  sky_ = between(open_, 0.0, direction);
+  sky_ = between(sky_light_, 0.0, direction);
   depth_ = between(depths_, 0.0, direction);
   depth_beyond_ = between(depths_, fine_steps, direction);
 }
@@ -203,9 +204,10 @@ void LitSmoke::gather(const Place& block, Neighbourhood& out) const {
                  out.density.data());
 }
 
-/// Optical depths to the sun of a row of voxels from `first` on, whose smoke is `own`.
-void LitSmoke::find_sun(const Place& first, const float* own, float* out) const {
-  // At the brick's sides, where smoke ends, the first steps are as long as the others.
+/// Computes optical depths to the sun of a row of voxels from `first`; `own` is their smoke.
+void LitSmoke::find_sun_depths(const Place& first, const float* own, float* out) const {
+  // If the stencil does not fit, near the sides of the grid, the coarse depth is used from the
+  // start.
   const auto fits = [&](std::size_t axis, Index at) {
     return at + first_steps_.low[axis] >= 0 && at + first_steps_.high[axis] < smoke_->shape()[axis];
   };
@@ -238,7 +240,7 @@ bool LitSmoke::light(const Place& block, const Neighbourhood& around, BlockLight
                                        std::min(BlockLight::wide, shape[1] - block[1] * side),
                                        std::min(BlockLight::wide, shape[2] - block[2] * side)};
   bool any = false;
-  const Nearest nearest(around);
+  const MaxFilter3 filtered(around);
   Row depth, sky;
   for (Index x = 0; x < nx; ++x) {
     for (Index y = 0; y < ny; ++y) {
@@ -246,18 +248,18 @@ bool LitSmoke::light(const Place& block, const Neighbourhood& around, BlockLight
       float* sky_out = out.sky.data() + (x * BlockLight::wide + y) * BlockLight::row;
       std::fill_n(sun_out, BlockLight::wide, 0.0F);
       std::fill_n(sky_out, BlockLight::wide, 0.0F);
-      const Row& near = nearest.row(x, y);
+      const Row& near = filtered.row(x, y);
       if (std::none_of(near.begin(), near.begin() + nz, [](float most) { return most > 0.0F; })) {
         continue;
       }
       any = true;
       const Place first{block[0] * side + x, block[1] * side + y, block[2] * side};
-      find_sun(first, around.at(x, y), depth.data());
+      find_sun_depths(first, around.at(x, y), depth.data());
       sky_->row(first[0], first[1], first[2], sky.data());
       for (Index z = 0; z < nz; ++z) {
         const auto l = static_cast<std::size_t>(z);
         if (near[l] > 0.0F) {
-          sun_out[z] = std::exp(thinner_ * depth[l]);
+          sun_out[z] = std::exp(log_attenuation_ * depth[l]);
           sky_out[z] = sky[l];
         }
       }
@@ -266,12 +268,12 @@ bool LitSmoke::light(const Place& block, const Neighbourhood& around, BlockLight
   return any;
 }
 
-void LitSmoke::spread(std::span<float> sun, std::span<float> sky) const {
+void LitSmoke::write_dense(std::span<float> sun, std::span<float> sky) const {
   constexpr Index side = SparseSmoke::side;
   const auto& shape = smoke_->shape();
   const auto count = static_cast<std::size_t>(shape[0] * shape[1] * shape[2]);
   if (sun.size() != count || sky.size() != count) {
-    throw std::invalid_argument("arrays of light and smoke must have the brick's shape");
+    throw std::invalid_argument("sun and sky must have the shape of the smoke");
   }
   each_near(*smoke_, [&](const Place& block) {
     Neighbourhood around;

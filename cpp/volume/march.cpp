@@ -14,7 +14,7 @@
 namespace firetwin::volume {
 namespace {
 
-constexpr float never = std::numeric_limits<float>::max();
+constexpr float no_limit = std::numeric_limits<float>::max();
 
 using Four = Simd<float, 4>;
 
@@ -22,34 +22,34 @@ Four four(const Colour& colour, float factor = 1.0F) {
   return Four{colour[0], colour[1], colour[2], 0.0F} * factor;
 }
 
-/// What is the same for all steps of a ray.
-struct Shade {
+/// Constants of a ray's shading.
+struct ShadingConstants {
   Four fresh, old, sun, sky, glow, air;
-  float spread = 0.0F; ///< light towards the eye, 1 where it goes everywhere alike
+  float phase = 0.0F; ///< phase function towards the eye; isotropic: 1
   float density, twice, thrice;
-  float thin, thick_from, thick_more;
+  float thin, thick_from, thick_scale;
   bool glows;
 
-  explicit Shade(const Illumination& light)
+  explicit ShadingConstants(const Illumination& light)
       : fresh(four(light.fresh)), old(four(light.old)),
         sun(four(light.sun, 0.25F / std::numbers::pi_v<float>)), sky(four(light.sky)),
         glow(four(light.glow)), air(four(light.air)), density(light.density),
         twice(light.multiple_scattering[0]), thrice(light.multiple_scattering[1]), thin(light.thin),
-        thick_from(light.thick[0]), thick_more(1.0F / (light.thick[1] - light.thick[0])),
+        thick_from(light.thick[0]), thick_scale(1.0F / (light.thick[1] - light.thick[0])),
         glows(std::max({light.glow[0], light.glow[1], light.glow[2]}) > 0.0F) {}
 };
 
-/// What came so far.
-struct Sum {
-  Four light{0.0F, 0.0F, 0.0F, 0.0F};
-  float through = 1.0F;
+/// Radiance and transmittance accumulated along the ray.
+struct RayState {
+  Four radiance{0.0F, 0.0F, 0.0F, 0.0F};
+  float transmittance = 1.0F;
 };
 
-/// Steps of one length through the blocks that lie at the same place of a ray.
+/// Equal steps through blocks that overlap along the ray.
 struct Steps {
   float from, length; ///< m
   int count;
-  float haze, more_haze; ///< part of light that is haze at `from`, and how much more each m
+  float haze, haze_slope; ///< share of haze in the radiance at `from`, and its increase per m
 };
 
 __attribute__((always_inline)) inline void mix(const Lanes& a, const Lanes& b, float part,
@@ -57,15 +57,16 @@ __attribute__((always_inline)) inline void mix(const Lanes& a, const Lanes& b, f
   out = a + (b - a) * part;
 }
 
-/// All channels, linear between voxels: firetwin::trilinear, but of vectors, which functions for
-/// several processors hand on by reference alone.
-__attribute__((always_inline)) inline void sample(const Crossing& crossing, const Segment& segment,
-                                                  float distance, Lanes& out) {
+/// Interpolates all channels linearly between voxels, like firetwin::trilinear but for vectors,
+/// which cloned functions must pass by reference.
+__attribute__((always_inline)) inline void
+sample(const LayerCrossing& crossing, const Segment& segment, float distance, Lanes& out) {
   constexpr std::size_t z = Bricks::channels, y = Bricks::wide * z, x = Bricks::wide * y;
   std::array<std::size_t, 3> low;
   std::array<float, 3> part;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const float at = crossing.place[axis] + crossing.pace[axis] * distance - segment.corner[axis];
+    const float at = crossing.index_origin[axis] + crossing.index_direction[axis] * distance -
+                     segment.corner[axis];
     const int whole = std::clamp(static_cast<int>(at), 0, static_cast<int>(Bricks::side) - 1);
     low[axis] = static_cast<std::size_t>(whole);
     part[axis] = at - static_cast<float>(whole);
@@ -86,48 +87,50 @@ __attribute__((always_inline)) inline void sample(const Crossing& crossing, cons
   mix(planes[0], planes[1], part[0], out);
 }
 
-/// Light that smoke gives to the eye for each optical depth.
-__attribute__((always_inline)) inline Four radiance(const Lanes& v, const Shade& shade,
+/// Returns the radiance of smoke towards the eye per unit of optical depth.
+__attribute__((always_inline)) inline Four radiance(const Lanes& v, const ShadingConstants& shading,
                                                     float haze) {
-  const Four albedo = shade.old + (shade.fresh - shade.old) * v[1];
-  const float thinner = v[2] * v[2];
-  Four lit = albedo * (shade.thrice * v[2]) + shade.twice * thinner;
-  lit = albedo * lit + thinner * thinner * shade.spread;
-  lit = albedo * (lit * shade.sun + shade.sky * v[3]);
-  if (shade.glows) {
-    const float thick = std::clamp((v[0] - shade.thick_from) * shade.thick_more, 0.0F, 1.0F);
-    lit += shade.glow * (v[4] * (shade.thin + (1.0F - shade.thin) * thick));
+  const Four albedo = shading.old + (shading.fresh - shading.old) * v[1];
+  const float sun_root = v[2] * v[2];
+  Four lit = albedo * (shading.thrice * v[2]) + shading.twice * sun_root;
+  lit = albedo * lit + sun_root * sun_root * shading.phase;
+  lit = albedo * (lit * shading.sun + shading.sky * v[3]);
+  if (shading.glows) {
+    const float thick = std::clamp((v[0] - shading.thick_from) * shading.thick_scale, 0.0F, 1.0F);
+    lit += shading.glow * (v[4] * (shading.thin + (1.0F - shading.thin) * thick));
   }
-  return lit + (shade.air - lit) * haze;
+  return lit + (shading.air - lit) * haze;
 }
 
-/// The layers that a ray is in.
-struct Inside {
-  std::array<const Crossing*, 4> crossing;
+/// Layers with smoke at the current position of the ray.
+struct ActiveLayers {
+  std::array<const LayerCrossing*, 4> crossing;
   std::array<const Segment*, 4> segment;
   std::size_t count = 0;
 };
 
 FIRETWIN_CLONES("avx2")
-void add(const Inside& inside, const Steps& steps, const Shade& shade, float stop, Sum& sum) {
-  for (int s = 0; s < steps.count && sum.through >= stop; ++s) {
-    const float way = (static_cast<float>(s) + 0.5F) * steps.length;
-    const float haze = steps.haze + steps.more_haze * way;
-    for (std::size_t k = 0; k < inside.count; ++k) {
+void accumulate(const ActiveLayers& active, const Steps& steps, const ShadingConstants& shading,
+                float min_transmittance, RayState& state) {
+  for (int s = 0; s < steps.count && state.transmittance >= min_transmittance; ++s) {
+    const float offset = (static_cast<float>(s) + 0.5F) * steps.length;
+    const float haze = steps.haze + steps.haze_slope * offset;
+    for (std::size_t k = 0; k < active.count; ++k) {
       Lanes v;
-      sample(*inside.crossing[k], *inside.segment[k], steps.from + way, v);
+      sample(*active.crossing[k], *active.segment[k], steps.from + offset, v);
       if (v[0] <= Bricks::min_extinction) {
         continue;
       }
-      v[0] *= shade.density;
-      const float kept = std::exp(-v[0] * steps.length);
-      sum.light += radiance(v, shade, haze) * (sum.through * (1.0F - kept));
-      sum.through *= kept;
+      v[0] *= shading.density;
+      const float step_transmittance = std::exp(-v[0] * steps.length);
+      state.radiance +=
+          radiance(v, shading, haze) * (state.transmittance * (1.0F - step_transmittance));
+      state.transmittance *= step_transmittance;
     }
   }
 }
 
-/// Part of light that is haze between the eye and a place on a ray, as in `scene.haze`.
+/// Share of haze in the radiance between the eye and a point on a ray, as in `scene.haze`.
 class Haze {
 public:
   Haze(const Illumination& light, const Vector& origin, const Vector& direction)
@@ -145,30 +148,31 @@ private:
   double extinction_, height_, start_, rise_;
 };
 
-/// Follows rays one by one; one for each thread.
+/// Marches rays one by one; use one object per thread.
 class Marcher {
 public:
-  Marcher(Layers layers, const Taps& taps, const Illumination& light, const MarchSettings& how)
-      : way_(layers), taps_(taps), light_(light), how_(how), shade_(light), order_(taps.count) {}
+  Marcher(Layers layers, const Taps& taps, const Illumination& light, const MarchSettings& settings)
+      : traversal_(layers), taps_(taps), light_(light), settings_(settings), shading_(light),
+        order_(taps.count) {}
 
   void ray(const Vector& origin, const Vector& direction, std::size_t number, float* out);
 
 private:
   void sort_taps(std::size_t number);
-  float find_inside(float t);
+  float find_active_layers(float t);
   void step(float t, float until, const Haze& haze);
   void record(float* out);
 
-  RayTraversal way_;
+  RayTraversal traversal_;
   Taps taps_;
   const Illumination& light_;
-  MarchSettings how_;
-  Shade shade_;
-  Inside inside_;
-  Sum sum_;
-  std::vector<std::size_t> order_; ///< of taps, the nearest first
-  std::vector<float> ends_;        ///< their distances from the entry, in that order
-  std::size_t next_ = 0;           ///< tap
+  MarchSettings settings_;
+  ShadingConstants shading_;
+  ActiveLayers active_;
+  RayState state_;
+  std::vector<std::size_t> order_; ///< taps, nearest first
+  std::vector<float> ends_;        ///< distances of the taps from the entry, in that order
+  std::size_t next_ = 0;           ///< next tap
 };
 
 void Marcher::sort_taps(std::size_t number) {
@@ -180,19 +184,19 @@ void Marcher::sort_taps(std::size_t number) {
   next_ = 0;
 }
 
-/// Finds the layers at t. Returns up to where that stays so.
-float Marcher::find_inside(float t) {
+/// Finds the layers at t; returns the distance up to which they stay the same.
+float Marcher::find_active_layers(float t) {
   constexpr float near = 1.0e-3F; // m
-  float to = never;
-  inside_.count = 0;
-  for (Crossing& crossing : way_.crossings()) {
-    const Segment* segment = crossing.reach(t);
+  float to = no_limit;
+  active_.count = 0;
+  for (LayerCrossing& crossing : traversal_.crossings()) {
+    const Segment* segment = crossing.advance_to(t);
     if (segment == nullptr) {
       continue;
     }
     if (segment->from <= t + near) {
-      inside_.crossing[inside_.count] = &crossing;
-      inside_.segment[inside_.count++] = segment;
+      active_.crossing[active_.count] = &crossing;
+      active_.segment[active_.count++] = segment;
       to = std::min(to, segment->to);
     } else {
       to = std::min(to, segment->from);
@@ -202,54 +206,54 @@ float Marcher::find_inside(float t) {
 }
 
 void Marcher::step(float t, float until, const Haze& haze) {
-  float finest = never;
-  for (std::size_t k = 0; k < inside_.count; ++k) {
-    finest = std::min(finest, inside_.crossing[k]->voxel);
+  float finest = no_limit;
+  for (std::size_t k = 0; k < active_.count; ++k) {
+    finest = std::min(finest, active_.crossing[k]->voxel);
   }
   const float all = until - t;
   const int count =
-      std::max(1, static_cast<int>(std::ceil(all / (static_cast<float>(how_.step) * finest))));
-  const double entry = way_.entry();
+      std::max(1, static_cast<int>(std::ceil(all / (static_cast<float>(settings_.step) * finest))));
+  const double entry = traversal_.entry();
   const float near = haze.at(entry + static_cast<double>(t));
   const float far = haze.at(entry + static_cast<double>(until));
-  add(inside_, {t, all / static_cast<float>(count), count, near, (far - near) / all}, shade_,
-      static_cast<float>(how_.stop), sum_);
+  accumulate(active_, {t, all / static_cast<float>(count), count, near, (far - near) / all},
+             shading_, static_cast<float>(settings_.min_transmittance), state_);
 }
 
 void Marcher::record(float* out) {
   float* mine = out + 4 * order_[next_++];
   for (int channel = 0; channel < 3; ++channel) {
-    mine[channel] = sum_.light[channel];
+    mine[channel] = state_.radiance[channel];
   }
-  mine[3] = sum_.through;
+  mine[3] = state_.transmittance;
 }
 
 void Marcher::ray(const Vector& origin, const Vector& direction, std::size_t number, float* out) {
   sort_taps(number);
-  sum_ = {};
+  state_ = {};
   const float* distances = taps_.distances.data() + number * taps_.count;
   const double end = static_cast<double>(distances[order_.back()]);
-  if (way_.follow(origin, direction, end)) {
+  if (traversal_.follow(origin, direction, end)) {
     ends_.clear();
     for (const std::size_t tap : order_) {
-      ends_.push_back(static_cast<float>(static_cast<double>(distances[tap]) - way_.entry()));
+      ends_.push_back(static_cast<float>(static_cast<double>(distances[tap]) - traversal_.entry()));
     }
     const double g = light_.anisotropy,
                  base = 1.0 + g * g - 2.0 * g * dot(direction, light_.sun_direction);
-    shade_.spread = static_cast<float>((1.0 - g * g) / (base * std::sqrt(base)));
+    shading_.phase = static_cast<float>((1.0 - g * g) / (base * std::sqrt(base)));
     const Haze haze(light_, origin, direction);
     float t = 0.0F;
-    while (next_ < taps_.count && sum_.through > 0.0F) {
-      const float to = find_inside(t);
+    while (next_ < taps_.count && state_.transmittance > 0.0F) {
+      const float to = find_active_layers(t);
       const float until = std::min(to, ends_[next_]);
-      if (inside_.count > 0 && until > t) {
+      if (active_.count > 0 && until > t) {
         step(t, until, haze);
-      } else if (to == never) {
-        break; // no smoke is left
+      } else if (to == no_limit) {
+        break; // no smoke left
       }
-      if (static_cast<double>(sum_.through) < how_.stop) {
-        sum_.light *= 1.0F / (1.0F - sum_.through);
-        sum_.through = 0.0F;
+      if (static_cast<double>(state_.transmittance) < settings_.min_transmittance) {
+        state_.radiance *= 1.0F / (1.0F - state_.transmittance);
+        state_.transmittance = 0.0F;
       }
       t = std::max(t, until);
       while (next_ < taps_.count && ends_[next_] <= t) {
@@ -265,13 +269,14 @@ void Marcher::ray(const Vector& origin, const Vector& direction, std::size_t num
 } // namespace
 
 void march(Layers layers, const Rays& rays, const Taps& taps, const Illumination& light,
-           const MarchSettings& how, std::span<float> out) {
+           const MarchSettings& settings, std::span<float> out) {
   check(rays, taps.distances, taps.count);
-  if (layers.size() > Inside{}.crossing.size() || taps.count < 1) {
-    throw std::invalid_argument("a march takes at most four layers, and one tap or more");
+  if (layers.size() > ActiveLayers{}.crossing.size() || taps.count < 1) {
+    throw std::invalid_argument(
+        "march needs at most four layers, and at least one distance per ray");
   }
   for_rays(
-      rays.size(), [&] { return Marcher(layers, taps, light, how); },
+      rays.size(), [&] { return Marcher(layers, taps, light, settings); },
       [&](Marcher& marcher, std::size_t ray) {
         marcher.ray(rays.origin(ray), rays.direction(ray), ray, out.data() + 4 * taps.count * ray);
       });

@@ -5,7 +5,7 @@
 
 namespace firetwin::volume {
 
-float depth_of(const Crossing& crossing, const Segment& segment, double step) {
+float depth_of(const LayerCrossing& crossing, const Segment& segment, double step) {
   const float all = segment.to - segment.from;
   const int count =
       std::max(1, static_cast<int>(std::ceil(all / (static_cast<float>(step) * crossing.voxel))));
@@ -19,16 +19,16 @@ float depth_of(const Crossing& crossing, const Segment& segment, double step) {
 }
 
 void optical_depth(Layers layers, const Rays& rays, std::span<const float> distances, double step,
-                   float enough, std::span<float> out) {
+                   float max_depth, std::span<float> out) {
   check(rays, distances, 1);
   for_rays(
       rays.size(), [layers] { return RayTraversal(layers); },
-      [&](RayTraversal& way, std::size_t ray) {
+      [&](RayTraversal& traversal, std::size_t ray) {
         float sum = 0.0F;
-        if (way.follow(rays.origin(ray), rays.direction(ray), distances[ray])) {
-          for (const Crossing& crossing : way.crossings()) {
+        if (traversal.follow(rays.origin(ray), rays.direction(ray), distances[ray])) {
+          for (const LayerCrossing& crossing : traversal.crossings()) {
             for (const Segment& segment : crossing.segments) {
-              sum += sum < enough ? depth_of(crossing, segment, step) : 0.0F;
+              sum += sum < max_depth ? depth_of(crossing, segment, step) : 0.0F;
             }
           }
         }

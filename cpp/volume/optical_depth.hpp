@@ -6,11 +6,12 @@
 
 namespace firetwin::volume {
 
-/// Optical depth of rays up to each one's distance (n). A ray ends at the optical depth `enough`.
+/// Computes the optical depth along rays up to each ray's distance (n). A ray ends at the optical
+/// depth `max_depth`.
 void optical_depth(Layers layers, const Rays& rays, std::span<const float> distances, double step,
-                   float enough, std::span<float> out);
+                   float max_depth, std::span<float> out);
 
-/// Optical depth of one segment, with a step length in voxels.
-float depth_of(const Crossing& crossing, const Segment& segment, double step);
+/// Returns the optical depth of one segment; the step is in voxels.
+float depth_of(const LayerCrossing& crossing, const Segment& segment, double step);
 
 } // namespace firetwin::volume

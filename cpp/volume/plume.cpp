@@ -8,13 +8,13 @@
 namespace firetwin::volume {
 namespace {
 
-constexpr double convective_part = 0.7; // part of the heat that is not radiated away
+constexpr double convective_part = 0.7; // share of the heat that is not radiated away
 constexpr double briggs_height = 300.0;
-constexpr double least_wind = 0.5; // m/s; less counts as a calm, as in EMRISE
+constexpr double least_wind = 0.5; // m/s; less counts as calm, as in EMRISE
 constexpr double wind_exponent = 0.1;
-constexpr int drift_steps = 12; // of the drift integral: within 0.2 % of the limit
+constexpr int drift_steps = 12; // of the drift integral: error below 0.2 %
 
-/// Wind at `height` m above the ground for a wind of `wind10` m/s at 10 m.
+/// Returns the wind at `height` m above ground, for a wind of `wind10` m/s at 10 m.
 double wind_at(double wind10, double height) {
   return wind10 * std::pow(std::max(height, 10.0) / 10.0, wind_exponent);
 }

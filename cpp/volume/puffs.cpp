@@ -19,8 +19,8 @@ namespace {
 constexpr double entrainment = 0.3;
 constexpr double turbulent_growth = 0.02;
 constexpr double fire_flux = 1.0e5;       // W/m2
-constexpr double faint_density = 2.0e-8;  // kg/m3; thinner smoke has no edge to shape
-constexpr std::uint64_t stem_keys = 1000; // apart from the keys of surface balls
+constexpr double faint_density = 2.0e-8;  // kg/m3; thinner smoke gets no surface balls
+constexpr std::uint64_t stem_keys = 1000; // offset from the keys of surface balls
 constexpr int child_count = 16;
 constexpr int grandchild_count = 9;
 
@@ -33,7 +33,7 @@ struct Ball {
   std::uint64_t identity;
 };
 
-/// Each interval costs time, and is known by a number.
+/// Limits the number of intervals: each costs time, and is identified by an integer.
 void check_intervals(double time, const PuffSettings& settings) {
   constexpr double most = 1e4, last = 1e15;
   if (settings.max_age / settings.interval > most || std::abs(time) / settings.interval > last) {
@@ -43,7 +43,7 @@ void check_intervals(double time, const PuffSettings& settings) {
 
 void check(double time, const Burn& burn, const PuffSettings& settings) {
   check_finite(time, "time");
-  check_finite(burn.arrival, "arrival (leave out cells that never burn)");
+  check_finite(burn.arrival, "arrival (leave out cells that do not burn)");
   check_finite(burn.fuel, "fuel");
   check_finite(burn.position, "position");
   check_finite(burn.wind, "wind");
@@ -61,7 +61,7 @@ void check(double time, const Burn& burn, const PuffSettings& settings) {
   check_finite(settings.turbulence, "turbulence");
 }
 
-/// Point `index` of a Fibonacci lattice on the unit sphere, turned and shaken by `key`.
+/// Returns point `index` of a Fibonacci lattice on the unit sphere, rotated and jittered by `key`.
 Vector direction(int index, int count, std::uint64_t key) {
   const double shake = uniform(key, static_cast<std::uint64_t>(index) + 1) - 0.5;
   const double up = std::clamp(1.0 - (2.0 * index + 1.0 + shake) / count, -1.0, 1.0);
@@ -71,7 +71,7 @@ Vector direction(int index, int count, std::uint64_t key) {
   return {across * std::cos(turn), across * std::sin(turn), up};
 }
 
-/// Adds the balls on the surface of `parent`: sixteen, then nine on each of those.
+/// Adds balls on the surface of `parent`: sixteen, then nine on each of these.
 void add_surface(std::vector<Ball>& balls, const Ball& parent, double smallest, int generation) {
   const int count = generation == 1 ? child_count : grandchild_count;
   const double least = generation == 1 ? 0.28 : 0.3;
@@ -84,7 +84,7 @@ void add_surface(std::vector<Ball>& balls, const Ball& parent, double smallest, 
     if (radius <= smallest) {
       continue;
     }
-    // None appears or goes at full size.
+    // No ball appears or disappears at full size.
     radius *= smoothstep(1.0, 1.5, radius / smallest) *
               smoothstep(1.0, 2.0, parent.density / faint_density);
     const Vector way = direction(i, count, parent.identity);
@@ -102,7 +102,7 @@ void add_surface(std::vector<Ball>& balls, const Ball& parent, double smallest, 
   }
 }
 
-/// Follows smoke from its sources to `time_`.
+/// Tracks smoke from its sources to `time_`.
 class Follower {
 public:
   Follower(double time, const PuffSettings& settings) : time_(time), settings_(settings) {}

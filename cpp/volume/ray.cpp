@@ -13,42 +13,43 @@ namespace {
 
 using Index = std::int64_t;
 
-constexpr double endless = std::numeric_limits<double>::infinity();
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Narrows the part of a line that lies between two planes across an axis.
-void clip(double low, double high, double pace, double& enter, double& leave) {
-  if (pace == 0.0) {
-    leave = low <= 0.0 && high >= 0.0 ? leave : -endless;
+/// Clips a line to the slab between two planes across an axis.
+void clip(double low, double high, double direction, double& enter, double& leave) {
+  if (direction == 0.0) {
+    leave = low <= 0.0 && high >= 0.0 ? leave : -infinity;
     return;
   }
-  enter = std::max(enter, std::min(low / pace, high / pace));
-  leave = std::min(leave, std::max(low / pace, high / pace));
+  enter = std::max(enter, std::min(low / direction, high / direction));
+  leave = std::min(leave, std::max(low / direction, high / direction));
 }
 
-/// From block to block along a ray.
-class Walk {
+/// Steps from block to block along a ray.
+class BlockTraversal {
 public:
-  Walk(const Bricks& bricks, const Crossing& crossing, float enter) {
+  BlockTraversal(const Bricks& bricks, const LayerCrossing& crossing, float enter) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const float pace = crossing.pace[axis];
-      const float at = crossing.place[axis] + pace * enter;
+      const float direction = crossing.index_direction[axis];
+      const float at = crossing.index_origin[axis] + direction * enter;
       const Index last = bricks.blocks()[axis] - 1;
       block_[axis] = std::clamp(static_cast<Index>(at) / Bricks::side, Index{0}, last);
-      step_[axis] = pace < 0.0F ? -1 : 1;
-      const Index face = (block_[axis] + (pace < 0.0F ? 0 : 1)) * Bricks::side;
-      const bool moves = std::abs(pace) > 1.0e-12F;
-      next_[axis] = moves ? (static_cast<float>(face) - crossing.place[axis]) / pace : never;
-      more_[axis] = moves ? static_cast<float>(Bricks::side) / std::abs(pace) : never;
+      step_[axis] = direction < 0.0F ? -1 : 1;
+      const Index face = (block_[axis] + (direction < 0.0F ? 0 : 1)) * Bricks::side;
+      const bool moves = std::abs(direction) > 1.0e-12F;
+      next_face_[axis] =
+          moves ? (static_cast<float>(face) - crossing.index_origin[axis]) / direction : never;
+      face_spacing_[axis] = moves ? static_cast<float>(Bricks::side) / std::abs(direction) : never;
     }
   }
 
   const std::array<Index, 3>& block() const { return block_; }
-  float leaves() const { return next_[axis()]; }
-  /// Goes on to the next block; false outside of all.
-  bool go_on(const std::array<Index, 3>& blocks) {
+  float exit() const { return next_face_[axis()]; }
+  /// Moves to the next block; false if it is outside the grid.
+  bool advance(const std::array<Index, 3>& blocks) {
     const std::size_t a = axis();
     block_[a] += step_[a];
-    next_[a] += more_[a];
+    next_face_[a] += face_spacing_[a];
     return block_[a] >= 0 && block_[a] < blocks[a];
   }
 
@@ -56,31 +57,31 @@ private:
   static constexpr float never = std::numeric_limits<float>::max();
 
   std::size_t axis() const {
-    const std::size_t flat = next_[0] < next_[1] ? 0 : 1;
-    return next_[flat] < next_[2] ? flat : 2;
+    const std::size_t flat = next_face_[0] < next_face_[1] ? 0 : 1;
+    return next_face_[flat] < next_face_[2] ? flat : 2;
   }
 
   std::array<Index, 3> block_, step_;
-  std::array<float, 3> next_, more_;
+  std::array<float, 3> next_face_, face_spacing_;
 };
 
-void find_segments(const Bricks& bricks, Crossing& crossing, float end) {
+void find_segments(const Bricks& bricks, LayerCrossing& crossing, float end) {
   double enter = 0.0, leave = static_cast<double>(end);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double place = static_cast<double>(crossing.place[axis]);
+    const double start = static_cast<double>(crossing.index_origin[axis]);
     const double high = static_cast<double>(bricks.shape()[axis] - 1);
-    clip(-place, high - place, static_cast<double>(crossing.pace[axis]), enter, leave);
+    clip(-start, high - start, static_cast<double>(crossing.index_direction[axis]), enter, leave);
   }
   crossing.segments.clear();
-  crossing.at = 0;
+  crossing.current = 0;
   if (enter >= leave) {
     return;
   }
   const float last = static_cast<float>(leave);
   float from = static_cast<float>(enter);
-  Walk walk(bricks, crossing, from);
+  BlockTraversal walk(bricks, crossing, from);
   do {
-    const float to = std::min(walk.leaves(), last);
+    const float to = std::min(walk.exit(), last);
     const auto [i, j, k] = walk.block();
     const std::uint16_t* voxels = bricks.block(i, j, k);
     if (voxels != nullptr && to > from) {
@@ -88,7 +89,7 @@ void find_segments(const Bricks& bricks, Crossing& crossing, float end) {
       crossing.segments.push_back({from, to, voxels, {corner(i), corner(j), corner(k)}});
     }
     from = std::max(from, to);
-  } while (from < last && walk.go_on(bricks.blocks()));
+  } while (from < last && walk.advance(bricks.blocks()));
 }
 
 } // namespace
@@ -104,24 +105,24 @@ Vector Rays::direction(std::size_t ray) const {
 
 void check(const Rays& rays, std::span<const float> distances, std::size_t taps) {
   if (rays.origins.size() != 3 && rays.origins.size() != rays.directions.size()) {
-    throw std::invalid_argument("rays need one origin, or one for each direction");
+    throw std::invalid_argument("origins must be (3,), or (n, 3) like directions");
   }
   if (distances.size() != rays.size() * taps) {
-    throw std::invalid_argument("each ray needs its distances");
+    throw std::invalid_argument("distances must have one row per direction");
   }
 }
 
-const Segment* Crossing::reach(float distance) {
-  constexpr float near = 1.0e-3F; // m; ends that are rounded apart count as one
-  while (at < segments.size() && segments[at].to <= distance + near) {
-    ++at;
+const Segment* LayerCrossing::advance_to(float distance) {
+  constexpr float near = 1.0e-3F; // m; tolerance for rounded ends
+  while (current < segments.size() && segments[current].to <= distance + near) {
+    ++current;
   }
-  return at < segments.size() ? &segments[at] : nullptr;
+  return current < segments.size() ? &segments[current] : nullptr;
 }
 
 RayTraversal::RayTraversal(Layers layers)
     : layers_(layers),
-      box_{Vector{endless, endless, endless}, Vector{-endless, -endless, -endless}},
+      box_{Vector{infinity, infinity, infinity}, Vector{-infinity, -infinity, -infinity}},
       crossings_(layers.size()) {
   for (const Bricks* layer : layers) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -141,16 +142,16 @@ bool RayTraversal::follow(const Vector& origin, const Vector& direction, double 
   if (!(enter < leave)) {
     return false;
   }
-  entry_ = enter; // numbers of the march are small even from 36,000 km away
+  entry_ = enter; // the march uses small numbers even if the eye is 36,000 km away
   bool any = false;
   for (std::size_t n = 0; n < layers_.size(); ++n) {
-    Crossing& crossing = crossings_[n];
+    LayerCrossing& crossing = crossings_[n];
     const double voxel = layers_[n]->voxel();
     crossing.voxel = static_cast<float>(voxel);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double place = origin[axis] + direction[axis] * enter - layers_[n]->origin()[axis];
-      crossing.place[axis] = static_cast<float>(place / voxel);
-      crossing.pace[axis] = static_cast<float>(direction[axis] / voxel);
+      const double offset = origin[axis] + direction[axis] * enter - layers_[n]->origin()[axis];
+      crossing.index_origin[axis] = static_cast<float>(offset / voxel);
+      crossing.index_direction[axis] = static_cast<float>(direction[axis] / voxel);
     }
     find_segments(*layers_[n], crossing, static_cast<float>(leave - enter));
     any = any || !crossing.segments.empty();
@@ -158,15 +159,15 @@ bool RayTraversal::follow(const Vector& origin, const Vector& direction, double 
   return any;
 }
 
-float density(const std::uint16_t* voxels, const std::array<float, 3>& place) {
+float density(const std::uint16_t* voxels, const std::array<float, 3>& position) {
   constexpr std::size_t z = Bricks::channels, y = Bricks::wide * z, x = Bricks::wide * y;
   std::array<std::size_t, 3> low;
   std::array<float, 3> part;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const float held = std::clamp(place[axis], 0.0F, static_cast<float>(Bricks::side));
+    const float clamped = std::clamp(position[axis], 0.0F, static_cast<float>(Bricks::side));
     low[axis] =
-        std::min(static_cast<std::size_t>(held), static_cast<std::size_t>(Bricks::side - 1));
-    part[axis] = held - static_cast<float>(low[axis]);
+        std::min(static_cast<std::size_t>(clamped), static_cast<std::size_t>(Bricks::side - 1));
+    part[axis] = clamped - static_cast<float>(low[axis]);
   }
   const std::uint16_t* first = voxels + low[0] * x + low[1] * y + low[2] * z;
   const auto along_z = [&](const std::uint16_t* at) {

@@ -16,18 +16,18 @@
 namespace firetwin::volume {
 namespace {
 
-constexpr auto thinnest_smoke = static_cast<float>(thinnest_dilution * fresh_smoke); // kg/m3
-constexpr float heat_of_air = 1206.0F;                                               // J/(m3 K)
+constexpr auto thinnest_smoke = static_cast<float>(min_dilution * fresh_smoke); // kg/m3
+constexpr float heat_of_air = 1206.0F;                                          // J/(m3 K)
 
-/// What is known of a leaf with smoke before the mass of the whole is.
+/// Data of a leaf with smoke, before the total mass is known.
 struct SmokeLeaf {
   openvdb::Coord origin;
   LeafMask mask;
   LeafValues depth, radius, concentration;
-  double mass = 0.0; // kg, by the sum over active voxels
+  double mass = 0.0; // kg, summed over active voxels
 };
 
-/// Blocks of 2^3 voxels with one that is thick enough, as DepthMeter wants them.
+/// Returns the mask of blocks of 2^3 voxels that contain thick smoke, for DepthMeter::measure.
 std::uint64_t thick_blocks(const LeafValues& concentration) {
   std::uint64_t blocks = 0;
   for (std::size_t i = 0; i < leaf_voxels; ++i) {
@@ -40,7 +40,7 @@ std::uint64_t thick_blocks(const LeafValues& concentration) {
 
 using Leaves = std::vector<std::unique_ptr<SmokeLeaf>>;
 
-/// Leaves with smoke in them.
+/// Computes the leaves with smoke.
 Leaves fill(const Puffs& puffs, double voxel_size) {
   const auto voxel = static_cast<float>(voxel_size);
   std::vector<float> reach(puffs.size());
@@ -49,7 +49,7 @@ Leaves fill(const Puffs& puffs, double voxel_size) {
     edge[i] = puffs.radius[i] > 0.0F ? puffs.radius[i] + depth_outside : 0.0F;
     reach[i] = puffs.mass[i] > 0.0 ? spread(puffs.radius[i], voxel) : 0.0F;
   }
-  const LeafBox box(puffs, reach, voxel_size); // there is no smoke where no mass is
+  const LeafBox box(puffs, reach, voxel_size); // without mass there is no smoke
   const LeafBins with_mass(box, puffs, reach, voxel_size);
   const LeafBins near(box, puffs, edge, voxel_size);
   const SpreadMass smoke(puffs, voxel);
@@ -91,7 +91,7 @@ Leaves fill(const Puffs& puffs, double voxel_size) {
   return leaves;
 }
 
-/// The grids that write_smoke promises, value by value; `factor` makes dilution of kg/m3.
+/// Computes the grids of write_smoke; `factor` converts kg/m3 to dilution.
 class Values {
 public:
   Values(float voxel, float factor, float heat_per_smoke)
@@ -137,7 +137,7 @@ private:
     const float low = static_cast<float>(leaf.origin.z()) * voxel_;
     for (std::size_t i = 0; i < leaf_voxels; ++i) {
       const float height = low + static_cast<float>(i % leaf_side) * voxel_;
-      out[i] = std::min(air_kelvin(height) + heat_ * leaf.concentration[i], hottest);
+      out[i] = std::min(air_kelvin(height) + heat_ * leaf.concentration[i], max_temperature);
     }
   }
 

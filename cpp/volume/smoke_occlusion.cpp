@@ -15,12 +15,13 @@ namespace {
 
 using Index = std::int64_t;
 
-constexpr double most = 1.1; // times the depth asked for: ways end there, and what is deeper counts
-                             // as that deep, so that smoke beside a gap is not hidden by more of it
-constexpr double endless = std::numeric_limits<double>::infinity();
+/// Largest ratio of a depth to the threshold: rays end there, and larger depths are clamped, so
+/// that interpolation does not hide smoke next to a gap.
+constexpr double max_ratio = 1.1;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A line of sight from a place in smoke.
-struct RayTraversal {
+/// A line of sight from a point in smoke.
+struct LineOfSight {
   Vector from, direction;
   double length; ///< m
 
@@ -30,17 +31,17 @@ struct RayTraversal {
   }
 };
 
-/// Optical depth of a brick along a way, or of so much of it as is `enough`.
-double depth_along(const RayTraversal& way, const VoxelGrid& smoke, double enough) {
-  double enter = 0.0, leave = way.length;
+/// Returns the optical depth of a grid along a line; stops at `enough`.
+double depth_along(const LineOfSight& line, const VoxelGrid& smoke, double enough) {
+  double enter = 0.0, leave = line.length;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double low = smoke.origin[axis] - 0.5 * smoke.voxel - way.from[axis];
+    const double low = smoke.origin[axis] - 0.5 * smoke.voxel - line.from[axis];
     const double high = low + static_cast<double>(smoke.shape[axis]) * smoke.voxel;
-    if (way.direction[axis] == 0.0) {
+    if (line.direction[axis] == 0.0) {
       leave = low <= 0.0 && high >= 0.0 ? leave : 0.0;
       continue;
     }
-    const double one = low / way.direction[axis], other = high / way.direction[axis];
+    const double one = low / line.direction[axis], other = high / line.direction[axis];
     enter = std::max(enter, std::min(one, other));
     leave = std::min(leave, std::max(one, other));
   }
@@ -50,7 +51,7 @@ double depth_along(const RayTraversal& way, const VoxelGrid& smoke, double enoug
   const double steps = std::ceil((leave - enter) / smoke.voxel), step = (leave - enter) / steps;
   double depth = 0.0;
   for (double k = 0.5; k < steps && depth <= enough; k += 1.0) {
-    depth += step * static_cast<double>(sample(smoke, way.at(enter + k * step)));
+    depth += step * static_cast<double>(sample(smoke, line.at(enter + k * step)));
   }
   return depth;
 }
@@ -59,14 +60,14 @@ Vector row(std::span<const double> rows, std::size_t number) {
   return {rows[3 * number], rows[3 * number + 1], rows[3 * number + 2]};
 }
 
-/// Least optical depth between a place and an eye, or `enough` where that is less.
+/// Returns the smallest optical depth between a place and an eye, at most `enough`.
 double least_depth(const Vector& place, const Viewpoints& eyes, const VoxelGrid& smoke,
                    const VoxelGrid* beyond, double enough) {
   double least = enough;
-  const auto look = [&](const RayTraversal& way) {
-    double depth = depth_along(way, smoke, least);
+  const auto look = [&](const LineOfSight& line) {
+    double depth = depth_along(line, smoke, least);
     if (beyond != nullptr && depth < least) {
-      depth += depth_along(way, *beyond, least - depth);
+      depth += depth_along(line, *beyond, least - depth);
     }
     least = std::min(least, depth);
   };
@@ -79,7 +80,7 @@ double least_depth(const Vector& place, const Viewpoints& eyes, const VoxelGrid&
     look({place, direction, length});
   }
   for (std::size_t n = 0; n < eyes.directions.size() / 3; ++n) {
-    look({place, row(eyes.directions, n), endless});
+    look({place, row(eyes.directions, n), infinity});
   }
   return least;
 }
@@ -95,9 +96,9 @@ void check(const Viewpoints& eyes) {
   }
 }
 
-/// f(number, middle) for every voxel for which `wanted(number)`, on many threads.
-template <class GridRequest, class Function>
-void each_voxel(const VoxelGrid& brick, const GridRequest& wanted, const Function& f) {
+/// Calls f(number, centre) for each voxel for which `wanted(number)` is true, on many threads.
+template <class Predicate, class Function>
+void each_voxel(const VoxelGrid& brick, const Predicate& wanted, const Function& f) {
   const auto [nx, ny, nz] = brick.shape;
   tbb::parallel_for(Index{0}, nx * ny, [&, ny, nz](Index row) {
     for (Index k = 0; k < nz; ++k) {
@@ -119,20 +120,20 @@ OwnedVoxelGrid occluded_smoke(const VoxelGrid& extinction, const Viewpoints& eye
   check(eyes);
   check_above_zero(depth, "depth");
   if (out.size() != extinction.values.size()) {
-    throw std::invalid_argument("arrays of smoke and what is hidden must have the same shape");
+    throw std::invalid_argument("the output must have the shape of extinction");
   }
   OwnedVoxelGrid smoke = halved(halved(extinction).view());
   if (eyes.places.empty() && eyes.directions.empty()) {
     return smoke;
   }
-  const VoxelGrid hides = smoke.view();
-  const auto near = near_smoke(hides);
+  const VoxelGrid occluders = smoke.view();
+  const auto near = near_smoke(occluders);
   OwnedVoxelGrid depths{std::vector<float>(near.size()), smoke.shape, smoke.voxel, smoke.origin};
   each_voxel(
-      hides, [&](std::size_t n) { return near[n] != 0; },
+      occluders, [&](std::size_t n) { return near[n] != 0; },
       [&](std::size_t n, const Vector& place) {
         depths.values[n] =
-            static_cast<float>(least_depth(place, eyes, hides, beyond, most * depth));
+            static_cast<float>(least_depth(place, eyes, occluders, beyond, max_ratio * depth));
       });
   const VoxelGrid between = depths.view();
   each_voxel(

@@ -17,7 +17,7 @@ constexpr float glow_core = 250.0F;   // m
 constexpr double glow_power = 1.0e9;  // W
 constexpr std::size_t row_count = 9;  // of nodes, along z
 
-/// Node coordinates of a leaf along each axis, m; the fourth stands far away.
+/// Node coordinates of a leaf along each axis, m; the fourth is a far-away dummy.
 using Ticks = std::array<std::array<double, 4>, 3>;
 
 Ticks ticks(const std::array<float, 3>& corner, float voxel_size) {
@@ -31,7 +31,7 @@ Ticks ticks(const std::array<float, 3>& corner, float voxel_size) {
   return result;
 }
 
-/// Adds weight max(0, 1 - (r^2 inverse)^2) of one puff at all nodes.
+/// Adds the weight max(0, 1 - (r^2 inverse)^2) of one puff at all nodes.
 struct Puff {
   const double* position;
   double inverse;
@@ -59,8 +59,8 @@ void add_puffs(const Puff* puffs, std::size_t count, const Ticks& at, Nodes& sum
   std::memcpy(sum.data(), rows.data(), sizeof rows);
 }
 
-/// x -> exp(-x) for x >= 0 within 3e-7: a power of two times a polynomial of the rest.
-/// (Coefficients: Taylor's, of 2^f for |f| <= 1/2.)
+/// Computes x -> exp(-x) for x >= 0 within 3e-7: a power of two times a polynomial of the remainder
+/// (Taylor coefficients of 2^f for |f| <= 1/2).
 inline void exp_negative(Lanes& x) {
   using Integers = Simd<std::int32_t, lane_count>;
   const Lanes y = x * std::numbers::log2e_v<float>;
@@ -79,7 +79,7 @@ inline void exp_negative(Lanes& x) {
 }
 
 struct Light {
-  std::array<float, 3> position; // m from the leaf's lowest voxel
+  std::array<float, 3> position; // m from the leaf's first voxel
   float power;
 };
 
@@ -117,7 +117,7 @@ void add_lights(const Light* lights, std::size_t count, float step, Nodes& sum) 
 
 FIRETWIN_CLONES("avx2")
 void interpolate_lanes(const Nodes& nodes, LeafValues& values) {
-  WideLanes part; // of the way between two nodes
+  WideLanes part; // fraction of the distance between two nodes
   for (std::size_t i = 0; i < 4; ++i) {
     part[i] = static_cast<double>(i) / 4.0;
   }
@@ -207,7 +207,7 @@ double largest(const Nodes& nodes) {
   return most;
 }
 
-// The clones stay in this file.
+// Cloned functions must stay in this file.
 void interpolate(const Nodes& nodes, LeafValues& values) {
   interpolate_lanes(nodes, values);
 }

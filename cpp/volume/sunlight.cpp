@@ -12,15 +12,16 @@ namespace {
 
 using Index = std::int64_t;
 
-constexpr double ring = 0.4; // sine of the middle of four fifths of the sky
+constexpr double ring =
+    0.4; // sine of the elevation that represents the lower four fifths of the sky
 
-/// How slices lie in memory, and how the ways to the light cross them.
+/// Memory layout of slices, and the shift of rays between them.
 struct Slices {
   Index count, rows, columns;            ///< slices, and voxels of one
-  Index next, row, column;               ///< from one to its neighbour in memory
-  Index first, sun_direction;            ///< the lit slice's number, and +1 or -1 towards the light
+  Index next, row, column;               ///< strides in memory
+  Index first, sun_direction;            ///< index of the lit slice; +1 or -1 towards the light
   std::size_t along, across_r, across_c; ///< axes
-  float row_shift, column_shift;         ///< voxels, from a slice to that before it
+  float row_shift, column_shift;         ///< voxels, from a slice to the previous one
   float half_step;                       ///< m
 };
 
@@ -49,18 +50,19 @@ Slices slices(const VoxelGrid& brick, const Vector& direction) {
           static_cast<float>(0.5 * brick.voxel / main)};
 }
 
-/// GridResampler neighbours of a slice, where a way crosses it. Shifts are of at most one voxel.
-struct Crossing {
-  Index low;  ///< the lower neighbour's offset
-  float high; ///< weight of the upper
+/// Interpolation between two voxels of a slice where a ray crosses it. Shifts are at most one
+/// voxel.
+struct SliceOffset {
+  Index low;  ///< offset of the lower neighbour
+  float high; ///< weight of the upper neighbour
 };
 
-Crossing crossing(float shift) {
+SliceOffset slice_offset(float shift) {
   const float low = std::floor(shift);
   return {static_cast<Index>(low), shift - low};
 }
 
-/// f(n) for 0 <= n < count, on many threads.
+/// Calls f(n) for 0 <= n < count, on many threads.
 template <class Function> void each_block(std::size_t count, const Function& f) {
   constexpr std::size_t block = 4096;
   tbb::parallel_for(std::size_t{0}, count, block, [&](std::size_t from) {
@@ -76,7 +78,8 @@ std::vector<float> optical_depth(const VoxelGrid& smoke, const Vector& direction
                                  const VoxelGrid* beyond) {
   std::vector<float> depth(smoke.values.size());
   const Slices s = slices(smoke, direction);
-  const Crossing over_rows = crossing(s.row_shift), over_columns = crossing(s.column_shift);
+  const SliceOffset over_rows = slice_offset(s.row_shift),
+                    over_columns = slice_offset(s.column_shift);
   const float* values = smoke.values.data();
   const auto outside = [&](Index slice, Index row, Index column) {
     if (beyond == nullptr) {
@@ -97,10 +100,10 @@ std::vector<float> optical_depth(const VoxelGrid& smoke, const Vector& direction
       const float* own = values + slice * s.next + row * s.row;
       for (Index column = 0; column < s.columns; ++column) {
         const Index low = column + over_columns.low;
-        float& found = out[column * s.column];
+        float& value = out[column * s.column];
         const float here = own[column * s.column];
         if (!rows_inside || low < 0 || low + 1 >= s.columns) {
-          found = outside(slice, row, column) + s.half_step * here;
+          value = outside(slice, row, column) + s.half_step * here;
           continue;
         }
         const Index at = before * s.next + low_row * s.row + low * s.column;
@@ -111,7 +114,7 @@ std::vector<float> optical_depth(const VoxelGrid& smoke, const Vector& direction
           const float second = b[0] + (b[s.column] - b[0]) * over_columns.high;
           return first + (second - first) * over_rows.high;
         };
-        found = between(depth.data()) + s.half_step * (here + between(values));
+        value = between(depth.data()) + s.half_step * (here + between(values));
       }
     });
   }
@@ -123,11 +126,12 @@ std::vector<float> sky_light(const VoxelGrid& smoke, double part) {
   const std::array<Vector, 5> ways{
       {{0, 0, 1}, {flat, 0, ring}, {-flat, 0, ring}, {0, flat, ring}, {0, -flat, ring}}};
   std::vector<float> sum(smoke.values.size());
-  const auto thinner = static_cast<float>(-part);
+  const auto log_attenuation = static_cast<float>(-part);
   const float share = 1.0F / static_cast<float>(ways.size());
   for (const Vector& way : ways) {
     const std::vector<float> depth = optical_depth(smoke, way, nullptr);
-    each_block(sum.size(), [&](std::size_t n) { sum[n] += share * std::exp(thinner * depth[n]); });
+    each_block(sum.size(),
+               [&](std::size_t n) { sum[n] += share * std::exp(log_attenuation * depth[n]); });
   }
   return sum;
 }

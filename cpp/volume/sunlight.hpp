@@ -7,20 +7,22 @@
 
 namespace firetwin::volume {
 
-/// Optical depth from the middles of voxels to a light far away.
+/// Computes the optical depth from voxel centres to a distant light.
 ///
-/// Slices across the axis that the light comes most nearly along are gone through from the lit side
-/// on: a voxel has the depth found where its way to the light crosses the slice before, linear
-/// between that slice's voxels, and what lies between by the trapezoid rule. So shadows widen by
-/// about half a voxel times the root of the number of slices.
+/// Sweeps slices across the axis nearest to the light's direction, from the lit side: a voxel takes
+/// the depth where its ray crosses the previous slice, linear between that slice's voxels, plus the
+/// trapezoidal rule in between. Shadow edges therefore widen by about half a voxel times the square
+/// root of the number of slices.
 ///
-/// @param direction unit vector that the light comes from
-/// @param beyond optical depths of a larger brick, counted where a way leaves this one; may be null
+/// @param direction unit vector to the light
+/// @param beyond optical depths of a larger, coarser grid, added where a ray leaves this one; may
+/// be null
 /// @throws std::invalid_argument
 std::vector<float> optical_depth(const VoxelGrid& smoke, const Vector& direction,
                                  const VoxelGrid* beyond);
 
-/// Mean of exp(-part * optical depth) over five ways up, each for a fifth of the sky.
+/// Averages exp(-part * optical depth) over five upward directions, each representing a fifth of
+/// the sky.
 std::vector<float> sky_light(const VoxelGrid& smoke, double part);
 
 } // namespace firetwin::volume

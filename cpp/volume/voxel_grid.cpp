@@ -18,7 +18,7 @@ using Index = std::int64_t;
 void check(const VoxelGrid& brick) {
   const Index count = brick.shape[0] * brick.shape[1] * brick.shape[2];
   if (count < 1 || brick.values.size() != static_cast<std::size_t>(count)) {
-    throw std::invalid_argument("a brick needs a value for each of its voxels, and one or more");
+    throw std::invalid_argument("a voxel grid needs one value per voxel, and at least one voxel");
   }
   check_above_zero(brick.voxel, "voxel_size");
   check_finite(brick.origin, "origin");
@@ -54,7 +54,7 @@ std::vector<std::uint8_t> near_smoke(const VoxelGrid& smoke) {
       }
     }
   });
-  // Row by row, so that memory is gone through as it lies: each is widened by its neighbours.
+  // Rows are processed in memory order: each is widened by its neighbours.
   const auto widen = [&near, nz](std::uint8_t* first, Index count, Index stride) {
     std::vector<std::uint8_t> before(static_cast<std::size_t>(nz)), here(before);
     for (Index n = 0; n < count; ++n) {

@@ -10,7 +10,7 @@
 
 namespace firetwin::volume {
 
-/// Dense voxel grid: values (nx, ny, nz) at the centres of cubic voxels, z fastest (a view).
+/// Dense voxel grid (a view): values (nx, ny, nz) at the centres of cubic voxels, z fastest.
 struct VoxelGrid {
   std::span<const float> values;
   std::array<std::int64_t, 3> shape;
@@ -28,16 +28,17 @@ struct OwnedVoxelGrid {
   VoxelGrid view() const { return {values, shape, voxel, origin}; }
 };
 
-/// @throws std::invalid_argument unless there are as many values as voxels, and they have a size
+/// @throws std::invalid_argument unless there is one value per voxel and a positive voxel size
 void check(const VoxelGrid& brick);
 
-/// Trilinear interpolation, constant outside: a sum of weighted voxels, as GridResampler has it.
+/// Interpolates trilinearly, constant outside: a weighted sum of voxels, in the same order as
+/// GridResampler.
 float sample(const VoxelGrid& brick, const Vector& place);
 
-/// Mask of voxels with smoke in them or in one of their 26 neighbours: 1 or 0.
+/// Returns the mask of voxels that have smoke, or a neighbour (of 26) with smoke: 1 or 0.
 std::vector<std::uint8_t> near_smoke(const VoxelGrid& smoke);
 
-/// Coarsening to voxels of twice the size; smoke beyond the grid is clear.
+/// Averages to voxels of twice the size; beyond the grid the air is clear.
 OwnedVoxelGrid halved(const VoxelGrid& smoke);
 
 } // namespace firetwin::volume

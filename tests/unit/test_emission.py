@@ -22,8 +22,8 @@ def cloud(time, places=PLACES, ground=None, id=(7, 8, 9), seed=1, wind=WIND, **o
 @pytest.mark.parametrize(
     ("id", "reason"),
     [
-        ((7.0, 8.5, 9.0), "id must hold integers, not float64"),
-        ((7, -8, 9), "id holds an integer too large or too small for uint64"),
+        ((7.0, 8.5, 9.0), "id must contain integers, not float64"),
+        ((7, -8, 9), "id contains an integer out of range for uint64"),
     ],
 )
 def test_sources_are_numbered_in_whole_numbers(id, reason):

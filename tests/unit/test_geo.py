@@ -101,8 +101,8 @@ def test_impossible_origin(origin):
     [
         (([1.0, 2.0], [1.0], [1.0, 2.0]), r"longitude must have shape \(2\)"),
         (([[1.0]], [1.0], [1.0]), "latitude must have shape"),
-        ((["a"], [1.0], [1.0]), "latitude must hold real numbers"),
-        (([1j], [1.0], [1.0]), "latitude must hold real numbers"),
+        ((["a"], [1.0], [1.0]), "latitude must contain real numbers"),
+        (([1j], [1.0], [1.0]), "latitude must contain real numbers"),
     ],
 )
 def test_wrong_arrays(arguments, message):

@@ -172,7 +172,7 @@ def test_only_blocks_with_smoke_take_memory():
 def test_half_floats_are_those_of_numpy(value):
     thick = bricks(np.full((9, 9, 9), np.float32(value)))
     depth = volume.optical_depth(
-        [thick], [-10.0, 40.0, 40.0], [[1.0, 0.0, 0.0]], [FAR], step=0.25, enough=1e30
+        [thick], [-10.0, 40.0, 40.0], [[1.0, 0.0, 0.0]], [FAR], step=0.25, max_depth=1e30
     )
     expected = float(np.float16(min(value, 65504.0))) if value > 2.5e-5 else 0.0
     assert depth[0] == pytest.approx(80.0 * expected, rel=1e-5)

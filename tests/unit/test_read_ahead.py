@@ -84,9 +84,9 @@ def test_wrong_arguments(run, make_run):
         run.frames("flux")
     with pytest.raises(ValueError, match="ahead"):
         run.frames(ahead=0)
-    with pytest.raises(ValueError, match="indices must hold integers, not float64"):
+    with pytest.raises(ValueError, match="indices must contain integers, not float64"):
         run.frames(indices=[0.0, 1.5])
-    with pytest.raises(ValueError, match="indices holds an integer too large or too small for int64"):
+    with pytest.raises(ValueError, match="indices contains an integer out of range for int64"):
         run.frames(indices=np.array([2**64 - 1], np.uint64))
     assert list(run.frames(indices=[])) == []
     for index in (-1, 3):

@@ -200,7 +200,7 @@ def test_a_bad_voxel_size_is_refused(tmp_path, voxel):
 
 @pytest.mark.parametrize("voxel", [1e-4, 1e-3, 0.05])
 def test_voxels_far_too_small_are_refused(tmp_path, voxel):
-    with pytest.raises(Error, match="too small for smoke this wide; use larger ones"):
+    with pytest.raises(Error, match="too small for smoke of this extent; use larger voxels"):
         volume.write_smoke(tmp_path / "smoke.vdb", smoke(100.0), voxel)
     assert not list(tmp_path.iterdir())
 

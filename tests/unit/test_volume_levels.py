@@ -161,7 +161,7 @@ def test_heights_must_ascend(tmp_path, level):
 
 @pytest.mark.parametrize("voxel", [1e-4, 1e-2, 0.2])
 def test_voxels_far_too_small_are_refused(tmp_path, voxel):
-    with pytest.raises(Error, match="too small for smoke this wide; use larger ones"):
+    with pytest.raises(Error, match="too small for smoke of this extent; use larger voxels"):
         write(tmp_path / "small.vdb", np.full(heights().shape, 1e-5, np.float32), voxel)
     with pytest.raises(ValueError, match="voxel_size must be"):
         write(tmp_path / "small.vdb", np.zeros(heights().shape, np.float32), 1e-9 * voxel)

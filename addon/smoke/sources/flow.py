@@ -39,7 +39,7 @@ class FlowSource(Source):
         super().__init__(shot)
         self.flow = Flow(shot, lambda *done: self.progress(*done))
         self.flow.elsewhere, self.flow.stop = lambda: self.elsewhere(), self.stop
-        self._close_painter: flow_frames.Painter | None = None
+        self._cached_close_up: flow_frames.Painter | None = None
 
     def inputs(self) -> dict[str, Any]:
         """Return the folders of its snapshots, and the extinction of its voxels."""
@@ -47,7 +47,7 @@ class FlowSource(Source):
 
     def voxels(self) -> list[Any]:
         """Return layers with their voxel sizes, and the flow's cell sizes, m."""
-        return [[layer.name, layer.voxel, self.shot.scale.cell] for layer in self._painted]
+        return [[layer.name, layer.voxel, self.shot.scale.cell] for layer in self._layers]
 
     @property
     def domains(self) -> list[Domain]:
@@ -86,13 +86,13 @@ class FlowSource(Source):
         depth = view.SOLVED_STEP_DEPTH if self.marched else view.STEP_DEPTH
         result = [
             VolumeLayer(layer.name, layer.voxel, depth / thickest * (1.0 if layer.fine else 2.0), thickest)
-            for layer in self._painted
+            for layer in self._layers
         ]
         return result or [VolumeLayer("smoke", _EMPTY, _EMPTY, thickest)]
 
     def painted_voxels(self) -> int:
         """Return the number of voxels of the largest layer's domain, with or without smoke."""
-        return max((_voxels(layer) for layer in self._painted), default=0)
+        return max((_voxels(layer) for layer in self._layers), default=0)
 
     def write(self, path: Path, frame: int) -> volume.VdbSummary:
         """Write the volumes of a solved frame; `path` is written last."""
@@ -100,13 +100,14 @@ class FlowSource(Source):
         time = float(self.times[frame - 1])
         metadata = self.metadata(time, "a flow of the air, solved from the model's heat")
         eyes = self.visibility.eyes(frame) if self.visibility else None
-        beyond: flow_frames.Beyond | None = None
+        beyond: flow_frames.OuterLayer | None = None
         for painter in self.painters:
             place = painter.layer.file(path.parent, frame)
             mine = files.part_of(place)
-            what = mine, frame, self._glow(time), self.view_set(frame), metadata, eyes, beyond
+            inputs = mine, frame, self._glow(time), self.view_set(frame), metadata, eyes, beyond
+            paint = functools.partial(painter.write, *inputs)
             with writing(place):
-                written, beyond = self._unbroken(frame, functools.partial(painter.write, *what))
+                written, beyond = self._with_intact_snapshots(frame, paint)
             cache.publish(mine, place, written.bytes)
         if not self.painters:
             mine = files.part_of(path)
@@ -119,43 +120,43 @@ class FlowSource(Source):
     def bricks(self, frame: int) -> list[volume.Bricks]:
         """Return the bricks of a frame for ray marching, without a file."""
         self.flow.ready(frame)
-        what = (frame, self._glow(float(self.times[frame - 1])), self.view_set(frame))
+        inputs = (frame, self._glow(float(self.times[frame - 1])), self.view_set(frame))
         result: list[volume.Bricks] = []
-        beyond: flow_frames.Beyond | None = None
+        beyond: flow_frames.OuterLayer | None = None
         painters = list(self.painters)
         window = close_up.window(self.shot, frame, painters[-1].layer.voxel) if painters else None
         if window is not None and painters[-1].layer.fine:
-            painters.append(self._close(painters[-1].layer, window))
+            painters.append(self._close_up_painter(painters[-1].layer, window))
         for painter in painters:
             fine = window if painter.layer.fine else None
-            paint = functools.partial(painter.bricks, *what, beyond, fine)
-            made, beyond = self._unbroken(frame, paint)
+            paint = functools.partial(painter.bricks, *inputs, beyond, fine)
+            made, beyond = self._with_intact_snapshots(frame, paint)
             result.append(made)
         return result
 
     @functools.cached_property
-    def _painted(self) -> list[flow_frames.Layer]:
+    def _layers(self) -> list[flow_frames.Layer]:
         return flow_frames.layers(self.shot, self.flow)
 
     @functools.cached_property
     def painters(self) -> list[flow_frames.Painter]:
         """Return a painter for each layer."""
-        layers = self._painted
+        layers = self._layers
         inner = layers[-1].domain.box if len(layers) > 1 else None
         return [flow_frames.Painter(self.shot, layer, None if layer.fine else inner) for layer in layers]
 
-    def _close(self, layer: flow_frames.Layer, window: close_up.Window) -> flow_frames.Painter:
+    def _close_up_painter(self, layer: flow_frames.Layer, window: close_up.Window) -> flow_frames.Painter:
         """Return the painter of a layer's part within a close-up window."""
-        if self._close_painter is None:
+        if self._cached_close_up is None:
             close = replace(layer, voxel=window.voxel, close=True)
-            self._close_painter = flow_frames.Painter(self.shot, close, None)
-        return self._close_painter
+            self._cached_close_up = flow_frames.Painter(self.shot, close, None)
+        return self._cached_close_up
 
     def _glow(self, time: float) -> Lights | None:
         """Return the lights of flames in smoke; None at a model time (s) of daylight that outshines them."""
         return self.lights(time) if exposure.darkness(self.shot, time) > 0.0 else None
 
-    def _unbroken(self, frame: int, paint: Callable[[], Made]) -> Made:
+    def _with_intact_snapshots(self, frame: int, paint: Callable[[], Made]) -> Made:
         """Return the result of `paint` on a frame's snapshots. Broken snapshots are solved again."""
         try:
             return paint()

@@ -1,4 +1,4 @@
-"""The numbers behind Firetwin: NumPy arrays in, NumPy arrays out."""
+"""Numerical core of Firetwin: functions of NumPy arrays."""
 
 from . import constants as constants
 from . import flow as flow
@@ -16,10 +16,10 @@ from . import volume as volume
 __version__: str
 
 class Error(Exception):
-    """Base of every error that Firetwin raises on purpose."""
+    """Base class of the errors that Firetwin raises."""
 
 class InputError(Error):
-    """Bad input: ``path``, ``line`` and ``column`` (1-based, 0 where none applies), ``reason``."""
+    """Invalid input file: ``path``, ``line`` and ``column`` (from 1; 0 if unknown), ``reason``."""
 
     path: str
     line: int
@@ -30,4 +30,4 @@ def set_threads(threads: int) -> None:
     """Use at most this many worker threads; 0 uses all cores."""
 
 def build_info() -> dict[str, str]:
-    """Compiler and library versions of this build."""
+    """Return compiler and library versions of this build."""

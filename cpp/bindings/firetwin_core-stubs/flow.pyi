@@ -11,7 +11,8 @@ class SolverSettings:
     Parameters
     ----------
     sponge_width
-        Width of the lateral sponge layer, cells; less than half of the domain. Its weight falls as a square.
+        Width of the lateral sponge layer, cells; less than half of the domain. Its weight falls off
+        quadratically.
     sponge_time
         Relaxation time of the sponge layer at the lateral boundaries, s.
     damping_share
@@ -21,11 +22,11 @@ class SolverSettings:
     drag_time
         Relaxation time of the lowest level's wind to the ambient wind, s.
     smagorinsky
-        Smagorinsky constant of the subgrid mixing; 0 leaves the advection's own diffusion.
+        Smagorinsky constant of the subgrid mixing; 0 leaves only the advection's numerical diffusion.
     source_depth
         e-folding height of heat and smoke sources, m.
     gust_strength
-        Standard deviation of the logarithm of a lognormal factor on the sources; 0 has no gusts. The factor
+        Standard deviation of the logarithm of a lognormal factor on the sources; 0: no gusts. The factor
         redistributes heat and smoke and conserves their sums.
     gust_size, gust_time
         Correlation length (m) and time (s) of this factor.
@@ -34,8 +35,8 @@ class SolverSettings:
 
     Notes
     -----
-    The sponge layer and the Rayleigh damping relax wind, temperature and water to the air around. Smoke is not
-    relaxed: it leaves with the wind.
+    The sponge layer and the Rayleigh damping relax wind, temperature and water towards the ambient air. Smoke
+    is not relaxed: it leaves with the wind.
     """
 
     def __init__(
@@ -73,10 +74,10 @@ class SolverSettings:
         """Smagorinsky constant of the subgrid mixing."""
     @property
     def source_depth(self) -> float:
-        """Height at which heat and smoke sources fall to 1/e, m."""
+        """e-folding height of heat and smoke sources, m."""
     @property
     def gust_strength(self) -> float:
-        """Standard deviation of the logarithm of the sources' factor."""
+        """Standard deviation of the logarithm of the factor on the sources."""
     @property
     def gust_size(self) -> float:
         """Correlation length of gusts, m."""
@@ -93,7 +94,7 @@ class Domain:
     Parameters
     ----------
     levels
-        (nz + 1,) heights of level faces above ground, m, rising from 0.
+        (nz + 1,) heights of level faces above ground, m, increasing from 0.
     shape
         Rows and columns. Row 0 is the southernmost, column 0 the westernmost.
     spacing
@@ -101,8 +102,8 @@ class Domain:
     corner
         x and y of the south-west corner, m.
     ground
-        (rows, columns) elevation of cell centres, m; None is flat terrain at 0. Levels follow the terrain,
-        less and less up to an even top. Slopes must be well below 1. Relief must be at most half of the
+        (rows, columns) elevation of cell centres, m; None is flat terrain at 0. Levels follow the terrain
+        less with height, up to a flat top. Slopes must be well below 1. Relief must be at most half of the
         domain's height.
     """
 
@@ -121,13 +122,13 @@ class Profile:
     Parameters
     ----------
     height
-        (n,) m above the domain's mean ground, rising.
+        (n,) m above the domain's mean ground, increasing.
     potential_temperature
         (n,) K.
     wind
         (n, 2) east and north, m/s; its heights are above the local ground.
     water
-        (n,) mixing ratio of vapour and cloud, kg/kg; None is dry air, in which nothing condenses.
+        (n,) mixing ratio of vapour and cloud, kg/kg; None is dry air without condensation.
     pressure
         At height 0, Pa.
     """
@@ -144,8 +145,8 @@ class Profile:
 class Solver:
     """Anelastic flow solver for a buoyant smoke plume on a terrain-following Arakawa C grid.
 
-    The equations are those of Lipps and Hemler (1982, "A scale analysis of deep moist convection", J. Atmos.
-    Sci. 39). Arrays are (level, row, column).
+    The equations are from Lipps and Hemler (1982, "A scale analysis of deep moist convection", J. Atmos. Sci.
+    39). Arrays are (level, row, column).
 
     Parameters
     ----------
@@ -158,25 +159,25 @@ class Solver:
 
     Notes
     -----
-    Warm air accelerates up slopes. Air at rest stays at rest over any terrain. The pressure solver treats
-    levels as even.
+    Warm air accelerates up slopes. Air at rest stays at rest over any terrain. The pressure solver assumes
+    flat levels.
 
-    Fields are float32; sums are float64. The result is the same for any number of threads. Memory is about 100
-    bytes a cell, 160 in a nest. It includes two ghost cells on each side, and rows are padded to multiples of
-    16 cells.
+    Fields are float32; sums are float64. The result is the same for any number of threads. Memory is about
+    100 bytes a cell, 160 in a nest. It includes two ghost cells on each side, and rows are padded to
+    multiples of 16 cells.
 
     Raises
     ------
     ValueError
-        A number makes no sense, or shapes do not fit.
+        A number is out of range, or shapes do not match.
     """
 
     def __init__(self, domain: Domain, profile: Profile, settings: SolverSettings | None = None) -> None: ...
     def nest(self, domain: Domain, settings: SolverSettings | None = None) -> Solver:
-        """Make a one-way nest: a finer domain in this one, at least two of this domain's cells from its sides.
+        """Make a one-way nest: a finer domain in this one, two or more of this domain's cells from its sides.
 
-        The nest starts from this flow's present state. Its boundary values and ambient wind follow this flow,
-        linearly between its steps. There is no feedback to this flow. Step this flow first and then the nest,
+        The nest starts from the present state of this flow. Its boundary values and ambient wind follow this
+        flow, linearly between its steps; the nest does not feed back. Step this flow first and then the nest,
         up to the same time. Set the sources of both. `settings` None is `SolverSettings(sponge_width=10.0,
         sponge_time=8.0)`.
         """
@@ -186,17 +187,17 @@ class Solver:
     ) -> None:
         """Set the fire's sources: position (n, 2) m, heat (n,) W into the air, smoke and vapour (n,) kg/s.
 
-        A source is distributed bilinearly to the four nearest columns. A source outside of the outermost cell
-        centres is left out.
+        A source is distributed bilinearly to the four nearest columns. Sources outside of the outermost cell
+        centres are ignored.
         """
 
     def set_wind(self, wind: ArrayLike) -> None:
-        """Change the ambient wind (n, 2), m/s, one for each height of the profile; the whole flow is shifted."""
+        """Change the ambient wind (n, 2), m/s, one for each height; the change is added to the flow."""
 
     def step(self, dt: float, count: int = 1) -> None:
         """Advance by `count` time steps of `dt` s. Advection has substeps below Courant number 0.8.
 
-        0.05 s per metre of `spacing` is a good step. Raises `Error` when the flow diverges to infinity.
+        A good step is 0.05 s per metre of `spacing`. Raises `Error` if the flow diverges to infinity.
         """
 
     @property
@@ -225,33 +226,33 @@ class Solver:
         """Side of a square cell, m."""
     @property
     def corner(self) -> tuple[float, float]:
-        """x and y of the south-west corner, m."""
+        """South-west corner (x, y), m."""
     @property
     def shape(self) -> tuple[int, int, int]:
         """Levels, rows, columns."""
     def smoke(self) -> NDArray[np.float32]:
-        """(nz, ny, nx) smoke density, kg/m3; its sum times the true cell volumes is the airborne mass."""
+        """Return smoke density (nz, ny, nx), kg/m3, which the true cell volumes turn into airborne mass."""
     def age(self) -> NDArray[np.float32]:
-        """(nz, ny, nx) mean age of the smoke since emission, s; 0 without smoke."""
+        """Return the mean age of the smoke since emission (nz, ny, nx), s; 0 without smoke."""
     def velocity(self) -> NDArray[np.float32]:
-        """(nz, ny, nx, 3) wind east, north and up at cell centres, m/s; wind along a slope has an upward part."""
+        """Return the wind (nz, ny, nx, 3) at cell centres, m/s east, north and (also along slopes) up."""
     def temperature_excess(self) -> NDArray[np.float32]:
-        """(nz, ny, nx) temperature above the ambient air at the same height, K."""
+        """Return the temperature excess over the ambient air at the same height (nz, ny, nx), K."""
     def cloud(self) -> NDArray[np.float32]:
-        """(nz, ny, nx) cloud water mixing ratio, kg/kg."""
+        """Return the cloud water mixing ratio (nz, ny, nx), kg/kg."""
     def heights(self) -> NDArray[np.float32]:
-        """(nz, ny, nx) elevation of cell centres, m, in the ground's datum."""
+        """Return the elevation of cell centres (nz, ny, nx), m, in the ground's datum."""
     def mass(self) -> dict[str, float]:
-        """Smoke mass budget, kg: initial + emitted + entered + rounding = airborne + left."""
+        """Return the smoke mass budget, kg: initial + emitted + entered + rounding = airborne + left."""
     def heat(self) -> dict[str, float]:
-        """Heat budget, J.
+        """Return the heat budget, J.
 
-        `given` is released by sources. `warmed` is the same divided by the Exner function at the place of
+        `given` is released by sources. `warmed` is `given` divided by the Exner function at the place of
         release. `held` is cp x mass x potential temperature excess. In neutral air held = warmed until the
         plume reaches a boundary.
         """
     def state(self) -> dict[str, NDArray]:
-        """Checkpoint for `restore`, as new arrays: u, v, w, theta, smoke, age, water (float32), account, wind."""
+        """Copy a checkpoint for `restore`: u, v, w, theta, smoke, age, water (float32), account, wind."""
     def restore(self, state: dict[str, NDArray]) -> None:
         """Restart from a checkpoint of a solver with the same arguments; the run continues bit for bit.
 
@@ -259,23 +260,24 @@ class Solver:
         """
 
 class Drift:
-    """Advected texture coordinates (Neyret 2003, "Advected textures"): displacement of air since a phase's start.
+    """Advected texture coordinates (Neyret 2003, "Advected textures"): displacement of the air.
 
-    Noise at (place - drift) travels with the flow. Shear stretches noise into streaks, so each phase restarts
-    every `period` s. Two phases, half a period apart, are blended. Advection is semi-Lagrangian with linear
-    interpolation, on every other cell. The result is the same for any number of threads.
+    Displacement counts from the start of a phase. Noise at (place - drift) travels with the flow. Shear
+    stretches noise into streaks, so each phase restarts every `period` s. Two phases, half a period apart,
+    are blended. Advection is semi-Lagrangian with linear interpolation, on every other cell. The result is
+    the same for any number of threads.
     """
 
     def __init__(self, solver: Solver, period: float = 120.0) -> None: ...
     def advance(self) -> None:
-        """Advect up to the solver's time with its present wind; call it after each of the solver's steps."""
+        """Advect up to the solver's time with its present wind; call it after each solver step."""
     def values(self) -> NDArray[np.float32]:
-        """(nz', ny', nx', 2, 3) drift of both phases east, north and up along the levels, m.
+        """Return the drift of both phases (nz', ny', nx', 2, 3), m east, north and up along the levels.
 
         Values are at the centres of cells 0, 2, 4 ... along each axis.
         """
     def restore(self, time: float, values: ArrayLike) -> None:
-        """Restart from the values of a time (s)."""
+        """Restart from the values of a given time (s)."""
     @property
     def time(self) -> float:
         """Time up to which the drift is advected, s."""
@@ -289,12 +291,13 @@ class Drift:
 class Detail:
     """Procedural smoke detail below the cells of a flow, for one snapshot.
 
-    Noise that is advected with the air changes the logarithm of the smoke. A threshold then removes thin smoke.
-    Vigorous smoke (rising, warm, fresh or dense) has billows with crisp edges (Worley noise). Other smoke has
-    soft veils (Perlin noise). Formulas and constants are in cpp/flow/detail.hpp, detail.cpp and
+    Noise that is advected with the air modulates the logarithm of the smoke. A threshold then removes thin
+    smoke. Vigorous smoke (rising, warm, fresh or dense) has billows with crisp edges (Worley noise). Other
+    smoke has soft
+    veils (Perlin noise). Formulas and constants are in cpp/flow/detail.hpp, detail.cpp and
     detail_brush.cpp; thresholds and gains are chosen by eye.
 
-    Arrays are (nz, ny, nx) on square cells: a solver's, or a block of its cells that reaches down to the ground.
+    Arrays are (nz, ny, nx) on square cells: all cells of a solver, or a block that reaches the ground.
 
     Parameters
     ----------
@@ -311,13 +314,13 @@ class Detail:
     temperature_excess
         K above the ambient air.
     drift, weights, turns
-        (nz, ny, nx, 2, 3) m, and the rest of a `Drift`.
+        (nz, ny, nx, 2, 3) m, and the blend weights and restart counts of a `Drift`.
     glow
-        Light of flames in any unit, or None.
+        Light of flames in any unit; None: no flames.
     size
         Diameter of the largest billows, m.
     scale
-        Scale of the fire over that of a fire on 200 m cells.
+        Size of the fire, relative to a fire on 200 m cells.
     blur
         Standard deviation of the drift's Gaussian blur along levels, rows and columns, cells.
     opacity
@@ -327,7 +330,7 @@ class Detail:
     ages
         Ages between which smoke turns from dark to white, s.
     condensation_height
-        Height in the ground's datum above which vapour condenses in rising smoke, m. Such smoke is white and
+        Height in the ground's datum above which vapour condenses in rising smoke, m. This smoke is white and
         thicker.
     seed
         Seed of the noise.
@@ -367,7 +370,7 @@ class Detail:
         layers: int,
         wanted: ArrayLike | None = None,
     ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32] | None]:
-        """Dense voxels (nx, ny, layers): extinction (1/m), freshness (1 young, 0 old or none) and glow.
+        """Paint dense voxels (nx, ny, layers): extinction (1/m), freshness (1 young, 0 old or none) and glow.
 
         Parameters
         ----------
@@ -380,7 +383,7 @@ class Detail:
         layers
             Number of voxels along z.
         wanted
-            Mask of blocks of 16^3 voxels to compute; the last blocks may be smaller. None computes all blocks.
+            Mask of blocks of 16^3 voxels to compute; the last blocks may be smaller. None: all blocks.
         """
     def paint_sparse(
         self,
@@ -392,4 +395,4 @@ class Detail:
         wanted: ArrayLike | None = None,
         min_extinction: float = 0.0,
     ) -> SparseSmoke:
-        """The same as a sparse grid. Smoke with an extinction below `min_extinction` (1/m) is set to clear."""
+        """Paint a sparse grid. Smoke with an extinction below `min_extinction` (1/m) is set to clear."""

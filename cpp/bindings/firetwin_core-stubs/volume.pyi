@@ -13,7 +13,7 @@ FRESH_SMOKE: float
 """Smoke that counts as dilution 1, kg/m3."""
 
 class Puffs:
-    """Gaussian-puff smoke at one time as n balls. It has a closed form in time: no earlier state is needed."""
+    """Gaussian-puff smoke at one time as n balls, computed in closed form: no earlier state is needed."""
 
     @property
     def position(self) -> NDArray[np.float32]:
@@ -23,7 +23,7 @@ class Puffs:
         """(n,) metres."""
     @property
     def density(self) -> NDArray[np.float32]:
-        """(n,) smoke density of the puff, kg/m3; a surface ball has its parent's."""
+        """(n,) smoke density of the puff, kg/m3; a surface ball has the density of its parent."""
     @property
     def age(self) -> NDArray[np.float32]:
         """(n,) seconds."""
@@ -35,10 +35,10 @@ class Puffs:
         """(n,) identifier of a ball, constant in time."""
     @property
     def emitted(self) -> float:
-        """kg of smoke emitted up to this time."""
+        """Smoke emitted up to this time, kg."""
     @property
     def left(self) -> float:
-        """kg of smoke that is too old or too thin to be shown: emitted = sum of mass + left."""
+        """Smoke that is too old or too thin to be shown, kg: emitted = sum of mass + left."""
     def __len__(self) -> int: ...
 
 def puffs(
@@ -60,14 +60,14 @@ def puffs(
     smallest: float = 50.0,
     turbulence: float = 1.0,
 ) -> Puffs:
-    """Closed-form puffs at `time` (s) from cells that burned.
+    """Compute puffs in closed form at `time` (s) from cells that burned.
 
     Parameters
     ----------
     arrival, fuel, position
-        (n,) s, (n,) kg/m2 consumed and (n, 3) m; finite: leave out cells that never burn.
+        (n,) s, (n,) kg/m2 consumed and (n, 3) m; all finite, without cells that do not burn.
     wind
-        (n, 2), or what broadcasts to it, m/s east and north 10 m above the ground, when the cell burned.
+        (n, 2) or broadcastable, m/s east and north at 10 m above the ground, when the cell burned.
     cell_area
         m2.
     interval
@@ -77,20 +77,20 @@ def puffs(
     stability
         Square of the buoyancy frequency, 1/s2.
     block, merge_radius, smallest
-        m: side of the squares whose cells share a puff; distance over which plumes rise as one; radius of the
+        m: side of the squares whose cells share a puff; distance within which plumes merge; radius of the
         smallest surface ball.
     turbulence
         0 keeps every puff on the axis of its plume.
 
     Notes
     -----
-    Rise after Briggs (1969, 1984), see cpp/volume/plume.hpp; growth, stems and surface balls, see
-    cpp/volume/puffs.hpp.
+    Rise follows Briggs (1969, 1984), see cpp/volume/plume.hpp; growth, stems and surface balls are described
+    in cpp/volume/puffs.hpp.
 
     Raises
     ------
     ValueError
-        An array has the wrong shape or holds NaN, or a number is not positive.
+        An array has the wrong shape or contains NaN, or a number is not positive.
     """
 
 class VdbSummary:
@@ -110,13 +110,13 @@ class VdbSummary:
         """(2, 3) metres, world space; zeros for an empty file."""
     @property
     def mass(self) -> float:
-        """kg of smoke: the integral of what is written, before it is rounded to half floats.
+        """Mass of smoke, kg: the integral of the written smoke, before rounding to half floats.
 
-        0 where its grid, `dilution` or that of `write`, `density`, is not written.
+        0 if the grid of smoke mass is not written: `dilution`, or `density` for `write`.
         """
     @property
     def culled_mass(self) -> float:
-        """kg of smoke in blocks that frustum and occlusion culling removed."""
+        """Mass of smoke in blocks that frustum and occlusion culling removed, kg."""
 
 def write_smoke(
     path: str | PathLike[str],
@@ -131,17 +131,17 @@ def write_smoke(
     """Write puffs as a sparse volume, half precision with Blosc, to a temporary file that is then renamed.
 
     Grids: `density` (clipped signed distance (m + 300) / 600), `dilution` (in units of FRESH_SMOKE), `shade`
-    (dilution with a plain edge), `size` (km, of the local ball), `temperature` (K) and, with flames (n, 3) m
-    and (n,) W, `glow` (1 amid 1 GW) and `flame` (GW, at most 1). See cpp/volume/smoke.hpp. `grids` names those
-    that are wanted (None: all). With `views`, blocks of 8^3 voxels are culled (with a margin of 300 m); the other
-    blocks are the same as without.
+    (dilution with a sharp edge), `size` (km, of the local ball), `temperature` (K) and, with flames (n, 3) m
+    and (n,) W, `glow` (1 among flames of 1 GW) and `flame` (GW, at most 1). See cpp/volume/smoke.hpp. `grids`
+    lists the grids to write (None: all). With `views`, blocks of 8^3 voxels are culled (with a margin of
+    300 m); the other blocks are unchanged.
 
     Raises
     ------
     ValueError
-        An array has the wrong shape, voxel_size is not 1e-4 to 1e6 m, or no grid has such a name.
+        An array has the wrong shape, voxel_size is not 1e-4 to 1e6 m, or a grid name is unknown.
     Error
-        The voxels are far too small for smoke this wide.
+        The voxels are far too small for smoke of this extent.
     InputError
         The folder is missing or cannot be written.
     """
@@ -171,21 +171,21 @@ def write_levels(
     latitude, longitude
         (ny,), (nx,) degrees.
     ground
-        (ny, nx) m: under it there is no smoke; the lowest level's smoke reaches down to it.
+        (ny, nx) m: there is none below it; the lowest level's smoke extends down to it.
     height, smoke, temperature
-        (nz, ny, nx) m, ascending with the levels; kg/m3; K, without it that of the standard atmosphere.
+        (nz, ny, nx) m, ascending with the levels; kg/m3; K (None: the standard atmosphere).
 
     Notes
     -----
-    Linear functions of height are kept exactly. `density` is a smoothstep of `dilution`, for a model gives
-    no surface; see cpp/volume/levels.hpp.
+    Linear functions of height are reproduced exactly. `density` is a smoothstep of `dilution`, as a model
+    defines no surface; see cpp/volume/levels.hpp.
 
     Raises
     ------
     ValueError
-        Shapes that do not fit, voxel_size is not 1e-4 to 1e6 m, or no grid has such a name.
+        Shapes do not match, voxel_size is not 1e-4 to 1e6 m, or a grid name is unknown.
     Error
-        Heights that do not ascend, or voxels far too small.
+        Heights do not ascend, or voxels are far too small.
     InputError
         The folder is missing or cannot be written.
     """
@@ -206,41 +206,42 @@ def write(
     Parameters
     ----------
     grids
-        Arrays (nx, ny, nz) by name. Those of float32 in C order are read where they are, others are copied.
+        Arrays (nx, ny, nz) by name. C-contiguous float32 arrays are not copied.
     voxel_size
         m, 1e-4 to 1e6.
     origin
         m, the centre of voxel (0, 0, 0) of every array.
     half
-        Whether values are rounded to half precision (nearest, ties to even), which holds them up to 65504.
+        Round values to half precision (nearest, ties to even), whose largest value is 65504.
     tolerance
-        Values this near 0, the background, are left out. Each grid has its own active voxels.
+        Values up to this magnitude become background (0). Each grid has its own active voxels.
     metadata
-        What the file says of itself.
+        Metadata of the file.
     views
-        Blocks of 8^3 voxels are culled (with a margin of 300 m); the other blocks are the same as without. Values
-        in culled blocks are not checked. Only `density` is summed there, for `VdbSummary.culled_mass`.
+        For culling: blocks of 8^3 voxels that it does not see are removed (with a margin of 300 m); the other
+        blocks are unchanged. Values in culled blocks are not checked. Only `density` is summed there, for
+        `VdbSummary.culled_mass`.
     within
-        Name of a grid: the others are left out of blocks of 8^3 voxels where it has nothing. Of smoke nothing is seen
-        there, yet renderers go step by step through all blocks that any grid has.
+        Name of a grid: all other grids are removed from blocks of 8^3 voxels that are empty in it. Smoke
+        there would be invisible, yet renderers march through all blocks of any grid.
 
     Returns
     -------
     VdbSummary
-        `mass` is the integral of what is written of `density`, read as kg/m3, before rounding, `hidden` of what
-        is left out because no camera sees it; both 0 without a grid of that name.
+        `mass` is the integral of the written `density` (kg/m3) before rounding, `culled_mass` its integral
+        over culled blocks; both are 0 without a grid `density`.
 
     Notes
     -----
-    Blocks of one value become tiles, as in OpenVDB's `copyFromArray`. Beside the arrays and the masks of active
-    voxels (a few bytes for 100 values) memory holds some megabytes of what is on its way to the file. The same
-    grids make the same bytes on any number of threads.
+    Constant blocks become tiles, as in OpenVDB's `copyFromArray`. In addition to the arrays and the masks of
+    active voxels (a few bytes per 100 values), memory use is some megabytes for blocks being written. Equal
+    grids make identical files on any number of threads.
 
     Raises
     ------
     ValueError
-        An array has the wrong shape, a value is not finite or too large for half precision, or a number makes
-        no sense.
+        An array has the wrong shape, a value is not finite or too large for half precision, or a number is
+        out of range.
     InputError
         The folder is missing or cannot be written.
     """
@@ -254,7 +255,7 @@ def occluded_smoke(
     origin: Sequence[float] = (0.0, 0.0, 0.0),
     beyond: tuple[ArrayLike, float, Sequence[float]] | None = None,
 ) -> tuple[NDArray[np.float32], tuple[NDArray[np.float32], float, list[float]]]:
-    """Occlusion culling of smoke by smoke: voxels behind a given optical depth from every viewpoint.
+    """Cull smoke that is occluded by smoke: voxels behind a given optical depth from every viewpoint.
 
     Parameters
     ----------
@@ -265,9 +266,9 @@ def occluded_smoke(
     places
         (n, 3) m, perspective viewpoints.
     directions
-        (m, 3) unit vectors to orthographic viewpoints (parallel lines of sight).
+        (m, 3) unit vectors towards orthographic viewpoints (parallel lines of sight).
     depth
-        Optical depth. A voxel is occluded if every ray from it to a viewpoint has more than that.
+        Optical depth. A voxel is occluded if it exceeds this along every ray to a viewpoint.
     origin
         m, the centre of voxel (0, 0, 0).
     beyond
@@ -276,26 +277,26 @@ def occluded_smoke(
     Returns
     -------
     occluded
-        (nx, ny, nz) 1 where smoke is occluded, else 0; 0 everywhere without viewpoints.
+        (nx, ny, nz) 1 in occluded voxels, else 0; 0 everywhere without viewpoints.
     smoke
-        Extinction (1/m) on voxels of four times the size, that size (m), and the centre of the first (m).
+        Extinction (1/m) on voxels of four times the size, their size (m), and the centre of the first (m).
 
     Notes
     -----
-    Optical depth is found on the larger voxels by ray marching, one step a voxel, and is linear between them.
-    Rays end a little beyond `depth`.
+    Optical depth is computed on the larger voxels by ray marching, one step per voxel, and interpolated
+    linearly. Rays end a little beyond `depth`.
     """
 
 def smoke_light(
     extinction: ArrayLike,
     voxel_size: float,
     direction: Sequence[float],
-    sun_part: float,
-    sky_part: float,
+    sun_factor: float,
+    sky_factor: float,
     origin: Sequence[float] = (0.0, 0.0, 0.0),
     beyond: tuple[ArrayLike, float, Sequence[float]] | None = None,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], tuple[NDArray[np.float32], float, list[float]]]:
-    """Sunlight and skylight in smoke (transmittance): 1 in clear air beside smoke, 0 farther than a voxel from it.
+    """Compute the transmittance of sunlight and skylight in smoke.
 
     Parameters
     ----------
@@ -305,30 +306,35 @@ def smoke_light(
         m.
     direction
         Unit vector (x, y, z) to the sun.
-    sun_part, sky_part
+    sun_factor, sky_factor
         Factors on the optical depth for sunlight and skylight.
     origin
         m, the centre of voxel (0, 0, 0).
     beyond
-        `depths` of a coarser, larger grid, as returned. They are added where a ray to the sun leaves this grid.
+        `depths` of a coarser, larger grid, as returned. They are added where a ray to the sun leaves this
+        grid.
 
     Returns
     -------
+    Transmittance is 1 in clear air next to smoke, 0 farther than a voxel from smoke.
+
     sun
-        (nx, ny, nz) exp(-sun_part * optical depth to the sun). The first four voxels of a ray are marched one by
-        one. The rest is swept slice by slice from the lit side on voxels of twice the size, linear between. A
-        shadow's edge widens by about half a voxel times the root of the number of slices.
+        (nx, ny, nz) exp(-sun_factor * optical depth to the sun). The first four voxels of a ray are marched
+        one by one. The rest is swept slice by slice from the lit side on voxels of twice the size and
+        interpolated linearly. Shadow edges widen by about half a voxel times the square root of the number of
+        slices.
     sky
-        (nx, ny, nz) transmittance of a uniform sky: the mean over five upward directions, each for a fifth of
-        the sky, on voxels of four times the size.
+        (nx, ny, nz) transmittance of a uniform sky: the mean over five upward directions, each representing a
+        fifth of the sky, on voxels of four times the size.
     depths
-        Optical depths to the sun on voxels of twice the size, that size (m), and the centre of the first (m).
+        Optical depths to the sun on voxels of twice the size, their size (m), and the first's centre (m).
     """
 
 class SparseSmoke:
     """Sparse voxel grid of smoke: blocks of 8^3 voxels; clear blocks are not stored.
 
-    `firetwin_core.flow.Detail.paint_sparse` makes it: extinction (1/m), freshness, and a glow if there is one.
+    `firetwin_core.flow.Detail.paint_sparse` makes it, with extinction (1/m), freshness, and glow if there are
+    flames.
     """
 
     @property
@@ -345,37 +351,37 @@ class SparseSmoke:
         """Number of stored blocks."""
 
 class LitSmoke:
-    """Sparse smoke with sunlight and skylight in it; `smoke_light` is the same for dense smoke."""
+    """Sparse smoke with sunlight and skylight; `smoke_light` is the equivalent for dense smoke."""
 
     def __init__(
         self,
         smoke: SparseSmoke,
         direction: Sequence[float],
-        sun_part: float,
-        sky_part: float,
+        sun_factor: float,
+        sky_factor: float,
         beyond: tuple[ArrayLike, float, Sequence[float]] | None = None,
     ) -> None:
-        """Compute optical depths; the arguments are those of `smoke_light`."""
+        """Compute optical depths; the arguments are the same as for `smoke_light`."""
     @property
     def depths(self) -> tuple[NDArray[np.float32], float, list[float]]:
         """Optical depths to the sun, as `smoke_light` returns them."""
     def bricks(self, share: ArrayLike, min_extinction: float) -> Bricks:
-        """Pack the drawn part for ray marching.
+        """Pack the visible share for ray marching.
 
         Parameters
         ----------
         share
-            (nx, ny) factor on the drawn extinction, 0 to 1. Light is dimmed by all of the smoke.
+            (nx, ny) factor on the visible extinction, 0 to 1. All of the smoke attenuates light.
         min_extinction
-            1/m; smoke with a smaller extinction after that is clear.
+            1/m; smoke with a smaller visible extinction is set to clear.
         """
     def grids(self, share: ArrayLike, min_extinction: float) -> dict[str, NDArray[np.float32]]:
-        """The same as dense arrays (nx, ny, nz): density, fresh, sun, sky, and glow where the smoke has one."""
+        """Return dense arrays (nx, ny, nz): density, fresh, sun, sky, and glow if the smoke has it."""
 
 class Bricks:
     """Sparse voxel grid of smoke and light for ray marching; clear blocks are not stored.
 
-    A block has 8^3 cells and the 9^3 voxels at their corners. Blocks are stored where extinction is above
+    A block has 8^3 cells and the 9^3 voxels at their corners. It is stored if a voxel's extinction is above
     2.5e-5 /m. Values are half floats: the error is at most 1/2048 of the value plus 3e-8.
     """
 
@@ -396,11 +402,11 @@ class Bricks:
         density
             Extinction, 1/m.
         fresh
-            1 where smoke is young, 0 where it is old.
+            1 in young smoke, 0 in old smoke.
         sun, sky
-            As `smoke_light` gives them.
+            Fourth root of the sunlight's transmittance, and transmittance of the skylight.
         glow
-            Light of flames; None: none.
+            Light of flames; None: no flames.
         voxel_size
             m.
         origin
@@ -409,7 +415,7 @@ class Bricks:
         Raises
         ------
         ValueError
-            Shapes differ, or a number makes no sense.
+            Shapes differ, or a number is out of range.
         """
 
     @property
@@ -420,7 +426,7 @@ class Bricks:
         """Number of blocks with smoke."""
     @property
     def bytes(self) -> int:
-        """Memory of these blocks, bytes."""
+        """Memory of the stored blocks, bytes."""
 
 class Illumination:
     """Light sources of `march`: sun, sky, flames and haze, with the smoke's albedo. Colours are linear."""
@@ -443,7 +449,7 @@ class Illumination:
         haze: float,
         haze_height: float,
     ) -> None:
-        """Set all of it.
+        """Set all parameters.
 
         Parameters
         ----------
@@ -458,13 +464,14 @@ class Illumination:
         sun_direction
             Unit vector to the sun.
         anisotropy
-            g of Henyey and Greenstein's phase function.
+            g of the Henyey-Greenstein phase function.
         multiple_scattering
-            Multiple scattering: weights of light scattered twice and thrice, relative to single scattering.
+            Weights of light scattered two and three times, relative to single scattering.
         glow
-            Radiance where `glow` is 1; black has no glow.
+            Radiance where the field `glow` is 1; black: no glow.
         thin, thick
-            Part of the glow that thin smoke scatters, and the extinctions (1/m) between which this part rises to 1.
+            Share of the glow that thin smoke scatters, and the extinctions (1/m) between which this share
+            rises to 1.
         air, haze, haze_height
             Radiance of the haze, its extinction (1/m) at height 0, and its e-folding height (m).
         """
@@ -476,24 +483,24 @@ def march(
     distances: ArrayLike,
     light: Illumination,
     step: float = 0.5,
-    stop: float = 1.0e-3,
+    min_transmittance: float = 1.0e-3,
 ) -> NDArray[np.float32]:
-    """Ray marching: radiance that smoke adds to rays, and the transmittance of the background.
+    """March rays through smoke: radiance of the smoke, and transmittance of the background.
 
     Parameters
     ----------
     layers
-        At most four, whose smoke adds up.
+        At most four; their smoke adds up.
     origins
-        (n, 3) m, or (3,) where all rays begin in one place.
+        (n, 3) m, or (3,) if all rays start at one point.
     directions
         (n, 3) unit vectors.
     distances
-        (n, taps) m, in any order: distances at which a ray's result is returned. Infinity is behind all smoke.
+        (n, taps) m, in any order: distances at which a ray's result is returned; infinity: behind all smoke.
     step
-        Step length, voxels of the finest layer at the place.
-    stop
-        Transmittance at which a ray ends. The remaining light is extrapolated from the same smoke.
+        Step length, in voxels of the finest layer at each point.
+    min_transmittance
+        Transmittance at which a ray ends. The remaining radiance is extrapolated from the same smoke.
 
     Returns
     -------
@@ -501,14 +508,15 @@ def march(
 
     Notes
     -----
-    Light scattered once is spread after L. G. Henyey and J. L. Greenstein (1941); more is added after
-    M. Wrenninge, C. Kulla and V. Lundqvist (2013, "Oz: The Great and Volumetric"). Steps are even within a
-    block and have no jitter; of the example's smoke half a voxel is 0.1 % off a quarter of it.
+    Single scattering follows L. G. Henyey and J. L. Greenstein (1941); multiple scattering is approximated
+    after M. Wrenninge, C. Kulla and V. Lundqvist (2013, "Oz: The Great and Volumetric"). Steps are even
+    within a block and have no jitter. In the example's smoke, steps of half a voxel differ by 0.1 % from
+    steps of a quarter.
 
     Raises
     ------
     ValueError
-        Shapes do not fit, or there are more than four layers.
+        Shapes do not match, or there are more than four layers.
     """
 
 def march_infrared(
@@ -528,24 +536,25 @@ def march_infrared(
     absorption: float,
     step: float = 4.0,
 ) -> NDArray[np.float32]:
-    """Ray marching in the infrared: smoke absorbs and emits, and does not scatter.
+    """March rays in the infrared: smoke absorbs and emits, and does not scatter.
 
     Parameters
     ----------
     layers, origins, directions, step
-        As of `march`.
+        As in `march`.
     distances
-        (n,) m, how far each ray goes.
+        (n,) m, length of each ray.
     kelvin, elevation
-        (rows, columns) air temperature at the model's ground, K, and elevation of that ground, m; rows to the north.
+        (rows, columns) air temperature at the model's ground, K, and elevation of that ground, m; rows to the
+        north.
     corner, spacing
-        x and y of the first of these values, and of the distance between values, m.
+        x and y of the first of these values, and the distance between values, m.
     lapse
         Lapse rate above that ground, K/m.
     radiance
-        (k,) W m-2 sr-1 of a black body at `coldest` K and every `kelvin_step` K from there on.
+        (k,) black-body radiance at `coldest` K and at every `kelvin_step` K above it, W m-2 sr-1.
     absorption
-        Infrared absorption over the extinction in green light.
+        Infrared absorption / extinction in green light.
 
     Returns
     -------
@@ -554,7 +563,7 @@ def march_infrared(
     Raises
     ------
     ValueError
-        Shapes do not fit.
+        Shapes do not match.
     """
 
 def optical_depth(
@@ -563,19 +572,21 @@ def optical_depth(
     directions: ArrayLike,
     distances: ArrayLike,
     step: float = 2.0,
-    enough: float = 20.0,
+    max_depth: float = 20.0,
 ) -> NDArray[np.float32]:
-    """Optical depth of smoke along rays in green light, (n,). A ray ends at the optical depth `enough`.
+    """Compute the optical depth (n,) of smoke along rays, in green light.
 
     Parameters
     ----------
     layers, origins, directions, step
-        As of `march`.
+        As in `march`.
     distances
-        (n,) m, how far each ray goes.
+        (n,) m, length of each ray.
+    max_depth
+        Optical depth at which a ray ends.
 
     Raises
     ------
     ValueError
-        Shapes do not fit.
+        Shapes do not match.
     """
