@@ -113,8 +113,8 @@ class Model:
             return None, np.inf, True
         if result.x is None:
             raise Error(
-                f"no allocation was found in {options.time_limit:g} s; request fewer divisions or hours, "
-                "or use fewer resources"
+                f"the solver reached its limit of {options.time_limit:g} s; request fewer divisions or "
+                "hours, or use fewer resources"
             )
         over = result.status == 1 and result.mip_node_count < options.nodes
         return result.x, float(result.mip_dual_bound), not over

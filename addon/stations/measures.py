@@ -100,7 +100,7 @@ def cost_of(station_file: StationFile, hours: float) -> Array:
 def unit_cost(mobilise: Array, hour: Array, day: Array, hours: float) -> Array:
     """Compute the cost (n,) of one unit: mobilisation, and work by the hour, or by the day.
 
-    The rate per day applies if there is no rate per hour. A missing cost of mobilisation counts as 0. NaN
+    Without a rate per hour the rate per day applies. A missing cost of mobilisation counts as 0. NaN
     without a rate.
     """
     work = np.where(np.isnan(hour), day * np.ceil(hours / 24.0), hour * hours)

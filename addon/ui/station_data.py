@@ -1,4 +1,4 @@
-"""What lists and maps of stations are made of: the file of places and the run, read in a thread and kept."""
+"""Cached data of the station list and map: station file and run, read in a thread."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from . import job
 
 
 class Key(NamedTuple):
-    """File of places and run folder, with the times when they last changed, ns."""
+    """Station file and run folder, with their modification times, ns."""
 
     file: Path
     file_changed: int
@@ -30,18 +30,18 @@ class Key(NamedTuple):
 
 @dataclass(frozen=True)
 class Loaded:
-    """Places, and the run around them where there is one.
+    """Station file, and the run if there is one.
 
     Attributes
     ----------
     arrivals
-        When the fire reaches each station.
+        Arrival of the fire at each station.
     ignition
-        Where the fire began, degrees; None where it is not known.
+        Ignition point, degrees; None: unknown.
     plan
-        Ground of the map; None without a station and a run.
+        Static content of the map; None without stations and run.
     problem
-        Why the run cannot be read; empty where it can.
+        Error of the run; empty without an error.
     """
 
     station_file: StationFile
@@ -58,7 +58,7 @@ _reading: threading.Thread | None = None
 
 
 def key(panel: bpy.types.PropertyGroup) -> Key | None:
-    """What the panel asks for; None without a file, or where it is not there."""
+    """Return the key of the files in the panel; None if the file is missing."""
     if not panel.stations.file:
         return None
     file, run = Path(bpy.path.abspath(panel.stations.file)), None
@@ -72,9 +72,9 @@ def key(panel: bpy.types.PropertyGroup) -> Key | None:
 
 
 def get(wanted: Key) -> Loaded | str | None:
-    """What was read, or what is wrong with it; None while a thread reads it.
+    """Return the data, or an error message; None while a thread reads the files.
 
-    Without a window it is read at once.
+    Without a window the files are read immediately.
     """
     global _reading
     if wanted in _known:
@@ -89,7 +89,7 @@ def get(wanted: Key) -> Loaded | str | None:
 
 
 def kinds() -> list[str]:
-    """Kinds of resources of what was read last."""
+    """Return the kinds of resources in the file that was read last."""
     return sorted(
         {
             each.kind
@@ -100,8 +100,8 @@ def kinds() -> list[str]:
     )
 
 
-def forget() -> None:
-    """Free everything."""
+def clear() -> None:
+    """Discard the cached data."""
     _known.clear()
 
 
@@ -115,12 +115,12 @@ def _read(wanted: Key) -> None:
 
 
 def load(file: Path, folder: Path | None) -> Loaded:
-    """Read a file of places, and a run if there is one; what is wrong with the run alone is told.
+    """Read a station file, and a run if there is one; an error of the run is stored in `problem`.
 
     Raises
     ------
     InputError
-        The file of places cannot be read.
+        The station file cannot be read.
     """
     station_file = reading.read(file)
     if folder is None:

@@ -1,4 +1,4 @@
-"""Filters of the list of stations: those of `firetwin resources`, as properties and as a query."""
+"""Filters of the station list: the conditions of `firetwin resources`, as properties and as a query."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _MODES = ((ANY, "Any", "All modes"), *((each, keys.label(each), "") for each in 
 
 
 def changed(group: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """Update callback: make the list again, soon."""
+    """Schedule an update of the list (update callback)."""
     station_sync.wake()
 
 
@@ -51,42 +51,42 @@ class FIRETWIN_PG_stationfilter(bpy.types.PropertyGroup):
     )
     near: bpy.props.EnumProperty(
         name="Near",
-        description="Place that distances and minutes are to",
+        description="Destination for distances and minutes",
         items=(
             (NOWHERE, "Nowhere", "No distances and no minutes"),
-            (IGNITION, "Ignition", "Where the fire of the run began"),
-            (HEAD, "Head", "Head of the fire at the time that is shown"),
+            (IGNITION, "Ignition", "Ignition point of the run"),
+            (HEAD, "Head", "Head of the fire at the current frame"),
         ),
         default=IGNITION,
         update=changed,
     )
     within: bpy.props.FloatProperty(
-        name="Within", description="Greatest straight distance, km; 0: any", min=0.0, precision=1,
+        name="Within", description="Maximum straight distance, km; 0: any", min=0.0, precision=1,
         update=changed,
     )  # fmt: skip
     minutes: bpy.props.FloatProperty(
-        name="Minutes", description="Greatest time from the order to the arrival, min; 0: any", min=0.0,
+        name="Minutes", description="Maximum time from the order to the arrival, min; 0: any", min=0.0,
         precision=0, update=changed,
     )  # fmt: skip
     available: bpy.props.BoolProperty(
         name="Available then",
-        description="Only stations with a resource that is available at the time that is shown",
+        description="Only stations with a resource that is available at the time of the current frame",
         update=changed,
     )
 
 
 def shown_time(panel: bpy.types.PropertyGroup) -> datetime | None:
-    """Time of the current frame, UTC; None before a build."""
+    """Return the time of the current frame, UTC; None before a build."""
     return time.shown_time(panel) if panel.first_time else None
 
 
 def query(panel: bpy.types.PropertyGroup, loaded: Loaded) -> Query:
-    """The panel's filters as a query.
+    """Convert the filters of the panel to a query.
 
     Raises
     ------
     Error
-        A text is no list of types, or a filter needs what is not there.
+        A list of types is invalid, or a filter needs missing data.
     """
     chosen, near = panel.station_filter, _near(panel, loaded)
     if chosen.available and not panel.first_time:
@@ -107,14 +107,14 @@ def query(panel: bpy.types.PropertyGroup, loaded: Loaded) -> Query:
 
 
 def _near(panel: bpy.types.PropertyGroup, loaded: Loaded) -> tuple[float, float] | None:
-    """Place that stations are searched around; the head before a build is that of the run's end."""
+    """Return the destination; before a build the head is taken at the end of the run."""
     if panel.station_filter.near == HEAD and loaded.run is not None and loaded.head is not None:
         return loaded.head(shown_time(panel) or times.utc(loaded.run, float(loaded.run.times[-1])))
     return None if panel.station_filter.near == NOWHERE else loaded.ignition
 
 
 def copy(source: bpy.types.PropertyGroup, target: bpy.types.PropertyGroup) -> None:
-    """Copy all filters to those of another scene."""
+    """Copy all filters to another scene."""
     for name in FIRETWIN_PG_stationfilter.__annotations__:
         setattr(target, name, getattr(source, name))
 

@@ -1,7 +1,7 @@
-"""Stations that the panel lists: rows in the window's data, which a timer makes and panels only draw.
+"""Station list of the panel: rows in the window manager, which a timer updates and panels draw.
 
-`scene.firetwin.station` names the selected station by its number and name in the file. Lists, the map and the
-handles in the 3D view all show that one. What is listed is no part of the .blend file.
+`scene.firetwin.station` is the selected station, by number and name in the file; list, map and handles in the
+3D view share it. The rows are not stored in the .blend file.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ READING = "Reading the stations"
 
 
 class FIRETWIN_PG_station(bpy.types.PropertyGroup):
-    """A station of the list"""
+    """Station of the list"""
 
     kind: bpy.props.StringProperty()
     minutes: bpy.props.StringProperty()
@@ -32,70 +32,70 @@ class FIRETWIN_PG_station(bpy.types.PropertyGroup):
 
 
 class FIRETWIN_PG_stations(bpy.types.PropertyGroup):
-    """Stations that are listed in this session"""
+    """Stations listed in this session"""
 
     rows: bpy.props.CollectionProperty(type=FIRETWIN_PG_station)
     stamp: bpy.props.IntProperty()
 
 
 @dataclass(frozen=True)
-class Shown:
-    """What is listed, and of what; `stamp` is another one after each change."""
+class ListState:
+    """Content of the list and its input; `stamp` changes with the content."""
 
     wanted: Key | None = None
     query: Query | None = None
     loaded: Loaded | None = None
     rows: list[Row] = field(default_factory=list)
     place: dict[str, int] = field(default_factory=dict)
-    told: str = NO_FILE
+    status: str = NO_FILE
     stamp: int = 0
 
 
 @dataclass(frozen=True)
 class Detail:
-    """What is known of the selected station: its lines, and the fire's arrival."""
+    """Details of the selected station, with the arrival of the fire."""
 
     station: Station
     lines: list[tuple[str, str]]
 
 
-_shown = Shown()
+_shown = ListState()
 _detail: tuple[tuple[str, int] | None, Detail | None] = (None, None)
 
 
-def shown() -> Shown:
-    """What is listed."""
+def shown() -> ListState:
+    """Return the state of the list."""
     return _shown
 
 
 def detail(panel: bpy.types.PropertyGroup) -> Detail | None:
-    """What is known of the selected station, once `describe` has found it."""
+    """Return the details of the selected station; None before `describe` has run."""
     known, found = _detail
     return found if known is not None and known[0] == panel.station else None
 
 
 def refresh(panel: bpy.types.PropertyGroup) -> bool:
-    """Bring the list up to date; returns whether something is still being read."""
+    """Update the list; return True while files are still being read."""
     wanted = station_data.key(panel)
     found = None if wanted is None else station_data.get(wanted)
     if wanted is None or not isinstance(found, Loaded):
-        told = NO_FILE if wanted is None else READING if found is None else str(found)
-        _put(Shown(wanted, told=told))
+        status = NO_FILE if wanted is None else READING if found is None else str(found)
+        _publish(ListState(wanted, status=status))
         return wanted is not None and found is None
     try:
         asked = station_filter.query(panel, found)
         if (wanted, asked) != (_shown.wanted, _shown.query):
-            _put(_survey(wanted, found, asked))
+            _publish(_survey(wanted, found, asked))
         else:
-            _put(_shown)
+            _publish(_shown)
     except Error as error:
-        _put(Shown(wanted, None, found, told=str(error)))
+        _publish(ListState(wanted, None, found, status=str(error)))
     describe(panel)
     return False
 
 
 def describe(panel: bpy.types.PropertyGroup) -> None:
-    """Find out what is known of the selected station."""
+    """Collect the details of the selected station."""
     global _detail
     loaded, now = _shown.loaded, (panel.station, id(_shown.loaded))
     if _detail[0] == now:
@@ -107,42 +107,42 @@ def describe(panel: bpy.types.PropertyGroup) -> None:
     lines = listing.facts(loaded.station_file, station)
     if loaded.run is not None and loaded.arrivals is not None:
         reached = fire_arrival.text(loaded.run, loaded.arrivals, loaded.station_file.station_row[station.id])
-        marked = not lines[-1][0]  # that it is an exercise stands last
+        marked = not lines[-1][0]  # the label of an exercise comes last
         lines.insert(len(lines) - marked, ("Fire", reached))
     _detail = now, Detail(station, lines)
 
 
 def place(panel: bpy.types.PropertyGroup) -> int:
-    """Index of the selected station in the list; -1 where it is not listed."""
+    """Return the index of the selected station in the list; -1 if it is not listed."""
     return _shown.place.get(panel.station, -1)
 
 
-def forget() -> None:
-    """Nothing is listed."""
+def clear() -> None:
+    """Clear the list."""
     global _shown, _detail
-    _shown, _detail = Shown(), (None, None)
-    station_data.forget()
+    _shown, _detail = ListState(), (None, None)
+    station_data.clear()
 
 
-def _survey(wanted: Key, loaded: Loaded, asked: Query) -> Shown:
+def _survey(wanted: Key, loaded: Loaded, asked: Query) -> ListState:
     found = listing.survey(loaded.station_file, asked)
-    told = count(len(found.rows), "station")
+    status = count(len(found.rows), "station")
     out = ", ".join(f"{number:,} {reason}" for reason, number in found.left_out.items())
-    told += f"; left out: {out}" if out else ""
-    told += f". {loaded.problem}" if loaded.problem else ""
+    status += f"; left out: {out}" if out else ""
+    status += f". {loaded.problem}" if loaded.problem else ""
     places = {listing.key(each.station): k for k, each in enumerate(found.rows)}
-    return Shown(wanted, asked, loaded, found.rows, places, told)
+    return ListState(wanted, asked, loaded, found.rows, places, status)
 
 
-def _put(now: Shown) -> None:
-    """List it, where it is not listed already."""
+def _publish(now: ListState) -> None:
+    """Write the rows for the panel, if they have changed."""
     global _shown
     held = bpy.context.window_manager.firetwin_stations
-    same = (now.wanted, now.query, now.told) == (_shown.wanted, _shown.query, _shown.told)
+    same = (now.wanted, now.query, now.status) == (_shown.wanted, _shown.query, _shown.status)
     if same and held.stamp == _shown.stamp and len(held.rows) == len(_shown.rows):
         return
-    values = {name: getattr(now, name) for name in ("wanted", "query", "loaded", "rows", "place", "told")}
-    _shown = Shown(**values, stamp=_shown.stamp + 1)
+    values = {name: getattr(now, name) for name in ("wanted", "query", "loaded", "rows", "place", "status")}
+    _shown = ListState(**values, stamp=_shown.stamp + 1)
     held.stamp = _shown.stamp
     held.rows.clear()
     for each in _shown.rows:

@@ -1,4 +1,4 @@
-"""Map of the listed stations: an image, and the same picture in the sidebar; drawn by a timer while shown."""
+"""Map of the listed stations, as an image and in the sidebar; a timer draws it while it is visible."""
 
 from __future__ import annotations
 
@@ -14,30 +14,30 @@ from ..stations import listing, picture
 from . import station_filter, station_list, station_selection, station_sync, working
 
 IMAGE = "Firetwin Stations Map"
-NO_MAP = "No file of stations is read"
+NO_MAP = "No station file has been read"
 
 _drawn: tuple[object, ...] | None = None
 _kept: list[bpy.utils.previews.ImagePreviewCollection] = []
 
 
 def changed(panel: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """Update callback: the map is shown in the sidebar, or no more."""
+    """Schedule an update after the map was shown or hidden in the sidebar (update callback)."""
     station_sync.wake()
 
 
 def icon() -> int:
-    """Icon number of the picture in the sidebar; 0: none is drawn."""
+    """Return the icon number of the picture in the sidebar; 0: not drawn."""
     return _kept[0]["map"].icon_id if _kept else 0
 
 
 def image() -> bpy.types.Image | None:
-    """The map's image, if it was shown."""
+    """Return the image of the map, if there is one."""
     found = bpy.data.images.get(IMAGE)
     return found if found is not None and owned.ours(found) else None
 
 
 def editors() -> Iterator[bpy.types.Area]:
-    """Image editors that show the map."""
+    """Iterate over the image editors that show the map."""
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "IMAGE_EDITOR" and _shows(area.spaces.active):
@@ -45,7 +45,7 @@ def editors() -> Iterator[bpy.types.Area]:
 
 
 def update(scene: bpy.types.Scene, always: bool = False) -> None:
-    """Draw the map again, where it is shown and something of it changed."""
+    """Draw the map if it is visible and its content has changed."""
     global _drawn
     panel, now = scene.firetwin, station_list.shown()
     seen = (panel.station_map, next(editors(), None) is not None)
@@ -74,7 +74,7 @@ def update(scene: bpy.types.Scene, always: bool = False) -> None:
 
 
 def model_time(panel: bpy.types.PropertyGroup, loaded: station_list.Loaded) -> float:
-    """Model time of the current frame, s; before a build that of the run's end."""
+    """Return the model time of the current frame, s; before a build, the end of the run."""
     if loaded.run is None:
         return 0.0
     shown = station_filter.shown_time(panel)
@@ -82,7 +82,7 @@ def model_time(panel: bpy.types.PropertyGroup, loaded: station_list.Loaded) -> f
 
 
 def station_at(up: float, along: float) -> str | None:
-    """Key of the listed station nearest to a point of the map, from 0 to 1; None without any."""
+    """Return the key of the listed station nearest to a point of the map, 0 to 1; None without stations."""
     now = station_list.shown()
     if now.loaded is None or now.loaded.plan is None:
         return None
@@ -93,7 +93,7 @@ def station_at(up: float, along: float) -> str | None:
     return None if row is None else listing.key(stations[row])
 
 
-def forget() -> None:
+def clear() -> None:
     """Free the picture in the sidebar."""
     global _drawn
     _drawn = None
@@ -106,7 +106,7 @@ def _shows(space: bpy.types.Space) -> bool:
 
 
 def _preview(pixels: np.ndarray) -> None:
-    """Put the picture into the sidebar's icon."""
+    """Copy the picture to the icon in the sidebar."""
     if not _kept:
         _kept.append(bpy.utils.previews.new())
         _kept[0].new("map")
@@ -125,7 +125,7 @@ def _can_show(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool
 
 
 class FIRETWIN_OT_station_map(bpy.types.Operator):
-    """Show the map of stations in an image editor: one that is open, or else a new window"""
+    """Show the map of stations in an open image editor, or in a new window"""
 
     bl_idname = "firetwin.station_map"
     bl_label = "Show map"
@@ -146,7 +146,7 @@ class FIRETWIN_OT_station_map(bpy.types.Operator):
         return {"FINISHED"}
 
     def _show(self, context: bpy.types.Context, held: bpy.types.Image) -> None:
-        """Put the image into an editor."""
+        """Show the image in an editor."""
         areas = [area for area in context.screen.areas if area.type == "IMAGE_EDITOR"]
         if not areas:
             bpy.ops.wm.window_new()
@@ -157,7 +157,7 @@ class FIRETWIN_OT_station_map(bpy.types.Operator):
 
 
 class FIRETWIN_OT_station_pick(bpy.types.Operator):
-    """Select the station that is clicked on the map; Esc ends it"""
+    """Select a station with a click on the map; Esc cancels"""
 
     bl_idname = "firetwin.station_pick"
     bl_label = "Pick on map"
@@ -175,7 +175,7 @@ class FIRETWIN_OT_station_pick(bpy.types.Operator):
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         context.window_manager.modal_handler_add(self)
         context.window.cursor_modal_set("CROSSHAIR")
-        context.workspace.status_text_set("Click a station on the map    Esc ends it")
+        context.workspace.status_text_set("Click a station on the map    Esc cancels")
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -194,7 +194,7 @@ class FIRETWIN_OT_station_pick(bpy.types.Operator):
         return {"FINISHED"}
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """Another file is opened, or Blender ends."""
+        """End picking, as another file is opened or Blender quits."""
         self._end(context)
 
     def _end(self, context: bpy.types.Context) -> None:
@@ -203,7 +203,7 @@ class FIRETWIN_OT_station_pick(bpy.types.Operator):
 
 
 def _under(screen: bpy.types.Screen, x: int, y: int) -> tuple[float, float] | None:
-    """Point of the map (up, along) from 0 to 1 under the pointer; None beside it."""
+    """Return the point of the map (up, along), 0 to 1, under the pointer; None outside of the map."""
     for area in screen.areas:
         if area.type != "IMAGE_EDITOR" or not _shows(area.spaces.active):
             continue

@@ -1,8 +1,8 @@
-"""One selected station for the list, the map and the 3D view.
+"""Selected station, shared by the list, the map and the 3D view.
 
-Handles in the 3D view bear number and name of their station, so the selection survives undo, saving and
-another version of Blender. A selected active handle says which station is selected; undo, which brings back
-the selection of objects, so brings back the station.
+Handles in the 3D view store number and name of their station, so the selection survives undo, saving and a
+change of the Blender version. The active selected handle defines the selected station; as undo restores the
+selection of objects, it also restores the station.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from . import station_list, station_sync, working
 
 
 def position(panel: bpy.types.PropertyGroup) -> int:
-    """Row of the selected station (getter of a property)."""
+    """Return the row of the selected station (getter of a property)."""
     return station_list.place(panel)
 
 
@@ -27,7 +27,7 @@ def choose(panel: bpy.types.PropertyGroup, index: int) -> None:
 
 
 def select(scene: bpy.types.Scene, key: str) -> None:
-    """Select a station, and its handle in the 3D view where it has one."""
+    """Select a station, and its handle in the 3D view if it has one."""
     scene.firetwin.station = key
     _select_handle(scene, key)
     station_list.describe(scene.firetwin)
@@ -35,14 +35,14 @@ def select(scene: bpy.types.Scene, key: str) -> None:
 
 
 def handles(scene: bpy.types.Scene) -> list[bpy.types.Object]:
-    """Handles of stations that were built."""
+    """Return the handles of the built stations."""
     if not owned.built(scene):
         return []
     return [obj for obj in owned.stage(scene).objects_of("Stations") if STATION in obj]
 
 
 def _select_handle(scene: bpy.types.Scene, key: str) -> None:
-    """Select the handle alone; of a station without one no handle."""
+    """Select only the handle of a station; deselect all handles if it has none."""
     context = bpy.context
     layer = context.view_layer if context.scene == scene else scene.view_layers[0]
     active, built = layer.objects.active, handles(scene)
@@ -61,7 +61,7 @@ def _select_handle(scene: bpy.types.Scene, key: str) -> None:
 
 @bpy.app.handlers.persistent
 def follow(scene: bpy.types.Scene, graph: bpy.types.Depsgraph | None = None) -> None:
-    """After a change in the 3D view: the station of the selected active handle is the selected one."""
+    """Select the station of the active selected handle after a change in the 3D view."""
     if graph is None or graph.mode != "VIEWPORT" or not hasattr(scene, "firetwin"):
         return
     layer, panel = graph.view_layer, scene.firetwin
@@ -76,11 +76,11 @@ def follow(scene: bpy.types.Scene, graph: bpy.types.Depsgraph | None = None) -> 
 
 
 def register() -> None:
-    """Follow the 3D view, in every file."""
+    """Follow the 3D view in every file."""
     bpy.app.handlers.depsgraph_update_post.append(follow)
 
 
 def unregister() -> None:
-    """Follow it no more."""
+    """Stop following the 3D view."""
     if follow in bpy.app.handlers.depsgraph_update_post:
         bpy.app.handlers.depsgraph_update_post.remove(follow)

@@ -1,4 +1,4 @@
-"""When the list and the map of stations are made again: soon after a change, never while a panel is drawn."""
+"""Scheduling of updates of the station list and map: shortly after a change, never while a panel draws."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ from collections.abc import Callable
 
 import bpy
 
-_SOON = 0.2  # s after a change; changes within it are one
+_SOON = 0.2  # delay after a change, s; changes within it are handled together
 
 _work: Callable[[], bool] | None = None
 
 
 def start(work: Callable[[], bool]) -> None:
-    """Call `work` soon after each change; it returns whether it has to be called again."""
+    """Call `work` shortly after each change, and again as long as it returns True."""
     global _work
     _work = work
     for handlers in _watched():
@@ -20,7 +20,7 @@ def start(work: Callable[[], bool]) -> None:
 
 
 def stop() -> None:
-    """End that."""
+    """Stop the calls."""
     global _work
     _work = None
     for handlers in _watched():
@@ -32,7 +32,7 @@ def stop() -> None:
 
 @bpy.app.handlers.persistent
 def wake(*_: object) -> None:
-    """Something changed: a filter, the selection, the frame, or the file by undo or by opening another."""
+    """Schedule a call after a change of a filter, the selection, the frame or the file."""
     if _work is None or bpy.app.background or bpy.app.is_job_running("RENDER"):
         return
     if not bpy.app.timers.is_registered(_tick):

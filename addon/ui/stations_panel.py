@@ -21,7 +21,7 @@ from .text import labelled, paragraph
 
 
 class FIRETWIN_UL_stations(bpy.types.UIList):
-    """Stations: name, kind, minutes, and whether they are an exercise's"""
+    """Stations: name, kind, minutes, and the label of an exercise"""
 
     bl_idname = "FIRETWIN_UL_stations"
 
@@ -43,7 +43,7 @@ class FIRETWIN_UL_stations(bpy.types.UIList):
 
 
 class FIRETWIN_PT_stations(bpy.types.Panel):
-    """Stations of the file, with the filters of a search"""
+    """Stations of the file, with search filters"""
 
     bl_idname = "FIRETWIN_PT_stations"
     bl_label = "List"
@@ -58,7 +58,7 @@ class FIRETWIN_PT_stations(bpy.types.Panel):
         station_sync.wake()
         now, held = station_list.shown(), bpy.context.window_manager.firetwin_stations
         _draw_filters(layout.column(), panel)
-        paragraph(context, layout.column(align=True), now.told, "NONE" if now.rows else "INFO")
+        paragraph(context, layout.column(align=True), now.status, "NONE" if now.rows else "INFO")
         if any(row.exercise for row in now.rows):
             layout.label(text=EXERCISE, icon="EXPERIMENTAL")
         if now.loaded is None:
@@ -69,7 +69,7 @@ class FIRETWIN_PT_stations(bpy.types.Panel):
 
 
 class FIRETWIN_PT_station_map(bpy.types.Panel):
-    """Map of the listed stations and of what has burned at the time that is shown"""
+    """Map of the listed stations and of the burned ground at the current frame"""
 
     bl_idname = "FIRETWIN_PT_station_map"
     bl_label = "Map"
@@ -104,7 +104,7 @@ def _draw_filters(column: bpy.types.UILayout, panel: bpy.types.PropertyGroup) ->
 
 
 def _draw_selected(context: bpy.types.Context, box: bpy.types.UILayout, found: station_list.Detail) -> None:
-    """The selected station: what is known, and where to see it."""
+    """Draw the details of the selected station, and links to it."""
     box.label(text=found.station.name)
     for label, text in found.lines:
         if label:
@@ -120,7 +120,7 @@ def _draw_selected(context: bpy.types.Context, box: bpy.types.UILayout, found: s
 
 
 def sync() -> bool:
-    """Bring list and map up to date; returns whether something is still being read."""
+    """Update list and map; return True while files are still being read."""
     window = bpy.context.window or next(iter(bpy.context.window_manager.windows), None)
     scene = bpy.context.scene if window is None else window.scene
     before = station_list.shown().stamp
@@ -132,7 +132,7 @@ def sync() -> bool:
 
 
 def register() -> None:
-    """Keep the rows with the window, and follow time, undo and the 3D view."""
+    """Store the rows in the window manager, and follow time, undo and the 3D view."""
     bpy.types.WindowManager.firetwin_stations = bpy.props.PointerProperty(
         type=station_list.FIRETWIN_PG_stations, options={"SKIP_SAVE"}
     )
@@ -144,9 +144,9 @@ def unregister() -> None:
     """Undo `register`."""
     station_sync.stop()
     station_selection.unregister()
-    station_map.forget()
-    station_list.forget()
-    station_data.forget()
+    station_map.clear()
+    station_list.clear()
+    station_data.clear()
     del bpy.types.WindowManager.firetwin_stations
 
 

@@ -104,22 +104,22 @@ def test_available_and_head_follow_the_time_that_is_shown(panel):
     panel.property_unset("first_time")
     stations_panel.sync()
     assert names() == []
-    assert "build the scene first" in station_list.shown().told
+    assert "build the scene first" in station_list.shown().status
 
 
 def test_what_cannot_be_listed_is_told(panel, tmp_path):
     panel.station_filter.types = "3-1"
     stations_panel.sync()
     assert names() == []
-    assert "goes backwards" in station_list.shown().told
+    assert "goes backwards" in station_list.shown().status
     panel.property_unset("station_filter")
     (tmp_path / "bad.gpkg").write_text("no places")
     panel.stations.file = str(tmp_path / "bad.gpkg")
     stations_panel.sync()
-    assert "bad.gpkg" in station_list.shown().told
+    assert "bad.gpkg" in station_list.shown().status
     panel.stations.file = ""
     stations_panel.sync()
-    assert station_list.shown().told == station_list.NO_FILE
+    assert station_list.shown().status == station_list.NO_FILE
 
 
 def test_the_list_selects_the_sign_and_the_sign_the_list(panel):

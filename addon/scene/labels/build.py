@@ -1,7 +1,7 @@
-"""Labels of place names: text that faces the camera, of equal size in every picture, faded with distance.
+"""Labels of place names: text that faces the camera, of constant size in the picture, faded with distance.
 
-A label is a mesh one unit high, of letters, an outline for contrast, and a stem down to the place. It is an
-instance on a point there: objects in front of the place occlude it.
+A label is a mesh one unit high: letters, an outline for contrast, and a stem down to the place. It is an
+instance on a point of the ground, so objects in front of the place occlude it.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from ...shot.stations import labels
 from . import facing, lettering, material
 from .lettering import RIM, Part
 
-# height of the letters over the ground, in letter heights; from row to row
+# height of letters above the ground, and distance of rows, in letter heights
 _STEM, _TIER = 2.2, 1.3
 
 
 def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
-    """Build "Firetwin Labels"; nothing where labels are off or no place is known."""
+    """Build "Firetwin Labels"; None if labels are off or without places."""
     collection, settings = stage.part("Labels"), shot.settings.labels
     places = labels.find(shot)
     if not places.names:
@@ -38,7 +38,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
 
 
 def _label(text: str, stem: float, font: bpy.types.VectorFont | None) -> list[Part]:
-    """Letters (material 0) over their outline and the stem (1), one unit high, in the plane of x and y."""
+    """Make letters and stem (material 0) and their outline (1), one unit high, in the xy plane."""
     return [
         lettering.letters(text, stem, 0.0, 0.02, font, 0),
         lettering.letters(text, stem, RIM, 0.0, font, 1),

@@ -1,4 +1,4 @@
-"""Geometry nodes of what faces the camera and has the same size in every picture, and rows of neighbours."""
+"""Geometry nodes of objects that face the camera at a constant size in the picture, and their rows."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from ...shot.shot import Shot
 from . import lettering, material
 
 TIERS = 3
-"""Rows of labels: neighbours stand at different heights."""
+"""Number of rows: neighbouring labels have different heights."""
 
-_FULL = 0.5  # fraction of the distance at which labels vanish, up to which they are opaque
+_FULL = 0.5  # labels are opaque up to this fraction of the distance at which they vanish
 
 
-class Seen(NamedTuple):
-    """What the active camera sees of points: its rotation, their distance, and the picture's width there, m.
+class CameraView(NamedTuple):
+    """View of the active camera: its rotation, and at each point its distance and the picture's width, m.
 
     `flat` is 1 for an orthographic camera.
     """
@@ -31,8 +31,8 @@ class Seen(NamedTuple):
     flat: Value
 
 
-def seen(tree: Tree) -> Seen:
-    """Nodes that ask the active camera, for the points of the tree's geometry."""
+def read_camera(tree: Tree) -> CameraView:
+    """Add nodes that read the active camera, for the points of the geometry."""
     camera = tree.output("GeometryNodeInputActiveCamera")
     eye = tree.node("GeometryNodeObjectInfo", {"Object": camera}, transform_space="ORIGINAL")
     lens = tree.node("GeometryNodeCameraInfo", {"Camera": camera})
@@ -44,7 +44,7 @@ def seen(tree: Tree) -> Seen:
     wide = tree.mix(
         flat, distance * chip / tree.pick(lens, "Focal Length"), tree.pick(lens, "Orthographic Scale")
     )
-    return Seen(tree.pick(eye, "Rotation"), distance, wide, flat)
+    return CameraView(tree.pick(eye, "Rotation"), distance, wide, flat)
 
 
 def node_group(
@@ -55,24 +55,26 @@ def node_group(
     distance: float,
     short: tuple[float, int] | None = None,
 ) -> bpy.types.NodeTree:
-    """An object of `library` on each point, facing the camera, its size a fraction of the picture's.
+    """Make nodes that put an object of `library` on each point, facing the camera at a constant size.
 
     Parameters
     ----------
     title
-        Name of the panel of its inputs, such as "Labels".
+        Name of the panel of the inputs, such as "Labels".
     size
-        Height of letters, in heights of the picture.
+        Height of letters as a fraction of the height of the picture.
     distance
-        Where they are gone, m.
+        Distance at which they vanish, m.
     short
-        Distance (m) beyond which the object of a point's index plus that number takes its place.
+        Distance (m) beyond which another object is used: its index is larger by the given number.
     """
     width, height = shot.settings.render.resolution
     tree, entry = nodes.geometry(f"Firetwin {title}")
-    letters = tree.input("Size", size, "Height of the letters, in heights of the picture", title)
-    gone = tree.input("Distance", distance, f"Where {title.lower()} are gone (m)", title)
-    view = seen(tree)
+    letters = tree.input(
+        "Size", size, "Height of the letters as a fraction of the height of the picture", title
+    )
+    gone = tree.input("Distance", distance, f"Distance at which {title.lower()} vanish (m)", title)
+    view = read_camera(tree)
     fade = tree.mix(view.flat, view.distance.ramp(gone * _FULL, gone, 1.0, 0.0), 1.0)
     inputs = {"Geometry": entry, "Name": material.FADE, "Value": fade}
     points = tree.output("GeometryNodeStoreNamedAttribute", inputs, data_type="FLOAT", domain="POINT")
@@ -82,7 +84,7 @@ def node_group(
     )
     index = tree.output("GeometryNodeInputIndex")
     if short is not None:
-        detail = tree.input("Detail", short[0], "Beyond which only names are shown (m)", title)
+        detail = tree.input("Detail", short[0], "Distance beyond which only names are shown (m)", title)
         index = index + (view.distance > detail) * float(short[1])
     scale = view.wide * letters * (height / width)
     tree.geometry(
@@ -103,7 +105,7 @@ def node_group(
 
 
 def tiers(shot: Shot, position: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Row (n,) of each point: neighbours from the first camera's view are put at different heights."""
+    """Assign rows (n,) so that neighbours in the view of the first camera have different heights."""
     eye = shot.paths[0].position.mean(axis=0) if shot.paths else np.zeros(3)
     off = position - eye
     order = np.argsort(np.arctan2(off[:, 0], off[:, 1]))
@@ -115,7 +117,7 @@ def tiers(shot: Shot, position: NDArray[np.float64]) -> NDArray[np.int64]:
 def points(
     collection: bpy.types.Collection, name: str, position: NDArray[np.float64], group: bpy.types.NodeTree
 ) -> bpy.types.Object:
-    """Object of ours with points (n, 3), on which the node group puts what faces the camera."""
+    """Add an object with points (n, 3), on which the node group places the objects that face the camera."""
     data = bpy.data.meshes.new(f"Firetwin {name}")
     data.from_pydata(position.tolist(), [], [])
     obj = owned.add(collection, name, data)

@@ -1,4 +1,4 @@
-"""Letters as meshes in the plane of x and y, and how labels and signs are seen: by cameras alone."""
+"""Letters as meshes in the xy plane, and the visibility of labels and signs to camera rays only."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Part(NamedTuple):
 
 @contextmanager
 def typeface() -> Iterator[bpy.types.VectorFont | None]:
-    """Blender's typeface; it stays in the file no longer than before."""
+    """Provide Blender's typeface; it is removed afterwards if the file did not have it."""
     before, font = set(bpy.data.fonts), compat.typeface()
     try:
         yield font
@@ -44,14 +44,14 @@ def letters(
     material: int,
     size: float = 1.0,
 ) -> Part:
-    """A line of text, its middle above the origin.
+    """Make a line of text, centred on x = 0.
 
     Parameters
     ----------
     base
         y of the baseline.
     offset
-        How much its outline is expanded, in letter heights.
+        Expansion of the outline, in letter heights.
     front
         z.
     """
@@ -69,18 +69,18 @@ def letters(
 
 
 def rectangle(left: float, right: float, low: float, high: float, front: float, material: int) -> Part:
-    """An upright rectangle."""
+    """Make a rectangle in the plane z = `front`."""
     points = [(left, low, front), (right, low, front), (right, high, front), (left, high, front)]
     return Part(points, [[0, 1, 2, 3]], material)
 
 
 def stem(top: float, material: int) -> Part:
-    """A line from the origin up."""
+    """Make a thin vertical bar from the origin."""
     return rectangle(-_THIN, _THIN, 0.0, top, 0.01, material)
 
 
 def mesh(name: str, parts: Sequence[Part], looks: Sequence[bpy.types.Material]) -> bpy.types.Mesh:
-    """One mesh of ours from parts, with these materials."""
+    """Join parts to a mesh with these materials."""
     data = owned.mark(bpy.data.meshes.new(name))
     start, vertices, faces, index = 0, [], [], []
     for points, polygons, material in parts:

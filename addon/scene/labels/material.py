@@ -1,4 +1,4 @@
-"""Materials of labels: uniform emission for letters, dark for their outline, both fading to transparent."""
+"""Materials of labels: uniform emission for letters, dark outline; both fade to transparent."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from ...shot.shot import Shot
 FADE = "fade"
 RIM = "Rim"
 COLOURS = {"Letters": (0.95, 0.95, 0.92), RIM: (0.004, 0.004, 0.005)}
-_LIGHT = 4.0  # radiance of white at exposure 0, which AgX shows nearly white
-_SOLID = 0.999  # opacity of letters; a fully opaque one would count as a surface in depth
+_LIGHT = 4.0  # radiance at exposure 0 that AgX shows nearly white
+_SOLID = 0.999  # opacity of letters; at 1 they would count as a surface in depth
 _CLEAR = 0.15  # transparency of the outline
 
 
@@ -24,21 +24,23 @@ def build(
     title: str = "Labels",
     whose: str = "INSTANCER",
 ) -> bpy.types.Material:
-    """Build "Firetwin <title> <name>", as bright in a picture by night as by day.
+    """Build "Firetwin <title> <name>", equally bright in a picture by night and by day.
 
     Parameters
     ----------
     whose
-        Whose attribute `FADE` is: that of the point where it is an INSTANCER's, or of the GEOMETRY itself.
+        Domain of the attribute `FADE`: INSTANCER (the point of the instance) or GEOMETRY.
     """
     material, tree = nodes.material(f"Firetwin {title} {name}", colour)
     stops = float(exposure.at(shot, np.array([0.5 * (1 + shot.frames.count)]))[0])
-    shown = tree.input("Colour", colour, "As it shows in the picture", "Label")
-    bright = tree.input("Brightness", _LIGHT * 2.0**-stops, "Against the exposure of the picture", "Label")
+    shown = tree.input("Colour", colour, "Colour in the picture", "Label")
+    bright = tree.input(
+        "Brightness", _LIGHT * 2.0**-stops, "Radiance, compensated for the exposure of the picture", "Label"
+    )
     solid = 1.0 - _CLEAR if name == RIM else _SOLID
     part = tree.attribute(FADE, whose) * solid
     nodes.flames(tree, tree.separate(shown)[0] * bright * part, 0.0, 0.0)  # smoke is in front or behind
-    left = 1.0 - part  # a sum, not a mix of shaders, of which rays would sample one: that is noise
+    left = 1.0 - part  # a sum, as rays would sample one shader of a mix, which is noisy
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": tree.combine(left, left, left)})
     tree.surface(tree.add_shader(tree.emission(shown, bright * part), clear))
     material.cycles.emission_sampling = "NONE"

@@ -1,4 +1,4 @@
-"""Stations: signs and routes in "Firetwin Stations", which eyes alone see, and true buildings beside it."""
+"""Stations: signs and routes in "Firetwin Stations", visible to cameras only, and solid buildings."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from . import buildings, handles, routes, signs
 
 
 def build(shot: Shot, stage: Stage) -> None:
-    """Build signs, buildings, handles and routes; nothing where stations are off."""
+    """Build signs, buildings, handles and routes; nothing if stations are off."""
     settings = shot.settings.stations
     written, walls = stage.part("Stations"), stage.part("Buildings")
     shown = station_signs.signs(shot)

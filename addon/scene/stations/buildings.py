@@ -1,4 +1,4 @@
-"""Buildings of stations at their true size: over the user's outlines, else a plain hall with three gates."""
+"""Buildings of stations at true size: outlines of the user, or a plain hall with three gates."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ..terrain import buildings
 from ..terrain.buildings import Blocks
 
 _LONG, _WIDE, _HIGH = 24.0, 15.0, 6.0  # m, a plain hall for three engines (assumed); height of all walls
-_GATE, _GATE_HIGH, _OUT = 4.3, 4.3, 0.06  # m, width and height of a gate, and how far it stands out
+_GATE, _GATE_HIGH, _OUT = 4.3, 4.3, 0.06  # m, width and height of a gate, and its offset from the wall
 _WALL, _ROOF, _DOOR = (0.17, 0.13, 0.10), (0.105, 0.105, 0.110), (0.14, 0.014, 0.010)  # by eye
 
 Array = NDArray[np.float64]
@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 def build(
     shot: Shot, stage: Stage, collection: bpy.types.Collection, shown: Sequence[Sign]
 ) -> bpy.types.Object | None:
-    """Build "Firetwin Halls" at the stations; None without any."""
+    """Build "Firetwin Halls" at the stations; None without stations."""
     rings = [hall(shot, each) if each.footprint is None else _metres(shot, each.footprint) for each in shown]
     outlines = [Footprint(ring, (), _HIGH) for ring in rings]
     made = Blocks()
@@ -42,14 +42,14 @@ def build(
 
 
 def hall(shot: Shot, sign: Sign) -> Array:
-    """Corners (4, 2) of a plain hall whose middle is the station and whose gates look south, m."""
+    """Return the corners (4, 2) of a plain hall centred on the station, with gates facing south, m."""
     x, y, _ = shot.ground.point(sign.latitude, sign.longitude)[0]
     half = 0.5 * np.array([_LONG, _WIDE])
     return np.array([x, y]) + half * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
 
 
 def _metres(shot: Shot, outline: Array) -> Array:
-    """Outline (n, 2) in the scene, m, counter-clockwise."""
+    """Convert an outline to scene coordinates (n, 2), m, counter-clockwise."""
     longitude = areas.turned(outline[:, 0], float(np.mean(shot.ground.fields.longitude)))
     ring = shot.ground.point(outline[:, 1], longitude)[:, :2]
     x, y = ring.T

@@ -1,4 +1,4 @@
-"""Handles of stations: an empty at each, which a click in the 3D view selects; no picture has it."""
+"""Handles of stations: empties that a click in the 3D view selects; they are not rendered."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ...shot.shot import Shot
 from ...shot.stations.station_signs import Sign
 
 STATION = "firetwin_station"
-"""Property of a handle: number and name of its station, as `key` writes them."""
+"""Property of a handle: number and name of its station, as in `listing.key`."""
 
 _RADIUS = 60.0  # m
 

@@ -1,4 +1,4 @@
-"""Colours of signs and routes, by what is shown: a fact, an exercise, or the user's own."""
+"""Colours of signs and routes by origin: fact, exercise or user."""
 
 from __future__ import annotations
 
@@ -10,22 +10,22 @@ from ..labels import material
 
 TITLE = "Stations"
 ACCENTS = {FACT: (0.95, 0.95, 0.92), INVENTED: (1.0, 0.42, 0.03), USER: (0.25, 0.62, 1.0)}
-"""Linear colours as they show in the picture, by eye: white, amber, blue."""
+"""Linear colours in the picture, chosen by eye: white, amber, blue."""
 
 
 def signs(shot: Shot) -> list[bpy.types.Material]:
-    """Materials of signs: letters, plate, then an accent for each of `ACCENTS`."""
+    """Build the materials of signs: letters, plate, and an accent for each of `ACCENTS`."""
     plain = [material.build(shot, name, colour, TITLE) for name, colour in material.COLOURS.items()]
     return plain + [material.build(shot, name.title(), colour, TITLE) for name, colour in ACCENTS.items()]
 
 
 def accent(origin: str) -> int:
-    """Index of an accent in `signs`."""
+    """Return the index of an accent in `signs`."""
     return len(material.COLOURS) + list(ACCENTS).index(origin)
 
 
 def routes(shot: Shot) -> list[bpy.types.Material]:
-    """Materials of routes, one for each of `ACCENTS`."""
+    """Build the materials of routes, one for each of `ACCENTS`."""
     return [
         material.build(shot, f"Route {name.title()}", colour, TITLE, "GEOMETRY")
         for name, colour in ACCENTS.items()

@@ -1,4 +1,4 @@
-"""Routes: lines on the ground, as wide in every picture, in the colour of what goes along them."""
+"""Routes: lines on the ground of constant width in the picture, coloured by origin."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from ..labels import facing, lettering
 from ..labels.material import FADE
 from . import material
 
-_STEP = 30.0  # m between two points of a line at most
-_OVER = 2.0  # m over the ground, and half-widths of the line
-_SIDE = "side"  # attribute: from the middle of the line to a corner of its section, in half-widths
+_STEP = 30.0  # maximum distance between points of a line, m
+_OVER = 2.0  # height above the ground: m, and half-widths of the line
+_SIDE = "side"  # attribute: offset from the middle of the line to a corner of its section, in half-widths
 
 Array = NDArray[np.float64]
 
 
 def build(shot: Shot, collection: bpy.types.Collection, shown: Sequence[Route]) -> bpy.types.Object | None:
-    """Build "Firetwin Routes"; None without any."""
+    """Build "Firetwin Routes"; None without routes."""
     lines = [draped(shot, each.line) for each in shown]
     tubes = [(_tube(line), each.origin) for line, each in zip(lines, shown, strict=True) if len(line) > 1]
     if not tubes:
@@ -51,7 +51,7 @@ def build(shot: Shot, collection: bpy.types.Collection, shown: Sequence[Route]) 
 
 
 def draped(shot: Shot, line: Array) -> Array:
-    """Points (n, 3) of a line (degrees east and north) on the ground, m; what is beyond it is left out."""
+    """Drape a line (degrees east and north) on the ground: points (n, 3), m, clipped to the ground."""
     fields = shot.ground.fields
     longitude = areas.turned(line[:, 0], float(np.mean(fields.longitude)))
     corners = shot.ground.point(line[:, 1], longitude)[:, :2]
@@ -64,7 +64,7 @@ def draped(shot: Shot, line: Array) -> Array:
 
 
 def _tube(line: Array) -> tuple[Array, Array, NDArray[np.int64]]:
-    """A tube of four sides about a line (n, 3): points and sides (4n, 3), and faces (4(n - 1), 4)."""
+    """Make a four-sided tube around a line (n, 3): points and offsets (4n, 3), and faces (4(n - 1), 4)."""
     along = np.gradient(line, axis=0)
     along[:, 2] = 0.0
     along /= np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-9)
@@ -77,13 +77,15 @@ def _tube(line: Array) -> tuple[Array, Array, NDArray[np.int64]]:
 
 
 def _node_group(shot: Shot) -> bpy.types.NodeTree:
-    """Geometry nodes: widen the line by what the camera sees of it, and fade it with distance."""
+    """Make geometry nodes that scale the width of lines with the view, and fade lines with distance."""
     settings = shot.settings.stations
     width, height = shot.settings.render.resolution
     tree, entry = nodes.geometry("Firetwin Routes")
-    wide = tree.input("Width", settings.route_width, "Width of a route, in heights of the picture", "Routes")
-    gone = tree.input("Distance", settings.distance, "Where routes are gone (m)", "Routes")
-    view = facing.seen(tree)
+    wide = tree.input(
+        "Width", settings.route_width, "Width of a route as a fraction of the height of the picture", "Routes"
+    )
+    gone = tree.input("Distance", settings.distance, "Distance at which routes vanish (m)", "Routes")
+    view = facing.read_camera(tree)
     fade = tree.mix(view.flat, view.distance.ramp(gone * 0.5, gone, 1.0, 0.0), 1.0)
     inputs = {"Geometry": entry, "Name": FADE, "Value": fade}
     kept = tree.output("GeometryNodeStoreNamedAttribute", inputs, data_type="FLOAT", domain="POINT")

@@ -1,7 +1,7 @@
-"""Signs of stations: a plate of text on a stem, which faces the camera and has the same size everywhere.
+"""Signs of stations: a plate with text on a stem, facing the camera at a constant size in the picture.
 
-Near the camera a sign has all lines; farther away it has the name alone. One that shows anything of an
-exercise says so in both forms.
+Near the camera a sign has all lines; farther away it has only the name. Both forms are labelled if the sign
+shows data of an exercise.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from ..labels import facing, lettering
 from ..labels.lettering import Part
 from . import material
 
-_SMALL = 0.62  # letter height of the lines below the name, in that of the name
+_SMALL = 0.62  # letter height of the lines below the name, relative to the name
 _GAP = 0.42  # between two lines, in letter heights
-_EDGE = 0.35  # between text and the edge of the plate
-_STEM, _TIER = 3.0, (4.5, 2.9)  # plate over the ground; from row to row, of both forms
+_EDGE = 0.35  # margin between text and the edge of the plate
+_STEM, _TIER = 3.0, (4.5, 2.9)  # height of the plate above the ground; distance of rows, for both forms
 _SHORT = "Exercise"  # on the short form
 
 _LETTERS, _PLATE = 0, 1
@@ -46,19 +46,19 @@ def build(shot: Shot, collection: bpy.types.Collection, shown: Sequence[Sign]) -
 
 
 def full(sign: Sign) -> list[tuple[str, bool]]:
-    """Lines of a sign from top to bottom, and whether each is in the colour of its origin."""
+    """Return the lines of a sign from top to bottom; True: in the colour of the origin."""
     return [(sign.name, False), *((line, line == EXERCISE) for line in sign.lines)]
 
 
 def short(sign: Sign) -> list[tuple[str, bool]]:
-    """The name alone, and that it is an exercise's."""
+    """Return the name, and the short label of an exercise."""
     return [(sign.name, False), *([(_SHORT, True)] if sign.exercise else [])]
 
 
 def plate(
     lines: Sequence[tuple[str, bool]], low: float, accent: int, font: bpy.types.VectorFont | None
 ) -> list[Part]:
-    """Text on a plate with a bar and a stem in the accent's colour; the plate's lower edge at `low`.
+    """Make a plate with text, and a bar and a stem in the accent colour; `low` is its lower edge.
 
     The name is one unit high.
     """

@@ -14,14 +14,14 @@ from ..shot import Shot
 
 
 class Labels(NamedTuple):
-    """Names, and positions (n, 3) on the ground, scene metres."""
+    """Names, and positions (n, 3) on the ground in scene coordinates, m."""
 
     names: list[str]
     position: NDArray[np.float64]
 
 
 def find(shot: Shot) -> Labels:
-    """Labels from the user's list, or else built in for the fire, where there is terrain."""
+    """Find labels within the terrain, from the list of the user, or the built-in ones of the fire."""
     settings, ground = shot.settings.labels, shot.ground
     if not settings.enabled:
         return Labels([], np.empty((0, 3)))
@@ -39,6 +39,6 @@ def find(shot: Shot) -> Labels:
 
 
 def inputs(settings: Settings) -> dict[str, str]:
-    """Hash of the user's file of labels, if there is one."""
+    """Return the hash of the user's file of labels, if there is one."""
     places = settings.labels
     return {"labels": sha256(places.file)[:16]} if places.enabled and places.file else {}

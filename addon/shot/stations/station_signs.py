@@ -1,6 +1,6 @@
-"""Places of a shot: what signs, buildings and routes of stations show, and where the fire began and is.
+"""Station signs of a shot: content of signs, buildings and routes, ignition point, and head of the fire.
 
-Everything of an exercise says so: a sign whose station or resources are an exercise's has `EXERCISE` on it.
+A sign is labelled with `EXERCISE` if its station or one of its resources belongs to an exercise.
 """
 
 from __future__ import annotations
@@ -32,28 +32,28 @@ FACT, INVENTED, USER = ORIGINS
 
 _LONGEST = 80  # characters of a name on a sign
 _TYPES = 3  # types of resources that a sign lists
-_BESIDE = 120.0  # m from a station to the nearest corner of its own building
-_ABOVE = 100.0  # m, height of the head over the ground
+_BESIDE = 120.0  # maximum distance from a station to the nearest corner of its building, m
+_ABOVE = 100.0  # height of the head above the ground, m
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Sign:
-    """What is shown of a station.
+    """Sign of a station.
 
     Attributes
     ----------
     latitude, longitude
         Degrees north and east.
     lines
-        Below the name.
+        Lines below the name.
     origin
-        "fact", "exercise" or "user"; "exercise" where anything of it is.
+        "fact", "exercise" or "user"; "exercise" if any part of the content is.
     footprint
-        Outline of its building (n, 2), degrees east and north; None: not known.
+        Outline of its building (n, 2), degrees east and north; None: unknown.
     id
-        Its number in the file.
+        Number in the file.
     """
 
     name: str
@@ -67,27 +67,27 @@ class Sign:
 
     @property
     def exercise(self) -> bool:
-        """Whether anything of it was invented for an exercise."""
+        """True if a part of the content was invented for an exercise."""
         return self.origin == INVENTED
 
 
 @dataclass(frozen=True)
 class Route:
-    """A line (n, 2), degrees east and north, and the origin of what goes along it."""
+    """A line (n, 2), degrees east and north, and the origin of its data."""
 
     line: Array
     origin: str
 
 
 class Moving(NamedTuple):
-    """Scene positions, m: where the fire began (3,), or None, and its head at each frame (frames, 3)."""
+    """Scene positions, m: ignition (3,), or None, and head of the fire at each frame (frames, 3)."""
 
     ignition: Array | None
     head: Array
 
 
 def signs(shot: Shot) -> list[Sign]:
-    """Signs of the stations on the run's ground; none where stations are off.
+    """Make the signs of the stations on the ground of the run; none if stations are off.
 
     Raises
     ------
@@ -107,7 +107,7 @@ def signs(shot: Shot) -> list[Sign]:
 
 
 def routes(shot: Shot, shown: Iterable[Sign]) -> list[Route]:
-    """The user's lines, or else straight ones from the stations to the ignition; none where routes are off.
+    """Return the lines of the user, or straight lines from stations to the ignition; none if routes are off.
 
     Raises
     ------
@@ -131,25 +131,25 @@ def routes(shot: Shot, shown: Iterable[Sign]) -> list[Route]:
 
 
 def ignition(shot: Shot) -> tuple[float, float] | None:
-    """Latitude and longitude of the middle of the fuel cells that burn first; None where nothing burns."""
+    """Return the mean position of the fuel cells that burn first, degrees; None if nothing burns."""
     return fire_arrival.first_burned(shot.run)
 
 
 def moving(shot: Shot) -> Moving:
-    """Where the fire began and where its head is."""
+    """Return the positions of ignition and head."""
     began, ground = ignition(shot), shot.bare_ground
     head = targets.follow("head", ground, shot.frames.times, _ABOVE)
     return Moving(None if began is None else ground.point(*began)[0], head)
 
 
 def covers(ground: Terrain, latitude: float, longitude: float) -> bool:
-    """Whether a point lies on the ground of the scene."""
+    """Return True if a point is on the ground of the scene."""
     axes, at = (ground.fields.latitude, ground.fields.longitude), (latitude, longitude)
     return all(axis.min() <= each <= axis.max() for axis, each in zip(axes, at, strict=True))
 
 
 def inputs(settings: Settings) -> dict[str, str]:
-    """Hashes of the user's files of stations."""
+    """Return the hashes of the user's station files."""
     known = settings.stations
     if not known.enabled:
         return {}
@@ -158,12 +158,12 @@ def inputs(settings: Settings) -> dict[str, str]:
 
 
 def check(settings: Settings) -> None:
-    """Read the user's files.
+    """Check that the user's files can be read.
 
     Raises
     ------
     InputError
-        One cannot be read, or there is none.
+        A file cannot be read, or none is given.
     """
     known = settings.stations
     if not known.enabled:
@@ -179,7 +179,7 @@ def check(settings: Settings) -> None:
 
 
 def _minutes(shot: Shot, known: StationFile, here: Sequence[Station]) -> list[str]:
-    """Least minutes from the order to the arrival at the ignition; empty where not known or not shown."""
+    """Format the shortest time from the order to the arrival at the ignition; empty if unknown or hidden."""
     began = ignition(shot)
     if "minutes" not in shot.settings.stations.show or began is None:
         return [""] * len(here)
@@ -188,7 +188,7 @@ def _minutes(shot: Shot, known: StationFile, here: Sequence[Station]) -> list[st
 
 
 def _fire(shot: Shot, here: Sequence[Station]) -> list[str]:
-    """When the fire of the run reaches stations; empty where it is not shown."""
+    """Format the time at which the fire reaches each station; empty if hidden."""
     if "fire" not in shot.settings.stations.show:
         return [""] * len(here)
     found = fire_arrival.sample(shot.run, [each.latitude for each in here], [each.longitude for each in here])
@@ -205,7 +205,7 @@ def _sign(
 ) -> Sign:
     kind = " ".join(station.kind.split())[:_LONGEST]
     lines = [kind] if "kind" in show and kind else []
-    told = False  # whether something of the resources is shown
+    told = False  # True if data of the resources is shown
     if "resources" in show and (text := count_types(resources, _TYPES)):
         lines.append(text)
         told = True
@@ -229,7 +229,7 @@ def _outlines(settings: Settings) -> list[Array]:
 
 
 def _outline(outlines: list[Array], latitude: float, longitude: float) -> Array | None:
-    """The outline whose nearest corner is nearest to a station, within `_BESIDE`."""
+    """Find the outline with the corner nearest to a station, within `_BESIDE`."""
     north, east = metres_per_degree(latitude)
     best, found = _BESIDE, None
     for ring in outlines:
@@ -243,7 +243,7 @@ def _outline(outlines: list[Array], latitude: float, longitude: float) -> Array 
 def _features(path: Path) -> list[Feature]:
     found = features(path)
     if isinstance(found, Detections):
-        raise input_error(path, "holds points of satellites; name a file of lines or polygons")
+        raise input_error(path, "has satellite detections; name a file of lines or polygons")
     return found
 
 
