@@ -17,7 +17,7 @@ constexpr float vigorous_age = 420.0F;             // s
 constexpr float crisp_reach[] = {0.8F, 7.0F};      // amplitude of crisp noise
 constexpr float whole[] = {
     5.5F, 8.5F}; // local maximum of the amount at which noise has its least and its full amplitude
-constexpr float lump_slope = 1.4F;
+constexpr float billow_slope = 1.4F;
 constexpr float cloud_depth = 500.0F; // m above the condensation height over which vapour condenses
 constexpr float cloud_ages[] = {600.0F, 1600.0F}; // s, ages between which droplets evaporate
 
@@ -98,12 +98,12 @@ void Detail::find_vigour(const SmokeSnapshot& m, const Values& amount) {
   const float speed = std::cbrt(settings_.scale), time = speed * speed;
   for (std::size_t n = 0; n < vigour.size(); ++n) {
     const float cap = condensed_share(m.heights[n]);
-    const float lively = ramp(vigorous_rise[0], vigorous_rise[1], m.rise[n] / speed) +
-                         ramp(vigorous_warmth[0], vigorous_warmth[1], m.temperature_excess[n]) +
-                         0.8F * ramp(vigorous_age, 0.0F, m.age[n] / time) +
-                         cap * ramp(cloud_ages[1], cloud_ages[0], m.age[n]);
+    const float vigorous = ramp(vigorous_rise[0], vigorous_rise[1], m.rise[n] / speed) +
+                           ramp(vigorous_warmth[0], vigorous_warmth[1], m.temperature_excess[n]) +
+                           0.8F * ramp(vigorous_age, 0.0F, m.age[n] / time) +
+                           cap * ramp(cloud_ages[1], cloud_ages[0], m.age[n]);
     const float droplets = cloud_amount * cap;
-    vigour[n] = std::max(std::min(lively, 1.0F) * ramp(5.0F, 6.8F, near[n] + droplets),
+    vigour[n] = std::max(std::min(vigorous, 1.0F) * ramp(5.0F, 6.8F, near[n] + droplets),
                          ramp(6.0F, 7.6F, dense[n]));
   }
   blur(vigour, shape_, {1.0, 1.0, 1.0});
@@ -153,7 +153,7 @@ void Detail::find_reach(const SmokeSnapshot& m, const Values& amount) {
     const float most = lerp(crisp_reach[0], crisp_reach[1], ramp(whole[0], whole[1], thick));
     solid[n] = ramp(core[0], core[1], thick);
     reach[n] =
-        std::clamp(lump_slope * static_cast<float>(settings_.size) * steep, crisp_reach[0], most);
+        std::clamp(billow_slope * static_cast<float>(settings_.size) * steep, crisp_reach[0], most);
   }
   reach_ = Columns(reach.data(), shape_);
   solid_ = Columns(solid.data(), shape_);

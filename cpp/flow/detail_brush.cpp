@@ -261,14 +261,14 @@ float Detail::Brush::extinction(std::size_t n, float raise) const {
   const float low = lerp(soft_cut[0], crisp_cut[0], v), high = lerp(soft_cut[1], crisp_cut[1], v);
   const float raised = amount + pending_.reach[n] * raise, veiled = amount + soft_reach * raise;
   const float held = lerp(raised, std::max(amount, lerp(core[0], core[1], solid)), v);
-  const float lumps = dense(low, high, raised, held, lerp(soft_gain, crisp_gain, v));
+  const float billows = dense(low, high, raised, held, lerp(soft_gain, crisp_gain, v));
   const float veil =
       dense(soft_cut[0], soft_cut[1], veiled, veiled, veil_gain * v * (1.0F - solid));
   const float rooted = lerp(
       root, 1.0F,
       smoothstep(root_heights[0], root_heights[1], pending_.above[n] / detail_.settings_.scale));
   const DetailSettings& settings = detail_.settings_;
-  const float full = (lumps + veil) * detail_.unit_ * extinction_per_kg *
+  const float full = (billows + veil) * detail_.unit_ * extinction_per_kg *
                      static_cast<float>(settings.opacity) * rooted;
   return full > 0.0F ? settings.max_extinction * (1.0F - std::exp(-full / settings.max_extinction))
                      : 0.0F;

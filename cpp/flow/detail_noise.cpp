@@ -11,7 +11,7 @@ namespace {
 
 constexpr float roughness = 0.7F;
 constexpr double finer = 0.47;
-constexpr float calm = 0.02F, lively = 0.98F; // vigour: only veils below, only billows above
+constexpr float veils_only = 0.02F, billows_only = 0.98F; // vigour
 
 FIRETWIN_CLONES("avx512f", "avx2")
 void scale(const std::array<double, static_cast<std::size_t>(lanes)>& places, double by, Row& out) {
@@ -28,7 +28,7 @@ void add_veils(float share, const Row& vigour, float most, const Row& perlin, Ro
 }
 
 FIRETWIN_CLONES("avx512f", "avx2")
-void add_lumps(float share, const Row& distance, Row& crisp) {
+void add_billows(float share, const Row& distance, Row& crisp) {
   for (std::size_t n = 0; n < crisp.size(); ++n) {
     crisp[n] += share * (1.25F * (0.49F - distance[n]));
   }
@@ -44,7 +44,7 @@ void add_ridges(float share, const Row& perlin, Row& crisp) {
 FIRETWIN_CLONES("avx512f", "avx2")
 void blend(const Row& soft, const Row& crisp, const Row& vigour, Row& noise) {
   for (std::size_t n = 0; n < noise.size(); ++n) {
-    noise[n] = lerp(soft[n], vigour[n] > calm ? crisp[n] : 0.0F, vigour[n]);
+    noise[n] = lerp(soft[n], vigour[n] > veils_only ? crisp[n] : 0.0F, vigour[n]);
   }
 }
 
@@ -56,25 +56,25 @@ DetailNoise::DetailNoise(double size, double finest,
 
 void DetailNoise::at(const Origins& places, std::size_t phase, const Row& vigour, Row& noise) {
   const auto [least, most] = std::minmax_element(vigour.begin(), vigour.end());
-  const bool veils = *least<lively, lumps = *most> calm;
+  const bool veils = *least<billows_only, billows = *most> veils_only;
   Row crisp{}, soft{}, found, x, y, z;
   float share = 1.0F;
   double size = size_;
-  for (int octave = 0; octave < most_octaves && size > finest_; ++octave) {
+  for (int octave = 0; octave < max_octaves && size > finest_; ++octave) {
     const std::uint32_t own = seeds_[phase] * 8U + static_cast<std::uint32_t>(octave);
     scale(places[0], 1.0 / size, x);
     scale(places[1], 1.0 / size, y);
     scale(places[2], 1.0 / size, z);
-    const bool round = octave < lump_octaves;
+    const bool round = octave < billow_octaves;
     if (veils || !round) {
       perlin(x, y, z, own, found);
-      add_veils(share, vigour, round ? lively : 2.0F, found, soft);
+      add_veils(share, vigour, round ? billows_only : 2.0F, found, soft);
     }
-    if (lumps && !round) {
+    if (billows && !round) {
       add_ridges(share, found, crisp);
-    } else if (lumps) {
+    } else if (billows) {
       worley_[phase][static_cast<std::size_t>(octave)].at(x, y, z, own, found);
-      add_lumps(share, found, crisp);
+      add_billows(share, found, crisp);
     }
     share *= roughness;
     size *= finer;

@@ -23,11 +23,11 @@ public:
   void at(const Origins& places, std::size_t phase, const Row& vigour, Row& noise);
 
 private:
-  static constexpr int lump_octaves = 3, most_octaves = 7;
+  static constexpr int billow_octaves = 3, max_octaves = 7;
 
   double size_, finest_;
   std::array<std::uint32_t, Drift::phases> seeds_;
-  std::array<std::array<Worley, lump_octaves>, Drift::phases> worley_;
+  std::array<std::array<Worley, billow_octaves>, Drift::phases> worley_;
 };
 
 } // namespace firetwin::flow

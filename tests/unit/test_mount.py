@@ -175,7 +175,7 @@ def test_a_sidecar_alone_says_where_a_place_is_seen(shot, name):
     cameras += [Camera("goes", Satellite(swath=4000.0, geostationary=-137.0)), Camera("map", Minimap())]
     made = shot(*cameras).for_camera(name)
     (view,) = made.paths
-    found = json.loads(json.dumps(pose.described(made, view, 3)))
+    found = json.loads(json.dumps(pose.describe(made, view, 3)))
     side = view.halves[2] / (view.meet or 1.0) * [0.5, 0.25]  # in the middle of the upper right quarter
     far = 800.0 if name in ("drone", "two") else np.linalg.norm(view.target[2] - view.position[2])
     across = side * (far if view.perspective or view.meet else 1.0)
@@ -231,7 +231,7 @@ def test_the_index_lists_frames_that_have_picture_and_sidecar(shot, tmp_path):
                     path = tmp_path / passes.file_of(camera, name, frame, end)
                     path.parent.mkdir(parents=True, exist_ok=True)
                     text = (
-                        json.dumps(pose.described(made.for_camera(camera), view, frame))
+                        json.dumps(pose.describe(made.for_camera(camera), view, frame))
                         if name == "pose"
                         else "x"
                     )

@@ -24,11 +24,11 @@ if TYPE_CHECKING:
     from ...shot.cameras.path import Path
     from ...shot.shot import Shot
 
-_LATELY = 1800.0  # s, time for which burned ground is orange
+_RECENT = 1800.0  # s, time for which burned ground is orange
 _OPEN, _WOODED = np.array([0.86, 0.82, 0.72]), np.array([0.50, 0.60, 0.42])
 _SCAR, _HOT = np.array([0.26, 0.07, 0.05, 0.72]), np.array([1.0, 0.45, 0.05, 0.85])  # colour and opacity
 _FRONT = "#ffe14d"
-_LEAST = 2000.0  # m, least distance from the centre to the sides
+_MIN_REACH = 2000.0  # m, least distance from the centre to the sides
 _ROWS = 200  # rows of points that are looked up
 _WAY, _EDGE = "#1e62d0", [withStroke(linewidth=2.2, foreground="white")]
 
@@ -47,25 +47,25 @@ def draw(
     else:
         high = reach * photo.shape[0] / photo.shape[1]
     axes.imshow(photo, extent=(-reach, reach, -high, high), interpolation="bilinear", aspect="auto")
-    _fire(axes, shot, here, east, north, shot.frames.time(frame))
+    _draw_fire(axes, shot, here, east, north, shot.frames.time(frame))
     axes.set_xlim(-reach, reach)
     axes.set_ylim(-tall, tall)
     way = view.position[:, :2] - here[:2]
     axes.plot(*way.T, color=_WAY, linewidth=1.0, path_effects=_EDGE, zorder=5)
-    _sight(axes, view, frame, reach)
+    _draw_field_of_view(axes, view, frame, reach)
     axes.plot(0.0, 0.0, "o", color=_WAY, markersize=0.03 * box.height, markeredgecolor="white", zorder=7)
-    _scale(axes, reach, tall, box.height)
+    _draw_scale(axes, reach, tall, box.height)
 
 
 def _reach(view: Path) -> float:
     """Choose the distance from centre to sides, m, that keeps the target on the map in every frame."""
     away = np.linalg.norm((view.target - view.position)[:, :2], axis=1)
-    return max(_LEAST, 2.2 * float(away.max()))
+    return max(_MIN_REACH, 2.2 * float(away.max()))
 
 
 def _ground(shot: Shot, here: NDArray, east: NDArray, north: NDArray) -> NDArray:
     """Compute ground colours (rows, columns, 3) at scene metres from `here`, north first."""
-    row, column = shot.ground.indices(*_places(shot, here, east, north))
+    row, column = shot.ground.indices(*_coordinates(shot, here, east, north))
     fields = shot.ground.fields
     height, canopy = (
         bilinear(f, row, column).reshape(len(north), -1) for f in (fields.elevation, fields.canopy_fuel)
@@ -77,18 +77,18 @@ def _ground(shot: Shot, here: NDArray, east: NDArray, north: NDArray) -> NDArray
     return np.clip(colour * (0.45 + 0.75 * shade[..., None]), 0.0, 1.0)
 
 
-def _places(shot: Shot, here: NDArray, east: NDArray, north: NDArray) -> tuple[NDArray, NDArray]:
+def _coordinates(shot: Shot, here: NDArray, east: NDArray, north: NDArray) -> tuple[NDArray, NDArray]:
     """Convert scene metres from `here` to latitude and longitude (rows * columns)."""
     x, y = np.meshgrid(here[0] + east, here[1] + north)
     return shot.ground.geodetic(x.ravel(), y.ravel())
 
 
-def _fire(axes: Axes, shot: Shot, here: NDArray, east: NDArray, north: NDArray, time: float) -> None:
+def _draw_fire(axes: Axes, shot: Shot, here: NDArray, east: NDArray, north: NDArray, time: float) -> None:
     """Draw the burned area at a model time (s) and its front over the ground."""
-    reach, places = front.reach(shot.run), _places(shot, here, east, north)
+    reach, places = front.reach(shot.run), _coordinates(shot, here, east, north)
     burned = reach.burned(*places, time).reshape(len(north), -1) == 1.0
     age = time - shot.ground.arrival_at(*shot.ground.indices(*places)).reshape(burned.shape)
-    fresh = np.clip(1.0 - np.nan_to_num(age, nan=0.0) / _LATELY, 0.0, 1.0)[..., None]
+    fresh = np.clip(1.0 - np.nan_to_num(age, nan=0.0) / _RECENT, 0.0, 1.0)[..., None]
     colour = _SCAR + fresh * (_HOT - _SCAR)
     colour[~burned] = 0.0
     extent = (east[0], east[-1], north[-1], north[0])
@@ -103,7 +103,7 @@ def _fire(axes: Axes, shot: Shot, here: NDArray, east: NDArray, north: NDArray, 
         )
 
 
-def _sight(axes: Axes, view: Path, frame: int, reach: float) -> None:
+def _draw_field_of_view(axes: Axes, view: Path, frame: int, reach: float) -> None:
     """Draw the field of view: filled up to the target, with its sides extended to the edge of the map."""
     if not view.perspective:
         return
@@ -119,7 +119,7 @@ def _sight(axes: Axes, view: Path, frame: int, reach: float) -> None:
         axes.plot(*np.stack([side, side * 3.0 * reach / length], axis=1), "w:", linewidth=1.0, zorder=6)
 
 
-def _scale(axes: Axes, reach: float, tall: float, height: float) -> None:
+def _draw_scale(axes: Axes, reach: float, tall: float, height: float) -> None:
     """Draw a scale bar of a round length and a north arrow."""
     unit = 10.0 ** np.floor(np.log10(0.5 * reach))
     length = max(step * unit for step in (1, 2, 5) if step * unit <= 0.5 * reach)

@@ -31,7 +31,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     pictures, keys = [], []
     for label, kinds in zip(shot.others, classes(shot, points, frame), strict=True):
         shades = [BOTH, colours[shot.label], colours[label]]
-        pictures.append(tinted(rgb, kinds, shades))
+        pictures.append(tint(rgb, kinds, shades))
         keys.append(list(zip(shades, ("burned in both", f"only {names[0]}", f"only {label}"), strict=True)))
     said = comparison.caption(shot, frame)
     height, width = pictures[0].shape[:2]
@@ -60,7 +60,7 @@ def classes(shot: Shot, points: NDArray[np.float64], frame: int) -> list[NDArray
     return result
 
 
-def tinted(rgb: NDArray, kinds: NDArray[np.uint8], shades: list[str]) -> NDArray[np.float32]:
+def tint(rgb: NDArray, kinds: NDArray[np.uint8], shades: list[str]) -> NDArray[np.float32]:
     """Tint a picture (h, w, 3), converted to grey, by classes 1 to 3 (h, w)."""
     grey = _GREY * (rgb @ np.array([0.2126, 0.7152, 0.0722]))[..., None]
     colour = np.array([[0.0] * 3, *([int(s[at : at + 2], 16) / 255.0 for at in (1, 3, 5)] for s in shades)])

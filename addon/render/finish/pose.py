@@ -29,11 +29,11 @@ UNITS = {
 
 def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
     """Write the sidecar of a frame."""
-    text = json.dumps(described(shot, pixel_rays.path_of(shot, camera), frame), indent=1) + "\n"
+    text = json.dumps(describe(shot, pixel_rays.path_of(shot, camera), frame), indent=1) + "\n"
     files["json"].write_text(text, encoding="utf-8")
 
 
-def described(shot: Shot, view: Path, frame: int) -> dict[str, Any]:
+def describe(shot: Shot, view: Path, frame: int) -> dict[str, Any]:
     """Make the content of a sidecar."""
     run, camera = shot.run, view.camera
     return {
