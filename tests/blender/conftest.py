@@ -18,7 +18,7 @@ def no_waiting_for_the_disk(monkeypatch):
 
 @pytest.fixture(autouse=True)
 def no_picture_and_no_process(monkeypatch):
-    """What renders belongs into tests/render, what starts a process into tests/system."""
+    """Tests that render belong in tests/render, tests that start a process in tests/system."""
     rendered = []
 
     @bpy.app.handlers.persistent

@@ -29,8 +29,8 @@ def test_scrubbing_a_saved_scene_moves_its_clock_and_camera(built_file):
 def test_the_papers_trees_are_there_without_the_run(
     settings, run_folder, scene, plain_looks, tmp_path, monkeypatch
 ):
-    """As many of each class as the core plants, in a file whose run is gone."""
-    monkeypatch.setattr(preview, "MOST", 10**9)  # the viewport, which is looked at, shows all trees
+    """The file of a deleted run has as many trees of each class as the core plants."""
+    monkeypatch.setattr(preview, "MOST", 10**9)  # the viewport, which is checked, shows all trees
     folder = tmp_path / "run"
     shutil.copytree(run_folder, folder)
     above = Satellite(swath=14_000.0, keys=settings.cameras[0].rig.keys)

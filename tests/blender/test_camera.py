@@ -48,7 +48,7 @@ def test_keys_are_met_at_their_height_over_the_ground(shot):
 
 
 def test_few_keys_with_handles_go_where_the_path_goes(settings, run, stage, scene):
-    """Of 240 frames: within 5 mm and a twentieth of a pixel of the path in every one of them."""
+    """All of 240 frames are within 5 mm and a twentieth of a pixel of the path."""
     shot = _with_keys(settings, run, 240, bank=1.0)
     (camera,), (view,) = _built(shot, stage), shot.paths
     curves = compat.fcurves(camera)
@@ -64,7 +64,7 @@ def test_few_keys_with_handles_go_where_the_path_goes(settings, run, stage, scen
         turned.append(np.linalg.norm(matrix[:3, 2] - view.rotation[frame - 1, :, 2]))
     pixel = 2.0 * view.half[0] / shot.settings.render.resolution[0]
     print(f"{len(curves[0].keyframe_points)} and {len(curves[3].keyframe_points)} keys, {max(moved):.4f} m")
-    assert max(moved) < 0.005 + 0.001  # and what a float32 is off by
+    assert max(moved) < 0.005 + 0.001  # and the error of a float32
     assert max(turned) < 0.05 * pixel + 1e-6
 
 

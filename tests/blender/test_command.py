@@ -9,7 +9,7 @@ from firetwin.ui import command
 
 @pytest.fixture
 def call(monkeypatch):
-    """What Blender calls after `--command firetwin`, registered with Blender."""
+    """The function that Blender calls after `--command firetwin`, registered with Blender."""
     registered = {}
     register = bpy.utils.register_cli_command
 

@@ -24,7 +24,7 @@ DAY, NIGHT = datetime(2014, 9, 17, 21, 30, tzinfo=UTC), datetime(2014, 9, 18, 6,
 
 
 def fire(run_folder, folder, start, heat=0.1):
-    """The run with another start and a part of its heat: a tenth, 44 GW, is what the King Fire has."""
+    """The run with another start and a part of its heat: the King Fire has a tenth, 44 GW."""
     shutil.copytree(run_folder, folder)
     text = (folder / "run.toml").read_text()
     (folder / "run.toml").write_text(text.replace("2014-09-17T21:00:00Z", start))

@@ -33,7 +33,7 @@ def looking(monkeypatch):
 def test_smoke_right_before_an_eye_hides_its_picture(looking):
     assert looking(100.0, -200.0).hidden_by_near_smoke(100.0) == 1.0
     assert looking(100.0, -200.0).hidden_by_near_smoke(10.0) == 0.0, "10 m of it let a third through"
-    assert looking(-500.0, -200.0).hidden_by_near_smoke(100.0) == 0.0, "what is far off is the picture"
+    assert looking(-500.0, -200.0).hidden_by_near_smoke(100.0) == 0.0, "distant smoke is part of the picture"
     assert looking(100.0, 300.0).hidden_by_near_smoke(100.0) == 0.0
     assert looking(100.0, -200.0, smoky=False).hidden_by_near_smoke(100.0) == 0.0
 

@@ -22,7 +22,7 @@ def blend(run_folder, tmp_path_factory):
 
 @pytest.fixture
 def panel(blend, tmp_path):
-    """A built scene of the panel, with an output folder of its own for the farm."""
+    """A built scene of the panel, with a separate output folder for the farm."""
     for settings in panel_scene.opened(blend):
         settings.farm_output = str(tmp_path / "farm out")
         yield settings

@@ -103,7 +103,7 @@ def test_flames_in_sight_are_those_that_stand_there_without_skipping(shot, setti
 
 
 def test_a_front_of_fewer_flames_is_as_bright(shot, monkeypatch):
-    """Where there would be too many, they stand farther apart, and each is as much wider."""
+    """Over the budget, flames are farther apart, and wider in proportion."""
 
     def light(points):
         lit = points.take(points.lit(shot.frames.times[2]))
@@ -195,7 +195,7 @@ def test_flames_smoke_and_flux_agree_on_the_front(settings, quarters):
 
 
 def test_flames_of_a_part_are_those_of_the_whole_that_burn_in_its_frames(settings, run):
-    shot = Shot(without_skipping(settings), run)  # what is out of sight too
+    shot = Shot(without_skipping(settings), run)  # invisible flames too
     whole, part = flames.front_flames(shot), flames.front_flames(shot.for_frames([2]))
     burning = whole.take(whole.lit(float(shot.frames.times[1])))
     assert 0 < len(part.position) < len(whole.position)

@@ -126,7 +126,7 @@ def test_merged_lights_change_gradually(most):
 
 
 def test_a_shot_keeps_the_heat_of_its_moments(shot, run):
-    """What is shared out among what burns from its first frame to its last is all of the flux."""
+    """The shares of all burning fuel add up to the flux, from its first frame to its last."""
     fuel = False
     for time in (*shot.frames.times, 720.0, 1080.0, 1200.0):
         found, cells = shot.fire.sources(float(time)), wanted(run, float(time))

@@ -32,7 +32,7 @@ def outward(near_settings, run):
 
 
 def beyond(shot, grown):
-    """Which trees stand outside of the run's grid."""
+    """Find trees outside of the run's grid."""
     return shot.local_frame.reverse(grown.position)[1] < EDGE
 
 

@@ -18,7 +18,7 @@ def test_what_is_drawn_is_counted(shot, built):
     (grass,) = (each for each in built.objects_of("Forest") if each.name == "Firetwin Grass")
     (trees,) = (each for each in built.objects_of("Forest") if each.name == "Firetwin Trees")
     assert len(trees.data.vertices) > 100
-    assert found.plants == len(grass.data.vertices) + len(trees.data.vertices), "not what the viewport shows"
+    assert found.plants == len(grass.data.vertices) + len(trees.data.vertices), "not trees of the viewport"
     assert found.faces >= len(built.objects_of("Terrain")[0].data.polygons)
     assert (found.cells, found.voxels) == (0, 0)
 

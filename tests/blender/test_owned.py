@@ -10,7 +10,7 @@ from firetwin.scene import build
 from firetwin.shot.light.sky import HAZE
 from firetwin.shot.shot import Shot
 
-# What the window and Blender's own bookkeeping change, and what is worked out from other things.
+# Properties that the window and Blender change, and derived properties.
 _SKIPPED = {
     "storage_type",  # of attributes: how 5.x keeps them at the moment, one value for all or an array
     "rna_type",
@@ -41,7 +41,7 @@ _LONGEST = 500  # of longer lists only the length is compared
 
 
 def inventory():
-    """Every data-block that is not ours: kind, name, library and users, and a digest of what it says."""
+    """Describe every foreign data-block: kind, name, library and users, and a digest of its properties."""
     found = {}
     for prop in bpy.data.bl_rna.properties:
         if prop.type == "COLLECTION" and prop.identifier not in _NOT_IN_FILES:
@@ -52,7 +52,7 @@ def inventory():
 
 
 def foreign_parts(scene):
-    """What an artist has in a scene that is ours: layers, nodes of the compositor, objects."""
+    """Describe an artist's data in a scene of Firetwin: layers, nodes of the compositor, objects."""
     tree = compat.compositor(scene)
     return {
         "layers": [struct(layer, 0, scene) for layer in scene.view_layers if not owned.ours(layer)],
@@ -62,17 +62,17 @@ def foreign_parts(scene):
 
 
 def digest(block):
-    """What a data-block says, without ours that it points to."""
+    """Describe a data-block, without pointers to data of Firetwin."""
     return {"users": users(block), "keys": keys(block)} | struct(block, 0, block)
 
 
 def users(block):
-    """How many use it; a scene's action counts itself."""
+    """Count the users; a scene's action counts itself."""
     return block.users if not isinstance(block, bpy.types.Scene) else None
 
 
 def keys(thing):
-    """Custom properties but our scene time, and those of Cycles, which are told as its settings."""
+    """Custom properties except scene time and the settings of Cycles, which are described separately."""
     names = [name for name in thing.keys() if not name.startswith(("firetwin", "cycles"))]  # noqa: SIM118
     return {name: plain(thing[name]) for name in names}
 
@@ -96,7 +96,7 @@ def name_of(block):
 
 
 def struct(thing, depth, owner):
-    """What a thing inside of a data-block says: all its properties, to some depth."""
+    """Describe a structure inside a data-block: all its properties, to some depth."""
     if isinstance(thing, bpy.types.AnimData):
         return animation(thing, depth, owner)
     found = {}
@@ -113,7 +113,7 @@ def struct(thing, depth, owner):
 
 
 def animation(data, depth, owner):
-    """What animates a data-block; nothing where only ours does."""
+    """Describe the animation of a data-block; empty for animation of Firetwin alone."""
     curves = [struct(curve, depth + 1, owner) for curve in data.drivers if nodes.TIME not in curve.data_path]
     tracks = [track.name for track in data.nla_tracks]
     action = name_of(data.action)
@@ -121,7 +121,7 @@ def animation(data, depth, owner):
 
 
 def told(prop, value, depth, owner):
-    """What one property says."""
+    """Describe one property."""
     if prop.type == "POINTER":
         return pointed(value, depth, owner)
     if prop.type != "COLLECTION":
@@ -135,7 +135,7 @@ def told(prop, value, depth, owner):
 
 
 def pointed(value, depth, owner):
-    """What a property says that points to something: of another data-block, and of a node, the name."""
+    """Describe a pointer property: the name of another data-block or of a node."""
     if value is None:
         return None
     if isinstance(value, bpy.types.ID):
@@ -149,21 +149,21 @@ def pointed(value, depth, owner):
 
 
 def ours_inside(thing):
-    """Whether a thing in a list is ours: a node, a view layer, the place of a collection in a view layer."""
+    """Return True for a list item of Firetwin: a node, a view layer, a collection in a view layer."""
     if isinstance(thing, bpy.types.LayerCollection):
         return owned.ours(thing.collection)
     return isinstance(thing, bpy.types.Node | bpy.types.ViewLayer) and owned.ours(thing)
 
 
 def our_blocks():
-    """Every data-block of ours in the file, by its uid."""
+    """Find all data-blocks of Firetwin in the file, by uid."""
     kinds = [prop.identifier for prop in bpy.data.bl_rna.properties if prop.type == "COLLECTION"]
     found = (block for kind in kinds if kind not in _NOT_IN_FILES for block in getattr(bpy.data, kind))
     return {block.session_uid: block for block in found if owned.ours(block)}
 
 
 def our_counts():
-    """How many there are of each kind."""
+    """Count the data-blocks of each kind."""
     kinds = [type(block).__name__ for block in our_blocks().values()]
     return {kind: kinds.count(kind) for kind in kinds}
 
@@ -180,7 +180,7 @@ def compositor_of_somebody(scene):
 
 @pytest.fixture
 def library(shot, tmp_path):
-    """A .blend file with a scene's worth of ours in it."""
+    """A .blend file with a scene of Firetwin."""
     scene = bpy.data.scenes.new("Other")
     build.build(shot, scene, parts=["light", "cameras"])
     path = tmp_path / "library.blend"
@@ -190,7 +190,7 @@ def library(shot, tmp_path):
 
 @pytest.fixture
 def busy(library):
-    """The current scene, that of an artist in the middle of work, with a second one beside it."""
+    """The current scene of an artist in the middle of work, with a second scene."""
     bpy.ops.wm.read_factory_settings()
     scene = bpy.context.scene
     scene.render.engine, scene.frame_start, scene.frame_end = compat.eevee_id(), 10, 20
@@ -216,7 +216,7 @@ def busy(library):
 
 
 def differences(before, after, place=""):
-    """Where two digests differ, as texts."""
+    """List the differences of two digests, as texts."""
     if type(before) is not type(after):
         return [f"{place}: {before!r:.80} -> {after!r:.80}"]
     if isinstance(before, dict):
@@ -229,7 +229,7 @@ def differences(before, after, place=""):
 
 
 def changed(before):
-    """What is foreign and not as it was."""
+    """List changed foreign data."""
     return differences(before, inventory())
 
 
@@ -330,7 +330,7 @@ def test_building_twice_makes_nothing_twice(busy, shot, plain_looks):
 
 
 def all_of(uids):
-    """What these blocks of ours say."""
+    """Describe these data-blocks of Firetwin."""
     blocks = our_blocks()
     assert uids <= set(blocks)
     return {uid: digest(blocks[uid]) for uid in uids}

@@ -27,7 +27,7 @@ RIGS = {
 
 
 def rays_of(scene, size, two):
-    """Rays of the scene's camera, of both eyes one above the other where there are two."""
+    """Rays of the scene's camera, of both eyes one above the other in stereo."""
     width, height = size
     if not two:
         found = [rays.pixel_rays(scene.camera, scene, height, width, 0)]
@@ -55,7 +55,7 @@ def test_a_ray_leads_to_the_point_that_its_depth_tells_of(settings, run, name):
     random = np.random.default_rng(4)
     away = pixel_rays.path_of(
         shot, "one"
-    ).meet  # lines of sight from so far count as parallel near what they meet
+    ).meet  # lines of sight from so far count as parallel near their target
     depth = (away + random.uniform(-2000.0, 2000.0, size[::-1]) + 5000.0 * (away == 0.0)).astype(np.float32)
     eyes, origins, directions = rays_of(stage.scene, size, name == "vr")
     halves = np.split(depth, len(eyes))

@@ -148,7 +148,7 @@ def test_smoke_of_the_model_is_used_where_the_run_has_it(smoky, run, run_folder,
     time = shot.frames.times[1]
     expected = 0.1 * (1.0 + np.interp(time, run.times, np.arange(len(run.times))))
     assert found["dilution"][0].max() == pytest.approx(expected, rel=1e-3)
-    np.save(folder / "air_latitude.npy", run.latitude)  # the same, of places of their own
+    np.save(folder / "air_latitude.npy", run.latitude)  # the same, at separate points
     np.save(folder / "air_longitude.npy", run.longitude[::-1])
     for name in ("height_3d", "smoke_3d"):
         np.save(folder / f"{name}.npy", np.load(folder / f"{name}.npy")[..., ::-1])

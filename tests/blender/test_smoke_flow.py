@@ -386,7 +386,7 @@ def test_the_scene_shows_both_layers(shot, stage, scene):
         assert {grid.name for grid in volume.grids} >= {"density", "fresh", "sun", "sky"}
         assert volume.render.clipping <= 1.01 * flow_frames.min_extinction(
             shot.scale
-        )  # else what is painted is left out in blocks
+        )  # else painted smoke is omitted in blocks
 
 
 def test_smoke_has_all_but_gone_where_its_box_ends(shot):
@@ -417,7 +417,7 @@ def test_voxels_of_smoke_are_as_fine_as_pixels_show(flowing, run, monkeypatch):
 
 
 def test_moments_that_another_process_solves_are_waited_for(shot):
-    """They are taken as they come; what it leaves unsolved is solved here."""
+    """Snapshots are read as they appear; missing ones are solved here."""
     solver, waits = flow.Flow(shot), flow.Flow(shot)
     asked = []
 

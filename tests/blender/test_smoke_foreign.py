@@ -99,7 +99,7 @@ def shoot_flow(settings):
 
 
 def baked(shot):
-    """Grids of all the files of frame 2, once what is in them is known to be sane."""
+    """Check the content of all files of frame 2 and return their grids."""
     bpy.utils.expose_bundled_modules()
     import openvdb
 
@@ -129,7 +129,7 @@ def baked(shot):
 
 
 def thick(found):
-    """Voxels that hide what is behind them within a few."""
+    """Voxels that occlude all smoke behind a few of them."""
     return sum(int((values > 1e-3).sum()) for values in found)
 
 

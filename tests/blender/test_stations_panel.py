@@ -249,7 +249,7 @@ def test_the_web_map_is_an_address_alone():
 
 
 class Layout:
-    """Notes what is drawn."""
+    """Record of drawn items."""
 
     def __init__(self, drawn):
         self.__dict__["drawn"] = drawn

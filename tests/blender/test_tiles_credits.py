@@ -52,7 +52,7 @@ def test_other_words_have_other_pixels_and_the_same_words_the_same(picture):
 
 
 def test_burning_again_covers_what_is_there(picture):
-    """As in passes that are made from the visible picture."""
+    """Draw credits as in passes made from the visible picture."""
     credits.burn(picture, WORDS, "")
     once = picture.read_bytes()
     credits.burn(picture, WORDS, "")

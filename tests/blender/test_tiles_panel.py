@@ -43,7 +43,7 @@ def here(monkeypatch):
 
 @pytest.fixture
 def tiled_panel(panel, here, settings, shot, tmp_path, monkeypatch):
-    """The panel of a small shot with a set of its own ground beside the scene file."""
+    """The panel of a small shot with a tileset of its ground next to the scene file."""
     make.run(shot, make.TilesRequest(tmp_path / "set", credit="A; B", geoid=-24.9))
     monkeypatch.setattr(tile_heights, "_MOST", 200)  # points of heights, which nothing here looks at
     panel.output = str(tmp_path / "out")
@@ -158,7 +158,7 @@ def test_a_source_that_cannot_be_read_is_told(tiled_panel, monkeypatch):
 
 
 def test_a_stop_between_the_steps_ends_the_preview(tiled_panel):
-    """In the window an undo follows (see `working`); here what was shown so far stays."""
+    """In the window an undo follows (see `working`); here the tiles shown so far stay."""
     work = job.Job("Preview tiles", tiles_panel.steps(bpy.context, False))
     while work.what != "drawing the boxes":
         work.advance()

@@ -75,7 +75,7 @@ def test_of_a_server_nothing_is_fetched_again(tiled, tmp_path, monkeypatch):
         selection.make(shot)
         assert len(server.asked) == asked > len(cut.tiles)
         assert tile_cut.of_shot(shot) == cut
-    assert cut.tiles == tile_cut.of_shot(tiled).tiles  # as those of a folder: named by their content
+    assert cut.tiles == tile_cut.of_shot(tiled).tiles  # named by their content, as in a folder
 
 
 def test_one_changed_tile_is_one_new_mesh(tiled, stage):

@@ -43,7 +43,7 @@ def settings(plain_looks, panel):
 
 
 def inventory():
-    """What an add-on can leave in Blender."""
+    """Traces that an add-on can leave in Blender."""
     handlers = [
         (kind, function)
         for kind in dir(bpy.app.handlers)
@@ -66,7 +66,7 @@ def test_unregister_leaves_nothing():
 
 
 def refusal(operator):
-    """Why an operator cannot be called."""
+    """Return the reason why an operator cannot be called."""
     assert not operator.poll()
     with pytest.raises(RuntimeError) as refused:
         operator()
@@ -81,7 +81,7 @@ def test_every_refusal_says_what_to_do(settings, run_folder, scene_file):
     assert "Choose a camera" in refusal(bpy.ops.firetwin.camera_remove)
     assert "No task is running" in refusal(bpy.ops.firetwin.stop)
     settings.run = str(run_folder)
-    assert bpy.ops.firetwin.build.poll()  # the smoke is kept with our own files until the .blend is saved
+    assert bpy.ops.firetwin.build.poll()  # the smoke is in a folder of Firetwin until the .blend is saved
     assert "Save the .blend file" in refusal(bpy.ops.firetwin.render)
     assert "nothing that Firetwin built" in refusal(bpy.ops.firetwin.remove)
     settings.output = str(run_folder.parent / "out")
@@ -183,7 +183,7 @@ def _new(folder, path):
 
 
 def test_solved_smoke_is_a_button_that_names_its_cost(settings, run_folder, monkeypatch):
-    """Puffs are a preview; the cost of more is told before it is asked for."""
+    """Puffs are a preview; the panel shows the cost of a flow before it is solved."""
     settings.run = str(run_folder)
     assert settings.smoke.method == "puffs"
     assert "about " in settings.smoke_cost

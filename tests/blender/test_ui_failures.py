@@ -64,7 +64,7 @@ def test_a_first_build_stopped_in_the_middle_brings_the_startup_scene_back(panel
 
 
 def message(operator, **options):
-    """What an operator that cannot do its work says."""
+    """Return the message of an operator that fails."""
     with pytest.raises(RuntimeError) as refused:
         operator(**options)
     text = str(refused.value)
@@ -117,7 +117,7 @@ def test_reading_a_run_that_is_stopped_says_how_to_go_on(panel):
 
 
 def names(scene):
-    """What a scene holds, with what tells it from others of the same name."""
+    """Return the content of a scene, with the identity of its data."""
     return {(thing.name, thing.session_uid) for thing in scene.objects}
 
 

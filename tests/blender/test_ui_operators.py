@@ -21,13 +21,13 @@ EYE = Matrix.Translation((-500.0, -2500.0, 2400.0)) @ Euler((1.2, 0.0, -0.2)).to
 OPERATORS = {
     cls.bl_idname.partition(".")[2]: cls for cls in firetwin.ui.classes if issubclass(cls, bpy.types.Operator)
 }
-ALWAYS = {"copy"}  # what needs nothing can be called at any time
+ALWAYS = {"copy"}  # operators without needs can be called at any time
 HELPERS = ImportHelper, ExportHelper, AddPresetBase, working.Working, object
 
 
 @pytest.fixture(scope="module")
 def blend(run_folder, tmp_path_factory):
-    """A scene that the panel built, as a file, beside a copy of its run."""
+    """A scene that the panel built, as a file, next to a copy of its run."""
     folder = tmp_path_factory.mktemp("operators")
     shutil.copytree(run_folder, folder / "other")
     return panel_scene.build(run_folder, folder)
@@ -142,7 +142,7 @@ def call(name, options, folder):
 
 @pytest.mark.slow  # every operator, undone and redone
 def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path, monkeypatch):
-    """What an operator changes comes back with undo and again with redo; others change nothing."""
+    """Undo reverts the changes of an operator, and redo restores them; other operators change nothing."""
     assert {*CHANGES, *KEEPS, *LISTENS} == set(OPERATORS)
     monkeypatch.setattr(convert, "beside", lambda paths, *_, **__: (paths[0], True))
     monkeypatch.setattr(sample, "run", lambda folder, **_: shutil.copytree(blend.parent / "other", folder))

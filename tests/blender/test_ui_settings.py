@@ -139,7 +139,7 @@ def test_what_changed_since_it_was_built_is_known(panel):
     panel.light.use_exposure = False
     changed_settings.remember(panel, changed_settings.digests(panel), ("forest",))
     changed_settings.remember(panel, changed_settings.digests(panel), ("cameras",))
-    assert panel.changed == "time cameras"  # what is built elsewhere hangs on them too
+    assert panel.changed == "time cameras"  # built data elsewhere depends on them too
     changed_settings.remember(panel, changed_settings.digests(panel), tuple(PARTS))
     assert panel.changed == ""
     panel.run = "/elsewhere"

@@ -25,7 +25,7 @@ def trees():
 
 
 def drawn(names):
-    """How many instances of these objects the viewport draws."""
+    """Count the instances of these objects in the viewport."""
     graph = bpy.context.evaluated_depsgraph_get()
     return sum(item.is_instance and item.parent.original.name in names for item in graph.object_instances)
 
@@ -80,7 +80,7 @@ def array(thing, name):
 
 
 def test_only_trees_that_burn_follow_time(near_shot, scene, few, plain_looks):
-    """A frame change makes the nodes of no others run: none of theirs asks for the time or the camera."""
+    """A frame change evaluates no other nodes: none of them depends on the time or the camera."""
     build.build(near_shot, scene)
     asking = {"GeometryNodeInputSceneTime", "GeometryNodeInputActiveCamera"}
     for thing in trees():

@@ -18,7 +18,7 @@ def resident() -> int:
 
 @pytest.fixture
 def limit():
-    """What else Blender keeps is as it was afterwards."""
+    """Other data of Blender is unchanged afterwards."""
     system = bpy.context.preferences.system
     before = system.memory_cache_limit
     yield

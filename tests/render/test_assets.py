@@ -14,7 +14,7 @@ KINDS = ("objects", "materials", "node_groups")
 
 @pytest.fixture(scope="module")
 def library(tmp_path_factory):
-    """Where a library is."""
+    """Return the path of a library."""
     return tmp_path_factory.mktemp("library") / job.BLEND
 
 
@@ -57,5 +57,5 @@ def test_trees_materials_and_groups_are_assets_in_catalogues(settings, few, libr
     assert green[seen > 0.5].mean() > red[seen > 0.5].mean()  # a living one: it stands alone, and is not dead
     rock = found["Firetwin Rock"]
     rock.preview.image_pixels_float.foreach_get(pixels)
-    assert 0.1 < (pixels[3::4] > 0.5).mean() < 0.9  # what is made of it
+    assert 0.1 < (pixels[3::4] > 0.5).mean() < 0.9  # the result
     assert tree.scale.z == assets.HEIGHTS["small"]  # of a model a metre tall

@@ -51,7 +51,7 @@ RIGS = {
 
 
 def slopes(view):
-    """How far (2,) the edges of the picture are from its middle, m for each m of depth, or m."""
+    """Return the distances (2,) of the picture's edges from its centre, m per m of depth, or m."""
     return view.halves[FRAME - 1] / (view.meet or 1.0)
 
 
@@ -63,7 +63,7 @@ def placed(view, share, depth):
 
 
 def pixels(view, place):
-    """Where (n, 2) places are in the picture, pixels from its middle."""
+    """Return the positions (n, 2) of points in the picture, pixels from its centre."""
     local = (place - view.position[FRAME - 1]) @ view.rotation[FRAME - 1]
     near = -local[:, 2:] if view.perspective or view.meet else 1.0
     return local[:, :2] / near / slopes(view) * [WIDTH / 2, HEIGHT / 2]

@@ -13,7 +13,7 @@ def _red(stage, amount):
 
 
 def _look(stage, shoot, height, distance, **inputs):
-    """Red of a black wall at `height` seen from `distance` above it (level where that is negative).
+    """Red of a black wall at `height` seen from `distance` above it (level if negative).
 
     Its material has these inputs other than they are.
     """

@@ -105,7 +105,7 @@ def test_smoke_has_no_grain(film):
     first, second = (film("rgb", "masks", grain=grain) for grain in (0, 1))
     hidden = (first["masks"][..., 1] < 1e-3) & (second["masks"][..., 1] < 1e-3)
     assert hidden.mean() > 0.1
-    assert np.abs(first["rgb"] - second["rgb"])[hidden].mean() < 5e-4, "what is left is the flames' bloom"
+    assert np.abs(first["rgb"] - second["rgb"])[hidden].mean() < 5e-4, "the rest is the bloom of the flames"
     assert np.abs(first["rgb"] - second["rgb"])[~hidden].mean() > 1e-3
 
 

@@ -74,7 +74,7 @@ def look(settings, run, stage, scene, shoot, tmp_path, monkeypatch):
     count = itertools.count()
 
     def picture(grids, instances=0, step=1.0, sun=False):
-        taken = replace(smoky, cache=tmp_path / str(next(count)))  # Blender remembers what was in a file
+        taken = replace(smoky, cache=tmp_path / str(next(count)))  # Blender caches the content of a file
         shot = Shot(taken, run)
         write(bake.file(shot, 1), *grids)
         smoke.build(shot, stage).data.render.step_size *= step
@@ -110,7 +110,7 @@ def surroundings(scene, sun):
 
 
 def plant(scene, count):
-    """Plant instances below the smoke, beside what the camera sees."""
+    """Place instances below the smoke, outside of the view."""
     rng = np.random.default_rng(1)
     place = rng.uniform((-4000.0, -4000.0, -400.0), (60.0, 6000.0, -300.0), (count, 3))
     points, tree = bpy.data.meshes.new("points"), bpy.data.meshes.new("tree")
@@ -124,7 +124,7 @@ def plant(scene, count):
 
 def test_tens_of_thousands_of_instances_take_no_smoke(look):
     alone = look(layered(LAYERS))
-    assert alone.min() < 0.15 < 0.9 < alone.max()  # smoke hides the sky, beside it there is sky
+    assert alone.min() < 0.15 < 0.9 < alone.max()  # smoke occludes the sky; next to it is sky
     assert look(layered(LAYERS), instances=30_000) == pytest.approx(alone, abs=0.02)
 
 

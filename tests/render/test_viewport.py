@@ -10,7 +10,7 @@ from firetwin.shot.shot import Shot
 
 
 def test_renders_do_not_know_of_the_viewport(near_settings, run, stage, scene, shoot, monkeypatch):
-    """The same pixels with what is for the viewport and without, in the picture and in the thermal view."""
+    """Equal pixels with and without objects of the viewport, in the picture and in the thermal view."""
     pictures = []
     for most in (200, 10**9):
         monkeypatch.setattr(preview, "MOST", most)

@@ -1,6 +1,6 @@
 """A scene built and saved by one Blender, opened by another: settings, operators and a picture.
 
-    between.py save RUN FOLDER    build it, save FOLDER/VERSION.blend with its settings beside it
+    between.py save RUN FOLDER    build it, save FOLDER/VERSION.blend and its settings
     between.py open FOLDER        open what other Blenders saved there, and use it
 
 With the Python that has Firetwin and Blender. Exit status 1: something is not as it should be.
@@ -63,7 +63,7 @@ def check(good: bool, text: str) -> None:
 
 
 def settings() -> str:
-    """What the panel says, as a scene file without comments; folders are called otherwise elsewhere."""
+    """Return the panel's settings as a scene file without comments; names of folders differ elsewhere."""
     lines = file.text(scene_file.settings(bpy.context.scene)).splitlines()
     bare = (line.partition("#")[0].rstrip() for line in lines)
     return "\n".join(line for line in bare if not line.startswith(("run = ", "cache = ")))
@@ -89,7 +89,7 @@ def save(run: Path, folder: Path) -> None:
 
 
 def keep(blend: Path, beside: Path) -> None:
-    """Save the file that is open, with its settings beside it."""
+    """Save the open file and its settings."""
     bpy.context.scene.objects["Firetwin Trees"].location.x = 3.0
     beside.write_text(settings(), encoding="utf-8")
     bpy.ops.wm.save_as_mainfile(filepath=str(blend))
@@ -100,9 +100,9 @@ def look(blend: Path, beside: Path) -> None:
     bpy.ops.wm.open_mainfile(filepath=str(blend))
     scene, panel = bpy.context.scene, bpy.context.scene.firetwin
     stage = owned.stage(scene)
-    check(settings() == beside.read_text(encoding="utf-8"), "its settings are what they were")
+    check(settings() == beside.read_text(encoding="utf-8"), "its settings have not changed")
     check(owned.ours(scene) and stage.camera("drone") == scene.camera, "scene and camera are ours")
-    check(scene.objects["Firetwin Trees"].location.x == 3.0, "what was moved by hand stays")
+    check(scene.objects["Firetwin Trees"].location.x == 3.0, "objects moved by hand stay")
     check(composited(scene), "the compositor has our nodes")
     before, cameras = picture(scene, blend, "as-it-is"), len(panel.cameras)
     for call, options in (
@@ -127,7 +127,7 @@ def look(blend: Path, beside: Path) -> None:
     keep(*blends(blend.parent, f"{blend.stem}-{VERSION}"))
     bpy.ops.firetwin.remove()
     left = [block.name for block in owned._blocks() if owned.ours(block)]
-    check(not left, f"removed, nothing of ours is left: {left}")
+    check(not left, f"no data of Firetwin is left after removal: {left}")
     tree = compat.compositor(scene)
     check(tree is None or not tree.nodes, "nor a compositor without a picture")
 
@@ -138,7 +138,7 @@ def _blurred(pixels: np.ndarray) -> np.ndarray:
 
 
 def composited(scene: bpy.types.Scene) -> bool:
-    """Whether the compositor writes our passes."""
+    """Return True if the compositor writes our passes."""
     nodes = compat.compositor(scene)
     return nodes is not None and any(owned.ours(node) for node in nodes.nodes)
 

@@ -25,7 +25,7 @@ LIMIT = 0.05  # mean FLIP: 0 the same, 1 as different as black and white
 
 
 def render(run: Path, out: Path) -> None:
-    """Render the frame, unless it is there and matches; its scene file and smoke stay beside it."""
+    """Render the frame, unless it exists and matches; its scene file and smoke are in the same folder."""
     text = EXAMPLE.read_text(encoding="utf-8")
     for name, value in (SETTINGS | {"run": f'"{run.resolve()}"'}).items():
         text, count = re.subn(rf"(?m)^{name} = [^#\n]*", f"{name} = {value} ", text)

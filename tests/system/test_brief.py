@@ -1,6 +1,6 @@
 """The briefing page in a real browser: time, search, keys, colours, print, and no request to elsewhere.
 
-Needs selenium, and Debian's chromium and chromium-driver; skipped where they are missing.
+Needs selenium, and Debian's chromium and chromium-driver; skipped without them.
 """
 
 from __future__ import annotations

@@ -12,7 +12,7 @@ SAID = {"start": "2020-07-01T20:00:00Z", "at": "39,-120"}
 
 @pytest.fixture
 def file(tmp_path):
-    """What pyretechnics says of a round fire; reading it needs no package that Blender lacks."""
+    """Output of pyretechnics for a round fire; reading it needs only packages of Blender."""
     path = tmp_path / "fire.npz"
     minutes = np.hypot(*np.mgrid[-8:9, -8:9]) * 30.0 / 60.0
     np.savez(path, time_of_arrival=minutes, cell_width=30.0, cell_height=30.0)

@@ -17,7 +17,7 @@ from firetwin_core import sensor
 from mathutils import Euler
 from scene_text import BARE, DRONE, NO_SMOKE, THREE_FRAMES, TINY
 
-# Only pictures drawn as volumes are those of F12 to the pixel.
+# Only pictures drawn as volumes equal F12 to the pixel.
 VOLUME = NO_SMOKE + 'draw = "volume"\n'
 SCENE = THREE_FRAMES + BARE + VOLUME + TINY + 'passes = ["rgb", "thermal", "depth"]\n' + DRONE
 FRAME = 2
@@ -105,7 +105,7 @@ def test_f12_the_queue_and_the_command_line_render_the_same(panel, tmp_path):
 
 
 def test_what_is_changed_by_hand_is_rendered_beside_the_window(panel, tmp_path):
-    """A light turned off, which no scene file says; what is changed later does not matter."""
+    """A light turned off, which is not in the scene file; later changes do not matter."""
     scene = bpy.context.scene
     scene.frame_set(FRAME)
     sun = next(thing for thing in scene.objects if thing.type == "LIGHT" and owned.ours(thing))

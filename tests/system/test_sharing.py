@@ -81,7 +81,7 @@ def start(run_folder, package, tmp_path):
 
 @pytest.fixture
 def render(start):
-    """Run a render to its end; what it said."""
+    """Run a render to its end and return its output."""
 
     def run(*arguments, **options):
         process = start(*arguments, **options)
@@ -120,13 +120,13 @@ def _films(out):
 
 
 def _made(out):
-    """Number of each entry: what was made again has another."""
+    """Number of each entry; a file that was made again has another."""
     with Store(out) as store:
         return dict(store.data.all("SELECT path, number FROM files"))
 
 
 def _passes(before, after):
-    """Camera and pass of what was made again."""
+    """Camera and pass of files that were made again."""
     return {tuple(Path(path).parts[:2]) for path in after if before[path] != after[path] and "_0" in path}
 
 

@@ -60,7 +60,7 @@ def folder(run_folder, tmp_path_factory):
 
 
 def run(folder, *arguments, status=0):
-    """What `firetwin` says."""
+    """Return the output of `firetwin`."""
     made = subprocess.run(
         [sys.executable, "-m", "firetwin", *map(str, arguments)],
         capture_output=True,

@@ -37,7 +37,7 @@ def panel(blend):
 
 
 def message(operator, **options):
-    """What an operator that cannot do its work says."""
+    """Return the message of an operator that fails."""
     with pytest.raises(RuntimeError) as refused:
         operator(**options)
     text = str(refused.value)
@@ -96,6 +96,6 @@ def test_a_full_disk_is_a_message_and_what_was_there_stays(panel, blend, run, ti
 
 
 def here(task, arguments, progress, tell=lambda text: None, **_):
-    """In place of a process of its own."""
+    """Replacement of a separate process."""
     module, _, function = task.partition(":")
     return getattr(__import__(module, fromlist=["x"]), function)(progress=progress, tell=tell, **arguments)

@@ -25,8 +25,8 @@ from firetwin.errors import (
     TryAgainError,
     UnavailableError,
     disk_is_full,
-    is_worth_another_try,
     is_nearly_full,
+    is_worth_another_try,
     writing,
 )
 from firetwin.jobs import worker

@@ -82,9 +82,7 @@ def test_it_stands_at_each_stop_and_looks_there(whole):
         assert (local[:, 2] < 0.0).all()
         assert view.rotation[there][:, 2, 0] == pytest.approx(0.0), "the horizon is level"
         above = view.position[there][:, 2] - shot.ground.up(*view.position[there][:, :2].T)
-        assert (
-            above > (0.5 if j == 2 else 0.999) * STOPS[j].height
-        ).all()  # smoothed above the head
+        assert (above > (0.5 if j == 2 else 0.999) * STOPS[j].height).all()  # smoothed above the head
 
 
 def test_without_a_bearing_it_comes_from_the_stop_before(whole):

@@ -11,7 +11,7 @@ from farm_film import firetwin, pictures, start
 
 @pytest.fixture(scope="module")
 def here(run_folder, tmp_path_factory):
-    """The scene file, beside all that it names and more."""
+    """The scene file in a folder with its assets and other files."""
     return farm_inputs.write(tmp_path_factory.mktemp("inputs") / "here", run_folder)
 
 
@@ -51,7 +51,7 @@ def test_what_is_missing_is_named_before_anything_is_submitted(here, tmp_path, n
     finally:
         away.rename(path)
     assert process.returncode == 1
-    folder_is_named = name.startswith("observed/")  # of what it holds nothing is known
+    folder_is_named = name.startswith("observed/")  # its content is unknown
     assert ("fire.observed" if folder_is_named else path.stem) in errors
     assert "Traceback" not in errors
     assert not (tmp_path / "out").exists()

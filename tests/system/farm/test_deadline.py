@@ -15,7 +15,7 @@ READER = Path(own_environment.__file__).with_name("read_bundle.py")
 
 @pytest.fixture(scope="module")
 def read(tmp_path_factory):
-    """read(bundle, status=0) -> what the library makes of it, or how it refuses it."""
+    """read(bundle, status=0) -> result of the library, or its error."""
     programs = own_environment.installed("deadline", PACKAGE)
     cache = tmp_path_factory.mktemp("hashes")
 
@@ -30,7 +30,7 @@ def read(tmp_path_factory):
 
 @pytest.fixture
 def planned(film, tmp_path):
-    """The scene file in a folder of its own, and the output folder of its job."""
+    """The scene file in a separate folder, and the output folder of its job."""
     path, out = tmp_path / "scene.toml", tmp_path / "out"
     path.write_text(film[0].read_text())
     firetwin("farm", path, "--engine", "deadline", "--out", out, "--chunk", 2)

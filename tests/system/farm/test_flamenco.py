@@ -17,7 +17,7 @@ SOURCE = Path(__file__).parent / "compile_job" / "main.go"
 
 @pytest.fixture(scope="module")
 def compiled():
-    """Compile what an engine wrote: compiled(folder) -> tasks by name."""
+    """Compile the files of an engine: compiled(folder) -> tasks by name."""
     if not shutil.which("go"):
         pytest.skip("there is no Go here (Debian: golang-go)")
     PLACE.mkdir(parents=True, exist_ok=True)

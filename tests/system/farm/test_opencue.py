@@ -17,7 +17,7 @@ READ = "import launch, sys; print(launch.build(sys.argv[1:]).serialize(use_pycue
 
 @pytest.fixture(scope="module")
 def specification():
-    """Have pyoutline in an environment of its own: specification(folder, options...) -> that of a job."""
+    """pyoutline in a separate environment: specification(folder, options...) -> specification of a job."""
     python = PLACE / "bin" / "python"
     if not python.exists():
         for each in (

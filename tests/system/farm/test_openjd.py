@@ -14,7 +14,7 @@ PACKAGE = "openjd-cli==0.8.0"
 
 @pytest.fixture(scope="module")
 def openjd():
-    """Run openjd-cli from its own environment: openjd(arguments...) -> what it prints; openjd.start(...)."""
+    """Run openjd-cli in its environment: openjd(arguments...) -> its output; openjd.start(...)."""
     programs = own_environment.installed("openjd", PACKAGE)
 
     def start(*arguments):

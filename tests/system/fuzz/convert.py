@@ -18,7 +18,7 @@ import damage
 
 
 def work(kind, each, seed):
-    """Count how the damaged files of a kind ended, and list what is wrong."""
+    """Count the results of damaged files of a kind, and list findings."""
     ends, findings, guessed = Counter(), [], 0
     with tempfile.TemporaryDirectory() as folder:
         for end in damage.tried(kind, Path(folder), each, seed):

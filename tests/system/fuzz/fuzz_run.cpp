@@ -38,7 +38,7 @@ void write(const fs::path& path, const std::string& content) {
   std::ofstream(path, std::ios::binary | std::ios::trunc) << content;
 }
 
-/// Made once, in memory where there is such a place, and removed at the end of the process.
+/// A folder in memory, if the system has one; removed at the end of the process.
 class RunFolder {
 public:
   RunFolder() {

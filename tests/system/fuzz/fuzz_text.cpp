@@ -1,5 +1,5 @@
 // The text grid reader: no input may do anything but give a full grid or an InputError, the same in
-// whatever pieces it is read, and what it gave must come back when it is written with enough digits
+// whatever pieces it is read, and its values must be equal when they are written with enough digits
 // and read again. The first byte is the size of a piece; the rest is the file.
 
 #include "check.hpp"
@@ -44,7 +44,7 @@ template <class T> bool same(const Grid<T>& a, const Grid<T>& b) {
   return equal;
 }
 
-/// The grid, or what is wrong with it.
+/// The grid, or its error.
 template <class T> std::variant<Grid<T>, InputError> read(const fs::path& path, std::size_t piece) {
   try {
     return run::read_text<T>(path, piece);

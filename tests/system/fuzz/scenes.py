@@ -44,7 +44,7 @@ class Child:
         self.folder, self.process = folder, None
 
     def tried(self, text, build):
-        """The stage that a scene came to, the line that refused it, and what is wrong with that."""
+        """The last stage of a scene, the line of its error, and the fault of this line."""
         (self.folder / "scene.toml").write_text(text, encoding="utf-8")
         if self.process is None:
             command = [sys.executable, __file__, "--child", self.folder]

@@ -55,7 +55,7 @@ def npy_file(header: str, data: bytes) -> bytes:
 
 
 def seeds() -> dict[str, list[bytes]]:
-    """Seeds by reader; the formats are those of fuzz_*.cpp."""
+    """Seeds by reader, in the formats of fuzz_*.cpp."""
     text = [t.encode() for t in TEXT]
     data = bytes(range(24))
     npy = [b"\x01" + h.encode() + b"\n" + data for h in HEADERS]

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "check.hpp"
-#include "tiles/decode.hpp"
 #include "tiles/content_type.hpp"
+#include "tiles/decode.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,8 +12,8 @@
 #include <string>
 #include <string_view>
 
-/// What the fuzzers of 3-D Tiles share: content is put together from an input's parts, so that its
-/// lengths are right, and what is decoded keeps its promises.
+/// Shared by the fuzzers of 3-D Tiles: content is assembled from parts of an input, so that its
+/// lengths are right, and decoded arrays must satisfy their invariants.
 namespace firetwin::fuzz {
 
 /// The first lines of an input, and the rest as the last.
@@ -118,7 +118,8 @@ inline void check_content(const std::string& content) {
     vertices = tile.position.size();
     decoded = true;
   });
-  expect_result_or_input_error([&] { tiles::list_missing_resources(bytes(content), "tile", resources()); });
+  expect_result_or_input_error(
+      [&] { tiles::list_missing_resources(bytes(content), "tile", resources()); });
   if (decoded && tiles::detect_content_type(bytes(content), "tile") != tiles::ContentType::gltf) {
     const std::string longer = content + "more";
     check(tiles::decode(bytes(longer), "tile", resources(), {}).position.size() == vertices,

@@ -2,7 +2,7 @@
 
     .venv/bin/python tests/system/fuzz/tilesets.py [--runs 100000] [--seed 0] [KIND ...]
 
-KIND is json, subtree or archive. What takes over 5 s of processor time is a finding, too.
+KIND is json, subtree or archive. An input that takes over 5 s of processor time is a finding, too.
 A damaged file that is one is left in build/fuzz/findings; exit status 1.
 """
 

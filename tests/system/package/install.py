@@ -1,6 +1,6 @@
 """Install the extension's zip as a user does, use it, and remove it: ``install.py ZIP``.
 
-Blender's settings, extensions and files are in a folder of their own, which is empty before and after.
+Blender's settings, extensions and files are in a separate folder, which is empty before and after.
 """
 
 import importlib
@@ -34,7 +34,7 @@ target = "fire"
 
 
 def state(bpy):
-    """What an add-on could leave behind in Blender."""
+    """Traces that an add-on could leave in Blender."""
     import addon_utils
 
     def names(things):
@@ -140,7 +140,7 @@ def main(zipped):
         import bpy
         import numpy as np  # noqa: F401
 
-        # Blender's executable has no packages but its own and those of extensions.
+        # Blender's executable has only its packages and packages of extensions.
         here = str(Path(bpy.__file__).parents[1])
         sys.path[:] = [place for place in sys.path if place not in {here, *site.getsitepackages()}]
         print(f"Blender {bpy.app.version_string}, Python {sys.version.split()[0]}")

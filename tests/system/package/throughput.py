@@ -2,8 +2,8 @@
 
 FOLDER holds the unpacked wheel. One process has Blender, the other has not; each does every job TIMES times,
 in turns, so that what else the machine does falls on both. The best time counts, of the clock and of all
-cores together; the latter is told even where other programs keep the cores busy. Blender's own threads have
-worked before, so that both pools of threads are there.
+cores together; the latter is meaningful even if other programs use the cores. Blender's threads have
+worked before, so that both thread pools exist.
 """
 
 import json

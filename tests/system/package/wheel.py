@@ -1,8 +1,8 @@
 """Check one wheel of the core with Blender: ``wheel.py FOLDER before|after|preloaded``.
 
 FOLDER holds the unpacked wheel. `before` and `after` say when the core is imported, seen from `bpy`;
-`preloaded` first loads Blender's own TBB, OpenVDB, OpenImageIO, OpenEXR and Imath so that every symbol of
-theirs is visible to the core, as it is inside Blender's executable.
+`preloaded` first loads TBB, OpenVDB, OpenImageIO, OpenEXR and Imath of Blender so that all their symbols are
+visible to the core, as they are inside Blender's executable.
 """
 
 import ctypes
@@ -33,7 +33,7 @@ def preload():
 
 
 def raised(function, *arguments):
-    """What a call raises."""
+    """Return the error of a call."""
     try:
         function(*arguments)
     except Exception as error:
@@ -42,7 +42,7 @@ def raised(function, *arguments):
 
 
 def check_errors(core, folder):
-    """Errors name the file, the line and the column; those of worker threads arrive too."""
+    """Errors name the file, the line and the column; errors of worker threads arrive too."""
     path = folder / "bad.txt"
     path.write_text("1 2 3\n4 five 6\n")
     error = raised(core.run.read_grid, path)
@@ -58,7 +58,7 @@ def check_errors(core, folder):
 
 
 def check_volume(core, bpy, folder):
-    """A volume of ours changes the pixels of a Cycles picture."""
+    """A volume of the core changes the pixels of a Cycles picture."""
     path = folder / "smoke.vdb"
     x, y, z = np.mgrid[-1:1:48j, -1:1:48j, -1:1:48j]
     ball = np.where(x * x + y * y + z * z < 0.8, 2.0, 0.0).astype(np.float32)
@@ -95,7 +95,7 @@ def check_volume(core, bpy, folder):
     without = render(core, bpy, folder / "without.exr")
     changed = np.abs(with_smoke - without).max(axis=2) > 0.02
     assert changed[8:24, 16:32].mean() > 0.9, "the smoke does not show"
-    assert not changed[:3].any(), "the picture changed where no smoke is"
+    assert not changed[:3].any(), "the picture changed outside of the smoke"
 
 
 def render(core, bpy, path):

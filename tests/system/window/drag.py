@@ -26,7 +26,7 @@ def _named(parent: object, title: str) -> object | None:
 
 
 class Drag:
-    """A file under the pointer of a window of our own, which nobody sees."""
+    """A file under the pointer of an invisible window of this process."""
 
     def __init__(self, path: Path, title: str) -> None:
         self.screen = display.Display()
@@ -48,7 +48,7 @@ class Drag:
         self.screen.flush()
 
     def give(self, asked: object) -> None:
-        """Answer a request for what is dragged."""
+        """Answer a request for the dragged file."""
         asked.requestor.change_property(asked.property, asked.target, 8, self.uri)
         asked.requestor.send_event(
             event.SelectionNotify(

@@ -33,7 +33,7 @@ def check(good: bool, text: str) -> None:
 
 
 def picture(name: str) -> None:
-    """Draw what is new, then take the whole screen."""
+    """Redraw, then take a picture of the screen."""
     window = bpy.context.window_manager.windows[0]
     with bpy.context.temp_override(window=window, screen=window.screen):
         bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
@@ -58,7 +58,7 @@ def view() -> bpy.types.Area:
 
 
 def here() -> dict[str, object]:
-    """Where a user's click in the 3D view happens."""
+    """Return the position of a user's click in the 3D view."""
     window, area = bpy.context.window_manager.windows[0], view()
     region = next(region for region in area.regions if region.type == "WINDOW")
     return {"window": window, "area": area, "region": region, "screen": window.screen}
@@ -98,7 +98,7 @@ def built() -> list[str]:
 
 
 def soon(condition: Callable[[], bool], seconds: float = 300.0) -> Callable[[], bool]:
-    """What to wait for: a slow machine takes long to draw before it takes a key."""
+    """Yield a waiting time: a slow machine takes long to draw before it takes a key."""
     end = time.monotonic() + seconds
     return lambda: condition() or time.monotonic() > end
 

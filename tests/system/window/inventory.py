@@ -22,7 +22,7 @@ _OWNERS = (
 
 
 def take(folder: Path) -> dict[str, list[str]]:
-    """Everything that an add-on can leave behind, by kind, as sorted texts; files lie under `folder`."""
+    """Everything that an add-on can leave behind, by kind, as sorted texts; files are below `folder`."""
     found = {
         "classes": [name for name in dir(bpy.types) if isinstance(getattr(bpy.types, name, None), type)],
         "properties": [f"{owner}.{name}" for owner in _OWNERS for name in dir(getattr(bpy.types, owner))],
@@ -40,7 +40,7 @@ def take(folder: Path) -> dict[str, list[str]]:
 
 
 def _operators(group: str) -> list[str]:
-    # Blender makes groups on demand; only ours can be told by name.
+    # Blender makes groups on demand; only ours is known by name.
     return dir(getattr(bpy.ops, group)) if group == "firetwin" else []
 
 
@@ -68,7 +68,7 @@ def _shortcuts() -> list[str]:
 
 
 def left(before: dict[str, list[str]], after: dict[str, list[str]]) -> list[str]:
-    """What is there now, was not before, and has to do with Firetwin."""
+    """List new items that belong to Firetwin."""
     found = []
     for kind, names in after.items():
         for name in sorted(set(names) - set(before[kind])):

@@ -1,8 +1,7 @@
 """The artists' page, `docs/artists.md`, followed word by word, with its pictures.
 
-Every button, menu entry and panel that the page names stands in it in **bold**, everything to be typed in
-`code`: `Page.next` takes them in their order, so that page and session cannot say different things. What
-waiting takes is in session.log.
+Every button, menu entry and panel that the page names is in **bold**, and typed text is in `code`:
+`Page.next` takes them in order, so that page and session cannot differ. Waiting times are in session.log.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ _SIDEBAR, _WINDOW = "254x636+767+84", "1050x690+2+28"  # of the screen of 1280 x
 
 
 class Page:
-    """What the page says to press and to type, in its order."""
+    """Buttons and texts of the page, in order."""
 
     def __init__(self) -> None:
         text = PAGE.read_text(encoding="utf-8").partition("<!-- followed -->")[2]
@@ -51,13 +50,13 @@ def page_picture(name: str, part: str = _SIDEBAR) -> None:
 
 
 class Watch:
-    """Seconds by the clock and by the processors, of Blender and of what it started and waited for."""
+    """Seconds by the clock and by the processors, of Blender and of its finished child processes."""
 
     def __init__(self) -> None:
         self._clock, self._used = time.monotonic(), os.times()
 
     def say(self, what: str) -> None:
-        """Write down what was taken since it began."""
+        """Write down the time since the beginning."""
         took, used = time.monotonic() - self._clock, sum(os.times()[:4]) - sum(self._used[:4])
         say(f"time    {what}: {took:.1f} s, {used:.1f} cpu-s")
 
@@ -129,7 +128,7 @@ def _go(words: Page, place: str) -> Iterator[object]:
     where = sys.modules[f"{ui().__name__}.go"].place(bpy.context.scene, place)
     yield soon(lambda: (region.view_location - where).length < 1.0)
     yield 1
-    bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)  # what is keyed is what was drawn last
+    bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)  # the key has the view that was drawn last
     check(region.view_perspective == "PERSP" and abs(region.view_distance - 2500.0) < 1.0, f"at {place}")
 
 
@@ -170,7 +169,7 @@ def _rendered(words: Page) -> Iterator[object]:
     yield 1
     words.next("Render", "Camera", "poses", "This frame", "Render in background")
     settings().camera, settings().which = "poses", "frame"
-    yield from _background("the first picture, its depth and its thermal twin, beside the window")
+    yield from _background("the first picture, its depth and its thermal twin, in the background")
     yield from alone("FIRETWIN_PT_render", lambda: page_picture("5-rendered"))
 
 

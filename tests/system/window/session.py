@@ -1,7 +1,7 @@
 """A session in Blender's window, as a user would have it: ``blender --python session.py -- FOLDER STEP...``.
 
-FOLDER holds firetwin.zip, scene.toml, broken.toml and plain.toml; pictures of the screen, what the session
-makes and session.log come to lie there. The steps are a generator that a timer takes further: it yields
+FOLDER holds firetwin.zip, scene.toml, broken.toml and plain.toml; pictures of the screen, files of the
+session and session.log are written there. The steps are a generator that a timer takes further: it yields
 seconds to wait, or a function to wait for. Exit status 0 when everything was as it should be.
 """
 
@@ -116,7 +116,7 @@ def build() -> Iterator[object]:
     check(names == ["Camera", "Cube", "Light"], f"the startup scene: {', '.join(names)}")
     call(bpy.ops.firetwin.build)
     yield 6
-    check(busy(), "building goes on beside the window")
+    check(busy(), "building runs in the background")
     picture("06-building")
     yield idle
     yield 5
@@ -127,7 +127,7 @@ def build() -> Iterator[object]:
 
 
 def uid(name: str) -> int:
-    """Which object has this name; 0: none."""
+    """Return the identity of the object with this name; 0: none."""
     thing = bpy.context.scene.objects.get(name)
     return thing.session_uid if thing else 0
 
@@ -275,7 +275,7 @@ def mean_difference(one: Path, other: Path) -> float:
 
 
 def by_hand() -> Iterator[object]:
-    """A camera from the view, keyed by flying, kept by a rebuild, and rendered beside the window."""
+    """A camera from the view, keyed by flying, preserved by a rebuild, and rendered in the background."""
     region, queue = view().spaces.active.region_3d, sys.modules[f"{MODULE}.ui.queue"]
     call(bpy.ops.firetwin.view, whole=False)
     yield 2
@@ -305,7 +305,7 @@ def by_hand() -> Iterator[object]:
     bpy.context.scene.cycles.samples = 1000  # it must not be done before it is paused
     call(bpy.ops.firetwin.render_background)
     yield 8
-    check(queue.current() is not None, "a render goes on beside the window")
+    check(queue.current() is not None, "a render runs in the background")
     call(bpy.ops.firetwin.render_background)
     yield 2
     yield from alone("FIRETWIN_PT_render", lambda: picture("31-queue"))
@@ -318,7 +318,7 @@ def by_hand() -> Iterator[object]:
         return [index for index, item in enumerate(queue.items) if item.state == "paused"]
 
     yield soon(lambda: bool(paused()))
-    check(bool(paused()), "Esc over the sidebar pauses what is rendered then")
+    check(bool(paused()), "Esc over the sidebar pauses the current render")
     for index in paused():
         call(bpy.ops.firetwin.queue, index=index, what="go_on")
     yield soon(lambda: all(item.state in ("done", "failed") for item in queue.items), 900.0)

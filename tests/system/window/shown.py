@@ -13,7 +13,7 @@ _BLENDERS_MENUS = ("TOPBAR_MT_file_import", "TOPBAR_MT_file_export", "VIEW3D_MT_
 
 
 def sections() -> Iterator[object]:
-    """Every panel by itself and open, and every menu; what is built is hidden, for drawing it takes long."""
+    """Open every panel alone, and every menu; built objects are hidden, because drawing them takes long."""
     for thing in bpy.context.scene.objects:
         thing.hide_set(True)
     known = [each for each in ui().classes if issubclass(each, bpy.types.Panel)]
@@ -48,7 +48,7 @@ def _asking(operator: str, name: str) -> type[bpy.types.Menu]:
 
 
 def dialogs() -> Iterator[object]:
-    """What asks before it does something, what chooses files, and the preferences."""
+    """Dialogs that confirm, file browsers, and the preferences."""
     for name in ("preset", "remove"):
         call(getattr(bpy.ops.firetwin, name))
         yield 1

@@ -31,7 +31,7 @@ def tiles() -> Iterator[object]:
     before = sorted(built())
     call(bpy.ops.firetwin.tiles_preview)
     yield 0.5
-    check(busy(), "tiles are fetched beside the window")
+    check(busy(), "tiles are fetched in the background")
     yield soon(lambda: any("Tile Preview" in name for name in built()))
     with bpy.context.temp_override(**here()):
         bpy.ops.firetwin.stop()
