@@ -20,7 +20,7 @@ from firetwin_core import sensor
 from ..blender import compat, nodes
 from ..blender.nodes import Tree, Value
 from ..blender.owned import Stage
-from ..shot.sections import BANDS
+from ..shot.sections.thermal import BANDS
 from ..shot.settings import Settings
 from .finish import edl, overlay, thermal
 

@@ -28,7 +28,7 @@ from firetwin_core import sensor
 from ..blender import nodes, owned
 from ..blender.owned import Stage
 from ..shot.fire import air_temperature as model
-from ..shot.sections import BANDS
+from ..shot.sections.thermal import BANDS
 from ..shot.shot import Shot
 from . import haze, temperature
 

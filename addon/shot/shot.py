@@ -29,8 +29,8 @@ from .fire.smoke_scale import Scale
 from .frames import Frames
 from .runs import scene_runs
 from .schema.frame_list import FrameList
-from .sections import SMOKE_METHODS
 from .sections.camera import CameraSettings
+from .sections.smoke import SMOKE_METHODS
 from .settings import Camera, Settings, tile_heights_file
 from .terrain import elevation
 from .terrain.elevation import Elevation

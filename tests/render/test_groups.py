@@ -7,6 +7,7 @@ from firetwin.blender import compat
 from firetwin.render import groups
 from firetwin.shot import sections
 from firetwin.shot import settings as scene_settings
+from firetwin.shot.sections.thermal import BANDS
 from firetwin_core import sensor
 
 HEIGHT, WIDTH = 24, 40
@@ -80,7 +81,7 @@ def test_thermal_blend_is_the_papers_sum(composite):
 @pytest.mark.parametrize("band", ["lwir", "mwir"])
 def test_a_thermal_camera_reads_temperatures_off_radiance(composite, band):
     warm = kelvin(185.0, 1750.0)
-    limits = sections.BANDS[band]
+    limits = BANDS[band]
     made = composite(
         "Thermal Camera", band, "Kelvin", Radiance=sensor.radiance(warm, limits).astype(np.float32)
     )

@@ -329,8 +329,8 @@ def test_a_system_without_time_zones_says_what_to_install():
 import sys, zoneinfo
 zoneinfo.reset_tzpath([])  # as on Windows
 sys.modules["tzdata"] = None
-from firetwin.shot import sections
-print(sections._zone("America/Los_Angeles"))
+from firetwin.shot.sections import time
+print(time._zone("America/Los_Angeles"))
 """
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert "install the Python package tzdata" in result.stdout, result.stderr

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 from firetwin.run import burning
-from firetwin.shot.sections import SMOKE_METHODS, SmokeSettings, Time
+from firetwin.shot.sections import SmokeSettings, Time
+from firetwin.shot.sections.smoke import SMOKE_METHODS
 from firetwin.shot.settings import Settings
 from firetwin.shot.shot import Shot
 from firetwin.smoke import bake, sources

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from firetwin.run import sun, times
 from firetwin.shot.fire import air_temperature
-from firetwin.shot.sections import BANDS
+from firetwin.shot.sections.thermal import BANDS
 from firetwin_core import run as runs
 from firetwin_core import sensor
 from hypothesis import given

@@ -10,7 +10,7 @@ from firetwin_core import sensor
 
 from ...imaging import colour_bar
 from ...shot.fire import air_temperature
-from ...shot.sections import BANDS
+from ...shot.sections.thermal import BANDS
 from ...shot.shot import Shot
 from . import Files
 

@@ -11,7 +11,7 @@ from firetwin_core import sensor, volume
 from ...blender.owned import Stage, ours
 from ...shot.fire import air_temperature
 from ...shot.light import sky
-from ...shot.sections import BANDS
+from ...shot.sections.thermal import BANDS
 from ...shot.shot import Shot
 from .. import haze, infrared
 from .. import temperature as airs

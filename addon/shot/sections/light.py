@@ -1,0 +1,27 @@
+"""Section [light]: haze, exposure and lamps."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..schema import key
+
+
+@dataclass(frozen=True)
+class Light:
+    """Haze, exposure and the light of the flames."""
+
+    haze: float = key(1.0, "strength of haze; 0: none, 1: a dry September day", at_least=0, at_most=100)
+    exposure: float | None = key(
+        None,
+        "exposure; default: exposure metering per camera: about 0.5 by day, up to 4 by night",
+        unit="stops",
+        at_least=-20,
+        at_most=20,
+    )
+    lamps: int = key(
+        48,
+        "limit on lamps that light terrain and trees for the flames when the sun is low; 0: none",
+        at_least=0,
+        at_most=500,
+    )
