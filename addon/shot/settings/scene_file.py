@@ -80,7 +80,9 @@ class _Reader(SceneText):
                 renamed[section] = self.renamed(renamed[section], keys, (section,), f"{section}.{{}}")
         for (section, key), known in FORMER_VALUES.items():
             table = renamed.get(section)
-            then = table.get(key) if isinstance(table, dict) else None
+            if not isinstance(table, dict):
+                continue
+            then = table.get(key)
             if isinstance(then, str) and then in known:
                 reason = f'{section}.{key} = "{then}" is called "{known[then]}" now; the old value is read'
                 self.former.append(str(self.error((section, key), f"{reason} in this version only")))
