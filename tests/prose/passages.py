@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import ast
 import bisect
-import io
 import re
-import tokenize
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
@@ -38,10 +36,10 @@ def paragraphs(text: str, line: int, last: int, kind: str = TEXT) -> Iterator[Pa
             first, kind = None, TEXT
 
 
-def _docstrings(tree: ast.Module) -> dict[int, str]:
+def _docstrings(nodes: list[ast.AST]) -> dict[int, str]:
     """Find docstrings: the identity of their nodes, and the kind of text."""
     found = {}
-    for node in ast.walk(tree):
+    for node in nodes:
         if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef) and node.body:
             first = node.body[0]
             if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant):
@@ -51,12 +49,17 @@ def _docstrings(tree: ast.Module) -> dict[int, str]:
     return found
 
 
+COMMENT_OR_STRING = re.compile(  # of Python
+    r"(?P<quote>\"\"\"|'''|\"|')(?:\\.|(?!(?P=quote))[^\\])*(?P=quote)|#(?P<comment>[^\n]*)", re.DOTALL
+)
+
+
 def read_python(text: str) -> Iterator[Passage]:
     """Read docstrings, message strings of at least five words and comments of Python or a stub."""
-    tree = ast.parse(text)
-    docstrings = _docstrings(tree)
+    nodes = list(ast.walk(ast.parse(text)))
+    docstrings = _docstrings(nodes)
     pieces = set()
-    for node in ast.walk(tree):  # an f-string comes before its pieces
+    for node in nodes:  # an f-string comes before its pieces
         if isinstance(node, ast.JoinedStr):
             pieces.update(id(value) for value in node.values)
             content = "".join(v.value if isinstance(v, ast.Constant) else "X" for v in node.values)
@@ -67,13 +70,19 @@ def read_python(text: str) -> Iterator[Passage]:
         kind = docstrings.get(id(node))
         if kind or content.count(" ") >= 4:
             yield from paragraphs(content, node.lineno, node.end_lineno or node.lineno, kind or TEXT)
-    comments: list[tuple[int, bool, str]] = []
-    if "#" in text:
-        for token in tokenize.generate_tokens(io.StringIO(text).readline):
-            if token.type == tokenize.COMMENT and not token.string.startswith("#!"):
-                is_alone = not token.line[: token.start[1]].strip()
-                comments.append((token.start[0], is_alone, token.string.lstrip("#: ")))
+    starts = line_starts(text)
+    comments = []
+    for match in COMMENT_OR_STRING.finditer(text):
+        if match["comment"] is not None and not match["comment"].startswith("!"):
+            number = bisect.bisect_right(starts, match.start())
+            is_alone = not text[starts[number - 1] : match.start()].strip()
+            comments.append((number, is_alone, match["comment"].lstrip("#: ")))
     yield from join_comments(comments)
+
+
+def line_starts(text: str) -> list[int]:
+    """Return the positions at which lines begin."""
+    return [0, *(match.end() for match in re.finditer("\n", text))]
 
 
 def join_comments(comments: Iterable[tuple[int, bool, str]]) -> Iterator[Passage]:
@@ -100,7 +109,7 @@ CPP = re.compile(
 
 def read_cpp(text: str) -> Iterator[Passage]:
     """Read comments and string literals of at least five words of C++."""
-    starts = [0, *(match.end() for match in re.finditer("\n", text))]
+    starts = line_starts(text)
     comments = []
     for match in CPP.finditer(text):
         number = bisect.bisect_right(starts, match.start())
