@@ -227,10 +227,10 @@ def tiles(arguments: argparse.Namespace) -> None:
     if arguments.verb == "make":
         _make_tiles(arguments)
         return
-    from .jobs.tiles.access import permitted
+    from .jobs.tiles.access import apply_preferences
     from .tiles import command
 
-    command.run(arguments, permitted(_access(arguments)).network())
+    command.run(arguments, apply_preferences(_access(arguments)).network())
 
 
 def _access(arguments: argparse.Namespace) -> TileAccess:

@@ -68,7 +68,7 @@ def run(
     return out
 
 
-def beside(
+def default_output(
     paths: list[Path], folders: list[Path], start: str = "", at: str = "", projection: str = ""
 ) -> tuple[Path, bool]:
     """Default output folder of a conversion, and whether its run exists already.
@@ -116,7 +116,7 @@ def in_process(
     from ..run.models import heartbeat
 
     files = [Path(path) for path in paths]
-    with heartbeat.to(lambda: worker.sign()):
+    with heartbeat.to(lambda: worker.send_heartbeat()):
         _convert(files, Path(out), options, progress, tell)
 
 

@@ -173,7 +173,7 @@ def make(
     pictures = [[picture.camera, picture.frame, picture.name] for picture in undone]
     task = task | {"out": str(store.out.absolute()), "pictures": pictures, "owner": owner}
     eevee = shot.settings.render.engine == "eevee"
-    follow = following(store.out, progress, tell)
+    follow = picture_progress(store.out, progress, tell)
     try:
         result = worker.run(job, task, follow, eevee=eevee, stop=stop, tell=tell)
     except BaseException:
@@ -186,7 +186,7 @@ def make(
     return result
 
 
-def following(out: Path, progress: Progress, tell: MessageCallback) -> Progress:
+def picture_progress(out: Path, progress: Progress, tell: MessageCallback) -> Progress:
     """Progress whose note is a picture in the folder `out`: shows its path, and reports the first one."""
     told = False
 
@@ -243,15 +243,15 @@ def in_blender(
     drawn = set(todo)
     if todo:
         _check_device(shot)
-    frames, expected = frames_of(todo), 0
+    frames, expected = count_frames(todo), 0
     made_with = fingerprint.compute_pairs(shot, {(camera, name) for camera, name in filmed}, progress)
     everything, after = plan.pictures(shot, *selection), 0 if resume else begun
     with sharing.open_session(Path(out), made_with, owner, after, begun, everything) as session:
         over = 0
         for part in plan.rounds(shot, todo):
-            over += frames_of(part)
+            over += count_frames(part)
             while free := session.free(part, tell):
-                done = over - frames_of(free)
+                done = over - count_frames(free)
                 for camera, group in itertools.groupby(free, key=lambda picture: picture.camera):
                     wanted = list(group)
                     own = share(progress, done, frames, "rendering")
@@ -259,7 +259,7 @@ def in_blender(
                         expected,
                         _camera(ShotSource(**choice), for_view(shot, camera), session, wanted, own, tell),
                     )
-                    done += frames_of(wanted)
+                    done += count_frames(wanted)
         if todo and shot.settings.smoke.enabled:
             tell(plume_mass.describe(shot))
         comparison.make(shot, session, [each for each in asked if each not in drawn], progress, tell)
@@ -289,7 +289,7 @@ def _check_device(shot: Shot) -> None:
         raise input_error(at.path, at.reason, line=at.line, column=at.column, kind=UnavailableError) from None
 
 
-def frames_of(pictures: list[Any]) -> int:
+def count_frames(pictures: list[Any]) -> int:
     """Number of frames of these pictures."""
     return len({(picture.camera, picture.frame) for picture in pictures})
 
@@ -310,8 +310,8 @@ def _camera(
 
     for text in shot.warnings():
         tell(text)
-    frames, done, most = frames_of(wanted), 0, 0
-    drawn, hazy = plan.rendered(shot, wanted), smoky(shot, wanted)
+    frames, done, most = count_frames(wanted), 0, 0
+    drawn, hazy = plan.rendered(shot, wanted), smoke_frames(shot, wanted)
     tiled = [tile_cut.location(shot)] if shot.settings.tiles.sources else []
     with (
         cache.in_use(*tiled),
@@ -328,7 +328,7 @@ def _camera(
                 tell(expected.describe(load))
             own = share(progress, done, frames, "rendering")
             pictures.render(shot, stage, session, group, own, ready, tell)
-            done += frames_of(group)
+            done += count_frames(group)
     return most
 
 
@@ -352,7 +352,7 @@ def _solving(
         if not source.is_prepared(missing[0]):
             progress(*done)
 
-    with solve.beside(choice, camera.name, missing, report) as working:
+    with solve.in_parallel(choice, camera.name, missing, report) as working:
         yield working
 
 
@@ -370,7 +370,7 @@ def _parts(shot: Shot, wanted: list[Any]) -> Iterator[tuple[Shot, list[Any]]]:
         yield shot if len(own) == 1 else shot.for_frames(own[k]), list(group)
 
 
-def smoky(shot: Shot, wanted: list[Any]) -> list[int]:
+def smoke_frames(shot: Shot, wanted: list[Any]) -> list[int]:
     """Frames of pictures that show smoke, ascending."""
     from ..render import plan
     from ..shot import passes

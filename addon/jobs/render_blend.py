@@ -15,7 +15,7 @@ from ..shot.shot import Shot
 from ..shot.source import ShotSource
 from ..shot.tiles import tile_terms
 from . import worker
-from .render import RenderRequest, frames_of, make, smoky
+from .render import RenderRequest, count_frames, make, smoke_frames
 
 
 def run(
@@ -110,10 +110,10 @@ def in_blender(
     if stage.scene.render.engine == "CYCLES":
         tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
     known = {(camera, name): values for camera, name, values in made_with}
-    frames, done, after = frames_of(todo), 0, 0 if resume else begun
+    frames, done, after = count_frames(todo), 0, 0 if resume else begun
     with (
         sharing.open_session(Path(out), known, owner, after, begun, todo) as session,
-        prefetch.smoke(shot, smoky(shot, todo), progress, tell) as ready,
+        prefetch.smoke(shot, smoke_frames(shot, todo), progress, tell) as ready,
     ):
         for camera, group in itertools.groupby(todo, key=lambda picture: picture.camera):
             if stage.camera(camera) is None:
@@ -122,7 +122,7 @@ def in_blender(
             engine.set_resolution(alone.settings, stage.scene)
             part = share(progress, done, frames, "rendering")
             renderer.render(alone, stage, session, wanted, part, ready, tell)
-            done += frames_of(wanted)
+            done += count_frames(wanted)
         video.make(shot, session, progress)
 
 

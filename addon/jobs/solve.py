@@ -16,7 +16,7 @@ Working = Callable[[], bool]
 
 
 @contextlib.contextmanager
-def beside(choice: ShotSource, view: str, frames: list[int], progress: Progress) -> Iterator[Working]:
+def in_parallel(choice: ShotSource, view: str, frames: list[int], progress: Progress) -> Iterator[Working]:
     """Context: solve a view's flow up to these frames in parallel; yields a test of whether it runs.
 
     The solver's half a gigabyte belongs to the other process. Its errors are not raised here: the renderer

@@ -27,7 +27,7 @@ from ..progress import MessageCallback, Progress, duration, no_message, silent
 if TYPE_CHECKING:
     from ..errors import Error
 
-_signs: list[Callable[[], None]] = []
+_heartbeats: list[Callable[[], None]] = []
 
 
 class StoppedError(Exception):
@@ -87,8 +87,8 @@ def run(
     blender
         The task needs Blender; a task that does not need it also runs without a Blender.
     patience
-        Timeout in s: the child is ended after this time without progress or heartbeat (`sign`); 0: no
-        timeout.
+        Timeout in s: the child is ended after this time without progress or heartbeat (`send_heartbeat`); 0:
+        no timeout.
 
     Returns
     -------
@@ -289,7 +289,7 @@ def serve(blender: bool = True) -> None:
     def answer(**message: Any) -> None:
         print(json.dumps(message), file=channel, flush=True)
 
-    _signs.append(lambda: answer(sign=True))
+    _heartbeats.append(lambda: answer(sign=True))
     if blender:
         import bpy  # noqa: F401 (before the core: the first of two libtbb.so.12 wins, and it must be Blender's)
 
@@ -309,14 +309,14 @@ def serve(blender: bool = True) -> None:
         import traceback
 
         traceback.print_exc()
-        answer(error=plain(_of_ours(error)))
+        answer(error=plain(_as_firetwin_error(error)))
     else:
         answer(result=result)
     sys.stderr.flush()
     os._exit(0)  # Blender as a module may crash while the interpreter shuts down
 
 
-def _of_ours(error: Exception) -> Error:
+def _as_firetwin_error(error: Exception) -> Error:
     """An error as one of ours."""
     from ..errors import Error, TryAgainError, full_disk_error, input_error, is_worth_another_try
 
@@ -329,9 +329,9 @@ def _of_ours(error: Exception) -> Error:
     return TryAgainError(text) if again else Error(text)
 
 
-def sign() -> None:
+def send_heartbeat() -> None:
     """Send a heartbeat to the parent's watchdog (`patience`); no effect in other processes."""
-    for say in _signs:
+    for say in _heartbeats:
         say()
 
 

@@ -123,7 +123,7 @@ def _build_terrain(
 ) -> None:
     preview.remove(stage)
     ground.build(shot, stage, grown, shape)
-    if sentence := footprints.said(shot):
+    if sentence := footprints.summary(shot):
         tell(sentence)
     if cut := tile_cut.of_shot(shot):
         tiles.build(shot, stage, cut, grown)

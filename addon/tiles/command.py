@@ -11,7 +11,7 @@ from . import info
 from .loader import Loader
 from .sources import Network, Source, open_source
 
-_FILES = 50  # of a server
+_MAX_SERVER_FILES = 50  # of a server
 
 
 def run(arguments: argparse.Namespace, network: Network) -> None:
@@ -25,18 +25,18 @@ def run(arguments: argparse.Namespace, network: Network) -> None:
     source = open_source(arguments.source, network)
     try:
         with notify_if_slow(f"reading {source.name(source.root)}"):
-            facts = info.gather(Loader(source), arguments.files or _most(source))
+            facts = info.gather(Loader(source), arguments.files or _default_files(source))
     finally:
         source.close()
-    result(json.dumps(facts, indent=1) if arguments.json else info.page(facts))
+    result(json.dumps(facts, indent=1) if arguments.json else info.format_text(facts))
     if arguments.strict and facts["missing"]:
         raise Error(
             f"--strict: {count(len(facts['missing']), 'file')} missing: {'; '.join(facts['missing'])}"
         )
 
 
-def _most(source: Source) -> int | None:
+def _default_files(source: Source) -> int | None:
     """Files to read without being asked for more."""
     if not source.policy.may_prefetch:
         return 1
-    return None if source.local else _FILES
+    return None if source.local else _MAX_SERVER_FILES

@@ -34,7 +34,7 @@ def kind_by_name(uri: str) -> str:
     return ending if ending in (*MAGIC.values(), *_ENDINGS) else "unknown"
 
 
-def cut_off(data: bytes) -> str | None:
+def truncation(data: bytes) -> str | None:
     """How a file falls short of the length in its own header; None where it does not."""
     found = MAGIC.get(data[:4])
     if found is None:

@@ -92,7 +92,7 @@ class Choice:
     stand_ins: NDArray[np.int64]
     missing: Mapping[int, str]
 
-    def sentence(self) -> str:
+    def message(self) -> str:
         """What a user should know of a choice that is coarser than asked for, or not whole; else nothing."""
         parts = []
         if self.error > self.asked:
@@ -125,21 +125,21 @@ class _Measured:
         if known == tree.size:
             return
         new = np.arange(known, tree.size)
-        volumes = self.placed(tree.volumes.taken(new))
-        self.error = np.concatenate([self.error, self.seen(volumes, tree.error[known:])])
+        volumes = self.to_scene(tree.volumes.take(new))
+        self.error = np.concatenate([self.error, self.visible_error(volumes, tree.error[known:])])
         outside = np.zeros(len(new), bool)
         asking = [tile for tile in sorted(tree.request) if tile >= known]
         if asking:
-            request = self.placed(Volumes.joined([tree.request[tile] for tile in asking]))
+            request = self.to_scene(Volumes.concatenate([tree.request[tile] for tile in asking]))
             inside = tiles.contains_any(*_arrays(request), self.views.eyes)
             outside[np.array(asking) - known] = ~inside
         self.outside_request_volume = np.concatenate([self.outside_request_volume, outside])
 
-    def placed(self, volumes: Volumes) -> Volumes:
+    def to_scene(self, volumes: Volumes) -> Volumes:
         """Volumes in the scene."""
         return volumes.moved(self.matrix[None], np.zeros(len(volumes.padding), np.int64))
 
-    def seen(self, volumes: Volumes, error: NDArray[np.float64]) -> NDArray[np.float64]:
+    def visible_error(self, volumes: Volumes, error: NDArray[np.float64]) -> NDArray[np.float64]:
         """Screen-space errors of volumes in the scene, pixels; -1: no view sees them."""
         scale = float(np.linalg.norm(self.matrix[:3, :3], ord=2))
         errors = tiles.screen_error(
@@ -156,7 +156,7 @@ class _Measured:
                 each @ earth[:3, :3].T + earth[:3, 3] for each in (volumes.centre, self.views.eyes)
             )
             radius = np.linalg.norm(volumes.half, axis=1) + volumes.padding
-            errors[horizon.hidden(centre, radius, eyes)] = -1.0
+            errors[horizon.hidden_mask(centre, radius, eyes)] = -1.0
         return errors
 
 
@@ -170,7 +170,7 @@ def choose(
     margin: float = 0.0,
     shadows: bool = False,
     fetch: bool = True,
-    put: Callable[[int, bytes], object] | None = None,
+    on_content: Callable[[int, bytes], object] | None = None,
     triangles: Mapping[int, int] | None = None,
     progress: Progress = silent,
 ) -> Choice:
@@ -188,7 +188,7 @@ def choose(
         Whether a tile counts as visible if its shadow falls on a visible place.
     fetch
         Fetch the contents, to know that they are there and what they are.
-    put
+    on_content
         Receives number and bytes of contents as they are fetched; some may not be part of the choice.
     triangles
         Of contents, as far as known.
@@ -199,7 +199,7 @@ def choose(
         A file of the tileset is wrong, or refused, or the source does not go on.
     """
     measured = _Measured(loader, views, matrix, margin, shadows)
-    sizes = _Sizes(loader, triangles or {}, put, progress)
+    sizes = _Sizes(loader, triangles or {}, on_content, progress)
     limits = [
         -1 if most is None else most
         for most in ((budget.tiles, budget.bytes, budget.triangles) if budget else (None, None, None))
@@ -214,8 +214,8 @@ def choose(
         if len(cut.expand):
             loader.expand(cut.expand)
             continue
-        contents = _shown(measured, cut)
-        if limits[1] >= 0 and sizes.learn(contents):
+        contents = _visible_contents(measured, cut)
+        if limits[1] >= 0 and sizes.fetch_sizes(contents):
             continue
         if not fetch or not sizes.check(contents):
             return Choice(
@@ -231,10 +231,10 @@ class _Sizes:
         self,
         loader: Loader,
         triangles: Mapping[int, int],
-        put: Callable[[int, bytes], object] | None,
+        on_content: Callable[[int, bytes], object] | None,
         progress: Progress,
     ) -> None:
-        self.loader, self.triangles, self.put, self.progress = loader, triangles, put, progress
+        self.loader, self.triangles, self.on_content, self.progress = loader, triangles, on_content, progress
         self.known: dict[int, int] = {}
 
     def arrays(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -246,7 +246,7 @@ class _Sizes:
                 np.add.at(row, owner, np.array(list(numbers.values())))
         return result[0], result[1]
 
-    def learn(self, contents: NDArray[np.int64]) -> bool:
+    def fetch_sizes(self, contents: NDArray[np.int64]) -> bool:
         """Ask the source for the bytes of contents; whether there is something new."""
         source, new = self.loader.source, False
         for content in map(int, contents):
@@ -260,14 +260,14 @@ class _Sizes:
 
         def keep(content: int, data: bytes) -> None:
             self.known[content] = len(data)
-            if self.put is not None:
-                self.put(content, data)
+            if self.on_content is not None:
+                self.on_content(content, data)
 
         before = dict(self.known)
         return self.loader.check(contents, keep, self.progress) or self.known != before
 
 
-def _shown(measured: _Measured, cut: tiles.Cut) -> NDArray[np.int64]:
+def _visible_contents(measured: _Measured, cut: tiles.Cut) -> NDArray[np.int64]:
     """Contents of the tiles of a cut. Added tiles lack those whose own volume no view sees."""
     tree = measured.loader.tree
     contents = tree.contents_of(cut.tiles)
@@ -277,8 +277,8 @@ def _shown(measured: _Measured, cut: tiles.Cut) -> NDArray[np.int64]:
         return contents
     parent = tree.parent[tree.content[own, 0]]
     added = (parent >= 0) & ~tree.replaces[parent]
-    volumes = measured.placed(Volumes.joined([tree.content_volume[content] for content in own]))
-    unseen = measured.seen(volumes, np.zeros(len(own))) < 0.0
+    volumes = measured.to_scene(Volumes.concatenate([tree.content_volume[content] for content in own]))
+    unseen = measured.visible_error(volumes, np.zeros(len(own))) < 0.0
     return np.setdiff1d(contents, np.array(own)[added & unseen])
 
 

@@ -143,7 +143,7 @@ def write(tile: tiles.Tile, path: Path, resources: dict[str, bytes]) -> None:
     resources
         Files beside the content by uri, for pictures that lie there.
     """
-    pictures = [_store(each, path.parent, resources) for each in tile.images]
+    pictures = [_store_picture(each, path.parent, resources) for each in tile.images]
     materials: list[dict[str, Any]] = [
         {
             "colour": list(each.colour),
@@ -163,15 +163,15 @@ def write(tile: tiles.Tile, path: Path, resources: dict[str, bytes]) -> None:
     about = {
         "one": 1,
         "vertices": len(tile.position),
-        "colours": len(_tinted(tile)),
+        "colours": len(_vertex_colours(tile)),
         "triangles": len(tile.triangle),
         "points": points,
-        "spacing": point_spacing.of(tile.position[len(tile.position) - points :]),
+        "spacing": point_spacing.estimate(tile.position[len(tile.position) - points :]),
         "materials": materials,
         "credit": tile.copyright,
     }
     arrays = {name: getattr(tile, name) for name in _ARRAYS if name != "material_index"}
-    arrays |= {"material_index": index, "colour": _tinted(tile)}
+    arrays |= {"material_index": index, "colour": _vertex_colours(tile)}
     header = json.dumps(about).encode()
     header += b" " * (-(len(_FIRST) + 4 + len(header)) % 8)
 
@@ -184,7 +184,7 @@ def write(tile: tiles.Tile, path: Path, resources: dict[str, bytes]) -> None:
     files.write(path, put, durable=False)
 
 
-def _tinted(tile: tiles.Tile) -> NDArray[np.float32]:
+def _vertex_colours(tile: tiles.Tile) -> NDArray[np.float32]:
     """Colours of the vertices, those of points multiplied with their material's."""
     tints = [
         (part, np.asarray(tile.materials[part.material].colour, np.float32))
@@ -199,12 +199,12 @@ def _tinted(tile: tiles.Tile) -> NDArray[np.float32]:
     return colour
 
 
-def summary(path: Path) -> Summary | None:
+def read_summary(path: Path) -> Summary | None:
     """Numbers of a decoded tile; None where the file is not there or not whole."""
     try:
         with path.open("rb") as stream:
             about, start = _header(stream.read(len(_FIRST) + 4), stream.read)
-            if start + _bytes(about) != path.stat().st_size:
+            if start + _array_bytes(about) != path.stat().st_size:
                 return None
             return _summary(about)
     except (OSError, ValueError, LookupError, TypeError, struct.error):
@@ -223,7 +223,7 @@ def read(path: Path) -> Decoded:
         data = path.read_bytes()
         at = len(_FIRST) + 4
         about, start = _header(data[:at], lambda count: data[at : at + count])
-        if start + _bytes(about) != len(data):
+        if start + _array_bytes(about) != len(data):
             raise ValueError("its length is another")
         arrays = {}
         for name, (kind, length, width) in _ARRAYS.items():
@@ -250,7 +250,7 @@ def _header(first: bytes, read: Any) -> tuple[dict[str, Any], int]:
     return json.loads(read(length)), len(first) + length
 
 
-def _bytes(about: dict[str, Any]) -> int:
+def _array_bytes(about: dict[str, Any]) -> int:
     """Bytes of all arrays."""
     return sum(about[length] * width * np.dtype(kind).itemsize for kind, length, width in _ARRAYS.values())
 
@@ -260,7 +260,7 @@ def _summary(about: dict[str, Any]) -> Summary:
     return Summary(*(about[name] for name in names))
 
 
-def pictures(path: Path) -> set[str]:
+def picture_names(path: Path) -> set[str]:
     """Names of the pictures that a decoded tile's file names; none where it cannot be read."""
     try:
         with path.open("rb") as stream:
@@ -283,7 +283,7 @@ def _is_consistent(tile: Decoded) -> bool:
     )
 
 
-def _store(image: tiles.Image, folder: Path, resources: dict[str, bytes]) -> str:
+def _store_picture(image: tiles.Image, folder: Path, resources: dict[str, bytes]) -> str:
     """Name of a picture's file, which is written where it is new."""
     data = image.data or resources.get(image.uri, b"")
     if not data or image.kind not in _ENDS:

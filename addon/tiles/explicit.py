@@ -152,10 +152,10 @@ class _Walk:
         order, parts = [], []
         for kind, (rows, numbers) in self.numbers.items():
             if rows:
-                part = volumes.of(kind, np.array(numbers))
+                part = volumes.from_numbers(kind, np.array(numbers))
                 parts.append(part if kind == "region" else part.moved(matrices, which[rows]))
                 order += rows
-        return Volumes.joined(parts).taken(np.argsort(np.array(order, np.int64)))
+        return Volumes.concatenate(parts).take(np.argsort(np.array(order, np.int64)))
 
     def _visit(self, tile: _Pending) -> None:
         node, row = tile.node, len(self.parent)
@@ -242,7 +242,7 @@ class _Walk:
         return word == "REPLACE"
 
     def _moved(self, kind: str, numbers: list[float], matrix: int) -> Volumes:
-        found = volumes.of(kind, np.array([numbers]))
+        found = volumes.from_numbers(kind, np.array([numbers]))
         if kind == "region":
             return found
         return found.moved(self.matrices[matrix][0][None], np.zeros(1, np.int64))

@@ -18,7 +18,7 @@ _AXES = np.array([A, A, A * np.sqrt(1.0 - E2)]) - LOWEST
 Array = NDArray[np.float64]
 
 
-def hidden(centre: Array, radius: Array, eyes: Array) -> NDArray[np.bool_]:
+def hidden_mask(centre: Array, radius: Array, eyes: Array) -> NDArray[np.bool_]:
     """Whether spheres (n,) are behind the Earth for all eyes; none is without an eye.
 
     Parameters
@@ -34,11 +34,11 @@ def hidden(centre: Array, radius: Array, eyes: Array) -> NDArray[np.bool_]:
         left = np.flatnonzero(result)
         if len(left) == 0:
             break
-        result[left] = _behind(place[left], size[left], eye)
+        result[left] = _is_behind(place[left], size[left], eye)
     return result
 
 
-def _behind(place: Array, radius: Array, eye: Array) -> NDArray[np.bool_]:
+def _is_behind(place: Array, radius: Array, eye: Array) -> NDArray[np.bool_]:
     """Whether scaled spheres are behind the unit sphere for one scaled eye."""
     away = float(np.linalg.norm(eye))
     if away <= 1.0:

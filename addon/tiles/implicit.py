@@ -199,11 +199,11 @@ def _volumes(
         every[kind].append(each.with_heights(kind, mine))
     parts = [_moved(tree, place, kind, np.array(every[kind])) for kind in own if own[kind]]
     order = np.concatenate([own[kind] for kind in own if own[kind]])
-    return Volumes.joined(parts).taken(np.argsort(order))
+    return Volumes.concatenate(parts).take(np.argsort(order))
 
 
 def _moved(tree: Tree, place: Place, kind: str, numbers: NDArray[np.float64]) -> Volumes:
-    found = volumes.of(kind, numbers)
+    found = volumes.from_numbers(kind, numbers)
     if kind == "region":
         return found
     return found.moved(tree.matrix_number(place.matrix)[None], np.zeros(len(numbers), np.int64))

@@ -13,7 +13,7 @@ from .loader import Loader
 from .place import ecef_to_frame
 from .tree import MODEL
 
-_LOOKED_AT = 1000  # contents of a folder or archive whose first bytes are read
+_SAMPLED = 1000  # contents of a folder or archive whose first bytes are read
 _EARTH = 6_000_000.0  # m; what lies nearer to the origin is not Earth-centred
 
 
@@ -34,7 +34,7 @@ def gather(loader: Loader, most: int | None) -> dict[str, Any]:
     tree, source = loader.tree, loader.source
     if source.local:
         models = np.flatnonzero(tree.content_kind == MODEL)
-        loader.check(models[:: max(len(models) // _LOOKED_AT, 1)])
+        loader.check(models[:: max(len(models) // _SAMPLED, 1)])
         whole = loader.expand_all(most) and whole
     models = np.flatnonzero(tree.content_kind == MODEL)
     kinds = Counter(loader.kind(int(each)) for each in models)
@@ -52,7 +52,7 @@ def gather(loader: Loader, most: int | None) -> dict[str, Any]:
         "tiles": tree.size,
         "contents": len(models),
         "kinds": dict(sorted(kinds.items())),
-        "by_first_bytes": source.local and len(models) <= _LOOKED_AT,
+        "by_first_bytes": source.local and len(models) <= _SAMPLED,
         "levels": [
             {
                 "tiles": int((level == each).sum()),
@@ -69,7 +69,7 @@ def gather(loader: Loader, most: int | None) -> dict[str, Any]:
     }
 
 
-def page(facts: dict[str, Any]) -> str:
+def format_text(facts: dict[str, Any]) -> str:
     """The facts for people."""
     kinds = ", ".join(f"{number:,} {name}" for name, number in facts["kinds"].items()) or "none"
     how = "" if facts["by_first_bytes"] else " (by their names)"
@@ -81,7 +81,7 @@ def page(facts: dict[str, Any]) -> str:
         f"tiles      {facts['tiles']:,} ({refine})",
         f"contents   {facts['contents']:,}: {kinds}{how}",
         f"extent     {size[0]:,.0f} x {size[1]:,.0f} x {size[2]:,.0f} m along the axes of the root",
-        f"centre     {_place(facts['centre'])}",
+        f"centre     {_format_place(facts['centre'])}",
         f"credits    {'; '.join(facts['credits']) or 'none in tileset.json; contents may have their own'}",
         "level      tiles   with content   geometric error, m",
     ]
@@ -102,7 +102,7 @@ def _centre(place: np.ndarray) -> dict[str, float] | None:
     return {"latitude": float(latitude[0]), "longitude": float(longitude[0]), "height_m": float(height[0])}
 
 
-def _place(centre: dict[str, float] | None) -> str:
+def _format_place(centre: dict[str, float] | None) -> str:
     if centre is None:
         return "not placed on the Earth"
     latitude, longitude = centre["latitude"], centre["longitude"]

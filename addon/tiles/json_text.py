@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import InputError, input_error
 
-MOST_BYTES = 64 << 20  # of one text
+MAX_BYTES = 64 << 20  # of one text
 DEEPEST = 256  # arrays and objects in one another
 
 _TEXT = re.compile(rb'"(?:[^"\\]|\\.)*"', re.DOTALL)
@@ -27,8 +27,8 @@ def parse(data: bytes, file: str) -> Node:
     InputError
         It is larger than 64 MB, deeper than 256, not UTF-8, not JSON, or has a number that is not finite.
     """
-    if len(data) > MOST_BYTES:
-        raise input_error(file, f"is larger than {MOST_BYTES >> 20} MB; split the tileset")
+    if len(data) > MAX_BYTES:
+        raise input_error(file, f"is larger than {MAX_BYTES >> 20} MB; split the tileset")
     data = data.removeprefix(b"\xef\xbb\xbf")
     if _depth(data) > DEEPEST:
         raise input_error(file, f"has more than {DEEPEST} JSON arrays or objects in one another")

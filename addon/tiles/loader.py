@@ -11,7 +11,7 @@ from ..progress import Progress, silent
 from . import contents, documents, explicit, implicit
 from .explicit import External
 from .implicit import Subtree
-from .json_text import MOST_BYTES, Node, parse
+from .json_text import MAX_BYTES, Node, parse
 from .sources import MissingError, Source
 from .tree import EXTERNAL, MODEL, Tree
 
@@ -38,10 +38,10 @@ class Loader:
         self.source, self.tree, self.files = source, Tree(), 1
         self._kinds: dict[int, str] = {}
         self._pool: ThreadPoolExecutor | None = None
-        node = parse(source.read(source.root, MOST_BYTES), source.name(source.root))
+        node = parse(source.read(source.root, MAX_BYTES), source.name(source.root))
         explicit.read(self.tree, node, source.root, load=self._json(source.root))
 
-    def expand(self, some: Iterable[int]) -> None:
+    def expand(self, tile_ids: Iterable[int]) -> None:
         """Read what tells the children of some tiles. What is missing makes a tile broken.
 
         Raises
@@ -49,9 +49,9 @@ class Loader:
         InputError
             A file is there, but cannot be read, or is refused.
         """
-        jobs = [(tile, job) for tile in sorted(map(int, some)) for job in self.tree.jobs.get(tile, [])]
+        jobs = [(tile, job) for tile in sorted(map(int, tile_ids)) for job in self.tree.jobs.get(tile, [])]
         uris = [self._uri(job) for _, job in jobs]
-        found = self._fetch(uris, MOST_BYTES)
+        found = self._fetch(uris, MAX_BYTES)
         for (tile, job), uri, data in zip(jobs, uris, found, strict=True):
             self.tree.jobs.pop(tile, None)
             if isinstance(data, MissingError):
@@ -59,12 +59,12 @@ class Loader:
             else:
                 self._graft(tile, job, uri, data)
 
-    def expand_all(self, most: int | None = None) -> bool:
-        """Read all, or at most so many files; whether all has been read."""
+    def expand_all(self, max_files: int | None = None) -> bool:
+        """Read all JSON files and subtrees, or at most `max_files`; return whether all were read."""
         while self.tree.jobs:
             tiles = sorted(self.tree.jobs)
-            if most is not None:
-                tiles = tiles[: max(most - self.files, 0)]
+            if max_files is not None:
+                tiles = tiles[: max(max_files - self.files, 0)]
             if not tiles:
                 return False
             self.expand(tiles)
@@ -77,8 +77,8 @@ class Loader:
 
     def check(
         self,
-        some: Iterable[int],
-        put: Callable[[int, bytes], object] | None = None,
+        content_ids: Iterable[int],
+        on_content: Callable[[int, bytes], object] | None = None,
         progress: Progress = silent,
     ) -> bool:
         """Fetch contents, and find out what they are.
@@ -87,20 +87,20 @@ class Loader:
 
         Parameters
         ----------
-        put
+        on_content
             Receives the number and the bytes of each content that can be shown.
 
         Returns
         -------
         Whether the tree has changed.
         """
-        numbers = [number for number in map(int, some) if number not in self._kinds]
+        numbers = [number for number in map(int, content_ids) if number not in self._kinds]
         changed = False
         for first in range(0, len(numbers), 64):
             part = numbers[first : first + 64]
             uris = [self.content_uri(number) for number in part]
             for number, uri, data in zip(part, uris, self._fetch(uris), strict=True):
-                changed |= self._note(number, uri, data, put)
+                changed |= self._note(number, uri, data, on_content)
             progress(first + len(part), len(numbers), "fetching tiles")
         return changed
 
@@ -113,7 +113,7 @@ class Loader:
         content: int,
         uri: str,
         data: bytes | MissingError,
-        put: Callable[[int, bytes], object] | None,
+        on_content: Callable[[int, bytes], object] | None,
     ) -> bool:
         tile = int(self.tree.content[content, 0])
         if isinstance(data, MissingError):
@@ -130,12 +130,12 @@ class Loader:
             self.tree.set_kind(content, EXTERNAL)
             self._read(tile, node, uri)
             return True
-        if (short := contents.cut_off(data)) is not None:
+        if (short := contents.truncation(data)) is not None:
             self._kinds[content] = "missing"
             self.tree.broken[tile] = f"{self.source.name(uri)}: ends early: {short}"
             return True
-        if put is not None:
-            put(content, data)
+        if on_content is not None:
+            on_content(content, data)
         return False
 
     def _uri(self, job: Job) -> str:
@@ -158,12 +158,12 @@ class Loader:
         self.files += 1
         explicit.read(self.tree, node, uri, holder, self._json(uri))
 
-    def _fetch(self, uris: list[str], most: int | None = None) -> list[bytes | MissingError]:
+    def _fetch(self, uris: list[str], max_bytes: int | None = None) -> list[bytes | MissingError]:
         """Contents of files, or why they are missing."""
 
         def one(uri: str) -> bytes | MissingError:
             try:
-                return self.source.read(uri) if most is None else self.source.read(uri, most)
+                return self.source.read(uri) if max_bytes is None else self.source.read(uri, max_bytes)
             except MissingError as error:
                 return error
 
@@ -174,13 +174,13 @@ class Loader:
         return list(self._pool.map(one, uris))
 
     def _bytes(self, base: str) -> Callable[[str], bytes]:
-        return lambda reference: self.source.read(self.source.resolve(base, reference), MOST_BYTES)
+        return lambda reference: self.source.read(self.source.resolve(base, reference), MAX_BYTES)
 
     def _json(self, base: str) -> Callable[[str], Node | None]:
         def load(reference: str) -> Node | None:
             uri = self.source.resolve(base, reference)
             try:
-                return parse(self.source.read(uri, MOST_BYTES), self.source.name(uri))
+                return parse(self.source.read(uri, MAX_BYTES), self.source.name(uri))
             except MissingError:
                 return None
 

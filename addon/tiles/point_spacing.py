@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 _IN_A_CELL = 8.0
 """Points in a cell, about."""
-_TURNS = 6
+_ITERATIONS = 6
 
 
-def of(position: NDArray[np.float32]) -> float:
+def estimate(position: NDArray[np.float32]) -> float:
     """Distance between neighbouring points (n, 3) of a surface, m: sqrt(area / n); 0 for less than 2 points.
 
     The area is that of the cells that hold points; cells are so large that about 8 points share one.
@@ -24,13 +24,13 @@ def of(position: NDArray[np.float32]) -> float:
         return 0.0
     wanted = min(_IN_A_CELL, max(len(points) / 4.0, 1.0))
     side = size / np.sqrt(len(points) / wanted)
-    for _ in range(_TURNS):
-        shared = len(points) / _cells(points, side)
+    for _ in range(_ITERATIONS):
+        shared = len(points) / _count_cells(points, side)
         side = min(side * float(np.clip(np.sqrt(wanted / shared), 0.25, 4.0)), size)
-    return float(side * np.sqrt(_cells(points, side) / len(points)))
+    return float(side * np.sqrt(_count_cells(points, side) / len(points)))
 
 
-def _cells(points: NDArray[np.float64], side: float) -> int:
+def _count_cells(points: NDArray[np.float64], side: float) -> int:
     """Number of cells that hold points."""
     x, y, z = np.floor(points / side).astype(np.int64).T
     return len(np.unique((x << 42) ^ (y << 21) ^ z))

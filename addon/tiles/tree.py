@@ -208,7 +208,7 @@ class Tree:
     def volumes(self) -> Volumes:
         """Bounding volumes in the root's frame."""
         if self._volumes is None:
-            self._volumes = Volumes.joined([rows.volumes for rows in self._rows])
+            self._volumes = Volumes.concatenate([rows.volumes for rows in self._rows])
         return self._volumes
 
     @property

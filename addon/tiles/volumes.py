@@ -55,12 +55,12 @@ class Volumes:
         axis, half = orthonormal(edges)
         return Volumes(centre, axis, half, self.padding * largest_scale(matrices[:, :3, :3])[which])
 
-    def taken(self, which: NDArray[np.int64]) -> Volumes:
+    def take(self, which: NDArray[np.int64]) -> Volumes:
         """Some of them."""
         return Volumes(self.centre[which], self.axis[which], self.half[which], self.padding[which])
 
     @staticmethod
-    def joined(parts: list[Volumes]) -> Volumes:
+    def concatenate(parts: list[Volumes]) -> Volumes:
         """All of several, in their order."""
         if not parts:
             return Volumes(np.empty((0, 3)), np.empty((0, 3, 3)), np.empty((0, 3)), np.empty(0))
@@ -187,6 +187,6 @@ def _check(node: Node, kind: str, numbers: list[float]) -> None:
             raise node.error("has a longitude beyond a turn (rad)")
 
 
-def of(kind: str, numbers: NDArray[np.float64]) -> Volumes:
+def from_numbers(kind: str, numbers: NDArray[np.float64]) -> Volumes:
     """Volumes of one kind."""
     return {"box": of_boxes, "sphere": of_spheres, "region": of_regions}[kind](numbers)

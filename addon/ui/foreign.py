@@ -61,7 +61,7 @@ class FIRETWIN_OT_convert(Said, Working, bpy.types.Operator):
             output = scene_file.output(panel)
             folders = [paths[0].parent, *([Path(output)] if output else []), scene_file.own_folder() / "runs"]
             said = {name: getattr(self, name).strip() for name in ("start", "at", "projection")}
-            out, there = convert.beside(paths, folders, **said)
+            out, there = convert.default_output(paths, folders, **said)
             if not there:
                 yield InThread(
                     "reading the model's files", functools.partial(convert.run, paths, out, **said)

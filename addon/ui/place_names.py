@@ -25,7 +25,7 @@ def refusal(panel: bpy.types.PropertyGroup) -> str:
     except Error:  # an incomplete text
         return ""
     for place in sources:
-        policy = policies.of_place(place)
+        policy = policies.for_source(place)
         if not policy.other_geocoder:
             return f"{policy.name} allows no other gazetteer; type coordinates"
     return ""

@@ -103,7 +103,7 @@ def _cut(
 
     selection.prepare(chosen, (), progress, tell, stop, preview=coarse)
     shot = chosen.shot()
-    return tile_cut.of_shot(selection.coarse(shot) if coarse else shot)
+    return tile_cut.of_shot(selection.coarse_shot(shot) if coarse else shot)
 
 
 class FIRETWIN_OT_tiles_clear(bpy.types.Operator):

@@ -112,14 +112,14 @@ def test_what_is_assumed_and_mended_is_told(built):
     shot, data, told = built(([ring(0, 0, 60, 80)], {}), ([BOW], {"height": 4}))
     (sentence,) = [text for text in told if "footprints" in text]
     assert "1 without a height are 5 m high; 1 crossed themselves and were split" in sentence
-    assert sorted({each.footprint.height for each in footprints.standing(shot)}) == [4.0, ASSUMED]
+    assert sorted({each.footprint.height for each in footprints.place_buildings(shot)}) == [4.0, ASSUMED]
     assert set(values(data, "number", 1, len(data.polygons), "value")[:, 0]) == {1.0, 2.0}
 
 
 def test_the_land_use_map_has_buildings_by_the_same_rule(built):
     about = {"building": "yes", "building:levels": "3"}
     shot, data, told = built(([ring(0, 0, 60, 80)], about), key="land_use")
-    (found,) = footprints.standing(shot)
+    (found,) = footprints.place_buildings(shot)
     assert found.footprint.height == pytest.approx(9.6)
     assert not any("footprints" in text for text in told)
     assert len(data.polygons) == 10

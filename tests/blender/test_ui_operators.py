@@ -144,7 +144,7 @@ def call(name, options, folder):
 def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path, monkeypatch):
     """Undo reverts the changes of an operator, and redo restores them; other operators change nothing."""
     assert {*CHANGES, *KEEPS, *LISTENS} == set(OPERATORS)
-    monkeypatch.setattr(convert, "beside", lambda paths, *_, **__: (paths[0], True))
+    monkeypatch.setattr(convert, "default_output", lambda paths, *_, **__: (paths[0], True))
     monkeypatch.setattr(sample, "run", lambda folder, **_: shutil.copytree(blend.parent / "other", folder))
     monkeypatch.setattr(render, "run", lambda *_, **__: render.RenderResult(1))
     monkeypatch.setattr(assets, "run", lambda *_, **__: 1)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 from firetwin.tiles.loader import Loader
-from firetwin.tiles.sources._source import MOST_BYTES, Source, missing, unpack
+from firetwin.tiles.sources._source import MAX_BYTES, Source, missing, unpack
 from firetwin.tiles.sources.local import relative
 
 GLB = b"glTF" + struct.pack("<II", 2, 12)
@@ -22,7 +22,7 @@ class Memory(Source):
     def resolve(self, base, reference):
         return relative(base, reference, base)
 
-    def read(self, uri, most=MOST_BYTES):
+    def read(self, uri, most=MAX_BYTES):
         self.reads.append(uri)
         if uri not in self.files:
             raise missing(uri, "is not there")

@@ -56,7 +56,7 @@ def test_what_was_assumed_and_mended_is_counted_and_said():
     assert (found.assumed, found.mended, found.refused) == (1, 1, 0)
     assert [each.height for each in found.outlines] == [9.0, ASSUMED, ASSUMED, 6.0, 6.0]
     assert [each.number for each in found.outlines] == [0, 1, 1, 2, 2]
-    assert found.said() == (
+    assert found.summary() == (
         "footprints of buildings: 5; 1 without a height are 5 m high; 1 crossed themselves and were split"
     )
 
@@ -66,7 +66,7 @@ def test_without_shapely_what_crosses_itself_is_left_out_and_said(without_shapel
     found = buildings.collect([(((SQUARE[::-1],), (BOW,), (flat,)), 9.0)])
     assert [each.outer.tolist() for each in found.outlines] == [SQUARE.tolist()]
     assert (found.mended, found.refused) == (0, 1)
-    assert found.said().endswith("1 cross themselves and are left out (shapely splits them)")
+    assert found.summary().endswith("1 cross themselves and are left out (shapely splits them)")
 
 
 @pytest.mark.parametrize(
@@ -110,7 +110,7 @@ def slope(place):
 
 
 def test_walls_begin_below_all_ground_and_the_roof_is_level_above_all_ground():
-    (low, high) = buildings.stand(
+    (low, high) = buildings.place_on_ground(
         [buildings.Footprint(SQUARE, (), 3.0), buildings.Footprint(SQUARE, (), 30.0)], slope
     )
     dense = slope(np.stack(np.meshgrid(np.linspace(0, 20, 81), np.linspace(0, 10, 41)), -1).reshape(-1, 2))
@@ -123,7 +123,7 @@ def test_walls_begin_below_all_ground_and_the_roof_is_level_above_all_ground():
 
 
 def test_a_pit_within_the_footprint_is_found():
-    (found,) = buildings.stand(
+    (found,) = buildings.place_on_ground(
         [buildings.Footprint(SQUARE, (), 9.0)],
         lambda at: 50.0 - 8.0 * (np.hypot(at[:, 0] - 14.0, at[:, 1] - 5.0) < 3.0),
     )
@@ -131,13 +131,15 @@ def test_a_pit_within_the_footprint_is_found():
 
 
 def test_nothing_stands_nowhere():
-    assert buildings.stand([], slope) == []
+    assert buildings.place_on_ground([], slope) == []
 
 
 @pytest.mark.parametrize("holes", [(), (HOLE,)])
 def test_a_block_is_closed_but_for_its_base(holes):
     pytest.importorskip("shapely", reason="needs shapely")
-    (building,) = buildings.stand([buildings.Footprint(SQUARE, holes, 6.0)], lambda at: 0.0 * at[:, 0])
+    (building,) = buildings.place_on_ground(
+        [buildings.Footprint(SQUARE, holes, 6.0)], lambda at: 0.0 * at[:, 0]
+    )
     corners, roof = blocks.block(building)
     edges = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
     keys = [tuple(map(tuple, each)) for each in edges.tolist()]

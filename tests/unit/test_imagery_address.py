@@ -46,7 +46,7 @@ def test_refused(url, why):
 
 
 def test_openstreetmap_may_not_be_draped_and_others_may():
-    assert policies.of_host("tile.openstreetmap.org") is openstreetmap.POLICY
+    assert policies.for_host("tile.openstreetmap.org") is openstreetmap.POLICY
     assert not policies.OPEN.no_drape
     address.check("http://127.0.0.1:8000/{z}/{x}/{y}.png")
     address.check("https://a.example/{z}/{x}/{y}.png?key=${MY_KEY}")

@@ -36,7 +36,7 @@ def make(tmp_path):
 
 
 def shown(tmp_path, pixels, patch):
-    """The colours of a stitched picture as the ground takes them."""
+    """The colours of a mosaic as the ground takes them."""
     sensor.write_image(tmp_path / "a.png", pixels / 255.0)
     side = pixels.shape[0] // patch.size[1]
     area = DrapeArea(
@@ -67,7 +67,7 @@ def test_a_place_has_the_colour_of_its_tile(make, tmp_path, level, place, rows):
     last = min(wanted.y + 2, 1 << level)
     patch = Patch(level, (column - 1, column + 2), (max(wanted.y - 1, 0), last))
     tiles = make(Tiles(south=rows == "{-y}"), rows)
-    photo = shown(tmp_path, tiles.stitched(patch), patch)
+    photo = shown(tmp_path, tiles.mosaic(patch), patch)
     assert tiles.missing == {}
     for longitude in (place[1], place[1] + 360.0):
         found = photo.colours(np.full((1, 1), place[0]), np.full((1, 1), longitude), 1.0e-3)
@@ -77,7 +77,7 @@ def test_a_place_has_the_colour_of_its_tile(make, tmp_path, level, place, rows):
 def test_the_edge_between_two_tiles_is_where_their_bounds_are(make, tmp_path):
     level, x, y = 12, 675, 1565
     patch = Patch(level, (x, x + 2), (y, y + 2))
-    photo = shown(tmp_path, make(Tiles()).stitched(patch), patch)
+    photo = shown(tmp_path, make(Tiles()).mosaic(patch), patch)
     latitude, longitude = mercator.place_of(x + 1.0, y + 0.5, level)
     texel = 360.0 / (256 * 2**level)
     east = longitude + texel * np.array([[-0.6, 0.0, 0.6]])
@@ -90,7 +90,7 @@ def test_the_parent_stands_in_for_a_missing_tile_and_is_named(make):
     level, x, y = 9, 85, 195
     answers = Tiles(gone={(level, x, y), (level - 1, x >> 1, y >> 1), (level, x + 1, y)})
     tiles = make(answers)
-    pixels = tiles.stitched(Patch(level, (x - 1, x + 2), (y, y + 1)))
+    pixels = tiles.mosaic(Patch(level, (x - 1, x + 2), (y, y + 1)))
     assert tuple(pixels[0, 256 + 128, :3]) == colour(level - 2, x >> 2, y >> 2)
     assert tuple(pixels[0, 128, :3]) == colour(level, x - 1, y)
     assert tuple(pixels[0, 512 + 9, :3]) == colour(level - 1, (x + 1) >> 1, y >> 1)
@@ -108,29 +108,29 @@ def test_a_part_of_a_coarser_tile_is_the_part_at_that_place(make):
     coarse[..., 0], coarse[..., 1] = np.arange(256), np.arange(256)[:, None]
     answers = Tiles(gone={(level, x, y)})
     answers[f"/t/{level - 1}/{x >> 1}/{y >> 1}.png"] = Reply(200, png(coarse), FRESH)
-    pixels = make(answers).stitched(Patch(level, (x, x + 1), (y, y + 1)))
+    pixels = make(answers).mosaic(Patch(level, (x, x + 1), (y, y + 1)))
     assert (pixels[0, 0, 0], pixels[0, -1, 0]) == (128, 255)  # x is odd: the eastern half
     assert (pixels[0, 0, 1], pixels[-1, 0, 1]) == (0, 127)  # y is even: the northern half
 
 
 def test_columns_at_the_date_line_are_asked_for_once(make):
     tiles = make(Tiles())
-    tiles.stitched(Patch(3, (6, 10), (3, 4)))
+    tiles.mosaic(Patch(3, (6, 10), (3, 4)))
     assert [path for path in make.server.asked if "/8/" in path] == []
     assert sorted(make.server.asked) == [f"/t/3/{x}/3.png" for x in (0, 1, 6, 7)]
 
 
 def test_a_second_time_nothing_is_asked(make):
     patch = Patch(5, (3, 6), (9, 11))
-    make(Tiles()).stitched(patch)
+    make(Tiles()).mosaic(patch)
     first = len(make.server.asked)
-    make(make.server.answers).stitched(patch)
+    make(make.server.answers).mosaic(patch)
     assert first == len(make.server.asked) == 6
 
 
 def test_a_server_without_any_tile_is_an_error_with_its_reason(make):
     with pytest.raises(InputError, match=r"status 404.*the server has no tile of the scene"):
-        make(Tiles(highest=-1)).stitched(Patch(10, (300, 310), (300, 310)))
+        make(Tiles(highest=-1)).mosaic(Patch(10, (300, 310), (300, 310)))
     assert len(make.server.asked) < 200
 
 
@@ -146,15 +146,15 @@ def test_a_server_without_any_tile_is_an_error_with_its_reason(make):
 )
 def test_what_is_no_tile_is_missing(body, why):
     with pytest.raises(MissingError) as error:
-        mosaic.decoded(body, "a tile")
+        mosaic.decode(body, "a tile")
     assert why in error.value.reason
 
 
 def test_transparent_and_grey_tiles():
     half = np.full((256, 256, 4), 200, np.uint8)
     half[:, :128, 3] = 0
-    assert mosaic.decoded(png(half), "a tile")[0, :, 3].tolist() == [0] * 128 + [200] * 128
-    grey = mosaic.decoded(png(np.full((256, 256), 77)), "a tile")
+    assert mosaic.decode(png(half), "a tile")[0, :, 3].tolist() == [0] * 128 + [200] * 128
+    grey = mosaic.decode(png(np.full((256, 256), 77)), "a tile")
     assert grey[5, 5].tolist() == [77, 77, 77, 255]
 
 
@@ -162,12 +162,12 @@ def test_tiles_of_another_size_than_the_first_are_missing(make):
     answers = Tiles(side=512)
     answers["/t/4/5/6.png"] = Reply(200, png(np.zeros((256, 256, 3))), FRESH)
     tiles = make(answers)
-    pixels = tiles.stitched(Patch(4, (4, 6), (6, 7)))
+    pixels = tiles.mosaic(Patch(4, (4, 6), (6, 7)))
     assert tiles.side == 512
     assert pixels.shape == (512, 1024, 4)
     assert [reason for _, reason in tiles.missing.values()] == ["is 256 pixels large, others 512"]
 
 
 def test_every_request_has_our_name(make):
-    make(Tiles()).stitched(Patch(1, (0, 2), (0, 2)))
+    make(Tiles()).mosaic(Patch(1, (0, 2), (0, 2)))
     assert all(each["User-Agent"].startswith("Firetwin/") for each in make.server.headers)

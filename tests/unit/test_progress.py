@@ -64,7 +64,7 @@ def test_the_worker_sends_the_note(tmp_path, monkeypatch):
 
 def test_the_first_picture_of_a_film_is_told_once(tmp_path):
     shown, told = [], []
-    follow = render.following(tmp_path, lambda *how: shown.append(how), told.append)
+    follow = render.picture_progress(tmp_path, lambda *how: shown.append(how), told.append)
     follow(0, 9, "building the scene")
     follow(0, 3, "rendering")
     for done in (1, 2, 3):
@@ -77,7 +77,7 @@ def test_the_first_picture_of_a_film_is_told_once(tmp_path):
 
 def test_a_single_picture_is_no_film(tmp_path):
     told = []
-    follow = render.following(tmp_path, progress.silent, told.append)
+    follow = render.picture_progress(tmp_path, progress.silent, told.append)
     follow(0, 1, "rendering")
     follow(1, 1, "rendering", "drone/rgb/drone_rgb_000001.png")
     assert told == []

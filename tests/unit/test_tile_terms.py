@@ -59,7 +59,7 @@ def scene(tmp_path, monkeypatch):
     ],
 )
 def test_a_policy_is_known_by_a_sources_name_alone(place, policy):
-    assert policies.of_place(place) is policy
+    assert policies.for_source(place) is policy
 
 
 def test_every_use_is_an_attribute_of_policies():

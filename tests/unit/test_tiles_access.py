@@ -35,9 +35,9 @@ def test_access_goes_to_another_process_and_back():
 
 def test_blender_is_asked_and_the_preference_is_named(blender, capsys):
     blender(True)
-    assert job.permitted(TileAccess()) == TileAccess()
+    assert job.apply_preferences(TileAccess()) == TileAccess()
     blender(False)
-    access = job.permitted(TileAccess(strict=True))
+    access = job.apply_preferences(TileAccess(strict=True))
     assert (access.strict, access.online, access.setting) == (True, False, job.PREFERENCE)
     with serving() as server:
         source = open_source(f"{server.url}/tileset.json", access.network())

@@ -29,7 +29,7 @@ from firetwin.shot.terrain import tile_heights
 from firetwin.shot.tiles import tile_cut
 from firetwin.tiles import decoded, policies
 from firetwin.tiles.policies import Policy
-from firetwin.tiles.sources import connection, http, http_cache, waiting
+from firetwin.tiles.sources import backoff, connection, http, http_cache
 from firetwin.tiles.sources.network import Network
 from lying_server import Reply, serving
 
@@ -48,12 +48,12 @@ target = "head"
 """
 
 
-class Clock(waiting.Clock):
+class Clock(backoff.Clock):
     """A clock that does not wait."""
 
     def __init__(self):
         self.time, self.slept = time.time(), []
-        super().__init__(now=lambda: self.time, sleep=self._sleep, chance=lambda: 1.0)
+        super().__init__(now=lambda: self.time, sleep=self._sleep, jitter=lambda: 1.0)
 
     def _sleep(self, seconds):
         self.slept.append(seconds)
@@ -147,7 +147,7 @@ IN_PROCESSES = decode.run
 
 def here(contents, progress):
     """Decode in this process, which takes a tenth of the time; tests of decoders start some."""
-    left = [asdict(each) for each in contents if decoded.summary(Path(each.out)) is None]
+    left = [asdict(each) for each in contents if decoded.read_summary(Path(each.out)) is None]
     return decode.in_process(left, progress, print)
 
 
@@ -209,7 +209,7 @@ def test_a_status_403_of_an_open_server(chain):
 def with_sessions(chain, alive, monkeypatch):
     """Tiles want the key and a session that is alive; each answer of the root hands out another one."""
     known = Policy("an imitation", key_parameter="key", session_parameter="session")
-    monkeypatch.setattr(policies, "of_host", lambda host: known)
+    monkeypatch.setattr(policies, "for_host", lambda host: known)
     root = json.loads(chain.files["/t/tileset.json"])
     sessions = iter(range(1, 9))
 
@@ -498,19 +498,19 @@ def test_a_film_is_continued_with_its_tiles_while_the_server_has_others(chain):
     leaf, whole = chain.leaf()
     shot = chain.shot_of()
     chain.make()
-    assert selection._kept(shot, keep=True)
-    assert not selection._kept(shot, keep=False)
+    assert selection._can_keep(shot, keep=True)
+    assert not selection._can_keep(shot, keep=False)
     (whole.folder / whole.tiles[0]).unlink()
-    assert not selection._kept(shot, keep=True)
+    assert not selection._can_keep(shot, keep=True)
     chain.forget()
     chain.server.answers[leaf] = Reply(404)
     chain.make()
-    assert not selection._kept(shot, keep=True)
+    assert not selection._can_keep(shot, keep=True)
 
 
 def test_a_policys_error_is_taken_where_the_scene_has_none_of_its_own(chain, monkeypatch):
     known = Policy("an imitation", pixel_error=20.0, logo="Imitation Maps")
-    monkeypatch.setattr(policies, "of_host", lambda host: known)
+    monkeypatch.setattr(policies, "for_host", lambda host: known)
     first, told = chain.make()  # the scene says 1 pixel
     assert first.error == 1.0
     assert first.logo == ("Imitation Maps",)

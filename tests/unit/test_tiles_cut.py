@@ -110,7 +110,7 @@ def test_nothing_more_is_read_than_the_shot_shows():
     choice = cut.choose(loader, looking(0.0), HERE, 16.0)
     assert names(loader, choice) == ["a.glb", "n.glb"]
     assert loader.source.reads == ["tileset.json", "near.json", "a.glb", "n.glb"]
-    assert choice.sentence() == ""
+    assert choice.message() == ""
 
 
 def test_the_error_is_that_of_the_nearest_point_in_pixels_of_the_picture():
@@ -136,11 +136,11 @@ def test_a_budget_is_kept_and_the_price_said():
     kept = cut.choose(loader, looking(0.0), HERE, 2.0, Budget(tiles=3))
     assert names(loader, kept) == ["r.glb"]
     assert kept.error > 1000.0
-    assert "not 2, to keep the budget" in kept.sentence()
+    assert "not 2, to keep the budget" in kept.message()
     by_bytes = cut.choose(load(root, files), looking(0.0), HERE, 2.0, Budget(bytes=30))
     assert (by_bytes.bytes, by_bytes.fits) == (12, True)
     none = cut.choose(load(root, files), looking(0.0), HERE, 2.0, Budget(tiles=0))
-    assert "even the coarsest" in none.sentence()
+    assert "even the coarsest" in none.message()
     known = dict.fromkeys(range(5), 1000)
     by_triangles = cut.choose(loader, looking(0.0), HERE, 2.0, Budget(triangles=2000), triangles=known)
     assert by_triangles.triangles == 1000
@@ -153,14 +153,16 @@ def test_an_ancestor_stands_in_for_what_is_missing_and_it_is_named():
     choice = cut.choose(loader, looking(0.0), HERE, 2.0)
     assert names(loader, choice) == ["r.glb"]
     assert choice.stand_ins.tolist() == [0]
-    assert "1 tiles are missing, the first: b.glb: is not there" in choice.sentence()
+    assert "1 tiles are missing, the first: b.glb: is not there" in choice.message()
 
 
 def test_contents_are_handed_over_once():
     got = []
     loader = load(tile(1.0, "a.glb", volume=box(50.0)), {"a.glb": GLB})
     for _ in range(2):
-        cut.choose(loader, looking(0.0), HERE, 2.0, put=lambda number, data: got.append((number, data)))
+        cut.choose(
+            loader, looking(0.0), HERE, 2.0, on_content=lambda number, data: got.append((number, data))
+        )
     assert got == [(0, GLB)]
     unread = load(tile(1.0, "a.glb", volume=box(50.0)), {})
     assert names(unread, cut.choose(unread, looking(0.0), HERE, 2.0, fetch=False)) == ["a.glb"]

@@ -9,7 +9,7 @@ import pytest
 import tile_files as made
 from firetwin.errors import InputError
 from firetwin.jobs.tiles import decode
-from firetwin.jobs.tiles.decode import Content
+from firetwin.jobs.tiles.decode import DecodeTask
 from firetwin.shot.tiles import tile_cut
 from firetwin.tiles import decoded
 
@@ -18,7 +18,7 @@ ONE = np.eye(4).tolist()
 
 def content(folder, name, data):
     (folder / name).write_bytes(data)
-    return Content(str(folder / name), name, ONE, ONE, str(folder / f"{name}.tile"))
+    return DecodeTask(str(folder / name), name, ONE, ONE, str(folder / f"{name}.tile"))
 
 
 def test_a_tile_comes_back_as_it_was_decoded(tmp_path):
@@ -74,12 +74,12 @@ def test_a_decoded_tile_that_is_cut_off_is_decoded_again(tmp_path):
     whole = Path(good.out).read_bytes()
     for length in (0, 10, 30, len(whole) - 1):
         Path(good.out).write_bytes(whole[:length])
-        assert decoded.summary(Path(good.out)) is None
+        assert decoded.read_summary(Path(good.out)) is None
         with pytest.raises(InputError, match="no decoded tile"):
             decoded.read(Path(good.out))
     decode.run([good])
     assert Path(good.out).read_bytes() == whole
-    assert decoded.summary(Path(good.out)).triangles == 2
+    assert decoded.read_summary(Path(good.out)).triangles == 2
 
 
 def test_a_cut_is_read_as_it_was_written(tmp_path):

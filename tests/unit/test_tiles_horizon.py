@@ -43,7 +43,7 @@ def test_of_a_hidden_sphere_no_point_is_seen(eyes, seed):
     way = rng.normal(size=(200, 3))
     centre = way / np.linalg.norm(way, axis=1, keepdims=True) * AXES + rng.normal(0, 5e3, (200, 3))
     radius = 10.0 ** rng.uniform(1, 6, 200)
-    hidden = horizon.hidden(centre, radius, eyes)
+    hidden = horizon.hidden_mask(centre, radius, eyes)
     for k in np.flatnonzero(hidden):
         shell = rng.normal(size=(100, 3))
         shell *= radius[k] / np.linalg.norm(shell, axis=1, keepdims=True)
@@ -60,14 +60,14 @@ def test_of_small_spheres_nearly_all_that_are_behind_are_hidden(eye, seed):
     points = ecef(*np.radians([latitude, longitude]), rng.uniform(0, 3000, 500))
     place = at(*eye)
     behind = blocked(place, points)
-    assert np.array_equal(horizon.hidden(points, np.zeros(500), place[None]), behind)
+    assert np.array_equal(horizon.hidden_mask(points, np.zeros(500), place[None]), behind)
 
 
 def test_an_eye_below_the_ground_hides_nothing():
     far = at(-38.8, 59.5, 0.0)[None]
-    assert not horizon.hidden(far, np.ones(1), at(38.8, -120.5, -2000.0)[None])[0]
-    assert horizon.hidden(far, np.ones(1), at(38.8, -120.5, 2.0e6)[None])[0]
-    assert not horizon.hidden(far, np.ones(1), np.empty((0, 3)))[0]
+    assert not horizon.hidden_mask(far, np.ones(1), at(38.8, -120.5, -2000.0)[None])[0]
+    assert horizon.hidden_mask(far, np.ones(1), at(38.8, -120.5, 2.0e6)[None])[0]
+    assert not horizon.hidden_mask(far, np.ones(1), np.empty((0, 3)))[0]
 
 
 def ball(latitude, longitude, radius=10_000.0):

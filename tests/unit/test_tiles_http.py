@@ -15,7 +15,7 @@ from firetwin.tiles import cut, policies
 from firetwin.tiles.loader import Loader
 from firetwin.tiles.policies import Policy, google, openstreetmap
 from firetwin.tiles.policies import ion as ion_policy
-from firetwin.tiles.sources import MissingError, address, connection, ion, open_source, secret, waiting
+from firetwin.tiles.sources import MissingError, address, backoff, connection, ion, open_source, secret
 from firetwin.tiles.sources.http import Http
 from firetwin.tiles.sources.network import Network
 from lying_server import Reply, serving
@@ -33,12 +33,12 @@ def server():
         yield each
 
 
-class Clock(waiting.Clock):
+class Clock(backoff.Clock):
     """A clock that does not wait; it remembers how long it should have."""
 
     def __init__(self):
         self.time, self.slept = time.time(), []
-        super().__init__(now=lambda: self.time, sleep=self._sleep, chance=lambda: 1.0)
+        super().__init__(now=lambda: self.time, sleep=self._sleep, jitter=lambda: 1.0)
 
     def _sleep(self, seconds):
         self.slept.append(seconds)
@@ -182,11 +182,11 @@ def test_a_pause_that_the_server_asks_for_holds_for_the_whole_source(server, ope
     asked = formatdate(clock.time + 40, usegmt=True) if as_date else "40"
     server.answers |= {"/t/x": [Reply(429, headers={"Retry-After": asked}), b"x"], "/t/y": b"y"}
     source = opened()
-    real, waited = source._pause.ask_for, []
-    source._pause.ask_for = lambda seconds: (waited.append(seconds), real(seconds))
+    real, waited = source._backoff.extend, []
+    source._backoff.extend = lambda seconds: (waited.append(seconds), real(seconds))
     assert source.read(f"{server.url}/t/x") == b"x"
     assert waited == [pytest.approx(40.0, abs=1.0)]
-    source._pause.ask_for(7.0)
+    source._backoff.extend(7.0)
     assert source.read(f"{server.url}/t/y") == b"y"  # another file waits too
     assert clock.slept[-1] == pytest.approx(7.0)
 
@@ -198,9 +198,9 @@ def test_a_pause_of_hours_stops_instead(server, opened):
 
 
 def test_waits_double_with_chance_and_end_at_a_minute():
-    clock = waiting.Clock(now=lambda: 0.0, chance=lambda: 0.0)
-    assert [waiting.seconds(None, each, clock) for each in (0, 1, 2, 20)] == [0.25, 0.5, 1.0, 30.0]
-    assert waiting.seconds("nonsense", 0, clock) == 0.25
+    clock = backoff.Clock(now=lambda: 0.0, jitter=lambda: 0.0)
+    assert [backoff.retry_delay(None, each, clock) for each in (0, 1, 2, 20)] == [0.25, 0.5, 1.0, 30.0]
+    assert backoff.retry_delay("nonsense", 0, clock) == 0.25
 
 
 def test_a_server_that_is_silent_is_asked_again(server, opened, clock, monkeypatch):
@@ -261,7 +261,7 @@ def test_nothing_missing_is_silent(server, opened):
     two_children(server, a=Reply(404), b=Reply(404), r=Reply(404))
     _, choice = chosen(opened())
     assert choice.contents.tolist() == []
-    assert choice.sentence().startswith("3 tiles are missing, the first: ")
+    assert choice.message().startswith("3 tiles are missing, the first: ")
 
 
 @pytest.mark.parametrize("fault", ["changed", "cut", "gone", "no database"])
@@ -520,9 +520,9 @@ def test_policies_are_data_without_keys(monkeypatch):
         ion_policy.POLICY.name,
         openstreetmap.POLICY.name,
     }
-    assert policies.of_host("tile.googleapis.com") is google.POLICY
-    assert policies.of_host("assets.ion.cesium.com") is ion_policy.POLICY
-    assert policies.of_host("nottile.googleapis.com.example") is policies.OPEN
+    assert policies.for_host("tile.googleapis.com") is google.POLICY
+    assert policies.for_host("assets.ion.cesium.com") is ion_policy.POLICY
+    assert policies.for_host("nottile.googleapis.com.example") is policies.OPEN
     assert not any((google.POLICY.may_flatten, google.POLICY.may_analyse, google.POLICY.may_work_offline))
     assert not any((google.POLICY.may_export, google.POLICY.may_pack, google.POLICY.other_geocoder))
     monkeypatch.delenv("GOOGLE_MAPS_API_KEY", raising=False)

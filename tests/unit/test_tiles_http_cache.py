@@ -8,10 +8,10 @@ from email.utils import formatdate
 
 import pytest
 from firetwin.errors import InputError
+from firetwin.tiles.sources.backoff import Clock
 from firetwin.tiles.sources.http import Http
 from firetwin.tiles.sources.http_cache import HttpCache, folder, rules
 from firetwin.tiles.sources.network import Network
-from firetwin.tiles.sources.waiting import Clock
 from lying_server import Reply, serving
 
 NOW = 1_000_000.0

@@ -84,7 +84,7 @@ def test_a_server_is_read_a_little_and_one_that_forbids_it_not_at_all(monkeypatc
         assert (facts["whole"], facts["tiles"], facts["kinds"]) == (True, 121, {"glb": 60})
     source = Memory({})
     source.policy = Policy(may_prefetch=False)
-    assert command._most(source) == 1
+    assert command._default_files(source) == 1
     assert "tiles info" in arguments.DETAIL
 
 
@@ -92,7 +92,7 @@ def test_a_tileset_in_metres_of_its_own(tmp_path):
     facts = info.gather(load(tile(1.0, volume=box(5.0, half=2.0))), None)
     assert facts["centre"] is None
     assert facts["extent_m"] == {"low": [3.0, -2.0, -2.0], "high": [7.0, 2.0, 2.0]}
-    assert "not placed on the Earth" in info.page(facts)
+    assert "not placed on the Earth" in info.format_text(facts)
 
 
 def test_kinds_and_lengths():
@@ -100,8 +100,8 @@ def test_kinds_and_lengths():
     assert contents.kind(b"\xef\xbb\xbf {}") == "json"
     assert contents.kind(b"") == "unknown"
     assert contents.kind_by_name("a/b.I3DM?x=.glb") == "i3dm"
-    assert contents.cut_off(GLB[:5]) == "5 bytes, less than its header"
-    assert contents.cut_off(GLB + b"more") is None
+    assert contents.truncation(GLB[:5]) == "5 bytes, less than its header"
+    assert contents.truncation(GLB + b"more") is None
     assert list(
         contents.references(
             {"root": {"contents": [{"url": "a"}, 5], "children": [{"content": {"uri": "b"}}]}}

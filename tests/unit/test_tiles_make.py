@@ -176,7 +176,7 @@ def test_a_tileset_names_errors_that_grow_upwards_and_boxes_that_hold_their_chil
 def stand(outlines, ground):
     """Buildings of outlines in degrees."""
     north, east = ellipsoid.metres_per_degree(38.9)
-    return buildings.stand(outlines, ground, (east, north))
+    return buildings.place_on_ground(outlines, ground, (east, north))
 
 
 def test_buildings_are_added_by_the_leaf_that_holds_them(tmp_path):

@@ -204,7 +204,7 @@ def test_refused_json(text, message):
 
 
 def test_a_json_text_of_more_than_64_mb_is_refused(monkeypatch):
-    monkeypatch.setattr(json_text, "MOST_BYTES", 10)
+    monkeypatch.setattr(json_text, "MAX_BYTES", 10)
     with pytest.raises(InputError, match="is larger than"):
         json_text.parse(b'{"a": [1, 2]}', "x.json")
     assert json_text.parse(b'{"a":"[["}', "x.json").value == {"a": "[["}

@@ -47,7 +47,7 @@ def from_plain(values: dict[str, Any]) -> TileAccess:
     return TileAccess(**values | {"hosts": tuple(values["hosts"])})
 
 
-def permitted(access: TileAccess) -> TileAccess:
+def apply_preferences(access: TileAccess) -> TileAccess:
     """What Blender's preferences leave of it, where this is Blender; asked anew by each job."""
     return access if is_online() else replace(access, online=False, setting=PREFERENCE)
 

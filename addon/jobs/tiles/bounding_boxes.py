@@ -9,7 +9,7 @@ import numpy as np
 from ...progress import MessageCallback, Progress, no_message, silent
 from ...shot.source import ShotSource
 from .. import worker
-from .access import TileAccess, from_plain, permitted
+from .access import TileAccess, apply_preferences, from_plain
 
 MOST = 2000
 """Boxes of a source at most, those of the coarsest tiles."""
@@ -33,7 +33,7 @@ def run(
     InputError
         A tileset is wrong, or refused.
     """
-    about = {"choice": choice.plain(), "access": permitted(TileAccess()).plain()}
+    about = {"choice": choice.plain(), "access": apply_preferences(TileAccess()).plain()}
     return worker.run(f"{__name__}:in_process", about, progress, tell=tell, blender=False, stop=stop)
 
 
@@ -48,14 +48,14 @@ def in_process(
     found = []
     for number in range(len(shot.settings.tiles.sources)):
         progress(number, len(shot.settings.tiles.sources), "reading the tilesets")
-        source = tile_source.open_place(shot, number, from_plain(access))
+        source = tile_source.open_tileset(shot, number, from_plain(access))
         try:
             tree = Loader(source).tree
         finally:
             source.close()
         some = np.argsort(tree.level, kind="stable")[:MOST]
         _, matrix = tile_source.to_scene(shot)
-        placed = tree.volumes.taken(some).moved(matrix[None], np.zeros(len(some), np.int64))
+        placed = tree.volumes.take(some).moved(matrix[None], np.zeros(len(some), np.int64))
         wide = placed.half + placed.padding[:, None]
         corners = type(placed)(placed.centre, placed.axis, wide, placed.padding).corners()
         found.append(

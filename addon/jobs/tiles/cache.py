@@ -107,7 +107,7 @@ def _names(path: Path, files: Iterable[str]) -> frozenset[str]:
         cut = tile_cut.read(path)
     except InputError:  # damaged, or gone
         return frozenset(own)
-    pictures = (name for tile in cut.tiles for name in decoded.pictures(path.parent / tile))
+    pictures = (name for tile in cut.tiles for name in decoded.picture_names(path.parent / tile))
     return frozenset({*own, *cut.tiles, *pictures})
 
 

@@ -28,13 +28,13 @@ _SECONDS = 60.0
 
 
 @dataclass(frozen=True)
-class Content:
+class DecodeTask:
     """What is to be decoded.
 
     Attributes
     ----------
-    file, beside
-        The content, and the files beside it by their uri.
+    file, resources
+        File of the content, and the files that it refers to, by URI.
     name
         For messages.
     matrix, earth_matrix
@@ -51,17 +51,17 @@ class Content:
     earth_matrix: list[list[float]]
     out: str
     up_axis: str = "Y"
-    beside: dict[str, str] | None = None
+    resources: dict[str, str] | None = None
 
 
-def run(contents: Sequence[Content], progress: Progress = silent) -> dict[str, str]:
+def run(contents: Sequence[DecodeTask], progress: Progress = silent) -> dict[str, str]:
     """Decode contents whose `out` is not there, or not whole.
 
     Returns
     -------
     Reasons by name, of those that could not be decoded.
     """
-    left = [each for each in contents if decoded.summary(Path(each.out)) is None]
+    left = [each for each in contents if decoded.read_summary(Path(each.out)) is None]
     ways = min(max(os.cpu_count() or 1, 1), max(len(left) // 8, 1))
     done, bad = [0] * ways, dict[str, str]()
 
@@ -78,7 +78,7 @@ def run(contents: Sequence[Content], progress: Progress = silent) -> dict[str, s
     return bad
 
 
-def _decode(contents: list[Content], follow: Any) -> dict[str, str]:
+def _decode(contents: list[DecodeTask], follow: Any) -> dict[str, str]:
     """Decode one after the other; a process that dies is replaced behind the tile that it died of."""
     bad: dict[str, str] = {}
     first = 0
@@ -111,18 +111,18 @@ def in_process(
     bad = {}
     for number, about in enumerate(contents):
         progress(number, len(contents))
-        each = Content(**about)
+        each = DecodeTask(**about)
         try:
-            beside = {uri: Path(path).read_bytes() for uri, path in (each.beside or {}).items()}
+            resources = {uri: Path(path).read_bytes() for uri, path in (each.resources or {}).items()}
             tile = tiles.decode(
                 Path(each.file).read_bytes(),
                 np.array(each.matrix),
                 each.name,
-                beside,
+                resources,
                 np.array(each.earth_matrix),
                 each.up_axis,
             )
-            decoded.write(tile, Path(each.out), beside)
+            decoded.write(tile, Path(each.out), resources)
         except (InputError, ValueError, MemoryError) as error:
             bad[each.name] = " ".join(str(error).split()) or "memory ran out"
     progress(len(contents), len(contents))

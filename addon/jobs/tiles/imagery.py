@@ -22,17 +22,17 @@ from ...shot.source import ShotSource
 from ...shot.surface import drape, drape_plan
 from ...shot.surface.drape import Drape, DrapeArea
 from ...shot.surface.drape_plan import PlannedArea
-from ...shot.terrain.raster import extent, overlap, said
+from ...shot.terrain.raster import extent, format_bounds, overlap
 from ...tiles import notices
 from ...tiles.imagery import address, wmts
 from ...tiles.imagery.address import TileAddress
 from ...tiles.imagery.mosaic import Patch, TileServer
 from ...tiles.sources.address import origin
+from ...tiles.sources.backoff import Clock
 from ...tiles.sources.http import Http
 from ...tiles.sources.network import Network
-from ...tiles.sources.waiting import Clock
 from .. import worker
-from .access import TileAccess, from_plain, permitted
+from .access import TileAccess, apply_preferences, from_plain
 
 _NAMED = 3  # missing tiles that are named; all are in the drape's file
 
@@ -58,7 +58,7 @@ def prepare(
         The address is wrong or refused, or the server does not go on.
     """
     if choice.settings().terrain.photo_url:
-        allowed = permitted(access or TileAccess())
+        allowed = apply_preferences(access or TileAccess())
         about = {"choice": choice.plain(), "views": list(views), "access": allowed.plain()}
         worker.run(f"{__name__}:in_process", about, progress, tell=tell, blender=False, stop=stop)
 
@@ -96,11 +96,11 @@ def make(
     except InputError as error:
         raise drape.key_error(shot.settings, f"{error.path} {error.reason}") from None
     try:
-        tiles = _address(source, shot)
+        tiles = _tile_address(source, shot)
         server = TileServer(source, tiles)
-        told, planned = _planned(shot, server)
+        messages, planned = _plan(shot, server)
         made = [
-            _written(server, area, path.parent, share(progress, number, len(planned), "orthophoto"))
+            _write_area(server, area, path.parent, share(progress, number, len(planned), "orthophoto"))
             for number, area in enumerate(planned)
         ]
     finally:
@@ -113,46 +113,49 @@ def make(
     result = Drape(path.parent, tuple(made), credits, missing)
     drape.write(result, path)
     credit = f"credit of the orthophoto, which pictures show: {'; '.join(result.credits)}"
-    return [credit, *told, *_said_missing(missing)]
+    return [credit, *messages, *_missing_messages(missing)]
 
 
-def _address(source: Http, shot: Shot) -> TileAddress:
+def _tile_address(source: Http, shot: Shot) -> TileAddress:
     """Address of the tiles, from the settings or the server's capabilities."""
     terrain, url = shot.settings.terrain, address.with_variables(shot.settings.terrain.photo_url)
     if address.is_template(url):
         return TileAddress(url, highest=terrain.photo_level)
     name = source.name(source.root)
-    found = wmts.address_of(source.read(source.root, wmts.MOST_BYTES), name, url, terrain.photo_layer)
+    found = wmts.address_of(source.read(source.root, wmts.MAX_BYTES), name, url, terrain.photo_layer)
     there = origin(found.url(found.lowest, 0, 0), name)
     if there != source.home:
         reason = f"has its tiles at {there}, another host; name them as terrain.photo_url: {found.template}"
         raise drape.key_error(shot.settings, source.redactor.text(f"{name} {reason}"))
     if not overlap(found.bounds, shot.run.latitude, shot.run.longitude):
-        reason = f"covers {said(found.bounds)}, outside of the run, which covers {said(extent(shot.run))}"
+        here = format_bounds(extent(shot.run))
+        reason = f"covers {format_bounds(found.bounds)}, outside of the run, which covers {here}"
         raise drape.key_error(shot.settings, f"{name} {reason}")
     return found
 
 
-def _planned(shot: Shot, server: TileServer) -> tuple[list[str], list[PlannedArea]]:
+def _plan(shot: Shot, server: TileServer) -> tuple[list[str], list[PlannedArea]]:
     """Plan the areas: with the side of the server's tiles, and no level that it has nowhere here."""
     tiles, side = server.address, 256
     lowest, highest = tiles.lowest, min(tiles.highest, max(shot.settings.terrain.photo_level, tiles.lowest))
-    told: list[str] = []
+    messages: list[str] = []
     while True:
         planned = drape_plan.plan(shot, tiles.bounds, (lowest, highest), side)
-        found = _probed(server, planned[-1].patch)
+        found = _probe_level(server, planned[-1].patch)
         if server.side and server.side != side:
             side = server.side
             continue
         top = planned[-1].patch.level
         if found < top and found >= lowest and server.side:
-            told.append(f"the orthophoto's server has no tiles of level {top} here; level {found} is used")
+            messages.append(
+                f"the orthophoto's server has no tiles of level {top} here; level {found} is used"
+            )
             highest = found
             continue
-        return told + [_said_level(area, highest, side) for area in planned], planned
+        return messages + [_level_message(area, highest, side) for area in planned], planned
 
 
-def _probed(server: TileServer, patch: Patch) -> int:
+def _probe_level(server: TileServer, patch: Patch) -> int:
     """Finest level of which one of five places of a patch has a tile, at most the patch's."""
     for up in range(patch.level - server.address.lowest + 1):
         for across, down in ((2, 2), (1, 1), (3, 1), (1, 3), (3, 3)):
@@ -165,8 +168,8 @@ def _probed(server: TileServer, patch: Patch) -> int:
     return patch.level
 
 
-def _written(server: TileServer, area: PlannedArea, folder: Path, progress: Progress) -> DrapeArea:
-    pixels = server.stitched(area.patch, progress)
+def _write_area(server: TileServer, area: PlannedArea, folder: Path, progress: Progress) -> DrapeArea:
+    pixels = server.mosaic(area.patch, progress)
     name = f"{hashlib.sha256(pixels.tobytes()).hexdigest()[:24]}.png"
     if not (folder / name).exists():
         folder.mkdir(parents=True, exist_ok=True)
@@ -187,7 +190,7 @@ def _pair(place: NDArray[np.float64]) -> tuple[float, float]:
     return float(place[0]), float(place[1])
 
 
-def _said_level(area: PlannedArea, highest: int, side: int) -> str:
+def _level_message(area: PlannedArea, highest: int, side: int) -> str:
     """Level of an area in words, and what kept it from being finer."""
     width, height = (tiles * side for tiles in area.patch.size)
     text = f"orthophoto: level {area.patch.level} of {highest}, {area.step:.3g} m a texel, {width} x {height}"
@@ -200,7 +203,7 @@ def _said_level(area: PlannedArea, highest: int, side: int) -> str:
     return f"{text}; a pixel of the nearest view is {area.wanted:.3g} m large, but {why[area.limited]}"
 
 
-def _said_missing(missing: Sequence[str]) -> list[str]:
+def _missing_messages(missing: Sequence[str]) -> list[str]:
     if not missing:
         return []
     more = f"; and {len(missing) - _NAMED} more" if len(missing) > _NAMED else ""

@@ -67,22 +67,22 @@ def run(
     """
     if shot.settings.terrain.height_source == "tiles":
         tile_terms.check(shot.settings, [("export", "`firetwin tiles make`")])
-    surface = surface_of(shot, request.geoid)
+    surface = ground_surface(shot, request.geoid)
     built = []
     if path := request.footprints or shot.settings.terrain.buildings:
         found = buildings.read(path)
-        tell(found.said())
+        tell(found.summary())
         north, east = areas.metres_per_degree(float(surface.latitude.mean()))
-        built = buildings.stand(
+        built = buildings.place_on_ground(
             found.outlines, lambda at: _heights(surface, at[:, 1], at[:, 0]), (east, north)
         )
     lattice = Lattice(surface, request.levels)
     credit = request.credit or (f"{shot.run.name}, synthetic" if shot.run.synthetic else shot.run.name)
-    colours = _Photo(shot) if orthophoto.photographed(shot.settings) else _FuelColours(shot)
+    colours = _PhotoColours(shot) if orthophoto.photographed(shot.settings) else _FuelColours(shot)
     return Maker(lattice, colours, built, request.out, credit).run(progress)
 
 
-def surface_of(shot: Shot, undulation: float | None) -> Surface:
+def ground_surface(shot: Shot, undulation: float | None) -> Surface:
     """Heights of a shot's ground above the ellipsoid, where the run is; finer where a model is finer.
 
     Parameters
@@ -142,7 +142,7 @@ class _FuelColours:
         return np.rint(np.asarray(_BARE) * (1.0 - load) + np.asarray(_GREEN) * load).astype(np.uint8)
 
 
-class _Photo:
+class _PhotoColours:
     """A scene's orthophoto; ground that it does not cover is coloured by its fuel."""
 
     def __init__(self, shot: Shot) -> None:

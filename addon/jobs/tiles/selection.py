@@ -29,7 +29,7 @@ from ...shot.tiles.tile_terms import Use
 from ...tiles import decoded, policies
 from .. import worker
 from . import source as tile_source
-from .access import TileAccess, from_plain, permitted
+from .access import TileAccess, apply_preferences, from_plain
 from .source import PreparedTiles, TileSource
 
 PREVIEW_ERROR, PREVIEW_SIZE = 64.0, 200
@@ -80,7 +80,7 @@ def prepare(
     about = {
         "choice": choice.plain(),
         "views": list(views),
-        "access": permitted(access).plain(),
+        "access": apply_preferences(access).plain(),
         "uses": [list(use) for use in every],
         "keep": keep,
         "preview": preview,
@@ -88,7 +88,7 @@ def prepare(
     worker.run(f"{__name__}:in_process", about, progress, tell=tell, blender=False, stop=stop)
 
 
-def coarse(shot: Shot) -> Shot:
+def coarse_shot(shot: Shot) -> Shot:
     """The same shot with a coarse choice of tiles, for the window: soon there, and small."""
     tiles, terrain = shot.settings.tiles, shot.settings.terrain
     least, most = max(tiles.max_screen_space_error, PREVIEW_ERROR), min(tiles.max_size, PREVIEW_SIZE)
@@ -115,32 +115,32 @@ def in_process(
     wanted = [(use, what) for use, what in uses]
     shot = source.shot()
     if preview:
-        make(coarse(shot), progress, how, wanted)
+        make(coarse_shot(shot), progress, how, wanted)
         return
     if shot.settings.terrain.height_source == "tiles":
         terrain = replace(shot.settings.terrain, height_source="elevation")
         first = Shot(replace(shot.settings, terrain=terrain), shot.run)
         heights = tile_heights_file.location(shot.settings, shot.run)
-        if not (_kept(first, keep) and heights.exists()):
+        if not (_can_keep(first, keep) and heights.exists()):
             make(first, progress, how, wanted)
             found = tile_cut.location(first).with_suffix(tile_cut.HEIGHTS)
             if found.is_file():
                 shutil.copyfile(found, heights)
         shot = source.shot()
     for built in comparison.for_views(shot, views):
-        if not _kept(built, keep):
+        if not _can_keep(built, keep):
             for sentence in make(built, progress, how, wanted):
                 tell(sentence)
 
 
-def _kept(shot: Shot, keep: bool) -> bool:
+def _can_keep(shot: Shot, keep: bool) -> bool:
     """Whether a shot's choice stays as it is; files of this machine may have changed, and are read again."""
     try:
         cut = tile_cut.prepared(shot) if keep else None
     except InputError:  # damaged: it is made again
         return False
     places = shot.settings.tiles.sources
-    remote = all("://" in place and policies.of_place(place).may_work_offline for place in places)
+    remote = all("://" in place and policies.for_source(place).may_work_offline for place in places)
     if not remote or cut is None or not cut.is_whole():
         return False
     os.utime(tile_cut.location(shot))  # when it was used last
@@ -192,8 +192,8 @@ def make(
     if access.strict and cut.missing:
         raise Error(f"--strict: {count(len(cut.missing), 'tile')} missing: {'; '.join(cut.missing)}")
     tile_cut.write(cut, path)
-    told = [tile_difference.sentence(cut.difference, undulation)] if heights else []
-    return [*_told(cut, prepared), *told]
+    difference = [tile_difference.sentence(cut.difference, undulation)] if heights else []
+    return [*_messages(cut, prepared), *difference]
 
 
 def _heights(shot: Shot, path: Path, names: Sequence[str]) -> TileHeights | None:
@@ -207,7 +207,7 @@ def _heights(shot: Shot, path: Path, names: Sequence[str]) -> TileHeights | None
     return TileHeights(shot.ground.frame, surface)
 
 
-def _told(cut: TileCut, prepared: Sequence[PreparedTiles]) -> Iterator[str]:
+def _messages(cut: TileCut, prepared: Sequence[PreparedTiles]) -> Iterator[str]:
     """What the user should know of a cut."""
     if cut.words:
         yield f"credits of tiles, which pictures show: {cut.words.text()}"
@@ -217,7 +217,7 @@ def _told(cut: TileCut, prepared: Sequence[PreparedTiles]) -> Iterator[str]:
                 f"{each.policy.name} recommends tiles to {each.choice.asked:g} pixels; "
                 "tiles.max_screen_space_error sets another value"
             )
-        if sentence := each.choice.sentence():
+        if sentence := each.choice.message():
             yield sentence
     if more := cut.missing[1:_NAMED]:
         yield f"also missing: {'; '.join(more)}" + (" ..." if len(cut.missing) > _NAMED else "")

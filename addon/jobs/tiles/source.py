@@ -24,7 +24,7 @@ from ...tiles.policies import Policy
 from ...tiles.sources import MissingError
 from . import decode
 from .access import TileAccess
-from .decode import Content
+from .decode import DecodeTask
 
 if TYPE_CHECKING:
     from ...tiles.cut import Choice
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 _TRIES = 8  # choices at most; each leaves out what could not be decoded, or knows more triangles
 
 
-def open_place(shot: Shot, number: int, access: TileAccess) -> Source:
+def open_tileset(shot: Shot, number: int, access: TileAccess) -> Source:
     """Open a source of a scene.
 
     Raises
@@ -120,7 +120,7 @@ class TileSource:
         from ...tiles.loader import Loader
 
         self.settings, self.folder = shot.settings.tiles, folder
-        source = open_place(shot, number, access)
+        source = open_tileset(shot, number, access)
         self.policy = source.policy
         tile_terms.check_source(shot.settings, number, self.policy, uses)
         self.advised = (
@@ -151,7 +151,7 @@ class TileSource:
                 self.error,
                 self.budget,
                 shadows=True,
-                put=self._put,
+                on_content=self._store_content,
                 triangles=triangles,
             )
             wanted, bad = self._contents(choice.contents.tolist())
@@ -181,9 +181,9 @@ class TileSource:
             self.advised,
         )
 
-    def _contents(self, numbers: list[int]) -> tuple[dict[int, Content], dict[int, str]]:
+    def _contents(self, numbers: list[int]) -> tuple[dict[int, DecodeTask], dict[int, str]]:
         """What is to be decoded, and why the rest cannot be: files beside it are missing, or it is wrong."""
-        wanted, bad = dict[int, Content](), dict[int, str]()
+        wanted, bad = dict[int, DecodeTask](), dict[int, str]()
         for number in numbers:
             try:
                 wanted[number] = self._content(number)
@@ -191,45 +191,45 @@ class TileSource:
                 bad[number] = str(error)
         return wanted, bad
 
-    def _put(self, content: int, data: bytes) -> None:
+    def _store_content(self, content: int, data: bytes) -> None:
         """Keep a content under a name that follows it."""
-        self.files[content] = self._stored(data)
+        self.files[content] = self._store(data)
 
-    def _stored(self, data: bytes) -> str:
+    def _store(self, data: bytes) -> str:
         path = self.folder / "content" / hashlib.sha256(data).hexdigest()
         files.write_cached(path, data)
         return str(path)
 
-    def _content(self, content: int) -> Content:
+    def _content(self, content: int) -> DecodeTask:
         """What is to be decoded of a content."""
         tree = self.loader.tree
         tile, document = int(tree.content[content, 0]), tree.documents[int(tree.content[content, 1])]
         earth = tree.matrix_of(tile)
         matrix, path = self.matrix @ earth, self.files[content]
-        key = hashlib.sha256(Path(path).name.encode() + _plain(matrix) + document.up_axis.encode())
+        key = hashlib.sha256(Path(path).name.encode() + _rounded_bytes(matrix) + document.up_axis.encode())
         uri = self.loader.content_uri(content)
-        return Content(
+        return DecodeTask(
             file=path,
             name=self.loader.source.name(uri),
             matrix=matrix.tolist(),
             earth_matrix=earth.tolist(),
             out=str(self.folder / f"{key.hexdigest()[:32]}{decoded.END}"),
             up_axis=document.up_axis,
-            beside=self._beside(uri, path),
+            resources=self._fetch_resources(uri, path),
         )
 
-    def _beside(self, uri: str, path: str) -> dict[str, str]:
+    def _fetch_resources(self, uri: str, path: str) -> dict[str, str]:
         """Files beside a content that it needs, by their uri."""
         source, name = self.loader.source, self.loader.source.name(uri)
         data, found = Path(path).read_bytes(), dict[str, bytes]()
-        while wanted := [each for each in _needed(data, name, found) if each not in found]:
+        while wanted := [each for each in _missing_resources(data, name, found) if each not in found]:
             found |= {each: source.read(source.resolve(uri, each)) for each in wanted}
-        return {each: self._stored(content) for each, content in found.items()}
+        return {each: self._store(content) for each, content in found.items()}
 
-    def _summary(self, content: Content) -> Summary | None:
+    def _summary(self, content: DecodeTask) -> Summary | None:
         """Numbers of a decoded content, read once; None where it could not be decoded, or is damaged."""
         if self._decoded.get(content.out) is None:
-            self._decoded[content.out] = decoded.summary(Path(content.out))
+            self._decoded[content.out] = decoded.read_summary(Path(content.out))
         return self._decoded[content.out]
 
     def _credits(self, shown: Iterable[Summary]) -> Iterator[str]:
@@ -244,7 +244,7 @@ class _WrongError(Exception):
     """A content that cannot be read, and is named as a tile that is missing."""
 
 
-def _needed(data: bytes, name: str, found: dict[str, bytes]) -> list[str]:
+def _missing_resources(data: bytes, name: str, found: dict[str, bytes]) -> list[str]:
     """Files beside a content that it names.
 
     Raises
@@ -260,6 +260,6 @@ def _needed(data: bytes, name: str, found: dict[str, bytes]) -> list[str]:
         raise _WrongError(str(error)) from None
 
 
-def _plain(matrix: NDArray[np.float64]) -> bytes:
+def _rounded_bytes(matrix: NDArray[np.float64]) -> bytes:
     """A matrix to a tenth of a millimetre at 60 km, so that rounding does not make another tile of it."""
     return np.round(matrix, 9).tobytes()

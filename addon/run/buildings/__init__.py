@@ -5,7 +5,7 @@ lowest ground under its whole footprint, and its roof is level.
 """
 
 from .footprints import ASSUMED, STOREY, Footprint, Footprints, collect, height_of, polygons, read
-from .placement import Building, stand
+from .placement import Building, place_on_ground
 
 __all__ = [
     "ASSUMED",
@@ -15,7 +15,7 @@ __all__ = [
     "Footprints",
     "collect",
     "height_of",
+    "place_on_ground",
     "polygons",
     "read",
-    "stand",
 ]

@@ -72,7 +72,7 @@ class Footprints:
     mended: int = 0
     refused: int = 0
 
-    def said(self) -> str:
+    def summary(self) -> str:
         """In words."""
         parts = [f"footprints of buildings: {len(self.outlines)}"]
         if self.assumed:

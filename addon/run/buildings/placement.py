@@ -1,4 +1,4 @@
-"""Where buildings stand: walls from below the lowest ground under the footprint up to a level roof."""
+"""Placement of buildings on the ground: walls from below the lowest ground up to a level roof."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _SAMPLE = 3.0  # m between samples of the ground
 
 @dataclass(frozen=True)
 class Building:
-    """A footprint that stands on the ground.
+    """A building placed on the ground.
 
     Attributes
     ----------
@@ -37,12 +37,12 @@ class Building:
     middle: tuple[float, float]
 
 
-def stand(
+def place_on_ground(
     outlines: Sequence[Footprint],
     ground: Callable[[Array], Array],
     metres: tuple[float, float] = (1.0, 1.0),
 ) -> list[Building]:
-    """Put buildings on the ground.
+    """Place buildings on the ground.
 
     Walls begin below the lowest ground under the whole footprint. The roof is level: as high as the building
     above the ground at its middle, and above all ground beneath it.

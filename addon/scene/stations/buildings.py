@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ...blender import owned
 from ...blender.owned import Stage
 from ...run import areas
-from ...run.buildings import Footprint, stand
+from ...run.buildings import Footprint, place_on_ground
 from ...shot.shot import Shot
 from ...shot.stations.station_signs import Sign
 from ..terrain import buildings
@@ -31,7 +31,9 @@ def build(
     rings = [hall(shot, each) if each.footprint is None else _metres(shot, each.footprint) for each in shown]
     outlines = [Footprint(ring, (), _HIGH) for ring in rings]
     made = Blocks()
-    for sign, block in zip(shown, stand(outlines, lambda place: shot.ground.up(*place.T)), strict=True):
+    for sign, block in zip(
+        shown, place_on_ground(outlines, lambda place: shot.ground.up(*place.T)), strict=True
+    ):
         made.add(block, _ROOF, _WALL)
         if sign.footprint is None:
             _gates(made, block.footprint.outer, block.roof - _HIGH)

@@ -91,7 +91,7 @@ def triangulate(outline: Rings) -> Array:
 def build(shot: Shot, stage: Stage, images: Mapping[str, bpy.types.Image]) -> bpy.types.Object | None:
     """Build "Firetwin Roofs" from the images of the ground's fields; None without footprints."""
     made = Blocks()
-    for building in footprints.standing(shot):
+    for building in footprints.place_buildings(shot):
         number = building.footprint.number
         lot = float(noise.uniform([number], 20, shot.settings.seed)[0])
         made.add(building, _ROOFS[int(lot * len(_ROOFS))], number=number + 1)

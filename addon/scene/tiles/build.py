@@ -54,7 +54,7 @@ def _pieces(cut: TileCut) -> list[str]:
     """Names of what is to be built of a cut's tiles: triangles and points."""
     found = []
     for name in cut.tiles:
-        about = decoded.summary(cut.folder / name)
+        about = decoded.read_summary(cut.folder / name)
         if about is None or about.triangles or not about.points:
             found.append(name)
         if about is not None and about.points:

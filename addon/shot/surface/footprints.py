@@ -16,12 +16,12 @@ def collect(shot: Shot) -> Footprints:
     return buildings.collect((each.polygons, each.height) for each in houses)
 
 
-def standing(shot: Shot) -> list[Building]:
+def place_buildings(shot: Shot) -> list[Building]:
     """A shot's buildings on its ground; heights are z in the scene, m."""
-    return buildings.stand(collect(shot).outlines, lambda place: shot.ground.up(*place.T))
+    return buildings.place_on_ground(collect(shot).outlines, lambda place: shot.ground.up(*place.T))
 
 
-def said(shot: Shot) -> str:
+def summary(shot: Shot) -> str:
     """What was assumed, mended or left out of the footprints, in words; empty if nothing was."""
     found = collect(shot)
-    return found.said() if found.assumed or found.mended or found.refused else ""
+    return found.summary() if found.assumed or found.mended or found.refused else ""

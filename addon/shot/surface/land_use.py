@@ -24,7 +24,7 @@ from ..schema import scene_text
 from ..settings import Settings
 from ..shot import Shot, cached_on_shot
 from ..terrain import noise, rasterize
-from ..terrain.raster import extent, overlap, said
+from ..terrain.raster import extent, format_bounds, overlap
 from .orthophoto import OrthophotoImage
 
 LAYERS = ("soft", "hard", "water")
@@ -186,7 +186,8 @@ def check(settings: Settings, run: Run) -> None:
         (west, south), (east, north) = corners.min(axis=0), corners.max(axis=0)
         bounds = (float(west), float(south), float(east), float(north))
         if not overlap(bounds, run.latitude, run.longitude):
-            reason = f"covers {said(bounds)}, outside of the run, which covers {said(extent(run))}"
+            here = format_bounds(extent(run))
+            reason = f"covers {format_bounds(bounds)}, outside of the run, which covers {here}"
             raise input_error(path, reason)
 
 

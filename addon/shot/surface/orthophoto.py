@@ -24,7 +24,7 @@ from ...run import areas, content
 from ..schema import scene_text
 from ..settings import Settings
 from ..terrain.elevation import ramp
-from ..terrain.raster import Array, GeoTiff, extent, overlap, said
+from ..terrain.raster import Array, GeoTiff, extent, format_bounds, overlap
 from . import drape
 from .drape_photo import DrapePhoto
 from .photo_areas import areas_of, size_of
@@ -79,9 +79,8 @@ def check(settings: Settings, run: Run) -> None:
         raise scene_text.error_at(settings.path, ("terrain", "photo"), reason)
     source = _file(settings)
     if not overlap(source.bounds, run.latitude, run.longitude):
-        raise source.error(
-            f"covers {said(source.bounds)}, outside of the run, which covers {said(extent(run))}"
-        )
+        here = format_bounds(extent(run))
+        raise source.error(f"covers {format_bounds(source.bounds)}, outside of the run, which covers {here}")
 
 
 def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ...run import areas
 from ..sections import SceneSettings
 from . import rim, tile_heights
-from .raster import Array, GeoTiff, extent, said
+from .raster import Array, GeoTiff, extent, format_bounds
 from .tile_heights import TileHeights
 
 _BLEND = 600.0  # m
@@ -191,9 +191,8 @@ def check(settings: SceneSettings, run: Run) -> None:
     if model.unit not in _UNITS:
         raise model.error(f'has heights in "{model.unit}"; convert them to metres or feet with gdal_calc.py')
     if not model.overlaps(run.latitude, run.longitude):
-        raise model.error(
-            f"covers {said(model.bounds)}, outside of the run, which covers {said(extent(run))}"
-        )
+        here = format_bounds(extent(run))
+        raise model.error(f"covers {format_bounds(model.bounds)}, outside of the run, which covers {here}")
     height, latitude, longitude = model.glimpse(extent(run))
     height = height * unit(model)
     own = _run_heights(run, latitude, longitude)

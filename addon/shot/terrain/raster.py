@@ -201,7 +201,7 @@ def extent(run: Run) -> Bounds:
     return run.longitude.min(), run.latitude.min(), run.longitude.max(), run.latitude.max()
 
 
-def said(bounds: Bounds) -> str:
+def format_bounds(bounds: Bounds) -> str:
     """Format a bounding box: ``38.900 to 38.909 N and -120.600 to -120.584 E``."""
     west, south, east, north = bounds
     return f"{south:.3f} to {north:.3f} N and {west:.3f} to {east:.3f} E"

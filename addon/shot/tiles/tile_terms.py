@@ -47,7 +47,7 @@ def check(settings: Settings, uses: Iterable[Use]) -> None:
     """
     wanted = list(uses)
     for number, place in enumerate(settings.tiles.sources):
-        check_source(settings, number, policies.of_place(place), wanted)
+        check_source(settings, number, policies.for_source(place), wanted)
 
 
 def check_source(settings: Settings, number: int, policy: Policy, uses: Iterable[Use]) -> None:

@@ -70,7 +70,7 @@ def check(url: str) -> None:
     """
     name = secret.Redactor().text(secret.split(url)[0])
     host = origin(url, name).host
-    policy = policies.of_host(host)
+    policy = policies.for_host(host)
     if policy.no_drape:
         raise input_error(name, f"{policy.name} may not be draped: {policy.no_drape}")
     if not is_template(url):

@@ -18,10 +18,10 @@ from ..sources.http import Http
 from .address import TileAddress
 
 Pixels = NDArray[np.uint8]
-_MOST_BYTES = 16 << 20  # of a tile
+_MAX_BYTES = 16 << 20  # of a tile
 _SIDES = (128, 256, 512, 1024)
 _KINDS = (b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff")
-_PATIENCE = 16  # tiles in a row of which nothing was there
+_MAX_MISSES = 16  # tiles in a row of which nothing was there
 
 
 @dataclass(frozen=True)
@@ -58,9 +58,9 @@ class TileServer:
         self.side = 0
         self.missing: dict[tuple[int, int, int], tuple[str, str]] = {}
         self._known: dict[tuple[int, int, int], Pixels | None] = {}
-        self._in_vain = 0
+        self._consecutive_misses = 0
 
-    def stitched(self, patch: Patch, progress: Progress = silent) -> Pixels:
+    def mosaic(self, patch: Patch, progress: Progress = silent) -> Pixels:
         """A patch as one picture (h, w, 4), north up; transparent where nothing is.
 
         Raises
@@ -69,9 +69,9 @@ class TileServer:
             The server does not go on, or has nothing at all.
         """
         self.fetch_ahead(patch, progress)
-        found = {tile: self.best(patch.level, *tile) for tile in patch.tiles()}
+        found = {tile: self.best_available(patch.level, *tile) for tile in patch.tiles()}
         if not self.side:
-            raise self._nothing()
+            raise self._no_tile_error()
         height, width = (count * self.side for count in patch.size[::-1])
         whole = np.zeros((height, width, 4), np.uint8)
         for (x, y), pixels in found.items():
@@ -82,58 +82,58 @@ class TileServer:
 
     def fetch_ahead(self, patch: Patch, progress: Progress = silent) -> None:
         """Ask for a patch's tiles, several at once."""
-        every = [tile for tile in patch.tiles() if self._key(patch.level, *tile) not in self._known]
+        every = [tile for tile in patch.tiles() if self._tile_key(patch.level, *tile) not in self._known]
         with ThreadPoolExecutor(self.source.parallel) as pool:
             for first in range(0, len(every), self.source.parallel):
                 part = every[first : first + self.source.parallel]
-                bodies = pool.map(lambda tile: self._body(patch.level, *tile), part)
+                bodies = pool.map(lambda tile: self._fetch_body(patch.level, *tile), part)
                 for (x, y), body in zip(part, bodies, strict=True):
-                    self._keep(self._key(patch.level, x, y), body)
+                    self._store_body(self._tile_key(patch.level, x, y), body)
                 progress(first + len(part), len(every), "tiles of the orthophoto")
 
-    def best(self, level: int, column: int, row: int) -> Pixels | None:
+    def best_available(self, level: int, column: int, row: int) -> Pixels | None:
         """A tile, else the part of the next coarser one that is there, enlarged; None without any."""
         found = self.tile(level, column, row)
         for up in range(1, level - self.address.lowest + 1):
             if found is not None:
                 break
             coarse = self.tile(level - up, column >> up, row >> up)
-            found = None if coarse is None else _part(coarse, up, column, row)
-        self._in_vain = 0 if found is not None else self._in_vain + 1
-        if self._in_vain == _PATIENCE and not self.side:
-            raise self._nothing()
+            found = None if coarse is None else _enlarge_part(coarse, up, column, row)
+        self._consecutive_misses = 0 if found is not None else self._consecutive_misses + 1
+        if self._consecutive_misses == _MAX_MISSES and not self.side:
+            raise self._no_tile_error()
         return found
 
     def tile(self, level: int, column: int, row: int) -> Pixels | None:
         """Pixels of a tile (side, side, 4); None where it is missing."""
-        key = self._key(level, column, row)
+        key = self._tile_key(level, column, row)
         if key not in self._known:
-            self._keep(key, self._body(*key))
+            self._store_body(key, self._fetch_body(*key))
         return self._known[key]
 
-    def _nothing(self) -> InputError:
+    def _no_tile_error(self) -> InputError:
         """Error of a server without any tile of the scene."""
         name, reason = next(iter(self.missing.values()), ("the orthophoto", "has no tiles"))
         return input_error(name, f"{reason}; the server has no tile of the scene")
 
-    def _key(self, level: int, column: int, row: int) -> tuple[int, int, int]:
+    def _tile_key(self, level: int, column: int, row: int) -> tuple[int, int, int]:
         return level, column % (1 << level), row
 
-    def _body(self, level: int, column: int, row: int) -> bytes | MissingError:
+    def _fetch_body(self, level: int, column: int, row: int) -> bytes | MissingError:
         if not 0 <= row < 1 << level:
             return missing(f"row {row} of level {level}", "lies outside of the Web Mercator map")
         source = self.source
         try:
-            return source.read(source.resolve(source.root, self.address.url(level, column, row)), _MOST_BYTES)
+            return source.read(source.resolve(source.root, self.address.url(level, column, row)), _MAX_BYTES)
         except MissingError as error:
             return error
 
-    def _keep(self, key: tuple[int, int, int], body: bytes | MissingError) -> None:
+    def _store_body(self, key: tuple[int, int, int], body: bytes | MissingError) -> None:
         name = self.source.name(self.source.resolve(self.source.root, self.address.url(*key)))
         try:
             if isinstance(body, MissingError):
                 raise body
-            pixels = decoded(body, name)
+            pixels = decode(body, name)
             if self.side not in (0, len(pixels)):
                 raise missing(name, f"is {len(pixels)} pixels large, others {self.side}")
         except MissingError as error:
@@ -142,7 +142,7 @@ class TileServer:
             self.side, self._known[key] = len(pixels), pixels
 
 
-def decoded(body: bytes, name: str) -> Pixels:
+def decode(body: bytes, name: str) -> Pixels:
     """Pixels (side, side, 4) of a PNG or JPEG.
 
     Raises
@@ -164,7 +164,7 @@ def decoded(body: bytes, name: str) -> Pixels:
     return np.rint(255.0 * np.clip(np.concatenate([colour, alpha], axis=-1), 0.0, 1.0)).astype(np.uint8)
 
 
-def _part(coarse: Pixels, up: int, column: int, row: int) -> Pixels | None:
+def _enlarge_part(coarse: Pixels, up: int, column: int, row: int) -> Pixels | None:
     """Part of a tile `up` levels coarser that belongs to a finer one, each texel repeated."""
     side, count = len(coarse), 1 << up
     at = (np.arange(side) + 0.5) / side

@@ -17,7 +17,7 @@ from ...run.observations.feature import finite
 from .address import WORLD, TileAddress
 from .mercator import DEEPEST, DENOMINATOR, HALF
 
-MOST_BYTES = 32 << 20  # of the capabilities
+MAX_BYTES = 32 << 20  # of the capabilities
 _FORMATS = ("image/jpeg", "image/png", "image/jpg")
 _CODES = ("3857", "900913", "102100", "102113", "3785")
 _NEAR = 1.0e-3  # of scales and corners: servers round them

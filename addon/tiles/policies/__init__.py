@@ -79,7 +79,7 @@ def known() -> Iterator[Policy]:
         yield importlib.import_module(f".{module.name}", __name__).POLICY
 
 
-def of_host(host: str) -> Policy:
+def for_host(host: str) -> Policy:
     """Policy of a host; `OPEN` for one that no service claims."""
     for policy in known():
         if any(host == each or host.endswith(f".{each}") for each in policy.hosts):
@@ -87,7 +87,7 @@ def of_host(host: str) -> Policy:
     return OPEN
 
 
-def of_place(place: str) -> Policy:
+def for_source(place: str) -> Policy:
     """Policy of a source as a user names it, without asking anybody.
 
     An asset of ion may lead to a service that only its answer names: the opened source has its own policy.
@@ -97,6 +97,6 @@ def of_place(place: str) -> Policy:
         own = (each for each in known() if number.isdecimal() and int(number) in each.assets)
         return next(own, importlib.import_module(".ion", __name__).POLICY)
     try:
-        return of_host(urlsplit(place).hostname or "") if "://" in place else OPEN
+        return for_host(urlsplit(place).hostname or "") if "://" in place else OPEN
     except ValueError:  # no URL, as reading it says
         return OPEN

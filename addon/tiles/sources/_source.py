@@ -9,7 +9,7 @@ from os import PathLike
 from ...errors import InputError, input_error
 from ..policies import OPEN, Policy
 
-MOST_BYTES = 256 << 20  # of one file
+MAX_BYTES = 256 << 20  # of one file
 GROWTH = 64  # most that something compressed may grow
 _FREE = 1 << 20  # bytes to which anything may grow
 _GZIP = b"\x1f\x8b"
@@ -62,7 +62,7 @@ class Source(ABC):
         """
 
     @abstractmethod
-    def read(self, uri: str, most: int = MOST_BYTES) -> bytes:
+    def read(self, uri: str, max_bytes: int = MAX_BYTES) -> bytes:
         """Content of a file, unpacked.
 
         Raises
@@ -70,7 +70,7 @@ class Source(ABC):
         MissingError
             It is not there, or cannot be had now.
         InputError
-            It is larger than `most` bytes, or the source does not go on.
+            It is larger than `max_bytes` bytes, or the source does not go on.
         """
 
     def size(self, uri: str) -> int | None:
@@ -85,7 +85,7 @@ class Source(ABC):
         """Let go of files and connections."""
 
 
-def unpack(data: bytes, most: int, name: str) -> bytes:
+def unpack(data: bytes, max_bytes: int, name: str) -> bytes:
     """Content of a gzip file; other data as they are.
 
     Raises
@@ -93,14 +93,14 @@ def unpack(data: bytes, most: int, name: str) -> bytes:
     MissingError
         It is damaged, or ends early.
     InputError
-        It would grow beyond `most` bytes, or more than 64 times.
+        It would grow beyond `max_bytes` bytes, or more than 64 times.
     """
-    return gunzip(data, most, name) if data[:2] == _GZIP else data
+    return gunzip(data, max_bytes, name) if data[:2] == _GZIP else data
 
 
-def gunzip(data: bytes, most: int, name: str, bits: int = 31) -> bytes:
+def gunzip(data: bytes, max_bytes: int, name: str, bits: int = 31) -> bytes:
     """Decompress within the limits of growth; `bits` as zlib has them: 31 gzip, 15 zlib, -15 neither."""
-    limit = min(most, max(GROWTH * len(data), _FREE))
+    limit = min(max_bytes, max(GROWTH * len(data), _FREE))
     engine = zlib.decompressobj(bits)
     try:
         result = engine.decompress(data, limit + 1)
@@ -113,7 +113,7 @@ def gunzip(data: bytes, most: int, name: str, bits: int = 31) -> bytes:
     return result
 
 
-def check_size(size: int, most: int, name: str) -> None:
-    """Raise InputError for a file of more than `most` bytes."""
-    if size > most:
-        raise input_error(name, f"has {size:,} bytes; at most {most:,} are read")
+def check_size(size: int, max_bytes: int, name: str) -> None:
+    """Raise InputError for a file of more than `max_bytes` bytes."""
+    if size > max_bytes:
+        raise input_error(name, f"has {size:,} bytes; at most {max_bytes:,} are read")

@@ -9,7 +9,7 @@ import zlib
 from pathlib import Path
 
 from ...errors import InputError, input_error
-from ._source import GROWTH, MOST_BYTES, Source, check_size, missing, unpack
+from ._source import GROWTH, MAX_BYTES, Source, check_size, missing, unpack
 from .local import relative
 
 _METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
@@ -46,12 +46,12 @@ class Archive(Source):
         """Name of a member."""
         return relative(base, reference, self.name(base))
 
-    def read(self, uri: str, most: int = MOST_BYTES) -> bytes:
+    def read(self, uri: str, max_bytes: int = MAX_BYTES) -> bytes:
         """Read a member; its length and CRC are checked."""
         name, member = self.name(uri), self._members.get(uri)
         if member is None:
             raise missing(name, "is not in the archive")
-        check_size(member.file_size, most, name)
+        check_size(member.file_size, max_bytes, name)
         if member.file_size > max(GROWTH * member.compress_size, _FREE):
             raise input_error(name, f"grows more than {GROWTH} times when decompressed")
         if member.compress_type not in _METHODS:
@@ -68,7 +68,7 @@ class Archive(Source):
             raise missing(name, f"is damaged: {error}") from error
         if len(data) != member.file_size:
             raise missing(name, f"has {len(data):,} bytes, not {member.file_size:,} as the archive says")
-        return unpack(data, most, name)
+        return unpack(data, max_bytes, name)
 
     def size(self, uri: str) -> int | None:
         """Bytes in the archive."""

@@ -61,12 +61,12 @@ class Connection:
         self._lock = threading.Lock()
         logging.getLogger("urllib3.connectionpool").addFilter(redactor)
 
-    def ask(self, url: str, headers: dict[str, str], most: int, name: str) -> Response:
+    def ask(self, url: str, headers: dict[str, str], max_bytes: int, name: str) -> Response:
         """One GET, without redirects and repetitions.
 
         Parameters
         ----------
-        most
+        max_bytes
             Bytes of the body, as it comes and unpacked.
         name
             Of the URL, for messages.
@@ -102,7 +102,7 @@ class Connection:
         except (library.exceptions.HTTPError, OSError) as error:
             raise TransportError(self._redactor.text(str(error))) from None
         try:
-            body = self._body(response, most, name)
+            body = self._body(response, max_bytes, name)
         except BaseException as error:
             response.close()  # what is left of it would be taken for the next answer
             if not isinstance(error, library.exceptions.HTTPError | OSError):
@@ -119,7 +119,7 @@ class Connection:
             pool.close()
         logging.getLogger("urllib3.connectionpool").removeFilter(self._redactor)
 
-    def _body(self, response: Any, most: int, name: str) -> bytes:
+    def _body(self, response: Any, max_bytes: int, name: str) -> bytes:
         """Body within the limits, unpacked; gzip's own checksum is compared."""
         coding = response.headers.get("Content-Encoding", "identity").strip().lower()
         if coding not in ("identity", "gzip", ""):
@@ -128,12 +128,14 @@ class Connection:
         raw, size, pieces = 0, 0, []
         while piece := response.read(_PIECE):
             raw += len(piece)
-            limit = most if engine is None else min(most, max(GROWTH * raw, _FREE))
+            limit = max_bytes if engine is None else min(max_bytes, max(GROWTH * raw, _FREE))
             if engine is not None:
                 piece = self._inflated(engine, piece, limit + 1 - size)
             size += len(piece)
-            if size > limit or raw > most:
-                raise input_error(name, f"is larger than {most:,} bytes, or grows more than {GROWTH} times")
+            if size > limit or raw > max_bytes:
+                raise input_error(
+                    name, f"is larger than {max_bytes:,} bytes, or grows more than {GROWTH} times"
+                )
             pieces.append(piece)
         stated = response.headers.get("Content-Length", "")
         if stated.isdecimal() and raw != int(stated):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ...errors import input_error
-from ._source import MOST_BYTES, Source, check_size, missing, unpack
+from ._source import MAX_BYTES, Source, check_size, missing, unpack
 from .local import relative
 
 
@@ -34,17 +34,17 @@ class Folder(Source):
         """Path below the folder."""
         return relative(base, reference, self.name(base))
 
-    def read(self, uri: str, most: int = MOST_BYTES) -> bytes:
+    def read(self, uri: str, max_bytes: int = MAX_BYTES) -> bytes:
         """Read a file that lies in the folder, links followed."""
         path = self._path(uri)
         try:
-            check_size(path.stat().st_size, most, self.name(uri))
+            check_size(path.stat().st_size, max_bytes, self.name(uri))
             with path.open("rb") as file:
-                data = file.read(most + 1)
+                data = file.read(max_bytes + 1)
         except OSError as error:
             raise missing(self.name(uri), f"cannot be read ({error.strerror})") from error
-        check_size(len(data), most, self.name(uri))
-        return unpack(data, most, self.name(uri))
+        check_size(len(data), max_bytes, self.name(uri))
+        return unpack(data, max_bytes, self.name(uri))
 
     def size(self, uri: str) -> int | None:
         """Bytes on the disk."""

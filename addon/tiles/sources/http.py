@@ -12,19 +12,19 @@ from .. import contents, policies
 from ..json_text import parse
 from ..policies import Policy
 from . import secret
-from ._source import MOST_BYTES, Source, missing, unpack
+from ._source import MAX_BYTES, Source, missing, unpack
 from .address import Origin, origin
+from .backoff import MAX_RETRIES, MAX_RETRY_AFTER, Backoff, Clock, retry_delay
 from .connection import Connection, Response, TransportError
 from .http_cache import Answer, HttpCache
 from .network import Network
-from .waiting import LONGEST, TRIES, Clock, Pause, seconds
 
 _GONE = (404, 410)
 _DENIED = (400, 401, 403)
 _LATER = (408, 425, 429, 500, 502, 503, 504)
 _MOVED = (301, 302, 303, 307, 308)
-_MOST_REDIRECTS = 5
-_MOST_FAILURES = 3  # files in a row that all repetitions could not get
+_MAX_REDIRECTS = 5
+_MAX_FAILURES = 3  # files in a row that all repetitions could not get
 _DEEPEST_SESSION = 4  # files from the root to the one that names the session
 _WORDS = 300  # characters of a service's own words
 
@@ -65,7 +65,7 @@ class Http(Source):
         self.redactor.add(*self._secrets.values(), bearer)
         self.bearer = bearer
         self.home = origin(self.root, self.name(self.root))
-        self.policy = policy or policies.of_host(self.home.host)
+        self.policy = policy or policies.for_host(self.home.host)
         self.missing: list[str] = []
         self._session = self._secrets.pop(self.policy.session_parameter, "")
         self._add_key()
@@ -74,7 +74,7 @@ class Http(Source):
             HttpCache(self.network.cache, self.network.limit) if keep and self.network.cache else None
         )
         self._connection = Connection(self.network.private, self.redactor)
-        self._pause = Pause(self.clock)
+        self._backoff = Backoff(self.clock)
         self._lock = threading.Lock()
         self._failures = 0
         self._own: dict[str, dict[str, str]] = {}
@@ -85,9 +85,9 @@ class Http(Source):
         try:
             url, secrets = secret.split(urljoin(base, reference.strip()))
         except ValueError as error:
-            raise input_error(name, f"refers to no URL: {self._say(error)}") from None
+            raise input_error(name, f"refers to no URL: {self._redacted(error)}") from None
         self.redactor.add(*secrets.values())
-        self._allowed(url, name)
+        self._check_origin(url, name)
         session = secrets.pop(self.policy.session_parameter, "")
         if session and not self._session:
             self._session = session
@@ -95,16 +95,16 @@ class Http(Source):
             self._own[url] = secrets
         return url
 
-    def read(self, uri: str, most: int = MOST_BYTES) -> bytes:
+    def read(self, uri: str, max_bytes: int = MAX_BYTES) -> bytes:
         """Body of the answer, from the cache where it is fresh."""
         now, name = self.clock.now(), self.name(uri)
         fresh_root = uri == self.root and bool(self.policy.session_parameter)
         kept = self._cache.find(uri, now) if self._cache and not fresh_root else None
         if kept is not None and now < kept.expires:
-            return unpack(kept.body, most, name)
+            return unpack(kept.body, max_bytes, name)
         if not self.network.online:
-            return self._offline(uri, kept, most)
-        return unpack(self._fetched(uri, kept, most), most, name)
+            return self._offline(uri, kept, max_bytes)
+        return unpack(self._fetch(uri, kept, max_bytes), max_bytes, name)
 
     def name(self, uri: str) -> str:
         """The URL; secrets are not part of it."""
@@ -116,10 +116,10 @@ class Http(Source):
         if self._cache:
             self._cache.close()
 
-    def _offline(self, uri: str, kept: Answer | None, most: int) -> bytes:
+    def _offline(self, uri: str, kept: Answer | None, max_bytes: int) -> bytes:
         """What the cache has without asking the server."""
         if kept is not None and not kept.strict and self.policy.may_work_offline:
-            return unpack(kept.body, most, self.name(uri))
+            return unpack(kept.body, max_bytes, self.name(uri))
         self.missing.append(uri)
         state = (
             "is not in the cache" if kept is None else "is in the cache, but must not be used without asking"
@@ -129,7 +129,7 @@ class Http(Source):
             raise input_error(self.name(uri), reason)
         raise missing(self.name(uri), reason)
 
-    def _allowed(self, url: str, name: str) -> Origin:
+    def _check_origin(self, url: str, name: str) -> Origin:
         """Origin of a URL, which must be the root's or a host that the user named."""
         found = origin(url, name)
         if found != self.home and not (found.scheme == "https" and found.host in self.network.hosts):
@@ -149,29 +149,29 @@ class Http(Source):
         self.redactor.add(key)
         self._secrets[policy.key_parameter] = key
 
-    def _fetched(self, uri: str, kept: Answer | None, most: int) -> bytes:
+    def _fetch(self, uri: str, kept: Answer | None, max_bytes: int) -> bytes:
         """Body from the server, asked again as long as that helps."""
         name, tries, cut_off, refreshed = self.name(uri), 0, 0, False
         while True:
-            self._pause.wait()
+            self._backoff.wait()
             session = self._session
             why, asked = "", None
             try:
-                response = self._ask(uri, kept, most, session)
+                response = self._ask(uri, kept, max_bytes, session)
             except TransportError as error:
                 if error.cut_off:
                     cut_off += 1
                     if cut_off > 1:
-                        raise missing(name, f"ends early, twice: {self._say(error)}") from None
+                        raise missing(name, f"ends early, twice: {self._redacted(error)}") from None
                     continue
-                why = self._say(error)
+                why = self._redacted(error)
             else:
                 status = response.status
                 if status == 304 and kept is not None:
-                    return self._confirmed(uri, kept, response)
+                    return self._confirm(uri, kept, response)
                 if status == 200:
-                    if (fault := contents.cut_off(response.body)) is None:
-                        return self._kept(uri, response)
+                    if (fault := contents.truncation(response.body)) is None:
+                        return self._store(uri, response)
                     cut_off += 1
                     if cut_off > 1:
                         raise missing(name, f"ends early, twice: {fault}")
@@ -183,28 +183,31 @@ class Http(Source):
                         self._refresh(session)
                         refreshed = True
                         continue
-                    raise self._denied(uri, response, bool(session or self.renew))
+                    raise self._denied_error(uri, response, bool(session or self.renew))
                 if status not in _LATER:
-                    raise missing(name, f"cannot be had (status {status}{self._words(response)})")
-                why, asked = f"status {status}{self._words(response)}", response.headers.get("Retry-After")
-            self._later(name, why, asked, tries)
+                    raise missing(name, f"cannot be had (status {status}{self._service_message(response)})")
+                why, asked = (
+                    f"status {status}{self._service_message(response)}",
+                    response.headers.get("Retry-After"),
+                )
+            self._schedule_retry(name, why, asked, tries)
             tries += 1
 
-    def _later(self, name: str, why: str, asked: str | None, tries: int) -> None:
+    def _schedule_retry(self, name: str, why: str, asked: str | None, tries: int) -> None:
         """Pause the source before a repetition; or give up."""
-        if tries >= TRIES:
+        if tries >= MAX_RETRIES:
             with self._lock:
                 self._failures += 1
-                stop = self._failures >= _MOST_FAILURES
+                stop = self._failures >= _MAX_FAILURES
             if stop:
                 raise input_error(name, f"the server does not answer ({why}); try again later")
-            raise missing(name, f"cannot be had after {TRIES + 1} attempts ({why})")
-        wait = seconds(asked, tries, self.clock)
-        if wait > LONGEST:
+            raise missing(name, f"cannot be had after {MAX_RETRIES + 1} attempts ({why})")
+        wait = retry_delay(asked, tries, self.clock)
+        if wait > MAX_RETRY_AFTER:
             raise input_error(name, f"the server asks to wait {wait:,.0f} s ({why}); try again then")
-        self._pause.ask_for(wait)
+        self._backoff.extend(wait)
 
-    def _ask(self, uri: str, kept: Answer | None, most: int, session: str) -> Response:
+    def _ask(self, uri: str, kept: Answer | None, max_bytes: int, session: str) -> Response:
         """One request, with redirects within the host."""
         url = uri
         headers = {}
@@ -212,8 +215,10 @@ class Http(Source):
             headers["If-None-Match"] = kept.etag
         elif kept is not None and kept.modified:
             headers["If-Modified-Since"] = kept.modified
-        for _ in range(_MOST_REDIRECTS):
-            response = self._connection.ask(*self._with_secrets(url, session, headers), most, self.name(uri))
+        for _ in range(_MAX_REDIRECTS):
+            response = self._connection.ask(
+                *self._with_secrets(url, session, headers), max_bytes, self.name(uri)
+            )
             if response.status not in _MOVED:
                 return response
             target, secrets = secret.split(urljoin(url, response.headers.get("Location", "")))
@@ -224,7 +229,7 @@ class Http(Source):
                 raise input_error(self.name(uri), self.redactor.text(reason))
             self._own[target] = self._own.get(target, {}) | secrets
             url = target
-        raise missing(self.name(uri), f"is redirected more than {_MOST_REDIRECTS} times")
+        raise missing(self.name(uri), f"is redirected more than {_MAX_REDIRECTS} times")
 
     def _with_secrets(self, url: str, session: str, headers: dict[str, str]) -> tuple[str, dict[str, str]]:
         """URL and headers as they are sent: secrets of the root go to its own host alone."""
@@ -237,14 +242,14 @@ class Http(Source):
                 headers = headers | {"Authorization": f"Bearer {self.bearer}"}
         return secret.joined(url, secrets), headers
 
-    def _kept(self, uri: str, response: Response) -> bytes:
+    def _store(self, uri: str, response: Response) -> bytes:
         with self._lock:
             self._failures = 0
         if self._cache:
             self._cache.put(uri, response.body, response.headers, self.clock.now())
         return response.body
 
-    def _confirmed(self, uri: str, kept: Answer, response: Response) -> bytes:
+    def _confirm(self, uri: str, kept: Answer, response: Response) -> bytes:
         if self._cache:
             self._cache.refresh(uri, response.headers, self.clock.now())
         return kept.body
@@ -265,9 +270,9 @@ class Http(Source):
         """Session that the root names now, itself or in the first tileset that it holds."""
         url, parameter = self.root, self.policy.session_parameter
         for _ in range(_DEEPEST_SESSION):
-            response = self._ask(url, None, MOST_BYTES, "")
+            response = self._ask(url, None, MAX_BYTES, "")
             if response.status != 200:
-                raise self._denied(url, response, True)
+                raise self._denied_error(url, response, True)
             found = [
                 secret.split(urljoin(url, each))
                 for each in contents.references(parse(response.body, self.name(url)).value)
@@ -277,20 +282,20 @@ class Http(Source):
                 if secrets.get(parameter, old) != old:
                     return secrets[parameter]
             url = next((each for each, _ in found if contents.kind_by_name(each) == "json"), url)
-            self._allowed(url, self.name(self.root))
+            self._check_origin(url, self.name(self.root))
         raise input_error(self.name(self.root), "names no new session; try again later")
 
-    def _denied(self, uri: str, response: Response, within_session: bool) -> InputError:
+    def _denied_error(self, uri: str, response: Response, within_session: bool) -> InputError:
         """Error of a request that was refused; a file of an open server is then missing."""
-        reason = f"is refused (status {response.status}{self._words(response)})"
+        reason = f"is refused (status {response.status}{self._service_message(response)})"
         if within_session or uri == self.root or self.bearer:
             return input_error(self.name(uri), f"{reason}; check the key and its rights")
         return missing(self.name(uri), reason)
 
-    def _words(self, response: Response) -> str:
+    def _service_message(self, response: Response) -> str:
         """The service's own words."""
         text = " ".join(response.body[:4096].decode("utf-8", "replace").split())
         return f": {self.redactor.text(text)[:_WORDS]}" if text else ""
 
-    def _say(self, error: Exception) -> str:
+    def _redacted(self, error: Exception) -> str:
         return self.redactor.text(str(error))

@@ -9,9 +9,9 @@ from ...errors import input_error
 from .. import policies
 from ..json_text import Node, parse
 from ..policies.ion import POLICY
+from .backoff import Clock
 from .http import Http
 from .network import Network
-from .waiting import Clock
 
 API = "https://api.cesium.com"
 PREFIX = "ion:"
@@ -71,4 +71,4 @@ def _policy_of(url: str, external: Node) -> policies.Policy:
     """Policy of the service that an asset leads to."""
     if external.text() != "3DTILES":
         raise external.error("is not 3DTILES; choose an asset of 3D tiles")
-    return policies.of_host(urlsplit(url).hostname or "")
+    return policies.for_host(urlsplit(url).hostname or "")
