@@ -143,7 +143,7 @@ def _written(context: bpy.types.Context) -> Generator[InThread | Message, Any, l
 
 def _submitted(command: list[str], out: Path, last: str) -> Steps:
     """Run an engine's command, then read the status of the job."""
-    yield InThread("submitting", functools.partial(submission.call, command, out))
+    yield InThread("submitting", functools.partial(submission.run_command, command, out))
     yield InThread("reading the status", lambda **_: farm_watch.read(out))
     farm_watch.start(out)
     return last
@@ -263,7 +263,7 @@ class FIRETWIN_OT_farm_cancel(_OfJob, bpy.types.Operator):
         out = _out(context.scene.firetwin)
         _present(out)
         command = submission.cancel_command(out)
-        yield InThread("cancelling", functools.partial(submission.call, command, out))
+        yield InThread("cancelling", functools.partial(submission.run_command, command, out))
         return f"Cancelled the job of {out}; Resume continues it"
 
 
