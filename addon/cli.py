@@ -341,7 +341,7 @@ def _parser() -> argparse.ArgumentParser:
     )
 
     stations.add_stations(
-        command("stations", "make or list a file of stations and resources", stations.STATIONS),
+        command("stations", "make or list a station file", stations.STATIONS),
         types.path,
     )
     stations.add_resources(

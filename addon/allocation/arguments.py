@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import textwrap
 from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
@@ -11,17 +12,21 @@ from pathlib import Path
 from ..stations.records import EXERCISE
 from . import LIMITS
 
+_LIMITS = textwrap.fill(f"Limits: {'; '.join(LIMITS)}.", 110)
+
 DETAIL = f"""\
-{EXERCISE}. Suggests an allocation of the resources of a station file to divisions of a run's front. They
-build at least as much line as the length of the front at the hour of containment, at minimum cost and loss
-(after Donovan and Rideout 2003). Divisions are sectors around the centre of the burned area, lettered
-clockwise from north.
+{EXERCISE}.
+
+Suggests an allocation of the resources of a station file to divisions of a run's front. They build at least
+as much line as the length of the front at the hour of containment, at minimum cost and loss (after Donovan
+and Rideout 2003). Divisions are sectors around the centre of the burned area, lettered clockwise from north.
 
   firetwin allocate stations.gpkg RUN --budget 250000 --standard-response engine/3=4,dozer/2=1 --minutes 60
 
-Limits: {"; ".join(LIMITS)}. Needs SciPy (pip install 'firetwin[resources]'). Exit status: 0 allocation found,
-1 no allocation (the reasons are
-printed on stderr)."""
+{_LIMITS}
+
+Needs SciPy (pip install 'firetwin[resources]'). The exit status is 1 if there is no allocation; the
+reasons are printed on stderr."""
 
 
 def add(

@@ -130,15 +130,15 @@ def add_resources(
         "--currency", metavar="CODE", default="USD", type=str.upper, help="currency of the budget (USD)"
     )
     for name, unit, usual, what in (
-        ("hours", "H", 12.0, "hours of work that are paid"),
-        ("detour", "FACTOR", DETOUR, "length of roads by straight distance"),
-        ("refill", "KM", 5.0, "distance of the place of refilling, km; air tankers fill at their base"),
-        ("turnaround", "MIN", 10.0, "time to fill and to discharge in a round trip, min"),
+        ("hours", "H", 12.0, "paid hours of work"),
+        ("detour", "FACTOR", DETOUR, "ratio of road length to straight distance"),
+        ("refill", "KM", 5.0, "distance to the refill point, km; air tankers fill at their base"),
+        ("turnaround", "MIN", 10.0, "time to fill and discharge in a round trip, min"),
     ):
         help = f"{what} ({usual:g})"
         parser.add_argument(f"--{name}", metavar=unit, type=_positive, default=usual, help=help)
     parser.add_argument(
-        "--ahead", action="store_true", help="only where the fire of --run arrives, soonest first"
+        "--ahead", action="store_true", help="only stations that the fire of --run reaches, earliest first"
     )
     parser.add_argument(
         "--clearance", metavar="LENGTH", type=_length, default=0.5,
