@@ -6,6 +6,7 @@
 #include <cstdint>
 
 /// Linear, bilinear and trilinear interpolation on a lattice.
+///
 /// Not used for weighted sums that skip missing values (geo/axis.cpp, forest/stand.cpp,
 /// forest/placement.cpp) and for SIMD code (volume/march.cpp, volume/smooth.cpp).
 namespace firetwin {

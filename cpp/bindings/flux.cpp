@@ -31,17 +31,17 @@ flux::SparseFlux frame(const Interpolator& model, double time) {
   return model.at(time);
 }
 
-/// The flux of every cell. NumPy's zeros are memory that nothing has touched yet.
+/// Heat flux of all cells. NumPy's zeros are lazily allocated pages.
 Array<float> at(const Interpolator& model, double time) {
   const flux::SparseFlux found = frame(model, time);
   const py::tuple shape =
       py::make_tuple(model.run().latitude().size(), model.run().longitude().size());
-  Array<float> whole = py::module_::import("numpy").attr("zeros")(shape, "f4");
-  const auto out = writable(whole);
+  Array<float> all = py::module_::import("numpy").attr("zeros")(shape, "f4");
+  const auto out = writable(all);
   for (std::size_t i = 0; i < found.cell.size(); ++i) {
     out[static_cast<std::size_t>(found.cell[i])] = found.flux[i];
   }
-  return whole;
+  return all;
 }
 
 py::tuple burning(const Interpolator& model, double time) {

@@ -16,12 +16,12 @@ namespace {
 using forest::Plants;
 using geo::LocalFrame;
 
-/// Same data, two Python types: trees and grass.
+/// Two Python types of the same data: trees and grass.
 struct Trees : Plants {};
 struct Grass : Plants {};
 using forest::Stems;
 
-/// The arrays of a PlantingSite, kept alive and checked against the shape of the fuel.
+/// Owns the arrays of a PlantingSite; checks their shapes against the fuel.
 struct SiteArrays {
   Array<double> latitude;
   Array<double> longitude;
@@ -53,7 +53,7 @@ std::shared_ptr<Trees> trees(const py::object& canopy_fuel, const py::object& la
   const auto site = arrays.site(frame, seed, jitter);
   const py::gil_scoped_release release;
   if (!max_fuel) {
-    // A grid without canopy has no largest fuel and no tree that would need it.
+    // Without canopy fuel the maximum is not needed, as no tree grows.
     const double largest = double{forest::largest_fuel(view(fuel))};
     max_fuel = largest > 0.0 ? largest : 1.0;
   }

@@ -19,7 +19,7 @@ namespace {
 
 using lod::LevelTable;
 
-/// A new array of the same shape.
+/// Creates an array of the same shape.
 template <class T> Array<T> like(const Array<double>& array) {
   return new_array<T>({array.shape(), array.shape() + array.ndim()});
 }

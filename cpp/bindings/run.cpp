@@ -131,7 +131,7 @@ std::vector<std::size_t> chosen(const Series& series, const py::object& indices)
   return result;
 }
 
-/// An iterator over frames, with the run that it reads.
+/// Iterator over frames; keeps its run alive.
 class Frames {
 public:
   Frames(std::shared_ptr<const Run> run, const std::string& field, const py::object& indices,
@@ -154,7 +154,7 @@ public:
   }
 
 private:
-  /// Reading is cheap beside most uses of a frame.
+  /// Reading is cheap compared with most uses of a frame.
   static constexpr std::size_t ahead_threads = 2;
   std::shared_ptr<const Run> run_;
   std::vector<py::ssize_t> shape_;
@@ -214,7 +214,7 @@ Array<double> heat_released(const Run& run) {
 using Axis = const std::vector<double>& (Run::*)() const;
 using Field = const run::Plane& (Run::*)() const;
 
-/// Read-only views of the run's own memory.
+/// Read-only views of the run's memory.
 template <Axis axis> Array<double> axis_view(const py::object& self) {
   const auto& values = (self.cast<const Run&>().*axis)();
   return lend<double>(values, {length(values.size())}, self);
@@ -267,7 +267,7 @@ Array<float> fuel_rows(const Run& run, const std::string& field, py::ssize_t fir
   return array;
 }
 
-/// The path as Python has it, which opens the folder whatever bytes its name is made of.
+/// The path as a Python string that opens the folder even if its name is not valid UTF-8.
 py::object path_of(const Run& run) {
   const std::string bytes = io::utf8(run.path());
   PyObject* decoded =

@@ -31,7 +31,7 @@ using sensor::Band;
 
 using sensor::PlanckTable;
 
-/// Applies `function(value)` to every element, by all threads.
+/// Applies `function(value)` to every element in parallel.
 template <class T, class Function>
 Array<T> each(const py::object& object, const std::string& name, Function function) {
   const auto values = to_array<T>(object, name);
@@ -109,7 +109,7 @@ py::tuple detect(const PlanckTable& table, const py::object& radiance, double bl
   return py::make_tuple(measured, bits > 0 ? py::object(counts) : py::object(py::none()));
 }
 
-/// Calls `work(first pixel, count)` for pieces of so many pixels, by all threads.
+/// Calls `work(first pixel, count)` for blocks of pixels in parallel.
 template <class Work> void in_pieces(std::size_t pixels, Work work) {
   const py::gil_scoped_release release;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels, 4096),
@@ -123,7 +123,7 @@ Array<float> colour(const py::object& kelvin, double low, double high, const std
   auto result = new_array<float>({k.shape(0), k.shape(1), 3});
   const auto in = view(k);
   const auto out = writable(result);
-  sensor::colour({}, low, high, knee, palette, {}); // says what is wrong where there are no pixels
+  sensor::colour({}, low, high, knee, palette, {}); // validates the arguments, without pixels
   in_pieces(in.size(), [&](std::size_t first, std::size_t count) {
     sensor::colour(in.subspan(first, count), low, high, knee, palette,
                    out.subspan(3 * first, 3 * count));
@@ -191,7 +191,7 @@ sensor::Image load(const std::filesystem::path& path) {
   return sensor::read_image(path);
 }
 
-/// Hands an image's pixels to NumPy.
+/// Moves an image's pixels to NumPy.
 Array<float> pixels_of(sensor::Image& image) {
   return give(std::move(image.pixels),
               {length(image.height), length(image.width), length(image.channels)});

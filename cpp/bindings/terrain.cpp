@@ -28,7 +28,7 @@ template <class T> std::vector<T> values(const Array<T>& array) {
   return {array.data(), array.data() + array.size()};
 }
 
-/// First row and column, parts of a cell, offsets and shares.
+/// First row and column, points per cell, offsets and shares.
 using Known = std::tuple<std::size_t, std::size_t, std::size_t, py::object, py::object>;
 
 terrain::Patch patch(const Known& known) {
@@ -96,8 +96,8 @@ Array<double> perlin(const py::object& x, const py::object& y, std::int64_t seed
   return result;
 }
 
-/// Bilinear values of a field (ny, nx) or (ny, nx, bands) at rows and columns that broadcast to one
-/// shape.
+/// Interpolates a field (ny, nx) or (ny, nx, bands) bilinearly at rows and columns, which
+/// broadcast.
 Array<double> bilinear(const py::object& field, const py::object& row, const py::object& column) {
   const auto together =
       py::module_::import("numpy").attr("broadcast_arrays")(row, column).cast<py::sequence>();
@@ -107,7 +107,7 @@ Array<double> bilinear(const py::object& field, const py::object& row, const py:
   const bool single = any && any.dtype().is(py::dtype::of<float>());
   const auto values = [&](const auto& array) {
     if ((array.ndim() != 2 && array.ndim() != 3) || array.size() == 0) {
-      wrong("field", "must have a row and a column or more, not shape " + shape_text(array));
+      wrong("field", "must have at least one row and one column, not shape " + shape_text(array));
     }
     std::vector<py::ssize_t> shape(rows.shape(), rows.shape() + rows.ndim());
     if (array.ndim() == 3) {
@@ -127,7 +127,7 @@ Array<double> bilinear(const py::object& field, const py::object& row, const py:
                 : values(to_array<double>(field, "field"));
 }
 
-/// Random numbers 0..1 of integers x and y (broadcast) and the seed.
+/// Random numbers 0..1 of integers x and y, which broadcast, and the seed.
 Array<double> uniform(const py::object& x, const py::object& y, std::int64_t seed) {
   const auto together =
       py::module_::import("numpy").attr("broadcast_arrays")(x, y).cast<py::sequence>();
@@ -143,7 +143,7 @@ Array<double> uniform(const py::object& x, const py::object& y, std::int64_t see
   return result;
 }
 
-/// Gradient noise of space at places (n, 3), with Jenkins's hash.
+/// 3-D gradient noise at points (n, 3), with Jenkins's hash.
 Array<double> perlin_in_space(const py::object& place) {
   const auto places = to_array<double>(place, "place", {-1, 3});
   auto result = new_array<double>({places.shape(0)});
@@ -171,25 +171,26 @@ Array<double> perlin_in_space(const py::object& place) {
 
 using Made = std::tuple<Array<double>, Array<double>, Array<std::int32_t>>;
 
-Made mesh(const py::object& place, const py::object& tolerance, const py::object& fine,
-          const std::shared_ptr<Surface>& ground, const py::object& eye, double radius,
-          std::size_t margin, std::size_t widest) {
+Made mesh(const py::object& place, const py::object& tolerance, const py::object& subdivision,
+          const std::shared_ptr<Surface>& ground, const py::object& camera, double radius,
+          std::size_t margin, std::size_t max_span) {
   const auto places = to_array<float>(place, "place", {-1, -1, 3});
   const auto errors = to_array<float>(tolerance, "tolerance", {places.shape(0), places.shape(1)});
   Array<double> eyes;
-  if (!eye.is_none()) {
-    eyes = to_array<double>(eye, "eye", {-1, 3});
+  if (!camera.is_none()) {
+    eyes = to_array<double>(camera, "camera", {-1, 3});
   }
   Array<std::uint8_t> levels;
-  if (!fine.is_none()) {
-    levels = to_array<std::uint8_t>(fine, "fine", {places.shape(0) - 1, places.shape(1) - 1});
+  if (!subdivision.is_none()) {
+    levels = to_array<std::uint8_t>(subdivision, "subdivision",
+                                    {places.shape(0) - 1, places.shape(1) - 1});
   }
   terrain::Mesh made;
   {
     const py::gil_scoped_release release;
     made = terrain::mesh({static_cast<std::size_t>(places.shape(0)),
                           static_cast<std::size_t>(places.shape(1)), view(places), view(errors),
-                          view(levels), margin, widest},
+                          view(levels), margin, max_span},
                          {ground.get(), view(eyes), radius});
   }
   const auto vertices = length(made.row.size()), triangles = length(made.triangle.size() / 3);
@@ -209,9 +210,10 @@ void init_terrain(Module module) {
            py::arg("cell"), py::arg("octaves"), py::arg("strength"), py::arg("level"),
            py::arg("sharp"), py::arg("mean"), py::arg("seed"), py::arg("patch") = py::none())
       .def("detail", &detail, py::arg("row"), py::arg("column"));
-  module.def("mesh", &mesh, py::arg("place"), py::arg("tolerance"), py::arg("fine") = py::none(),
-             py::arg("surface") = py::none(), py::arg("eye") = py::none(), py::arg("radius") = 0.0,
-             py::arg("margin") = 0, py::arg("widest") = 4);
+  module.def("mesh", &mesh, py::arg("place"), py::arg("tolerance"),
+             py::arg("subdivision") = py::none(), py::arg("surface") = py::none(),
+             py::arg("camera") = py::none(), py::arg("radius") = 0.0, py::arg("margin") = 0,
+             py::arg("max_span") = 4);
 }
 
 } // namespace firetwin::bindings

@@ -7,18 +7,23 @@
 namespace firetwin::flux {
 
 /// Fire arrival time: when the front passes the centre of a cell, s; NaN if it does not during the
-/// run. Flames, terrain, smoke and the interpolation of fluxes use it. It is the run's field
-/// fuel_arrival_time if there is one. Otherwise it is estimated from the heat flux: from the
-/// ignition time of a cell (ignition_time.hpp) and the time course of its heat release. Slope:
-/// neighbours that ignite later give the time c that the front takes to cross a cell; it reaches
-/// the centre c / 2 after ignition. For a ragged front the error is 0.8 c (measured). Heat: it is
-/// released around the mean arrival time in the cell plus a delay, the burning time of the fuel.
-/// The delay is uniform: the median of the residuals of the slope estimate over burned-out cells
-/// with neighbours on all sides. Its standard deviation is half of it. A cell at the edge of the
-/// fire burns partly: its share is its heat per fuel divided by the heat per fuel of burned-out
-/// cells near it. In a cell that still burns when the run ends, the share gives the position of the
-/// front. If the fuel of burning cells is unknown, shares are ratios of heat alone. The two
-/// estimates are averaged with inverse-variance weights. Error on the sample run without
+/// run. Flames, terrain, smoke and the interpolation of fluxes use it.
+///
+/// It is the run's field fuel_arrival_time if there is one. Otherwise it is estimated from the heat
+/// flux: from the ignition time of a cell (ignition_time.hpp) and the time course of its heat
+/// release.
+///
+/// Slope: neighbours that ignite later give the time c that the front takes to cross a cell; it
+/// reaches the centre c / 2 after ignition. For a ragged front the error is 0.8 c (measured).
+///
+/// Heat: it is released around the mean arrival time in the cell plus a delay, the burning time of
+/// the fuel. The delay is uniform: the median of the residuals of the slope estimate over
+/// burned-out cells with neighbours on all sides. Its standard deviation is half of it. A cell at
+/// the edge of the fire burns partly: its share is its heat per fuel divided by the heat per fuel
+/// of burned-out cells near it. In a cell that still burns when the run ends, the share gives the
+/// position of the front. If the fuel of burning cells is unknown, shares are ratios of heat alone.
+///
+/// The two estimates are averaged with inverse-variance weights. Error on the sample run without
 /// fuel_arrival_time, for fluxes of 370 m cells every minute or every quarter of an hour: the front
 /// is displaced by 43 m on average (area between the fronts / length of the front, see
 /// tests/benchmarks/scale.py), with a bias of 12 m inwards. If cells ignited at the first model

@@ -50,7 +50,7 @@ SparseFlux Interpolator::read(std::size_t index) const {
   SparseFlux result;
   run::each_not_zero(values_, [&](std::size_t i) {
     const float flux = values_[i];
-    const bool trace = flux > 0.0F && flux < run::least_fire && !(begin_[i] <= time);
+    const bool trace = flux > 0.0F && flux < run::min_fire_flux && !(begin_[i] <= time);
     if (!trace) {
       result.cell.push_back(static_cast<std::int64_t>(i));
       result.flux.push_back(flux);

@@ -12,9 +12,10 @@
 namespace firetwin::flux {
 
 /// Heat flux of the fire at any time, with LRU caches of frames. A cell that the front has not
-/// reached does not burn if its flux is below run::least_fire. The cost is proportional to the
-/// number of burning cells. In sequential access each frame is read once. The class is thread-safe,
-/// and results do not depend on the order of calls.
+/// reached does not burn if its flux is below run::min_fire_flux.
+///
+/// The cost is proportional to the number of burning cells. In sequential access each frame is read
+/// once. The class is thread-safe, and results do not depend on the order of calls.
 class Interpolator {
 public:
   /// Computes ignition times (see arrival.hpp).

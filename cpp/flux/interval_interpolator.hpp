@@ -14,6 +14,7 @@ struct SparseFlux {
 };
 
 /// Interpolation of heat flux in the interval between two model times.
+///
 /// Size and colour of the flames follow F^1.5 (see emitters.hpp), so the sum of F^1.5 changes
 /// linearly between model times, and brightness does not pulse with the model step:
 /// - In a cell that burned before, F^1.5 changes linearly.
@@ -23,6 +24,7 @@ struct SparseFlux {
 ///   sum would rise linearly. It may deviate by a few percent of the other cells' sum; arrivals
 ///   with a larger deviation are shifted.
 /// - One factor for all cells, within 5 % of F^1.5, corrects the remaining deviation.
+///
 /// The result is NaN if a cell that burned before is NaN in one of the two frames. Negative fluxes
 /// are excluded and change linearly.
 class IntervalInterpolator {

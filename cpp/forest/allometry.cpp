@@ -17,14 +17,14 @@ constexpr double inch = 0.0254, foot = 0.3048; // m
 
 constexpr int fuels = 16, parts = 48, steps = 400;
 constexpr double fuel_step = 0.25; // kg/m2
-constexpr double part_step = -0.2; // of the logarithm of the part that is retained
+constexpr double part_step = -0.2; // step of the logarithm of the retained share
 
 using Table = std::array<std::array<double, parts>, fuels>;
 
-/// Sum of the crowns' areas of what is left of a stand, in heights squared and per stem of all.
+/// Sum of the crown areas of a thinned stand, in squared heights per stem of the unthinned stand.
 ///
-/// Of trees that are born at the times t, in units of one over the stand's density, exp(-t /
-/// retained) are left (see `MaternProcess`); 1 - exp(-t) of all are older.
+/// A tree with birth order t, in units of the inverse stand density, is retained with probability
+/// exp(-t / retained) (see `MaternProcess`); a share of 1 - exp(-t) of all trees is older.
 double crowns(double fuel, double retained) {
   const double step = 12.0 * retained / steps;
   double sum = 0.0;
@@ -39,7 +39,7 @@ double crowns(double fuel, double retained) {
 Table widenings() {
   Table table;
   for (int i = 0; i < fuels; ++i) {
-    const double fuel = std::max(fuel_step * i, least_canopy_fuel), all = crowns(fuel, 1.0);
+    const double fuel = std::max(fuel_step * i, min_canopy_fuel), all = crowns(fuel, 1.0);
     for (int k = 0; k < parts; ++k) {
       table[i][k] = std::sqrt(all / crowns(fuel, std::exp(part_step * k)));
     }
@@ -54,21 +54,21 @@ double mean_diameter(double canopy_fuel) {
 }
 
 double stems(double canopy_fuel) {
-  // With D^2 as the root of W both sides are powers of W: N is its value at 1 kg/m2 times a power.
+  // With D^2 proportional to sqrt(W) both sides are powers of W, so N = N(1 kg/m2) W^power.
   static const double one =
       std::exp((-constant - of_basal_area * std::log(0.25 * std::numbers::pi * mean_diameter(1.0) *
                                                      mean_diameter(1.0))) /
                (of_basal_area + of_stems));
   constexpr double power = (1.0 - 0.5 * of_basal_area) / (of_basal_area + of_stems);
-  if (!(canopy_fuel > least_canopy_fuel) || !std::isfinite(canopy_fuel)) {
+  if (!(canopy_fuel > min_canopy_fuel) || !std::isfinite(canopy_fuel)) {
     return 0.0;
   }
-  return std::min(one * std::pow(canopy_fuel, power) / hectare, most_stems);
+  return std::min(one * std::pow(canopy_fuel, power) / hectare, max_stem_density);
 }
 
 double height(double canopy_fuel, double rank) {
   const double square = mean_diameter(canopy_fuel) * mean_diameter(canopy_fuel);
-  // the square of an exponential distribution from `least` with the mean `least + mean`
+  // mean square of a shifted exponential distribution with minimum `least` and mean `least + mean`
   const double mean =
       0.5 * (std::sqrt(2.0 * square - least_diameter * least_diameter) - least_diameter);
   const double diameter = std::min(least_diameter - mean * std::log(rank), largest_diameter);

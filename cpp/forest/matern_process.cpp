@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t at_once = 4; ///< points
 
-/// 21 bits as a number in [0, 1), by way of what processors convert at once.
+/// 21 bits as a number in [0, 1), by a conversion that vectorizes.
 double part(std::uint64_t bits) {
   return static_cast<double>(static_cast<std::int32_t>(bits & 0x1FFFFF)) * 0x1p-21;
 }
@@ -30,7 +30,7 @@ MaternProcess::MaternProcess(std::uint64_t seed) {
 
 namespace {
 
-/// Of points in a reach, `chance` on average, the part that may be there: 1 - exp(-chance part).
+/// Solves part = 1 - exp(-chance part), with `chance` points per exclusion disc on average.
 double solve(double chance) {
   double part = 1.0;
   for (int i = 0; i < 5; ++i) {
@@ -39,7 +39,7 @@ double solve(double chance) {
   return part;
 }
 
-/// The same where `max_mark_ratio` ends points, not their `max_mark`.
+/// The solution for sparse stands, where `max_mark_ratio` limits the marks instead of `max_mark`.
 const double sparse = solve(MaternProcess::max_mark_ratio),
              sparse_end = std::expm1(-MaternProcess::max_mark_ratio * sparse);
 
@@ -61,8 +61,8 @@ double MaternProcess::older_fraction(double mark, double density) {
 
 std::size_t MaternProcess::Octave::keys(std::uint64_t line, std::int64_t column,
                                         std::span<std::uint64_t, most> out) const {
-  // Chance of at most 0, 1, .. points where there is one on average; more than 7 come once in
-  // 100,000 squares and are left out. Eight numbers are compared as quickly as seven.
+  // Cumulative Poisson distribution with mean 1; more than 7 points occur once in 100,000 squares
+  // and are truncated. Comparing eight numbers is as fast as seven.
   constexpr std::array<double, most + 1> at_most = {0.367879441, 0.735758882, 0.919698603,
                                                     0.981011843, 0.996340153, 0.999405815,
                                                     0.999916759, 1.0};
@@ -100,7 +100,7 @@ void MaternProcess::Octave::points(double row, std::size_t n, const double* colu
   }
 }
 
-/// Nothing here branches on what is random: more is written than counts, and written over.
+/// Branch-free on random values: writes every candidate and advances only past valid ones.
 void MaternProcess::Squares::add(const Octave& octave, std::int64_t at_row, double before,
                                  Row& work) {
   const auto width = static_cast<std::size_t>(columns);
@@ -151,11 +151,12 @@ void MaternProcess::PointArrays::resize(std::size_t points) {
 }
 
 void MaternProcess::gather(const Area& area, double before) {
-  // Where next to nothing stands reaches have no end; then what is farther is asked one by one.
-  const double radius = std::min(
-      std::sqrt(exclusion_area(std::min(before / max_mark_ratio, most_stems)) / std::numbers::pi),
-      4.0 * octaves_.back().side);
-  const double margin = 2.0 * radius; // thinner places round the densest reach farther
+  // In very sparse stands discs are unbounded; points beyond the margin are tested one by one.
+  const double radius =
+      std::min(std::sqrt(exclusion_area(std::min(before / max_mark_ratio, max_stem_density)) /
+                         std::numbers::pi),
+               4.0 * octaves_.back().side);
+  const double margin = 2.0 * radius; // sparser places around the densest have larger discs
   for (std::size_t k = 0; k < octaves; ++k) {
     const Octave& octave = octaves_[k];
     Squares& known = known_[k];
@@ -211,7 +212,7 @@ void MaternProcess::PointBuckets::sort(const Area& gathered, double bucket,
   std::size_t size = 0;
   for (const Squares& some : known) {
     for (std::size_t i = 0; i < some.size; ++i) {
-      // those of squares that reach over the edge stay with the last bucket inside
+      // points of squares that cross the edge go to the last bucket inside
       const double u = std::min(std::max(some.x[i], area.left), area.right);
       const double v = std::min(std::max(some.y[i], area.low), area.high);
       ++first[number(u, v) + 2];
@@ -236,13 +237,13 @@ void MaternProcess::PointBuckets::sort(const Area& gathered, double bucket,
       mark[place] = some.mark[i];
     }
   }
-  std::fill_n(&mark[size], at_once, max_mark); // none is later
+  std::fill_n(&mark[size], at_once, max_mark); // no mark is larger
 }
 
 namespace {
 
-/// Whether a point among some has a smaller mark and is nearer; always asks whole groups of
-/// `at_once`, for what lies behind the end is a point as well.
+/// True if one of the points has a smaller mark and is nearer. Tests complete groups of `at_once`;
+/// padding points follow the last one.
 FIRETWIN_CLONES("avx512f", "avx2")
 bool has_older_neighbour(const double* x, const double* y, const double* mark,
                          const std::uint32_t* first, std::size_t columns, std::size_t rows,

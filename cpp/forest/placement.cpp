@@ -11,7 +11,7 @@
 namespace firetwin::forest {
 namespace {
 
-/// Cells of one row, column by column.
+/// Per-column arrays of one row of cells.
 struct Cells {
   const double *north, *east;
   const double *value, *first, *width;
@@ -19,10 +19,10 @@ struct Cells {
   const double *sine, *cosine;
   const double *below, *on, *above;
   double *x, *y, *z;
-  std::size_t begin, end; ///< of the columns
+  std::size_t begin, end; ///< range of columns
 };
 
-/// What the row shares, in degrees.
+/// Constants of a row, in degrees.
 struct RowOf {
   double value, first, width, before, after;
   geo::SineCosine parallel;
@@ -44,11 +44,11 @@ void place_row(const Cells& all, const RowOf& row, const geo::Origin& origin, do
     const double spread_x = c.first[i] + c.east[i] * c.width[i];
     const double spread_y = row.first + c.north[i] * row.width;
     const double dx = c.value[i] + jitter * (spread_x - c.value[i]) - c.value[i];
-    // The outermost cells of a grid may reach past a pole; nothing stands there.
+    // The outermost cells of a grid may extend beyond a pole; they have no plants there.
     const double latitude =
         std::min(std::max(row.value + jitter * (spread_y - row.value), -90.0), 90.0);
     const double dy = latitude - row.value;
-    // How near, 0 to 1/2, to the neighbour on its side. The other side's is negative.
+    // Fraction, 0 to 1/2, towards the neighbour on the point's side; negative for the other side.
     const double u_before = dx * c.before[i], u_after = dx * c.after[i];
     const double v_before = dy * row.before, v_after = dy * row.after;
     const double u = std::max(u_before, u_after), v = std::max(v_before, v_after);

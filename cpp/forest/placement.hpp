@@ -11,35 +11,34 @@
 
 namespace firetwin::forest {
 
-/// One axis, by its nodes.
+/// Nodes and cells of one axis.
 struct Axis {
   explicit Axis(std::span<const double> nodes);
   std::span<const double> value; ///< degrees
-  std::vector<double> first;     ///< where the cell begins
-  std::vector<double> width;     ///< of the cell, with its sign
+  std::vector<double> first;     ///< start of the cell
+  std::vector<double> width;     ///< signed width of the cell
   std::vector<double> before;    ///< 1 / (previous value - value), 0 without one
   std::vector<double> after;     ///< 1 / (next value - value), 0 without one
 };
 
-/// Where the plants of a row of cells stand: jittered inside their cells, on the bilinear
-/// elevation.
+/// Positions of the plants in a row of cells: jittered inside the cells, on the bilinear elevation.
 class Placement {
 public:
-  /// @param site must outlive this
+  /// @param site must outlive this object
   explicit Placement(const PlantingSite& site);
 
-  /// Whether a cell has an elevation, so that plants can stand in it.
+  /// Returns true if a cell has an elevation, so that it can have plants.
   bool has_elevation(std::size_t cell) const { return std::isfinite(site_.elevation[cell]); }
 
-  /// Random numbers in, places in local metres out, one each per column.
+  /// Random numbers (input) and positions in local metres (output), one per column.
   struct Row {
     explicit Row(std::size_t columns);
-    Buffer<double> north, east;      ///< in [0, 1): where in the cell, towards the axes' ends
+    Buffer<double> north, east;      ///< in [0, 1): position in the cell along the axes
     Buffer<double> x, y, z;          ///< m
-    Buffer<double> below, on, above; ///< the elevations of three rows, an edge on either side
+    Buffer<double> below, on, above; ///< elevations of three rows, padded by one value on each side
   };
-  /// Fills in the columns first to last - 1 of a row. Corners of a cell's ground without elevation
-  /// are left out (the others' weights grow).
+  /// Computes the positions in columns first to last - 1 of a row. Corners without elevation are
+  /// skipped, and the other weights are renormalized.
   void place(std::size_t y, std::size_t first, std::size_t last, Row& row) const;
 
 private:
@@ -48,7 +47,7 @@ private:
   const PlantingSite& site_;
   geo::Origin origin_;
   Axis latitude_, longitude_;
-  std::vector<double> sine_, cosine_; ///< of the longitudes from the origin's
+  std::vector<double> sine_, cosine_; ///< of longitudes relative to the origin
 };
 
 } // namespace firetwin::forest

@@ -23,7 +23,7 @@ namespace {
 
 using Range = tbb::blocked_range<std::size_t>;
 constexpr std::size_t rows_per_task = 16;
-constexpr std::size_t widest_gap = 16; // cells that are placed for nothing rather than one by one
+constexpr std::size_t widest_gap = 16; // longest gap of empty cells within a run
 
 constexpr double grass_depth = 0.70; // m
 
@@ -34,9 +34,9 @@ struct Class {
   int models;
 };
 
-/// Indexed by SizeClass.
+/// Size classes, indexed by SizeClass.
 constexpr std::array<Class, 3> classes = {
-    {{least_canopy_fuel, 0.7, 1.0, 4}, {0.8, 0.9, 1.2, 4}, {1.6, 1.1, 1.4, 2}}};
+    {{min_canopy_fuel, 0.7, 1.0, 4}, {0.8, 0.9, 1.2, 4}, {1.6, 1.1, 1.4, 2}}};
 
 SizeClass size_class(double fuel) {
   return fuel >= classes[large_tree].least_fuel    ? large_tree
@@ -65,10 +65,9 @@ void write_clump(Plants& plants, std::size_t i, const PlantingSite& site) {
   plants.rotation[i] = static_cast<float>(2.0 * std::numbers::pi * random[0]);
 }
 
-/// Lists the columns of a row whose cells grow something, and says how many they are.
+/// Lists the columns of a row with a plant and returns their number.
 ///
-/// All cells are asked without branches, which could not be predicted; so the place after the last
-/// is written to as well.
+/// Branch-free, because branches would be unpredictable; writes one element past the last.
 template <class Grows>
 std::size_t list_all(std::size_t y, std::size_t columns, Grows grows, Buffer<std::uint32_t>& out) {
   std::size_t n = 0;
@@ -79,7 +78,7 @@ std::size_t list_all(std::size_t y, std::size_t columns, Grows grows, Buffer<std
   return n;
 }
 
-/// The same of the cells that a mask has, whose empty words are stepped over: most of it may be so.
+/// The same for the cells of a mask; skips its empty words, because masks are often sparse.
 template <class Grows>
 std::size_t list_masked(std::span<const bool> mask, std::size_t y, std::size_t columns, Grows grows,
                         Buffer<std::uint32_t>& out) {
@@ -108,8 +107,7 @@ Plants make_plants(std::size_t n, bool trees) {
           Buffer<std::uint8_t>(classed), Buffer<float>(n),      Buffer<float>(n)};
 }
 
-/// Places the cells of a row that grow something, in runs: few cells far apart cost as little as
-/// they are, and many close together are placed by wide registers.
+/// Places the plants of a row in runs of columns: sparse rows stay cheap, and dense runs vectorize.
 void place(const Placement& placement, std::size_t y, std::span<const std::uint32_t> column,
            Placement::Row& row) {
   for (std::size_t k = 0; k < column.size();) {
@@ -122,7 +120,7 @@ void place(const Placement& placement, std::size_t y, std::span<const std::uint3
   }
 }
 
-/// Places a plant in each cell that has `fuel`, and has `write(plants, i)` fill in the rest.
+/// Places a plant in each cell with `fuel` and calls `write(plants, i)` for its other properties.
 template <class Fuel, class Write>
 Plants scatter(const PlantingSite& site, bool trees, Fuel fuel, Write write) {
   if (!(site.jitter >= 0.0 && site.jitter <= 1.0)) {
@@ -137,7 +135,7 @@ Plants scatter(const PlantingSite& site, bool trees, Fuel fuel, Write write) {
     return site.mask.empty() ? list_all(y, columns, grows, out)
                              : list_masked(site.mask, y, columns, grows, out);
   };
-  std::vector<std::size_t> offset(rows + 1, 0); // of each row's plants; the last is their number
+  std::vector<std::size_t> offset(rows + 1, 0); // first plant of each row, and their total
   tbb::parallel_for(Range(0, rows, rows_per_task), [&](const Range& range) {
     Buffer<std::uint32_t> column(columns + 1);
     for (std::size_t y = range.begin(); y < range.end(); ++y) {
@@ -180,7 +178,7 @@ int models(SizeClass kind) {
 }
 
 float largest_fuel(std::span<const float> fuel) {
-  constexpr std::size_t lanes = 16; // as wide as registers may be
+  constexpr std::size_t lanes = 16; // widest SIMD register
   std::array<float, lanes> largest{};
   const auto add = [&](std::size_t lane, float f) {
     largest[lane] =
@@ -201,7 +199,7 @@ float largest_fuel(std::span<const float> fuel) {
 Plants trees(std::span<const float> canopy_fuel, const PlantingSite& site, double max_fuel) {
   check_above_zero(max_fuel, "max_fuel");
   const auto fuel = [canopy_fuel](std::size_t cell) {
-    return static_cast<bool>((double{canopy_fuel[cell]} > least_canopy_fuel) &
+    return static_cast<bool>((double{canopy_fuel[cell]} > min_canopy_fuel) &
                              std::isfinite(canopy_fuel[cell]));
   };
   return scatter(site, true, fuel, [&](Plants& plants, std::size_t i) {

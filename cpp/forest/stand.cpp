@@ -23,10 +23,10 @@ namespace {
 
 using Range = tbb::blocked_range<std::size_t>;
 constexpr double degree = std::numbers::pi / 180.0;
-constexpr std::size_t block = 8;                           // cells to a side
+constexpr std::size_t block = 8;                           // cells per side
 constexpr double medium_height = 8.0, large_height = 22.0; // m
 
-/// What a tree's random numbers are for.
+/// Uses of a tree's random numbers.
 enum Draw : std::uint64_t { of_model, of_rotation };
 
 struct Stem {
@@ -35,10 +35,10 @@ struct Stem {
   std::uint64_t bits;
 };
 
-/// The nine values round a cell.
+/// The 3 x 3 values around a cell.
 class Patch {
 public:
-  /// Beyond the grid's edge its outermost values go on.
+  /// Values outside the grid are replicated from its edge.
   Patch(std::span<const float> values, std::size_t rows, std::size_t columns, std::size_t y,
         std::size_t x) {
     for (std::size_t j = 0; j < 3; ++j) {
@@ -58,14 +58,14 @@ public:
     }
   }
 
-  /// Of the four values round a quarter.
+  /// Largest of the four values around a quarter of the cell.
   double largest(std::size_t quarter) const {
     const std::size_t first = 3 * (quarter / 2) + quarter % 2;
     return std::max({value_[first], value_[first + 1], value_[first + 3], value_[first + 4]});
   }
 
-  /// Bilinear between the middle and the neighbours that v and u (-1/2 to 1/2) lie towards. What is
-  /// not finite is left out, and the others' weights grow.
+  /// Bilinear interpolation at v and u (-1/2 to 1/2 from the centre). Values that are not finite
+  /// are skipped, and the other weights are renormalized.
   double at(double v, double u) const {
     const int j = v > 0.0 ? 3 : -3, i = u > 0.0 ? 1 : -1;
     v = std::abs(v);
@@ -86,7 +86,7 @@ public:
     return sum / weight;
   }
 
-  /// The same, quickly, where all are finite.
+  /// Fast version for finite values.
   double known(double v, double u) const {
     const double below = u > 0.0 ? value_[2] : value_[0], above = u > 0.0 ? value_[8] : value_[6];
     const double beside = u > 0.0 ? value_[5] : value_[3];
@@ -101,43 +101,43 @@ private:
   std::array<double, 9> value_;
 };
 
-/// A cell that trees can stand in.
+/// A cell that can have trees.
 struct Cell {
   Patch fuel, ground, retained;
-  geo::SineCosine parallel; ///< of its middle
-  double stretch;           ///< of the plane
-  /// When the last tree can be born in each quarter: low left, low right, high left, high right.
+  geo::SineCosine parallel; ///< of its centre
+  double stretch;           ///< area on the ground / area on the plane
+  /// Upper bound of marks in each quarter: low left, low right, high left, high right.
   std::array<double, 4> latest;
-  /// The square of that mark where all stems are retained is at most `steady` + `rising` fuel.
+  /// Without thinning, the square of that bound is at most `steady` + `rising` * fuel.
   std::array<double, 4> steady, rising;
 };
 
-/// So much above 1 that a bound stays one, however sums are rounded.
+/// Factor that keeps a bound valid under rounding.
 constexpr double rounding = 1.0 + 1.0e-9;
 
-/// A cell along an axis.
+/// Position of a cell along an axis.
 struct Across {
   double scale;         ///< m of the plane per degree
   double middle;        ///< degrees from the grid's first node
   double before, after; ///< as in `Axis`
 
-  /// Of a place on the plane (m) from the middle.
+  /// Degrees from the cell's centre of a position on the plane (m).
   double degrees(double place) const { return place / scale - middle; }
-  /// How far towards its neighbour, 0 to 1/2, a place `d` degrees from the middle is; negative
-  /// towards the one before.
+  /// Fraction, 0 to 1/2, towards the neighbour of a point `d` degrees from the centre; negative
+  /// towards the previous one.
   double towards(double d) const { return d * after > d * before ? d * after : -d * before; }
 };
 
-/// What decides about points in a cell.
+/// Parameters of the tests of points in a cell.
 struct Rule {
   const Cell& cell;
   Across x, y;
 };
 
-/// MaternProcess of a cell with what is known where they are.
-struct Judged : MaternProcess::PointArrays {
+/// Points of a cell with their bounds.
+struct CandidatePoints : MaternProcess::PointArrays {
   std::vector<double> fuel, retained;
-  std::vector<double> latest; ///< when trees can be born there at the latest; 0 where too late
+  std::vector<double> latest; ///< upper bound of the mark at each point; 0 if the point exceeds it
 
   void judge(const Rule& rule) {
     if (fuel.size() < size) {
@@ -153,11 +153,11 @@ private:
                     const double* mark, double* fuel, double* retained, double* latest);
 };
 
-/// Without branches, for many at once.
+/// Branch-free, so that it vectorizes.
 FIRETWIN_CLONES("avx512f", "avx2")
-void Judged::judge(const Rule& rule, std::size_t n, const double* x, const double* y,
-                   const double* mark, double* __restrict fuel, double* __restrict retained,
-                   double* __restrict latest) {
+void CandidatePoints::judge(const Rule& rule, std::size_t n, const double* x, const double* y,
+                            const double* mark, double* __restrict fuel,
+                            double* __restrict retained, double* __restrict latest) {
   const Patch fuels = rule.cell.fuel, parts = rule.cell.retained;
   const std::array<double, 4> end = rule.cell.latest, steady = rule.cell.steady,
                               rising = rule.cell.rising;
@@ -178,7 +178,7 @@ void Judged::judge(const Rule& rule, std::size_t n, const double* x, const doubl
   }
 }
 
-/// Grows the trees of cells. Immutable; what is remembered comes with each call.
+/// Generates the trees of cells. Immutable; work space is passed with each call.
 class Grower {
 public:
   Grower(std::span<const float> fuel, const PlantingSite& site, std::span<const float> retained)
@@ -193,13 +193,12 @@ public:
     east_ = degree * radii.normal * cosine_;
   }
 
-  /// The cell, unless nothing can stand in it.
+  /// Returns the cell; empty if it cannot have trees.
   std::optional<Cell> cell(std::size_t y, std::size_t x) const {
     const std::size_t rows = site_.latitude.size(), columns = site_.longitude.size();
     const std::size_t number = y * columns + x;
-    if (!(site_.mask.empty() || site_.mask[number]) ||
-        !(double{fuel_[number]} > least_canopy_fuel) || !std::isfinite(fuel_[number]) ||
-        !std::isfinite(site_.elevation[number])) {
+    if (!(site_.mask.empty() || site_.mask[number]) || !(double{fuel_[number]} > min_canopy_fuel) ||
+        !std::isfinite(fuel_[number]) || !std::isfinite(site_.elevation[number])) {
       return std::nullopt;
     }
     const geo::SineCosine parallel = geo::parallel(latitude_.value[y]);
@@ -218,17 +217,17 @@ public:
       const double most = cell.fuel.largest(quarter), all = stems_of(most, cell.stretch);
       const double latest = rounding * MaternProcess::max_mark_ratio * all;
       cell.latest[quarter] = latest * left;
-      // Stems grow with more than the square root of the fuel, up to where they grow no more.
-      const bool grow = all * std::max(1.0 / cell.stretch, 1.0) < 0.999 * most_stems;
+      // Stem density grows faster than the square root of the fuel, up to max_stem_density.
+      const bool grow = all * std::max(1.0 / cell.stretch, 1.0) < 0.999 * max_stem_density;
       cell.steady[quarter] = grow ? 0.0 : latest * latest;
       cell.rising[quarter] = grow ? latest * latest / most : 0.0;
     }
     return cell;
   }
 
-  /// Appends the trees of a cell whose points are gathered.
+  /// Appends the trees of a cell; its points must be gathered.
   void grow(const Cell& cell, std::size_t y, std::size_t x, const MaternProcess& points,
-            Judged& work, std::vector<Stem>& out) const {
+            CandidatePoints& work, std::vector<Stem>& out) const {
     const double latest = *std::max_element(cell.latest.begin(), cell.latest.end());
     points.find(area(y, x), latest, work);
     const Rule rule{cell, across(longitude_, x, east_), across(latitude_, y, north_)};
@@ -238,10 +237,10 @@ public:
         continue;
       }
       const MaternProcess::MarkedPoint point{work.x[i], work.y[i], work.mark[i], work.bits[i]};
-      // Stems are at most so dense here, which is quicker to say than how dense.
+      // An upper bound of the stem density, which is cheaper than the density.
       if (!points.is_retained(
-              point, MaternProcess::exclusion_area(
-                         std::min(work.latest[i] / MaternProcess::max_mark_ratio, most_stems)))) {
+              point, MaternProcess::exclusion_area(std::min(
+                         work.latest[i] / MaternProcess::max_mark_ratio, max_stem_density)))) {
         continue;
       }
       const double here = work.fuel[i], left = work.retained[i];
@@ -259,7 +258,7 @@ public:
     }
   }
 
-  /// Of a cell on the plane, m from the grid's first node.
+  /// Area of a cell on the plane, m from the grid's first node.
   Area area(std::size_t y, std::size_t x) const {
     const auto ends = [](const Axis& axis, std::size_t i, double scale) {
       const double a = (axis.first[i] - axis.value[0]) * scale, b = a + axis.width[i] * scale;
@@ -276,7 +275,7 @@ private:
   }
 
   static double stems_of(double fuel, double stretch) {
-    return std::min(stems(fuel) * stretch, most_stems);
+    return std::min(stems(fuel) * stretch, max_stem_density);
   }
 
   std::span<const float> fuel_, retained_;
@@ -284,23 +283,23 @@ private:
   geo::Origin origin_;
   Axis latitude_, longitude_;
   std::vector<geo::SineCosine> meridian_;
-  double north_, east_, cosine_; ///< m per degree; of the middle latitude
+  double north_, east_, cosine_; ///< m per degree north and east; cosine of the central latitude
 };
 
-/// Trees row by row, and where those of each cell end.
+/// Trees of a row of cells, and the end of each cell's trees.
 struct RowOf {
   std::vector<Stem> stems;
   std::vector<std::size_t> last;
 };
 
-/// What a thread works with.
+/// Work space of a thread.
 struct Worker {
   explicit Worker(std::uint64_t seed) : points(seed) {}
   MaternProcess points;
-  Judged judged;
+  CandidatePoints judged;
 };
 
-/// A block of cells: points are gathered for as many of them at once as fit near the processor.
+/// A block of cells. Points are gathered for as many cells as fit into the processor's cache.
 class Block {
 public:
   Block(const Grower& grower, Worker& worker, std::span<RowOf> rows, std::size_t y, std::size_t x,
@@ -317,9 +316,9 @@ public:
   void grow() { grow(0, height_, 0, width_); }
 
 private:
-  static constexpr double at_once = 16384.0; ///< points
+  static constexpr double at_once = 16384.0; ///< points gathered at once
 
-  /// Rows from low to high - 1, columns from left to right - 1; those to the left first.
+  /// Grows rows low to high - 1 and columns left to right - 1, from left to right.
   void grow(std::size_t low, std::size_t high, std::size_t left, std::size_t right) {
     double latest = 0.0;
     Area all{};

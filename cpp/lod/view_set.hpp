@@ -42,6 +42,7 @@ public:
   double distance(const Vector& place) const;
 
   /// Largest value over the views that see a sphere; -1 if none does.
+  ///
   /// Branch and bound: a branch is skipped if its bound is not above the largest value so far. The
   /// bound must be the exact value for views with one camera.
   /// @param bound bound(branch, camera, moved) >= 0: upper bound of the values of a branch, whose

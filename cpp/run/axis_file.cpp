@@ -12,7 +12,7 @@ namespace {
 
 constexpr double turn = 360.0;
 constexpr double latitude_limit = 90.0;
-/// Generous: runs may count eastwards past 180 or 360 degrees.
+/// Degrees; longitudes of a run may continue eastwards beyond 180 or 360.
 constexpr double longitude_limit = 540.0;
 
 void check_value(const std::filesystem::path& path, std::size_t index, double value, double limit) {
@@ -48,7 +48,7 @@ void check_order(const std::filesystem::path& path, const std::vector<double>& v
   }
 }
 
-/// Continues an axis over its only step of more than half a turn, if it has just one.
+/// Unwraps an axis that has exactly one step of more than 180 degrees.
 void unwrap(std::vector<double>& v) {
   std::size_t jumps = 0, at = 0;
   for (std::size_t i = 1; i < v.size(); ++i) {
@@ -66,7 +66,7 @@ void unwrap(std::vector<double>& v) {
   }
 }
 
-/// Turns an axis by whole turns; one that stays keeps its bits.
+/// Shifts an axis by multiples of 360 degrees; exact if no shift is needed.
 void turn_to(std::vector<double>& v, double around) {
   const double middle = 0.5 * (v.front() + v.back());
   const double turns = std::ceil((middle - around) / turn - 0.5);

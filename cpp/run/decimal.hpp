@@ -16,14 +16,14 @@ inline constexpr std::array<double, 23> powers_of_ten{
     1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-constexpr std::ptrdiff_t most_digits = 15; ///< as many make a double without error
-constexpr std::ptrdiff_t room = 24;        ///< more characters than read_short looks at
+constexpr std::ptrdiff_t most_digits = 15; ///< decimal digits that a double represents exactly
+constexpr std::ptrdiff_t room = 24;        ///< upper bound of the characters that read_short reads
 
 inline unsigned digit(char c) {
   return static_cast<unsigned char>(c) - unsigned{'0'};
 }
 
-/// Digits at `place`, before `limit`, after those of `number`.
+/// Appends the digits from `place` to `limit` to `number`. Returns the first other character.
 inline const char* read_digits(const char* place, const char* limit, std::uint64_t& number) {
   for (; place < limit && digit(*place) < 10; ++place) {
     number = 10 * number + digit(*place);
@@ -31,14 +31,13 @@ inline const char* read_digits(const char* place, const char* limit, std::uint64
   return place;
 }
 
-/// Reads a short number such as `-1.234567e+03`: what nearly every value of a model's text is. Its
-/// digits make a whole number and its exponent a power of ten that are both doubles without error,
-/// so that their product or quotient is rounded once (Clinger 1990, "How to read floating point
-/// numbers accurately"). A float is rounded from that once more, which is right unless the double
-/// lies in the middle between two floats. Plain loops and choices: processors guess them, and begin
-/// the next number before this one is done.
+/// Reads a short number such as `-1.234567e+03`, the form of nearly all values in model output. Its
+/// digits and its power of ten are exact doubles, so that their product or quotient is correctly
+/// rounded (Clinger 1990, "How to read floating point numbers accurately"). A float is rounded from
+/// that double, which is correct unless the double is half-way between two floats. Plain loops and
+/// branches: processors predict them and overlap consecutive numbers.
 ///
-/// @return one past the last character used, or nullptr for all other text
+/// @return one past the last character used, or nullptr for other text
 template <class T> const char* read_short(const char* first, const char* last, T& value) {
   if (last - first < room) {
     return nullptr;
@@ -87,8 +86,8 @@ template <class T> const char* read_short(const char* first, const char* last, T
 
 } // namespace decimal
 
-/// The T nearest to the decimal number at `first`, as fast_float::from_chars reads it, but short
-/// numbers sooner.
+/// Parses a decimal number to the nearest T, as fast_float::from_chars, with a fast path for short
+/// numbers.
 template <class T>
 fast_float::from_chars_result read_decimal(const char* first, const char* last, T& value) {
   if (const char* end = decimal::read_short(first, last, value)) {

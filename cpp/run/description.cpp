@@ -20,10 +20,9 @@ namespace firetwin::run {
 namespace {
 
 constexpr std::uint64_t largest_description = 16U << 20;
-/// s from start, 12 days: times farther from it are told less finely than to 1/16 s by 32-bit
-/// floats.
+/// s, 12 days: beyond it the resolution of 32-bit floats is coarser than 1/16 s.
 constexpr double far_from_start = 1.0e6;
-constexpr double longest = 5.0e11; ///< s, more than there are in the years that a date may have
+constexpr double longest = 5.0e11; ///< s, more than the range of dates
 constexpr std::array<std::string_view, 12> known_keys = {
     "name",  "start",   "interval_s", "times_s", "mean_s", "vertical",
     "units", "no_data", "synthetic",  "event",   "source", "zone"};
@@ -90,7 +89,7 @@ private:
                 : std::move(otherwise);
   }
 
-  /// In UTC, and the offset that it is written with.
+  /// Start in UTC; `offset` receives its offset from UTC.
   std::string start(int& offset) const {
     const toml::node* node = table_.get("start");
     const std::string form = "start must be a date and time with its offset from UTC, like "
@@ -107,7 +106,7 @@ private:
     return *text;
   }
 
-  /// As TOML's own date and time, or as a text; nothing where it is something else.
+  /// Parses a TOML date-time or a string; empty for other values.
   static std::optional<Moment> start_moment(const toml::node& node) {
     if (const auto text = node.value_exact<std::string_view>()) {
       return parse_iso(*text);
@@ -161,7 +160,7 @@ private:
     count_from_near(m);
   }
 
-  /// Moves the start to a whole second by the first time where that is far from it.
+  /// Moves the start to a full second near the first time if that is far from the start.
   static void count_from_near(Description& m) {
     const double zero = std::floor(m.times_s.front());
     const auto start = parse_iso(m.start);
@@ -173,7 +172,7 @@ private:
       time -= zero;
     }
     const bool ascend = std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) ==
-                        times.end(); // not where they are so large that they round alike
+                        times.end(); // false if times are so large that they round to equal values
     auto later = utc_text(*start, static_cast<std::int64_t>(zero));
     if (ascend && later) {
       m.start = std::move(*later);

@@ -5,13 +5,13 @@
 
 namespace firetwin::run {
 
-/// A field of a run, and the spellings of its unit; the first is the one that messages show.
+/// A field of a run and the accepted spellings of its unit; messages show the first one.
 struct FieldUnit {
   std::string_view field;
   std::span<const std::string_view> spellings;
 };
 
-/// Every field that a run may hold.
+/// All fields that a run may contain.
 std::span<const FieldUnit> field_units();
 const FieldUnit* find_field(std::string_view name);
 

@@ -31,7 +31,7 @@ std::string frame_name(std::size_t index) {
   return name.data();
 }
 
-/// Calls `visit` for each entry; an unreadable folder is an InputError.
+/// Calls `visit` for each entry. @throws InputError if the folder cannot be read
 template <class Visit> void for_each_entry(const fs::path& folder, Visit visit) {
   std::error_code code;
   for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {

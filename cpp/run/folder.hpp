@@ -10,24 +10,24 @@
 
 namespace firetwin::run {
 
-/// The files of a run. Links that lead out of the folder are refused.
+/// Files of a run. Symbolic links to targets outside the folder are rejected.
 class Folder {
 public:
-  /// @throws InputError when it is no readable folder, or a field is there twice (.txt and .npy).
+  /// @throws InputError if the folder cannot be read or has a field twice (.txt and .npy)
   explicit Folder(const std::filesystem::path& path);
 
   const std::filesystem::path& path() const { return path_; }
-  /// Names of the known fields that are there, in alphabetical order.
+  /// Names of the known fields in the folder, sorted.
   const std::vector<std::string>& fields() const { return fields_; }
   bool has(std::string_view field) const;
-  /// Data files of no known name, most likely misspelt.
+  /// Data files with unknown names, most likely misspelt.
   const std::vector<std::string>& strangers() const { return strangers_; }
 
-  /// A file that must be there and lie in the folder.
+  /// Path of a required file in the folder.
   std::filesystem::path file(const std::string& name) const;
-  /// The .txt or .npy of a field.
+  /// Path of the .txt or .npy of a field.
   std::filesystem::path field_file(const std::string& field) const;
-  /// The .npy of a field that is read from nothing else.
+  /// Path of the .npy of a field that is read from .npy only.
   std::filesystem::path npy_file(const std::string& field) const;
   Series series(const std::string& field, std::size_t rows, std::size_t columns,
                 std::optional<float> no_data) const;

@@ -23,7 +23,7 @@ bool is_npy(const std::filesystem::path& path) {
   return std::memcmp(magic.data(), "\x93NUMPY", magic.size()) == 0;
 }
 
-/// What an array of one dimension is: a row, or no grid.
+/// Treatment of one-dimensional arrays: a row, or an error.
 enum class Flat { row, refused };
 
 template <class T> Grid<T> read_npy(const std::filesystem::path& path, Flat flat) {

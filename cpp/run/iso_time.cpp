@@ -7,7 +7,7 @@
 namespace firetwin::run {
 namespace {
 
-/// Takes a text apart from left to right; once something is not there, nothing is.
+/// Parses a string from left to right; after the first failure all further steps fail.
 class Scanner {
 public:
   explicit Scanner(std::string_view text) : rest_(text) {}
@@ -25,7 +25,7 @@ public:
 
   void expect(std::string_view any_of) { good_ = accept(any_of) && good_; }
 
-  /// A number of exactly so many digits.
+  /// Reads a number with exactly this many digits.
   unsigned number(int digits) {
     unsigned value = 0;
     for (int i = 0; i < digits; ++i) {
@@ -100,7 +100,7 @@ void read_offset(Scanner& scanner, Moment& moment) {
     minutes = scanner.number(2);
   }
   if (hours > 23 || minutes > 59) {
-    scanner.expect(""); // nothing of the kind
+    scanner.expect(""); // no offset: fails
   }
   moment.offset = static_cast<int>(60 * hours + minutes) * (west ? -1 : 1);
 }

@@ -6,8 +6,8 @@
 
 namespace firetwin::run {
 
-/// Calls visit(i) for each value that is not 0, NaN too, in order; how many there are. Most heat
-/// fluxes are 0, so several are looked at at once whether any is not.
+/// Calls visit(i) for each nonzero value (including NaN) in order and returns their number. Most
+/// heat fluxes are 0, so groups of values are tested at once.
 template <class Visit>
 std::size_t each_not_zero(std::span<const float> values, const Visit& visit) {
   constexpr std::size_t together = 64;

@@ -14,16 +14,16 @@ namespace firetwin::run {
 namespace {
 
 constexpr std::size_t longest_header = 1 << 20;
-constexpr std::size_t block_bytes = 1 << 20; ///< read at once where values are converted
-/// Of a file in Fortran order, values further apart are read one by one: a call to the system costs
-/// as much as copying about so many bytes.
+constexpr std::size_t block_bytes = 1 << 20; ///< block size of reads with conversion
+/// In Fortran order, values farther apart are read one by one: a system call costs about as much as
+/// copying this many bytes.
 constexpr std::size_t near_bytes = 2048;
 
 [[noreturn]] void fail(const io::File& file, const std::string& reason) {
   io::fail(file.path(), reason);
 }
 
-/// Number of bytes, or nothing where it overflows.
+/// Number of bytes; empty on overflow.
 std::optional<std::uint64_t> bytes_of(std::span<const std::size_t> shape, std::size_t item_size) {
   std::uint64_t total = item_size;
   for (const std::size_t n : shape) {
@@ -63,7 +63,7 @@ Prefix read_prefix(const io::File& file) {
 NpyHeader read_header(const io::File& file, const Prefix& prefix) {
   if (prefix.header_size > longest_header ||
       prefix.header_offset + prefix.header_size > file.size()) {
-    fail(file, "the .npy header is cut off; copy the file again");
+    fail(file, "the .npy header is truncated; copy the file again");
   }
   std::vector<char> text(prefix.header_size);
   file.read(prefix.header_offset, text);
@@ -81,8 +81,7 @@ NpyItem item_of(const io::File& file, const std::string& descr) {
                  "' where integers, '<f4' or '<f8' are needed; save it with astype('<f4')");
 }
 
-/// Goes through the places of an array as they lie in Fortran order and says where each lies in C
-/// order.
+/// Iterates over array elements in Fortran order and gives their index in C order.
 class Places {
 public:
   explicit Places(std::span<const std::size_t> shape)
@@ -174,8 +173,7 @@ void NpyFile::convert_values(std::uint64_t begin, std::span<const char> bytes,
   }
 }
 
-/// array[first : first + count] of a file in Fortran order, where values of one place are
-/// neighbours, as bytes in C order.
+/// Gathers array[first : first + count] of a file in Fortran order, as bytes in C order.
 void NpyFile::gather(std::size_t first, std::size_t count, std::span<char> out) const {
   const std::size_t size = item_.size, row = shape_.front() * size;
   const bool together = count == shape_.front() || row <= near_bytes;

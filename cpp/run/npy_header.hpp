@@ -14,9 +14,9 @@ struct NpyHeader {
 };
 
 /// Parses the dictionary of a .npy header, the Python literal
-/// {'descr': '<f4', 'fortran_order': False, 'shape': (3, 4)}: these three keys, once each, any
+/// {'descr': '<f4', 'fortran_order': False, 'shape': (3, 4)}: these three keys, once each, in any
 /// order.
-/// @throws InputError at line 1 and the column in the file.
+/// @throws InputError with line 1 and the column in the file
 NpyHeader parse_npy_header(std::string_view text, std::size_t offset, const std::string& path);
 
 } // namespace firetwin::run

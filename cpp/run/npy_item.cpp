@@ -13,7 +13,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "npy files are read as little-endian");
 
-/// The largest double that still rounds to a finite float is just below this, 2^128 - 2^103.
+/// 2^128 - 2^103, the smallest double that rounds to an infinite float.
 constexpr double beyond_float = 0x1.ffffffp127;
 
 template <class Item, bool swapped> Item load(const char* bytes) {

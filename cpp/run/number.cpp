@@ -15,15 +15,15 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Correctly rounded straight to T (not through double, which rounds twice), with fast_float: twice
-/// as fast as the standard library's std::from_chars here.
+/// Rounded directly to T (via double it would be rounded twice) with fast_float, which is twice as
+/// fast as std::from_chars here.
 template <class T> Number<T> from_chars(const char* first, const char* last) {
   T value{};
   const auto [end, code] = fast_float::from_chars(first, last, value);
   if (code == std::errc::invalid_argument) {
     return {T{}, first, NumberError::malformed};
   }
-  // What is too large comes as an infinity, like "inf" itself, which starts with a letter.
+  // Overflow gives an infinity, like the text "inf", which starts with a letter.
   const char start = *first == '-' ? first[1] : *first;
   if (std::isinf(value) && (is_digit(start) || start == '.')) {
     return {value, end, NumberError::too_large};
@@ -31,7 +31,7 @@ template <class T> Number<T> from_chars(const char* first, const char* last) {
   return {value, end, NumberError::none};
 }
 
-/// A number whose exponent is written with D, as Fortran does for double precision.
+/// Parses a number with a Fortran double-precision exponent (D).
 template <class T> Number<T> with_d_exponent(const char* first, const char* d, const char* last) {
   std::array<char, 512> copy{};
   const char* end = d + 1;
@@ -50,7 +50,7 @@ template <class T> Number<T> with_d_exponent(const char* first, const char* d, c
   return number;
 }
 
-/// The rest of a word from `first`, at most 24 characters, with unprintable bytes as \xNN.
+/// Quotes the word at `first`: at most 24 characters, with unprintable bytes as \xNN.
 std::string quote_word(const char* first, const char* last) {
   std::string word;
   for (const char* c = first; c < last && word.size() < 24; ++c) {
@@ -94,7 +94,7 @@ std::string explain_word(const char* first, const char* last, NumberError error)
     return word + " marks a number that did not fit its Fortran format; write it with a wider one";
   }
   if (*first == ',') {
-    return "a value is missing before the comma; write nan where there is none";
+    return "a value is missing before the comma; write nan for missing values";
   }
   return word + " is not a number; write numbers like 12.5, -3e4, 1.0D+03 or nan";
 }

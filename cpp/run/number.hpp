@@ -12,14 +12,14 @@ template <class T> struct Number {
   NumberError error;
 };
 
-/// One decimal number at `first`, as read_text (text.hpp) defines it. The caller checks that a
-/// separator follows.
+/// Parses the decimal number at `first` in the syntax of read_text (text.hpp). The caller checks
+/// that a separator follows.
 template <class T> Number<T> parse_number(const char* first, const char* last);
 
 extern template Number<float> parse_number(const char*, const char*);
 extern template Number<double> parse_number(const char*, const char*);
 
-/// Why the word at `first` is no number, and what to do about it.
+/// Explains why the word at `first` is not a number, and gives a remedy.
 std::string explain_word(const char* first, const char* last, NumberError error);
 
 } // namespace firetwin::run

@@ -11,7 +11,7 @@
 namespace firetwin::run {
 namespace {
 
-constexpr std::size_t part = 1U << 16U; ///< values that stay in a processor's cache
+constexpr std::size_t part = 1U << 16U; ///< number of values that fit the processor's cache
 
 } // namespace
 

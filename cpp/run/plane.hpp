@@ -13,28 +13,27 @@
 
 namespace firetwin::run {
 
-/// A grid of one field that does not change. Of a .npy in C order nothing but the header is read
-/// before it is asked for, and rows can be had without the rest; everything else is there as a
-/// whole. All of it may be used from several threads.
+/// A constant 2-D field. For a .npy in C order only the header is read in advance, and rows can be
+/// read separately; other files are loaded completely. Thread-safe.
 class Plane {
 public:
   using Make = std::function<std::vector<float>()>;
 
-  /// @throws InputError for what the file's header or text is refused for, and for another shape.
-  /// @param zero what is taken from every value before it is narrowed to a float
+  /// @throws InputError for an invalid file or another shape
+  /// @param zero subtracted from every value before conversion to float
   Plane(const std::filesystem::path& path, std::size_t rows, std::size_t columns,
         std::optional<float> no_data, double zero = 0.0);
-  /// Values that are made when they are first asked for.
+  /// A field that `make` computes on first use.
   Plane(Make make, std::size_t rows, std::size_t columns);
 
   std::size_t rows() const { return rows_; }
   std::size_t columns() const { return columns_; }
 
-  /// [rows columns], no_data as NaN. @throws InputError
+  /// All values [rows columns], with no_data as NaN. @throws InputError
   const std::vector<float>& values() const;
-  /// As many values from row `first` on as fill `out`. @throws std::out_of_range, InputError
+  /// Reads values from row `first` on until `out` is full. @throws std::out_of_range, InputError
   void read(std::size_t first, std::span<float> out) const;
-  /// Calls visit(std::span<const float>) for all values, some rows at a time.
+  /// Calls visit(std::span<const float>) for all values, in blocks of rows.
   template <class Visit> void each(const Visit& visit) const {
     const std::size_t step = rows_at_once();
     std::vector<float> part;

@@ -42,7 +42,7 @@ void ReadAhead::work(const std::stop_token& stop) {
 bool ReadAhead::next(std::vector<float>& frame) {
   std::unique_lock lock(mutex_);
   const auto slot = [this]() -> Slot& { return slots_[taken_ % slots_.size()]; };
-  // Another thread may take frames, the last one too, while this one waits.
+  // Another thread may take frames, even the last one, while this thread waits.
   ready_.wait(lock, [&] { return taken_ == indices_.size() || slot().ready; });
   if (taken_ == indices_.size()) {
     return false;

@@ -12,11 +12,11 @@
 
 namespace firetwin::run {
 
-/// Reads chosen frames of a series on worker threads while the caller uses the ones before. At most
-/// `ahead` frames are held, however many are chosen.
+/// Prefetches selected frames of a series on worker threads while the caller processes previous
+/// ones. Holds at most `ahead` frames.
 class ReadAhead {
 public:
-  /// @param series must outlive this
+  /// @param series must outlive this object
   /// @param ahead, threads at least 1 each
   ReadAhead(const Series& series, std::vector<std::size_t> indices, std::size_t ahead,
             std::size_t threads);
@@ -24,9 +24,9 @@ public:
   ReadAhead& operator=(const ReadAhead&) = delete;
   ~ReadAhead();
 
-  /// Puts the next frame, in the order chosen, into `frame`, whose memory serves for one to come;
-  /// false after the last. Several threads may share one object: each frame goes to one of them.
-  /// @throws what reading it threw; the frames after it can still be had.
+  /// Moves the next selected frame into `frame` and reuses its previous memory; returns false after
+  /// the last one. Thread-safe: each frame goes to one thread.
+  /// @throws the error of reading this frame; later frames remain available
   bool next(std::vector<float>& frame);
 
 private:
@@ -39,12 +39,13 @@ private:
 
   const Series& series_;
   std::vector<std::size_t> indices_;
-  std::vector<Slot> slots_; ///< frame k of the chosen ones lies in slot k modulo their number
+  std::vector<Slot> slots_; ///< selected frame k is in slot k modulo the number of slots
   std::size_t started_ = 0;
   std::size_t taken_ = 0;
   std::mutex mutex_;
   std::condition_variable_any ready_, free_;
-  std::vector<std::jthread> threads_; ///< last, so that they end before what they use
+  std::vector<std::jthread>
+      threads_; ///< last member, so that threads end before the members they use
 };
 
 } // namespace firetwin::run

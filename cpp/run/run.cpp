@@ -21,7 +21,7 @@ bool not_finite(float value) {
   return !std::isfinite(value);
 }
 
-/// What is odd in the values of a fuel.
+/// Adds warnings about the values of a fuel field.
 void add_odd(const std::string& name, const Plane& fuel, std::vector<std::string>& warnings) {
   std::size_t without = 0, negative = 0;
   fuel.each([&](std::span<const float> values) {
@@ -196,8 +196,8 @@ void Run::set_times() {
 void Run::check_order() {
   const auto check = [this](const std::string& field, const auto& series) {
     if (series && series->scattered()) {
-      warnings_.push_back(field + ".npy is in Fortran order, so that reading one time goes through "
-                                  "all of the file; save it with numpy.ascontiguousarray");
+      warnings_.push_back(field + ".npy is in Fortran order, so that reading one time scans the "
+                                  "complete file; save it with numpy.ascontiguousarray");
     }
   };
   check("heat_flux", heat_flux_);
@@ -274,7 +274,7 @@ const Scan& Run::scan() const {
 
 std::pair<float, float> Run::flux_range() const {
   const Scan& all = scan();
-  if (all.smallest > all.largest) { // nothing was finite
+  if (all.smallest > all.largest) { // no finite value
     return {0.0F, 0.0F};
   }
   return {all.smallest, all.largest};

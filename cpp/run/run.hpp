@@ -19,65 +19,64 @@
 
 namespace firetwin::run {
 
-/// A model run on disk. Axes and elevation are in memory; what else does not change is read when
-/// asked for, as a whole or some rows of it, and so are frames.
-/// All of it may be used from several threads.
+/// A model run on disk. Axes and elevation are in memory; other constant fields and frames are read
+/// on demand. Thread-safe.
 class Run {
 public:
-  /// @throws InputError for everything that is wrong with run.toml, the axes, a field's shape
-  /// or
-  ///         the number of model times.
+  /// @throws InputError if run.toml, an axis, the shape of a field or the number of model times is
+  /// invalid
   explicit Run(const std::filesystem::path& folder);
 
   const std::filesystem::path& path() const { return folder_.path(); }
   const Description& description() const { return description_; }
   const std::vector<std::string>& fields() const { return folder_.fields(); }
-  /// What is odd but usable, one sentence each; reads the fuel, and a scan of the heat flux adds to
-  /// it.
+  /// Warnings about unusual but usable data, one sentence each. Reads the fuel; includes results of
+  /// the heat flux scan once it has run.
   std::vector<std::string> warnings() const;
 
   const std::vector<double>& times() const { return times_; }       ///< s since start
   const std::vector<double>& latitude() const { return latitude_; } ///< [ny] degrees
-  /// [nx] degrees east, without a jump; the middle lies in -180..180
+  /// [nx] degrees east, without a jump; the centre is in -180..180
   const std::vector<double>& longitude() const { return longitude_; }
   const std::vector<float>& elevation() const { return elevation_; }          ///< [ny nx] m
   const std::vector<double>& fuel_latitude() const { return fuel_latitude_; } ///< [fy]
-  /// [fx] degrees east, counted as `longitude` is
+  /// [fx] degrees east, in the same range as `longitude`
   const std::vector<double>& fuel_longitude() const { return fuel_longitude_; }
-  /// [ay], [ax] degrees of what is on levels: the run's axes of that name, else the model grid's.
+  /// [ay], [ax] degrees: axes of fields on levels. Default: axes of the model grid.
   const std::vector<double>& air_latitude() const { return air_latitude_; }
   const std::vector<double>& air_longitude() const { return air_longitude_; }
   const Plane& surface_fuel() const { return *surface_fuel_; } ///< [fy fx] kg/m2
   const Plane& canopy_fuel() const { return *canopy_fuel_; }   ///< [fy fx] kg/m2
-  /// [fy fx] m: the field of that name, or the elevation resampled bilinearly.
+  /// [fy fx] m: the run's field, or the elevation resampled bilinearly.
   const Plane& fuel_elevation() const { return *fuel_elevation_; }
-  /// [fy fx] number of the fuel model: Anderson 1 to 14, Scott and Burgan 91 to 204.
-  /// @throws Error when the run has none.
+  /// [fy fx] fuel model numbers: Anderson 1 to 14, Scott and Burgan 91 to 204.
+  /// @throws Error if the run has none
   const Plane& fuel_category() const;
 
   std::size_t cells() const { return latitude_.size() * longitude_.size(); }
   const Series& heat_flux() const { return *heat_flux_; } ///< W/m2
-  /// Of each fuel cell [fy fx], 0..1 at each time. @throws Error when the run has none.
+  /// Burned fraction of each fuel cell [fy fx], 0..1. @throws Error if the run has none
   const Series& burned_fraction() const;
-  /// On the model grid: bilinear between the places of `air_latitude` and `air_longitude`.
-  /// @throws Error when the run has none.
+  /// Surface fields on the model grid, resampled bilinearly from `air_latitude` and
+  /// `air_longitude`.
+  /// @throws Error if the run has none
   const Series& temperature() const; ///< K
   const Series& wind_east() const;   ///< m/s
   const Series& wind_north() const;  ///< m/s
 
   bool has(const std::string& field) const { return folder_.has(field); }
-  /// On terrain-following levels, [nz ay ax]; height_3d (m) is there where one of the others is.
-  /// @throws Error when the run has none.
+  /// Fields on terrain-following levels [nz ay ax]. A run with one of the others has height_3d (m).
+  /// @throws Error if the run has none
   const LevelSeries& smoke_3d() const;       ///< kg/m3
   const LevelSeries& height_3d() const;      ///< m
   const LevelSeries& temperature_3d() const; ///< K
 
-  /// Smallest and largest finite heat flux of the whole run, W/m2; 0 and 0 where none is finite.
-  /// Asks for the scan.
+  /// Smallest and largest finite heat flux of the complete run, W/m2; 0 and 0 without finite
+  /// values. Uses the scan.
   std::pair<float, float> flux_range() const;
-  /// What one pass over every heat flux tells; made when it is first asked for, and once.
+  /// Statistics of one pass over all heat fluxes; computed once, on first use.
   const Scan& scan() const;
-  /// [fy fx] s, NaN where never: the field of that name. @throws Error when the run has none.
+  /// [fy fx] s, NaN if never: the field fuel_arrival_time. @throws Error if the run has none
   const Plane& own_arrival_time() const;
 
 private:
@@ -105,7 +104,8 @@ private:
   std::optional<LevelSeries> smoke_3d_, height_3d_, temperature_3d_;
   std::vector<std::string> warnings_;
 
-  /// Threads that wait for the scan take part in it: one of them could hold what it needs.
+  /// Threads that wait for the scan take part in it, since one of them may hold a task that it
+  /// needs.
   mutable tbb::collaborative_once_flag once_;
   mutable std::optional<Scan> scan_;
   mutable std::atomic<bool> scanned_ = false;

@@ -17,22 +17,22 @@ namespace {
 
 constexpr std::size_t chunk = 1U << 15U;
 
-/// A frame and what its place in the run says.
+/// A frame with its time and weight.
 struct Frame {
   std::span<const float> flux;
   std::uint32_t index;
   bool last;
   double time;  ///< s after the first
-  double share; ///< s of the run that count as this frame's
+  double share; ///< integration weight, s
 };
 
-/// Part of the cells, and what they add to the whole.
+/// A part of the cells and its statistics.
 struct Part {
   float smallest = std::numeric_limits<float>::infinity();
   float largest = -std::numeric_limits<float>::infinity();
   std::size_t not_finite = 0;
   std::size_t negative = 0;
-  std::vector<std::size_t> begun; ///< cells that began at the frame before
+  std::vector<std::size_t> begun; ///< cells that ignited at the previous frame
 
   void add(std::span<Scan::Cell> cells, const Frame& frame);
 
@@ -66,7 +66,7 @@ void Part::add(std::span<Scan::Cell> cells, std::size_t i, const Frame& frame) {
     return;
   }
   Scan::Cell& cell = cells[i];
-  if (flux >= least_fire && cell.first == Scan::never) {
+  if (flux >= min_fire_flux && cell.first == Scan::never) {
     cell.first = frame.index;
     cell.flux = flux;
     cell.next = std::numeric_limits<float>::quiet_NaN();

@@ -23,7 +23,7 @@ template <class T> class Parser {
 public:
   explicit Parser(const std::string& path) : path_(path) {}
 
-  /// Whole lines, and how many bytes of text follow them.
+  /// Parses complete lines; `left` bytes of text follow them.
   void take(std::span<const char> lines, std::uint64_t left) {
     position_ = lines.data();
     end_ = lines.data() + lines.size();
@@ -40,7 +40,7 @@ public:
 
   Grid<T> finish() {
     if (grid_.rows == 0) {
-      throw InputError(path_, 0, 0, "holds no numbers; write one row of the grid per line");
+      throw InputError(path_, 0, 0, "contains no numbers; write one row of the grid per line");
     }
     return std::move(grid_);
   }
@@ -66,7 +66,7 @@ private:
     skip_separator();
   }
 
-  /// What nearly every value is: a finite number without a plus in front or a D in it.
+  /// Fast path for nearly all values: a finite number without a leading plus or a D exponent.
   bool parse_plain_value() {
     T value{};
     const auto [end, code] = read_decimal(position_, end_, value);
@@ -94,7 +94,8 @@ private:
     grid_.values.push_back(number.value);
   }
 
-  /// Blanks with at most one comma, which may end a row: many programs write one after each value.
+  /// Skips spaces and at most one comma, which may end a row: many programs write one after each
+  /// value.
   void skip_separator() {
     skip_blanks();
     if (position_ < end_ && *position_ == ',') {

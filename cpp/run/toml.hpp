@@ -1,10 +1,10 @@
 #pragma once
 
-// toml++ 3.3 or 3.4, whose files end in .hpp, with two of its faults kept from doing harm:
-// - It asserts (or, with NDEBUG, lets Clang assume) what malformed files break, such as a "T" with
-//   no time after it. It reports the same as an error once its assertions do nothing at all.
+// toml++ 3.3 or 3.4 (the versions with .hpp files), with workarounds for two defects:
+// - It asserts (or, with NDEBUG, lets Clang assume) what malformed files break, for
+//   example a "T" with no time after it. With empty assertions it reports an error instead.
 // - Its test for blanks calls the characters from U+00A1 to U+0499 unreachable code, which is
-//   undefined behaviour. They are no blanks.
+//   undefined behaviour. None of them is a blank.
 #undef NDEBUG
 #define TOML_ASSERT(expr) static_cast<void>(0)
 #define TOML_ENABLE_FORMATTERS 0

@@ -55,7 +55,7 @@ private:
     for (at_ += multi_line ? 3 : 1; at_ < text_.size(); ++at_) {
       const char c = text_[at_];
       if (c == '\n' && !multi_line) {
-        return; // not valid, which toml++ says
+        return; // invalid TOML, reported by toml++
       }
       if (c == '\n') {
         new_line(at_);
@@ -71,7 +71,7 @@ private:
     }
   }
 
-  /// The three quotes that end a string, and up to two before them that belong to it.
+  /// Skips the three quotes that end a string, and up to two quotes before them that belong to it.
   void skip_end(char quote) {
     const std::size_t last = std::min(at_ + 5, text_.size());
     while (at_ < last && text_[at_] == quote) {

@@ -5,7 +5,7 @@
 
 namespace firetwin::run {
 
-/// Refuses keys of more than eight parts: toml++ calls itself once per part, and the stack ends.
+/// Rejects keys of more than eight parts: toml++ recurses once per part and overflows the stack.
 /// @throws InputError with line and column
 void guard_toml(std::span<const char> text, const std::string& path);
 

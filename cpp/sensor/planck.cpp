@@ -50,8 +50,8 @@ double from_zero(double x) {
   return x2 * x * sum;
 }
 
-/// Integral from x >= 1 to infinity, term by term of 1/(e^x - 1) = sum of e^(-n x)
-/// (W. K. Widger and M. P. Woodall 1976, Bulletin of the American Meteorological Society 57, 1217).
+/// Integral from x >= 1 to infinity, term by term of 1/(e^x - 1) = sum of e^(-n x) (W. K. Widger
+/// and M. P. Woodall 1976, Bulletin of the American Meteorological Society 57, 1217).
 double to_infinity(double x) {
   double sum = 0.0;
   for (int n = 1; n < 60; ++n) {

@@ -8,6 +8,7 @@
 namespace firetwin::sensor {
 
 /// Lookup table of band radiance and its inverse, for images, where the integral is too slow.
+///
 /// Cubic Hermite interpolation with exact slopes, of log(radiance) over log(temperature) and the
 /// inverse. With 512 knots the relative error is below 1e-9 for bands from 3 to 14 um; outside
 /// lowest..highest the integral is used.

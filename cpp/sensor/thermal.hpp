@@ -5,8 +5,10 @@
 namespace firetwin::sensor {
 
 /// Thermal view of the FIRETWIN paper: clamp(rgb, 0, 1) + strength * gradient, clamped to 0..1. NaN
-/// pixels are 0. The gradient is the palette "paper" from `low` to `high`; temperatures are
-/// clamped, NaN is black.
+/// pixels are 0.
+///
+/// The gradient is the palette "paper" from `low` to `high`; temperatures are clamped, NaN is
+/// black.
 /// @param rgb [3 n], 0..1 @param kelvin [n] @param colour [3 n] result
 /// @throws std::invalid_argument unless low < high and strength are finite.
 void thermal_composite(std::span<const float> rgb, std::span<const float> kelvin, double low,

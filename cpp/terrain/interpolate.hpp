@@ -5,14 +5,14 @@
 
 namespace firetwin::terrain {
 
-/// A field [rows columns bands] of points.
+/// A gridded field [rows columns bands].
 template <class T> struct Field {
   const T* values;
   std::int64_t rows, columns, bands;
 };
 
-/// Bilinear values [n bands] of a field at n fractional rows and columns; beyond its ends it goes
-/// on as between the last two points. Beside a missing value (NaN) the result is NaN.
+/// Interpolates a field bilinearly at n fractional rows and columns: [n bands]. Beyond its ends it
+/// is extrapolated linearly. The result is NaN next to a missing value (NaN).
 void interpolate(const Field<float>& field, std::span<const double> row,
                  std::span<const double> column, std::span<double> out);
 void interpolate(const Field<double>& field, std::span<const double> row,

@@ -12,17 +12,17 @@ namespace firetwin::terrain {
 namespace {
 
 constexpr std::int32_t none = -1;
-/// Points are compared that lie so far beside a triangle, as a part of it: rows of the grid are
-/// curved, so that its rim is not straight (0.2 % off over 50 km at 39 degrees north).
-constexpr double beside = 0.005;
+/// Barycentric tolerance for points outside a triangle: rows of the grid are curved, so its rim is
+/// not straight (0.2 % over 50 km at 39 degrees north).
+constexpr double edge_slack = 0.005;
 
 struct Vertex {
   std::int32_t x, y; ///< units of the lattice
   Vector place;      ///< m
 };
 
-/// Counter-clockwise: the corner of the right angle and the ends of the longest side; and which
-/// triangles are beyond that side, beyond the one from apex to left, and from right to apex.
+/// Right triangle, counter-clockwise: the apex and the ends of the hypotenuse, and the neighbours
+/// across the hypotenuse, the left leg and the right leg.
 struct Triangle {
   std::int32_t apex, left, right;
   std::int32_t base, beside_left, beside_right;
@@ -30,8 +30,8 @@ struct Triangle {
 
 class Refinement {
 public:
-  Refinement(const Survey& survey, const Points& points)
-      : survey_(survey), points_(points), waves_(points.waves()) {
+  Refinement(const MeshInput& input, const Points& points)
+      : input_(input), points_(points), waves_(points.waves()) {
     std::int32_t side = std::int32_t{1} << points.depth();
     while (side < std::max(points.width(), points.height())) {
       side *= 2;
@@ -43,8 +43,8 @@ public:
     triangles_ = {{1, 2, 0, 1, none, none}, {3, 0, 2, 0, none, none}};
   }
 
-  /// Halves triangles until each is as it should be. All of a round are looked at, at once, then
-  /// halved one by one, which makes those of the next.
+  /// Bisects triangles until all meet the tolerance. Each round tests its triangles in parallel,
+  /// then bisects them one by one, which gives the triangles of the next round.
   void run() {
     std::size_t first = 0;
     std::vector<std::int32_t> open{0, 1};
@@ -125,7 +125,7 @@ private:
     return around.left >= points_.width() || around.low >= points_.height();
   }
 
-  /// Whether its longest side has a middle on the lattice.
+  /// True if the midpoint of the hypotenuse is on the lattice.
   bool can_halve(const Triangle& t) const {
     const Vertex &b = vertex(t.left), &c = vertex(t.right);
     return (((b.x + c.x) | (b.y + c.y)) & 1) == 0;
@@ -137,26 +137,26 @@ private:
       return false;
     }
     return around.right > points_.width() || around.high > points_.height() || too_wide(around) ||
-           off(t, around);
+           exceeds_tolerance(t, around);
   }
 
-  /// Whether it reaches into the margin and is wider than triangles are there.
+  /// True if a triangle overlaps the margin and exceeds max_span.
   bool too_wide(const Box& around) const {
-    const auto margin = static_cast<std::int32_t>(survey_.margin << points_.depth());
-    const auto widest = static_cast<std::int32_t>(survey_.widest << points_.depth());
+    const auto margin = static_cast<std::int32_t>(input_.margin << points_.depth());
+    const auto max_span = static_cast<std::int32_t>(input_.max_span << points_.depth());
     const bool reaches = around.left < margin || around.low < margin ||
                          around.right > points_.width() - margin ||
                          around.high > points_.height() - margin;
-    return reaches && std::max(around.right - around.left, around.high - around.low) > widest;
+    return reaches && std::max(around.right - around.left, around.high - around.low) > max_span;
   }
 
-  /// Whether its plane is farther from a point over or under it than that allows.
-  bool off(const Triangle& t, const Box& around) const {
+  /// True if the vertical error of a triangle exceeds the tolerance of a point.
+  bool exceeds_tolerance(const Triangle& t, const Box& around) const {
     const Vector &a = vertex(t.apex).place, &b = vertex(t.left).place, &c = vertex(t.right).place;
     const double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
     const double area = bx * cy - by * cx;
     const double rise_b = (b[2] - a[2]) / area, rise_c = (c[2] - a[2]) / area;
-    const double least = -beside * area;
+    const double least = -edge_slack * area;
     const auto fits = [&](const Vector& p, double tolerance) {
       const double x = p[0] - a[0], y = p[1] - a[1];
       const double part_b = x * cy - y * cx, part_c = bx * y - by * x;
@@ -166,8 +166,8 @@ private:
     return !points_.each(around.left, around.right, around.low, around.high, fits);
   }
 
-  /// Halves a triangle and the one beyond its longest side, which may have to be made one of its
-  /// size first.
+  /// Bisects a triangle and its neighbour across the hypotenuse, after bisecting the neighbour to
+  /// equal size if necessary.
   void halve(std::int32_t number) {
     while (triangle(number).base != none && triangle(triangle(number).base).base != number) {
       halve(triangle(number).base);
@@ -180,14 +180,14 @@ private:
     const std::int32_t second = cut(number, middle);
     if (old.base != none) {
       const std::int32_t other = cut(old.base, middle);
-      triangle(number).beside_right = other; // halves of both that share half of the side
+      triangle(number).beside_right = other; // the halves of both that share half of the hypotenuse
       triangle(other).beside_left = number;
       triangle(second).beside_left = old.base;
       triangle(old.base).beside_right = second;
     }
   }
 
-  /// Makes a triangle its half at the left, and returns the number of the right one.
+  /// Replaces a triangle by its left half and returns the number of the right half.
   std::int32_t cut(std::int32_t number, std::int32_t middle) {
     const Triangle old = triangle(number);
     const auto second = static_cast<std::int32_t>(triangles_.size());
@@ -206,19 +206,19 @@ private:
     return second;
   }
 
-  const Survey& survey_;
+  const MeshInput& input_;
   const Points& points_;
   std::vector<Wave> waves_;
   std::vector<Vertex> vertices_;
   std::vector<Triangle> triangles_;
-  std::vector<std::int32_t> changed_; ///< halved in this round, now halves
+  std::vector<std::int32_t> changed_; ///< triangles bisected in this round
 };
 
 } // namespace
 
-Mesh mesh(const Survey& survey, const Close& close) {
-  const Points points(survey, close);
-  Refinement refinement(survey, points);
+Mesh mesh(const MeshInput& input, const NearDetail& detail) {
+  const Points points(input, detail);
+  Refinement refinement(input, points);
   refinement.run();
   return refinement.result();
 }

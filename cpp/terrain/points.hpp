@@ -10,22 +10,22 @@
 
 namespace firetwin::terrain {
 
-/// The points that a mesh is made of and compared with: a lattice of 2^depth units to a cell.
+/// Points of a mesh: a lattice of 2^depth units per cell.
 class Points {
 public:
-  Points(const Survey& survey, const Close& close);
+  Points(const MeshInput& input, const NearDetail& detail);
 
   int depth() const { return depth_; }
   std::int32_t width() const { return width_; }   ///< units
   std::int32_t height() const { return height_; } ///< units
 
-  /// Place of a point of the lattice, which lies on the ground.
-  /// @param waves the surface's, as `waves` gives them
+  /// Position of a lattice point on the ground.
+  /// @param waves from `waves()`
   Vector at(std::int32_t x, std::int32_t y, std::span<Wave> waves) const;
   std::vector<Wave> waves() const;
 
-  /// Calls `visit(place, tolerance)` for every point that counts with x and y between these units,
-  /// both inclusive, and stops when it returns false. @return whether none did
+  /// Calls `visit(place, tolerance)` for all relevant points with x and y in these inclusive ranges
+  /// of units until it returns false. @return true if no call returned false
   template <class Visit>
   bool each(std::int32_t left, std::int32_t right, std::int32_t low, std::int32_t high,
             const Visit& visit) const;
@@ -42,14 +42,14 @@ private:
   bool tile(std::size_t row, std::size_t column, std::int32_t left, std::int32_t right,
             std::int32_t low, std::int32_t high, const Visit& visit) const;
 
-  Survey survey_;
-  Close close_;
+  MeshInput input_;
+  NearDetail detail_;
   int depth_ = 0;
   std::int32_t width_, height_;
-  double box_[4] = {};        ///< round all eyes: least x, greatest x, least y, greatest y
-  std::vector<float> raised_; ///< height of nodes less that of the survey; empty: none
+  double box_[4] = {};        ///< bounds around all cameras: min x, max x, min y, max y
+  std::vector<float> raised_; ///< node heights relative to the input; empty: no detail
   std::vector<std::uint32_t>
-      offset_; ///< of each cell's heights in `tiles_`; empty: no cell is fine
+      offset_; ///< start of each cell's heights in `tiles_`; empty: no subdivided cell
   std::vector<float> tiles_;
 };
 
@@ -63,10 +63,10 @@ bool Points::each(std::int32_t left, std::int32_t right, std::int32_t low, std::
   const auto down = [&](std::int32_t value) { return static_cast<std::size_t>(value >> depth_); };
   for (std::size_t row = up(low); row <= down(high); ++row) {
     for (std::size_t column = up(left); column <= down(right); ++column) {
-      const std::size_t i = row * survey_.columns + column;
-      const float* p = &survey_.place[3 * i];
+      const std::size_t i = row * input_.columns + column;
+      const float* p = &input_.place[3 * i];
       const double z = double{p[2]} + (raised_.empty() ? 0.0 : double{raised_[i]});
-      if (!visit(Vector{p[0], p[1], z}, double{survey_.tolerance[i]})) {
+      if (!visit(Vector{p[0], p[1], z}, double{input_.tolerance[i]})) {
         return false;
       }
     }
@@ -74,11 +74,11 @@ bool Points::each(std::int32_t left, std::int32_t right, std::int32_t low, std::
   if (offset_.empty()) {
     return true;
   }
-  const std::size_t last_row = std::min(down(high), survey_.rows - 2);
-  const std::size_t last_column = std::min(down(right), survey_.columns - 2);
+  const std::size_t last_row = std::min(down(high), input_.rows - 2);
+  const std::size_t last_column = std::min(down(right), input_.columns - 2);
   for (std::size_t row = down(low); row <= last_row; ++row) {
     for (std::size_t column = down(left); column <= last_column; ++column) {
-      if (survey_.fine[row * (survey_.columns - 1) + column] > 0 &&
+      if (input_.subdivision[row * (input_.columns - 1) + column] > 0 &&
           !tile(row, column, left, right, low, high, visit)) {
         return false;
       }
@@ -90,8 +90,8 @@ bool Points::each(std::int32_t left, std::int32_t right, std::int32_t low, std::
 template <class Visit>
 bool Points::tile(std::size_t row, std::size_t column, std::int32_t left, std::int32_t right,
                   std::int32_t low, std::int32_t high, const Visit& visit) const {
-  const std::size_t cell = row * (survey_.columns - 1) + column;
-  const int level = survey_.fine[cell];
+  const std::size_t cell = row * (input_.columns - 1) + column;
+  const int level = input_.subdivision[cell];
   const std::int32_t count = std::int32_t{1} << level, step = std::int32_t{1} << (depth_ - level);
   const std::int32_t x0 = static_cast<std::int32_t>(column) << depth_;
   const std::int32_t y0 = static_cast<std::int32_t>(row) << depth_;

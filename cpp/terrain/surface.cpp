@@ -40,7 +40,7 @@ double Wave::operator()(double x, double y) {
   return 1.41 * gradient_noise(rise, v, u);
 }
 
-/// The cell that a place is in, and how far it is in it.
+/// Cell of a point, and fractions in it.
 struct Surface::Place {
   std::size_t row, column;
   double v, u;
@@ -58,16 +58,16 @@ Surface::Surface(Grid<double> elevation, std::vector<float> steep, std::vector<f
       cell_north_(cell_north), cell_east_(cell_east), relief_(std::move(relief)),
       patch_(std::move(patch)) {
   if (elevation_.rows < 2 || elevation_.columns < 2) {
-    throw std::invalid_argument("elevation must have two rows and columns or more");
+    throw std::invalid_argument("elevation must have at least two rows and columns");
   }
   if (steep_.size() != elevation_.values.size() || dry_.size() != elevation_.values.size()) {
-    throw std::invalid_argument("steep and dry must have as many values as elevation");
+    throw std::invalid_argument("steep and dry must have the shape of elevation");
   }
   const std::size_t points = patch_.rows * patch_.columns;
   if (patch_.offset.size() != points || patch_.share.size() != points || patch_.parts == 0 ||
       (points > 0 && std::min(patch_.rows, patch_.columns) < 2)) {
     throw std::invalid_argument(
-        "a patch must have offsets and shares, two rows and columns or more");
+        "a patch needs offsets and shares with at least two rows and columns");
   }
   check_above_zero(cell_north_, "cell");
   check_above_zero(cell_east_, "cell");
@@ -82,7 +82,7 @@ Surface::Place Surface::place(double row, double column, std::size_t rows, std::
 double Surface::smooth(const Place& at) const {
   const auto down = catmull_rom(at.v), across = catmull_rom(at.u);
   const auto held = [](std::size_t index, std::size_t offset, std::size_t count) {
-    const std::size_t shifted = index + offset; // one too many
+    const std::size_t shifted = index + offset; // one element too many
     return std::min(shifted > 0 ? shifted - 1 : 0, count - 1);
   };
   double total = 0.0;
@@ -115,7 +115,8 @@ double Surface::relief(const Place& at, double row, double column, std::span<Wav
   for (std::size_t i = 0; i < relief_.octaves.size(); ++i) {
     const Octave& octave = relief_.octaves[i];
     const double wave = waves[i](x / octave.size, y / octave.size);
-    shape += octave.weight * (1.0 - relief_.sharp * std::abs(wave)); // sharp ridges, round hollows
+    shape += octave.weight *
+             (1.0 - relief_.sharp * std::abs(wave)); // ridged noise: sharp ridges, round hollows
   }
   return relief_.strength * dry * (relief_.level + at.bilinear(steep_, columns())) *
          (shape - relief_.mean);

@@ -12,8 +12,7 @@ namespace firetwin::terrain {
 
 /// Gradient noise of wavelength 1 on the plane, about -1 to 1 (Perlin 2002: quintic fade).
 ///
-/// It remembers the slopes at the corners of the cell that was asked about last: places that are
-/// near each other cost a fraction of those that are not.
+/// Caches the gradients of the last cell, so that consecutive nearby points are much cheaper.
 class Wave {
 public:
   explicit Wave(std::int64_t seed) : seed_(seed) {}
@@ -29,42 +28,42 @@ private:
   std::array<Slope, 4> slopes_{}; ///< low left, low right, high left, high right
 };
 
-/// A wave of relief.
+/// One octave of the relief.
 struct Octave {
   double size;   ///< wavelength, m
-  double weight; ///< of its shape
+  double weight; ///< weight of its amplitude
 };
 
 /// Relief finer than a grid, stronger on slopes: ridges and gullies by gradient noise.
 struct Relief {
   std::vector<Octave> octaves;
-  double strength = 0.0; ///< m where slopes are 45 degrees
-  double level = 0.0;    ///< strength on level ground, as a part of it
-  double sharp = 0.0;    ///< how much lower than its ridges a wave is
-  double mean = 0.0;     ///< of the waves together
+  double strength = 0.0; ///< amplitude on slopes of 45 degrees, m
+  double level = 0.0;    ///< amplitude on level ground, relative to strength
+  double sharp = 0.0;    ///< sharpness of ridges (ridged noise)
+  double mean = 0.0;     ///< mean of the sum of octaves
   std::int64_t seed = 0;
 };
 
-/// Heights known more finely than by the grid, in a part of it: a lattice of `parts` points to a
-/// cell along both axes, from a point of the grid on.
+/// Heights of a finer elevation model in a part of the grid: a lattice of `parts` points per cell
+/// along both axes, which starts at a grid point.
 struct Patch {
-  std::size_t row = 0, column = 0; ///< of its first point on the grid
+  std::size_t row = 0, column = 0; ///< grid point of its first value
   std::size_t parts = 1;
-  std::size_t rows = 0, columns = 0; ///< of the lattice; 0: there is none
-  std::vector<float> offset;         ///< height less the bilinear one of the grid, m
-  std::vector<float> share;          ///< 0..1, how far it counts in place of the surface's own
+  std::size_t rows = 0, columns = 0; ///< size of the lattice; 0: no patch
+  std::vector<float> offset;         ///< height above the bilinear grid, m
+  std::vector<float> share;          ///< 0..1, weight relative to the procedural surface
 };
 
-/// The ground between the points of a grid, seen closely: smooth (Catmull and Rom 1974), with
-/// relief; or as a patch knows it.
+/// Ground surface between grid points: Catmull-Rom interpolation (Catmull and Rom 1974) with
+/// procedural relief, or a patch of finer data.
 ///
-/// Its rows and columns are `cell` metres apart, as relief counts them.
+/// Relief uses a spacing of rows and columns of `cell` metres.
 class Surface {
 public:
-  /// @param elevation m, two rows and columns or more
-  /// @param steep how far relief is that of a slope of 45 degrees, 0..1, as many
-  /// @param dry 0 on water, where there is no relief, 1 elsewhere, as many
-  /// @param patch what is known of the heights between the grid's points
+  /// @param elevation m, at least two rows and columns
+  /// @param steep weight of the relief of 45 degree slopes, 0..1, same shape
+  /// @param dry 0 on water, which has no relief, 1 elsewhere, same shape
+  /// @param patch finer heights
   /// @throws std::invalid_argument
   Surface(Grid<double> elevation, std::vector<float> steep, std::vector<float> dry,
           double cell_north, double cell_east, Relief relief, Patch patch);
@@ -72,11 +71,11 @@ public:
   std::size_t rows() const { return elevation_.rows; }
   std::size_t columns() const { return elevation_.columns; }
 
-  /// The relief's waves, for places that are near each other.
+  /// Creates noise caches for a sequence of nearby points.
   std::vector<Wave> waves() const;
 
-  /// Height (m) seen closely, less the bilinear one, at a fractional row and column of the grid.
-  /// @param waves its own, as `waves` gives them
+  /// Height above the bilinear grid, m, at a fractional row and column.
+  /// @param waves from `waves()`
   double detail(double row, double column, std::span<Wave> waves) const;
 
 private:

@@ -50,8 +50,10 @@ struct Cut {
 /// Selects a cut of the tree. A tile is refined if its screen-space error is above `error` or if it
 /// is unconditional. With REPLACE, all children are selected or none; those that no view sees stay
 /// coarse. With ADD, each child is selected on its own. The nearest ancestor with content replaces
-/// a broken tile. If the cut exceeds the budget, `error` is raised to the smallest screen-space
-/// error of any tile at which the cut fits, found by bisection.
+/// a broken tile.
+///
+/// If the cut exceeds the budget, `error` is raised to the smallest screen-space error of any tile
+/// at which the cut fits, found by bisection.
 /// @throws std::invalid_argument if a parent does not come before its child, or an error is
 /// negative or NaN
 Cut select(const Tree& tree, double error, const Budget& budget);

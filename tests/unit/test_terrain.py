@@ -107,7 +107,7 @@ def test_any_number_of_threads_makes_the_same_mesh():
 
 def test_triangles_of_the_margin_stay_small():
     place, tolerance = grid(np.zeros((70, 60))), np.ones((70, 60))
-    row, column, triangle = terrain.mesh(place, tolerance, margin=10, widest=4)
+    row, column, triangle = terrain.mesh(place, tolerance, margin=10, max_span=4)
     closed(row, column, triangle, 70, 60)
     wide = np.maximum(np.ptp(row[triangle], axis=1), np.ptp(column[triangle], axis=1))
     low = np.minimum(row[triangle].min(axis=1), column[triangle].min(axis=1))

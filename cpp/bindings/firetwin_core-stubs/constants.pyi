@@ -11,7 +11,7 @@ AIR_TEMPERATURE: default air temperature, 290 K.
 AIR_DENSITY: default air density, 1.2 kg/m3: dry air of AIR_TEMPERATURE at 1000 hPa.
 BUOYANCY_FLUX: buoyancy flux of a heat source, m4/s3 per W: g / (pi cp rho T) with the constants above (Briggs
 1984).
-HEAT_OF_COMBUSTION: low heat of dry wildland fuel, 17.433e6 J/kg (cmbcnst of WRF-SFIRE).
+HEAT_OF_COMBUSTION: low heat of combustion of dry wildland fuel, 17.433e6 J/kg (cmbcnst of WRF-SFIRE).
 """
 
 GRAVITY: float

@@ -1,36 +1,37 @@
-"""WGS84 latitude, longitude and height <-> local east-north-up metres."""
+"""Conversion between WGS84 and local east-north-up metres, and ground heights."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 class LocalFrame:
-    """WGS84 to local east-north-up metres about one origin (degrees, degrees, metres)."""
+    """Local east-north-up frame with an origin in WGS84 (degrees, degrees, metres above the ellipsoid)."""
 
     def __init__(self, latitude: float, longitude: float, height: float = 0.0) -> None: ...
     @property
     def latitude(self) -> float:
-        """Of the origin, degrees north."""
+        """Latitude of the origin, degrees north."""
     @property
     def longitude(self) -> float:
-        """Of the origin, degrees east."""
+        """Longitude of the origin, degrees east."""
     @property
     def height(self) -> float:
-        """Of the origin, m above the ellipsoid."""
+        """Height of the origin, m above the ellipsoid."""
     def forward(self, latitude: ArrayLike, longitude: ArrayLike, height: ArrayLike) -> NDArray[np.float64]:
-        """Geodetic (n,) degrees, degrees, metres -> (n, 3) east, north, up in metres."""
+        """Convert points (n,) in degrees, degrees and metres to (n, 3) east, north and up, m."""
     def forward_grid(
         self, latitude: ArrayLike, longitude: ArrayLike, height: ArrayLike
     ) -> NDArray[np.float64]:
-        """Rectilinear grid: latitude (ny,), longitude (nx,), height (ny, nx) -> (ny, nx, 3) metres."""
+        """Convert a rectilinear grid, latitude (ny,), longitude (nx,), height (ny, nx), to (ny, nx, 3) m."""
     def reverse(self, enu: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        """(n, 3) metres -> latitude (n,), longitude (n,), height (n,)."""
+        """Convert (n, 3) metres to latitude (n,), longitude (n,) and height (n,)."""
 
 class HeightField:
-    """The ground as heights on a rectilinear grid in local metres, bilinear between its nodes.
+    """Ground heights on a rectilinear grid in local metres, interpolated bilinearly.
 
-    `x` (nx,) and `y` (ny,) ascend or descend, `height` (ny, nx) m; there is no ground where it is not finite.
+    `x` (nx,) and `y` (ny,) are strictly ascending or descending; `height` (ny, nx) is in metres. Heights that
+    are not finite mean no ground.
     """
 
     def __init__(self, x: ArrayLike, y: ArrayLike, height: ArrayLike) -> None: ...
     def at(self, place: ArrayLike) -> NDArray[np.float64]:
-        """(n, 2) metres -> (n,) height, that of the nearest edge outside the grid, NaN without ground."""
+        """Interpolate heights (n,) at points (n, 2), m; clamped to the grid, NaN without ground."""

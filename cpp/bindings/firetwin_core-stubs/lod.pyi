@@ -6,44 +6,44 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 def levels(distance: ArrayLike) -> NDArray[np.uint8]:
-    """Level of detail of each distance (m): 0 up to 1500, 1 up to 3500, else (and for NaN) 2."""
+    """Return the level of detail at each distance (m): 0 up to 1500, 1 up to 3500, else (and for NaN) 2."""
 
 class LevelTable:
-    """Level of detail by distance: level i ends at thresholds[i] (m, included); one more level follows."""
+    """Levels of detail by distance: level i ends at thresholds[i] (m, inclusive); one more level follows."""
 
     def __init__(
         self, thresholds: Sequence[float] = (1500.0, 3500.0), multipliers: Sequence[float] = (1.0, 0.7, 0.4)
     ) -> None: ...
     @property
     def thresholds(self) -> list[float]:
-        """m, ascending."""
+        """Ascending distances, m."""
     @property
     def multipliers(self) -> list[float]:
-        """Particle multiplier of each level: one more than thresholds."""
+        """Particle multipliers, one per level."""
     def levels(self, distance: ArrayLike) -> NDArray[np.uint8]:
-        """Level of each distance (m), of the same shape; NaN has the last level."""
+        """Return the level at each distance (m), in the same shape; NaN gives the last level."""
     def multiplier(self, distance: ArrayLike) -> NDArray[np.float64]:
-        """Particle multiplier of each distance (m), of the same shape."""
+        """Return the particle multiplier at each distance (m), in the same shape."""
 
 def select_nearest(position: ArrayLike, camera: ArrayLike, budget: int) -> NDArray[np.int64]:
-    """Distance budget: indices of the `budget` positions (n, 3) nearest to any camera (m, 3).
+    """Select the `budget` positions (n, 3) nearest to any camera (m, 3).
 
-    The order is nearest first, ties by index.
+    Returns their indices, nearest first; ties are ordered by index.
     """
 
 class Occluder:
-    """Terrain as an occluder for occlusion culling. It keeps a lower bound of a continuous surface."""
+    """Terrain as an occluder for occlusion culling. It stores a lower bound of a continuous surface."""
 
     def __init__(self, position: ArrayLike) -> None:
-        """Make an occluder of the surface through position (rows, columns, 3) m: triangles join neighbours.
+        """Create an occluder from the surface through position (rows, columns, 3), m.
 
-        The bound also holds for finer surfaces that are nowhere below these triangles. Places outside of the
+        The bound holds for any triangulation of the grid and for finer surfaces above it. Areas outside the
         surface occlude nothing.
 
         Raises
         ------
         ValueError
-            There are fewer than 2 x 2 places, they cover no area, or one is not finite.
+            There are fewer than 2 x 2 points, they cover no area, or one is not finite.
         """
 
 class ViewSet:
@@ -60,7 +60,7 @@ class ViewSet:
         occluder: Occluder | None = None,
         lowest_terrain: float = 0.0,
     ) -> None:
-        """Make m views. All arguments but `camera` broadcast to m views. Order views along the camera path.
+        """Create m views, ordered along the camera path. All arguments but `camera` broadcast to m views.
 
         Parameters
         ----------
@@ -70,13 +70,13 @@ class ViewSet:
             (m, 3, 3) to world axes; the camera looks along its -z, y is up.
         half_extent
             (m, 2) perspective: tangents of half the horizontal and vertical angle of view. Orthographic: half
-            the width and height of the picture, m.
+            the width and height of the image, m.
         sun
             (m, 3) unit vectors to the sun. A sun below one degree, or a zero vector, casts no shadows.
         orthographic
-            (m,) whether the projection is parallel.
+            (m,) True for a parallel projection.
         above_terrain
-            (m,) whether the camera is above the terrain. Terrain occludes only for such cameras.
+            (m,) True if the camera is above the terrain. Terrain occludes only for such cameras.
         occluder
             Terrain; None disables occlusion culling.
         lowest_terrain
@@ -97,27 +97,38 @@ def visible_mask(
     margin: float = 0.0,
     shadows: bool = False,
 ) -> NDArray[np.bool_]:
-    """(n,) visibility of bounding spheres at position (n, 3) with radius (n,) m: frustum and occlusion culling.
+    """Test n bounding spheres for visibility by frustum and occlusion culling.
 
-    Culling is conservative: a visible sphere is never culled, and a sphere just behind an edge may be kept. A
-    sphere with a NaN is never visible. The result is exact for each view. Views are tested as a tree, whose
+    Culling is conservative: a visible sphere is never culled, and a sphere just outside an edge may pass.
+    A sphere with a NaN is never visible. The result is exact for each view. Views are tested as a tree, whose
     branches bound the translation and rotation of their views. Tiles of terrain are tested before the spheres
     in them.
 
     Parameters
     ----------
+    position, radius
+        (n, 3) and (n,), m.
+    views
+        Views of the shot.
     max_distance
-        m; a perspective camera does not see spheres beyond it.
+        Range of perspective cameras, m.
     margin
-        m by which every frustum is enlarged.
+        Enlargement of each frustum, m.
     shadows
-        Whether to keep shadow casters: spheres whose shadow falls on a visible place, air or terrain.
+        Keep shadow casters: spheres whose shadow falls on a visible point of the air or the terrain.
+
+    Returns
+    -------
+    (n,) True if any view sees the sphere.
 
     Raises
     ------
     ValueError
-        A shape does not fit, or radius, max_distance or margin is below 0.
+        A shape does not fit, or radius, max_distance or margin is negative.
     """
 
 def distance(position: ArrayLike, views: ViewSet) -> NDArray[np.float64]:
-    """(n,) distance of position (n, 3) from the nearest perspective camera, m; infinite without one."""
+    """Compute distances (n,) of positions (n, 3) from the nearest perspective camera, m.
+
+    Infinite without a perspective camera.
+    """

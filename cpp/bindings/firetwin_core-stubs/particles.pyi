@@ -1,4 +1,4 @@
-"""Particles of embers and flame gas: drag, wind, gravity, buoyancy and contact with the ground."""
+"""Ember and flame gas particles: drag, wind, gravity, buoyancy and ground contact."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -6,13 +6,21 @@ from numpy.typing import ArrayLike, NDArray
 from .geo import HeightField
 
 def lift(density: float, air_density: float = 1.2) -> float:
-    """Weight less buoyancy of a particle, upwards, m/s2: g (air_density / density - 1)."""
+    """Compute the upward acceleration by buoyancy and weight, m/s2: g (air_density / density - 1)."""
 
 class ParticleKind:
-    """Particle properties: embers (heavier than air) or flame gas (lighter). Pairs are uniform ranges.
+    """Properties of particles: embers (heavier than air) or flame gas (lighter). Pairs are uniform ranges.
 
-    `lift` m/s2 upwards; `relaxation` of the drag, s (terminal speed = |lift| relaxation); `rise` upward and
-    `spread` sideways speed at launch, m/s; `life` s.
+    Parameters
+    ----------
+    lift
+        Acceleration by buoyancy and weight, upwards, m/s2 (see `lift`).
+    relaxation
+        Relaxation time of the drag, s. The terminal speed is |lift| relaxation.
+    rise, spread
+        Upward and horizontal speed at launch, m/s.
+    life
+        Lifetime, s.
     """
 
     def __init__(
@@ -25,35 +33,35 @@ class ParticleKind:
     ) -> None: ...
     @property
     def lift(self) -> float:
-        """m/s2 upwards."""
+        """Acceleration by buoyancy and weight, upwards, m/s2."""
     @property
     def relaxation(self) -> list[float]:
-        """s, least and most."""
+        """Range of the relaxation time, s."""
     @property
     def rise(self) -> list[float]:
-        """m/s upwards at launch, least and most."""
+        """Range of the upward speed at launch, m/s."""
     @property
     def spread(self) -> list[float]:
-        """m/s sideways at launch, least and most."""
+        """Range of the horizontal speed at launch, m/s."""
     @property
     def life(self) -> list[float]:
-        """s, least and most."""
+        """Range of the lifetime, s."""
 
 class ParticleCloud:
-    """The n particles at one time, in order of source and number."""
+    """The n particles at one time, ordered by source and number."""
 
     @property
     def source(self) -> NDArray[np.int64]:
         """(n,) index of the source."""
     @property
     def number(self) -> NDArray[np.int64]:
-        """(n,) number of the particle within its source; source and number identify a particle."""
+        """(n,) index of the particle within its source; source and number identify a particle."""
     @property
     def position(self) -> NDArray[np.float64]:
         """(n, 3) m."""
     @property
     def velocity(self) -> NDArray[np.float64]:
-        """(n, 3) m/s, 0 for those that landed."""
+        """(n, 3) m/s; 0 for landed particles."""
     @property
     def age(self) -> NDArray[np.float64]:
         """(n,) s."""
@@ -62,7 +70,7 @@ class ParticleCloud:
         """(n,) s."""
     @property
     def landed(self) -> NDArray[np.bool_]:
-        """(n,)"""
+        """(n,) True for particles on the ground."""
     def __len__(self) -> int: ...
 
 def advance(
@@ -77,11 +85,33 @@ def advance(
     landed: ArrayLike = False,
     ground: HeightField | None = None,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
-    """One step (s) of position (n, 3) m and velocity (n, 3) m/s -> new position, velocity, landed (n,).
+    """Advance particles by one step with the exact solution of dv/dt = (wind - v) / relaxation + lift.
 
-    Solves dv/dt = (wind - v) / relaxation + lift exactly, for relaxation 0 (carried by the wind) to infinity
-    (free fall) and any step, in a wind (3,) or (n, 3) m/s that changes linearly to `wind_end` within the step, or
-    as the parabola through `wind_middle`. A particle that meets the ground stays there, and so does one that has `landed`.
+    The solution is stable for any step and for relaxation times from 0 (passive tracer) to infinity (free
+    fall). A particle that reaches the ground stays there.
+
+    Parameters
+    ----------
+    position, velocity
+        (n, 3) m and m/s.
+    wind, wind_middle, wind_end
+        (3,) or (n, 3) wind at the start, middle and end of the step, m/s. Without `wind_middle` it changes
+        linearly, without `wind_end` it is constant.
+    step
+        Duration, s.
+    relaxation
+        Relaxation time of the drag, s; broadcasts to (n,).
+    lift
+        Acceleration by buoyancy and weight, upwards, m/s2; broadcasts to (n,).
+    landed
+        True for particles that do not move; broadcasts to (n,).
+    ground
+        Ground heights; None for no ground.
+
+    Returns
+    -------
+    position, velocity, landed
+        New (n, 3), (n, 3) and (n,).
     """
 
 def state(
@@ -98,10 +128,31 @@ def state(
     ground: HeightField | None = None,
     seed: int = 0,
 ) -> ParticleCloud:
-    """Particles at a time (s) from m sources, in closed form: no earlier state is needed.
+    """Compute the particles of m sources at a time (s), in closed form: no earlier state is needed.
 
-    Sources at position (m, 3) launch `rate` (m,) particles a second from `start` to `end` (m,) s, in a square
-    `size` m wide. `wind` (k, 3), or (k, m, 3) for each source, in m/s at `wind_time` (k,) s, is linear between
-    and constant outside. `id` (m,) keys a source's random numbers (its cell, for instance; default its
-    index). A particle stays where it lands until its life ends.
+    A landed particle stays on the ground until the end of its life.
+
+    Parameters
+    ----------
+    time
+        Time, s.
+    position
+        (m, 3) centres of the sources, m.
+    start, end
+        (m,) time of the first and the last launch, s.
+    rate
+        (m,) particles per second.
+    kind
+        Properties of the particles.
+    wind, wind_time
+        (k, 3), or (k, m, 3) per source, m/s, at ascending times (k,) s; linear in between and constant
+        outside.
+    id
+        (m,) key of each source's random numbers, such as its cell. Default: its index.
+    size
+        Side of the square in which particles start, m.
+    ground
+        Ground heights; None for no ground.
+    seed
+        Seed of the random numbers.
     """

@@ -1,4 +1,4 @@
-"""Radiometry, thermal views and image files."""
+"""Radiometry, detector model, thermal views and image files."""
 
 from os import PathLike
 
@@ -6,32 +6,32 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 def radiance(kelvin: ArrayLike, band: tuple[float, float] = (8.0, 14.0)) -> NDArray[np.float64]:
-    """Planck radiance of a black body (K) over a band (micrometres) -> W m-2 sr-1."""
+    """Compute the radiance of black bodies (K) over a band (micrometres), W m-2 sr-1."""
 
 def brightness_temperature(
     radiance: ArrayLike, band: tuple[float, float] = (8.0, 14.0)
 ) -> NDArray[np.float64]:
-    """Brightness temperature of a band radiance: the inverse of `radiance` -> K."""
+    """Compute the brightness temperature of a band radiance, K: the inverse of `radiance`."""
 
 def spectral_radiance(kelvin: ArrayLike, wavelength: float) -> NDArray[np.float64]:
-    """Planck's law at a wavelength (micrometres) -> W m-2 sr-1 um-1."""
+    """Compute Planck's law at a wavelength (micrometres), W m-2 sr-1 um-1."""
 
 def spectral_temperature(radiance: ArrayLike, wavelength: float) -> NDArray[np.float64]:
-    """The inverse of `spectral_radiance`, in closed form -> K."""
+    """Compute the temperature of a spectral radiance, K: the inverse of `spectral_radiance`."""
 
 class PlanckTable:
-    """`radiance` and its inverse for pictures: cubic interpolation of logarithms between `knots` knots.
+    """Lookup table of `radiance` and its inverse for images: cubic interpolation of logarithms.
 
-    Between 150 and 3000 K both are within 1e-9 of the integral's values (relative, of bands from 3 to 14 um
-    with 512 knots), before rounding to float32; beyond, the integral itself is used.
+    Between 150 and 3000 K the relative error is below 1e-9 before rounding to float32, for bands from 3 to 14
+    um and 512 knots. Outside this range the integral is used.
     """
 
     def __init__(self, band: tuple[float, float] = (8.0, 14.0), knots: int = 512) -> None: ...
     def radiance(self, kelvin: ArrayLike) -> NDArray[np.float32]:
-        """Radiance of black bodies (K) over the band -> W m-2 sr-1."""
+        """Compute the radiance of black bodies (K) over the band, W m-2 sr-1."""
 
     def brightness_temperature(self, radiance: ArrayLike) -> NDArray[np.float32]:
-        """The inverse of `radiance` -> K."""
+        """Compute the brightness temperature of a radiance, K."""
 
     def detect(
         self,
@@ -43,45 +43,58 @@ class PlanckTable:
         bits: int = 0,
         key: int = 0,
     ) -> tuple[NDArray[np.float32], NDArray[np.uint16] | None]:
-        """Detector model: blur, noise (NETD), saturation and quantisation of at-sensor radiance (h, w) W m-2 sr-1.
+        """Apply the detector model to at-sensor radiance (h, w), W m-2 sr-1.
 
-        `blur`: standard deviation of the Gaussian point spread function, pixels; edge pixels are replicated. `noise`: noise-equivalent temperature difference of black bodies at 300 K; Gaussian, by
-        `key` and the pixel alone. `saturation`: brightness temperature at full scale, K; 0: none. `bits`: of
-        counts proportional to radiance, at most 16 and with a saturation; 0: not quantised.
+        Parameters
+        ----------
+        radiance
+            (h, w) W m-2 sr-1.
+        blur
+            Standard deviation of the Gaussian point spread function, pixels; edge pixels are replicated.
+        noise
+            Noise-equivalent temperature difference (NETD) at 300 K, K. The noise is Gaussian and depends only
+            on `key` and the pixel.
+        saturation
+            Brightness temperature at full scale, K; 0: no saturation.
+        bits
+            Bits of the counts, which are proportional to radiance; at most 16, requires a saturation. 0: not
+            quantised.
+        key
+            Key of the noise.
 
         Returns
         -------
         measured
             (h, w) radiance, W m-2 sr-1.
         counts
-            (h, w) whole numbers; None without bits.
+            (h, w) integers; None without `bits`.
         """
 
 def palettes() -> list[str]:
-    """Names of the palettes that `colour` knows."""
+    """List the names of the palettes."""
 
 def palette(name: str) -> NDArray[np.float64]:
-    """A palette's colours (n, 3), 0..1, at equal steps from cold to hot."""
+    """Return a palette's colours (n, 3), 0..1, at equal steps from cold to hot."""
 
 def colour(
     kelvin: ArrayLike, low: float, high: float, palette: str = "white-hot", knee: float = 0.0
 ) -> NDArray[np.float32]:
-    """Display colours (h, w, 3) of temperatures (h, w) K.
+    """Map temperatures (h, w) in K to display colours (h, w, 3).
 
-    Each is the palette at (kelvin - low) / (high - low); with a `knee` (K) at
-    log(1 + (kelvin - low) / knee) / log(1 + (high - low) / knee), which gives what is within some knees of `low`
-    more of the palette. Beyond the ends as at the nearer one, NaN as at `low`. "inferno" is matplotlib's by 17 stops, within 0.03.
+    The palette is evaluated at (kelvin - low) / (high - low), or with a `knee` (K) at
+    log(1 + (kelvin - low) / knee) / log(1 + (high - low) / knee), which expands temperatures near `low`.
+    Temperatures are clamped to low..high; NaN is shown as `low`. "inferno" approximates matplotlib's by 17
+    stops, within 0.03.
     """
 
 def thermal_composite(
     rgb: ArrayLike, kelvin: ArrayLike, low: float, high: float, strength: float = 1.0
 ) -> NDArray[np.float32]:
-    """The paper's thermal view: clamp(pixels (h, w, 3) in 0..1 + strength * gradient, 0, 1).
+    """Compose the thermal view of the FIRETWIN paper: clamp(rgb + strength * gradient, 0, 1).
 
-    The gradient of the temperatures (h, w) K is black, purple, red, orange, yellow and white at equal steps
-    from `low` to `high`, linear between; beyond them and NaN as at the nearer end and at `low`.
-
-    8-bit pixels are refused: divide them by 255.
+    `rgb` has the shape (h, w, 3) and values 0..1; divide 8-bit pixels by 255. The gradient maps the
+    temperatures (h, w) in K from `low` to `high` to black, purple, red, orange, yellow and white,
+    interpolated linearly. NaN is shown as `low`.
     """
 
 def overlay(
@@ -92,25 +105,36 @@ def overlay(
     full: float,
     opacity: float = 1.0,
 ) -> NDArray[np.float32]:
-    """Hot spots `above` over the picture `below`, both (h, w, 3), by temperatures (h, w) K.
+    """Blend hot spots `above` over the image `below`, both (h, w, 3), by temperatures (h, w) in K.
 
-    below + opacity * clamp((kelvin - start) / (full - start), 0, 1) * (above - below); NaN shows `below`.
+    Returns below + opacity * clamp((kelvin - start) / (full - start), 0, 1) * (above - below). NaN shows
+    `below`.
     """
 
 def eye_dome(depth: ArrayLike, strength: float = 4.0, radius: int = 1) -> NDArray[np.float32]:
-    """Eye-dome lighting (C. Boucheny 2009) of depths (h, w) m -> (h, w) factors 0..1 for a picture.
+    """Compute eye-dome lighting (C. Boucheny 2009) of depths (h, w) in m: shading factors (h, w), 0..1.
 
-    exp(-strength * s), with s the mean over eight neighbours `radius` pixels away of how many times (as a
-    logarithm to base 2) the pixel is deeper. NaN and depths beyond 1e9 m count as 1e9 m.
+    The factor is exp(-strength * s), where s is the mean over eight neighbours at `radius` pixels of
+    max(0, log2(depth) - log2(neighbour's depth)). NaN and depths above 1e9 m are set to 1e9 m.
     """
 
 def read_image(path: str | PathLike[str]) -> NDArray[np.float32]:
-    """PNG, EXR, TIFF or JPEG (by content) -> (h, w, channels)."""
+    """Read a PNG, EXR, TIFF or JPEG file: (h, w, channels) pixels, top row first.
+
+    The format is detected from the magic bytes. Integers are scaled to 0..1, without a change of colour
+    space.
+
+    Raises
+    ------
+    InputError
+        The file is missing, damaged or in another format, or exceeds 256 million values or 64 channels.
+    """
 
 def decode_image(data: bytes, name: str = "image") -> NDArray[np.float32]:
     """Decode a PNG, EXR, TIFF or JPEG in memory.
 
-    The format is detected from the magic bytes. The limits are those of `read_image`; nothing is written to disk.
+    The format is detected from the magic bytes. The limits of `read_image` apply; nothing is written to
+    disk.
 
     Parameters
     ----------
@@ -139,7 +163,7 @@ def encode_png(pixels: ArrayLike) -> bytes:
     """
 
 def read_channels(path: str | PathLike[str]) -> dict[str, NDArray[np.float32]]:
-    """The same file as one array (h, w) for each channel, by name; of an EXR also those of its layers."""
+    """Read an image file as one array (h, w) per channel name, including the layers of an EXR."""
 
 def write_image(
     path: str | PathLike[str],
@@ -147,12 +171,23 @@ def write_image(
     metadata: dict[str, str] | None = None,
     channels: list[str] | None = None,
 ) -> None:
-    """Write (h, w) or (h, w, c) pixels to a temporary file that is renamed once it is whole and on the disk.
+    """Write (h, w) or (h, w, c) pixels to a .png (8 bit, clamped to 0..1) or .exr (32-bit float, ZIP) file.
 
-    .png as 8-bit (values clamped to 0..1), .exr as 32-bit float with ZIP and these names of `channels`.
+    Writing is atomic: a temporary file is renamed after it has been flushed to the disk.
+
+    Parameters
+    ----------
+    path
+        File name ending in .png or .exr.
+    pixels
+        (h, w) or (h, w, c).
+    metadata
+        Metadata by name.
+    channels
+        Channel names of an EXR. Default: R, G, B...
 
     Raises
     ------
     InputError
-        The file cannot be written, as on a full disk; nothing is left of it, and what was there stays.
+        The file cannot be written, for example on a full disk. An existing file is not changed.
     """

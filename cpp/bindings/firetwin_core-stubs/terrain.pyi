@@ -6,26 +6,26 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 def perlin(x: ArrayLike, y: ArrayLike, seed: int) -> NDArray[np.float64]:
-    """Gradient noise (n,) of wavelength 1 at places (n,) of the plane, about -1..1 (Perlin 2002: quintic fade).
+    """Compute 2-D gradient noise (n,) of wavelength 1 at points (n,), about -1..1 (Perlin 2002).
 
-    Quickest where neighbours in the list are neighbours on the plane.
+    Fastest if consecutive points are close to each other.
     """
 
 def perlin_in_space(place: ArrayLike) -> NDArray[np.float64]:
-    """Gradient noise (n,) of wavelength 1 at places (n, 3), about -1..1 (Perlin 2002).
+    """Compute 3-D gradient noise (n,) of wavelength 1 at points (n, 3); about -1..1 (Perlin 2002).
 
-    Its slopes are chosen by the hash of Jenkins (lookup3, 2006), as in the noise texture of Cycles.
+    Gradients are chosen by Jenkins's hash (lookup3, 2006), as in the noise texture of Cycles.
     """
 
 def uniform(x: ArrayLike, y: ArrayLike, seed: int) -> NDArray[np.float64]:
-    """Random numbers 0..1 that depend on integers x and y, which broadcast, and the seed alone."""
+    """Draw uniform numbers 0..1 that depend only on the integers x and y, which broadcast, and the seed."""
 
 def bilinear(field: ArrayLike, row: ArrayLike, column: ArrayLike) -> NDArray[np.float64]:
-    """Values of a field (ny, nx) or (ny, nx, bands) between its points, at fractional rows and columns.
+    """Interpolate a field (ny, nx) or (ny, nx, bands) bilinearly at fractional rows and columns.
 
-    Rows and columns broadcast: `row[:, None], column` are all crossings. The result has their shape, followed
-    by the bands. Beyond its ends the field goes on as between the last two points; a single row or column
-    goes on level. Beside a missing value (NaN) the result is NaN.
+    Rows and columns broadcast: `row[:, None], column` gives a grid. The result has their shape, followed by
+    the bands. The field is extrapolated linearly beyond its ends; a single row or column is extrapolated as a
+    constant. The result is NaN next to a missing value (NaN).
     """
 
 class Surface:
@@ -34,27 +34,27 @@ class Surface:
     Parameters
     ----------
     elevation
-        (ny, nx) m, two rows and columns or more.
+        (ny, nx) m, at least two rows and columns.
     steep
         (ny, nx) weight of the relief of 45 degree slopes, 0..1.
     dry
-        (ny, nx) 0 on water, where there is no relief, 1 elsewhere.
+        (ny, nx) 0 on water, which has no relief, 1 elsewhere.
     cell
-        Distance of rows and of columns, m.
+        Spacing of rows and of columns, m.
     octaves
-        Wavelength (m) and weight of each wave of the relief.
-    strength
-        Of the relief where slopes are 45 degrees, m; on level ground `level` of it.
+        Wavelength (m) and weight of each octave of the relief.
+    strength, level
+        Amplitude of the relief on slopes of 45 degrees, m, and the fraction of it on level ground.
     sharp
-        Depth of a wave's valleys below its ridges (ridged noise).
+        Sharpness of ridges (ridged noise).
     mean
-        Mean of the sum of waves, which is subtracted.
+        Mean of the sum of octaves, which is subtracted.
     seed
         Seed of the noise.
     patch
-        Heights known more finely in a part of the grid: its first row and column, how many points it has to
-        a cell, their heights (m, n) less the grid's bilinear ones in metres, and shares (m, n) 0..1: how far
-        they count in place of smoothness and relief.
+        Heights of a finer elevation model in a part of the grid: first row and column, points per cell,
+        heights (m, n) in metres above the bilinear grid, and weights (m, n) 0..1 relative to the procedural
+        surface.
     """
 
     def __init__(
@@ -72,45 +72,46 @@ class Surface:
         patch: tuple[int, int, int, ArrayLike, ArrayLike] | None = None,
     ) -> None: ...
     def detail(self, row: ArrayLike, column: ArrayLike) -> NDArray[np.float64]:
-        """Height (n,) of the surface above the bilinear one, at fractional rows and columns (n,); m.
+        """Compute heights (n,) above the bilinear grid at fractional rows and columns (n,), m.
 
-        Between grid points the surface is that of Catmull and Rom 1974, with gradient noise (Perlin 2002).
+        The surface is a Catmull-Rom interpolation (Catmull and Rom 1974) with gradient noise (Perlin 2002).
         """
 
 def mesh(
     place: ArrayLike,
     tolerance: ArrayLike,
-    fine: ArrayLike | None = None,
+    subdivision: ArrayLike | None = None,
     surface: Surface | None = None,
-    eye: ArrayLike | None = None,
+    camera: ArrayLike | None = None,
     radius: float = 0.0,
     margin: int = 0,
-    widest: int = 4,
+    max_span: int = 4,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]]:
-    """Adaptive triangle mesh without cracks: its vertical error is nowhere above the tolerance.
+    """Create an adaptive triangle mesh without cracks whose vertical error is within a tolerance.
 
-    The error is tested at grid points and at points of refined cells. Right triangles with a larger error are
-    bisected, and their neighbours with them (newest vertex bisection; Lindstrom et al. 1996; Evans
-    et al. 2001). The same for any number of threads.
+    The error is tested at grid points and at points of subdivided cells. Right triangles with a larger error
+    are bisected together with their neighbours (newest vertex bisection; Lindstrom et al. 1996; Evans et al.
+    2001). The result does not depend on the number of threads.
 
     Parameters
     ----------
     place
         (ny, nx, 3) points of the ground, m; x ascends with columns, y with rows.
     tolerance
-        (ny, nx) largest vertical error, m. Between the grid's points the least of the four counts.
-    fine
-        (ny - 1, nx - 1) how often each cell is halved, so that heights between the grid's points count.
-    surface, eye, radius
-        What is added to the bilinear ground within `radius` (m) of the eyes (m, 3): all of it within 0.6 of
-        that, nothing beyond.
-    margin, widest
-        Triangles that reach into so many rows and columns at each side span at most `widest` cells.
+        (ny, nx) maximum vertical error, m. The minimum of the four corners applies within a cell.
+    subdivision
+        (ny - 1, nx - 1) number of bisections of each cell, so that heights between grid points are tested
+        too.
+    surface, camera, radius
+        Detail added to the bilinear ground near the cameras (m, 3): in full within 0.6 `radius` (m), none
+        beyond `radius`.
+    margin, max_span
+        Triangles within `margin` rows or columns of a side span at most `max_span` cells.
 
     Returns
     -------
     row, column
-        (n,) vertices: fractional rows and columns of the grid.
+        (n,) fractional row and column of each vertex.
     triangle
-        (m, 3) vertices of each, counter-clockwise seen from above.
+        (m, 3) vertices of the triangles, counter-clockwise seen from above.
     """

@@ -33,15 +33,16 @@ def screen_error(
 ) -> NDArray[np.float64]:
     """Compute the screen-space error of n tiles, the maximum over all views.
 
-    Perspective: error * pixels / max(distance, 1e-7 m), where distance is measured from the camera to the nearest
-    point of the tile's volume. Orthographic: error * pixels. Tiles are culled by their bounding spheres; see
-    `lod.visible_mask`, also for `max_distance`, `margin` and `shadows`.
+    Perspective: error * pixels / max(distance, 1e-7 m), where distance is measured from the camera to the
+    nearest point of the tile's volume. Orthographic: error * pixels. Tiles are culled by their bounding
+    spheres; see `lod.visible_mask`, also for `max_distance`, `margin` and `shadows`.
 
     Parameters
     ----------
     centre, axis, half, padding
-        Bounding volumes: oriented boxes with centres (n, 3) in m, orthonormal edge directions (n, 3, 3) as rows and
-        half lengths (n, 3) in m, padded by a radius (n,) in m. A sphere is a box with half lengths of 0.
+        Bounding volumes: oriented boxes with centres (n, 3) in m, orthonormal edge directions (n, 3, 3) as
+        rows and half lengths (n, 3) in m, padded by a radius (n,) in m. A sphere is a box with half lengths
+        of 0.
     error
         (n,) geometric errors, m.
     views
@@ -85,7 +86,7 @@ class Cut:
         """Indices of broken tiles without a stand-in, or whose stand-in is shown anyway."""
     @property
     def error(self) -> float:
-        """Maximum screen-space error used, pixels: the requested one, or a larger one that fits the budget."""
+        """Maximum screen-space error used, pixels: as requested, or raised to fit the budget."""
     @property
     def fits(self) -> bool:
         """True if the cut is within the budget."""
@@ -109,11 +110,11 @@ def select(
 ) -> Cut:
     """Select a cut through a tree of n tiles. The run time is linear in n.
 
-    A tile is refined if its screen-space error is above `error` or if it is UNCONDITIONAL. If a tile REPLACES, all
-    its children are selected or none; those that no view sees stay coarse. Otherwise each child is selected on its
-    own if a view sees it. The nearest ancestor with content replaces a BROKEN tile. If the cut exceeds the budget,
-    `error` is raised to the smallest screen-space error of any tile at which the cut fits, found by bisection. If
-    no cut fits, the coarsest one is returned.
+    A tile is refined if its screen-space error is above `error` or if it is UNCONDITIONAL. If a tile
+    REPLACES, all its children are selected or none; those that no view sees stay coarse. Otherwise each child
+    is selected on its own if a view sees it. The nearest ancestor with content replaces a BROKEN tile. If the
+    cut exceeds the budget, `error` is raised to the smallest screen-space error of any tile at which the cut
+    fits, found by bisection. If no cut fits, the coarsest one is returned.
 
     Parameters
     ----------
@@ -127,10 +128,10 @@ def select(
         - CONTENT: the tile has renderable content;
         - PENDING: the tile has children that are not loaded yet;
         - BROKEN: the content is not available;
-        - OUTSIDE_REQUEST_VOLUME: no camera is inside the viewer request volume; the tile and its descendants are
-          skipped;
-        - PASS_THROUGH: the parent of an external or implicit tileset, which hands its own state to its children and
-          shows its content together with them.
+        - OUTSIDE_REQUEST_VOLUME: no camera is inside the viewer request volume; the tile and its descendants
+          are skipped;
+        - PASS_THROUGH: the parent of an external or implicit tileset, which hands its own state to its
+          children and shows its content together with them.
     screen_error
         (n,) pixels; negative if no view sees the tile.
     bytes, triangles
@@ -250,7 +251,7 @@ class Tile:
         """Distinct copyright notices of the content, separated by semicolons."""
     @property
     def spacing(self) -> float:
-        """Resolution of the content in m: the spacing of float32 numbers at the vertex farthest from its own origin.
+        """Resolution of the content, m: spacing of float32 numbers at the vertex farthest from its origin.
 
         It is 0.5 m for Earth-centred float32 positions, whatever the decoder.
         """
@@ -271,12 +272,13 @@ def decode(
 ) -> Tile:
     """Decode a b3dm, i3dm, cmpt, pnts, glb or glTF. The type is detected from the magic bytes.
 
-    Transforms are multiplied in float64 in this order: `matrix`, RTC_CENTER or the i3dm instance, CESIUM_RTC (z up),
-    glTF's y-up to z-up rotation, nodes, EXT_mesh_gpu_instancing. Instances are expanded. Draco, meshopt and quantized
-    attributes are supported. Skins, animations, morph targets and feature metadata are ignored. Images stay encoded.
+    Transforms are multiplied in float64 in this order: `matrix`, RTC_CENTER or the i3dm instance, CESIUM_RTC
+    (z up), glTF's y-up to z-up rotation, nodes, EXT_mesh_gpu_instancing. Instances are expanded. Draco,
+    meshopt and quantized attributes are supported. Skins, animations, morph targets and feature metadata are
+    ignored. Images stay encoded.
 
-    Draco's decoder does not validate its data: damaged content may make it allocate gigabytes or crash. Decode
-    untrusted content in a separate process with memory and time limits.
+    Draco's decoder does not validate its data: damaged content may make it allocate gigabytes or crash.
+    Decode untrusted content in a separate process with memory and time limits.
 
     Parameters
     ----------
@@ -287,20 +289,20 @@ def decode(
     name
         Stands for the content in error messages.
     resources
-        External files by uri (see `list_missing_resources`). They may include images: their headers are checked, and
-        `Image.data` holds them.
+        External files by uri (see `list_missing_resources`). They may include images: their headers are
+        checked, and `Image.data` holds them.
     earth_matrix
-        (4, 4) transform from the content's frame to Earth-centred metres, used by EAST_NORTH_UP of i3dm only. None:
-        identity.
+        (4, 4) transform from the content's frame to Earth-centred metres, used by EAST_NORTH_UP of i3dm only.
+        None: identity.
     up_axis
         X, Y or Z: `asset.gltfUpAxis` of the tileset.
 
     Raises
     ------
     InputError
-        The content is damaged, a resource is missing, a required extension is not supported, or a limit is exceeded:
-        10 million vertices, 1 million instances, 1 GB decoded, images of 16384 pixels per side, 8 levels of nested
-        cmpt. The reason starts with the position in the JSON.
+        The content is damaged, a resource is missing, a required extension is not supported, or a limit is
+        exceeded: 10 million vertices, 1 million instances, 1 GB decoded, images of 16384 pixels per side, 8
+        levels of nested cmpt. The reason starts with the position in the JSON.
     ValueError
         A matrix is not finite, not affine or singular.
     """
@@ -308,9 +310,10 @@ def decode(
 def list_missing_resources(content: bytes, name: str, resources: dict[str, bytes] | None = None) -> list[str]:
     """List the uris of external files that `decode` needs in addition to `resources`.
 
-    These are buffers and models, sorted and relative to the content; images are optional and not listed. Call it
-    again with the new files until the list is empty, because a model may need buffers. The uris are not normalized:
-    percent signs and dots are returned as written, and the caller decides which uris may be fetched.
+    These are buffers and models, sorted and relative to the content; images are optional and not listed. Call
+    it again with the new files until the list is empty, because a model may need buffers. The uris are not
+    normalized: percent signs and dots are returned as written, and the caller decides which uris may be
+    fetched.
 
     Raises
     ------
@@ -359,9 +362,10 @@ def find_ground(
 ) -> tuple[NDArray[np.float32], NDArray[np.uint8]]:
     """Extract the ground below roofs and crowns from a surface model, and classify its points.
 
-    A progressive morphological filter (Zhang et al. 2003, IEEE Transactions on Geoscience and Remote Sensing 41(4)):
-    points that an opening with a growing window lowers by more than a threshold belong to objects, if these have
-    steep sides. Ground heights below objects are interpolated linearly between the ground on their sides.
+    A progressive morphological filter (Zhang et al. 2003, IEEE Transactions on Geoscience and Remote Sensing
+    41(4)): points that an opening with a growing window lowers by more than a threshold belong to objects, if
+    these have steep sides. Ground heights below objects are interpolated linearly between the ground on their
+    sides.
 
     Parameters
     ----------
