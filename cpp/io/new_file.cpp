@@ -38,7 +38,7 @@ public:
     const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
     std::error_code code;
     if (!fs::is_directory(folder, code)) {
-      fail(folder, "the folder does not exist; create it first");
+      fail(folder, "no such folder; create it first");
     }
     temporary_ += "." + random_name() + ".tmp";
   }

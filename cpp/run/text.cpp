@@ -40,7 +40,7 @@ public:
 
   Grid<T> finish() {
     if (grid_.rows == 0) {
-      throw InputError(path_, 0, 0, "contains no numbers; write one row of the grid per line");
+      throw InputError(path_, 0, 0, "holds no numbers; write one row of the grid per line");
     }
     return std::move(grid_);
   }

@@ -297,7 +297,7 @@ def test_a_patch_counts_in_place_of_the_surface_by_its_share():
     ("patch", "reason"),
     [
         ((0, 0, 1, np.zeros((1, 5)), np.zeros((1, 5))), "two rows and columns"),
-        ((0, 0, 0, np.zeros((2, 5)), np.zeros((2, 5))), "a patch must have"),
+        ((0, 0, 0, np.zeros((2, 5)), np.zeros((2, 5))), "a patch needs offsets"),
         ((0, 0, 1, np.zeros((2, 5)), np.zeros((2, 4))), "share must have shape"),
     ],
 )
@@ -315,8 +315,8 @@ def test_what_is_no_patch_is_refused(patch, reason):
         ({"tolerance": np.full((4, 4), -1.0)}, "tolerance must be 0 or more"),
         ({"tolerance": np.full((4, 4), np.nan)}, "tolerance must be 0 or more"),
         ({"tolerance": np.zeros((3, 4))}, "tolerance must have shape"),
-        ({"fine": np.zeros((4, 4), np.uint8)}, "fine must have shape"),
-        ({"fine": np.full((3, 3), 200, np.uint8)}, "too many points"),
+        ({"subdivision": np.zeros((4, 4), np.uint8)}, "subdivision must have shape"),
+        ({"subdivision": np.full((3, 3), 200, np.uint8)}, "too many points"),
         ({"surface": surface(5, 4)[1]}, "surface must have as many"),
     ],
 )
