@@ -31,8 +31,7 @@ Lattice::Lattice(Index columns, Index rows, double cell, std::vector<double> lev
   check_above_zero(cell, "spacing");
   check_levels(face);
   if (nx < least || ny < least || nx > most || ny > most || nz > most) {
-    throw std::invalid_argument(
-        "the grid must have 4 to 4096 levels, and 8 to 4096 rows and columns");
+    throw std::invalid_argument("shape must be 8 to 4096 rows and columns, with 4 to 4096 levels");
   }
   for (std::size_t k = 0; k + 1 < face.size(); ++k) {
     middle.push_back(0.5 * (face[k] + face[k + 1]));

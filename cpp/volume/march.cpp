@@ -272,8 +272,7 @@ void march(Layers layers, const Rays& rays, const Taps& taps, const Illumination
            const MarchSettings& settings, std::span<float> out) {
   check(rays, taps.distances, taps.count);
   if (layers.size() > ActiveLayers{}.crossing.size() || taps.count < 1) {
-    throw std::invalid_argument(
-        "march needs at most four layers, and at least one distance per ray");
+    throw std::invalid_argument("march takes up to four layers, and at least one distance per ray");
   }
   for_rays(
       rays.size(), [&] { return Marcher(layers, taps, light, settings); },

@@ -360,7 +360,7 @@ def test_gusts_share_out_and_keep_the_sum():
         ({"ground": np.zeros((3, 3))}, "ground"),
         ({"ground": np.full((24, 32), np.inf)}, "ground"),
         ({"ground": hills((24, 32), 900.0)}, "half the height of the domain"),
-        ({"sponge_width": 20.0}, "half the domain"),
+        ({"sponge_width": 20.0}, "half of the domain"),
         ({"smagorinsky": -1.0}, "smagorinsky"),
         ({"source_depth": 0.0}, "source_depth"),
     ],
@@ -419,13 +419,13 @@ def test_bad_calls():
         solver.step(0.0)
     with pytest.raises(ValueError, match="heat"):
         solver.set_sources([[0.0, 0.0]], [-1.0], [0.0])
-    with pytest.raises(ValueError, match="one for each position"):
+    with pytest.raises(ValueError, match="one value for each position"):
         solver.set_sources([[0.0, 0.0]], [1.0, 2.0], [0.0])
-    with pytest.raises(ValueError, match="one for each height"):
+    with pytest.raises(ValueError, match="one vector for each height"):
         solver.set_wind([[0.0, 0.0]])
-    with pytest.raises(ValueError, match="lacks"):
+    with pytest.raises(ValueError, match="no field"):
         solver.restore({})
-    with pytest.raises(ValueError, match="inside the box"):
+    with pytest.raises(ValueError, match="inside of its outer domain"):
         solver.nest(flow.Domain(solver.levels, (40, 40), 40.0, (0.0, 0.0)))
     inner = solver.nest(flow.Domain(solver.levels, (40, 40), 40.0, (600.0, 500.0)))
     with pytest.raises(ValueError, match="overtake"):

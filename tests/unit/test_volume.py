@@ -213,7 +213,7 @@ def test_flames_too_far_away_to_be_counted_are_refused(tmp_path):
 
 def test_bad_cells_are_refused():
     arrival, fuel, position = burn()
-    with pytest.raises(ValueError, match="never burn"):
+    with pytest.raises(ValueError, match="do not burn"):
         smoke(0.0, cells=(np.full_like(arrival, np.nan), fuel, position))
     with pytest.raises(ValueError, match="shape"):
         smoke(0.0, cells=(arrival, fuel[:-1], position))
