@@ -70,14 +70,25 @@ def read_python(text: str) -> Iterator[Passage]:
         kind = docstrings.get(id(node))
         if kind or content.count(" ") >= 4:
             yield from paragraphs(content, node.lineno, node.end_lineno or node.lineno, kind or TEXT)
+    yield from join_comments(find_comments(text, COMMENT_OR_STRING))
+
+
+HASH_OR_STRING = re.compile(r"\"[^\"\n]*\"|'[^'\n]*'|(?:^|(?<=\s))#(?P<comment>[^\n]*)", re.MULTILINE)
+
+
+def read_hash_comments(text: str) -> Iterator[Passage]:
+    """Read comments of a shell script or of TOML."""
+    yield from join_comments(find_comments(text, HASH_OR_STRING))
+
+
+def find_comments(text: str, pattern: re.Pattern[str]) -> Iterator[tuple[int, bool, str]]:
+    """Find comments after #: number of the line, True if nothing else is on the line, and text."""
     starts = line_starts(text)
-    comments = []
-    for match in COMMENT_OR_STRING.finditer(text):
+    for match in pattern.finditer(text):
         if match["comment"] is not None and not match["comment"].startswith("!"):
             number = bisect.bisect_right(starts, match.start())
             is_alone = not text[starts[number - 1] : match.start()].strip()
-            comments.append((number, is_alone, match["comment"].lstrip("#: ")))
-    yield from join_comments(comments)
+            yield number, is_alone, match["comment"].lstrip("#: ")
 
 
 def line_starts(text: str) -> list[int]:
@@ -152,4 +163,12 @@ def read_page(text: str) -> Iterator[Passage]:
         block.append(re.sub(r"^(?:[-*+] |\d+\. )", "", content))
 
 
-READERS = {".py": read_python, ".pyi": read_python, ".hpp": read_cpp, ".cpp": read_cpp, ".md": read_page}
+READERS = {
+    ".py": read_python,
+    ".pyi": read_python,
+    ".hpp": read_cpp,
+    ".cpp": read_cpp,
+    ".md": read_page,
+    ".sh": read_hash_comments,
+    ".toml": read_hash_comments,
+}

@@ -22,7 +22,17 @@ from rules import RULES, Rule
 
 ROOT = Path(__file__).parents[2]
 LIMIT = 1.5  # hits per 1,000 words
-SOURCES = ("addon", "cpp", "data", "docs", "tests", "README.md", "CONTRIBUTING.md", "CHANGELOG.md")
+SOURCES = (
+    "addon",
+    "cpp",
+    "data",
+    "docs",
+    "examples",
+    "tests",
+    "README.md",
+    "CONTRIBUTING.md",
+    "CHANGELOG.md",
+)
 SKIPPED = {"leaflet", "out", "__pycache__", "prose", "test_prose.py"}  # foreign text, examples of the rules
 
 

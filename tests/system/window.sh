@@ -5,12 +5,11 @@
 #   tests/system/window.sh panel build      only these steps of use.sh's list; it is always installed before and
 #                                    uninstalled after
 #
-# Debian's development release has that Blender, with Python 3.14. It is kept in build/debian/sid, or in
-# $FIRETWIN_DEBIAN/sid (tests/system/in_debian.sh); the core is built there, and a zip made that carries it. The pictures
-# and the logs are then in build/shared/window, those of the artists' page in page/ there (they belong into
-# docs/pictures/). No display is needed. $FIRETWIN_PATIENCE is how many seconds it waits
-# for any one thing (1800).
-# Exit status 1: something is not as it should be; 77: there is no such folder, and what was skipped is said.
+# Debian's development release has that Blender, with Python 3.14. Its folder is build/debian/sid, or
+# $FIRETWIN_DEBIAN/sid (tests/system/in_debian.sh); the core and a zip with it are built there. Pictures and logs go to
+# build/shared/window, pictures of the artists' page to page/ in it (copy them to docs/pictures/). No display is needed.
+# $FIRETWIN_PATIENCE is the longest wait for any event, s (1800).
+# Exit status 1: a check failed; 77: there is no such folder, and the skipped steps are listed.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 folder=${FIRETWIN_DEBIAN:-build/debian}/sid
@@ -18,7 +17,7 @@ out=build/shared/window
 
 say() { echo "window: $*" >&2; }
 
-# What runs in the folder; no folder is no failure.
+# Runs a command in the folder; a missing folder does not fail.
 inside() {
   local status=0
   tests/system/in_debian.sh sid "$folder" "$@" || status=$?

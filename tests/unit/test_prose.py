@@ -77,6 +77,12 @@ echo what is code
 | error of a mesh is of its setting | 0.5 m |
 | what it reads | text |
 """
+SHELL = """\
+#!/usr/bin/env bash
+# The table of what is
+# missing.
+echo "# what is $#"  # beside it
+"""
 
 
 @pytest.mark.parametrize(
@@ -85,8 +91,9 @@ echo what is code
         (passages.read_python, PYTHON, [1, 3, 9, 12, 13]),
         (passages.read_cpp, CPP, [1, 3, 5, 6]),
         (passages.read_page, PAGE, [3, 6, 6, 14, 15]),
+        (passages.read_hash_comments, SHELL, [2, 4]),
     ],
-    ids=["python", "cpp", "page"],
+    ids=["python", "cpp", "page", "shell"],
 )
 def test_hits_have_the_line_of_their_first_word(read, text, lines):
     assert sorted(line for passage in read(text) for line, _, _ in report.check_passage(passage)) == lines

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Fuzzes the readers: text grids, .npy files, run.toml, whole run folders, and the content of 3-D Tiles. Builds into build/fuzz.
+# Fuzzes the readers: text grids, .npy files, run.toml, complete run folders, and the content of 3-D Tiles. Builds into build/fuzz.
 #
 #   tests/system/fuzz/run.sh                   200,000 executions of each
 #   tests/system/fuzz/run.sh --runs 10000000   as many of each
 #   tests/system/fuzz/run.sh --seconds 60      a minute of each
-#   tests/system/fuzz/run.sh --jobs 2 ...      in so many processes at once, which share the runs and what they find
+#   tests/system/fuzz/run.sh --jobs 2 ...      in this many processes, which share runs and findings
 #   tests/system/fuzz/run.sh ... text npy      these only
 #
 # An input that breaks a reader is left in build/fuzz/findings; exit status 1.
@@ -61,7 +61,7 @@ if [[ -z $compiler ]]; then
   if ! { "${as_root[@]}" apt-get update -q && "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install \
     -y -q --no-install-recommends clang libclang-rt-dev; } >"$log" 2>&1; then
     tail -n 20 "$log" >&2
-    say "apt-get failed; its whole output is in $log"
+    say "apt-get failed; see $log"
     exit 1
   fi
   rm -f "$log"
@@ -76,7 +76,7 @@ python3 tests/system/fuzz/seeds.py "$build/seeds"
 limit=-runs=$(((runs + jobs - 1) / jobs))
 [[ -z $seconds ]] || limit=-max_total_time=$seconds
 
-# Becomes a fuzzer, with a log of its own for each job.
+# Becomes a fuzzer, with a separate log for each job.
 fuzz() {
   local words=tests/system/fuzz/$1.dict
   [[ -f $words ]] || words=tests/system/fuzz/tiles.dict

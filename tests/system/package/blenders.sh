@@ -25,7 +25,7 @@ for_each_blender() { # function; called with each Python
   done
 }
 
-# The same script in the Debian folder whose Python this machine lacks; files below build/shared are the same in there.
+# The same script in the Debian folder with the missing Python; files below build/shared are the same in it.
 in_other_python() { # script --option folder-or-file
   local folder=${FIRETWIN_DEBIAN:-build/debian}/trixie shared
   if [[ -n ${FIRETWIN_INSIDE:-} ]]; then

@@ -27,7 +27,7 @@ logged() { # what log command...
   fi
 }
 
-# A package that another one only recommends is known to dpkg, without a status of its own.
+# dpkg knows packages that others only recommend, without a status.
 if ! states=$(dpkg-query --show --showformat='${db:Status-Status}\n' "${packages[@]}" 2>/dev/null) ||
   grep -qvx installed <<<"$states"; then
   export DEBIAN_FRONTEND=noninteractive

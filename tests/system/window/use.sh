@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Inside the Debian folder: the extension in Blender's own command line, then in its window on a screen that only
-# pictures see. Blender's settings and extensions are in a folder of their own.
+# Inside the Debian folder: uses the extension in Blender's command line, then in its window on a virtual screen.
+# Blender's settings and extensions are in a separate folder.
 # usage: tests/system/window/use.sh OUT [STEP ...], a folder with firetwin.zip
 set -euo pipefail
 cd "${1:?usage: tests/system/window/use.sh OUT [STEP ...]}"
