@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from ...blender import nodes, owned
+from ...blender.mesh import add_attribute, create_mesh
 from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import clock
@@ -45,16 +46,12 @@ def build(shot: Shot, stage: Stage, grown: Stand | None = None) -> bpy.types.Obj
 
 
 def _mesh(points: flames.Points) -> bpy.types.Mesh:
-    mesh = bpy.data.meshes.new("Firetwin Flames")
-    mesh.vertices.add(len(points.seed))
-    mesh.vertices.foreach_set("co", points.position.astype(np.float32).ravel())
+    data = create_mesh("Firetwin Flames", points.position)
     for field in fields(points):
         if field.name != "position":
-            values = getattr(points, field.name).astype(np.float32)
-            attribute = mesh.attributes.new(_NAMES.get(field.name, field.name), "FLOAT", "POINT")
-            attribute.data.foreach_set("value", values)
-    mesh.update()
-    return mesh
+            name = _NAMES.get(field.name, field.name)
+            add_attribute(data, name, "FLOAT", getattr(points, field.name))
+    return data
 
 
 def _show_to_camera_only(obj: bpy.types.Object) -> None:
@@ -67,12 +64,11 @@ def build_cards(shot: Shot, stage: Stage) -> bpy.types.Collection:
     """Create billboards one metre high and wide on z = 0: flat, curved and crossed; linked to no scene."""
     collection, flame = owned.library("Flame Cards"), material.build(shot, stage)
     for index in range(CARDS):
-        mesh = bpy.data.meshes.new(f"Firetwin Flame Card {index}")
         vertices, faces, cards = _card_geometry(index)
-        mesh.from_pydata(vertices, [], faces)
-        mesh.attributes.new("card", "FLOAT_VECTOR", "POINT").data.foreach_set("vector", np.ravel(cards))
-        mesh.materials.append(flame)
-        obj = owned.add(collection, f"Flame Card {index}", mesh)
+        data = create_mesh(f"Firetwin Flame Card {index}", vertices, faces, flat=True)
+        add_attribute(data, "card", "FLOAT_VECTOR", cards)
+        data.materials.append(flame)
+        obj = owned.add(collection, f"Flame Card {index}", data)
         obj.color = SHOWN
         _show_to_camera_only(obj)
     return collection

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 
 from ...blender import nodes, owned
+from ...blender.mesh import add_attribute, create_mesh
 from ...blender.owned import Stage
 from ...shot.shot import Shot
 from . import firebrand_material, firebrands, flames
@@ -30,14 +31,10 @@ def build(
     if flights is None:
         return None
     count, each = flights.place.shape[:2]
-    mesh = bpy.data.meshes.new("Firetwin Firebrands")
-    mesh.vertices.add(count * each)
-    mesh.vertices.foreach_set("co", flights.place.ravel())
+    data = create_mesh("Firetwin Firebrands", flights.place.reshape(count * each, 3))
     for name in ("start", "birth", "life", "size"):
-        values = np.repeat(getattr(flights, name), each).astype(np.float32)
-        mesh.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values)
-    mesh.update()
-    obj = owned.add(collection, "Firebrands", mesh)
+        add_attribute(data, name, "FLOAT", np.repeat(getattr(flights, name), each))
+    obj = owned.add(collection, "Firebrands", data)
     modifier = obj.modifiers.new("Firetwin Firebrands", "NODES")
     modifier.node_group = _node_group(shot, stage, flights, shot.pixel[0])
     _show_to_camera_only(obj)
@@ -132,13 +129,13 @@ def _scale_vector(tree: nodes.Tree, vector: nodes.Value, by: nodes.Value) -> nod
 def _streak_object(shot: Shot, stage: Stage) -> bpy.types.Object:
     """Create an octahedron one metre wide and long, linked to no scene."""
     name = "Firetwin Firebrand Streak"
-    mesh = owned.mark(bpy.data.meshes.new(name))
     ends = [(0.0, 0.0, -0.5), (0.0, 0.0, 0.5)]
     waist = [(0.5, 0.0, 0.0), (0.0, 0.5, 0.0), (-0.5, 0.0, 0.0), (0.0, -0.5, 0.0)]
     sides = [(2 + k, 2 + (k + 1) % 4) for k in range(4)]
-    mesh.from_pydata(ends + waist, [], [(b, a, 0) for a, b in sides] + [(a, b, 1) for a, b in sides])
-    mesh.materials.append(firebrand_material.build(shot, stage))
-    obj = owned.mark(bpy.data.objects.new(name, mesh))
+    faces = [(b, a, 0) for a, b in sides] + [(a, b, 1) for a, b in sides]
+    data = owned.mark(create_mesh(name, ends + waist, faces, flat=True))
+    data.materials.append(firebrand_material.build(shot, stage))
+    obj = owned.mark(bpy.data.objects.new(name, data))
     obj.color = 1.0, 0.42, 0.10, 1.0  # in the solid view
     _show_to_camera_only(obj)
     return obj

@@ -7,6 +7,7 @@ import numpy as np
 from firetwin_core.run import Run
 
 from ...blender import nodes, owned
+from ...blender.mesh import add_attribute, create_mesh
 from ...blender.owned import Stage
 from ...shot.shot import Shot
 from ...shot.surface import fronts
@@ -38,21 +39,12 @@ def _mesh(shot: Shot, name: str, run: Run) -> bpy.types.Mesh:
         front_lines.points, before, front_lines.after, shot.settings.fire.observed_width
     )
     here = np.arange(count)
-    faces = np.column_stack([here, front_lines.after, front_lines.after + count, here + count]).astype(
-        np.int32
-    )
-    mesh = bpy.data.meshes.new(f"Firetwin Front {name}")
-    mesh.vertices.add(2 * count)
-    mesh.vertices.foreach_set("co", corners.ravel())
-    mesh.loops.add(4 * count)
-    mesh.loops.foreach_set("vertex_index", faces.ravel())
-    mesh.polygons.add(count)
-    mesh.polygons.foreach_set("loop_start", np.arange(0, 4 * count, 4, dtype=np.int32))
+    faces = np.column_stack([here, front_lines.after, front_lines.after + count, here + count])
+    data = create_mesh(f"Firetwin Front {name}", corners, faces)
     for which in ("start", "end"):
-        values = np.tile(getattr(front_lines, which), 2).clip(-1e12, 1e12).astype(np.float32)
-        mesh.attributes.new(f"seen_{which}", "FLOAT", "POINT").data.foreach_set("value", values)
-    mesh.update(calc_edges=True)
-    return mesh
+        values = np.tile(getattr(front_lines, which), 2).clip(-1e12, 1e12)
+        add_attribute(data, f"seen_{which}", "FLOAT", values)
+    return data
 
 
 def _select_current(shot: Shot, name: str) -> bpy.types.NodeTree:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...blender import nodes, owned
+from ...blender.mesh import add_attribute, create_mesh
 from ...blender.owned import Stage
 from ...shot.shot import Shot
 from ...shot.surface import observed
@@ -48,18 +49,14 @@ def _mesh(lines: list[DrapedLine], width: float) -> bpy.types.Mesh:
     starts = np.cumsum([0, *(len(each) for each in ribbons)])
     faces = [_faces(len(line.points)) + at for line, at in zip(lines, starts[:-1], strict=True)]
     corners = np.concatenate(faces)
-    mesh = bpy.data.meshes.new("Firetwin Observed")
-    mesh.from_pydata(np.concatenate(ribbons).tolist(), [], corners.tolist())
+    data = create_mesh("Firetwin Observed", np.concatenate(ribbons), corners, flat=True)
     for name in ("start", "fades", "end"):
         values = np.repeat([getattr(line, name) for line in lines], [len(each) for each in ribbons])
-        mesh.attributes.new(f"seen_{name}", "FLOAT", "POINT").data.foreach_set(
-            "value", values.astype(np.float32)
-        )
+        add_attribute(data, f"seen_{name}", "FLOAT", values)
     colours = [(*_HEAT.get(line.kind, _FRESH), 1.0) for line in lines]
     values = np.repeat(np.array(colours, np.float32), [len(each) for each in ribbons], axis=0)
-    mesh.attributes.new("seen_colour", "FLOAT_COLOR", "POINT").data.foreach_set("color", values.ravel())
-    mesh.update()
-    return mesh
+    add_attribute(data, "seen_colour", "FLOAT_COLOR", values)
+    return data
 
 
 def closed_ribbon(points: NDArray[np.float64], width: float) -> NDArray[np.float32]:

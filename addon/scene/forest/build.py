@@ -15,6 +15,7 @@ from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...blender import compat, nodes, owned
+from ...blender.mesh import add_attribute, create_mesh
 from ...blender.owned import Stage
 from ...shot.cameras.rigs.satellite import HEIGHT
 from ...shot.passes import masks
@@ -181,15 +182,10 @@ def _object(
     collection: bpy.types.Collection, name: str, points: dict[str, NDArray], group: bpy.types.NodeTree
 ) -> bpy.types.Object:
     """Create a point cloud object with the node group that instances models on it."""
-    data = bpy.data.meshes.new(f"Firetwin {name}")
-    data.vertices.add(len(points["position"]))
-    data.vertices.foreach_set("co", points["position"].astype(np.float32).ravel())
+    data = create_mesh(f"Firetwin {name}", points["position"])
     for key, values in points.items():
         if key != "position":
-            whole = key.endswith("model")
-            attribute = data.attributes.new(key, "INT" if whole else "FLOAT", "POINT")
-            attribute.data.foreach_set("value", values.astype(np.int32 if whole else np.float32))
-    data.update()
+            add_attribute(data, key, "INT" if key.endswith("model") else "FLOAT", values)
     obj = owned.add(collection, name, data)
     modifier = obj.modifiers.new("Firetwin Instances", "NODES")
     modifier.node_group = group

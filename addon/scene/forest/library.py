@@ -29,6 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...blender import owned
+from ...blender.mesh import add_attribute, create_mesh
 from ...blender.owned import Stage
 from ...errors import Error
 from ...shot.shot import Shot
@@ -122,21 +123,11 @@ def levelled(shot: Shot, points: dict[str, NDArray], wider: float = 1.0) -> dict
 
 def _mesh(name: str, shape: Shape, look: Look) -> bpy.types.Mesh:
     points, triangles, materials, colours = shape.mesh()
-    data = bpy.data.meshes.new(f"Firetwin {name}")
-    data.vertices.add(len(points))
-    data.vertices.foreach_set("co", points.astype(np.float32).ravel())
-    data.loops.add(triangles.size)
-    data.loops.foreach_set("vertex_index", triangles.astype(np.int32).ravel())
-    data.polygons.add(len(triangles))
-    data.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))
-    data.polygons.foreach_set("material_index", materials.astype(np.int32))
-    leaf = data.attributes.new("leaf", "FLOAT_COLOR", "POINT")
-    leaf.data.foreach_set(
-        "color", np.pad(colours, [(0, 0), (0, 1)], constant_values=1.0).astype(np.float32).ravel()
-    )
+    data = create_mesh(f"Firetwin {name}", points, triangles, material_index=materials)
+    rgba = np.pad(colours, [(0, 0), (0, 1)], constant_values=1.0)
+    add_attribute(data, "leaf", "FLOAT_COLOR", rgba)
     for each in look:
         data.materials.append(each)
-    data.update(calc_edges=True)
     return data
 
 

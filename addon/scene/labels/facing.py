@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...blender import nodes, owned
+from ...blender.mesh import create_mesh
 from ...blender.nodes import Tree, Value
 from ...shot.shot import Shot
 from . import lettering, material
@@ -118,8 +119,7 @@ def points(
     collection: bpy.types.Collection, name: str, position: NDArray[np.float64], group: bpy.types.NodeTree
 ) -> bpy.types.Object:
     """Add an object with points (n, 3), on which the node group places the objects that face the camera."""
-    data = bpy.data.meshes.new(f"Firetwin {name}")
-    data.from_pydata(position.tolist(), [], [])
+    data = create_mesh(f"Firetwin {name}", position)
     obj = owned.add(collection, name, data)
     lettering.camera_rays_only(obj)
     modifier = obj.modifiers.new(group.name, "NODES")

@@ -88,7 +88,7 @@ def mesh(name: str, parts: Sequence[Part], looks: Sequence[bpy.types.Material]) 
         faces += [[start + k for k in polygon] for polygon in polygons]
         index += [material] * len(polygons)
         start += len(points)
-    data.from_pydata(vertices, [], faces)
+    data.from_pydata(vertices, [], faces)  # faces of letters have different numbers of corners
     data.polygons.foreach_set("material_index", index)
     for look in looks:
         data.materials.append(look)

@@ -15,6 +15,7 @@ from __future__ import annotations
 import bpy
 
 from ...blender import nodes, owned
+from ...blender.mesh import create_mesh
 
 _COUNT = 29  # plus one volume of smoke, the end marker and the world's volume: Cycles' maximum of 32
 _DEPTH = -5000.0  # m
@@ -27,14 +28,14 @@ def build(collection: bpy.types.Collection, smokes: int = 1) -> None:
     """
     material, tree = nodes.material("Firetwin Smoke Layers")
     tree.volume(tree.output("ShaderNodeVolumeAbsorption", {"Density": 0.0}))
-    mesh = bpy.data.meshes.new("Firetwin Smoke Layer")
-    mesh.from_pydata(
-        [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+    corners, faces = (
+        [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
+        [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)],
     )
-    mesh.materials.append(material)
-    points = bpy.data.meshes.new("Firetwin Smoke Layers")
-    points.from_pydata([(0.0, 0.0, _DEPTH)] * (_COUNT + 1 - smokes), [], [])
+    data = create_mesh("Firetwin Smoke Layer", corners, faces, flat=True)
+    data.materials.append(material)
+    points = create_mesh("Firetwin Smoke Layers", [(0.0, 0.0, _DEPTH)] * (_COUNT + 1 - smokes))
     all_of_them = owned.add(collection, "Smoke Layers", points)
     all_of_them.instance_type = "VERTS"
     all_of_them.show_instancer_for_render = all_of_them.show_instancer_for_viewport = False
-    owned.add(collection, "Smoke Layer", mesh).parent = all_of_them
+    owned.add(collection, "Smoke Layer", data).parent = all_of_them

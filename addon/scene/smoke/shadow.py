@@ -17,6 +17,7 @@ from firetwin_core import volume
 from numpy.typing import NDArray
 
 from ...blender import nodes, owned
+from ...blender.mesh import create_mesh
 from ...blender.owned import Stage
 from ...run import sun
 from ...shot.shot import Shot
@@ -137,18 +138,11 @@ def _interpolate_texels(
 
 def _mesh(places: Array, material: bpy.types.Material) -> bpy.types.Mesh:
     rows, columns = places.shape[:2]
-    mesh = bpy.data.meshes.new(f"Firetwin {NAME}")
     corner = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
     faces = np.stack([corner, corner + 1, corner + columns + 1, corner + columns], axis=-1)
-    mesh.vertices.add(rows * columns)
-    mesh.vertices.foreach_set("co", places.astype(np.float32).ravel())
-    mesh.loops.add(faces.size)
-    mesh.loops.foreach_set("vertex_index", faces.ravel().astype(np.int32))
-    mesh.polygons.add(len(faces))
-    mesh.polygons.foreach_set("loop_start", np.arange(0, faces.size, 4, dtype=np.int32))
-    mesh.update()
-    mesh.materials.append(material)
-    return mesh
+    data = create_mesh(f"Firetwin {NAME}", places.reshape(rows * columns, 3), faces)
+    data.materials.append(material)
+    return data
 
 
 def _material(image: bpy.types.Image, low: Array, size: Array) -> bpy.types.Material:

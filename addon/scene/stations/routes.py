@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...blender import nodes, owned
+from ...blender.mesh import add_attribute, create_mesh
 from ...run import areas
 from ...shot.shot import Shot
 from ...shot.stations.station_signs import Route
@@ -29,18 +30,16 @@ def build(shot: Shot, collection: bpy.types.Collection, shown: Sequence[Route]) 
     tubes = [(_tube(line), each.origin) for line, each in zip(lines, shown, strict=True) if len(line) > 1]
     if not tubes:
         return None
-    data, start = bpy.data.meshes.new("Firetwin Routes"), 0
-    points, sides, faces, looks = [], [], [], []
+    points, sides, faces, looks, start = [], [], [], [], 0
     for (place, side, quads), origin in tubes:
         points.append(place)
         sides.append(side)
-        faces += (quads + start).tolist()
+        faces.append(quads + start)
         looks += [list(material.ACCENTS).index(origin)] * len(quads)
         start += len(place)
-    data.from_pydata(np.concatenate(points).tolist(), [], faces)
-    data.polygons.foreach_set("material_index", looks)
-    corner = data.attributes.new(_SIDE, "FLOAT_VECTOR", "POINT")
-    corner.data.foreach_set("vector", np.concatenate(sides).astype(np.float32).ravel())
+    corners, quads = np.concatenate(points), np.concatenate(faces)
+    data = create_mesh("Firetwin Routes", corners, quads, flat=True, material_index=looks)
+    add_attribute(data, _SIDE, "FLOAT_VECTOR", np.concatenate(sides))
     for look in material.routes(shot):
         data.materials.append(look)
     obj = owned.add(collection, "Routes", data)

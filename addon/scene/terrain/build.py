@@ -8,6 +8,7 @@ from firetwin_core import terrain
 from numpy.typing import NDArray
 
 from ...blender import owned
+from ...blender.mesh import add_attribute, create_mesh
 from ...blender.owned import Stage
 from ...shot import picture_credits
 from ...shot.cameras import mesh_tolerance
@@ -37,16 +38,14 @@ def build(shot: Shot, stage: Stage, grown: Stand | None, shaped: Shape | None = 
     height = ground.height(row, column, ground.detail(*coarse.T))
     if (tiles := tile_cut.heights(shot)) is not None:
         height = height - _UNDER * np.isfinite(tiles.up(*coarse[:, :2].T))
-    data = bpy.data.meshes.new("Firetwin Ground")
-    _fill_mesh(data, ground.frame.forward(latitude, longitude, height), triangles)
-    data.attributes.new("elevation", "FLOAT", "POINT").data.foreach_set("value", height.astype(np.float32))
+    data = create_mesh("Firetwin Ground", ground.frame.forward(latitude, longitude, height), triangles)
+    add_attribute(data, "elevation", "FLOAT", height)
     place = fields.texture_coordinates(ground.shape, row, column, ground.fields.margin)
-    data.attributes.new(fields.GRID, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", place.ravel())
+    add_attribute(data, fields.GRID, "FLOAT_VECTOR", place)
     solid_view.paint(shot, data, row, column)
     picture = globe.load_picture(shot) if shot.beyond else None
     if shot.beyond:
-        attribute = data.attributes.new(material.GLOBE, "FLOAT", "POINT")
-        attribute.data.foreach_set("value", globe.border_share(ground, row, column))
+        add_attribute(data, material.GLOBE, "FLOAT", globe.border_share(ground, row, column))
     images = fields.create_images(shot, grown)
     data.materials.append(
         material.build(
@@ -90,17 +89,3 @@ def cut_out_tiles(
     inside &= np.isfinite(tiles.up(*place[triangles].mean(axis=1).T))
     left, kept = np.unique(triangles[~inside], return_inverse=True)
     return row[left], column[left], kept.reshape(-1, 3).astype(np.int32)
-
-
-def _fill_mesh(data: bpy.types.Mesh, positions: NDArray[np.float64], triangles: NDArray[np.int32]) -> None:
-    """Write vertices and triangles into an empty mesh, with smooth shading.
-
-    Attributes are used because Blender copies them in bulk, but loops over vertices and corners one by one.
-    """
-    data.vertices.add(len(positions))
-    data.attributes["position"].data.foreach_set("vector", positions.astype(np.float32).ravel())
-    data.loops.add(triangles.size)
-    data.attributes[".corner_vert"].data.foreach_set("value", triangles.ravel())
-    data.polygons.add(len(triangles))
-    data.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))
-    data.update(calc_edges=True)

@@ -12,6 +12,7 @@ from mathutils.geometry import tessellate_polygon
 from numpy.typing import NDArray
 
 from ...blender import nodes, owned
+from ...blender.mesh import add_attribute, create_mesh
 from ...blender.owned import Stage
 from ...run.buildings import Building, blocks, rings
 from ...run.buildings.rings import Rings
@@ -61,24 +62,17 @@ class Blocks:
         the ground.
         """
         corners = np.concatenate(self.corners).reshape(-1, 3)
-        data = bpy.data.meshes.new(name)
-        data.from_pydata(corners, [], np.arange(len(corners)).reshape(-1, 3))
+        data = create_mesh(name, corners, np.arange(len(corners)).reshape(-1, 3), flat=True)
         shade = np.pad(np.concatenate(self.colours), [(0, 0), (0, 1)], constant_values=1.0)
-        _add_attribute(data, "shade", "FLOAT_COLOR", "FACE", shade)
-        _add_attribute(data, "number", "FLOAT", "FACE", np.concatenate(self.numbers))
+        add_attribute(data, "shade", "FLOAT_COLOR", shade, "FACE")
+        add_attribute(data, "number", "FLOAT", np.concatenate(self.numbers), "FACE")
         latitude, longitude, height = shot.ground.frame.reverse(corners)
         row, column = shot.ground.indices(latitude, longitude)
-        _add_attribute(data, "elevation", "FLOAT", "POINT", height)
+        add_attribute(data, "elevation", "FLOAT", height)
         place = fields.texture_coordinates(shot.ground.shape, row, column, shot.ground.fields.margin)
-        _add_attribute(data, fields.GRID, "FLOAT_VECTOR", "POINT", place)
+        add_attribute(data, fields.GRID, "FLOAT_VECTOR", place)
         data.materials.append(look)
-        data.update()
         return data
-
-
-def _add_attribute(data: bpy.types.Mesh, name: str, kind: str, domain: str, values: NDArray) -> None:
-    key = {"FLOAT": "value", "FLOAT_COLOR": "color", "FLOAT_VECTOR": "vector"}[kind]
-    data.attributes.new(name, kind, domain).data.foreach_set(key, np.asarray(values, np.float32).ravel())
 
 
 def triangulate(outline: Rings) -> Array:

@@ -12,6 +12,7 @@ from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
 from ...blender import owned
+from ...blender.mesh import create_mesh
 from ...blender.owned import Stage
 from ...run import areas
 from ...shot.shot import Shot
@@ -35,14 +36,7 @@ def build(
 ) -> bpy.types.Object:
     """Build "Firetwin Globe" in a Firetwin collection."""
     position, triangles = create_shell(shot.ground)
-    data = bpy.data.meshes.new("Firetwin Globe")
-    data.vertices.add(len(position))
-    data.attributes["position"].data.foreach_set("vector", position.astype(np.float32).ravel())
-    data.loops.add(triangles.size)
-    data.attributes[".corner_vert"].data.foreach_set("value", triangles.ravel())
-    data.polygons.add(len(triangles))
-    data.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))
-    data.update(calc_edges=True)
+    data = create_mesh("Firetwin Globe", position, triangles)
     data.materials.append(globe_material.build(shot, stage, image))
     obj = owned.add(collection, "Globe", data)
     for kind in ("shadow", "diffuse", "glossy", "transmission", "volume_scatter"):

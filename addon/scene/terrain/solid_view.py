@@ -11,6 +11,7 @@ import numpy as np
 from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
+from ...blender.mesh import add_attribute
 from ...shot.shot import Shot
 from ..forest import biomes
 
@@ -23,9 +24,8 @@ _DENSE = 1.2  # kg/m2 of canopy fuel that hides grass
 
 def paint(shot: Shot, data: bpy.types.Mesh, row: NDArray[np.float64], column: NDArray[np.float64]) -> None:
     """Set the mesh's active colour attribute, for points at fractional rows and columns (n,)."""
-    painted = data.attributes.new(NAME, "BYTE_COLOR", "POINT")
     rgb = vertex_colours(shot, row, column)
-    painted.data.foreach_set("color", np.pad(rgb, [(0, 0), (0, 1)], constant_values=1.0).ravel())
+    add_attribute(data, NAME, "BYTE_COLOR", np.pad(rgb, [(0, 0), (0, 1)], constant_values=1.0))
     data.color_attributes.active_color = data.color_attributes[NAME]
 
 

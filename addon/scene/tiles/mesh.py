@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ...blender.mesh import add_attribute, fill_mesh
 from ...shot.shot import Shot
 from ...tiles.decoded import Decoded
 from ..terrain import fields
@@ -55,7 +56,7 @@ def shape(data: bpy.types.Mesh, tile: Decoded, slots: Mapping[str, Slot]) -> Non
             uv[mine], image[number] = slot.moved(uv[mine]), slot.image
     layer = data.uv_layers.new(name=UV)
     layer.data.foreach_set("uv", np.ascontiguousarray(uv).ravel())
-    data.attributes.new(COLOUR, "FLOAT_COLOR", "CORNER").data.foreach_set("color", colour.ravel())
+    add_attribute(data, COLOUR, "FLOAT_COLOR", colour, "CORNER")
     data.polygons.foreach_set("material_index", (image[tile.material_index] + 1).astype(np.int32))
 
 
@@ -81,28 +82,12 @@ def add_ground(
     ground = shot.ground
     latitude, longitude, height = ground.frame.reverse(position.astype(np.float64) + origin)
     row, column = ground.indices(latitude, longitude)
-    add(data, "elevation", "FLOAT", height)
-    add(
-        data,
-        fields.GRID,
-        "FLOAT_VECTOR",
-        fields.texture_coordinates(ground.shape, row, column, ground.fields.margin),
-    )
-
-
-def add(data: bpy.types.Mesh, name: str, kind: str, values: NDArray) -> None:
-    """Write an attribute of the vertices."""
-    key = {"FLOAT": "value", "FLOAT_VECTOR": "vector", "FLOAT_COLOR": "color"}[kind]
-    data.attributes.new(name, kind, "POINT").data.foreach_set(key, np.asarray(values, np.float32).ravel())
+    add_attribute(data, "elevation", "FLOAT", height)
+    place = fields.texture_coordinates(ground.shape, row, column, ground.fields.margin)
+    add_attribute(data, fields.GRID, "FLOAT_VECTOR", place)
 
 
 def _triangles(data: bpy.types.Mesh, tile: Decoded, position: NDArray[np.float32]) -> None:
     """Vertices, triangles and normals; arrays only, so that a tile costs the same in any scene."""
-    data.vertices.add(len(position))
-    data.attributes["position"].data.foreach_set("vector", position.ravel())
-    data.loops.add(tile.triangle.size)
-    data.attributes[".corner_vert"].data.foreach_set("value", tile.triangle.ravel())
-    data.polygons.add(len(tile.triangle))
-    data.polygons.foreach_set("loop_start", np.arange(0, tile.triangle.size, 3, dtype=np.int32))
-    data.update(calc_edges=True)
-    add(data, "custom_normal", "FLOAT_VECTOR", tile.normal)
+    fill_mesh(data, position, tile.triangle)
+    add_attribute(data, "custom_normal", "FLOAT_VECTOR", tile.normal)

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 
 from ...blender import nodes, owned
+from ...blender.mesh import add_attribute, fill_mesh
 from ...blender.owned import Stage
 from ...shot.shot import Shot
 from ...tiles.decoded import Decoded
@@ -23,13 +24,11 @@ def fill(data: bpy.types.Mesh, shot: Shot, tile: Decoded) -> None:
     """Write a tile's points into an empty mesh, with the attributes of the ground, colour and radius."""
     first = len(tile.position) - tile.about.points
     position = np.ascontiguousarray(tile.position[first:])
-    data.vertices.add(len(position))
-    data.attributes["position"].data.foreach_set("vector", position.ravel())
+    fill_mesh(data, position)
     mesh.add_ground(data, shot, position, tile.origin)
     colour = tile.colour[first:] if len(tile.colour) else np.ones((len(position), 4), np.float32)
-    mesh.add(data, mesh.COLOUR, "FLOAT_COLOR", colour)
-    mesh.add(data, RADIUS, "FLOAT", np.full(len(position), COVERING * tile.about.spacing))
-    data.update()
+    add_attribute(data, mesh.COLOUR, "FLOAT_COLOR", colour)
+    add_attribute(data, RADIUS, "FLOAT", np.full(len(position), COVERING * tile.about.spacing))
 
 
 def show(obj: bpy.types.Object, stage: Stage, material: bpy.types.Material) -> None:

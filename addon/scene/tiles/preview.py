@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...blender import nodes, owned
+from ...blender.mesh import create_mesh
 from ...blender.owned import Stage
 from ...shot.tiles.tile_cut import TileCut
 from ...tiles import decoded
@@ -23,13 +24,8 @@ _EDGES = np.array([(a, b) for a in range(8) for b in range(a + 1, 8) if bin(a ^ 
 def show_boxes(stage: Stage, corners: NDArray[np.float64]) -> bpy.types.Object:
     """Show boxes (n, 8, 3), m in the scene, as one object that no picture has; removes an earlier preview."""
     collection = stage.part(PART)
-    data = bpy.data.meshes.new(f"Firetwin {BOXES}")
     edges = (np.arange(len(corners), dtype=np.int32)[:, None, None] * 8 + _EDGES).reshape(-1, 2)
-    data.vertices.add(8 * len(corners))
-    data.vertices.foreach_set("co", corners.astype(np.float32).ravel())
-    data.edges.add(len(edges))
-    data.edges.foreach_set("vertices", edges.ravel())
-    data.update()
+    data = create_mesh(f"Firetwin {BOXES}", corners.reshape(-1, 3), edges=edges)
     obj = owned.add(collection, BOXES, data)
     obj.hide_render, obj.display_type = True, "WIRE"
     return obj
