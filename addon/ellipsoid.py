@@ -7,6 +7,8 @@ from firetwin_core import constants
 from numpy.typing import NDArray
 
 A, E2 = constants.SEMI_MAJOR_AXIS, constants.ECCENTRICITY_SQUARED
+MEAN_RADIUS = 6_371_000.0
+"""Radius of the Earth as a sphere, m."""
 
 
 def metres_per_degree(latitude: float) -> tuple[float, float]:

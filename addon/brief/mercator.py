@@ -12,11 +12,10 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
-from ..ellipsoid import metres_per_degree
+from ..ellipsoid import A, metres_per_degree
 from ..errors import input_error
 from ..run import areas
 
-RADIUS = 6378137.0  # m
 LIMIT = 85.05  # degrees; Web Mercator ends at 85.0511
 
 Array = NDArray[np.float64]
@@ -25,13 +24,13 @@ Array = NDArray[np.float64]
 def forward(latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
     """Project degrees to x and y, m."""
     y = np.arctanh(np.sin(np.radians(np.asarray(latitude, np.float64))))
-    return RADIUS * np.radians(np.asarray(longitude, np.float64)), RADIUS * y
+    return A * np.radians(np.asarray(longitude, np.float64)), A * y
 
 
 def inverse(x: ArrayLike, y: ArrayLike) -> tuple[Array, Array]:
     """Convert x and y (m) to latitude and longitude, degrees."""
-    latitude = np.degrees(np.arcsin(np.tanh(np.asarray(y, np.float64) / RADIUS)))
-    return latitude, np.degrees(np.asarray(x, np.float64) / RADIUS)
+    latitude = np.degrees(np.arcsin(np.tanh(np.asarray(y, np.float64) / A)))
+    return latitude, np.degrees(np.asarray(x, np.float64) / A)
 
 
 @dataclass(frozen=True)

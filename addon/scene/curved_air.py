@@ -19,9 +19,8 @@ from firetwin_core import geo
 
 from ..blender.nodes import Tree, Value
 from ..blender.owned import Stage
-from ..ellipsoid import E2, A, ecef, enu_axes
+from ..ellipsoid import E2, MEAN_RADIUS, A, ecef, enu_axes
 
-RADIUS = 6_371_000.0  # m
 _PLACE = "globe"  # property of the root collection: latitude and longitude of the scene's origin
 _FOLDS, _NODES = 8.0, 6
 
@@ -95,7 +94,7 @@ def weighted_path_length(tree: Tree, here: Earth, height: float) -> Value:
     """Return the path length (m) from a surface to the camera, weighted by exp(-h / `height`)."""
     geometry = tree.node("ShaderNodeNewGeometry")
     scaled = here.scaled(tree, tree.pick(geometry, "Position"))
-    above = (tree.vector("LENGTH", scaled, name="Value") - 1.0) * RADIUS
+    above = (tree.vector("LENGTH", scaled, name="Value") - 1.0) * MEAN_RADIUS
     _, up = here.upward(tree, scaled)
     rise = tree.vector("DOT_PRODUCT", up, tree.pick(geometry, "Incoming"), name="Value")
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
@@ -104,7 +103,7 @@ def weighted_path_length(tree: Tree, here: Earth, height: float) -> Value:
 
 def weighted_ray_length(tree: Tree, rise: Value, distance: Value, height: float) -> Value:
     """Return the length (m) of a ray of slope cosine `rise` from height 0, weighted by exp(-h / `height`)."""
-    bend = (1.0 - rise * rise) * (0.5 / (RADIUS * height))
+    bend = (1.0 - rise * rise) * (0.5 / (MEAN_RADIUS * height))
     slope = rise * (1.0 / height)
     root = tree.math("SQRT", slope * slope + bend * (4.0 * _FOLDS))
     far = tree.math("DIVIDE", 2.0 * _FOLDS, tree.math("MAXIMUM", slope + root, 1e-12))

@@ -11,6 +11,7 @@ from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.sections import Forest, TerrainSettings, Time
 from firetwin.shot.settings import Camera, Render, Settings
 from firetwin.shot.shot import Shot
+from firetwin.shot.terrain.dilation import dilate
 from firetwin_core import lod
 from firetwin_core import run as runs
 from small_run import FX, FY, NX, NY
@@ -144,11 +145,11 @@ def test_ground_that_shades_what_is_seen_counts(bearing):
         centre[row, column, 2] = wall
         seen = np.zeros((side, side), bool)
         seen[side // 2, side // 2] = True
-        low = shadow_casters._widest(-centre[..., 2]) * -1.0
+        low = dilate(-centre[..., 2], 1) * -1.0
         rest = np.flatnonzero(~seen)
         found = np.zeros((side, side), bool)
         found.ravel()[rest] = shadow_casters._reaches(
-            centre, np.full((side, side), 1.0), low, shadow_casters._widest(seen), rest, bearing, height
+            centre, np.full((side, side), 1.0), low, dilate(seen, 1), rest, bearing, height
         )
         assert found[row, column] == (away < 1.0), away
         found[row, column] = False

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ...shot.shot import Shot
 from ...shot.terrain import noise
-from ...shot.terrain.terrain import widened
+from ...shot.terrain.dilation import dilate
 from . import biomes, models, plot, stand_structure, visibility
 from .plot import Plot
 
@@ -146,7 +146,7 @@ def _retained(shot: Shot, plots: list[Plot]) -> list[NDArray[np.float32]]:
     budget, reach = shot.settings.forest.budget, shot.settings.forest.draw_distance
     near, parallel = shot.pixel
     # Neighbouring cells as well: the retained fraction is bilinear between cell centres.
-    besides = [widened(each.mask, 1) for each in plots]
+    besides = [dilate(each.mask, 1) for each in plots]
     pixels, stems = [], []
     for each, beside in zip(plots, besides, strict=True):
         distance = shot.visibility.distance(each.places(shot.local_frame, beside))

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from ...shot.shot import Shot
 from ...shot.surface import land_use
 from ...shot.terrain import noise
-from ...shot.terrain.terrain import box, widened
+from ...shot.terrain.dilation import dilate
+from ...shot.terrain.terrain import box
 from ...shot.tiles import tile_vegetation
 from . import biomes, cover, field_lines
 
@@ -51,7 +52,7 @@ def with_lone(
     if biomes.choose(shot).biome.species:
         near = shot.ground.bare[np.ix_(*lines)] < _BARE
     else:
-        near = widened(part > LONE_FUEL, _SEED)
+        near = dilate(part > LONE_FUEL, _SEED)
     part[(part <= LONE_FUEL) & dry & near] = LONE_FUEL
     return fuel
 

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from ...run import areas
 from ...shot.shot import Shot
-from ...shot.terrain.terrain import widened
+from ...shot.terrain.dilation import dilate
 from . import visibility
 
 _RELIEF = 30.0  # m; greatest vertical offset of a tree by the terrain mesh's relief
@@ -89,7 +89,7 @@ def _blocks(
     )
     across = np.max([np.linalg.norm(corner - middle, axis=-1) for corner in corners], axis=0)
     known = np.isfinite(across)
-    steps = widened(np.where(known, high, -np.inf), 1) + widened(np.where(known, -low, -np.inf), 1)
+    steps = dilate(np.where(known, high, -np.inf), 1) + dilate(np.where(known, -low, -np.inf), 1)
     size = across + 0.5 * (high - low) + _size(shot, latitude, longitude, 2.0 * steps)
     counts = np.zeros(known.shape, bool)
     counts[known] = visibility.visible(shot, middle[known], height, reach, beside=size[known])

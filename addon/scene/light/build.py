@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ...blender import compat, nodes, owned
 from ...blender.owned import Stage
+from ...ellipsoid import MEAN_RADIUS
 from ...shot.light import exposure
 from ...shot.light.sky import NIGHT_SKY, State, state
 from ...shot.passes import masks
@@ -87,7 +88,7 @@ def _airglow(tree: nodes.Tree, up: nodes.Value) -> nodes.Value:
     Van Rhijn (1921, "On the brightness of the sky at night", Publ. Astr. Lab. Groningen 31), with a mean of
     1.
     """
-    across = (1.0 - up * up) * (6371.0 / 6471.0) ** 2
+    across = (1.0 - up * up) * (MEAN_RADIUS / (MEAN_RADIUS + 100_000.0)) ** 2
     return tree.math("POWER", 1.0 - across, -0.5) * 0.3
 
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ...blender import owned
 from ...blender.mesh import create_mesh
 from ...blender.owned import Stage
+from ...ellipsoid import MEAN_RADIUS
 from ...run import areas
 from ...shot.shot import Shot
 from ...shot.terrain.terrain import Terrain
@@ -21,7 +22,6 @@ from . import globe_material
 
 _SIDE = 96  # points along a side of the border
 _FIRST, _GROWTH, _STEP = 3000.0, 1.09, 100_000.0  # m: first step between rings, its growth, largest step
-_RADIUS = 6_371_000.0  # m, converts lengths to angles here
 _HILLS, _LAND = 8_000.0, 300_000.0  # m beyond the border over which hills and mean height fade
 _SKIRT = (
     0.97,
@@ -79,7 +79,7 @@ def create_shell(ground: Terrain) -> tuple[Array, NDArray[np.int32]]:
         _from_polar(ground, bearing, arc, height),
     ]
     for way in _ring_fractions(np.pi - float(arc.min())):
-        beyond = _RADIUS * way * (np.pi - float(arc.min()))
+        beyond = MEAN_RADIUS * way * (np.pi - float(arc.min()))
         rise = mean + (height - mean) * np.exp(-beyond / _HILLS)
         rings.append(_from_polar(ground, bearing, arc + way * (np.pi - arc), rise * np.exp(-beyond / _LAND)))
     position = np.concatenate(rings)
@@ -126,10 +126,10 @@ def _from_polar(ground: Terrain, bearing: Array, arc: Array, height: Array) -> A
 def _ring_fractions(arc: float) -> Array:
     """Return fractions (n,) of an arc (radians) at which rings are placed, the last at its end."""
     steps, total, step = [0.0], 0.0, _FIRST
-    while total < arc * _RADIUS:
+    while total < arc * MEAN_RADIUS:
         steps.append(total)
         total, step = total + step, min(step * _GROWTH, _STEP)
-    return np.append(np.array(steps) / (arc * _RADIUS), 1.0)
+    return np.append(np.array(steps) / (arc * MEAN_RADIUS), 1.0)
 
 
 def _triangles(rings: int, around: int) -> NDArray[np.int32]:

@@ -12,12 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...run import sun
+from .dilation import dilate
 
 if TYPE_CHECKING:
     from ..shot import Shot
 
 _LOWEST = 1.0  # degrees; lower suns cast no shadows, as in `lod.visible_mask`
-_TURN = 2.0  # degrees; suns closer together are merged, as blocks are widened on all sides
+_TURN = 2.0  # degrees; suns closer together are merged, as blocks are dilated on all sides
 
 
 def with_shade(
@@ -33,8 +34,8 @@ def with_shade(
     if not seen.any():
         return seen
     shading = seen.copy()
-    low = -_widest(rise - centre[..., 2])
-    lit = _widest(seen)
+    low = -dilate(rise - centre[..., 2], 1)
+    lit = dilate(seen, 1)
     for bearing, height in _suns(shot):
         rest = np.flatnonzero(~shading)
         shading.ravel()[rest] = _reaches(centre, rise, low, lit, rest, bearing, height)
@@ -46,7 +47,7 @@ def _reaches(
 ) -> NDArray[np.bool_]:
     """Return whether each block's shadow (n,) falls on a `lit` block before it passes below the ground.
 
-    Blocks are widened by one block on all sides.
+    Blocks are dilated by one block on all sides.
     """
     north, east = centre[:, centre.shape[1] // 2, 1], centre[centre.shape[0] // 2, :, 0]
     step = min(np.diff(axis).min(initial=np.inf) for axis in (north, east))
@@ -78,10 +79,3 @@ def _suns(shot: Shot) -> list[tuple[float, float]]:
         if height >= _LOWEST and np.hypot(bearing - last[0], height - last[1]) >= _TURN:
             suns.append((float(bearing), float(height)))
     return suns
-
-
-def _widest(field: NDArray) -> NDArray:
-    """Maximum filter over each value and its eight neighbours."""
-    padded = np.pad(field, 1, "edge")
-    rows = np.maximum(np.maximum(padded[:-2], padded[1:-1]), padded[2:])
-    return np.maximum(np.maximum(rows[:, :-2], rows[:, 1:-1]), rows[:, 2:])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import functools
 
 import numpy as np
 from firetwin_core import terrain
@@ -11,10 +10,12 @@ from firetwin_core.run import Run
 from firetwin_core.terrain import bilinear
 from numpy.typing import ArrayLike, NDArray
 
+from ...ellipsoid import MEAN_RADIUS
 from ...run import areas, burning, fuel_category
 from ...run.frame import local_frame
 from ..sections import SceneSettings
 from . import apron, dem_patch, noise
+from .dilation import dilate
 from .elevation import Elevation
 
 NEVER = 1.0e9  # s, arrival time of ground that never burns
@@ -240,7 +241,7 @@ class Terrain:
         place[near] = self.frame.forward_grid(
             self.fields.latitude[near[0]],
             self.fields.longitude[near[1]],
-            height - np.maximum(widened(bend, 2) + relief, widened(self._hollows()[near], 1)),
+            height - np.maximum(dilate(bend, 2) + relief, dilate(self._hollows()[near], 1)),
         )
         return place
 
@@ -273,7 +274,7 @@ class Terrain:
     def geodetic(self, east: ArrayLike, north: ArrayLike) -> tuple[Array, Array]:
         """Latitude and longitude of the ground at scene coordinates (m); verticals converge with distance."""
         east, north = (np.atleast_1d(np.asarray(v, np.float64)) for v in np.broadcast_arrays(east, north))
-        up = -(east**2 + north**2) / (2.0 * 6_371_000.0)
+        up = -(east**2 + north**2) / (2.0 * MEAN_RADIUS)
         for _ in range(3):
             latitude, longitude, _height = self.frame.reverse(np.stack([east, north, up], axis=-1))
             row, column = self.indices(latitude, longitude)
@@ -343,7 +344,7 @@ def _water(fields: apron.TerrainFields) -> Array:
     """Lake mask, 0 or 1: ground without fuel that is level within 5 cm over three cells."""
     if min(fields.elevation.shape) < 3:
         return np.zeros(fields.elevation.shape)
-    level = widened(fields.elevation, 1) + widened(-fields.elevation, 1) < _LEVEL
+    level = dilate(fields.elevation, 1) + dilate(-fields.elevation, 1) < _LEVEL
     bare = _fuelless(fields)
     inner = (level & bare).astype(np.float64)
     return np.where(bare & (inner + _neighbours(inner) > 0.0), 1.0, 0.0)
@@ -394,12 +395,3 @@ def _second_difference(field: Array, axis: int) -> Array:
     """Second difference along an axis; edges are extended level."""
     padded = np.pad(field, [(1, 1) if k == axis else (0, 0) for k in (0, 1)], "edge")
     return np.diff(padded, 2, axis)
-
-
-def widened(field: NDArray, reach: int) -> NDArray:
-    """Maximum filter over `reach` rows and columns."""
-    for axis in (0, 1):
-        padded = np.pad(field, [(reach, reach) if k == axis else (0, 0) for k in (0, 1)], "edge")
-        windows = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1, axis)
-        field = functools.reduce(np.maximum, np.moveaxis(windows, -1, 0))
-    return field

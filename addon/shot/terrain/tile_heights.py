@@ -19,6 +19,7 @@ from ... import files
 from ...errors import input_error
 from ...run.frame import local_frame
 from . import rasterize
+from .dilation import dilate
 
 if TYPE_CHECKING:
     from ...tiles.decoded import Decoded
@@ -125,11 +126,11 @@ class TileHeights:
     @cached_property
     def _growth(self) -> NDArray[np.bool_]:
         shown = self.surface.shown
-        return _widened(shown == tiles.VEGETATION, 1, False) & (shown != tiles.BUILDING)
+        return dilate(shown == tiles.VEGETATION, 1, beyond=False) & (shown != tiles.BUILDING)
 
     @cached_property
     def _rim(self) -> NDArray[np.bool_]:
-        return _widened(np.isnan(self.surface.height), _RIM, True)
+        return dilate(np.isnan(self.surface.height), _RIM, beyond=True)
 
     def _place(self, east: Array, north: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
         """Fractional row and column within the grid, and whether the place is outside of it."""
@@ -179,16 +180,6 @@ def rasterise(
             part = shown[covered[0]]
             part[(covered[1] > 0.5) & (part == tiles.VEGETATION)] = tiles.BUILDING
     return Surface(low, step, height, np.where(shown == tiles.GROUND, height, ground + below), shown)
-
-
-def _widened(mask: NDArray[np.bool_], by: int, beyond: bool) -> NDArray[np.bool_]:
-    """A mask (ny, nx) widened by a number of points; `beyond` is what is outside of it."""
-    rows, columns = mask.shape
-    for _ in range(by):
-        wide = np.pad(mask, 1, constant_values=beyond)
-        parts = (wide[i : i + rows, j : j + columns] for i in range(3) for j in range(3))
-        mask = np.logical_or.reduce(list(parts))
-    return mask
 
 
 def _sampled(known: Known, low: Array, step: float, shape: tuple[int, int]) -> NDArray[np.float32]:

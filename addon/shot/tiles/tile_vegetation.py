@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..shot import Shot, cached_on_shot
-from ..terrain.terrain import widened
+from ..terrain.dilation import dilate
 from . import tile_cut
 
 if TYPE_CHECKING:
@@ -52,4 +52,4 @@ def may_grow(shot: Shot, position: Array, tiles: TileHeights | None = None) -> N
 def _burned(shot: Shot) -> NDArray[np.bool_]:
     """Mask of the burned area of the run with its margin, on the terrain grid."""
     reach = int(np.ceil(MARGIN / min(shot.ground.cell)))
-    return widened(shot.ground.burned > 0.0, reach)
+    return dilate(shot.ground.burned > 0.0, reach)
