@@ -6,7 +6,8 @@ import numpy as np
 from firetwin_core import sensor
 from numpy.typing import NDArray
 
-# Bitmap font, 3 x 5 pixels per character, row by row from the top.
+# Bitmap font, 3 x 5 pixels per character, row by row from the top. Pictures are finished without Blender, and in
+# Blender, which has no matplotlib, so no typeface is available to both.
 _SIGNS = {
     "0": "111101101101111",
     "1": "010110010010111",

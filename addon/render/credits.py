@@ -8,14 +8,13 @@ the linear picture (EXR) are unchanged: their credits are in the manifest and in
 from __future__ import annotations
 
 import functools
-import tempfile
 from pathlib import Path
 
 import numpy as np
 from firetwin_core import sensor
 from numpy.typing import NDArray
 
-from ..blender import compat, owned
+from ..blender import owned, text
 from ..imaging import credits
 from ..imaging.credits import Block, Credits
 from ..scene.credits import read_scene
@@ -61,37 +60,16 @@ def stamp(stage: owned.Stage) -> None:
 
 @functools.lru_cache(maxsize=8)
 def _rasterize(block: Block) -> NDArray[np.float32]:
-    """Draw a block's text in Blender's typeface, which covers most scripts, as opacity (h, w), 0..1."""
-    import blf
-    import imbuf
-
-    face, image = _load_typeface(), imbuf.new((block.width, block.height))
+    """Draw a block's text as opacity (h, w), 0..1."""
     rows = max(len(block.at_left), len(block.at_right))
-    edge, line = 0.5 * block.size, (block.height - 0.5 * block.size) / rows
-    blf.color(face, 1.0, 1.0, 1.0, 1.0)
-    with blf.bind_imbuf(face, image):
-        for lines, right in ((block.at_left, False), (block.at_right, True)):
-            for number, text in enumerate(reversed(lines)):
-                blf.size(face, block.size)
-                wide = blf.dimensions(face, text)[0]
-                if wide > block.width - 2.0 * edge:  # a script wider than estimated
-                    blf.size(face, block.size * (block.width - 2.0 * edge) / wide)
-                    wide = blf.dimensions(face, text)[0]
-                at = block.width - edge - wide if right else edge
-                blf.position(face, at, edge + number * line, 0.0)
-                blf.draw_buffer(face, text)
-    with tempfile.TemporaryDirectory(prefix="firetwin-") as folder:
-        path = Path(folder, "credits.png")
-        imbuf.write(image, filepath=str(path))
-        pixels = sensor.read_image(path)
-    return pixels[..., -1]
-
-
-@functools.cache
-def _load_typeface() -> int:
-    """Load Blender's typeface with its fallbacks, and return its number."""
-    import blf
-
-    path = compat.typeface_path()
-    found = blf.load(path) if path else 0
-    return max(int(found), 0)
+    edge, step = 0.5 * block.size, (block.height - 0.5 * block.size) / rows
+    room, lines = block.width - 2.0 * edge, []
+    for texts, right in ((block.at_left, False), (block.at_right, True)):
+        for number, line in enumerate(reversed(texts)):
+            size, wide = float(block.size), text.measure_width(line, block.size)
+            if wide > room:  # a script wider than estimated
+                size = block.size * room / wide
+                wide = text.measure_width(line, size)
+            left = block.width - edge - wide if right else edge
+            lines.append(text.Line(line, size, left, edge + number * step))
+    return text.draw_lines(lines, block.width, block.height)

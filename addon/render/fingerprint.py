@@ -28,6 +28,7 @@ Fingerprints = dict[tuple[str, str], dict[str, Any]]
 """Inputs of the pictures, by camera and pass."""
 
 _RENDERING = (
+    "blender/text.py",
     "imaging/credits.py",
     "render/credits.py",
     "render/engine.py",

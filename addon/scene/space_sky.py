@@ -22,13 +22,14 @@ from typing import Any
 import numpy as np
 
 from ..blender.nodes import Tree, Value
+from ..ellipsoid import MEAN_RADIUS
 from . import curved_air
-from .curved_air import RADIUS, Earth
+from .curved_air import Earth
 
 _HEIGHT = 8000.0  # m, scale height of air
 _DEPTH = (0.043, 0.097, 0.242)
 _GRAZING = float(
-    np.sqrt(0.5 * np.pi * RADIUS / _HEIGHT)
+    np.sqrt(0.5 * np.pi * MEAN_RADIUS / _HEIGHT)
 )  # air mass (zeniths) along a horizontal ray to space
 _HIGH = 50_000.0  # m; cameras below have the daylight at the fire
 _LOW, _ABOVE = 3_000.0, 15_000.0  # m, camera heights between which both skies are mixed
@@ -40,7 +41,7 @@ def attenuate_sky(tree: Tree, here: Earth, light: Value, airlight: Value) -> Val
     along = tree.output("ShaderNodeTexCoord", name="Generated")
     place = here.scaled(tree, curved_air.camera_position(tree))
     away = tree.vector("LENGTH", place, name="Value")
-    height = tree.math("MAXIMUM", (away - 1.0) * RADIUS, 0.0)
+    height = tree.math("MAXIMUM", (away - 1.0) * MEAN_RADIUS, 0.0)
     ray = tree.vector("NORMALIZE", here.scaled(tree, along, position=False))
     across = tree.vector("DOT_PRODUCT", place, ray, name="Value")
     sine = across / away
@@ -63,7 +64,7 @@ def _air_to_space(sine: Value) -> Value:
 def _grazing_air(tree: Tree, away: Value, sine: Value, own: Value) -> Value:
     """Return the air mass (zeniths) along a ray that descends to its lowest point and rises again."""
     flat = tree.math("SQRT", tree.math("MAXIMUM", 1.0 - sine * sine, 0.0))
-    lowest = tree.math("MAXIMUM", (away * flat - 1.0) * RADIUS, 0.0)
+    lowest = tree.math("MAXIMUM", (away * flat - 1.0) * MEAN_RADIUS, 0.0)
     whole = (lowest * (-1.0 / _HEIGHT)).exp() * (2.0 * _GRAZING)
     return tree.math("MAXIMUM", whole - own, 0.0)
 

@@ -14,8 +14,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..ellipsoid import metres_per_degree
 from ..run import areas
-from . import letters
-from .records import EXERCISE
 
 SIDE = 512
 """Width and height of the map, pixels."""
@@ -105,8 +103,7 @@ def draw(
     time
         Model time, s.
     origins
-        Origin of each station (n,), which gives the colour of its dot. A map with exercise stations is
-        labelled.
+        Origin of each station (n,), shown by the colour of its dot.
     selected
         Index of the selected station, which has a ring.
     """
@@ -124,8 +121,6 @@ def draw(
         y, x = float(row[selected]), float(column[selected])
         _ring(picture, y, x, _RING[0] - 1.5, _RING[1] + 1.5, (0.05, 0.05, 0.05))
         _ring(picture, y, x, *_RING, (1.0, 1.0, 1.0))
-    if "exercise" in origins:
-        letters.write(picture, EXERCISE, COLOURS["exercise"])
     return picture
 
 

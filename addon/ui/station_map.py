@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator
 
 import bpy
 import bpy.utils.previews
 import numpy as np
 
-from ..blender import owned
+from ..blender import owned, text
 from ..run import times
 from ..stations import listing, picture
+from ..stations.records import EXERCISE
 from . import station_filter, station_list, station_selection, station_sync, working
 
 IMAGE = "Firetwin Stations Map"
 NO_MAP = "No station file has been read"
+_SIZE, _EDGE = 22, 6  # pixels: size of the text on the map, and margin around it
 
 _drawn: tuple[object, ...] | None = None
 _kept: list[bpy.utils.previews.ImagePreviewCollection] = []
@@ -57,15 +60,18 @@ def update(scene: bpy.types.Scene, always: bool = False) -> None:
         return
     _drawn = state
     stations = [each.station for each in now.rows]
+    origins = ["exercise" if each.exercise else each.station.origin for each in now.rows]
     place = station_list.place(panel)
     pixels = picture.draw(
         now.loaded.plan,
         time,
         [each.latitude for each in stations],
         [each.longitude for each in stations],
-        ["exercise" if each.exercise else each.station.origin for each in now.rows],
+        origins,
         place if place >= 0 else None,
     )
+    if "exercise" in origins:
+        _mark_exercise(pixels)
     if held is not None:
         held.pixels.foreach_set(pixels.ravel())
         held.update()
@@ -99,6 +105,21 @@ def clear() -> None:
     _drawn = None
     while _kept:
         bpy.utils.previews.remove(_kept.pop())
+
+
+def _mark_exercise(pixels: np.ndarray) -> None:
+    """Write that the map is an exercise on a dark strip at its lower left, south first."""
+    opacity = _exercise_text()[::-1, :, None]
+    strip = pixels[: opacity.shape[0], : opacity.shape[1], :3]
+    strip *= 0.2
+    strip += opacity * (np.array(picture.COLOURS["exercise"], np.float32) - strip)
+
+
+@functools.cache
+def _exercise_text() -> np.ndarray:
+    """Draw the sentence that maps of an exercise carry, as opacity (h, w)."""
+    width = round(text.measure_width(EXERCISE, _SIZE)) + 2 * _EDGE
+    return text.draw_lines([text.Line(EXERCISE, _SIZE, _EDGE, 1.5 * _EDGE)], width, _SIZE + 2 * _EDGE)
 
 
 def _shows(space: bpy.types.Space) -> bool:

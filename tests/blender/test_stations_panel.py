@@ -8,7 +8,7 @@ import panel_scene
 import pytest
 from exercise_stations import BASE, BEYOND, NEAR
 from firetwin.scene.stations.handles import STATION
-from firetwin.stations import describe, search
+from firetwin.stations import describe, picture, search
 from firetwin.stations.query import Query
 from firetwin.ui import (
     station_data,
@@ -233,6 +233,19 @@ def test_the_map_follows_time_and_selection(panel):
     before = pixels()
     stations_panel.sync()
     assert (pixels() == before).all()
+
+
+def test_a_map_with_an_exercise_carries_its_sentence(panel):
+    bpy.ops.firetwin.station_map()
+    assert any(each.exercise for each in station_list.shown().rows)
+    opacity = station_map._exercise_text()
+    high, wide = opacity.shape
+    assert wide < 512
+    strip = pixels()[:high, :wide, :3]
+    amber = np.abs(strip - np.array(picture.COLOURS["exercise"])).max(axis=-1) < 0.02
+    assert (amber == (opacity[::-1] > 0.97))[opacity[::-1] != 0.97].mean() > 0.98
+    assert amber.sum() > 300
+    assert strip[opacity[::-1] == 0.0].max() < 0.25
 
 
 def test_a_click_on_the_map_is_at_the_nearest_station(panel):

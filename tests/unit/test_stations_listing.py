@@ -1,11 +1,11 @@
-"""Stations of a list are those whose resources a search finds; the map shows fire, dots and an exercise."""
+"""Stations of a list are those whose resources a search finds; the map shows fire and dots."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from exercise_stations import STATION_FILE
-from firetwin.stations import ignition, letters, listing, picture, search
+from firetwin.stations import ignition, listing, picture, search
 from firetwin.stations.query import Query
 from firetwin.stations.records import EXERCISE
 from firetwin.stations.station_file import StationFile
@@ -115,7 +115,7 @@ def test_a_slope_that_faces_the_light_is_brighter():
     assert lit > flat > dark
 
 
-def test_the_selected_station_has_a_ring_and_an_exercise_its_words(field):
+def test_the_selected_station_has_a_ring(field):
     y, x = [38.82, 38.87], [-120.57, -120.53]
     plan = picture.prepare(field, y, x)
     row, column = (np.rint(each).astype(int) for each in plan.pixels(y, x))
@@ -125,16 +125,6 @@ def test_the_selected_station_has_a_ring_and_an_exercise_its_words(field):
     assert 6.0 < far.min() < 9.0
     assert 11.0 < far.max() < 14.0
     assert plain[row[0], column[0], :3] == pytest.approx(picture.COLOURS["fact"])
-    said = picture.draw(plan, 0.0, y, x, ["fact", "exercise"], None)
-    strip = said[:26, : 12 * len(EXERCISE) + 8, :3]
-    amber = np.abs(strip - np.array(picture.COLOURS["exercise"])).max(axis=-1) < 1e-3
-    assert amber.sum() == 4 * letters.bitmap(EXERCISE).sum() > 1000
-    assert not (np.abs(plain[:26, :, :3] - said[:26, :, :3]).max() < 0.1)
-
-
-def test_every_letter_of_the_sentence_is_known():
-    for letter in set(EXERCISE) - {" "}:
-        assert letters.bitmap(letter).any()
 
 
 def test_the_nearest_station_of_a_point_of_the_map(field):
