@@ -24,13 +24,13 @@ _SOCKET_ALIASES = {"Fac": "Factor", "Factor": "Fac"}
 
 
 def eevee_id() -> str:
-    """Identifier of the EEVEE engine: BLENDER_EEVEE_NEXT in 4.5, BLENDER_EEVEE from 5.0."""
+    """Return the identifier of the EEVEE engine: BLENDER_EEVEE_NEXT in 4.5, BLENDER_EEVEE from 5.0."""
     engines = bpy.types.RenderSettings.bl_rna.properties["engine"].enum_items
     return "BLENDER_EEVEE_NEXT" if "BLENDER_EEVEE_NEXT" in engines else "BLENDER_EEVEE"
 
 
 def new_fcurve(datablock: bpy.types.ID, data_path: str, index: int = 0) -> bpy.types.FCurve:
-    """A new F-curve on `datablock`, which gets an action of its own when it has none.
+    """Create an F-curve on `datablock`, and an action if it has none.
 
     Legacy actions (`action.fcurves`) are gone in 5.0; slotted ones work from 4.4 on.
     """
@@ -89,7 +89,7 @@ def animate_smoothly(
 
 
 def fcurves(datablock: bpy.types.ID) -> list[bpy.types.FCurve]:
-    """All F-curves that animate `datablock`."""
+    """Return all F-curves that animate `datablock`."""
     return [curve for bag in _channelbags(datablock) for curve in bag.fcurves]
 
 
@@ -114,7 +114,7 @@ def remove_fcurves(datablock: bpy.types.ID, paths: Sequence[str]) -> None:
 
 
 def node_tree(owner: bpy.types.Material | bpy.types.World | bpy.types.Light) -> bpy.types.NodeTree:
-    """The empty shader tree of a new material, world or light.
+    """Return the empty shader tree of a new material, world or light.
 
     Materials and worlds have one from the start in 5.0, where their `use_nodes` is deprecated.
     """
@@ -125,9 +125,9 @@ def node_tree(owner: bpy.types.Material | bpy.types.World | bpy.types.Light) -> 
 
 
 def find_socket(sockets: bpy.types.bpy_prop_collection, name: str | int) -> bpy.types.NodeSocket:
-    """The enabled socket called `name`, else the one with that identifier, else the one at that index.
+    """Find the enabled socket by name, else by identifier, else by index.
 
-    Lookup by name would return hidden sockets in 4.5 and fail on them in 5.2. Factor and Fac are one name.
+    Lookup by name would return hidden sockets in 4.5 and fail on them in 5.2. Factor and Fac are equivalent.
     """
     usable = [socket for socket in sockets if socket.enabled]
     if isinstance(name, int):
@@ -143,12 +143,12 @@ def find_socket(sockets: bpy.types.bpy_prop_collection, name: str | int) -> bpy.
 def set_sky(node: bpy.types.ShaderNodeTexSky, elevation: float, rotation: float, dust: float) -> None:
     """Set a sky texture to a physical sky with single scattering, from sea level, without sun disc.
 
-    Nishita's model, which 4.5 calls by that name, is single scattering from 5.0 on.
+    Nishita's model in 4.5 is called single scattering from 5.0 on.
 
     Parameters
     ----------
     elevation, rotation
-        Height of the sun over the horizon and its clockwise bearing from +y, radians.
+        Height of the sun above the horizon and its clockwise bearing from +y, radians.
     dust
         Aerosol density, 1 for urban haze.
     """
@@ -165,14 +165,14 @@ _COMPOSITOR = "Firetwin Compositor"
 
 
 def compositor(scene: bpy.types.Scene) -> bpy.types.NodeTree | None:
-    """The scene's compositor tree: from 5.0 on a node group, before that the scene's own tree."""
+    """Return a scene's compositor tree: from 5.0 on a node group, before that embedded in the scene."""
     if hasattr(scene, "compositing_node_group"):
         return scene.compositing_node_group
     return scene.node_tree
 
 
 def new_compositor(scene: bpy.types.Scene) -> bpy.types.NodeTree:
-    """A new empty compositor tree of ours for a scene that has none."""
+    """Create an empty, owned compositor tree for a scene that has none."""
     if hasattr(scene, "compositing_node_group"):
         tree = bpy.data.node_groups.new(_COMPOSITOR, "CompositorNodeTree")
         scene.compositing_node_group = tree
@@ -184,7 +184,7 @@ def new_compositor(scene: bpy.types.Scene) -> bpy.types.NodeTree:
 
 
 def no_compositor(scene: bpy.types.Scene) -> None:
-    """Remove a scene's empty compositor; it is deleted if it has no other users."""
+    """Remove a scene's empty compositor, and delete it if it has no other users."""
     if hasattr(scene, "compositing_node_group"):
         tree = scene.compositing_node_group
         scene.compositing_node_group = None
@@ -200,7 +200,7 @@ END = "CompositorNodeComposite" if hasattr(bpy.types, "CompositorNodeComposite")
 
 
 def composite(tree: bpy.types.NodeTree, image: bpy.types.NodeSocket) -> bpy.types.Node:
-    """Connect `image` to the output of a new compositor; returns the output node."""
+    """Connect `image` to the output of a new compositor, and return the output node."""
     if END == "NodeGroupOutput":
         tree.interface.new_socket("Image", in_out="OUTPUT", socket_type="NodeSocketColor")
     output = tree.nodes.new(END)
@@ -209,7 +209,7 @@ def composite(tree: bpy.types.NodeTree, image: bpy.types.NodeSocket) -> bpy.type
 
 
 def bloom(tree: bpy.types.NodeTree, image: bpy.types.NodeSocket, **settings: float) -> bpy.types.NodeSocket:
-    """`image` with a low-quality bloom; `settings` are Glare sockets such as Threshold and Strength."""
+    """Add a low-quality bloom to `image`; `settings` are Glare sockets such as Threshold and Strength."""
     glare = tree.nodes.new("CompositorNodeGlare")
     if hasattr(glare, "glare_type"):
         glare.glare_type, glare.quality = "BLOOM", "LOW"
@@ -234,7 +234,7 @@ def whole_pixels(translate: bpy.types.Node) -> bpy.types.Node:
 def exr_output(
     tree: bpy.types.NodeTree, name: str, image: bpy.types.NodeSocket, grey: bool, bits: int
 ) -> bpy.types.Node:
-    """A File Output node called `name` that writes `image` as EXR; `exr_output_path` sets its path."""
+    """Add a File Output node called `name` that writes `image` as EXR; `exr_output_path` sets its path."""
     node = tree.nodes.new("CompositorNodeOutputFile")
     node.name = node.label = name
     if hasattr(node, "file_output_items"):
@@ -250,14 +250,14 @@ def exr_output(
 
 @contextmanager
 def raw_file(scene: bpy.types.Scene, path: Path) -> Iterator[None]:
-    """Context: renders write all passes of view layers into a multilayer EXR of 32 bits, uncompressed.
+    """Write all passes of view layers into an uncompressed 32-bit multilayer EXR during a `with` block.
 
     The compositor is bypassed. Stereo scenes add ``_L`` and ``_R`` to the file's name.
     """
     render, file = scene.render, scene.render.image_settings
     media = getattr(file, "media_type", None)
     names = ["file_format", "color_depth", "exr_codec", "views_format"]
-    if hasattr(file, "use_exr_interleave"):  # otherwise 5.2 writes a part of the file for each pass
+    if hasattr(file, "use_exr_interleave"):  # otherwise 5.2 writes one part per pass
         names.append("use_exr_interleave")
     before = {name: getattr(file, name) for name in names}
     compositing, place = render.use_compositing, render.filepath
@@ -279,7 +279,7 @@ def raw_file(scene: bpy.types.Scene, path: Path) -> Iterator[None]:
 
 
 def over_under(file: bpy.types.ImageFormatSettings) -> None:
-    """In stereo scenes, write both eyes into one file of twice the height, the left one above."""
+    """Write both eyes of stereo scenes into one file of twice the height, the left eye at the top."""
     file.views_format = "STEREO_3D"
     file.stereo_3d_format.display_mode = "TOPBOTTOM"
     file.stereo_3d_format.use_squeezed_frame = False
@@ -296,14 +296,14 @@ def exr_output_path(node: bpy.types.Node, folder: str, stem: str) -> None:
 
 
 def lost_files(node: bpy.types.Node) -> bool:
-    """Whether an `exr_output` node lost its file items, as 4.5 reads files of 5.0 and later."""
+    """Return True if an `exr_output` node has no file items, as in 4.5 for files of 5.0 and later."""
     if node.bl_idname != "CompositorNodeOutputFile":
         return False
     return not (node.file_output_items if hasattr(node, "file_output_items") else node.file_slots)
 
 
 def drop_copies() -> None:
-    """Remove duplicates of our compositors, which 4.5 creates in files of 5.0 and later."""
+    """Remove duplicates of owned compositors, which 4.5 creates in files of 5.0 and later."""
     if "compositing_node_group" not in bpy.types.Scene.bl_rna.properties:
         for name in ("Compositing Node Tree", _COMPOSITOR):
             tree = bpy.data.node_groups.get(name)
@@ -314,7 +314,7 @@ def drop_copies() -> None:
 def new_strip(
     editor: bpy.types.SequenceEditor, name: str, kind: str, channel: int, start: int, length: int
 ) -> bpy.types.Strip:
-    """An effect strip of the sequencer; 5.0 takes its length, 4.5 its end."""
+    """Add an effect strip to the sequencer; 5.0 expects its length, 4.5 its end."""
     strips = editor.strips
     parameters = strips.bl_rna.functions["new_effect"].parameters
     extent = {"length": length} if "length" in parameters else {"frame_end": start + length}
@@ -328,10 +328,10 @@ def march_through_volumes(cycles: bpy.types.PropertyGroup) -> None:
 
 
 def volume_shift(cycles: bpy.types.PropertyGroup, voxel: float) -> float:
-    """Offset (m) along each axis that draws a volume at the position of its grids.
+    """Return the offset (m) along each axis that draws a volume at the position of its grids.
 
-    4.5 draws grids half a voxel too far along +x, +y and +z, in both engines. 5.0 draws them in their place,
-    with `volume_biased` on or off.
+    4.5 draws grids half a voxel too far along +x, +y and +z, in both engines. 5.0 draws them at their
+    position, with `volume_biased` on or off.
     """
     return 0.0 if hasattr(cycles, "volume_biased") else -0.5 * voxel
 
@@ -344,22 +344,22 @@ def still_settings(render: bpy.types.RenderSettings) -> None:
 
 
 def typeface() -> bpy.types.VectorFont | None:
-    """Blender's typeface from its file, or None where that is not installed.
+    """Load Blender's typeface from its file; None if it is not installed.
 
-    The built-in one is the same, but 5.2 loses it when it opens a second file without a window.
+    The built-in one is identical, but 5.2 loses it when it opens a second file in background mode.
     """
     path = typeface_path()
     return bpy.data.fonts.load(path, check_existing=True) if path else None
 
 
 def typeface_path() -> str:
-    """File of Blender's typeface; empty where it is not installed."""
+    """Return the path of Blender's typeface; empty if it is not installed."""
     path = os.path.join(bpy.utils.system_resource("DATAFILES", path="fonts"), "Inter.woff2")
     return path if os.path.isfile(path) else ""
 
 
 def film_settings(render: bpy.types.RenderSettings) -> None:
-    """Set a render to write one film file with Blender's own FFmpeg."""
+    """Set a render to write one film file with the FFmpeg of Blender."""
     if hasattr(render.image_settings, "media_type"):
         render.image_settings.media_type = "VIDEO"
     render.image_settings.file_format = "FFMPEG"
@@ -368,10 +368,10 @@ def film_settings(render: bpy.types.RenderSettings) -> None:
 def set_denoising(cycles: Any, wanted: bool) -> None:
     """Denoise with OpenImageDenoise, if `wanted`; not available in some builds of Blender, such as Debian's.
 
-    Balanced quality takes less than half of high quality's time, 2.6 instead of 6 s of CPU time for 640x360
-    pixels. Pictures of 3 samples differ by FLIP 0.03, and by 0.045 for another noise seed; with smoke by 0.04
-    and 0.075. Guiding passes are prefiltered by the fast method: 0.7 s less than the accurate one, and trees
-    and flames stay sharper. No prefiltering would be as fast, and leave noise.
+    Balanced quality needs 2.6 s of CPU time for 640 x 360 pixels, high quality 6 s. Pictures of 3 samples
+    differ by FLIP 0.03 between the two, and by 0.045 between noise seeds; with smoke by 0.04 and 0.075.
+    Guiding passes are prefiltered by the fast method: it needs 0.7 s less than the accurate one, and trees
+    and flames stay sharper. Without prefiltering the time is the same, and noise remains.
     """
     try:
         cycles.denoiser, cycles.denoising_prefilter = "OPENIMAGEDENOISE", "FAST"
@@ -382,7 +382,7 @@ def set_denoising(cycles: Any, wanted: bool) -> None:
 
 
 def stored(datablock: bpy.types.ID) -> Any:
-    """Stored values of registered properties by name, including those that no property reads any more."""
-    # 5.0 stores them apart from custom properties
+    """Return stored values of registered properties by name, also of properties that no longer exist."""
+    # 5.0 stores them separately from custom properties
     system = getattr(datablock, "bl_system_properties_get", None)
     return (system() if system else datablock) or {}

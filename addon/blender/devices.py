@@ -11,7 +11,7 @@ _NAMES = {"OPTIX": "OptiX", "CUDA": "CUDA", "HIP": "HIP", "ONEAPI": "oneAPI", "M
 
 
 def take(wanted: str, scene: bpy.types.Scene) -> str:
-    """Set the device ("auto", "cpu" or "gpu") of a scene, in a Blender process of our own.
+    """Set the device ("auto", "cpu" or "gpu") of a scene, in a separate Blender process.
 
     It changes Blender's preferences, so it must not run in an artist's Blender: see `follow`.
 
@@ -34,7 +34,7 @@ def take(wanted: str, scene: bpy.types.Scene) -> str:
     if not names:
         return "the processor" + ("" if wanted == "cpu" else " (no GPU found)")
     preferences = _preferences()
-    assert preferences is not None  # or there were no names
+    assert preferences is not None  # or names is empty
     preferences.compute_device_type = kind
     for device in preferences.devices:
         device.use = device.type == kind
@@ -47,13 +47,13 @@ def follow(wanted: str, scene: bpy.types.Scene) -> None:
 
 
 def _preferences() -> bpy.types.AddonPreferences | None:
-    """Preferences of Cycles; None where it is disabled."""
+    """Return the preferences of Cycles; None if it is disabled."""
     addon = bpy.context.preferences.addons.get("cycles")
     return addon.preferences if addon else None
 
 
 def _gpus() -> tuple[str, list[str]]:
-    """The first device type with GPUs, and their names."""
+    """Find the first device type with GPUs, and return it with their names."""
     preferences = _preferences()
     if preferences is None:
         return "NONE", []

@@ -28,13 +28,13 @@ def arrange(tree: bpy.types.NodeTree) -> None:
             place[node.name] = left + WIDE * (deepest - column), below[column]
             below[column] -= height(node) + GAP
         left += WIDE * (deepest + 1) + 2.0 * GAP
-    # In bulk: after each single assignment Blender would update the whole tree.
+    # In bulk: Blender updates the complete tree after each assignment.
     flat = [at for node in tree.nodes for at in place.get(node.name, (0.0, 0.0))]
     tree.nodes.foreach_set("location", flat)
 
 
 def height(node: bpy.types.Node) -> float:
-    """Estimated height of a node: Blender computes it only when it draws the node."""
+    """Estimate the height of a node: Blender computes it only when it draws the node."""
     outputs = [socket for socket in node.outputs if socket.enabled and not socket.hide]
     inputs = [socket for socket in node.inputs if socket.enabled and not socket.hide]
     vectors = [s for s in inputs if s.type in ("VECTOR", "ROTATION") and not s.is_linked and not s.hide_value]
@@ -43,7 +43,7 @@ def height(node: bpy.types.Node) -> float:
 
 
 def _columns(box: list[bpy.types.Node], feeds: dict[str, list[bpy.types.Node]]) -> dict[str, int]:
-    """Column of each node, counted from the right: one more than those of its users in its box."""
+    """Return the column of each node, counted from the right: one beyond its users in the same box."""
     columns: dict[str, int] = {}
     for node in reversed(box):
         after = [columns[to.name] + 1 for to in feeds.get(node.name, ()) if to.name in columns]

@@ -1,7 +1,7 @@
 """Node tree builder: arithmetic on sockets, with lookup by name.
 
 ground, tree = nodes.material("Firetwin Ground", (0.30, 0.26, 0.17))
-colour = tree.input("Ember Colour", (1.0, 0.11, 0.012), "Of spots that glow in the ash", "Fire")
+colour = tree.input("Ember Colour", (1.0, 0.11, 0.012), "Spots that glow in the ash", "Fire")
 with tree.frame("Embers"):
     age = nodes.model_time(tree) - tree.attribute("arrival_time")
     embers = (age / -3600.0).exp()
@@ -77,19 +77,19 @@ class Value:
         return self.tree.math("LESS_THAN", self, other)
 
     def exp(self) -> Value:
-        """Euler's number to the power of this value."""
+        """Raise Euler's number to this value."""
         return self.tree.math("EXPONENT", self)
 
     def power(self, exponent: Any) -> Value:
-        """This value to the power of `exponent`."""
+        """Raise this value to the power of `exponent`."""
         return self.tree.math("POWER", self, exponent)
 
     def clamp(self) -> Value:
-        """This value clamped between 0 and 1."""
+        """Clamp this value between 0 and 1."""
         return self.tree.math("ADD", self, 0.0, clamp=True)
 
     def smoothstep(self, low: Any, high: Any) -> Value:
-        """0 below `low`, 1 above `high` (or the reverse where high < low), smooth between."""
+        """Interpolate smoothly from 0 below `low` to 1 above `high`, or the reverse if high < low."""
         return self.tree.output(
             "ShaderNodeMapRange",
             {"Value": self, "From Min": low, "From Max": high, "To Min": 0.0, "To Max": 1.0},
@@ -97,7 +97,7 @@ class Value:
         )
 
     def ramp(self, low: Any, high: Any, start: Any = 0.0, end: Any = 1.0) -> Value:
-        """Linear ramp from `start` at `low` to `end` at `high`, clamped outside."""
+        """Interpolate linearly from `start` at `low` to `end` at `high`, clamped outside."""
         return self.tree.output(
             "ShaderNodeMapRange",
             {"Value": self, "From Min": low, "From Max": high, "To Min": start, "To Max": end},
@@ -117,7 +117,7 @@ class Tree:
 
     @contextmanager
     def frame(self, label: str) -> Iterator[None]:
-        """Context: new nodes go into a frame with this label; frames can be nested."""
+        """Put nodes added during a `with` block into a frame with this label; frames can be nested."""
         before, self._frame = self._frame, self.node_tree.nodes.new("NodeFrame")
         self._frame.label = label
         try:
@@ -134,16 +134,16 @@ class Tree:
         least: float | None = 0.0,
         most: float | None = None,
     ) -> Value:
-        """An input of this group, created on first use: a (whole) number, or a colour of three or four.
+        """Return an input of this group, created on first use: a number, integer, or colour (3 or 4 values).
 
         Parameters
         ----------
         help
             One line for the tooltip, without trailing period.
         panel
-            Name of its panel.
+            Name of the panel that shows the input.
         least, most
-            Bounds of a number; None: none.
+            Bounds of a number; None for no bound.
         """
         interface = self.node_tree.interface
         if not any(_is_input(item, name) for item in interface.items_tree):
@@ -167,7 +167,7 @@ class Tree:
         if self._frame is not None:
             node.parent = self._frame
         for name, value in properties.items():
-            if getattr(node, name) != value:  # Blender updates the whole tree after every change
+            if getattr(node, name) != value:  # Blender updates the complete tree after every change
                 setattr(node, name, value)
         pairs = inputs.items() if isinstance(inputs, Mapping) else enumerate(inputs)
         for socket, value in pairs:
@@ -181,11 +181,11 @@ class Tree:
         name: str | int = 0,
         **properties: Any,
     ) -> Value:
-        """Add a node and return one of its outputs, the first unless named."""
+        """Add a node and return one of its outputs, by default the first."""
         return self.pick(self.node(kind, inputs, **properties), name)
 
     def pick(self, node: bpy.types.Node, name: str | int = 0) -> Value:
-        """An output of a node."""
+        """Return an output of a node."""
         return Value(self, compat.find_socket(node.outputs, name))
 
     def connect(self, value: Any, socket: bpy.types.NodeSocket) -> None:
@@ -205,47 +205,47 @@ class Tree:
             socket.default_value = value
 
     def math(self, operation: str, *operands: Any, clamp: bool = False) -> Value:
-        """A Math node."""
+        """Add a Math node."""
         return self.output("ShaderNodeMath", operands, operation=operation, use_clamp=clamp)
 
     def vector(self, operation: str, *operands: Any, name: str | int = 0) -> Value:
-        """A Vector Math node."""
+        """Add a Vector Math node."""
         return self.output("ShaderNodeVectorMath", operands, name, operation=operation)
 
     def separate(self, vector: Any) -> tuple[Value, Value, Value]:
-        """x, y and z of a vector."""
+        """Separate a vector into x, y and z."""
         node = self.node("ShaderNodeSeparateXYZ", [vector])
         return self.pick(node, "X"), self.pick(node, "Y"), self.pick(node, "Z")
 
     def combine(self, x: Any, y: Any, z: Any) -> Value:
-        """A vector from its components."""
+        """Combine components into a vector."""
         return self.output("ShaderNodeCombineXYZ", [x, y, z])
 
     def mix(self, factor: Any, a: Any, b: Any) -> Value:
-        """Number: a where factor is 0, b where it is 1."""
+        """Mix two numbers: a at factor 0, b at factor 1."""
         return self.output("ShaderNodeMix", {0: factor, 1: a, 2: b}, data_type="FLOAT", clamp_factor=True)
 
     def mix_colour(self, factor: Any, a: Any, b: Any, blend: str = "MIX") -> Value:
-        """Colour: a where factor is 0, b where it is 1."""
+        """Mix two colours: a at factor 0, b at factor 1."""
         inputs = {0: factor, 1: a, 2: b}
         return self.output("ShaderNodeMix", inputs, data_type="RGBA", blend_type=blend, clamp_factor=True)
 
     def mix_shader(self, factor: Any, a: Any, b: Any) -> Value:
-        """Shader: a where factor is 0, b where it is 1."""
+        """Mix two shaders: a at factor 0, b at factor 1."""
         return self.output("ShaderNodeMixShader", [factor, a, b])
 
     def add_shader(self, a: Any, b: Any) -> Value:
-        """Sum of two shaders."""
+        """Add two shaders."""
         return self.output("ShaderNodeAddShader", [a, b])
 
     def emission(self, colour: Any, strength: Any = 1.0) -> Value:
-        """An emissive surface or volume."""
+        """Add an emissive surface or volume."""
         return self.output("ShaderNodeEmission", {"Color": colour, "Strength": strength})
 
     def colours(self, place: Any, stops: Sequence[Sequence[float]] | NDArray[np.float64]) -> Value:
-        """Colours at equal steps of `place` from 0 to 1, linear between and clamped outside.
+        """Interpolate linearly between colours at equal steps of `place` from 0 to 1, clamped outside.
 
-        A Color Ramp uses a table of 257 steps in some releases, with errors of 0.003 at its stops.
+        In some releases a Color Ramp is a table of 257 steps, with errors of 0.003 at its stops.
         """
         pieces = len(stops) - 1
         total: Any = tuple(stops[0])
@@ -262,18 +262,18 @@ class Tree:
         return total
 
     def attribute(self, name: str, kind: str = "GEOMETRY", output: str = "Fac") -> Value:
-        """A named attribute: of the GEOMETRY, the INSTANCER, the OBJECT or the VIEW_LAYER."""
+        """Read a named attribute of the GEOMETRY, the INSTANCER, the OBJECT or the VIEW_LAYER."""
         return self.output("ShaderNodeAttribute", (), output, attribute_name=name, attribute_type=kind)
 
     def noise(
         self, position: Any, size: float, octaves: Any = 2.0, roughness: float = 0.55, name: str = "Fac"
     ) -> Value:
-        """Perlin noise 0..1 about 0.5 with features of `size` (units of `position`)."""
+        """Add Perlin noise, 0..1 about 0.5, with features of `size` (units of `position`)."""
         inputs = {"Vector": position, "Scale": 1.0 / size, "Detail": octaves, "Roughness": roughness}
         return self.output("ShaderNodeTexNoise", inputs, name)
 
     def cells(self, position: Any, size: float, name: str = "Distance", **properties: Any) -> Value:
-        """Voronoi cells `size` wide: the distance from their centres (in cells) or their colour."""
+        """Add Voronoi cells `size` wide; return the distance from their centres (cells) or their colour."""
         inputs = {"Vector": position, "Scale": 1.0 / size}
         return self.output("ShaderNodeTexVoronoi", inputs, name, **properties)
 
@@ -325,7 +325,7 @@ def _is_panel(item: bpy.types.NodeTreeInterfaceItem, name: str) -> bool:
 
 
 def material(name: str, colour: tuple[float, float, float] | None = None) -> tuple[bpy.types.Material, Tree]:
-    """A new material of ours called `name`, and the empty tree of its group.
+    """Create an owned material called `name`, and return it with the empty tree of its group.
 
     Parameters
     ----------
@@ -339,7 +339,7 @@ def material(name: str, colour: tuple[float, float, float] | None = None) -> tup
 
 
 def geometry(name: str) -> tuple[Tree, bpy.types.Node]:
-    """A new geometry node group of ours (geometry in, geometry out).
+    """Create an owned geometry node group (geometry in, geometry out).
 
     Returns
     -------
@@ -354,7 +354,7 @@ def geometry(name: str) -> tuple[Tree, bpy.types.Node]:
 
 
 def compositor(name: str, help: str, outputs: Mapping[str, str]) -> Tree:
-    """A new compositor node group of ours, for users, with a tooltip.
+    """Create an owned compositor node group for users, with a tooltip.
 
     Parameters
     ----------
@@ -369,22 +369,22 @@ def compositor(name: str, help: str, outputs: Mapping[str, str]) -> Tree:
 
 
 def model_time(tree: Tree) -> Value:
-    """Current model time (s since run start) in a shader.
+    """Read the current model time (s since the start of the run) in a shader.
 
-    Read from the scene's animated custom property: attributes of type VIEW_LAYER fall back to the scene.
+    It is an animated custom property of the scene: attributes of type VIEW_LAYER fall back to the scene.
     """
     return tree.attribute(TIME, "VIEW_LAYER")
 
 
 def switch(tree: Tree, kind: str, shader: Any, other: Any) -> Value:
-    """Use `other` in place of `shader` in view layers whose property `kind` (`THERMAL`, `MASKS`) is 1."""
+    """Replace `shader` by `other` in view layers whose property `kind` (`THERMAL`, `MASKS`) is 1."""
     return tree.mix_shader(tree.attribute(kind, "VIEW_LAYER"), shader, other)
 
 
 def thermal_switch(tree: Tree, shader: Any, value: Any) -> Value:
-    """`shader` of a surface, but a number as pixel value in view layers with `firetwin_thermal` = 1.
+    """Replace a surface's `shader` by a number as pixel value in view layers with `firetwin_thermal` = 1.
 
-    View layers with the AOV `SURFACE` get both at once: 1 km over the distance, 1, and the number.
+    View layers with the AOV `SURFACE` render both: its channels are 1 km / distance, 1, and the number.
     """
     nearness = 1000.0 / tree.output("ShaderNodeCameraData", name="View Distance")
     tree.aov(SURFACE, tree.combine(nearness, 1.0, value))
@@ -394,8 +394,8 @@ def thermal_switch(tree: Tree, shader: Any, value: Any) -> Value:
 def flames(tree: Tree, light: Any, emissivity: Any, warmth: Any) -> None:
     """Write a flame's contribution to the AOVs of flames.
 
-    `FLAMES` is the red of its light, that times its distance (m), and its emissivity. `WARMTH` is its
-    emissivity times the radiance (W m-2 sr-1) of a black body of its temperature.
+    The channels of `FLAMES` are the red of its light, the same times its distance (m), and its emissivity.
+    `WARMTH` is its emissivity times the radiance (W m-2 sr-1) of a black body of its temperature.
     """
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
     tree.aov(FLAMES, tree.combine(light, light * distance, emissivity))
@@ -403,13 +403,13 @@ def flames(tree: Tree, light: Any, emissivity: Any, warmth: Any) -> None:
 
 
 def over(tree: Tree, shader: Any) -> Value:
-    """`shader` of an overlay on a surface, slightly transparent, so that depth and AOVs pass through it."""
+    """Make the `shader` of an overlay slightly transparent, so that depth and AOVs pass through it."""
     trace = tree.output("ShaderNodeBsdfTransparent", {"Color": 3 * (1.0e-3,)})
     return tree.add_shader(shader, trace)
 
 
 def mask_switch(tree: Tree, shader: Any, kind: Any, number: Any = 0.0) -> Value:
-    """`shader`, but its class and its instance number in view layers with `firetwin_masks` = 1.
+    """Replace `shader` by class and instance number in view layers with `firetwin_masks` = 1.
 
     A pixel is then (number mod 4096, 1, class + 8 floor(number / 4096)), all times the transmittance of smoke
     in front of it: the ratios are whole numbers that 32 bits represent exactly. A surface without a number is

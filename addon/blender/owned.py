@@ -1,8 +1,7 @@
 """Ownership of Blender data: data-blocks with Firetwin's mark, under one root collection per scene.
 
-Other data are never changed or removed: an artist's objects in our collections, other scenes, linked data.
-Engine, world, view layers and compositor belong to a scene as a whole, so they are set only in a scene of our
-own.
+Other data are never changed or removed: an artist's objects in owned collections, other scenes, linked data.
+Engine, world, view layers and compositor belong to the scene, so they are set only in owned scenes.
 """
 
 from __future__ import annotations
@@ -16,26 +15,26 @@ import bpy
 from ..errors import Error
 
 MARK = "firetwin_part"  # not "firetwin", which holds the panel's settings
-NAME = "firetwin_name"  # of an object when it was built: copies have it too
+NAME = "firetwin_name"  # name of an object when it was built; copies have it too
 ROOT = "Firetwin"
 MADE = "made"  # a scene that Firetwin created
 
 
 def mark(block: Any, what: str = "") -> Any:
-    """Mark a data-block, view layer or node as ours; `what` identifies it."""
+    """Mark a data-block, view layer or node as owned; `what` identifies it."""
     block[MARK] = what or True
     return block
 
 
 def unmark(block: Any) -> None:
-    """Remove the mark: it is the artist's from then on."""
+    """Remove the mark; from then on it belongs to the artist."""
     for name in (MARK, NAME):
         if name in block:
             del block[name]
 
 
 def ours(block: Any, what: str = "") -> bool:
-    """Whether it has our mark (and this `what`, unless empty); linked data are not ours."""
+    """Return True if local data have the mark (and this `what`, unless empty)."""
     linked = getattr(block, "library", None) or getattr(block, "override_library", None)
     if linked is not None or MARK not in block:
         return False
@@ -44,18 +43,18 @@ def ours(block: Any, what: str = "") -> bool:
 
 @dataclass(frozen=True)
 class Stage:
-    """Our part of a scene: its root collection and its contents."""
+    """Owned part of a scene: its root collection and the contents."""
 
     scene: bpy.types.Scene
     root: bpy.types.Collection
 
     @property
     def own(self) -> bool:
-        """Whether the whole scene is ours."""
+        """True if the scene itself is owned."""
         return ours(self.scene)
 
     def part(self, name: str, keep: Collection[bpy.types.Object] = ()) -> bpy.types.Collection:
-        """The collection "Firetwin <name>", emptied of our objects except `keep`; other objects stay."""
+        """Return the collection "Firetwin <name>" without owned objects except `keep`; other objects stay."""
         collection = next((child for child in self.root.children if ours(child, name)), None)
         if collection is not None:
             _clear(collection, keep)
@@ -64,29 +63,29 @@ class Stage:
         return child(self.root, name)
 
     def objects_of(self, name: str) -> list[bpy.types.Object]:
-        """Our objects of a part."""
+        """Return the owned objects of a part."""
         collections = (child for child in self.root.children if ours(child, name))
         return [obj for child in collections for obj in child.all_objects if ours(obj)]
 
     def evaluated(self, block: Any) -> Any:
-        """A data-block evaluated at the scene's frame, also where another scene is the current one."""
+        """Evaluate a data-block at the scene's frame, even if another scene is the current one."""
         layers = self.scene.view_layers
         layer = next((each for each in layers if ours(each)), layers[0])
         return block.evaluated_get(layer.depsgraph) if layer.depsgraph else block
 
     def camera(self, name: str) -> bpy.types.Object | None:
-        """The object of the camera called `name` in the scene file, also after the object was renamed."""
+        """Find the object of the camera called `name` in the scene file, even if the object was renamed."""
         matches = [obj for obj in self.root.all_objects if ours(obj, f"camera {name}")]
         return min(matches, key=_originality, default=None)
 
 
 def built(scene: bpy.types.Scene) -> bool:
-    """Whether a scene has any data of ours."""
+    """Return True if a scene has owned data."""
     return ours(scene) or _root(scene) is not None
 
 
 def scene(uid: int) -> bpy.types.Scene:
-    """The scene with this `session_uid`, which is constant through renaming and undo.
+    """Find the scene with this `session_uid`, which renaming and undo preserve.
 
     Raises
     ------
@@ -100,20 +99,20 @@ def scene(uid: int) -> bpy.types.Scene:
 
 
 def stage(scene: bpy.types.Scene) -> Stage:
-    """Our part of a scene, created where it is missing."""
+    """Return the owned part of a scene; create it if it is missing."""
     root = _root(scene)
     return Stage(scene, root if root is not None else child(scene.collection, ""))
 
 
 def new_scene() -> bpy.types.Scene:
-    """A new scene of our own, "Firetwin", marked as `MADE`: it may be deleted when it is empty."""
+    """Create an owned scene "Firetwin", marked as `MADE`: it may be deleted when it is empty."""
     made = bpy.data.scenes.new(ROOT)
     adopt(made, MADE)
     return made
 
 
 def adopt(scene: bpy.types.Scene, what: str = "") -> Stage:
-    """Mark a whole scene as ours, a new or an empty one; returns our part."""
+    """Mark a new or empty scene as owned, and return its owned part."""
     if not ours(scene):
         mark(scene, what)
         if len(scene.view_layers) == 1:  # the default one of every new scene
@@ -122,9 +121,9 @@ def adopt(scene: bpy.types.Scene, what: str = "") -> Stage:
 
 
 def remove(scene: bpy.types.Scene) -> None:
-    """Remove all our data from a scene, and nothing else.
+    """Remove all owned data from a scene, and nothing else.
 
-    A collection with an artist's objects stays, and so do data that another scene uses.
+    Collections with an artist's objects stay, as do data that another scene uses.
     """
     root = _root(scene)
     if root is not None and any(root in set(other.collection.children) for other in _others(scene)):
@@ -141,21 +140,21 @@ def remove(scene: bpy.types.Scene) -> None:
 
 
 def child(parent: bpy.types.Collection, name: str) -> bpy.types.Collection:
-    """A new collection of ours in `parent`: "Firetwin <name>"."""
+    """Create an owned collection "Firetwin <name>" in `parent`."""
     collection = library(name)
     parent.children.link(collection)
     return collection
 
 
 def library(name: str) -> bpy.types.Collection:
-    """A new collection of ours, "Firetwin <name>", outside of all scenes."""
+    """Create an owned collection "Firetwin <name>" outside of all scenes."""
     return mark(bpy.data.collections.new(f"{ROOT} {name}".strip()), name or "root")
 
 
 def add(
     collection: bpy.types.Collection, name: str, data: bpy.types.ID | None, what: str = ""
 ) -> bpy.types.Object:
-    """A new object of ours, "Firetwin <name>", with `data` (ours too) in `collection`."""
+    """Create an owned object "Firetwin <name>" with `data`, which is marked too, in `collection`."""
     obj = mark(bpy.data.objects.new(f"{ROOT} {name}", data), what)
     obj[NAME] = obj.name
     if data is not None:
@@ -165,7 +164,7 @@ def add(
 
 
 def purge() -> None:
-    """Delete our data-blocks without users, and those that only they used."""
+    """Delete owned data-blocks without users, and the owned data-blocks that only they used."""
     while unused := [block for block in _blocks() if block.users == 0 and ours(block)]:
         bpy.data.batch_remove(unused)
 
@@ -179,7 +178,7 @@ def _others(scene: bpy.types.Scene) -> list[bpy.types.Scene]:
 
 
 def _clear(collection: bpy.types.Collection, keep: Collection[bpy.types.Object] = ()) -> None:
-    """Delete our objects in a collection except `keep`, and our collections that are empty then."""
+    """Delete owned objects in a collection except `keep`, and then owned empty collections."""
     for inner in list(collection.children):
         if ours(inner):
             _clear(inner, keep)
@@ -192,7 +191,7 @@ def _clear(collection: bpy.types.Collection, keep: Collection[bpy.types.Object] 
 
 
 def _originality(obj: bpy.types.Object) -> tuple[bool, int]:
-    """Sort key that puts an object before its copies by the user."""
+    """Return a sort key that puts an object before its copies by the user."""
     return obj.name != obj.get(NAME), obj.session_uid
 
 
@@ -202,7 +201,7 @@ def _drop(collection: bpy.types.Collection) -> None:
 
 
 def _blocks() -> Iterator[bpy.types.ID]:
-    """Every data-block in the file except scenes."""
+    """Iterate over every data-block in the file except scenes."""
     for prop in bpy.data.bl_rna.properties:
         if prop.type == "COLLECTION" and prop.identifier not in ("scenes", "libraries", "screens"):
             yield from getattr(bpy.data, prop.identifier)

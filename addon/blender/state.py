@@ -1,7 +1,7 @@
-"""Digests of data-blocks: whether a mesh or a material still is as it was built.
+"""Digests of data-blocks, to detect edits of meshes and materials after a build.
 
-An artist may edit what is ours, and undo or redo it. What has the digest of its build can be kept by a
-rebuild; what has not is made again.
+An artist may edit owned data, and undo or redo edits. A rebuild reuses data whose digest is unchanged since
+the build, and builds other data again.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ _UNSEEN = (
 
 
 def of_mesh(data: bpy.types.Mesh) -> str:
-    """Digest of a mesh: its attributes, faces, shape keys and animation; empty where it cannot be told."""
+    """Return a digest of a mesh: attributes and faces; empty if it has shape keys or animation."""
     digest = hashlib.blake2b(digest_size=16)
     if data.shape_keys or data.animation_data:
         return ""
@@ -68,10 +68,9 @@ def of_mesh(data: bpy.types.Mesh) -> str:
 
 
 def of_material(material: bpy.types.Material) -> str:
-    """Digest of a material: its settings, and nodes and links of its tree and of its own group.
+    """Return a digest of a material: its settings, and nodes and links of its tree and of its group.
 
-    Groups within that one count by their names: they belong to the whole scene. Empty where something is
-    animated.
+    Nested groups count by name, as all materials share them. The digest is empty if anything is animated.
     """
     trees = [material.node_tree]
     trees += [node.node_tree for node in trees[0].nodes if node.type == "GROUP" and node.node_tree]
@@ -94,7 +93,7 @@ def _tree(tree: bpy.types.NodeTree) -> list[Any]:
 
 
 def _plain(thing: bpy.types.bpy_struct) -> list[Any]:
-    """Its properties that a picture may depend on: numbers, texts, ramps, and names of data-blocks."""
+    """Return the properties that a picture may depend on: numbers, texts, ramps, and names of data-blocks."""
     found: list[Any] = []
     kind: Any = type(thing)
     for name in _names(kind):
@@ -114,7 +113,7 @@ def _plain(thing: bpy.types.bpy_struct) -> list[Any]:
 
 @functools.cache
 def _names(kind: Any) -> tuple[str, ...]:
-    """Names of the properties of a kind of thing that are compared."""
+    """List the names of the compared properties of a type."""
     common = set(bpy.types.ID.bl_rna.properties.keys()) if issubclass(kind, bpy.types.ID) else set()
     return tuple(
         prop.identifier

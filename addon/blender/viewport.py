@@ -11,19 +11,19 @@ NEAR, FAR = 20.0, 500_000.0
 
 
 def usual() -> tuple[float, float]:
-    """Default clipping range (m) of Blender's views."""
+    """Return the default clipping range (m) of Blender's views."""
     known = bpy.types.SpaceView3D.bl_rna.properties
     return known["clip_start"].default, known["clip_end"].default
 
 
 def clip(space: bpy.types.SpaceView3D, before: tuple[float, float], after: tuple[float, float]) -> None:
-    """Change the clipping range of a view from `before` to `after`; an artist's own range stays."""
+    """Change the clipping range of a view from `before` to `after`; a range set by the artist stays."""
     if np.allclose((space.clip_start, space.clip_end), before, rtol=1.0e-6, atol=0.0):
         space.clip_start, space.clip_end = after
 
 
 def coloured(space: bpy.types.SpaceView3D) -> None:
-    """Show colour attributes in the solid view, where it shows material colours."""
+    """Show colour attributes in solid views that show material colours."""
     if space.shading.color_type == "MATERIAL":
         space.shading.color_type = "VERTEX"
 

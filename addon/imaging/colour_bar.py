@@ -6,8 +6,8 @@ import numpy as np
 from firetwin_core import sensor
 from numpy.typing import NDArray
 
-# Bitmap font, 3 x 5 pixels per character, row by row from the top. Pictures are finished without Blender, and in
-# Blender, which has no matplotlib, so no typeface is available to both.
+# Bitmap font, 3 x 5 pixels per character, row by row from the top. Pictures are finished without Blender, and
+# in Blender, which has no matplotlib, so no typeface is available to both.
 _SIGNS = {
     "0": "111101101101111",
     "1": "010110010010111",
@@ -87,7 +87,7 @@ def title(picture: NDArray[np.float32], lines: list[str]) -> None:
 
 
 def marks(low: float, high: float, knee: float, most: float) -> list[float]:
-    """Tick values: round temperatures (K) between the ends, about `most` at most, well apart on the scale."""
+    """Choose tick values: up to about `most` round temperatures (K), well apart on the scale."""
     ticks: list[float] = []
     for step in _STEPS:
         if step < 10 and len(ticks) >= _ENOUGH:
@@ -100,7 +100,7 @@ def marks(low: float, high: float, knee: float, most: float) -> list[float]:
 
 
 def place(kelvin: float, low: float, high: float, knee: float) -> float:
-    """Position of a temperature on the scale, 0..1."""
+    """Return the position of a temperature on the scale, 0..1."""
     return float(np.log1p((kelvin - low) / knee) / np.log1p((high - low) / knee))
 
 

@@ -1,9 +1,9 @@
-"""Credits in a picture: which words stand where, and how large.
+"""Layout of credits in a picture: text, position and size.
 
-A flat picture has a dark strip along its bottom, with the services' names at the left and the credits of the
-data at the right. A panorama has a block below the horizon in each eye's picture, a quarter of it wide: along
-its lower edge, which is the point straight below, nobody could read them. No credit is ever left out: long
-ones have more lines, at smaller size.
+A flat picture has a dark strip along its bottom, with the names of services at the left and the credits of
+the data at the right. A panorama has a block below the horizon in the picture of each eye, a quarter as wide.
+Its lower edge would be illegible, since it is the point straight below. No credit is left out: long ones take
+more lines, in smaller text.
 """
 
 from __future__ import annotations
@@ -11,24 +11,28 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-_ROWS, _SHARE, _EYE_SHARE = 3, 54, 60  # lines that large text may have; rows of a picture per row of text
-_LEAST, _SMALLEST = 11, 8  # pixels, of text; where it would have more lines it shrinks down to the second
-_LINE, _BETWEEN = 1.35, 1.0  # height of a line, and least gap between left and right, in sizes
-_LEFT_MOST = 0.4  # share of the width that services' names may take
-_MOST = 0.5  # share of the height that the strip may take
+_ROWS, _SHARE, _EYE_SHARE = (
+    3,
+    54,
+    60,
+)  # largest number of lines of large text; rows of a picture per row of text
+_LEAST, _SMALLEST = 11, 8  # pixels, text size; text with too many lines shrinks to the second
+_LINE, _BETWEEN = 1.35, 1.0  # height of a line, and least gap between left and right, in text sizes
+_LEFT_MOST = 0.4  # largest share of the width for names of services
+_MOST = 0.5  # largest share of the height for the strip
 _WIDE, _UNDER = 0.25, 0.26  # panoramas: width of a block, and its top above the eye's lower edge
 
 
 @dataclass(frozen=True)
 class Credits:
-    """Who must be named in a picture.
+    """Credits that a picture must carry.
 
     Attributes
     ----------
     data
         Notices of the data.
     logo
-        Names of services, which stand apart.
+        Names of services, which are set apart.
     """
 
     data: tuple[str, ...] = ()
@@ -38,11 +42,11 @@ class Credits:
         return bool(self.data or self.logo)
 
     def text(self) -> str:
-        """All of them in one line."""
+        """Join all credits in one line."""
         return "; ".join((*self.logo, *self.data))
 
     def joined(self, other: Credits) -> Credits:
-        """Both, each once."""
+        """Merge with other credits, without duplicates."""
         pairs = ((self.data, other.data), (self.logo, other.logo))
         return Credits(*(tuple(dict.fromkeys((*mine, *more))) for mine, more in pairs))
 
@@ -56,9 +60,9 @@ class Block:
     left, top, width, height
         Pixels from the picture's upper left corner.
     size
-        Of the text, pixels.
+        Text size, pixels.
     at_left, at_right
-        Lines from top to bottom; the last ones stand on the same line.
+        Lines from top to bottom; the last ones share a line.
     """
 
     left: int
@@ -71,17 +75,17 @@ class Block:
 
 
 def blocks(credits: Credits, width: int, height: int, around: bool = False) -> list[Block]:
-    """Blocks of the credits in a picture.
+    """Lay out the credits in a picture.
 
     Parameters
     ----------
     around
-        The picture is a panorama of two eyes, one above the other.
+        The picture is a stereo panorama, one eye above the other.
 
     Raises
     ------
     ValueError
-        They do not fit into the picture.
+        The credits do not fit into the picture.
     """
     if not credits:
         return []
@@ -95,7 +99,7 @@ def blocks(credits: Credits, width: int, height: int, around: bool = False) -> l
 
 
 def foot(credits: Credits, width: int, height: int) -> int:
-    """Rows along the bottom of a flat picture that credits take."""
+    """Return the number of rows along the bottom of a flat picture that credits take."""
     return sum(block.height for block in blocks(credits, width, height))
 
 
@@ -103,7 +107,7 @@ _Fitted = tuple[int, tuple[str, ...], tuple[str, ...]]
 
 
 def _fitted(credits: Credits, width: int, height: int, share: int, most: float) -> _Fitted:
-    """Size of the text and its lines at the left and at the right."""
+    """Choose the text size, and wrap the lines at the left and at the right."""
     large = max(round(height / share), _LEAST)
     for size in range(large, _SMALLEST - 1, -1):
         found = (size, *_lines(credits, width, size))
@@ -135,7 +139,7 @@ def _lines(credits: Credits, width: int, size: int) -> tuple[tuple[str, ...], tu
 
 
 def _wrapped(text: str, room: float, size: int) -> Iterator[str]:
-    """Lines of a text; a word that is longer than a line is split."""
+    """Wrap a text into lines; split words that are longer than a line."""
     line = ""
     for word in _words(text, room, size):
         longer = f"{line} {word}" if line else word
@@ -159,14 +163,14 @@ def _words(text: str, room: float, size: int) -> Iterator[str]:
 
 
 def length(text: str, size: float) -> float:
-    """Width of a text, pixels, by kinds of letters: that of Blender's typeface, or up to a fifth more."""
+    """Estimate the width of a text in Blender's typeface, pixels: at most a fifth too wide."""
     return size * sum(_advances(text))
 
 
 def _advances(text: str) -> Iterator[float]:
-    """Advance of each letter, in sizes; measured, and rounded up."""
+    """Yield the advance of each letter, in text sizes; measured, and rounded up."""
     for sign in text:
-        if ord(sign) >= 0x2E80:  # from here on signs as wide as they are high
+        if ord(sign) >= 0x2E80:  # square characters
             yield 1.05
         elif sign in " ijl.,;:'|!()[]/ft·":
             yield 0.36

@@ -1,7 +1,6 @@
-"""Panel sheet: four panels and a column of facts, drawn by matplotlib in its own typeface.
+"""Panel sheet: four panels and a column of facts, drawn by matplotlib in its default typeface.
 
-Lengths are in units of a hundredth of the picture's height (at 16:9), so a sheet has the same look in any
-size.
+Lengths are in units of a hundredth of the picture's height (at 16:9), so a sheet looks the same in any size.
 """
 
 from __future__ import annotations
@@ -157,11 +156,11 @@ class Sheet:
         return self.figure.text(*at, text, size=self.points(size), color=colour, family="DejaVu Sans", **more)
 
     def length(self, text: Text) -> float:
-        """Width of a text, units."""
+        """Measure the width of a text, units."""
         return text.get_window_extent(self.canvas.get_renderer()).width / self.unit
 
     def fit(self, text: Text, room: float) -> None:
-        """Shrink a text that is wider than its room, units."""
+        """Shrink a text that is wider than `room`, units."""
         wide = self.length(text)
         if wide > room:
             text.set_fontsize(float(text.get_fontsize()) * room / wide)
