@@ -40,7 +40,7 @@ def main() -> int:
     canopy, surface = np.mean(fuel.canopy > 0.01), np.mean(fuel.surface > 0)
     say(f"fuels: canopy on {canopy:.2%} of cells, surface fuel on {surface:.2%}")
     channel = valleys.channel(land.elevation)
-    fire = spread.Fire(event, land, fuel, channel)
+    fire = spread.Fire(event, fuel, channel)
     targets = reported_acres(event)
     before = fire.grow_initial(targets[0.0])
     say("initial perimeter grown")

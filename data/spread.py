@@ -13,7 +13,6 @@ from .fuels import Fuels
 from .grid import FUEL_CELL_SIZE, FUEL_CELLS, MODEL_CELLS, cell_of
 from .history import Event
 from .stored import FireSpread
-from .terrain import Terrain
 from .weather import Channel
 
 BAND = 30.0  # minutes for which the weather is taken as constant
@@ -36,9 +35,9 @@ SPOTTING = {
 
 
 class Fire:
-    """Land, fuel and weather for pyretechnics."""
+    """Fuel and weather for pyretechnics."""
 
-    def __init__(self, event: Event, land: Terrain, fuel: Fuels, channel: Channel) -> None:
+    def __init__(self, event: Event, fuel: Fuels, channel: Channel) -> None:
         self.event = event
         self.corridor = corridor.nearness((FUEL_CELLS, FUEL_CELLS), RUN_WIDTH)
         self.cubes = (

@@ -19,7 +19,7 @@ _LICHEN = (0.095, 0.098, 0.062)
 _SETS = ((0.36, 13.0), (1.83, 21.0))  # joints: direction (rad) and spacing (m)
 
 
-def pixel_size(tree: nodes.Tree, shot: Shot, distance: nodes.Value) -> nodes.Value:
+def pixel_size(shot: Shot, distance: nodes.Value) -> nodes.Value:
     """Return the pixel size (m) of the sharpest camera at a `distance` (m) from the camera."""
     near, parallel = shot.pixel
     least = min(parallel, 1.0e4)

@@ -57,7 +57,7 @@ def measure(station_file: StationFile, query: Query) -> Measures:
     way = np.where(air, 1.0, query.detour)
     minutes = travel_minutes(far, air, columns.speed_km_h, columns.mobilise_min, query.detour)
     cost = cost_of(station_file, query.hours)
-    tonnes = delivery(station_file, query, far, air, way)
+    tonnes = delivery(station_file, query, far, way)
     coverage, covered = coverages(station_file, query, far)
     return Measures(
         far,
@@ -107,7 +107,7 @@ def unit_cost(mobilise: Array, hour: Array, day: Array, hours: float) -> Array:
     return np.nan_to_num(mobilise) + work
 
 
-def delivery(station_file: StationFile, query: Query, far: Array, air: Mask, way: Array) -> Array:
+def delivery(station_file: StationFile, query: Query, far: Array, way: Array) -> Array:
     """Compute the delivery (n,), t/h, by round trips between the place and the refill point.
 
     Air tankers fill at their station, all others at `Query.refill_km`. 0 for resources without a load.

@@ -127,7 +127,7 @@ class FIRETWIN_OT_camera_path(bpy.types.Operator):
         if chosen is not None and chosen.type == "CURVE" and chosen.select_get():
             curve, factors = chosen, {1: 0.0, scene.firetwin.frames: 1.0}
         else:
-            keyed = _keyed(scene, obj)
+            keyed = _keyed(obj)
             if len(keyed) < 2:
                 self.report({"WARNING"}, "Set two keys of the camera, or select a curve, first")
                 return {"CANCELLED"}
@@ -145,7 +145,7 @@ class FIRETWIN_OT_camera_path(bpy.types.Operator):
         return {"FINISHED"}
 
 
-def _keyed(scene: bpy.types.Scene, obj: bpy.types.Object) -> dict[int, Vector]:
+def _keyed(obj: bpy.types.Object) -> dict[int, Vector]:
     """Return positions of a camera at the frames of its location keyframes."""
     curves = [curve for curve in compat.fcurves(obj) if curve.data_path == "location"]
     frames = sorted({round(point.co[0]) for curve in curves for point in curve.keyframe_points})

@@ -100,7 +100,7 @@ def rock(shot: Shot, stage: Stage) -> bpy.types.Material:
     position = tree.output("ShaderNodeNewGeometry", name="Position")
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
     tint, age = tree.attribute("tint", "INSTANCER"), _age(tree)
-    stone, height = granite.face(tree, position, granite.pixel_size(tree, shot, distance))
+    stone, height = granite.face(tree, position, granite.pixel_size(shot, distance))
     stone = tree.mix_colour(
         1.0, stone, tree.mix_colour(tint, (0.62, 0.60, 0.56), (1.1, 1.1, 1.1)), "MULTIPLY"
     )

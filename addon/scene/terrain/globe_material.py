@@ -31,7 +31,7 @@ def build(shot: Shot, stage: Stage, image: bpy.types.Image | None) -> bpy.types.
     assert here is not None  # set before the terrain is built
     geometry = tree.node("ShaderNodeNewGeometry")
     place = tree.pick(geometry, "Position")
-    day = _daylight(tree, shot, here, place)
+    day = _daylight(tree, here, place)
     tone = tree.combine(day, day, day)
     colour = tree.mix_colour(1.0, earth_colour(tree, here, image, place), tone, "MULTIPLY")
     ground = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour, "Roughness": 0.6})
@@ -75,7 +75,7 @@ def earth_colour(tree: Tree, here: Earth, image: bpy.types.Image | None, place: 
     return tree.output("ShaderNodeTexEnvironment", {"Vector": at}, image=image)
 
 
-def _daylight(tree: Tree, shot: Shot, here: Earth, place: Value) -> Value:
+def _daylight(tree: Tree, here: Earth, place: Value) -> Value:
     """Return daylight 0 to 1; it is 1 near the fire, since its light already follows the time of day."""
     sun = tree.node("ShaderNodeCombineXYZ")
     sun.name = space_sky.SUN

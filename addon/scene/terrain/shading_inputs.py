@@ -70,7 +70,7 @@ def gather(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -
     position = tree.pick(geometry, "Position")
     slope = 1.0 - tree.separate(tree.pick(geometry, "True Normal"))[2]
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
-    pixel = granite.pixel_size(tree, shot, distance)
+    pixel = granite.pixel_size(shot, distance)
     grain = Grain(tree, position, None if whole else pixel)
     cell = max(shot.bare_ground.cell)
     fine = min(1.0, cell / _RAGGED)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...run import sun
-from .dilation import dilate
+from ..terrain.dilation import dilate
 
 if TYPE_CHECKING:
     from ..shot import Shot
