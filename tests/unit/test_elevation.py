@@ -204,7 +204,7 @@ def test_other_files_are_one_line(make, tiff, tmp_path):
             make().shot()
     (tmp_path / "dem.tif").unlink()
     for _ in range(2):
-        with pytest.raises(InputError, match=r"scene\.toml:9:1: terrain\.elevation: there is no file"):
+        with pytest.raises(InputError, match=r"scene\.toml:9:1: terrain\.elevation: no such file"):
             make().shot()
         (tmp_path / "dem.tif").mkdir(exist_ok=True)
 

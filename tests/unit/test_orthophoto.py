@@ -136,8 +136,8 @@ BAD = {
         r"photo\.png: covers 50\.000 to 51\.000 N .* outside of the run, which covers",
     ),
     "metres": ('photo = "photo.png"', "10\n0\n0\n-10\n700000\n4300000\n", r"not in degrees.*gdal"),
-    "words": ('photo = "photo.png"', "ten\n", r"photo\.pgw: is no world file: it must hold six"),
-    "no area": ('photo = "photo.png"', "0\n0\n0\n0\n1\n1\n", r"photo\.pgw: is no world file: its pixels"),
+    "words": ('photo = "photo.png"', "ten\n", r"photo\.pgw: not a world file: it must hold six"),
+    "no area": ('photo = "photo.png"', "0\n0\n0\n0\n1\n1\n", r"photo\.pgw: not a world file: its pixels"),
 }  # fmt: skip
 
 

@@ -1,6 +1,6 @@
-"""The orthophoto of a server (`terrain.photo_url`): pictures of its tiles, fetched before a shot is built.
+"""Orthophoto of a server (`terrain.photo_url`): pictures made of its tiles before a shot is built.
 
-`jobs.tiles.imagery` fetches them; here is what it writes, and who is to be named for them.
+`jobs.tiles.imagery` fetches the tiles and writes the list of pictures that this module reads.
 """
 
 from __future__ import annotations
@@ -53,16 +53,16 @@ class DrapeArea:
 
 @dataclass(frozen=True)
 class Drape:
-    """Pictures of a server's tiles for a shot: the whole first, finer ones after it.
+    """Pictures of a server's tiles for a shot: the picture of all ground first, then finer ones.
 
     Attributes
     ----------
     folder
-        Of the pictures.
+        Folder of the pictures.
     credits
-        Who is to be named.
+        Credits that pictures have to show.
     missing
-        Tiles that could not be had, with reasons; coarser ones stand in for them.
+        Tiles that could not be fetched, with reasons; coarser ones replace them.
     """
 
     folder: Path
@@ -96,7 +96,7 @@ def key_error(settings: Settings, reason: str) -> InputError:
 
 
 def inputs(settings: Settings) -> dict[str, str]:
-    """The address without secrets, on which colours depend."""
+    """Return the address without secrets, on which colours depend."""
     url = settings.terrain.photo_url
     return {"photo url": secret.split(url)[0]} if url else {}
 
@@ -114,7 +114,7 @@ def location(shot: Shot) -> Path:
 
 
 def write(drape: Drape, path: Path) -> None:
-    """Write a drape beside its pictures."""
+    """Write a drape next to its pictures."""
     about = {name: value for name, value in asdict(drape).items() if name != "folder"}
     files.write_text(path, json.dumps(about) + "\n")
 
@@ -133,7 +133,7 @@ def read(path: Path) -> Drape:
         lists = {name: tuple(map(str, about[name])) for name in ("credits", "missing")}
         return Drape(path.parent, tuple(areas), **lists)
     except (OSError, ValueError, LookupError, TypeError) as error:
-        raise input_error(path, f"is no list of an orthophoto's pictures ({error}); delete it") from None
+        raise input_error(path, f"not a list of an orthophoto's pictures ({error}); delete it") from None
 
 
 def _area(low: list[float], high: list[float], **others: Any) -> DrapeArea:
@@ -142,7 +142,7 @@ def _area(low: list[float], high: list[float], **others: Any) -> DrapeArea:
 
 
 def of_shot(shot: Shot) -> Drape:
-    """The drape of a shot with `terrain.photo_url`.
+    """Read the drape of a shot with `terrain.photo_url`.
 
     Raises
     ------

@@ -15,7 +15,7 @@ from ..terrain.raster import Array
 from .drape import Drape, DrapeArea
 from .photo_source import PhotoSource, Pixels, between_pixels, rgba, thinned
 
-_MARGIN = 2  # pixels around what is sampled
+_MARGIN = 2  # pixels around the sampled area
 
 
 class DrapePhoto(PhotoSource):

@@ -1,4 +1,4 @@
-"""Which tiles of a server a shot needs: one level for each area, fine enough for the nearest view."""
+"""Plan of an orthophoto: the server's tiles that a shot needs, with a level by the nearest view of an area."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Bounds = tuple[float, float, float, float]
 
 @dataclass(frozen=True)
 class PlannedArea:
-    """An area, its tiles, and why they are of this level.
+    """An area, its tiles, and the reason for their level.
 
     Attributes
     ----------
@@ -36,9 +36,9 @@ class PlannedArea:
     step
         Size of a texel on the ground, m.
     wanted
-        Size of a pixel on the ground where a view is nearest, m; infinite where none looks.
+        Size of a pixel on the ground where a view is nearest, m; infinite without a view of the area.
     limited
-        What made the texels larger than that: "", "level" (of the server) or "size" (of the picture).
+        Limit that made texels larger than `wanted`: "", "level" (server) or "size" (picture).
     """
 
     low: Array
@@ -50,7 +50,7 @@ class PlannedArea:
 
 
 def plan(shot: Shot, bounds: Bounds, levels: tuple[int, int], side: int) -> list[PlannedArea]:
-    """Areas of a shot with their tiles: the whole first, finer ones nearer to the cameras after it.
+    """Plan areas with their tiles: all ground first, then finer areas nearer to the cameras.
 
     A texel is at most one pixel of the nearest view, unless the server's finest level or `terrain.photo_size`
     end before.
@@ -58,7 +58,7 @@ def plan(shot: Shot, bounds: Bounds, levels: tuple[int, int], side: int) -> list
     Parameters
     ----------
     bounds
-        West, south, east and north of what the server has, degrees.
+        West, south, east and north of the area that the server covers, degrees.
     levels
         Coarsest and finest level of the server.
     side

@@ -17,11 +17,11 @@ def collect(shot: Shot) -> Footprints:
 
 
 def place_buildings(shot: Shot) -> list[Building]:
-    """A shot's buildings on its ground; heights are z in the scene, m."""
+    """Place a shot's buildings on its ground; heights are z in the scene, m."""
     return buildings.place_on_ground(collect(shot).outlines, lambda place: shot.ground.up(*place.T))
 
 
 def summary(shot: Shot) -> str:
-    """What was assumed, mended or left out of the footprints, in words; empty if nothing was."""
+    """Describe assumed heights, repaired and omitted footprints; empty without any."""
     found = collect(shot)
     return found.summary() if found.assumed or found.mended or found.refused else ""

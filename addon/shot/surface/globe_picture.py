@@ -23,7 +23,7 @@ def check(settings: Settings) -> None:
     if path is None:
         return
     if not path.is_file():
-        reason = f"terrain.globe: {path} is no file; name a JPEG, PNG, TIFF or EXR"
+        reason = f"terrain.globe: {path} is not a file; name a JPEG, PNG, TIFF or EXR"
         raise scene_text.error_at(settings.path, _WHERE, reason)
     with path.open("rb") as file:
         begin = file.read(8)

@@ -1,7 +1,7 @@
 """Land use map: fields, tracks, roads, water and buildings of a vector file, rasterized onto the terrain.
 
 The file is a GeoJSON or GeoPackage with polygons and lines in degrees. A feature's kind comes from its
-OpenStreetMap tags (`building`, `highway`, `waterway`, `natural`, `landuse`) or from one of our own in `kind`.
+OpenStreetMap tags (`building`, `highway`, `waterway`, `natural`, `landuse`) or from its property `kind`.
 A second file has footprints alone: each of its polygons is a building.
 """
 
@@ -142,11 +142,11 @@ class Map:
     Attributes
     ----------
     features
-        Of both files.
+        Features of both files.
     low, high
         Corners (2,) of the extent of all, m.
     known
-        Corners (2,) of the extent of the land use, m, where nothing is invented; None without that file.
+        Corners (2,) of the extent of the land use, m, in which nothing is invented; None without that file.
     """
 
     features: tuple[MappedFeature, ...]
@@ -220,7 +220,7 @@ def pictures(shot: Shot) -> dict[str, list[OrthophotoImage]]:
 
 
 def mapped(shot: Shot, place: Array) -> NDArray[np.bool_]:
-    """Whether points (n, 2) in the scene, m, lie within the land use's extent; nothing is invented there."""
+    """Test if points (n, 2) in the scene, m, are within the extent of the land use map."""
     known = read_map(shot)
     if known is None or known.known is None:
         return np.zeros(len(place), bool)
@@ -265,7 +265,7 @@ def _read(settings: Settings) -> list[tuple[str, Feature]]:
     if path.suffix.lower() not in (".geojson", ".json", ".gpkg"):
         raise scene_text.error_at(settings.path, where, f"terrain.land_use: {path} is no .geojson or .gpkg")
     if not path.is_file():
-        raise scene_text.error_at(settings.path, where, f"terrain.land_use: there is no file {path}")
+        raise scene_text.error_at(settings.path, where, f"terrain.land_use: no such file {path}")
     every = features(path)
     assert isinstance(every, list)  # of these formats
     known = [(kind, item) for item in every if (kind := kind_of(item.properties)) and _rings((kind, item))]
@@ -287,7 +287,7 @@ def _footprints(settings: Settings) -> list[tuple[str, Feature]]:
         return []
     if not path.is_file():
         where = "terrain", "buildings"
-        raise scene_text.error_at(settings.path, where, f"terrain.buildings: there is no file {path}")
+        raise scene_text.error_at(settings.path, where, f"terrain.buildings: no such file {path}")
     return [("building", each) for each in polygons(path)]
 
 

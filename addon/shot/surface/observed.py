@@ -49,7 +49,7 @@ class DrapedLine:
 
 
 def files(settings: Settings) -> list[Path]:
-    """Observation files: the named file, or those of the named folder."""
+    """Observation files: the named file, or all files of the named folder."""
     path = settings.fire.observed
     if path is None:
         return []

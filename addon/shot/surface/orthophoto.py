@@ -75,7 +75,7 @@ def check(settings: Settings, run: Run) -> None:
         reason = "terrain.photo is a file; a server's tiles are named by terrain.photo_url"
         raise scene_text.error_at(settings.path, ("terrain", "photo"), reason)
     if path.exists() and not path.is_file():  # opening a pipe would block
-        reason = f"terrain.photo: {path} is no file; name a GeoTIFF, PNG or JPEG"
+        reason = f"terrain.photo: {path} is not a file; name a GeoTIFF, PNG or JPEG"
         raise scene_text.error_at(settings.path, ("terrain", "photo"), reason)
     source = _file(settings)
     if not overlap(source.bounds, run.latitude, run.longitude):
@@ -94,7 +94,7 @@ def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
 
 
 def pictures(shot: Shot) -> list[OrthophotoImage]:
-    """The whole photo as one picture, and a finer one near the cameras if the photo has the resolution."""
+    """Make a picture of the complete photo, and a finer one near the cameras if the photo is finer."""
     if not photographed(shot.settings):
         return []
     source = source_of(shot)
@@ -108,7 +108,7 @@ def pictures(shot: Shot) -> list[OrthophotoImage]:
 
 
 def photographed(settings: Settings) -> bool:
-    """Whether a scene has an orthophoto."""
+    """Return whether a scene has an orthophoto."""
     return bool(settings.terrain.photo or settings.terrain.photo_url)
 
 
@@ -154,7 +154,7 @@ class _Places:
 
 
 def source_of(shot: Shot) -> PhotoSource:
-    """The orthophoto of a shot that has one."""
+    """Open the orthophoto of a shot that has one."""
     return DrapePhoto(drape.of_shot(shot)) if shot.settings.terrain.photo_url else _file(shot.settings)
 
 
@@ -236,9 +236,9 @@ class _Plain(PhotoSource):
         try:
             a, d, b, e, c, f = map(float, world.read_text(encoding="utf-8").split())
         except (OSError, ValueError):
-            raise input_error(world, "is no world file: it must hold six numbers, one a line") from None
+            raise input_error(world, "not a world file: it must hold six numbers, one a line") from None
         if not np.isfinite([a, d, b, e, c, f]).all() or abs(a * e - b * d) == 0.0:
-            raise input_error(world, "is no world file: its pixels have no area")
+            raise input_error(world, "not a world file: its pixels have no area")
         return np.array([[a, b, c], [d, e, f]])
 
     def error(self, reason: str) -> InputError:

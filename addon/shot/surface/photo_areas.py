@@ -21,9 +21,9 @@ def areas_of(
     step: float,
     factors: Sequence[float] = (1.0,),
 ) -> list[tuple[Array, Array]]:
-    """Corners (2,), (2,) of the pictures to make, m: all of the ground within `bounds`, and near cameras.
+    """Choose pictures by their corners (2,), (2,), m: all ground within `bounds`, and areas near cameras.
 
-    An area is left out where it would be hardly finer than the one before it.
+    An area that would be hardly finer than the previous one is left out.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What every source of an orthophoto gives: colours at places. Helpers to sample pictures."""
+"""Interface of the sources of an orthophoto: colours at places; and functions to sample pictures."""
 
 from __future__ import annotations
 

@@ -71,7 +71,7 @@ class GeoTiff:
         self.key = settings.path, ("terrain", name)
         self.path: Path = getattr(settings.terrain, name)
         if not self.path.is_file():
-            reason = f"terrain.{name}: there is no file {self.path}"
+            reason = f"terrain.{name}: no such file {self.path}"
             raise scene_text.error_at(settings.path, ("terrain", name), reason)
         with self.open() as source:
             if source.crs is None or source.transform.is_identity:
@@ -117,7 +117,7 @@ class GeoTiff:
             raise scene_text.error_at(*self.key, reason) from error
 
     def overlaps(self, latitude: Array, longitude: Array) -> bool:
-        """Whether the raster overlaps the bounding box of these points, degrees."""
+        """Return whether the raster overlaps the bounding box of these points, degrees."""
         return overlap(self.bounds, latitude, longitude)
 
     def on_grid(self, latitude: Array, longitude: Array, bands: int = 1) -> NDArray[np.float32]:
@@ -185,7 +185,7 @@ class GeoTiff:
 
 
 def overlap(bounds: Bounds, latitude: Array, longitude: Array) -> bool:
-    """Whether a box (west, south, east, north) overlaps the bounding box of these points; degrees."""
+    """Return whether a box (west, south, east, north) overlaps the bounding box of these points; degrees."""
     west, south, east, north = bounds
     longitude = longitude + _wrap_offset(bounds, longitude)
     return bool(
@@ -208,7 +208,7 @@ def format_bounds(bounds: Bounds) -> str:
 
 
 def _wrap_offset(bounds: Bounds, longitude: Array) -> float:
-    """Multiple of 360 degrees that shifts these longitudes to those of the bounds."""
+    """Multiple of 360 degrees that shifts these longitudes into the range of the bounds."""
     middle = 0.5 * float(longitude[0] + longitude[-1])
     return float(areas.turned(middle, 0.5 * (bounds[0] + bounds[2]))) - middle
 

@@ -1,4 +1,4 @@
-"""Ground beside 3-D Tiles: raised or lowered to meet their border, so that there is no step."""
+"""Ground around 3-D Tiles, raised or lowered to meet their border without a step."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from numpy.typing import NDArray
 
 
 def meet(tiles: NDArray, ground: NDArray, width: int) -> NDArray[np.float32]:
-    """Heights (ny, nx) of tiles, and beyond them of the ground, which meets them within `width` points.
+    """Join heights (ny, nx) of tiles and of the ground around them, which meets them within `width` points.
 
-    Beside the border the ground is moved by as much as the tiles are off there. This fades to 0.
+    At the border the ground is moved by its difference from the tiles; farther out this fades to 0.
 
     Parameters
     ----------
     tiles
         (ny, nx) m; NaN without tiles.
     ground
-        (ny, nx) m; NaN where it is not known.
+        (ny, nx) m; NaN at unknown points.
     """
     known = np.isfinite(tiles)
     off, ring = _continued(np.where(known, tiles - ground, np.nan), width)
@@ -26,12 +26,12 @@ def meet(tiles: NDArray, ground: NDArray, width: int) -> NDArray[np.float32]:
 
 
 def continued(values: NDArray, width: int) -> NDArray[np.float32]:
-    """Values (ny, nx) continued for `width` points beyond where they are known; NaN farther away."""
+    """Continue values (ny, nx) into unknown points for `width` points; NaN farther away."""
     return _continued(values, width)[0]
 
 
 def _continued(values: NDArray, width: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Continued values, and how many points each is beyond; each is the mean of its known neighbours."""
+    """Return continued values, each the mean of its known neighbours, and the distances from known points."""
     known = np.isfinite(values)
     values, ring = np.where(known, values, 0.0).astype(np.float32), np.zeros(values.shape, np.float32)
     for number in range(1, width + 1):

@@ -1,4 +1,4 @@
-"""The tiles that a shot shows: chosen once for all cameras and frames, and decoded to files."""
+"""Tiles of a shot: selected once for all cameras and frames, and decoded to files."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ class TileCut:
     tiles
         Names of the decoded tiles' files; a tile's name follows its content and its place in the scene.
     credits
-        Copyright notices of all tiles, those of most tiles first.
+        Copyright notices of all tiles, the most frequent first.
     missing
-        What could not be had, and is shown by its ancestor.
+        Tiles that could not be fetched; their ancestors replace them.
     error
         Largest screen-space error that was allowed, pixels, after budgets.
     logo
@@ -47,7 +47,7 @@ class TileCut:
     difference
         5th, 50th and 95th percentile of the tiles' ground above the scene's own, m; None if they never meet.
     bytes, triangles
-        Of all tiles, as they were fetched and as they are shown.
+        Totals of all tiles: bytes that were fetched, and triangles that are shown.
     """
 
     folder: Path
@@ -64,18 +64,18 @@ class TileCut:
 
     @property
     def words(self) -> Credits:
-        """Who must be named in pictures."""
+        """Credits that pictures have to show."""
         return Credits(self.credits, self.logo)
 
     def is_whole(self) -> bool:
-        """Whether all files that it names are there, and nothing was missing when it was chosen."""
+        """Return whether all its files exist, and no tile was missing when it was selected."""
         heights = self.folder / f"{self.name}{HEIGHTS}"
         there = all((self.folder / name).is_file() for name in self.tiles)
         return there and not self.missing and (heights.is_file() or not self.tiles)
 
 
 def write(cut: TileCut, path: Path) -> None:
-    """Write a cut beside the files that it names."""
+    """Write a cut next to the files that it names."""
     about = {name: value for name, value in asdict(cut).items() if name not in ("folder", "name")}
     files.write_text(path, json.dumps(about) + "\n")
 
@@ -98,7 +98,7 @@ def read(path: Path) -> TileCut:
         empty, size, triangles = (int(about[name]) for name in ("empty", "bytes", "triangles"))
         return replace(found, empty=empty, bytes=size, triangles=triangles, difference=difference)
     except (OSError, ValueError, LookupError, TypeError) as error:
-        raise input_error(path, f"is no list of chosen tiles ({error}); delete it") from None
+        raise input_error(path, f"not a list of selected tiles ({error}); delete it") from None
 
 
 @cached_on_shot
@@ -109,7 +109,7 @@ def location(shot: Shot) -> Path:
 
 
 def prepared(shot: Shot) -> TileCut | None:
-    """The cut of a shot; None where it has no tiles, or they were not prepared yet."""
+    """Read the cut of a shot; None without tiles, and before they are prepared."""
     if not shot.settings.tiles.sources:
         return None
     path = location(shot)
@@ -117,7 +117,7 @@ def prepared(shot: Shot) -> TileCut | None:
 
 
 def of_shot(shot: Shot) -> TileCut | None:
-    """The cut of a shot; None where it has no tiles.
+    """Read the cut of a shot; None without tiles.
 
     Raises
     ------
@@ -131,14 +131,14 @@ def of_shot(shot: Shot) -> TileCut | None:
 
 
 def finder(shot: Shot) -> Finder:
-    """Finds the cut of a view of a shot with all its cameras, or None; each view is looked up once."""
+    """Make a function that finds the cut of a view of a shot, or None; it looks each view up once."""
     return functools.cache(lambda view: prepared(comparison.for_view(shot, view)))
 
 
 def of_pass(shot: Shot, view: str, name: str, find: Finder) -> list[TileCut]:
-    """Cuts that a view's pictures in a pass show; those that were not prepared yet are left out.
+    """Find the prepared cuts that a view's pictures in a pass show.
 
-    They are the view's own, those of cameras on its mount, and for a comparison those of all runs.
+    These are the cuts of the view, of cameras on its mount, and for a comparison of all runs.
     """
     if not shot.settings.tiles.sources:
         return []
@@ -151,7 +151,7 @@ def of_pass(shot: Shot, view: str, name: str, find: Finder) -> list[TileCut]:
 
 
 def heights(shot: Shot) -> TileHeights | None:
-    """Heights of a shot's tiles; None where it has none, or they were not prepared."""
+    """Read the heights of a shot's tiles; None without tiles, and before they are prepared."""
     if not shot.settings.tiles.sources or not location(shot).with_suffix(HEIGHTS).is_file():
         return None
     return _read_heights(shot)

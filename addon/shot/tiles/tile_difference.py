@@ -22,9 +22,9 @@ Difference = tuple[float, float, float]
 
 
 def measure(tiles: TileHeights, settings: Settings, run: Run) -> Difference | None:
-    """5th, 50th and 95th percentile of the tiles' ground above the scene's own, m; None if they never meet.
+    """Compute the 5th, 50th, 95th percentile of tiles' ground above the scene's, m; None without overlap.
 
-    The scene's own ground is that of the run, or of the elevation model, at the points of the fuel grid.
+    The scene's ground is the run's, or the elevation model's, at the points of the fuel grid.
     """
     own = elevation.resolve(
         replace(settings, terrain=replace(settings.terrain, height_source="elevation")), run
@@ -38,7 +38,7 @@ def measure(tiles: TileHeights, settings: Settings, run: Run) -> Difference | No
 
 
 def sentence(found: Difference | None, undulation: float | None) -> str:
-    """What the user should know of a difference.
+    """Describe a difference for the user.
 
     Parameters
     ----------

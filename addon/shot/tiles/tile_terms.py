@@ -1,4 +1,4 @@
-"""What the services of a shot's tiles allow: asked before anything is fetched or rendered."""
+"""Terms of use of a shot's tiles, checked before tiles are fetched or pictures rendered."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ _ANALYSES = frozenset(("depth", "masks", "normal", "pose"))
 
 
 def allows(policy: Policy, use: str) -> bool:
-    """Whether a policy allows a use."""
+    """Return whether a policy allows a use."""
     return bool(getattr(policy, use if use == "other_geocoder" else f"may_{use}"))
 
 
 def check(settings: Settings, uses: Iterable[Use]) -> None:
-    """Check that every source of a scene's tiles allows these uses; nobody is asked, and nothing is read.
+    """Check that every source of a scene's tiles allows these uses, without a request to a server.
 
     Raises
     ------
@@ -65,7 +65,7 @@ def check_source(settings: Settings, number: int, policy: Policy, uses: Iterable
 
 
 def of_passes(names: Iterable[str]) -> list[Use]:
-    """Uses by passes that take values from the surface of tiles."""
+    """List the uses by passes that take values from the surface of tiles."""
     found: list[Use] = []
     for name in dict.fromkeys(names):
         if sources := _sources_of(name) & _ANALYSES:
@@ -75,7 +75,7 @@ def of_passes(names: Iterable[str]) -> list[Use]:
 
 
 def of_scene(settings: Settings) -> list[Use]:
-    """Uses by a scene's own settings."""
+    """List the uses by a scene's settings."""
     found: list[Use] = []
     if settings.terrain.height_source == "tiles":
         found.append(("analyse", 'terrain.height_source = "tiles"'))
@@ -95,6 +95,6 @@ def _error(settings: Settings, number: int, reason: str) -> InputError:
 
 
 def _sources_of(name: str) -> set[str]:
-    """A pass and all passes that it is made from."""
+    """Return a pass and all passes that it is made from."""
     made = passes.known()[name].made_from
     return {name}.union(*(_sources_of(need) for need in made))

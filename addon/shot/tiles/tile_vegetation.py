@@ -36,7 +36,7 @@ def may_grow(shot: Shot, position: Array, tiles: TileHeights | None = None) -> N
     Parameters
     ----------
     tiles
-        Surface of the tiles; None: that of the shot.
+        Surface of the tiles; None: of the shot's tiles.
     """
     tiles = tiles or tile_cut.heights(shot)
     if tiles is None or not len(position):
