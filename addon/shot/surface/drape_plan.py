@@ -1,4 +1,4 @@
-"""Plan of an orthophoto: the server's tiles that a shot needs, with a level by the nearest view of an area."""
+"""Plan of an orthophoto: the server's tiles that a shot needs, with levels by the nearest views."""
 
 from __future__ import annotations
 
