@@ -29,18 +29,18 @@ Known = Callable[[Array, Array], Array]
 _MOST = 3000  # points along a side
 _FINEST = 2.0  # m between points
 _RIM = 2  # points
-_THINNED = 8  # points from sample to sample of what is known of the ground
+_THINNED = 8  # points from sample to sample of the known ground
 _TURNS = 3  # a place's vertical leans away from the scene's by at most 0.5 degrees; 3 leave no 0.1 mm
 
 
 def _level(east: Array, north: Array) -> Array:
-    """Ground of which nothing is known."""
+    """Return level ground, for tiles over unknown ground."""
     return np.zeros(east.shape)
 
 
 @dataclass(frozen=True)
 class Surface:
-    """What tiles show from above, on an even grid.
+    """Surface of tiles from above, on an even grid.
 
     Attributes
     ----------
@@ -51,7 +51,7 @@ class Surface:
     height, ground
         (ny, nx) scene z of the highest surface, and of the ground below roofs and crowns, m; NaN without.
     shown
-        (ny, nx) `tiles.GROUND`, `VEGETATION` or `BUILDING`: what the highest surface is.
+        (ny, nx) `tiles.GROUND`, `VEGETATION` or `BUILDING`: class of the highest surface.
     """
 
     low: Array
@@ -62,7 +62,7 @@ class Surface:
 
 
 class TileHeights:
-    """Heights of tiles at any place; those of the ground in the form of `raster.GeoTiff`.
+    """Heights of tiles at any place; the ground has the interface of `raster.GeoTiff`.
 
     Attributes
     ----------
@@ -85,7 +85,7 @@ class TileHeights:
         self.bounds = longitude.min(), latitude.min(), longitude.max(), latitude.max()
 
     def overlaps(self, latitude: Array, longitude: Array) -> bool:
-        """Whether tiles lie within the bounding box of these points, degrees."""
+        """Return whether tiles are within the bounding box of these points, degrees."""
         west, south, east, north = self.bounds
         return bool(
             latitude.min() <= north
@@ -111,15 +111,15 @@ class TileHeights:
         return self._between(self.surface.height, east, north)
 
     def growth(self, east: Array, north: Array) -> NDArray[np.bool_]:
-        """Whether growth is shown at scene coordinates, or a point beside, and no building."""
+        """Test for vegetation, and not a building, at scene coordinates or at a neighbouring point."""
         return self._at(self._growth, east, north)
 
     def building(self, east: Array, north: Array) -> NDArray[np.bool_]:
-        """Whether a building is shown at scene coordinates."""
+        """Test for a building at scene coordinates."""
         return self._at(self.surface.shown == tiles.BUILDING, east, north)
 
     def rim(self, east: Array, north: Array) -> NDArray[np.bool_]:
-        """Whether places at scene coordinates lie within `_RIM` points of the tiles' border, or outside."""
+        """Test if places at scene coordinates are within `_RIM` points of the tiles' border, or outside."""
         row, column, outside = self._place(east, north)
         return outside | self._rim[np.round(row).astype(int), np.round(column).astype(int)]
 
@@ -153,13 +153,13 @@ class TileHeights:
 def rasterise(
     decoded: Iterable[Decoded], known: Known = _level, buildings: Iterable[Sequence[Array]] = ()
 ) -> Surface:
-    """The surface of tiles.
+    """Rasterise the surface of tiles.
 
     Parameters
     ----------
     known
-        Scene z of what is known of the ground, m, at scene coordinates. The nearer it is, the better the
-        ground is told from what stands on it.
+        Scene z of the known ground, m, at scene coordinates. The closer it is to the true ground, the better
+        vegetation and buildings are separated from the ground.
     buildings
         Outlines of buildings, each as rings (n, 2) in scene metres.
     """
