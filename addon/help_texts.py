@@ -96,7 +96,7 @@ time in UTC. A drone camera with track = "FILE.gpx" follows it. Flight planners 
 CACHE = """\
 Lists volumes and tiles of each shot with size and last use, most recent first, and then cached responses of
 tile servers. --prune removes the least recently used until volumes and tiles fit into --limit, and responses
-into --answers. Files in use by a bake or a render are kept."""
+into --answers. Files in use by a bake or render are not removed."""
 
 SCHEMA = """\
 Save it, and refer to it in the first line of a scene file (`#:schema firetwin.json`). TOML editors then

@@ -53,7 +53,7 @@ class Entry(NamedTuple):
     time: str
 
     def is_intact(self, out: Path) -> bool:
-        """Whether the file exists with this content."""
+        """Check that the file exists with this content."""
         try:
             path = out / self.path
             return path.stat().st_size == self.bytes and sha256(path) == self.sha256

@@ -11,7 +11,7 @@ _ALONE = 100.0  # m, side of a single cell of unknown size
 
 
 def edges(axis: ArrayLike) -> NDArray[np.float64]:
-    """Cell edges (n + 1,) from cell centres `axis` (n,): midpoints, extrapolated at both ends."""
+    """Compute cell edges (n + 1,) from centres `axis` (n,): midpoints, extrapolated at both ends."""
     axis = np.asarray(axis, dtype=np.float64)
     if axis.size == 1:
         return np.array([axis[0], axis[0]])  # a single centre has no cell width
@@ -20,7 +20,7 @@ def edges(axis: ArrayLike) -> NDArray[np.float64]:
 
 
 def cell_areas(latitude: ArrayLike, longitude: ArrayLike) -> NDArray[np.float64]:
-    """Area (ny, nx) in m2 of each cell of a latitude-longitude grid (centres, degrees)."""
+    """Compute the area (ny, nx) in m2 of each cell of a latitude-longitude grid (centres, degrees)."""
     strip, width = area_factors(latitude, longitude)
     return strip[:, None] * width[None, :]
 
@@ -28,10 +28,10 @@ def cell_areas(latitude: ArrayLike, longitude: ArrayLike) -> NDArray[np.float64]
 def area_factors(
     latitude: ArrayLike, longitude: ArrayLike
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Separable cell areas (m2): factors of the rows (ny,) and of the columns (nx,).
+    """Compute separable cell areas (m2): factors of the rows (ny,) and of the columns (nx,).
 
     Exact for the ellipsoid: between two parallels lie a^2/2 (q_high - q_low) per radian of longitude, where q
-    is that of the authalic latitude (Snyder, Map Projections, USGS Professional Paper 1395, 1987, eq. 3-12).
+    belongs to the authalic latitude (Snyder, Map Projections, USGS Professional Paper 1395, 1987, eq. 3-12).
     """
     sine = np.sin(np.radians(edges(latitude)))
     e = np.sqrt(E2)
@@ -50,7 +50,7 @@ def turned(longitude: ArrayLike, middle: float) -> NDArray[np.float64]:
 
 
 def spacing(latitude: ArrayLike, longitude: ArrayLike, at: float | None = None) -> tuple[float, float]:
-    """Mean cell width and height (m) at the parallel `at`, by default at the grid's centre.
+    """Compute the mean cell width and height (m) at the parallel `at`, by default at the grid's centre.
 
     An axis with a single value has no cell width: 0.
     """
@@ -67,7 +67,7 @@ def cell_size(
     at: float | None = None,
     within: tuple[ArrayLike, ArrayLike] | None = None,
 ) -> tuple[float, float]:
-    """Cell width and height (m) for building a mesh: `spacing` where an axis has two or more values.
+    """Compute cell width and height (m) for a mesh: `spacing` if an axis has at least two values.
 
     An axis with a single value takes the size of the other axis. A single cell takes the cell size of the
     coarser grid `within` (latitude, longitude) that contains it, else 100 m.

@@ -13,14 +13,14 @@ CELLS = 1 << 18
 
 
 def rows(run: Run) -> Iterator[tuple[int, int]]:
-    """Row ranges of the blocks: first row, and one past the last."""
+    """List the row ranges of the blocks: first row, and one past the last."""
     fy, fx = len(run.fuel_latitude), len(run.fuel_longitude)
     step = max(CELLS // fx, 1)
     return ((first, min(first + step, fy)) for first in range(0, fy, step))
 
 
 def arrival(run: Run, known: NDArray | None = None) -> Callable[[int, int], NDArray]:
-    """Row reader for arrival times (s, NaN where never): from `known`, else from the run."""
+    """Return a row reader for arrival times (s, NaN: never): from `known`, otherwise from the run."""
     if known is None and run.has("fuel_arrival_time"):
         return lambda first, last: run.fuel_rows("fuel_arrival_time", first, last)
     whole = run.fuel_arrival_time() if known is None else np.asarray(known)

@@ -16,7 +16,7 @@ FIELD = "burned_fraction"
 
 
 def at(run: Run, time: float) -> NDArray[np.float32]:
-    """Burned fraction (fy, fx) at a model time (s): linear between run times, 0 before, constant after."""
+    """Interpolate the burned fraction (fy, fx) at a model time (s): 0 before the run, constant after it."""
     known = np.asarray(run.times)
     after = int(np.searchsorted(known, time))
     if time < known[0]:
@@ -30,7 +30,7 @@ def at(run: Run, time: float) -> NDArray[np.float32]:
 def areas(
     run: Run, moments: Sequence[float] | NDArray[np.float64], strip: NDArray, width: NDArray
 ) -> list[float]:
-    """Burned area (m2) at model times (s), linear between the run's times.
+    """Compute the burned area (m2) at model times (s), linear between the run's times.
 
     Parameters
     ----------

@@ -19,31 +19,31 @@ Array = NDArray[np.float64]
 
 
 def cell_area(run: Run) -> float:
-    """Area of a fuel cell, m2."""
+    """Compute the area of a fuel cell, m2."""
     return _area(run, run.fuel_latitude, run.fuel_longitude, (run.latitude, run.longitude))
 
 
 def fuel_cell(run: Run) -> tuple[float, float]:
-    """Width and height of a fuel cell, m."""
+    """Return the width and height of a fuel cell, m."""
     within = run.latitude, run.longitude
     return areas.cell_size(run.fuel_latitude, run.fuel_longitude, local_frame(run).latitude, within)
 
 
 def model_cell_area(run: Run) -> float:
-    """Area of a cell of the model grid, m2."""
+    """Compute the area of a cell of the model grid, m2."""
     if run.elevation.size == 1:
         return cell_area(run) * run.surface_fuel.size
     return _area(run, run.latitude, run.longitude)
 
 
 def _area(run: Run, rows: Array, columns: Array, within: tuple[Array, Array] | None = None) -> float:
-    """Mean cell area of a grid, m2, from its spacing at the run's centre."""
+    """Compute the mean cell area of a grid, m2, from its spacing at the run's centre."""
     width, height = areas.cell_size(rows, columns, local_frame(run).latitude, within)
     return width * height
 
 
 def least_crossing(cell: float) -> float:
-    """Lower bound of the front's crossing time of a cell (m), s; coarse cells resolve no faster front.
+    """Compute the lower bound of the crossing time of a cell (m), s; coarse cells resolve no faster front.
 
     On cells of 20 m a front of 3 m/s is not slowed.
     """
@@ -53,11 +53,11 @@ def least_crossing(cell: float) -> float:
 def crossing(
     arrival: NDArray, row: NDArray[np.int64], column: NDArray[np.int64], least: float = CROSSING[0]
 ) -> Array:
-    """Crossing time (n,) of the front through fuel cells, s: cell size times the gradient of arrival time.
+    """Compute the crossing time (n,) of fuel cells, s: cell size times the gradient of arrival time.
 
-    Along each axis the smaller one-sided difference counts: a jump to another fire's arrival is no slow
-    front. It is the time over which a cell begins to release its heat, for any direction of spread. From the
-    first corner of a cell to the last (cpp/flux/crossing_time.hpp) the front takes up to 1.4 times as long.
+    Along each axis the smaller one-sided difference counts: a jump to the arrival of another fire is not a
+    slow front. In this time a cell begins to release its heat, for any direction of spread. From the first
+    corner of a cell to the last (cpp/flux/crossing_time.hpp) the front needs up to 1.4 times as long.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def nearest(axis: ArrayLike, values: ArrayLike) -> NDArray[np.int64]:
 
 
 def wind_at(run: Run, times: Array, within: tuple[slice, slice]) -> Array:
-    """Mean wind (n, 2), m/s, over a window of the model grid at model times (n,), s; 0 without data."""
+    """Average the wind (n, 2), m/s, over a window of the model grid at model times (n,); 0 without data."""
     times = np.asarray(times, np.float64)
     if not {"wind_east", "wind_north"} <= set(run.fields) or len(times) == 0:
         return np.zeros((len(times), 2))
@@ -102,7 +102,7 @@ def wind_at(run: Run, times: Array, within: tuple[slice, slice]) -> Array:
 
 
 def surroundings(run: Run, arrival: Array) -> tuple[slice, slice]:
-    """Rows and columns of the model grid around all burned cells of `arrival` (fy, fx); NaN: unburned."""
+    """Find rows and columns of the model grid around all burned cells of `arrival` (fy, fx; NaN unburned)."""
     burned = np.isfinite(arrival)
     slices = []
     for axis, (fine, coarse) in enumerate(

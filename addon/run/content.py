@@ -30,7 +30,7 @@ _read: dict[tuple[Path, Stamp], str] = {}
 
 
 def sha256(path: Path, step: Callable[[int], None] = lambda size: None) -> str:
-    """SHA-256 of a file, in hexadecimal; `step` is called with the number of bytes read."""
+    """Compute the SHA-256 of a file in hexadecimal; calls `step` with the number of bytes read."""
     digest = hashlib.sha256()
     with path.open("rb") as file:
         while block := file.read(_STEP):
@@ -40,7 +40,7 @@ def sha256(path: Path, step: Callable[[int], None] = lambda size: None) -> str:
 
 
 def fingerprint(settings: dict[str, Any]) -> str:
-    """Short hash of settings, equal exactly if their JSON is equal."""
+    """Compute a short hash of settings, equal exactly if their JSON is equal."""
     text = json.dumps(settings, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
@@ -48,7 +48,7 @@ def fingerprint(settings: dict[str, Any]) -> str:
 def inputs(
     run: Run, cache: Path, leave_out: Collection[str] = (), progress: Progress = silent
 ) -> dict[str, str]:
-    """SHA-256 of each field of a run. A field with one file per time has the hash of all their hashes.
+    """Hash each field of a run (SHA-256); a field with a file per time has the hash of all their hashes.
 
     Only the run's own files count; other files in its folder are ignored.
 
@@ -72,31 +72,31 @@ def inputs(
 
 
 def of_file(path: Path, cache: Path, progress: Progress = silent) -> str:
-    """SHA-256 of a file outside of a run, cached in `cache`, as the file's folder is not ours."""
+    """Hash a file outside a run, with the hash cached in `cache`."""
     place = cache / f"file-{fingerprint({'file': str(path.resolve())})}.json"
     return _hashes(path.parent, [path], (place,), progress)[path]
 
 
 def stamp(path: Path) -> Stamp:
-    """Change stamp of a file: size, modification and change time, inode."""
+    """Return the change stamp of a file: size, modification and change time, inode."""
     state = path.stat()
     return state.st_size, state.st_mtime_ns, state.st_ctime_ns, state.st_ino
 
 
 def stamps(run: Run) -> dict[str, Stamp]:
-    """Change stamps of all files of a run, by name relative to its folder."""
+    """Return change stamps of all files of a run, by name relative to its folder."""
     folder = Path(run.path)
     paths = (path for field in _fields(run, ()) for path in _files(field))
     return {path.relative_to(folder).as_posix(): stamp(path) for path in paths}
 
 
 def settled(stamps: Iterable[Stamp]) -> bool:
-    """Whether files are old enough that a further change would change their stamps."""
+    """Check that files are old enough for any further change to change their stamps."""
     return max(max(known[1:3]) for known in stamps) < time.time_ns() - int(_YOUNG * 1e9)
 
 
 def _fields(run: Run, leave_out: Collection[str]) -> list[Path]:
-    """Description file of a run, and the file or folder of each field."""
+    """List the description file of a run, and the file or folder of each field."""
     folder = Path(run.path)
     names = sorted({*_AXES, *run.fields} - {*leave_out})
     ends = (".npy", ".txt", "")

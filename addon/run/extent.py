@@ -10,7 +10,7 @@ _BESIDE = [(row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) if row o
 
 
 def largest(burned: NDArray[np.bool_], cell: tuple[float, float]) -> float:
-    """Diagonal (m) of the fire with the most cells among `burned` (ny, nx); 0 without fire.
+    """Compute the diagonal (m) of the fire with the most cells among `burned` (ny, nx); 0 without fire.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def largest(burned: NDArray[np.bool_], cell: tuple[float, float]) -> float:
 
 
 def _joined(blocks: list[tuple[int, int]]) -> list[int]:
-    """Connected components: number of the fire of each block, with adjacent blocks joined."""
+    """Label connected components: fire number of each block, with adjacent blocks joined."""
     number: dict[tuple[int, int], int] = {}
     known, fire = set(blocks), -1
     for first in blocks:

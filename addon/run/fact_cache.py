@@ -20,7 +20,7 @@ NAME = ".firetwin-info.json"
 
 
 def facts(run: Run, about: str, find: Callable[[], dict[str, Any]]) -> dict[str, Any]:
-    """Result of `find` (JSON data), cached while the run's files and the program are unchanged.
+    """Return the result of `find` (JSON data), cached while the run's files and the program are unchanged.
 
     Nothing is stored if the folder is read-only or files may still change.
     """
@@ -40,7 +40,7 @@ def facts(run: Run, about: str, find: Callable[[], dict[str, Any]]) -> dict[str,
 
 
 def _program() -> dict[str, content.Stamp]:
-    """Change stamps of the program's files that compute the facts."""
+    """Return change stamps of the program files that compute the facts."""
     events, code = Path(history.__file__), Path(__file__).parent.glob("*.py")
     parts = [Path(firetwin_core.__file__), events, *events.parent.glob("*.toml"), *code]
     return {path.name: content.stamp(path) for path in sorted(parts)}

@@ -7,7 +7,7 @@ from firetwin_core.run import Run
 
 
 def local_frame(run: Run) -> geo.LocalFrame:
-    """Frame whose origin is the centre of the run's model grid, at height 0.
+    """Create the frame whose origin is the centre of the run's model grid, at height 0.
 
     z is not height above sea level away from the origin: the Earth's curvature is in it (-50 m at 25 km).
     """

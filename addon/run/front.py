@@ -18,7 +18,7 @@ from . import areas
 from .arrival_grid import ArrivalGrid, fill_unburned, pad_axis
 
 _FINE = 80.0  # m; a coarser grid is subdivided so that lines follow the terrain
-_CACHED = 4  # runs: those of a comparison
+_CACHED = 4  # runs, for comparisons
 
 Array = NDArray[np.float64]
 
@@ -44,7 +44,7 @@ class Reach:
         return 0.5 * float(self.longitude[0] + self.longitude[-1])
 
     def at(self, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
-        """Fractional rows and columns of points (degrees) in `arrival`; NaN beyond the margin."""
+        """Convert points (degrees) to fractional rows and columns of `arrival`; NaN beyond the margin."""
         longitude = areas.turned(longitude, self._middle)
         row, column = (
             np.interp(np.asarray(at, np.float64), axis, np.arange(len(axis)), left=np.nan, right=np.nan)
@@ -54,13 +54,13 @@ class Reach:
         return np.where(inside, row, np.nan), np.where(inside, column, np.nan)
 
     def burned(self, latitude: ArrayLike, longitude: ArrayLike, time: float) -> Array:
-        """Burned state of points (degrees) at a model time (s): 1 burned, 0 not, NaN outside of the grid."""
+        """Find the state of points (degrees) at a model time (s): 1 burned, 0 not, NaN outside the grid."""
         row, column = self.at(latitude, longitude)
         since = bilinear(fill_unburned(self.arrival - time), np.nan_to_num(row), np.nan_to_num(column))
         return np.where(np.isfinite(row), since <= 0.0, np.nan)
 
     def line(self, time: float) -> tuple[Array, Array, NDArray[np.int64]]:
-        """Front contour at a model time (s): latitude, longitude (n,) and the index of each point's next."""
+        """Trace the front at a model time (s): latitude, longitude (n,) and the index of the next point."""
         burned = self.arrival <= time
         if not burned.any():
             return np.empty(0), np.empty(0), np.empty(0, np.int64)
@@ -85,12 +85,12 @@ class Reach:
 
 @functools.lru_cache(maxsize=_CACHED)
 def reach(run: Run) -> Reach:
-    """Burned area of a run; those of the last runs are cached."""
+    """Return the burned area of a run; results of the latest runs are cached."""
     return Reach(ArrivalGrid.from_run(run))
 
 
 def contour(field: Array) -> tuple[Array, Array, NDArray[np.int64]]:
-    """Zero contour of a field (ny, nx): fractional rows and columns (n,), and the index of each point's next.
+    """Trace the zero contour of a field (ny, nx): fractional rows, columns (n,), and index of the next point.
 
     Marching squares with linear interpolation between neighbours. Lines are closed. Values of 0 or less lie
     on their left, with columns to the right and rows up. The contour must not reach the field's border.

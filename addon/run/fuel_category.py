@@ -37,7 +37,7 @@ _CANOPY = 0.01  # kg/m2; less counts as none
 
 
 def kinds(category: NDArray) -> NDArray[np.uint8]:
-    """Kind of each fuel model number, of any shape; UNKNOWN for other numbers.
+    """Look up the kind of each fuel model number, of any shape; UNKNOWN for other numbers.
 
     Parameters
     ----------
@@ -53,13 +53,13 @@ def kinds(category: NDArray) -> NDArray[np.uint8]:
 
 
 def rows(run: Run) -> Iterator[tuple[int, int, NDArray[np.uint8]]]:
-    """Blocks of a run with categories: first and last rows, and the kinds (rows, fx) there."""
+    """Read blocks of a run with categories: first and last rows, and the kinds (rows, fx)."""
     for first, end in blocks.rows(run):
         yield first, end, kinds(run.fuel_rows(FIELD, first, end))
 
 
 def shares(run: Run) -> dict[str, float] | None:
-    """Fraction of fuel cells of each kind, by name; None if the run has no categories."""
+    """Compute the fraction of fuel cells of each kind, by name; None if the run has no categories."""
     if not run.has(FIELD):
         return None
     count = np.zeros(len(NAMES))
@@ -69,7 +69,7 @@ def shares(run: Run) -> dict[str, float] | None:
 
 
 def canopy(run: Run) -> NDArray[np.float32]:
-    """Canopy fuel (fy, fx), kg/m2, for drawing trees: the run's, and `IMPLIED` over litter without any.
+    """Compute the canopy fuel (fy, fx), kg/m2, for drawing trees: the run's, or `IMPLIED` over litter.
 
     Litter implies trees. If some of the run's litter has canopy fuel, litter without it is a clearing.
     """

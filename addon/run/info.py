@@ -20,7 +20,7 @@ ACRE = history.SQUARE_METRES_PER_ACRE
 
 
 def gather(run: Run, zone: str) -> dict[str, Any]:
-    """All facts that `firetwin info` shows; lengths in m, areas in m2, power and energy in W and J.
+    """Gather the facts that `firetwin info` shows: m, m2, W and J.
 
     Results are cached in the run's folder.
     """
@@ -29,7 +29,7 @@ def gather(run: Run, zone: str) -> dict[str, Any]:
 
 
 def _source(folder: Path) -> dict[str, Any]:
-    """Provenance from run.toml: model, version, projection, files and assumptions."""
+    """Read the provenance from run.toml: model, version, projection, files and assumptions."""
     try:
         return tomllib.loads((folder / "run.toml").read_text(encoding="utf-8-sig")).get("source", {})
     except (OSError, ValueError):  # the core reports errors in run.toml
@@ -75,7 +75,7 @@ def _find(run: Run, zone: str) -> dict[str, Any]:
 
 
 def burned(run: Run, moments: Sequence[float] | NDArray[np.float64]) -> list[float]:
-    """Burned area (m2) at model times (s).
+    """Compute the burned area (m2) at model times (s).
 
     It is the sum of burned fractions if the run has them (`burned_fraction`), linear between its times; else
     the area of fuel cells whose centre the fire has reached. Without the run's own arrival times the front is
@@ -101,13 +101,13 @@ def burned(run: Run, moments: Sequence[float] | NDArray[np.float64]) -> list[flo
 
 
 def burned_from(run: Run) -> str:
-    """Field from which burned areas are computed."""
+    """Name the field from which burned areas are computed."""
     known = (burned_fraction.FIELD, "fuel_arrival_time")
     return next((name for name in known if run.has(name)), "heat_flux")
 
 
 def reported(run: Run) -> list[dict[str, Any]]:
-    """Reported acreages (m2) of the real fire, next to the run's own."""
+    """List reported acreages (m2) of the real fire, with the areas of the run."""
     if not (reports := _reports(run)):
         return []
     return _reported(run, reports, burned(run, [times.seconds(run, report.time) for report in reports]))
@@ -129,7 +129,7 @@ def _range(values: np.ndarray) -> dict[str, float]:
 
 
 def _fuel(run: Run, field: str, above: float) -> dict[str, float]:
-    """Fraction of the finite values above a threshold, with their mean and range."""
+    """Compute the fraction of the finite values above a threshold, with their mean and range."""
     count, more, total, low, high = 0, 0, 0.0, np.inf, -np.inf
     for first, end in blocks.rows(run):
         finite = run.fuel_rows(field, first, end)
@@ -145,12 +145,12 @@ def _fuel(run: Run, field: str, above: float) -> dict[str, float]:
 
 
 def _reports(run: Run) -> list[history.Acreage]:
-    """Reported acreages of the real fire."""
+    """List reported acreages of the real fire."""
     return list(history.load(run.event).acreages) if run.event and run.event in history.events() else []
 
 
 def _reported(run: Run, reports: list[history.Acreage], areas_then: list[float]) -> list[dict[str, Any]]:
-    """Reported acreages next to the run's own areas (m2) at their times, where the run covers them."""
+    """List reported acreages with the areas of the run (m2) at their times, if the run covers them."""
     rows = []
     for report, area in zip(reports, areas_then, strict=True):
         row = {"time": times.iso(report.time), "reported": report.acres * ACRE, "source": report.source}
@@ -163,7 +163,7 @@ def _reported(run: Run, reports: list[history.Acreage], areas_then: list[float])
 
 
 def page(info: dict[str, Any]) -> str:
-    """Page of text that `firetwin info` prints."""
+    """Format the page that `firetwin info` prints."""
     return "\n".join(
         escaped(line)
         for line in [
@@ -189,7 +189,7 @@ def _made_of(source: dict[str, Any]) -> list[str]:
 
 
 def brief(info: dict[str, Any]) -> list[tuple[str, str]]:
-    """Key facts for a narrow panel: labels and texts."""
+    """List key facts for a narrow panel: labels and texts."""
     grid, fuel, when = info["grid"], info["fuel_grid"], info["times"]
     burned = [info["burned"][key] / ACRE for key in ("first", "last")]
     return [
@@ -214,7 +214,7 @@ def _cells(grid: dict[str, Any]) -> str:
 
 
 def _interval(when: dict[str, Any]) -> str:
-    """Interval between the times."""
+    """Format the interval between the times."""
     if when["interval"] is None:
         return ""
     least, most = when["interval"]["min"], when["interval"]["max"]
@@ -314,7 +314,7 @@ def _energy(joules: float) -> str:
 
 
 def _released(heat: float, fuel: float) -> str:
-    beside = f"  ({heat / fuel:,.2f} times that of the fuel burned)" if fuel > 0.0 else ""
+    beside = f"  ({heat / fuel:,.2f} times the heat of the fuel burned)" if fuel > 0.0 else ""
     return _energy(heat) + beside
 
 

@@ -31,7 +31,7 @@ class Label(NamedTuple):
 
 
 def known(run: Run) -> list[Label]:
-    """Built-in labels of a run's fire: towns, lakes and summits with published positions."""
+    """Return the built-in labels of a run's fire: towns, lakes and summits with published positions."""
     if not run.event or run.event not in history.events():
         return []
     places = history.load(run.event).places
@@ -51,11 +51,11 @@ def read(path: Path) -> list[Label]:
         The file cannot be read or has another format.
     """
     if path.exists() and not path.is_file():  # opening a pipe would block
-        raise input_error(path, "is no file; name a CSV or GeoJSON")
+        raise input_error(path, "is not a file; name a CSV or GeoJSON")
     try:
         text = path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
-        raise input_error(path, "is no text in UTF-8; save it as UTF-8") from None
+        raise input_error(path, "is not UTF-8 text; save it as UTF-8") from None
     except OSError as error:
         raise input_error(path, f"cannot be read ({error.strerror}); name a CSV or GeoJSON") from None
     return _geojson(path, text) if text.lstrip().startswith("{") else _csv(path, text)

@@ -54,7 +54,7 @@ def draw(run: Run, out: Path, zone: str, seen: Observations = NOTHING) -> list[P
 
 
 def fuel_map(run: Run) -> Figure:
-    """Fuel load map: surface and canopy fuel (kg/m2), greener where denser, sand-coloured without fuel."""
+    """Draw the fuel load: surface and canopy fuel (kg/m2), greener if denser, sand-coloured without fuel."""
     fuel = np.nan_to_num(run.surface_fuel) + np.nan_to_num(run.canopy_fuel)
     figure, axes = _page(run, "Fuel load", "surface and canopy fuel")
     image = _show(axes, run.fuel_latitude, run.fuel_longitude, fuel, FUEL, Normalize(0, fuel.max() or 1))
@@ -65,7 +65,7 @@ def fuel_map(run: Run) -> Figure:
 
 
 def intensity_map(run: Run, zone: str, seen: Observations = NOTHING) -> Figure:
-    """Fire intensity map: maximum heat flux (kW/m2) of model cells over hill shading, and observations."""
+    """Draw the maximum heat flux (kW/m2) of model cells over hill shading, with observations."""
     flux = np.ma.masked_less(thumbnails.strongest(run), thumbnails.FIRE) / 1e3
     first, last = (times.text(times.utc(run, float(run.times[i])), zone) for i in (0, -1))
     figure, axes = _page(run, "Fire intensity", f"strongest heat flux, {first} to {last}")
@@ -184,7 +184,7 @@ def _places(axes: Axes, run: Run) -> None:
 
 
 def _page(run: Run, title: str, subtitle: str) -> tuple[Figure, Axes]:
-    """Figure with true proportions at the centre of the run."""
+    """Create a figure with true proportions at the centre of the run."""
     matplotlib.rcParams.update({"font.size": 9, "axes.linewidth": 0.8, "svg.hashsalt": "firetwin"})
     dx, dy = areas.spacing(run.latitude, run.longitude)
     width, height = dx * len(run.longitude), dy * len(run.latitude)
@@ -212,7 +212,7 @@ def _page(run: Run, title: str, subtitle: str) -> tuple[Figure, Axes]:
 
 
 def _degrees(ticks: NDArray[np.float64], negative: str, positive: str) -> FuncFormatter:
-    """Tick labels such as ``120.6°W`` with as many digits as they need to differ."""
+    """Format tick labels such as ``120.6°W`` with the digits needed to distinguish them."""
     step = float(np.min(np.diff(ticks))) if len(ticks) > 1 else 0.1
     digits = max(1, int(np.ceil(-np.log10(step) - 1e-9)))
     digits += round(step * 10**digits, 6) % 1 > 0  # such as steps of 0.25
@@ -249,7 +249,7 @@ def _wide(edges: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _relief(axes: Axes, run: Run, strength: float) -> None:
-    """Hill shading, lit from the north-west."""
+    """Draw hill shading, lit from the north-west."""
     elevation = np.nan_to_num(run.elevation.astype(np.float64))
     if min(elevation.shape) < 3:
         return
@@ -283,7 +283,7 @@ def _colour_bar(figure: Figure, axes: Axes, image: QuadMesh, label: str, extend:
 
 
 def _scale_bar(axes: Axes, width: float) -> None:
-    """Scale bar of a round number of kilometres, about a fifth of the map, in the lower left corner."""
+    """Draw a scale bar of a round length in km, about a fifth of the map, in the lower left corner."""
     target = width / 1e3 / 5
     unit = 10.0 ** np.floor(np.log10(target))
     length = max(step for step in (1, 2, 5) if step * unit <= target) * unit

@@ -15,12 +15,12 @@ _MUCH = 1.1  # times the fuel's heat; fluxes at discrete times give the total to
 
 
 def energy(run: Run) -> float:
-    """Released heat of the run (J): flux times cell area, integrated over time by the trapezoidal rule."""
+    """Integrate the released heat of the run (J): flux times cell area, trapezoidal rule in time."""
     return float(np.sum(run.heat_released() * areas.cell_areas(run.latitude, run.longitude)))
 
 
 def of_fuel(run: Run) -> float:
-    """Heat (J) of all surface and canopy fuel that burned by the run's end, at 17.433 MJ/kg.
+    """Compute the heat (J) of all surface and canopy fuel that burned by the run's end, at 17.433 MJ/kg.
 
     If the run has burned fractions, a partly burned cell counts in part.
     """
@@ -36,7 +36,7 @@ def of_fuel(run: Run) -> float:
 
 
 def _burned(run: Run, time: float) -> Callable[[int, int], NDArray]:
-    """Reader of the burned fraction (0..1) of rows of cells by a time (s)."""
+    """Return a reader of the burned fraction (0..1) of rows of cells by a time (s)."""
     if run.has(burned_fraction.FIELD):
         share = burned_fraction.at(run, time)
         return lambda first, end: share[first:end]
@@ -45,7 +45,7 @@ def _burned(run: Run, time: float) -> Callable[[int, int], NDArray]:
 
 
 def warnings(released: float, fuel: float) -> list[str]:
-    """Warning if a run releases more heat than its fuel holds (J each)."""
+    """Warn if a run releases more heat than its fuel holds (J each)."""
     if released <= _MUCH * fuel or fuel <= 0.0:
         return []
     return [

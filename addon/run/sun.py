@@ -33,18 +33,18 @@ NO_MOON = Moon(*_STARS, 0.0)
 
 
 def angles(latitude: float, longitude: float, moment: datetime) -> tuple[float, float]:
-    """Solar bearing, clockwise from north, and elevation with refraction, degrees (NOAA)."""
+    """Compute the solar bearing, clockwise from north, and elevation with refraction, degrees (NOAA)."""
     observer = Observer(latitude, longitude, 0.0)
     return azimuth(observer, moment), elevation(observer, moment)
 
 
 def air_mass(height: float) -> float:
-    """Relative air mass at a solar elevation (degrees), 1 at the zenith (Kasten and Young 1989)."""
+    """Compute the relative air mass at a solar elevation (degrees), 1 at zenith (Kasten and Young 1989)."""
     return float(1.0 / (np.sin(np.radians(height)) + 0.50572 * (height + 6.07995) ** -1.6364))
 
 
 def direct(height: float) -> float:
-    """Direct normal irradiance (W/m2) at a solar elevation (degrees); 0 below the horizon.
+    """Compute the direct normal irradiance (W/m2) at a solar elevation (degrees); 0 below the horizon.
 
     1353 x 0.7^(m^0.678) through m masses of air (A. B. Meinel and M. P. Meinel 1976, "Applied Solar Energy").
     """
@@ -52,20 +52,20 @@ def direct(height: float) -> float:
 
 
 def direction(bearing: float, height: float) -> NDArray[np.float64]:
-    """Unit vector (east, north, up) towards a bearing and height in degrees."""
+    """Compute the unit vector (east, north, up) towards a bearing and height in degrees."""
     bearing, height = np.radians(bearing), np.radians(height)
     return np.array([np.sin(bearing) * np.cos(height), np.cos(bearing) * np.cos(height), np.sin(height)])
 
 
 def shadow_direction(bearing: float, height: float, night: Moon = NO_MOON) -> NDArray[np.float64]:
-    """Unit vector towards the shadow-casting light: the sun at these angles (degrees), or the moon."""
+    """Compute the unit vector towards the shadow-casting light: sun at these angles (degrees), or moon."""
     if height > NIGHT:
         return direction(bearing, max(height, 0.5))
     return direction(night.bearing, night.height) if night.light > 0.0 else direction(*_STARS)
 
 
 def moon(run: Run, time: float) -> Moon:
-    """The moon over the middle of the run's grid at a model time.
+    """Compute the moon over the middle of the run's grid at a model time.
 
     Its light goes with the angle a (degrees) between sun and earth seen from it as 10^(-0.4 (0.026 a +
     4e-9 a^4)) (K. Krisciunas and B. E. Schaefer 1991, "A model of the brightness of moonlight", PASP 103).
@@ -81,16 +81,16 @@ def moon(run: Run, time: float) -> Moon:
 
 
 def position(run: Run, time: float) -> tuple[float, float]:
-    """Solar bearing and elevation (degrees) at the centre of the run's grid at a model time (s)."""
+    """Compute the solar bearing and elevation (degrees) at the grid's centre at a model time (s)."""
     return angles(*_middle(run), times.utc(run, time))
 
 
 def toward_light(run: Run, time: float) -> NDArray[np.float64]:
-    """Unit vector towards the sun, by night the moon, over the run at a model time (s)."""
+    """Compute the unit vector towards the sun, or at night the moon, over the run at a model time (s)."""
     return shadow_direction(*position(run, time), moon(run, time))
 
 
 def _middle(run: Run) -> tuple[float, float]:
-    """Latitude and longitude of the centre of the run's grid, degrees."""
+    """Return latitude and longitude of the centre of the run's grid, degrees."""
     latitude, longitude = (float(axis[0] + axis[-1]) / 2.0 for axis in (run.latitude, run.longitude))
     return latitude, longitude

@@ -12,7 +12,7 @@ from ..errors import input_error
 def rows(
     path: Path, lines: Iterator[str], names: Mapping[str, set[str]], needed: Collection[str], help: str
 ) -> Iterator[tuple[int, dict[str, str]]]:
-    """Rows that are not empty: line number, and values by the meaning of their column.
+    """Read non-empty rows: line number, and values by the meaning of their column.
 
     Parameters
     ----------

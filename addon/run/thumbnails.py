@@ -1,4 +1,4 @@
-"""Thumbnails of a run's fuel and fire intensity, without axes and without matplotlib, which Blender lacks."""
+"""Thumbnails of a run's fuel and fire intensity, without axes and matplotlib, which Blender does not have."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ SIDE = 192
 """Thumbnail width and height, pixels."""
 
 FIRE = 1.0  # W/m2, as in the estimate of arrival times: model files hold fluxes of 1e-38
-_BARE = (0.45, 0.43, 0.40)  # where it is unburned
+_BARE = (0.45, 0.43, 0.40)  # colour of unburned ground
 
 
 def draw(run: Run) -> dict[str, NDArray[np.float32]]:
-    """Maps of fuel and intensity, each (SIDE, SIDE, 4): sRGB and alpha from 0 to 1, south first."""
+    """Draw maps of fuel and intensity, each (SIDE, SIDE, 4): sRGB and alpha from 0 to 1, south first."""
     fuel = np.nan_to_num(run.surface_fuel) + np.nan_to_num(run.canopy_fuel)
     share = fuel / max(float(fuel.max()), 1.0e-6)
     flux = strongest(run)
@@ -35,7 +35,7 @@ def draw(run: Run) -> dict[str, NDArray[np.float32]]:
 
 
 def strongest(run: Run) -> NDArray[np.float32]:
-    """Maximum heat flux (W/m2) of each model cell over the whole run, (ny, nx); 0 without any."""
+    """Compute the maximum heat flux (W/m2) of each model cell over the run, (ny, nx); 0 without any."""
     flux = run.heat_flux(0).copy()
     for index in range(1, len(run.times)):
         np.fmax(flux, run.heat_flux(index), out=flux)

@@ -9,13 +9,13 @@ from firetwin_core.run import Run
 
 
 def seconds(run: Run, moment: datetime) -> float:
-    """Model time of a date and time; without a time zone it is UTC."""
+    """Convert a date and time to model time; without a time zone it is UTC."""
     moment = moment if moment.tzinfo else moment.replace(tzinfo=UTC)
     return (moment - _start(run)).total_seconds()
 
 
 def utc(run: Run, time: float) -> datetime:
-    """UTC of a model time (s)."""
+    """Convert a model time (s) to UTC."""
     return _start(run) + timedelta(seconds=time)
 
 

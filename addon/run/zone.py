@@ -13,7 +13,7 @@ from ..errors import input_error
 
 
 def time_zone(run: Run) -> str:
-    """Time zone from run.toml; else of the fire that it depicts, of the start's offset, or by longitude.
+    """Find the time zone: run.toml, the depicted fire, the offset of the start, or longitude.
 
     Raises
     ------
@@ -36,7 +36,7 @@ NOT_KNOWN = 'is not a time zone; give one such as "Europe/Paris", or "Etc/GMT-2"
 
 
 def known(name: str) -> bool:
-    """Whether a name is a known time zone."""
+    """Check whether a name is a known time zone."""
     try:
         zoneinfo.ZoneInfo(name)
     except (zoneinfo.ZoneInfoNotFoundError, ValueError, OSError):
@@ -45,10 +45,10 @@ def known(name: str) -> bool:
 
 
 def of_offset(minutes: int) -> str:
-    """Time zone of an offset east of UTC (minutes), rounded to whole hours."""
+    """Return the time zone of an offset east of UTC (minutes), rounded to whole hours."""
     return of_hours(round(minutes / 60))
 
 
 def of_hours(east: int) -> str:
-    """Time zone of whole hours east of UTC. Etc/GMT zones count westward: Etc/GMT+8 is eight hours behind."""
+    """Return the zone of whole hours east of UTC. Etc/GMT zones count westward: Etc/GMT+8 is UTC-8."""
     return f"Etc/GMT{-east:+d}" if east else "Etc/GMT"

@@ -94,7 +94,7 @@ def test_fuel_14_is_none(tmp_path, converted):
 def test_degrees_on_a_sphere_stay_as_they_are(tmp_path, converted, model):
     paths, truth = getattr(made, model)(tmp_path)
     run = converted(paths)
-    assert "sphere of 6370 km are taken as those of WGS84" in said(run)
+    assert "sphere of 6370 km are used as WGS84 coordinates" in said(run)
     np.testing.assert_allclose(run.fuel_latitude, truth["lat"][:, 0], atol=2e-5)
 
 

@@ -603,7 +603,7 @@ def test_a_netcdf_of_no_known_model_says_how_to_map_it(tmp_path, converted):
     with pytest.raises(InputError, match=r"hfx, la, lo, t.*\[fields\] heat_flux"):
         converted([path])
     (tmp_path / "map.toml").write_text('[fields]\nheatflux = "hfx"\n')
-    with pytest.raises(InputError, match="there is no field heatflux"):
+    with pytest.raises(InputError, match="unknown field heatflux"):
         converted([path, tmp_path / "map.toml"])
 
 

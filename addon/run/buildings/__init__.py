@@ -1,7 +1,7 @@
 """Buildings from footprints: one rule for tilesets and for scenes.
 
-A building is as high as its height says, else as its storeys, else as assumed. Its walls begin below the
-lowest ground under its whole footprint, and its roof is level.
+The height of a building is its property, or comes from its number of storeys, or is assumed. Walls begin
+below the lowest ground under the footprint, and roofs are level.
 """
 
 from .footprints import ASSUMED, STOREY, Footprint, Footprints, collect, height_of, polygons, read

@@ -1,4 +1,4 @@
-"""The mesh of buildings: walls and level roofs as triangles with corners of their own."""
+"""Mesh of buildings: walls and level roofs as triangles with separate corners."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from .rings import Array, Rings
 def block(
     building: Building, triangles: Callable[[Rings], Array] = rings.triangles
 ) -> tuple[Array, NDArray[np.bool_]]:
-    """Triangles of a building, seen from outside anticlockwise.
+    """Build the triangles of a building, anticlockwise seen from outside.
 
     Parameters
     ----------
     triangles
-        Gives triangles (t, 3, 2) of a polygon's rings, anticlockwise.
+        Function that triangulates the rings of a polygon: (t, 3, 2), anticlockwise.
 
     Returns
     -------
-    Corners (t, 3, 3): east and north as the footprint's, and height, m; and whether each is of the roof (t,).
+    Corners (t, 3, 3): east and north in units of the footprint, and height, m; and a mask of roofs (t,).
     """
     walls = [_walls(ring, building.base, building.roof) for ring in building.footprint.rings]
     flat = triangles(building.footprint.rings)
@@ -34,7 +34,7 @@ def block(
 
 
 def _walls(ring: Array, base: float, roof: float) -> Array:
-    """Two triangles for each side of a ring: (2 n, 3, 3)."""
+    """Build two triangles for each side of a ring: (2 n, 3, 3)."""
     following = np.roll(ring, -1, axis=0)
     low, high = np.full(len(ring), base), np.full(len(ring), roof)
     first, second = np.column_stack([ring, low]), np.column_stack([following, low])

@@ -1,8 +1,8 @@
-"""Footprints of a file, and how high each building is.
+"""Building footprints of a file, with heights.
 
-Heights come from the footprint's own properties, or its number of storeys. What has neither gets a height
-that is reported. Sources of property names: OpenStreetMap wiki, "Simple 3D Buildings"; building footprints
-of Microsoft and Overture.
+Heights come from properties of the footprint, or from its number of storeys. Other buildings get an assumed
+height, which is reported. Sources of property names: OpenStreetMap wiki, "Simple 3D Buildings"; building
+footprints of Microsoft and Overture.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ ASSUMED = 5.0
 """m, height of a building that says neither height nor storeys."""
 _HEIGHT = ("height", "building:height", "render_height", "building_height")
 _STOREYS = ("building:levels", "levels", "num_floors", "storeys", "stories")
-_HIGHEST = 900.0  # m; above, a height is no building's
+_HIGHEST = 900.0  # m, above which a height is invalid
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class Footprint:
     height
         m above the ground.
     number
-        Of the building in its file, from 0: parts of one building have the same.
+        Number of the building in its file, from 0; parts of one building share it.
     """
 
     outer: Array
@@ -55,16 +55,16 @@ class Footprint:
 
 @dataclass(frozen=True)
 class Footprints:
-    """Footprints of a file, and what had to be assumed, mended or left out.
+    """Footprints of a file, with counts of assumed heights, and of repaired and rejected polygons.
 
     Attributes
     ----------
     assumed
-        Buildings without a height, which got `ASSUMED`.
+        Number of buildings without a height, which have height `ASSUMED`.
     mended
-        Polygons that crossed themselves, and were split.
+        Number of self-intersecting polygons, which were split.
     refused
-        Polygons that crossed themselves, and are left out, because shapely is not there to split them.
+        Number of self-intersecting polygons that were omitted, because shapely is not installed.
     """
 
     outlines: tuple[Footprint, ...]
@@ -73,7 +73,7 @@ class Footprints:
     refused: int = 0
 
     def summary(self) -> str:
-        """In words."""
+        """Describe the result in a sentence."""
         parts = [f"footprints of buildings: {len(self.outlines)}"]
         if self.assumed:
             parts.append(f"{self.assumed} without a height are {ASSUMED:g} m high")
@@ -85,7 +85,7 @@ class Footprints:
 
 
 def height_of(properties: Mapping[str, Any]) -> float | None:
-    """Height that a building's properties give, m; None where they give none that a building can have."""
+    """Find the height of a building in its properties, m; None if they have no plausible height."""
     words = {str(name).lower(): str(value).lower() for name, value in properties.items()}
     for names, unit in ((_HEIGHT, 1.0), (_STOREYS, STOREY)):
         for name in names:
@@ -96,7 +96,7 @@ def height_of(properties: Mapping[str, Any]) -> float | None:
 
 
 def collect(known: Iterable[tuple[tuple[Rings, ...], float | None]]) -> Footprints:
-    """Footprints of buildings: polygons and height (None: not known) of each."""
+    """Convert polygons and heights (None: unknown) of buildings to footprints."""
     outlines: list[Footprint] = []
     assumed = mended = refused = 0
     for number, (polygons, height) in enumerate(known):
@@ -113,12 +113,12 @@ def collect(known: Iterable[tuple[tuple[Rings, ...], float | None]]) -> Footprin
 
 
 def polygons(path: Path) -> list[Feature]:
-    """Features with polygons of a file, such as GeoJSON, GeoPackage, KML or a shapefile.
+    """Read the features with polygons of a file, such as GeoJSON, GeoPackage, KML or a shapefile.
 
     Raises
     ------
     InputError
-        The file is of another kind or damaged, or has no polygons.
+        The file has another format, is damaged, or has no polygons.
     """
     found = features(path)
     having = [] if isinstance(found, Detections) else [each for each in found if each.polygons]

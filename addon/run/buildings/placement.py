@@ -13,7 +13,7 @@ from .rings import Array
 
 SKIRT = 2.0
 """m that walls reach into the ground, so that a coarse mesh of the ground leaves no gap."""
-_LEAST = 1.0  # m that a roof stands above the highest ground beneath it
+_LEAST = 1.0  # m, minimum height of a roof above the highest ground below it
 _SAMPLE = 3.0  # m between samples of the ground
 
 
@@ -24,11 +24,11 @@ class Building:
     Attributes
     ----------
     footprint
-        Its outline.
+        Outline.
     base, roof
-        Of the walls' lower edge and of the roof, m, above whatever the ground's heights are above.
+        Heights of the lower edge of the walls and of the roof, m, above the datum of the ground.
     middle
-        (2,) east and north of a point inside, as the outline's.
+        (2,) east and north of a point inside, in units of the outline.
     """
 
     footprint: Footprint
@@ -44,15 +44,15 @@ def place_on_ground(
 ) -> list[Building]:
     """Place buildings on the ground.
 
-    Walls begin below the lowest ground under the whole footprint. The roof is level: as high as the building
-    above the ground at its middle, and above all ground beneath it.
+    Walls begin below the lowest ground under the footprint. The level roof is at the height of the building
+    above the ground at its middle, and above all ground below it.
 
     Parameters
     ----------
     ground
-        Heights (n,), m, at places (n, 2), east and north as the outlines'.
+        Function that returns heights (n,), m, at points (n, 2), east and north in units of the outlines.
     metres
-        Metres of a unit east and north.
+        Metres per unit east and north.
     """
     if not outlines:
         return []

@@ -1,4 +1,4 @@
-"""Rings of a footprint: their direction, what lies inside, whether they cross, and triangles between them."""
+"""Rings of a footprint: orientation, points inside, self-intersections and triangulation."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ from ...errors import Error
 Array = NDArray[np.float64]
 Rings = tuple[Array, ...]
 """Rings (n, 2), not closed: the outer one, then holes."""
-_AT_ONCE = 1 << 22  # pairs that are looked at in one array
+_AT_ONCE = 1 << 22  # pairs of sides per array
 
 
 def area(ring: Array) -> float:
-    """Area, positive of an anticlockwise ring (the shoelace formula)."""
+    """Compute the area of a ring, positive if anticlockwise (shoelace formula)."""
     x, y = (ring - ring[0]).T
     return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
 
 
 def directed(rings: Rings) -> Rings:
-    """The outer ring anticlockwise, holes clockwise."""
+    """Orient the outer ring anticlockwise and holes clockwise."""
     return tuple(ring if (area(ring) > 0.0) == (k == 0) else ring[::-1] for k, ring in enumerate(rings))
 
 
 def inside(rings: Rings, points: Array) -> NDArray[np.bool_]:
-    """Whether points (n, 2) lie within the outer ring and in no hole (even-odd rule)."""
+    """Check which points (n, 2) are within the outer ring and outside all holes (even-odd rule)."""
     first = np.concatenate(rings)
     second = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings])
     found = np.zeros(len(points), bool)
@@ -42,7 +42,7 @@ def inside(rings: Rings, points: Array) -> NDArray[np.bool_]:
 
 
 def cross(rings: Rings) -> bool:
-    """Whether any two sides cross; sides that only touch do not."""
+    """Check whether any two sides cross; sides that only touch do not."""
     first = np.concatenate(rings)
     second = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings])
     step = max(_AT_ONCE // len(first), 1)
@@ -55,15 +55,15 @@ def cross(rings: Rings) -> bool:
 
 
 def _side(start: Array, end: Array, point: Array) -> Array:
-    """On which side of a line points are: above 0 on its left."""
+    """Compute the side of a line on which points are: above 0 on its left."""
     along, away = end - start, point - start
     return np.asarray(np.sign(along[..., 0] * away[..., 1] - along[..., 1] * away[..., 0]))
 
 
 def mended(rings: Rings) -> tuple[list[Rings], bool] | None:
-    """Parts of a polygon that crosses itself, by GEOS, and True; None where shapely is not there for it.
+    """Split a self-intersecting polygon with GEOS; returns parts and True, or None without shapely.
 
-    Other polygons are given as they are, and False. A part has no area of 0.
+    Other polygons are returned unchanged, with False. No part has zero area.
     """
     try:
         import shapely
@@ -85,12 +85,12 @@ def mended(rings: Rings) -> tuple[list[Rings], bool] | None:
 
 
 def triangles(rings: Rings) -> Array:
-    """Triangles (t, 3, 2) of a polygon, anticlockwise (constrained Delaunay, by GEOS).
+    """Triangulate a polygon: (t, 3, 2), anticlockwise (constrained Delaunay, by GEOS).
 
     Raises
     ------
     Error
-        shapely is not there.
+        shapely is not installed.
     """
     try:
         import shapely
@@ -101,14 +101,14 @@ def triangles(rings: Rings) -> Array:
 
 
 def anticlockwise(corners: Array) -> Array:
-    """Triangles (t, 3, 2) with their corners anticlockwise."""
+    """Orient triangles (t, 3, 2) anticlockwise."""
     first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     turned = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0] < 0.0
     return np.where(turned[:, None, None], corners[:, ::-1], corners)
 
 
 def spread(rings: Rings, steps: Sequence[float], most: int = 32) -> Array:
-    """Points (n, 2) inside, on a lattice of at most these steps along x and y, or `most` along a side."""
+    """Place points (n, 2) inside, on a lattice with at most these steps, or `most` points per side."""
     low, high = rings[0].min(axis=0), rings[0].max(axis=0)
     axes = (
         np.linspace(low[k], high[k], int(np.clip(np.ceil((high[k] - low[k]) / steps[k]), 1, most)) + 1)
@@ -119,7 +119,7 @@ def spread(rings: Rings, steps: Sequence[float], most: int = 32) -> Array:
 
 
 def middle(rings: Rings, within: Array) -> Array:
-    """A point (2,) inside: the outer ring's centroid, else the one of the points `within` nearest to it."""
+    """Find a point (2,) inside: the centroid of the outer ring, or the nearest of the points `within`."""
     outer = rings[0]
     start = outer[0]
     x, y = (outer - start).T

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 def from_levels(
     times: NDArray[np.float64], level: Callable[[int], NDArray], shape: tuple[int, ...]
 ) -> NDArray[np.float64]:
-    """Arrival time (s) from a level set function, negative in burned cells; NaN where never.
+    """Compute arrival times (s) from a level set function, negative in burned cells; NaN: never.
 
     Interpolation is linear in time between two maps. For a front of constant speed it is exact, as the level
     set function is the distance to the front. A cell that ignites between a map without fire (constant
@@ -38,7 +38,7 @@ def from_levels(
 def from_share(
     times: NDArray[np.float64], share: Callable[[int], NDArray], shape: tuple[int, ...]
 ) -> NDArray[np.float64]:
-    """Arrival time (s) from burned fractions: when half a cell has burned, linear between; NaN: never."""
+    """Compute arrival times (s), when half a cell has burned, from burned fractions; NaN: never."""
     return from_levels(times, lambda index: 0.5 - share(index), shape)
 
 
@@ -51,7 +51,7 @@ def held(
     other is the time of another event, such as first contact; such cells take the time of `from_share`.
     """
     by_share = from_share(times, share, arrival.shape)
-    late = np.searchsorted(times, by_share)  # beyond the last index where it is NaN
+    late = np.searchsorted(times, by_share)  # beyond the last index if NaN
     early = np.concatenate([[-np.inf], times])[late]
     within = (arrival > early) & (arrival <= np.concatenate([times, [-np.inf]])[late])
     return np.where(within, arrival, by_share)

@@ -15,7 +15,7 @@ from .grid import Grid
 from .model import Still
 
 _LAYERS = ("elevation", "category", "bulk_density", "base_height", "height")
-_DEFAULT_LOAD = 1.0  # kg/m2, fuel load where no file has one
+_DEFAULT_LOAD = 1.0  # kg/m2, fuel load if no file has one
 
 
 @dataclass
@@ -53,11 +53,11 @@ class LandRasters:
         raise input_error(layer.path, reason)
 
     def category(self, grid: Grid, projection: str) -> NDArray[np.float32] | None:
-        """Fuel model number of each cell."""
+        """Return the fuel model number of each cell."""
         return self.on("category", grid, projection)
 
     def surface(self, grid: Grid, projection: str) -> NDArray[np.float32]:
-        """Surface fuel (kg/m2) by fuel model number, else one load everywhere."""
+        """Return the surface fuel (kg/m2) by fuel model number, or one load everywhere without numbers."""
         number = self.category(grid, projection)
         if number is not None:
             self.say("surface fuel is the whole load of the standard fuel model's number, dead and live")
@@ -66,7 +66,7 @@ class LandRasters:
         return np.full(grid.shape, _DEFAULT_LOAD, np.float32)
 
     def canopy(self, grid: Grid, projection: str) -> NDArray[np.float32]:
-        """Canopy fuel (kg/m2): canopy bulk density times crown depth; 0 without these layers."""
+        """Compute canopy fuel (kg/m2): canopy bulk density times crown depth; 0 without these layers."""
         density, height = (self.on(name, grid, projection) for name in ("bulk_density", "height"))
         if density is None or height is None:
             self.say("no canopy data: none is assumed")
@@ -77,7 +77,7 @@ class LandRasters:
         return np.nan_to_num(density * depth)
 
     def elevation(self, grid: Grid, projection: str) -> NDArray[np.float32]:
-        """Elevation (m); 0 without data."""
+        """Return the elevation (m); 0 without data."""
         heights = self.on("elevation", grid, projection)
         if heights is None:
             self.say("no elevation data: the ground is flat, at 0 m")
@@ -85,7 +85,7 @@ class LandRasters:
         return np.nan_to_num(heights, nan=float(np.nanmin(heights)) if np.isfinite(heights).any() else 0.0)
 
     def complete(self, still: dict[str, Still], grid: Grid, fuel_grid: Grid, projection: str) -> None:
-        """Add elevation and fuels that a model's files lack, and collect the assumptions."""
+        """Add elevation and fuels if they are missing in a model's files, and collect the assumptions."""
         for name, find, where in (
             ("elevation", self.elevation, grid),
             ("surface_fuel", self.surface, fuel_grid),
@@ -114,7 +114,7 @@ def find(paths: list[Path], look: bool = False) -> LandRasters:
 
 
 def _layers(path: Path) -> dict[str, raster.Raster]:
-    """Layers of a file, by role."""
+    """Return layers of a file, by role."""
     if path.suffix.lower() == ".lcp":
         return raster.landscape(path)
     name = raster.role(path)
@@ -132,7 +132,7 @@ def _find_unnamed(land: LandRasters, paths: list[Path]) -> None:
             roles.setdefault(role, []).append(path)
     for role, candidates in roles.items():
         if len(candidates) > 1:
-            land.say(f"{len(candidates)} files beside it could be its {role}; name one with it to use it")
+            land.say(f"{len(candidates)} files next to it could be its {role}; name one of them to use it")
             continue
         try:
             layers = {k: v for k, v in _layers(candidates[0]).items() if k not in land.layers}

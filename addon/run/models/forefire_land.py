@@ -1,7 +1,7 @@
 """Landscape of ForeFire, a netCDF-3 file: fuel, altitude and wind, sampled at the points of a map.
 
-Each variable is (NT, NZ, NY, NX) with dimensions of its own. All cover the domain, which may be larger than
-the map. A value belongs to its cell's centre.
+Each variable is (NT, NZ, NY, NX) with its own dimensions. All cover the domain, which may be larger than
+the map. Values are at cell centres.
 """
 
 from __future__ import annotations
@@ -23,17 +23,17 @@ DOMAIN = ("SWx", "SWy", "Lx", "Ly", "refYear", "refDay", "BBoxWSEN", "t0", "Lt")
 
 
 def find(paths: list[Path], besides: Path) -> Path | None:
-    """Landscape file among files; None without one."""
+    """Find the landscape file among files; None without one."""
     return next((each for each in paths if each != besides and is_one(each)), None)
 
 
 def is_one(path: Path) -> bool:
-    """Whether a file is a landscape, by its variables."""
+    """Check by its variables whether a file is a landscape."""
     return bool(netcdf.names(path)[1] & {"fuel", "altitude", "windU"})
 
 
 def domain(path: Path | None) -> dict[str, Any]:
-    """Corner, size and geographic box of a landscape; empty if it has no size."""
+    """Return the corner, size and geographic box of a landscape; empty if it has no size."""
     if path is None:
         return {}
     file = netcdf.File(path)
@@ -52,7 +52,7 @@ class _Places:
     across: NDArray
 
     def nearest(self, values: NDArray) -> NDArray:
-        """Nearest-neighbour values at the points."""
+        """Sample nearest-neighbour values at the points."""
         row, column = (
             np.clip(np.floor(share * count), 0, count - 1).astype(int)
             for share, count in zip((self.up, self.across), values.shape, strict=True)
@@ -60,7 +60,7 @@ class _Places:
         return values[row[:, None], column[None, :]]
 
     def between(self, values: NDArray) -> NDArray[np.float32]:
-        """Bilinear values at the points; constant beyond the outermost cell centres."""
+        """Interpolate bilinearly at the points; constant beyond the outermost cell centres."""
         row, column = (
             np.clip(share * count - 0.5, 0, count - 1)
             for share, count in zip((self.up, self.across), values.shape, strict=True)
@@ -74,7 +74,7 @@ def take(
     """Sample a landscape's fuel, altitude and wind at points (m), and record their origin in `notes`."""
     box = domain(path)
     if not box:
-        notes.append(f"{path.name} has no size: that of the map is assumed")
+        notes.append(f"{path.name} has no size: the size of the map is assumed")
         box = {"SWx": 1.5 * x[0] - 0.5 * x[1], "SWy": 1.5 * y[0] - 0.5 * y[1]}
         box |= {"Lx": len(x) * (x[1] - x[0]), "Ly": len(y) * (y[1] - y[0])}
     places = _Places((y - box["SWy"]) / box["Ly"], (x - box["SWx"]) / box["Lx"])
@@ -101,12 +101,12 @@ def take(
 
 
 def _first(file: netcdf.File, name: str) -> NDArray:
-    """Cells (NY, NX) of the first time and level."""
+    """Return cells (NY, NX) of the first time and level."""
     return file.read(name, *[0] * (len(file.shape(name)) - 2))
 
 
 def _wind(file: netcdf.File, box: dict[str, Any], places: _Places, notes: list[str]) -> Wind | None:
-    """Wind from WindU and WindV, m/s; several times divide the domain's Lt seconds from t0 evenly."""
+    """Read WindU and WindV, m/s; several times divide the domain's Lt seconds from t0 evenly."""
     name = file.path.name
     if not {"windU", "windV"} <= set(file.variables):
         if "wind" in file:
@@ -136,7 +136,7 @@ def _wind(file: netcdf.File, box: dict[str, Any], places: _Places, notes: list[s
 
 
 def _is_table(path: Path) -> bool:
-    """Whether a file is a fuels table; fronts and scripts of the model have the ending .ff too."""
+    """Check whether a file is a fuels table; fronts and scripts of the model also end in .ff."""
     if path.suffix.lower() not in (".ff", ".csv"):
         return False
     with path.open(encoding="utf-8", errors="replace") as file:
@@ -148,4 +148,6 @@ def _loads(path: Path) -> dict[int, float]:
     try:
         return {int(row["Index"]): float(row["Sigmad"]) for row in rows}
     except (KeyError, ValueError, TypeError):
-        raise input_error(path, "is no fuels table of ForeFire with Index and Sigmad") from None
+        raise input_error(
+            path, "not a fuels table of ForeFire (columns Index and Sigmad are missing)"
+        ) from None

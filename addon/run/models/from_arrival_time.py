@@ -100,7 +100,7 @@ def model(
 
 
 def _blowing(wind: Wind | None, grid: Grid, times: NDArray[np.float64]) -> dict[str, Moving]:
-    """Wind fields of a run."""
+    """Return the wind fields of a run."""
     if wind is None:
         return {}
 
@@ -111,7 +111,7 @@ def _blowing(wind: Wind | None, grid: Grid, times: NDArray[np.float64]) -> dict[
 
 
 def begun(options: Options, path: Path) -> datetime:
-    """Time origin, which only the user can give.
+    """Return the time origin, which only the user can give.
 
     Raises
     ------
@@ -125,7 +125,7 @@ def begun(options: Options, path: Path) -> datetime:
 
 
 def with_start(options: Options, start: datetime) -> Options:
-    """Options with a start from files, unless the user gives one."""
+    """Return options with the start from files, unless the user gives one."""
     return options if options.start else replace(options, start=start)
 
 
@@ -139,7 +139,7 @@ class _Fuel:
 
 
 def _fuel(maps: Maps, grid: Grid, land: LandRasters, projection: str, notes: list[str]) -> _Fuel:
-    """Fuel from the maps or companion rasters; else by the model's heat per area, else constant."""
+    """Find fuel in maps or companion rasters; otherwise from the model's heat per area, or constant."""
     category = maps.category if maps.category is not None else land.category(grid, projection)
     canopy = np.nan_to_num(maps.canopy if maps.canopy is not None else land.canopy(grid, projection))
     burned, own = np.isfinite(maps.arrival), _own_heat(maps, grid, notes)
@@ -166,7 +166,7 @@ def _fuel(maps: Maps, grid: Grid, land: LandRasters, projection: str, notes: lis
 
 
 def _own_heat(maps: Maps, grid: Grid, notes: list[str]) -> NDArray | None:
-    """The model's heat per area (J/m2), at most that of the heaviest fuel; None if it has none."""
+    """Return the model's heat per area (J/m2), limited to the heaviest fuel; None if there is none."""
     if maps.per_area is not None:
         heats = np.nan_to_num(np.asarray(maps.per_area, np.float64))
         return np.minimum(heats, constants.HEAT_OF_COMBUSTION * fuels.HEAVIEST)

@@ -28,13 +28,13 @@ HEAVIEST = max(_LOAD.values())
 
 
 def loads(category: NDArray, table: str = "standard") -> NDArray[np.float32]:
-    """Fuel load (kg/m2) by fuel model number; 0 if unburnable. `table`: "sfire" or "standard"."""
+    """Look up the fuel load (kg/m2) by fuel model number; 0 if unburnable. `table`: "sfire" or "standard"."""
     known = dict(enumerate(SFIRE, 1)) if table == "sfire" else _LOAD
     return _look_up(category, known, 0.0)
 
 
 def burn_out(category: NDArray) -> NDArray[np.float32]:
-    """Burn-out time (s) by fuel model: from the front's arrival until a spot has burned out.
+    """Look up the burn-out time (s) by fuel model: from front arrival until a spot has burned out.
 
     The release has the form of `heat_from_intensity`, whose mean time is a third of its end. So it is three
     mean burning times of WRF-SFIRE (weight / 0.85). Scott and Burgan's models take the weight of Anderson's

@@ -12,7 +12,7 @@ Wind = Callable[[float], tuple[NDArray, NDArray]]
 
 
 def steps(u: NDArray, v: NDArray, begin: float, lasts: float) -> Wind:
-    """Piecewise constant wind: each value (nt, ny, nx) lasts `lasts` seconds, the end values longer."""
+    """Interpolate as steps: each value (nt, ny, nx) lasts `lasts` seconds, the end values longer."""
 
     def at(time: float) -> tuple[NDArray, NDArray]:
         index = int(np.clip((time - begin) // lasts, 0, len(u) - 1)) if len(u) > 1 else 0

@@ -32,13 +32,13 @@ class Grid:
 
     @classmethod
     def metres(cls, x: Array, y: Array, at: tuple[float, float]) -> Grid:
-        """Grid from metres east (nx,) and north (ny,) of a point, with degrees of the point's parallel."""
+        """Create a grid from metres east (nx,) and north (ny,) of a point, with degrees at its parallel."""
         north, east = metres_per_degree(at[0])
         return cls(at[0] + np.asarray(y, np.float64) / north, at[1] + np.asarray(x, np.float64) / east)
 
     @classmethod
     def projected(cls, x: Array, y: Array, projection: str) -> Grid:
-        """Grid from coordinates (nx,) and (ny,) in a projection.
+        """Create a grid from coordinates (nx,) and (ny,) in a projection.
 
         Raises
         ------
@@ -117,7 +117,9 @@ class Grid:
             if values.size == 0 or values.size > _LARGEST:
                 raise Error(f"a grid of {' x '.join(map(str, self.shape))} cells is invalid")
             if not np.isfinite(values).all() or np.abs(values).max() > limit:
-                raise Error(f"its {name}s are no places on the Earth; the file is damaged or in other units")
+                raise Error(
+                    f"its {name}s are not valid positions on the Earth; the file is damaged or in other units"
+                )
         return Placed(self.latitude, self.longitude) if self.latitude.ndim == 1 else _place(self)
 
 
@@ -248,7 +250,7 @@ class _Nearest:
 
 
 def _slope(values: Array, axis: int) -> Array:
-    """Gradient per cell over several cells: 32-bit longitudes resolve 0.65 m, and cells may be small."""
+    """Compute the gradient per cell over several cells: 32-bit longitudes resolve 0.65 m."""
     count = values.shape[axis]
     at = np.arange(count)
     low, high = np.maximum(at - _WIDE, 0), np.minimum(at + _WIDE, count - 1)
@@ -270,7 +272,7 @@ def _pyproj(projection: str):  # noqa: ANN202
 
 
 def project(projection: str, latitude: Array, longitude: Array) -> tuple[Array, Array]:
-    """Coordinates x and y in a projection."""
+    """Convert degrees to x and y in a projection."""
     transformer = _pyproj(projection)
     if transformer.source_crs.is_geographic:
         return longitude, latitude

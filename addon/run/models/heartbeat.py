@@ -14,7 +14,7 @@ _last = 0.0
 
 @contextmanager
 def to(say: Callable[[], None]) -> Iterator[None]:
-    """Context in which heartbeats call this function."""
+    """Call this function for heartbeats within the context."""
     _to.append(say)
     try:
         yield

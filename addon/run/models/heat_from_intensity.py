@@ -71,7 +71,7 @@ class Release:
         )
 
     def flux(self, index: int) -> NDArray[np.float32]:
-        """Mean heat flux (ny, nx), W/m2, over the interval that ends at a time."""
+        """Compute the mean heat flux (ny, nx), W/m2, over the interval that ends at a time."""
         mean_flux = np.zeros(self.shape, np.float32)
         if index == 0:
             return mean_flux
@@ -84,14 +84,14 @@ class Release:
 
 
 def of_fuel(fuel: NDArray) -> NDArray[np.float64]:
-    """Heat per area, J/m2, of fuel (kg/m2) that burns completely."""
+    """Compute the heat per area, J/m2, of fuel (kg/m2) that burns completely."""
     return constants.HEAT_OF_COMBUSTION * np.nan_to_num(np.asarray(fuel, np.float64))
 
 
 def of_intensity(
     arrival: NDArray, intensity: NDArray, speed: NDArray | None, cell: tuple[float, float]
 ) -> NDArray[np.float64]:
-    """Heat per area, J/m2, from fireline intensity (W/m) and rate of spread (m/s): I / R (Byram 1959).
+    """Compute heat per area, J/m2: fireline intensity (W/m) / rate of spread (m/s), Byram 1959.
 
     Without `speed`, rate of spread comes from arrival times (s) on cells (width, height) in m. Cells without
     a value take the median of the others. The heaviest fuel model is the upper limit.
@@ -107,10 +107,10 @@ def of_intensity(
 
 
 def spread(arrival: NDArray, cell: tuple[float, float]) -> NDArray[np.float64]:
-    """Rate of spread (m/s) through cells (width, height) in m: inverse gradient of arrival time.
+    """Compute the rate of spread (m/s) in cells (width, height) in m: inverse gradient of arrival time.
 
     Along each axis the smaller one-sided difference counts. The larger one may come from another front or
-    from a stop before the cell, which is no slow front. Infinite for cells without neighbours.
+    from a stop before the cell, which is not a slow front. Infinite for cells without neighbours.
     """
     padded = np.pad(np.asarray(arrival, np.float64), 1, constant_values=np.nan)
     here, inner = padded[1:-1, 1:-1], np.s_[1:-1]

@@ -29,7 +29,7 @@ OF_AIR = ("temperature", "wind_east", "wind_north")
 
 @dataclass(frozen=True)
 class Options:
-    """User's information about files that lack it.
+    """User's information that is missing in the files.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class Options:
     name
         Name of the run; "": the folder's name with the model's.
     zone
-        Time zone of the run, by default that of the offset of `start`; "": none.
+        Time zone of the run, by default from the offset of `start`; "": none.
     """
 
     start: datetime | None = None
@@ -62,7 +62,7 @@ class Options:
         cls, start: str, at: str, projection: str, interval: float, paths: list[Path],
         name: str = "", there: str = "",
     ) -> Options:  # fmt: skip
-        """Options from command line text.
+        """Parse options from command line text.
 
         Raises
         ------
@@ -118,7 +118,7 @@ class Model:
     close: Callable[[], None] = lambda: None
 
     def grid_of(self, field: str) -> Grid:
-        """Grid of a field."""
+        """Return the grid of a field."""
         if field in ON_FUEL:
             return self.fuel_grid
         return self.air if self.air is not None and (field in OF_AIR or field in self.levels) else self.grid
@@ -133,12 +133,12 @@ def _moment(text: str) -> datetime:
     try:
         moment = datetime.fromisoformat(text)
     except ValueError:
-        raise UsageError(f"--start: {text!r} is no date and time such as 2014-09-17T04:45:00Z") from None
+        raise UsageError(f"--start: {text!r} is not a date and time such as 2014-09-17T04:45:00Z") from None
     return moment.astimezone(UTC) if moment.tzinfo else moment.replace(tzinfo=UTC)
 
 
 def _zone(start: str) -> str:
-    """Time zone of a start's offset; UTC gives none."""
+    """Return the time zone of a start's offset; "" for UTC."""
     offset = datetime.fromisoformat(start).utcoffset() if start else None
     return zone.of_offset(round(offset.total_seconds() / 60.0)) if offset else ""
 
@@ -150,4 +150,4 @@ def _place(text: str) -> tuple[float, float]:
             return latitude, longitude
     except ValueError:
         pass
-    raise UsageError(f"--at: {text!r} is no latitude and longitude such as 38.78,-120.6")
+    raise UsageError(f"--at: {text!r} is not a latitude and longitude such as 38.78,-120.6")

@@ -20,7 +20,7 @@ _CACHE = 1 << 28  # bytes of cached unpacked chunks
 
 
 def is_netcdf(path: Path) -> bool:
-    """Whether a file begins with netCDF's signature."""
+    """Check whether a file begins with netCDF's signature."""
     try:
         with path.open("rb") as file:
             return file.read(8).startswith(_MAGIC)
@@ -29,7 +29,7 @@ def is_netcdf(path: Path) -> bool:
 
 
 def names(path: Path) -> tuple[set[str], set[str]]:
-    """Names of a file's dimensions and variables; empty if it is no netCDF file or is unreadable."""
+    """List the names of a file's dimensions and variables; empty if it is not a readable netCDF file."""
     if not is_netcdf(path):
         return set(), set()
     data = File(path)
@@ -76,14 +76,14 @@ class File:
             raise self.error(f"cannot be read as netCDF ({why}); it is damaged or incomplete") from error
 
     def error(self, reason: str) -> InputError:
-        """Error about this file."""
+        """Create an error about this file."""
         return input_error(self.path, reason)
 
     def __contains__(self, name: str) -> bool:
         return name in self.variables
 
     def shape(self, name: str) -> tuple[int, ...]:
-        """Shape of a variable.
+        """Return the shape of a variable.
 
         Raises
         ------
@@ -118,7 +118,7 @@ class File:
             return _decoded(variable, np.asarray(variable[index if index else Ellipsis]))
 
     def attribute(self, name: str, variable: str = "", otherwise: Any = None) -> Any:
-        """An attribute of the file or of one of its variables."""
+        """Read an attribute of the file or of one of its variables."""
         with self.sense():
             owner = self.variables[variable] if variable else self.data
             return owner.getncattr(name) if name in owner.ncattrs() else otherwise
@@ -129,7 +129,7 @@ class File:
 
 
 def _keep_chunks(variable: Any) -> None:
-    """If a chunk holds several times, cache all chunks of a time, so that each is unpacked once."""
+    """Cache all chunks of a time if a chunk has several times, so that each is unpacked once."""
     chunks = variable.chunking()
     if not isinstance(chunks, list) or len(chunks) < 3 or chunks[0] < 2:
         return

@@ -15,7 +15,7 @@ _UNSAID = {4: 0xFFFFFFFF, 8: 0xFFFFFFFFFFFFFFFF}  # record counts of files still
 
 
 def needed(path: Path) -> int:
-    """Bytes up to the end of the last value in a file's header.
+    """Compute the number of bytes up to the end of the last value in a file's header.
 
     Raises
     ------

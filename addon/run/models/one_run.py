@@ -53,7 +53,7 @@ def of_series(paths: list[Path]) -> None:
 
 
 def of_one(paths: list[Path]) -> Path:
-    """The single file of a model that writes one.
+    """Return the single file of a model that writes one.
 
     Raises
     ------
@@ -66,7 +66,7 @@ def of_one(paths: list[Path]) -> Path:
 
 
 def _corner(path: Path) -> tuple[float, float] | None:
-    """Latitude and longitude of the first cell, if the file has them per cell; else None."""
+    """Read latitude and longitude of the first cell, if the file has them per cell; otherwise None."""
     if not netcdf.is_netcdf(path):
         return None
     try:

@@ -44,7 +44,7 @@ class Raster:
     whole: bool = False
 
     def grid(self, projection: str, at: tuple[float, float] | None) -> tuple[Grid, str]:
-        """Grid of the raster, and a note on assumptions about its georeference."""
+        """Return the grid of the raster, and a note on assumptions about its georeference."""
         known = projection or self.projection
         if known:
             return Grid.projected(self.x, self.y, known), ""
@@ -61,19 +61,19 @@ class Raster:
 
 
 def local(x: NDArray, y: NDArray, at: tuple[float, float] | None) -> tuple[Grid, str]:
-    """Grid in metres with its centre at a point, and a note about it."""
+    """Create a grid in metres with its centre at a point, and a note about it."""
     place = at or (0.0, 0.0)
     grid = Grid.metres(x - (x[0] + x[-1]) / 2, y - (y[0] + y[-1]) / 2, place)
-    said = "as --at says" if at else "for want of one; --at LAT,LON places it, --projection EPSG:... too"
+    said = "from --at" if at else "(arbitrary); set it with --at LAT,LON or --projection EPSG:..."
     return (
         grid,
-        f"a grid in metres of no projection: its middle is put at {place[0]:g}, {place[1]:g} {said}",
+        f"a grid in metres without a projection: its centre is assumed at {place[0]:g}, {place[1]:g} {said}",
     )
 
 
 @lru_cache(1)  # companion layers are looked up in turn, mostly in one projection
 def _places(grid: Grid, projection: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Coordinates x and y (ny, nx) of a grid's cells in a projection."""
+    """Convert a grid's cells to x and y (ny, nx) in a projection."""
     latitude, longitude = grid.latitude, grid.longitude
     if latitude.ndim == 1:
         latitude, longitude = np.meshgrid(latitude, longitude, indexing="ij")
@@ -86,7 +86,7 @@ def _index(axis: NDArray, at: NDArray) -> NDArray[np.int64]:
 
 
 def role(path: Path) -> str:
-    """Role of a raster by its name: a key of the table above, or empty."""
+    """Find the role of a raster by its name: a key of the table above, or empty."""
     stem = re.sub(r"\d{5,}", " ", path.stem.lower())
     for name, words in _ROLES.items():
         if re.search(rf"(?<![a-z])(?:{words})(?![a-z])", stem):
@@ -95,7 +95,7 @@ def role(path: Path) -> str:
 
 
 def is_raster(path: Path) -> bool:
-    """Whether a file is a GeoTIFF or an ASCII grid, by its first bytes, or BIL with a header."""
+    """Check whether a file is a GeoTIFF or ASCII grid, by its first bytes, or BIL with a header."""
     try:
         with path.open("rb") as file:
             head = file.read(64)
@@ -107,7 +107,7 @@ def is_raster(path: Path) -> bool:
 
 
 def is_lcp(path: Path) -> bool:
-    """Whether a file has the header and size of an LCP (GDAL, lcpdataset.cpp)."""
+    """Check whether a file has the header and size of an LCP (GDAL, lcpdataset.cpp)."""
     try:
         with path.open("rb") as file:
             head = np.frombuffer(file.read(12), "<i4")
@@ -171,7 +171,7 @@ def _read_ascii(path: Path) -> Raster:
                 break
             head[words[0].lower()] = float(words[1])
         if not {"ncols", "nrows", "cellsize"} <= set(head):
-            raise _error(path, "its head lacks ncols, nrows or cellsize")
+            raise _error(path, "its header has no ncols, nrows or cellsize")
         nx, ny, side = int(head["ncols"]), int(head["nrows"]), head["cellsize"]
         if not (0 < nx * ny <= _LARGEST and nx > 0 and side > 0):
             raise _error(path, f"has {ny} rows, {nx} columns and cells of {side}, which makes no sense")
@@ -191,16 +191,16 @@ def _read_ascii(path: Path) -> Raster:
 
 
 def _wrong_word(path: Path, text: str, above: int) -> InputError:
-    """Error at the first word that is no number."""
+    """Create the error for the first word that is not a number."""
     for number, line in enumerate(text.splitlines(), above + 1):
         for word in re.finditer(r"\S+", line):
             try:
                 float(word[0])
             except ValueError:
                 return input_error(
-                    path, f"{word[0][:40]!r} is no number", line=number, column=word.start() + 1
+                    path, f"{word[0][:40]!r} is not a number", line=number, column=word.start() + 1
                 )
-    return _error(path, "holds something that is no number")
+    return _error(path, "contains text that is not a number")
 
 
 def _mask_no_data(values: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -210,7 +210,7 @@ def _mask_no_data(values: NDArray[np.float32]) -> NDArray[np.float32]:
 
 
 def _prj(path: Path) -> str:
-    """Projection from a .prj file of the same name; empty without one."""
+    """Read the projection from a .prj file of the same name; empty without one."""
     try:
         return path.with_suffix(".prj").read_text(errors="replace").strip()
     except OSError:

@@ -37,7 +37,7 @@ _LARGEST = 1 << 31  # bytes of one time of one field at most
 
 
 def part_of(out: Path) -> Path:
-    """Temporary folder that becomes `out`."""
+    """Return the temporary folder that becomes `out`."""
     return out.with_name(f".{out.name}.part")
 
 
@@ -180,7 +180,7 @@ def _journal(part: Path, inputs: str, done: int, open_files: dict[str, BinaryIO]
 
 
 def _done(part: Path, inputs: str) -> int:
-    """Number of times already written from the same inputs; data from other inputs is removed."""
+    """Count the times already written from the same inputs; data from other inputs is removed."""
     try:
         journal = json.loads((part / JOURNAL).read_text(encoding="utf-8"))
         if journal["inputs"] == inputs:
@@ -206,7 +206,7 @@ def _room(out: Path, need: int) -> None:
 
 
 def description(model: Model, inputs: str) -> str:
-    """Text of run.toml; `inputs` as in `write`."""
+    """Write the text of run.toml; `inputs` as in `write`."""
     lines = [
         f"name = {_text(model.name)}",
         f"start = {model.start:%Y-%m-%dT%H:%M:%S.%f}Z",
@@ -233,7 +233,7 @@ def description(model: Model, inputs: str) -> str:
 
 
 def moved(model: Model) -> list[str]:
-    """Position errors of resampled grids, each once."""
+    """List the position errors of resampled grids, each once."""
     said = {
         grid: f"{before.replace('_', ' ')}grid: {grid.placed.error}" for before, grid in model.grids.items()
     }
@@ -241,5 +241,5 @@ def moved(model: Model) -> list[str]:
 
 
 def _text(value: str) -> str:
-    """TOML string, with JSON's escapes."""
+    """Encode a TOML string with JSON's escapes."""
     return json.dumps("".join(each for each in value if each.isprintable()), ensure_ascii=False)

@@ -128,7 +128,7 @@ class Observations:
 
 
 def features(path: Path) -> list[Feature] | Detections:
-    """All features of a file of any known format.
+    """Read all features of a file of any known format.
 
     Raises
     ------
@@ -137,7 +137,7 @@ def features(path: Path) -> list[Feature] | Detections:
     """
     reader = _reader(path)
     if path.exists() and not path.is_file():  # opening a pipe would block
-        raise input_error(path, "is no file; name one that holds observations")
+        raise input_error(path, "is not a file; name a file of observations")
     try:
         return reader.read(path)
     except Error:
@@ -150,18 +150,18 @@ def features(path: Path) -> list[Feature] | Detections:
 
 
 def beside(folder: str | Path) -> list[Path]:
-    """Observation files in a run's folder."""
+    """List the observation files in a run's folder."""
     return inside(Path(folder) / FOLDER)
 
 
 def inside(folder: Path) -> list[Path]:
-    """Observation files in a folder; empty without such a folder."""
+    """List the observation files in a folder; empty without such a folder."""
     entries = sorted(folder.iterdir()) if folder.is_dir() else []
     return [path for path in entries if path.suffix.lower() in _READERS and path.name[0] != "."]
 
 
 def is_one(path: str | Path) -> bool:
-    """Whether a file name has the extension of an observation format; a time after ``@`` is allowed."""
+    """Check whether a file name has an extension of observations; a time after ``@`` is allowed."""
     return dates.without(path)[0].suffix.lower() in _READERS
 
 

@@ -41,24 +41,24 @@ def without(name: str | Path) -> tuple[Path, datetime | None]:
     Raises
     ------
     UsageError
-        The text after the ``@`` is no time.
+        The text after the ``@`` is not a time.
     """
     head, mark, tail = str(name).rpartition("@")
     if not mark or Path(name).exists():
         return Path(name), None
     moment = _moment(tail)
     if moment is None:
-        raise UsageError(f'"{tail}" after the @ of {head} is no moment such as 2014-09-18T04:00-07:00')
+        raise UsageError(f'"{tail}" after the @ of {head} is not a time such as 2014-09-18T04:00-07:00')
     return Path(head), moment[0]
 
 
 def parse(path: Path, feature: Feature, assumptions: dict[str, None]) -> datetime:
-    """Date of a feature in UTC; assumptions are added to `assumptions`.
+    """Parse the date of a feature in UTC; assumptions are added to `assumptions`.
 
     Raises
     ------
     InputError
-        There is no date, or only a day without hour: a fire can double within a day.
+        The date is missing, or has no hour: a fire can double its area within a day.
     """
     known = {key.lower(): value for key, value in feature.properties.items()}
     days = ""
@@ -77,13 +77,13 @@ def parse(path: Path, feature: Feature, assumptions: dict[str, None]) -> datetim
         zone = "" if moment[1] else " and UTC"
         assumptions[f"{path.name}: the moment is taken from the file's name{zone}"] = None
         return moment[0]
-    what = f"{days} is no day with its hour" if days else f"none of {', '.join(NAMES[:6])} ... is there"
+    what = f"{days} is not a date with an hour" if days else f"none of {', '.join(NAMES[:6])} ... is there"
     where = f"{feature.place}: " if feature.place else ""
     raise input_error(path, f"{where}has no date ({what}); write {path.name}@2014-09-18T04:00-07:00")
 
 
 def _moment(value: object) -> tuple[datetime, bool] | None:
-    """UTC, and whether a zone was given; None without a time, or for a day without an hour."""
+    """Parse a time: UTC, and whether a zone was given; None without a time, or for a day without an hour."""
     try:
         return _read(value)
     except OverflowError:  # before the year 1, or after 9999
@@ -104,7 +104,7 @@ def _read(value: object) -> tuple[datetime, bool] | None:
 
 
 def _epoch(number: float) -> tuple[datetime, bool] | None:
-    """Parse an epoch time: ArcGIS writes milliseconds since 1970, others seconds; 20140918 is no time."""
+    """Parse an epoch time: ArcGIS writes milliseconds since 1970, others seconds; 20140918 is not a time."""
     seconds = number / 1e3 if abs(number) >= 1e11 else number
     if seconds < 3e8:  # before 1979, earlier than any satellite: a day or another number
         return None

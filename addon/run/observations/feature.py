@@ -21,7 +21,7 @@ Polygon = tuple[Ring, ...]
 class Feature:
     """Map feature: properties, and polygons as lists of rings (n, 2), degrees east and north, outer first.
 
-    `points` (n, 2) are those of a point feature, `lines` (n, 2) those of a line feature. `place` is its place
+    `points` (n, 2) belong to a point feature, `lines` (n, 2) to a line feature. `place` is its position
     in the file, for messages.
     """
 
@@ -33,12 +33,12 @@ class Feature:
 
 
 def ring(path: Path, place: str, points: Iterable[Any]) -> Ring:
-    """Ring of at least three corners, closed or not, in degrees.
+    """Convert to a ring of at least three corners, closed or not, in degrees.
 
     Raises
     ------
     InputError
-        The ring is too short, or its numbers are no degrees.
+        The ring is too short, or its numbers are not degrees.
     """
     corners = degrees(path, place, points)
     if len(corners) > 1 and (corners[0] == corners[-1]).all():
@@ -49,26 +49,28 @@ def ring(path: Path, place: str, points: Iterable[Any]) -> Ring:
 
 
 def degrees(path: Path, place: str, points: Iterable[Any]) -> Ring:
-    """Positions (n, 2) in degrees.
+    """Convert to positions (n, 2) in degrees.
 
     Raises
     ------
     InputError
-        The numbers are no degrees.
+        The numbers are not degrees.
     """
     try:
         positions = np.array([(float(point[0]), float(point[1])) for point in points]).reshape(-1, 2)
     except (TypeError, ValueError, OverflowError, IndexError, KeyError):
-        raise input_error(path, f"{place} has a ring that is no list of longitudes and latitudes") from None
+        raise input_error(
+            path, f"{place} has a ring that is not a list of longitudes and latitudes"
+        ) from None
     if not len(positions):
         return positions
     if not np.isfinite(positions).all():
-        raise input_error(path, f"{place} has a position that is no number")
+        raise input_error(path, f"{place} has a position that is not a number")
     wide, high = np.abs(positions).max(axis=0)
     if wide > 540.0 or high > 90.0:
         raise input_error(
             path,
-            f"{place} lies at {positions[0, 0]:g}, {positions[0, 1]:g}, which are no degrees east and north: "
+            f"{place} lies at {positions[0, 0]:g}, {positions[0, 1]:g}, not degrees east and north: "
             "save it in WGS84 (EPSG:4326)",
         )
     return positions

@@ -18,20 +18,18 @@ _LOW = 30.0  # of 100, below which MODIS's confidence class is low
 
 
 def read(path: Path) -> Detections:
-    """Read detections, without those of low confidence or of no vegetation fire (`type` above 0).
+    """Read detections of vegetation fires (`type` 0) that do not have low confidence.
 
     Raises
     ------
     InputError
-        The file is no FIRMS table, or a row is invalid.
+        The file is not a FIRMS table, or a row is invalid.
     """
     with path.open(encoding="utf-8-sig", errors="replace", newline="") as file:
         table = csv.DictReader(file)
         names = [name.strip().lower() for name in table.fieldnames or ()]
         if lacking := [name for name in _NEEDED if name not in names]:
-            raise input_error(
-                path, f"no detections of FIRMS: there is no column {', '.join(lacking)}", line=1
-            )
+            raise input_error(path, f"not detections of FIRMS: missing columns {', '.join(lacking)}", line=1)
         table.fieldnames = names
         rows = [(table.line_num, row) for row in table]
     confident = [(line, row) for line, row in rows if not _low(row)]
@@ -43,7 +41,7 @@ def read(path: Path) -> Detections:
 
 
 def _low(row: dict[str, str]) -> bool:
-    """Whether confidence is low: class l, n or h of VIIRS, 0 to 100 of MODIS."""
+    """Check whether confidence is low: class l, n or h of VIIRS, 0 to 100 of MODIS."""
     said = str(row.get("confidence") or "").strip().lower()
     number = finite(said)
     low = said in ("l", "low") if number is None else number < _LOW
@@ -51,10 +49,10 @@ def _low(row: dict[str, str]) -> bool:
 
 
 def _numbers(path: Path, line: int, row: dict[str, str]) -> tuple[float, float, float]:
-    """Latitude, longitude, and the pixel's longer side (m)."""
+    """Parse latitude, longitude, and the pixel's longer side (m)."""
     latitude, longitude = finite(row["latitude"]), finite(row["longitude"])
     if latitude is None or longitude is None or abs(latitude) > 90.0 or abs(longitude) > 360.0:
-        raise input_error(path, "its latitude and longitude are no degrees", line=line)
+        raise input_error(path, "its latitude and longitude are not degrees", line=line)
     sides = [finite(row.get(name)) or 0.0 for name in ("scan", "track")]
     if 0.0 < max(sides) < 50.0:
         return latitude, longitude, 1e3 * max(sides)
@@ -70,4 +68,4 @@ def _time(path: Path, line: int, row: dict[str, str]) -> datetime:
             return datetime.strptime(day + hour, form).replace(tzinfo=UTC)
         except ValueError:
             continue
-    raise input_error(path, f'acq_date "{day}" with acq_time "{hour}" is no moment', line=line)
+    raise input_error(path, f'acq_date "{day}" with acq_time "{hour}" is not a time', line=line)

@@ -17,7 +17,7 @@ def read(path: Path) -> list[Feature]:
     Raises
     ------
     InputError
-        The file is no GeoJSON, or has another reference system than degrees.
+        The file is not GeoJSON, or has another reference system than degrees.
     """
     try:
         whole = json.loads(path.read_text(encoding="utf-8-sig"))
@@ -33,7 +33,7 @@ def read(path: Path) -> list[Feature]:
     if whole["type"] == "FeatureCollection":
         features = whole.get("features")
         if not isinstance(features, list):
-            raise input_error(path, 'no GeoJSON: its "features" are no list')
+            raise input_error(path, 'not GeoJSON: its "features" are not a list')
     else:
         features = [whole if whole["type"] == "Feature" else {"geometry": whole}]
     said = {name: item for name, item in whole.items() if isinstance(item, str | int | float)}
@@ -97,13 +97,13 @@ def _polygons(path: Path, place: str, geometry: Any) -> Iterator[Polygon]:
     if kind not in ("Polygon", "MultiPolygon", "GeometryCollection") or parts == []:
         return
     if not isinstance(parts, list):
-        raise input_error(path, f"{place} is a {kind} without a list of what it is made of")
+        raise input_error(path, f"{place} is a {kind} without a list of its parts")
     if kind == "GeometryCollection":
         for part in parts:
             yield from _polygons(path, place, part)
         return
     for polygon in [parts] if kind == "Polygon" else parts:
         if not isinstance(polygon, list):
-            raise input_error(path, f"{place} has a polygon that is no list of rings")
+            raise input_error(path, f"{place} has a polygon that is not a list of rings")
         if polygon:
             yield tuple(ring(path, place, inner if isinstance(inner, list) else [None]) for inner in polygon)

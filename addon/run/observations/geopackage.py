@@ -25,7 +25,7 @@ def read(path: Path) -> list[Feature]:
     Raises
     ------
     InputError
-        The file is no GeoPackage, or pyproj is needed and missing.
+        The file is not a GeoPackage, or pyproj is needed and missing.
     """
     path.stat()  # raises for a missing file; SQLite would create one
     try:
@@ -84,12 +84,12 @@ def parts_of(blob: bytes) -> Iterator[Part]:
 
 
 def points(blob: bytes) -> list[Ring]:
-    """Points (2,) of a geometry blob, east and north; none of one that is damaged or no point."""
+    """Decode the points (2,) of a geometry blob, east and north; none if damaged or of another type."""
     return _of_kind(blob, "point")
 
 
 def polygons(blob: bytes) -> tuple[Polygon, ...]:
-    """Polygons of a geometry blob as rings (n, 2), the outer first; none of one that is damaged."""
+    """Decode the polygons of a geometry blob as rings (n, 2), outer first; none if it is damaged."""
     return tuple(
         tuple(each[:-1] if len(each) > 1 and (each[0] == each[-1]).all() else each for each in rings)
         for rings in _of_kind(blob, "polygon")

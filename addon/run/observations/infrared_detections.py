@@ -1,6 +1,6 @@
 """Infrared heat classes: class of a feature that an infrared flight mapped.
 
-Classes and names are those of the layers "IR Polygon" and "IR Point" of the National Interagency Fire Center
+Classes and names follow the layers "IR Polygon" and "IR Point" of the National Interagency Fire Center
 (services.arcgis.com/V6ZHFr6zdgNZuVG0, NIFC/FeatureServer/7 and /3, field FeatureCategory, after the NWCG's
 standard for incidents, GSTOP): "IR Heat Perimeter", "IR Intense Heat", "IR Scattered Heat", "IR Isolated Heat
 Source", "Possible IR Heat Source", "Area Covered by IR Flight" and "Cloud Cover". NIROPS of the USDA Forest
@@ -34,7 +34,7 @@ _GATE = r"heat|(^|[^a-z])ir([^a-z]|$)|cloud[ _-]*cover|no[ _-]*data"
 
 
 def kind(path: Path, feature: Feature) -> str:
-    """Class of a feature: one of `KINDS`, `PERIMETER`, `NOTHING` (no heat), or "" if unclassified.
+    """Classify a feature: one of `KINDS`, `PERIMETER`, `NOTHING` (no heat), or "" if unclassified.
 
     Class properties come first. Then come the names of the feature, its layer and folders, in which the word
     must occur with "heat" or "IR". The file's name comes last.

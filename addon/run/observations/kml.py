@@ -20,7 +20,7 @@ def read(path: Path) -> list[Feature]:
     Raises
     ------
     InputError
-        The file is no KML.
+        The file is not KML.
     """
     text = _unpacked(path) if path.suffix.lower() == ".kmz" else path.read_bytes()
     if b"<!ENTITY" in text:
@@ -51,7 +51,7 @@ def _unpacked(path: Path) -> bytes:
 
 
 def _placemarks(path: Path, folder: ElementTree.Element, inherited: dict[str, str]) -> Iterator[Feature]:
-    """Placemarks of a folder and its subfolders; a folder's time applies to placemarks without one."""
+    """Yield placemarks of a folder and its subfolders; a folder's time applies to those without one."""
     known = inherited | _time(folder)
     if _tag(folder) == "Folder" and (called := _name(folder)):
         known["folder"] = f"{called}/{known['folder']}" if "folder" in known else called
@@ -81,7 +81,7 @@ def _points(path: Path, place: str, placemark: ElementTree.Element) -> Ring:
 
 
 def _time(element: ElementTree.Element) -> dict[str, str]:
-    """`when` of a TimeStamp; the end of a TimeSpan, by which all of it has burned, else its begin."""
+    """Return `when` of a TimeStamp, or the end of a TimeSpan, when all has burned, otherwise its begin."""
     for child in element:
         if _tag(child) in ("TimeStamp", "TimeSpan"):
             times = {_tag(each): (each.text or "").strip() for each in child}

@@ -44,7 +44,7 @@ def to_degrees(path: Path, system: str, points: NDArray[np.float64]) -> NDArray[
 
 
 def _plain(text: str) -> bool:
-    """Whether well-known text means WGS84 or NAD83 degrees from Greenwich."""
+    """Check whether well-known text means WGS84 or NAD83 degrees from Greenwich."""
     return any(name in text for name in ("WGS_1984", "WGS 84", "North_American_1983", "NAD83")) and (
         "0.0174532925" in text and '"Greenwich",0' in text.replace(" ", "")
     )

@@ -2,7 +2,7 @@
 
 A module has ``NAME``, the format's name for people, and ``sniff(path) -> bool``, whether a file or folder has
 the format. Firetwin's own format has ``open(path) -> Run``. Those of fire models have ``read(paths, options)
--> Model``. They run in a process of their own (jobs/convert.py), as damaged files may crash it.
+-> Model``. They run in a separate process (jobs/convert.py), as damaged files can crash it.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def open(path: str | Path) -> Run:
 
 
 def foreign(path: Path) -> bool:
-    """Whether a path looks like a fire model's output, by its first bytes alone; nothing is parsed."""
+    """Check by its first bytes whether a path looks like output of a fire model; nothing is parsed."""
     if not path.is_dir():
         return _one(path)
     return not folder.sniff(path) and any(_one(each) for each in path.iterdir() if each.is_file())
@@ -53,12 +53,12 @@ def _one(path: Path) -> bool:
 
 
 def gathered(paths: list[Path]) -> list[Path]:
-    """Collect these files and those in these folders.
+    """Collect these files and the files in these folders.
 
     Raises
     ------
     InputError
-        There are no files, or far too many.
+        The folders have no files, or far too many.
     """
     files: list[Path] = []
     for path in paths:
@@ -67,9 +67,9 @@ def gathered(paths: list[Path]) -> list[Path]:
         inner = [path] if path.is_file() else [file for file in sorted(path.iterdir()) if file.is_file()]
         files += [file for file in inner if file not in files]
         if len(files) > _MANY:
-            raise input_error(path, f"holds more than {_MANY:,} files; give those of one run")
+            raise input_error(path, f"holds more than {_MANY:,} files; give the files of one run")
     if not files:
-        raise input_error(paths[0], "is a folder without files; give that of a model's output")
+        raise input_error(paths[0], "is a folder without files; give the output folder of a model")
     return files
 
 
@@ -105,7 +105,7 @@ def reader(paths: list[Path]) -> ModuleType:
 
 
 def _why(paths: list[Path]) -> str:
-    """Most likely reason why no reader recognises the files."""
+    """Give the most likely reason why no reader recognises the files."""
     from ..models import raster
 
     first = paths[0]
@@ -117,7 +117,7 @@ def _why(paths: list[Path]) -> str:
     ):
         return f"does not begin as a {first.suffix} file does; it is damaged or something else"
     if any(path.suffix.lower() == ".lcp" for path in paths):
-        return "a landscape alone is no fire: give the arrival times of a fire on it, too"
+        return "a landscape without a fire: give its arrival times too"
     if kind == ".npz":
         return "has no array time_of_arrival, by which pyretechnics' output is known"
     if raster.is_raster(first):

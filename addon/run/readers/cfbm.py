@@ -25,7 +25,7 @@ _TIME = re.compile(r"(\d{4})-(\d\d)-(\d\d)[_T ](\d\d)\D?(\d\d)\D?(\d\d)")
 
 
 def sniff(path: Path) -> bool:
-    """Whether a file has the model's variables and dimensions."""
+    """Check whether a file has the model's variables and dimensions."""
     dimensions, variables = netcdf.names(path)
     return {"nx", "ny"} <= dimensions and {"lats", "lons", "fire_area", "fgrnhfx"} <= variables
 
@@ -61,11 +61,11 @@ def read(paths: list[Path], options: Options) -> Model:
         "burned_fraction": lambda i: np.clip(np.nan_to_num(get("fire_area", i)), 0, 1),
     }
     notes = [
-        "times are those of the files' names, as UTC",
+        "times are taken from the file names, as UTC",
         "heat flux is fgrnhfx (sensible), a mean over the model's last step, of unsaid length",
         "the model never sets the flux of the first file: it is 0 there where fire_area is",
         "burned fraction is fire_area: burned areas are sums of burned shares of cells",
-        "latitude and longitude on a sphere of 6370 km are taken as those of WGS84",
+        "latitude and longitude on a sphere of 6370 km are used as WGS84 coordinates",
     ]
     if "uf" in first and "vf" in first:
         moving |= {"wind_east": lambda i: wind(i)[0], "wind_north": lambda i: wind(i)[1]}

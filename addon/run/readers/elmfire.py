@@ -22,7 +22,7 @@ _UNITS = {"flin": ("intensity", 1e3), "vs": ("speed", _FOOT_A_MINUTE), "hpua": (
 
 
 def sniff(path: Path) -> bool:
-    """Whether a raster has the model's name for arrival times, as its values do not identify it."""
+    """Check whether a raster has the model's name for arrival times, as its values do not identify it."""
     return bool(_ARRIVAL.search(path.stem)) and raster.is_raster(path)
 
 

@@ -19,7 +19,7 @@ _UNITS = {"intensity": 1e3, "speed": 1 / 60.0, "per_area": 1e3}  # kW/m, m/min, 
 
 
 def sniff(path: Path) -> bool:
-    """Whether a raster holds arrival times, by its name."""
+    """Check by its name whether a raster has arrival times."""
     return raster.is_raster(path) and raster.role(path) == "arrival"
 
 

@@ -11,7 +11,7 @@ NAME = "a folder with run.toml"
 
 
 def sniff(path: Path) -> bool:
-    """Whether the folder contains a run.toml."""
+    """Check whether the folder contains a run.toml."""
     return (path / "run.toml").is_file()
 
 

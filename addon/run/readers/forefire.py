@@ -27,7 +27,7 @@ _FAR = 84.0  # degrees; the model writes fronts of domains with a UTM corner bey
 
 
 def sniff(path: Path) -> bool:
-    """Whether a file has the model's map of arrival times."""
+    """Check whether a file has the model's map of arrival times."""
     dimensions, variables = netcdf.names(path)
     return {"DIMX", "DIMY"} <= dimensions and {"arrival_time_of_front", "domain"} <= variables
 
@@ -42,7 +42,7 @@ def read(paths: list[Path], options: Options) -> Model:
     domain = {name: file.attribute(name, "domain") for name in forefire_land.DOMAIN}
     file.close()
     if not (domain["Lx"] and domain["Ly"] and domain["Lx"] > 0 and domain["Ly"] > 0):
-        raise input_error(path, "its domain lacks Lx and Ly, the size of the map")
+        raise input_error(path, "its domain has no Lx and Ly (size of the map)")
     notes = [
         "a cell that the front touched counts as burned, so areas are 2 to 10 % above the fronts' polygons"
     ]
@@ -80,7 +80,7 @@ def _begun(options: Options, domain: dict, arrival: NDArray, fronts: list, notes
 
 
 def _fronts(paths: list[Path], notes: list[str]) -> list[tuple[datetime | None, float, float, float, float]]:
-    """Date and bounding box (west, south, east, north) of each GeoJSON or KML front."""
+    """Read date and bounding box (west, south, east, north) of each GeoJSON or KML front."""
     fronts = []
     for path in paths:
         if path.suffix.lower() not in (".geojson", ".json", ".kml"):
@@ -92,7 +92,7 @@ def _fronts(paths: list[Path], notes: list[str]) -> list[tuple[datetime | None, 
         else:
             try:
                 data = json.loads(text)
-                # numbers as text with units, positions in metres: only this format lacks degrees
+                # numbers as text with units, positions in metres, not degrees
                 if "fronts" in data:
                     notes.append(f"{path.name} is the model's own JSON, which has no degrees: not used")
                     continue
@@ -100,7 +100,7 @@ def _fronts(paths: list[Path], notes: list[str]) -> list[tuple[datetime | None, 
                     moment = datetime.fromisoformat(data["valid_at"]).astimezone(UTC)
                 places = list(_corners([each["geometry"]["coordinates"] for each in data["features"]]))
             except (ValueError, KeyError, TypeError, RecursionError):
-                raise input_error(path, "is no GeoJSON of fronts; leave it out") from None
+                raise input_error(path, "is not GeoJSON of fronts; remove it") from None
         if not places:
             continue
         x, y = np.array(places, np.float64)[:, :2].T

@@ -29,7 +29,7 @@ _STILL = ("elevation", "surface_fuel", "canopy_fuel", "fuel_arrival_time", "fuel
 
 
 def sniff(path: Path) -> bool:
-    """Whether a file is any netCDF file; this reader is tried last."""
+    """Check whether a file is any netCDF file; this reader is tried last."""
     return netcdf.is_netcdf(path)
 
 
@@ -42,8 +42,8 @@ def read(paths: list[Path], options: Options) -> Model:
     fields = {name: {"variable": name} for name in (*_MOVING, *_LEVELS, *_STILL) if name in first} | fields
     if not {"heat_flux", "fuel_arrival_time"} & set(fields):
         reason = (
-            f"is of no known model; a TOML file beside it may say which of its variables ({_some(first)}) "
-            'is which field: [fields] heat_flux = "NAME"'
+            f"does not belong to a known model; map its variables ({_some(first)}) "
+            'in a TOML file next to it: [fields] heat_flux = "NAME"'
         )
         raise first.error(reason)
     grid, projection = _grid(first, axes, options, next(iter(fields.values()))["variable"])
@@ -105,15 +105,15 @@ def _mapping(path: Path | None) -> tuple[dict[str, dict[str, Any]], dict[str, st
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        raise input_error(path, f"is no TOML ({' '.join(str(error).split())})") from None
+        raise input_error(path, f"not valid TOML ({' '.join(str(error).split())})") from None
     known = (*_MOVING, *_LEVELS, *_STILL)
     fields = {}
     for name, entry in data.get("fields", {}).items():
         if name not in known:
-            raise input_error(path, f"there is no field {name}, but {', '.join(known)}")
+            raise input_error(path, f"unknown field {name}; fields are {', '.join(known)}")
         fields[name] = {"variable": entry} if isinstance(entry, str) else dict(entry)
         if not isinstance(fields[name].get("variable"), str):
-            raise input_error(path, f"{name} does not say its variable, in quotes")
+            raise input_error(path, f"{name} has no variable name in quotes")
     return fields, dict(data.get("axes", {}))
 
 

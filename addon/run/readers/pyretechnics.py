@@ -28,7 +28,7 @@ _LARGEST = 1 << 32  # bytes of one matrix
 
 
 def sniff(path: Path) -> bool:
-    """Whether a file is an array archive with a time of arrival."""
+    """Check whether a file is an array archive with a time of arrival."""
     try:
         with path.open("rb") as file:
             if file.read(4) != b"PK\x03\x04":
@@ -65,7 +65,7 @@ def read(paths: list[Path], options: Options) -> Model:
 
 
 def _wind(path: Path, arrays: dict[str, NDArray], notes: list[str]) -> Wind | None:
-    """Wind from the cubes, constant within each band; rows are from the south, so y is north."""
+    """Read the wind from the cubes, constant within each band; rows are from the south, so y is north."""
     if not {"wind_speed_10m", "upwind_direction"} <= set(arrays):
         notes.append("no wind data (wind_speed_10m and upwind_direction): the air is calm")
         return None
@@ -86,7 +86,7 @@ def _wind(path: Path, arrays: dict[str, NDArray], notes: list[str]) -> Wind | No
 
 
 def _bands(path: Path, arrays: dict[str, NDArray], name: str) -> NDArray:
-    """Array as (bands, rows, columns), each possibly of length 1."""
+    """Reshape an array to (bands, rows, columns), each possibly of length 1."""
     values = arrays[name]
     if values.ndim not in (0, 1, 3) or not np.isfinite(values).all() or values.size == 0:
         raise input_error(path, f"{name} has shape {values.shape}, not (bands, rows, columns), or gaps")
@@ -104,7 +104,9 @@ def _grid(path: Path, arrays: dict[str, NDArray], options: Options, notes: list[
         grid, said = local(width * np.arange(nx), height * np.arange(ny), options.at)
         notes.append(said)
         return grid
-    reason = "lacks latitude and longitude, or cell_width and cell_height (m); add them with numpy.savez"
+    reason = (
+        "has neither latitude and longitude nor cell_width and cell_height (m); add them with numpy.savez"
+    )
     raise input_error(path, reason)
 
 

@@ -32,7 +32,7 @@ _T0, _P0, _RD, _CP, _RV, _G = 300.0, 1e5, 287.0, 1004.5, 461.6, 9.81  # WRF's ow
 
 
 def sniff(path: Path) -> bool:
-    """Whether a file has WRF's dimensions, the fire subgrid and a fire variable."""
+    """Check whether a file has WRF's dimensions, the fire subgrid and a fire variable."""
     dimensions, variables = netcdf.names(path)
     return {"west_east_subgrid", "south_north_subgrid"} <= dimensions and bool(variables & set(_FIRE))
 
@@ -59,7 +59,7 @@ class _Wrf:
         self.ny, self.nx, self.sy, self.sx = _sizes(self.first)
         for path in {frame.path for frame in self.frames}:
             if _sizes(self.files(path)) != (self.ny, self.nx, self.sy, self.sx):
-                raise self.files(path).error("has another grid than the others; give those of one domain")
+                raise self.files(path).error("has another grid than the others; give the files of one domain")
 
     @property
     def first(self) -> netcdf.File:
@@ -124,7 +124,7 @@ def read(paths: list[Path], options: Options) -> Model:
         mean_s=float(wrf.first.attribute("DT", otherwise=0.0)),
         close=wrf.files.close,
     )
-    notes += [said, "latitude and longitude on WRF's sphere of 6370 km are taken as those of WGS84"]
+    notes += [said, "latitude and longitude on WRF's sphere of 6370 km are used as WGS84 coordinates"]
     _flux(wrf, model, notes)
     if wrf.has("FIRE_AREA"):
         notes.append("burned fraction is FIRE_AREA: burned areas are sums of burned shares of cells")
@@ -154,7 +154,7 @@ def _moments(file: netcdf.File) -> list[datetime]:
 
 
 def _start(file: netcdf.File, first: datetime) -> tuple[datetime, str]:
-    """Time origin of TIGN_G: the simulation's start, also for files of a restart."""
+    """Find the time origin of TIGN_G: the start of the simulation, also for files of a restart."""
     for name in ("SIMULATION_START_DATE", "START_DATE"):
         try:
             text = str(file.attribute(name, otherwise=""))
@@ -208,21 +208,21 @@ def _flux(wrf: _Wrf, model: Model, notes: list[str]) -> None:
 
 
 def _share(wrf: _Wrf, i: int) -> NDArray:
-    """Burned fraction (0..1) of each fire cell."""
+    """Compute the burned fraction (0..1) of each fire cell."""
     return np.clip(np.nan_to_num(wrf.fire("FIRE_AREA", i)), 0, 1)
 
 
 def _near_ground(wrf: _Wrf, model: Model, notes: list[str]) -> None:
-    """Wind (east, north) and temperature near the ground: at 10 m and 2 m, else of the lowest level."""
+    """Read wind (east, north) and temperature near the ground: at 10 m and 2 m, or at the lowest level."""
     winds = None
     if wrf.has("U10", "V10"):
         notes.append("wind is U10, V10, turned from the grid's axes to east and north")
         winds = lambda i: (wrf.read("U10", i), wrf.read("V10", i))  # noqa: E731
     elif wrf.has("U", "V"):
-        notes.append("wind is that of the lowest level, turned from the grid's axes to east and north")
+        notes.append("wind is taken from the lowest level, rotated from the grid's axes to east and north")
         winds = lambda i: (wrf.read("U", i, stag=2)[0], wrf.read("V", i, stag=1)[0])  # noqa: E731
     if winds:
-        turned = lru_cache(1)(lambda i: _air(model).east_north(*winds(i)))  # both are asked for in turn
+        turned = lru_cache(1)(lambda i: _air(model).east_north(*winds(i)))  # both are requested in turn
         model.moving |= {"wind_east": lambda i: turned(i)[0], "wind_north": lambda i: turned(i)[1]}
     if wrf.has("T2"):
         model.moving["temperature"] = lambda i: wrf.read("T2", i)
@@ -264,14 +264,14 @@ def _air(model: Model) -> Grid:
 
 
 def _kelvin(wrf: _Wrf, i: int) -> NDArray:
-    """Temperature from T, potential temperature minus 300 K: theta (p / 1e5 Pa)^(R/cp)."""
+    """Compute the temperature from T, potential temperature minus 300 K: theta (p / 1e5 Pa)^(R/cp)."""
     pressure = wrf.read("P", i) + wrf.read("PB", i)
     with np.errstate(invalid="ignore"):
         return (wrf.read("T", i) + np.float32(_T0)) * (pressure / np.float32(_P0)) ** np.float32(_RD / _CP)
 
 
 def _dry_density(wrf: _Wrf, i: int) -> NDArray:
-    """Density of dry air, kg/m3: p / (R T (1 + q Rv/R))."""
+    """Compute the density of dry air, kg/m3: p / (R T (1 + q Rv/R))."""
     moist = 1 + wrf.read("QVAPOR", i) * np.float32(_RV / _RD) if wrf.has("QVAPOR") else np.float32(1)
     return (wrf.read("P", i) + wrf.read("PB", i)) / (np.float32(_RD) * _kelvin(wrf, i) * moist)
 
@@ -325,7 +325,7 @@ def _version(file: netcdf.File) -> str:
 
 
 def _projection(file: netcdf.File) -> str:
-    """WRF's projection as a PROJ string, for people."""
+    """Format WRF's projection as a PROJ string for display."""
     kinds = {1: "lcc", 2: "stere", 3: "merc"}
     kind = kinds.get(int(file.attribute("MAP_PROJ", otherwise=0)))
     if kind is None:

@@ -38,7 +38,7 @@ class Seen:
 def score(
     run: Run, observations: Observations, other: Run | None = None, zone: str = "UTC"
 ) -> dict[str, Any]:
-    """Results of `firetwin score` as JSON data: m, m2, s, and fractions from 0 to 1.
+    """Compute the results of `firetwin score` as JSON data: m, m2, s, and fractions from 0 to 1.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ def _fates(run: Run, grid: ScoreGrid, perimeters: Sequence[Seen]) -> list[str]:
 def _uses(
     run: Run, grid: ScoreGrid, seen: Sequence[Seen], fates: Sequence[str], observations: Observations
 ) -> list[dict[str, Any]]:
-    """Counts of each file's observations by use, with the reasons for exclusion (see `used.row`)."""
+    """Count the observations of each file by use, with reasons for exclusion (see `used.row`)."""
     sources = dict.fromkeys(perimeter.source for perimeter in seen)
     return [
         used.row(
@@ -120,7 +120,7 @@ def _uses(
 
 
 def _date(run: Run, grid: ScoreGrid, perimeter: Seen) -> dict[str, Any]:
-    """Scores of one perimeter: of the total burned area, and without the area burned at the start."""
+    """Score one perimeter: total burned area, and without the area burned at the start."""
     time, first = times.seconds(run, perimeter.time), float(run.times[0])
     here, there = grid.polygon(time), grid.projection.project(perimeter.shape)
     burned, observed = grid.burned(time), grid.inside(perimeter.shape)
@@ -143,14 +143,14 @@ def _date(run: Run, grid: ScoreGrid, perimeter: Seen) -> dict[str, Any]:
 
 
 def _of_cells_since(burned: NDArray, started: NDArray, seen: NDArray, areas: NDArray) -> Overlap:
-    """Cell scores of ground unburned at the start: each cell counts with its remaining area."""
+    """Score cells unburned at the start; each counts with its remaining area."""
     rest = 1.0 - started
     share = np.divide(np.maximum(burned - started * 1.0, 0.0), rest, out=np.zeros(rest.shape), where=rest > 0)
     return Overlap.of_cells(share, seen, areas * rest)
 
 
 def _both(polygons: Overlap, cells: Overlap) -> dict[str, Any]:
-    """Scores on polygons and on cells, and their absolute difference as uncertainty."""
+    """Score on polygons and on cells, with the absolute difference as uncertainty."""
     one, two = polygons.scores(), cells.scores()
     error = {
         name: abs(a - b) if a is not None and (b := two[name]) is not None else None
@@ -173,7 +173,7 @@ def _arrival(run: Run, grid: ScoreGrid, seen: Sequence[Seen], other: Run | None)
 
 
 def _reported(run: Run, grid: ScoreGrid) -> list[dict[str, Any]]:
-    """Reported acreages of the fire next to the run's area on polygons and on cells."""
+    """List reported acreages of the fire with the areas of the run on polygons and on cells."""
     rows = info.reported(run)
     for row in rows:
         if row["run"] is not None:
@@ -182,7 +182,7 @@ def _reported(run: Run, grid: ScoreGrid) -> list[dict[str, Any]]:
 
 
 def _of_run(other: Run, run: Run, moments: Sequence[datetime]) -> list[Seen]:
-    """Perimeters of another run as reference."""
+    """Return perimeters of another run as reference."""
     low = max(times.utc(run, float(run.times[0])), times.utc(other, float(other.times[0])))
     high = min(times.utc(run, float(run.times[-1])), times.utc(other, float(other.times[-1])))
     if low >= high:

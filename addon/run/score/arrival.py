@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def between(run: NDArray[np.float64], seen: NDArray[np.float64], common: Sequence[float]) -> dict[str, Any]:
-    """Error between two arrival times (ny, nx), for cells that burned after the first common time in both.
+    """Compare two arrival times (ny, nx) in cells that burned after the first common time in both.
 
     Cells that burned in only one of them are counted separately and excluded from means.
     """
@@ -28,7 +28,7 @@ def between(run: NDArray[np.float64], seen: NDArray[np.float64], common: Sequenc
 def within(
     run: NDArray[np.float64], masks: Sequence[NDArray[np.bool_]], moments: Sequence[float]
 ) -> dict[str, Any]:
-    """Error against perimeters: a cell within one and not within earlier ones burned between their times (s).
+    """Compare with perimeters: a cell in one but not in earlier ones burned between their times (s).
 
     The time in between is unknown. So the error is 0 if the run's arrival lies in that interval, else the
     distance to its nearer end. Cells of the first perimeter have no earlier bound and are excluded.

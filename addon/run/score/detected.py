@@ -21,7 +21,7 @@ def fates(run: Run, grid: ScoreGrid, detections: Detections) -> NDArray[np.str_]
 
 
 def rows(run: Run, grid: ScoreGrid, detections: Detections) -> list[dict[str, Any]]:
-    """Statistics of each overpass within the run's time and area.
+    """Compute statistics of each overpass within the run's time and area.
 
     `inside` counts detections whose centre the run had burned by then; `within_pixel` also those within half
     a pixel of burned ground. `lag` is the time (s, median and mean) since the front passed the centres,

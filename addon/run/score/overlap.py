@@ -39,14 +39,14 @@ class Overlap:
 
     @classmethod
     def of_polygons(cls, run: BaseGeometry, seen: BaseGeometry, domain: BaseGeometry) -> Overlap:
-        """From polygons in an equal-area projection; observed area outside of the domain counts as a miss."""
+        """Compute from polygons in an equal-area projection; observed area outside the domain is a miss."""
         both = run.intersection(seen).area
         union = run.area + seen.area - both
         return cls(both, run.area - both, seen.area - both, max(domain.area - union, 0.0))
 
     @classmethod
     def of_cells(cls, run: NDArray, seen: NDArray[np.bool_], areas: NDArray[np.float64]) -> Overlap:
-        """From cells with their areas; cells of area 0 do not count. `run`: burned mask or burned fraction.
+        """Compute from cells and their areas. `run` is a burned mask or burned fraction.
 
         In an observed cell the burned fraction is a hit and the rest a miss.
         """
@@ -56,7 +56,7 @@ class Overlap:
         return cls(*(float(part.sum()) for part in parts))
 
     def scores(self) -> dict[str, float | None]:
-        """All scores by name; None where the denominator is 0."""
+        """Compute all scores by name; None if the denominator is 0."""
         tp, fp, fn, tn = self.both, self.run_only, self.seen_only, self.neither
         chance = (tp + fn) * (fn + tn) + (tp + fp) * (fp + tn)
         return {

@@ -26,7 +26,7 @@ _TITLES = {"area": "run", "area_bias": "bias"}
 
 
 def page(results: dict[str, Any]) -> str:
-    """Page that `firetwin score` prints."""
+    """Format the page that `firetwin score` prints."""
     run = results["run"]
     head = run["name"] + ("  (SYNTHETIC: made up, not the output of a model)" if run["synthetic"] else "")
     lines = [
@@ -41,7 +41,7 @@ def page(results: dict[str, Any]) -> str:
 
 
 def against(results: dict[str, Any]) -> list[str]:
-    """Reference data and domain of the scores."""
+    """Describe the reference data and the domain of the scores."""
     wide, high = results["domain"]["cell"]
     ny, nx = results["domain"]["cells"]
     names = ", ".join(results["against"]) or "reported areas alone: no perimeters or detections were given"
@@ -50,7 +50,7 @@ def against(results: dict[str, Any]) -> list[str]:
 
 
 def _uses(results: dict[str, Any]) -> Iterator[str]:
-    """Table of observations used per file, with the reasons for exclusion."""
+    """Format the table of observations used per file, with the reasons for exclusion."""
     if not results["uses"]:
         return
     wide = max(24, *(len(_name(row)) for row in results["uses"]))
@@ -124,12 +124,12 @@ def _more(results: dict[str, Any]) -> Iterator[str]:
 
 
 def theirs(results: dict[str, Any]) -> str:
-    """Column title for reference areas: another run is not an observation."""
+    """Choose the column title for reference areas: another run is not an observation."""
     return "other" if results["other_run"] else "seen"
 
 
 def arrival(scores: dict[str, Any]) -> str:
-    """Arrival time errors in one line."""
+    """Format arrival time errors in one line."""
     errors, alone = scores["arrival"], "in the other" if scores["other_run"] else "seen"
     if not errors["cells"]:
         return "Arrival times: no cell burned in both"
@@ -142,7 +142,7 @@ def arrival(scores: dict[str, Any]) -> str:
 
 
 def said(results: dict[str, Any]) -> Sequence[str]:
-    """Notes on these scores."""
+    """List notes on these scores."""
     notes = list(results["assumptions"])
     outside = [row["outside_grid"] for row in results["dates"] if row["outside_grid"] > 1e-3]
     if outside:
@@ -163,5 +163,5 @@ def said(results: dict[str, Any]) -> Sequence[str]:
 
 
 def local(time: str, zone: str) -> str:
-    """Local time of a scored date."""
+    """Format the local time of a scored date."""
     return times.text(datetime.fromisoformat(time), zone)

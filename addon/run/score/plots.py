@@ -34,7 +34,7 @@ _MOMENTS, _MARKED = 200, 40  # points of a growth curve, and up to how many are 
 
 
 def overlap(run: Run, grid: ScoreGrid, here: BaseGeometry, there: BaseGeometry, frame: BaseGeometry) -> str:
-    """Overlap map of one date as a data URI: burned in both, in the run only, and in the reference only."""
+    """Draw the overlap of one date as a data URI: burned in both, in the run only, in the reference only."""
     figure, axes = _map(run, grid, frame)
     for shape, colour in (
         (here.intersection(there), HITS),
@@ -47,7 +47,7 @@ def overlap(run: Run, grid: ScoreGrid, here: BaseGeometry, there: BaseGeometry, 
 
 
 def progress(run: Run, grid: ScoreGrid, shapes: Sequence[BaseGeometry], frame: BaseGeometry) -> str:
-    """Progression map: burned area of the run by date, the latest lightest, as a data URI."""
+    """Draw the burned area of the run by date, latest lightest, as a data URI."""
     figure, axes = _map(run, grid, frame)
     for shape, colour in reversed(list(zip(shapes, ways(len(shapes)), strict=True))):
         _fill(axes, shape, facecolor=colour, edgecolor="#3a120a", linewidth=0.4, alpha=0.9)
@@ -55,13 +55,13 @@ def progress(run: Run, grid: ScoreGrid, shapes: Sequence[BaseGeometry], frame: B
 
 
 def ways(count: int) -> list[str]:
-    """Colours of dates, darkest first."""
+    """Choose colours of dates, darkest first."""
     shades = matplotlib.colormaps["YlOrRd_r"](np.linspace(0.1, 0.8, max(count, 1)))
     return [matplotlib.colors.to_hex(shade) for shade in shades]
 
 
 def growth(run: Run, results: dict[str, Any], other: Run | None = None) -> str:
-    """Burned area over time of the run, another run, observations and reports; SVG."""
+    """Draw burned area over time of the run, another run, observations and reports, as SVG."""
     zone, acre = ZoneInfo(results["zone"]), history.SQUARE_METRES_PER_ACRE
     with matplotlib.rc_context({"svg.fonttype": "none", "font.family": "sans-serif", "font.size": 10}):
         figure = Figure(figsize=(10, 4.1))
@@ -107,7 +107,7 @@ def growth(run: Run, results: dict[str, Any], other: Run | None = None) -> str:
 
 
 def own_times(run: Run) -> NDArray[np.float64]:
-    """Model times (s) of a growth curve: the run's own, or an even subset of many."""
+    """Choose model times (s) of a growth curve: the run's own, or an even subset of many."""
     count = len(run.times)
     return run.times[np.unique(np.linspace(0, count - 1, min(count, _MOMENTS)).round().astype(np.int64))]
 
@@ -121,7 +121,7 @@ def _curve(axes: Axes, run: Run, zone: ZoneInfo, **style: Any) -> None:
 
 
 def _map(run: Run, grid: ScoreGrid, frame: BaseGeometry) -> tuple[Figure, Axes]:
-    """Hill shading of a shape's extent, in km east and north, with a scale bar."""
+    """Draw hill shading of a shape's extent, in km east and north, with a scale bar."""
     west, south, east, north = (bound / _KILO for bound in frame.bounds)
     margin = 0.06 * max(east - west, north - south)
     west, south, east, north = west - margin, south - 2 * margin, east + margin, north + margin

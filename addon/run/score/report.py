@@ -72,7 +72,7 @@ def html(run: Run, results: dict[str, Any], seen: Any, other: Run | None = None)
 
 
 def tables(results: dict[str, Any]) -> Iterator[str]:
-    """Tables of the scores against observations alone, for another page; headings are h3."""
+    """Build the tables of scores against observations for another page; headings are h3."""
     for part in (_uses(results), _scores(results), _more(results)):
         for text in part:
             yield text.replace("<h2>", "<h3>").replace("</h2>", "</h3>")
@@ -138,7 +138,7 @@ def _maps(run: Run, grid: ScoreGrid, results: dict[str, Any], seen: Any, other: 
 
 
 def _kinds(run: Run, other: Run | None) -> tuple[str, str, str]:
-    """Legend of map colours; between two runs there are no hits or misses."""
+    """Build the legend of map colours; a comparison of two runs has neither hits nor misses."""
     if other is None:
         return "burned in both: hits", "burned in this run alone: false alarms", "seen burned alone: misses"
     return "burned in both", f"only in {escape(run.name)}", f"only in {escape(other.name)}"
@@ -147,7 +147,7 @@ def _kinds(run: Run, other: Run | None) -> tuple[str, str, str]:
 def _pair(
     run: Run, grid: ScoreGrid, row: dict[str, Any], seen: Any, theirs: tuple[Run, ScoreGrid] | None
 ) -> tuple[Any, Any]:
-    """Projected shapes of a date: the run's, and the observed one or the other run's."""
+    """Project the shapes of a date: the run's, and the observed one or the other run's."""
     moment = datetime.fromisoformat(row["time"])
     here = grid.polygon(times.seconds(run, moment))
     if theirs is not None:
@@ -166,7 +166,7 @@ def _scores(results: dict[str, Any]) -> Iterator[str]:
         (
             "without_start",
             "Scores without the start",
-            "What had burned when the run began counts for nothing.",
+            "Area burned before the start of the run is excluded.",
         ),
     ):
         rows = [row for row in results["dates"] if key in row]

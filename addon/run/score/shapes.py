@@ -64,7 +64,7 @@ class Projection:
 
 
 def of_perimeter(perimeter: Perimeter, middle: float) -> BaseGeometry:
-    """Observed perimeter as one valid shape in degrees, with longitudes near `middle`."""
+    """Convert a perimeter to one valid shape in degrees, with longitudes near `middle`."""
     import shapely
 
     def near(ring: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -95,7 +95,7 @@ def collected(shapes: Iterable[BaseGeometry]) -> BaseGeometry:
 
 
 def outline(x: NDArray[np.float64], y: NDArray[np.float64]) -> BaseGeometry:
-    """Rectangle in degrees with a vertex at each cell edge, as parallels curve in projection."""
+    """Build a rectangle in degrees with a vertex at each cell edge, as parallels curve in projection."""
     import shapely
 
     west, east = np.full_like(y, x[0]), np.full_like(y, x[-1])
@@ -126,7 +126,7 @@ def contains(
 def of_front(
     longitude: NDArray[np.float64], latitude: NDArray[np.float64], since: NDArray[np.float64]
 ) -> BaseGeometry:
-    """Burned polygon in degrees: where `since`, arrival minus time (s), is 0 or less.
+    """Trace the burned polygon in degrees: where `since`, arrival minus time (s), is 0 or less.
 
     The front is interpolated linearly between two cells. It is half-way between a burned cell and one that
     never burns (NaN) or the grid's edge: such a cell takes the negated mean of its burned neighbours.
@@ -148,7 +148,7 @@ def of_front(
 
 
 def distances(run: BaseGeometry, seen: BaseGeometry, step: float) -> dict[str, float | None]:
-    """Distance (m) between two projected perimeters, holes included, sampled every `step` m.
+    """Compute distances (m) between two projected perimeters, with holes, sampled every `step` m.
 
     The Hausdorff distance is the largest distance of any point to the other perimeter; the mean is over all
     points of both. None if one is empty.
@@ -168,7 +168,7 @@ def distances(run: BaseGeometry, seen: BaseGeometry, step: float) -> dict[str, f
 
 
 def _distances_to(line: BaseGeometry, other: BaseGeometry, step: float) -> NDArray[np.float64]:
-    """Distances of points along a line, vertices included, to another line."""
+    """Compute distances of points along a line, vertices included, to another line."""
     import shapely
 
     points = shapely.get_coordinates(shapely.segmentize(line, step))
@@ -177,7 +177,7 @@ def _distances_to(line: BaseGeometry, other: BaseGeometry, step: float) -> NDArr
 
 
 def _pieces(line: BaseGeometry) -> Iterable[Any]:
-    """Straight segments of a line."""
+    """List the straight segments of a line."""
     import shapely
 
     pieces = []

@@ -25,13 +25,13 @@ def fates(run: Run, moments: ArrayLike, here: ArrayLike) -> NDArray[np.str_]:
 
 
 def row(source: str, kind: str, fates_of: Iterable[str]) -> dict[str, Any]:
-    """Counts of a file's observations of a kind ("perimeters", "detections") by use."""
+    """Count the observations of a file and kind ("perimeters", "detections") by use."""
     counts = Counter(str(fate) for fate in fates_of)
     return {"source": source, "kind": kind} | {fate: counts[fate] for fate in FATES}
 
 
 def nothing(rows: Sequence[dict[str, Any]]) -> str:
-    """Message that no observation can be used, with reasons; "" if one can or there are none."""
+    """Explain that no observation can be used, with reasons; "" if one can or there are none."""
     if not rows or any(counted[USED] for counted in rows):
         return ""
     before, after, outside = (sum(counted[fate] for counted in rows) for fate in FATES[1:])
