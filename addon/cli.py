@@ -16,7 +16,7 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from . import argument_types as types
-from . import help_texts, rooms
+from . import help_texts, optional_features
 from .escaped import escaped
 from .stations import arguments as stations
 from .tiles import arguments as tiles
@@ -26,13 +26,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit status."""
     words = _current_names(list(sys.argv[1:] if argv is None else argv))
     options: list[str] = []
-    room = rooms.COMMANDS.get(words[0]) if words else None
-    if room and not rooms.is_installed(room):
+    package = optional_features.COMMANDS.get(words[0]) if words else None
+    if package and not optional_features.is_installed(package):
         from .progress import say
 
-        say(f"the command {words[0]} needs the package firetwin/{room}, which is missing; reinstall Firetwin")
+        say(f"the command {words[0]} needs firetwin/{package}, which is missing; reinstall Firetwin")
         return 2
-    if room == "farm":
+    if package == "farm":
         from .farm import arguments as farm
 
         words, options = farm.split_options(words)
@@ -218,7 +218,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     score.add_argument("--json", action="store_true", help="write JSON")
 
-    if rooms.is_installed("brief"):
+    if optional_features.is_installed("brief"):
         from .brief import arguments as brief
 
         brief.add(
@@ -286,7 +286,7 @@ def _parser() -> argparse.ArgumentParser:
     render.add_argument("--json", action="store_true", help="write JSON: files and memory")
     tiles.add_access(render)
 
-    if rooms.is_installed("farm"):
+    if optional_features.is_installed("farm"):
         from .farm import arguments as farm
 
         farm.add(
@@ -295,7 +295,7 @@ def _parser() -> argparse.ArgumentParser:
             types.count,
         )
     tiles.add(command("tiles", "read and make 3D tilesets", tiles.DETAIL), types.path, types.count)
-    if rooms.is_installed("allocation"):
+    if optional_features.is_installed("allocation"):
         from .allocation import arguments as allocation
 
         summary = "suggest an allocation of resources (exercise)"

@@ -9,6 +9,7 @@ from . import (
     camera_targets,
     cameras_panel,
     command,
+    feature_panels,
     foreign,
     former_names,
     go_to,
@@ -23,7 +24,6 @@ from . import (
     queue,
     render,
     report,
-    room_panels,
     rows,
     run,
     section_panels,
@@ -55,7 +55,7 @@ classes = (
     *place_names.classes,
     *render.classes,
     *background.classes,
-    *room_panels.classes,
+    *feature_panels.classes,
     *section_panels.classes,
     *stations_panel.classes,
     *tiles_panel.classes,
@@ -80,7 +80,7 @@ def unregister() -> None:
     """Undo `register` in reverse order; running tasks are cancelled."""
     working.abandon()
     queue.clear()
-    room_panels.unregister()
+    feature_panels.unregister()
     maps.forget()
     tile_credits.unregister()
     stations_panel.unregister()

@@ -7,10 +7,10 @@ import bpy
 from ..shot.settings import Settings
 from . import (
     camera_list,
+    feature_panels,
     keys,
     other_runs,
     render,
-    room_panels,
     run,
     scene_file,
     sections,
@@ -28,7 +28,7 @@ _SETTINGS = sections.properties(sections.single() + sections.sections(), Setting
 _Settings: type = type("Settings", (), {"__annotations__": _SETTINGS})
 
 
-class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings, *room_panels.properties):
+class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings, *feature_panels.properties):
     """Settings of the scene, choices of the panel, and facts about the run"""
 
     run: bpy.props.StringProperty(

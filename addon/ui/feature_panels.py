@@ -1,4 +1,4 @@
-"""Panels of the rooms of the top floor that are installed.
+"""Panels of the installed optional features.
 
 A panel's module has `classes` to register, `properties` (a class of annotations for the scene) and
 `unregister`.
@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from types import ModuleType
 
-from .. import rooms
+from .. import optional_features
 
 panels: list[ModuleType] = []
-if rooms.is_installed("farm"):
+if optional_features.is_installed("farm"):
     from . import farm
 
     panels.append(farm)
