@@ -163,7 +163,8 @@ def test_the_command(tmp_path, capfd):
     assert runs.open(out).heat_flux(1).max() > 1e4
     assert cli.main(["info", str(out)]) == 0
     assert (
-        "Made from Community Fire Behavior Model\n  - times are those of the files" in capfd.readouterr().out
+        "Made from Community Fire Behavior Model\n  - times are taken from the file names"
+        in capfd.readouterr().out
     )
     assert cli.main(["convert", *map(str, paths), "--out", str(out)]) == 1
     assert "already exists" in capfd.readouterr().err
@@ -301,7 +302,7 @@ def test_what_is_no_models_output_is_told_apart(tmp_path):
     for name, words in {
         "empty": "folder without files", "zero.nc": "is empty", "text.nc": "does not begin as a .nc",
         "c.npz": "does not begin as a .npz", "notes.txt": "no known fire model: WRF-SFIRE",
-        "b.npz": "no array time_of_arrival", "d.lcp": "a landscape alone", "fire.asc": "identified by name",
+        "b.npz": "no array time_of_arrival", "d.lcp": "a landscape without a fire", "fire.asc": "identified by name",
         "x_arrival.asc": "x_arrival.asc:7:5: 'abc' is not a number", cut.name: "cannot be read as netCDF",
         absurd.name: "nothing burns in it",
     }.items():  # fmt: skip

@@ -154,7 +154,7 @@ def test_wrf_sfire_restarted_counts_from_the_simulation(tmp_path, converted):
 def test_wrf_sfire_in_metres(tmp_path, converted):
     paths, _ = made.wrf(tmp_path, ideal=True)
     run = converted(paths, at="40,-105")
-    assert "its middle is put at 40, -105" in said(run)
+    assert "its centre is 40, -105" in said(run)
     north, east = areas.metres_per_degree(40.0)
     np.testing.assert_allclose(np.diff(run.fuel_longitude) * east, 10.0, rtol=1e-4)
     np.testing.assert_allclose(np.diff(run.latitude) * north, 10.0, rtol=1e-4)

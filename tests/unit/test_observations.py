@@ -157,7 +157,7 @@ BAD = {
     "list.geojson": ("[]", 'no "type"'),
     "metres.geojson": (
         '{"type": "Polygon", "coordinates": [[[690000, 4300000], [691000, 4300000], [691000, 4301000]]]}',
-        "no degrees.*4326",
+        "not degrees.*4326",
     ),
     "words.geojson": ('{"type": "Polygon", "coordinates": [["a", "b", "c"]]}', "longitudes and latitudes"),
     "crs.geojson": ('{"type": "Polygon", "crs": {"properties": {"name": "EPSG:3310"}}}', "EPSG:3310.*4326"),
@@ -176,7 +176,7 @@ BAD = {
     "bomb.kml": ('<!DOCTYPE a [<!ENTITY b "c">]><kml/>', "entities"),
     "a.kmz": ("not a zip", "no KMZ"),
     "a.gpkg": ("not a base at all, but long enough for a check by SQLite" * 9, "no GeoPackage"),
-    "a.csv": ("lat,lon\n1,2\n", "no column latitude"),
+    "a.csv": ("lat,lon\n1,2\n", "missing columns latitude"),
     "b.csv": (FIRMS + "38.9,-120.6,340.1,0.5,0.4,2014-13-17,930,N,VIIRS,n,0\n", "b.csv:6: acq_date"),
     "c.csv": (FIRMS + f"{'9' * 200000},", "is damaged or incomplete: field larger"),
     "a.shp": ("not a shapefile", r"no .prj"),

@@ -64,10 +64,10 @@ def local(x: NDArray, y: NDArray, at: tuple[float, float] | None) -> tuple[Grid,
     """Create a grid in metres with its centre at a point, and a note about it."""
     place = at or (0.0, 0.0)
     grid = Grid.metres(x - (x[0] + x[-1]) / 2, y - (y[0] + y[-1]) / 2, place)
-    said = "from --at" if at else "(arbitrary); set it with --at LAT,LON or --projection EPSG:..."
+    said = "(--at)" if at else "(assumed); set it with --at LAT,LON or --projection EPSG:..."
     return (
         grid,
-        f"a grid in metres without a projection: its centre is assumed at {place[0]:g}, {place[1]:g} {said}",
+        f"a grid in metres without a projection: its centre is {place[0]:g}, {place[1]:g} {said}",
     )
 
 
