@@ -40,12 +40,12 @@ _SPACE = uuid.UUID("6f1b2c1e-2f53-4a86-9d0c-6b9a6f0f7a11")  # names of our catal
 
 
 def identifier(catalogue: str) -> str:
-    """UUID of a catalogue; always the same for the same name."""
+    """Compute the UUID of a catalogue from its name."""
     return str(uuid.uuid5(_SPACE, catalogue))
 
 
 def catalogue() -> str:
-    """Text of the catalogue definition file."""
+    """Compose the text of the catalogue definition file."""
     above = f"{identifier('Firetwin')}:Firetwin:Firetwin"  # otherwise Blender adds one and asks to save
     lines = [above, *(f"{identifier(name)}:Firetwin/{name}:Firetwin-{name}" for name in CATALOGUES)]
     head = "# This is an Asset Catalog Definition file for Blender.\n\nVERSION 1\n\n"

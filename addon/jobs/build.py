@@ -29,7 +29,7 @@ def run(
     Parameters
     ----------
     access
-        How tiles may be had.
+        Access to tiles.
 
     Raises
     ------

@@ -18,7 +18,7 @@ Cached = CachedVolumes | CachedTiles
 
 
 def folders(places: Iterable[Path]) -> list[Path]:
-    """Cache folders of scene files, or folders given directly; each once.
+    """List the cache folders of scene files, or folders given directly, without duplicates.
 
     Raises
     ------
@@ -28,12 +28,12 @@ def folders(places: Iterable[Path]) -> list[Path]:
     caches = [scene_file.read(place).cache if place.suffix == ".toml" else place for place in places]
     for place, named in zip(caches, places, strict=True):
         if place == named and not place.is_dir():
-            raise UsageError(f"cache: there is no folder {place}; name a cache folder or a scene file")
+            raise UsageError(f"cache: the folder {place} does not exist; name a cache folder or a scene file")
     return list(dict.fromkeys(place.absolute() for place in caches))
 
 
 def by_last_use(places: Iterable[Path]) -> list[Cached]:
-    """Smoke volumes and decoded tiles in these folders, most recently used first."""
+    """List smoke volumes and decoded tiles in these folders, most recently used first."""
     found: list[Cached] = []
     for place in places:
         found += [*cache.list_volumes(place), *tile_cache.list_tiles(place)]
@@ -41,9 +41,9 @@ def by_last_use(places: Iterable[Path]) -> list[Cached]:
 
 
 def prune(kept: list[Cached], limit: int, dry_run: bool = False) -> list[Cached]:
-    """Remove the least recently used until at most `limit` bytes remain; returns what was removed.
+    """Remove the least recently used until at most `limit` bytes remain; return the removed items.
 
-    What is in use is never removed. With `dry_run` nothing is removed; the result is the same.
+    Items in use are never removed. With `dry_run` nothing is removed; the result is the same.
     """
     going = cache.to_evict(kept, limit)
     if dry_run:
@@ -57,7 +57,7 @@ def prune(kept: list[Cached], limit: int, dry_run: bool = False) -> list[Cached]
 
 
 def answers() -> tuple[Path, int, int, float]:
-    """Folder of the user's answers of tile servers, their number and bytes, and when one was used last."""
+    """Return the folder of the HTTP cache, number and bytes of its answers, and the time of last use."""
     kept = HttpCache(http_cache.folder())
     try:
         return (kept.place, *kept.content())
@@ -66,7 +66,7 @@ def answers() -> tuple[Path, int, int, float]:
 
 
 def prune_answers(limit: int, dry_run: bool = False) -> int:
-    """Remove the least recently used answers of tile servers beyond `limit` bytes; returns the bytes left."""
+    """Remove the least recently used answers of tile servers beyond `limit` bytes; return the bytes left."""
     place, _, total, _ = answers()
     if dry_run or total <= limit:
         return min(total, limit)

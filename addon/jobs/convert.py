@@ -71,10 +71,10 @@ def run(
 def default_output(
     paths: list[Path], folders: list[Path], start: str = "", at: str = "", projection: str = ""
 ) -> tuple[Path, bool]:
-    """Default output folder of a conversion, and whether its run exists already.
+    """Choose the default output folder of a conversion; return it, and whether its run exists already.
 
-    Its name is that of the file or folder with ``_run`` appended, in the first of the `folders` that is
-    writable. A run converted from other files, or with other options, keeps its folder.
+    It is in the first writable one of the `folders`, named like the input with ``_run`` appended. A run
+    converted from other files, or with other options, keeps its folder.
 
     Raises
     ------

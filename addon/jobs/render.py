@@ -31,13 +31,13 @@ class RenderRequest:
     Attributes
     ----------
     camera
-        One, or several that one process shall render.
+        One, or several that one process renders.
     resume
-        Keep finished pictures of equal settings.
+        Keep finished pictures with equal settings.
     films
         Make films of the pictures.
     access
-        How tiles may be had.
+        Access to tiles.
     """
 
     out: Path
@@ -49,15 +49,15 @@ class RenderRequest:
     access: TileAccess | None = None
 
     def selection(self) -> Selection:
-        """What is asked for of the scene file's pictures."""
+        """Return the requested frames, cameras and passes."""
         return (self.frames, self.camera, self.passes)
 
 
 @dataclass(frozen=True)
 class RenderResult:
-    """Number of pictures that this render made, and its peak memory in bytes, estimated and measured.
+    """Number of pictures made by this render, and its peak memory in bytes, estimated and measured.
 
-    0 where nothing was rendered, or the value is unknown.
+    0 if nothing was rendered, or the value is unknown.
     """
 
     pictures: int
@@ -78,7 +78,7 @@ def run(
     Parameters
     ----------
     shot
-        Of `choice`, where it is resolved already.
+        Shot of `choice`, if already resolved.
     """
     from ..errors import UsageError
     from ..render import dataset, films, fingerprint, plan
@@ -93,7 +93,7 @@ def run(
     with notify_if_slow(READING):
         shot = shot or choice.shot()
         wanted = plan.pictures(shot, *asked.selection())
-    prepare_tiles(choice, wanted, asked, progress, tell, stop)  # fingerprints have what is chosen
+    prepare_tiles(choice, wanted, asked, progress, tell, stop)  # fingerprints include the selection
     made_with = fingerprint.compute(shot, wanted, progress)
     with Store(out) as store:
         undone = plan.missing(store, wanted, made_with)
@@ -137,9 +137,9 @@ def prepare_tiles(
     tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
 ) -> None:
-    """Prepare the tiles of these pictures' views, once their policies allow the pictures' passes.
+    """Check the tile policies for the pictures' passes; prepare the tiles of their views.
 
-    A render that is resumed keeps the tiles that it began with.
+    A resumed render keeps its tiles.
     """
     views = list(dict.fromkeys(picture.camera for picture in wanted))
     uses = tile_terms.of_passes(picture.name for picture in wanted)
@@ -156,12 +156,12 @@ def make(
     tell: MessageCallback,
     stop: worker.Stop | None,
 ) -> Any:
-    """Run a render job in a worker process; at its end its leases are released and the manifest is written.
+    """Run a render job in a worker process; then release its leases and write the manifest.
 
     Parameters
     ----------
     task
-        Arguments of the job besides `out`, `pictures` and `owner`.
+        Arguments of the job except `out`, `pictures` and `owner`.
 
     Returns
     -------
@@ -187,7 +187,7 @@ def make(
 
 
 def picture_progress(out: Path, progress: Progress, tell: MessageCallback) -> Progress:
-    """Progress whose note is a picture in the folder `out`: shows its path, and reports the first one."""
+    """Wrap a progress whose note is a picture in `out`: show its path, and report the first picture."""
     told = False
 
     def follow(done: int, total: int, what: str = "", note: str = "") -> None:
@@ -213,9 +213,9 @@ def in_blender(
     tell: MessageCallback,
     films: bool = True,
 ) -> dict[str, int]:
-    """Render these pictures, each camera in a scene of its own, then films of these cameras and passes.
+    """Render these pictures, each camera in a separate scene, then films of these cameras and passes.
 
-    Pictures that other renders lease are left to them.
+    Pictures leased by other renders are skipped.
 
     Parameters
     ----------
@@ -224,9 +224,9 @@ def in_blender(
     resume
         Entries up to `begun` count as finished.
     selection
-        Frames, camera and passes that the render is asked for (see `render.plan.pictures`).
+        Requested frames, camera and passes (see `render.plan.pictures`).
     films
-        Make films too.
+        Also make films.
 
     Returns
     -------
@@ -290,14 +290,14 @@ def _check_device(shot: Shot) -> None:
 
 
 def count_frames(pictures: list[Any]) -> int:
-    """Number of frames of these pictures."""
+    """Count the frames of these pictures."""
     return len({(picture.camera, picture.frame) for picture in pictures})
 
 
 def _camera(
     choice: ShotSource, shot: Shot, session: Any, wanted: list[Any], progress: Progress, tell: MessageCallback
 ) -> int:
-    """Render the pictures of a shot's one camera; its smoke is prefetched one frame ahead.
+    """Render the pictures of a shot's only camera; its smoke is prefetched one frame ahead.
 
     Returns the estimated peak memory, bytes.
     """
@@ -336,7 +336,7 @@ def _camera(
 def _solving(
     choice: ShotSource, shot: Shot, frames: list[int], progress: Progress
 ) -> Iterator[solve.Working | None]:
-    """Context: solve the smoke of a shot's one camera in a concurrent process, where it is missing."""
+    """Solve missing smoke of a shot's only camera in a concurrent process."""
     from ..smoke import sources
 
     (camera,) = shot.settings.cameras
@@ -357,7 +357,7 @@ def _solving(
 
 
 def _parts(shot: Shot, wanted: list[Any]) -> Iterator[tuple[Shot, list[Any]]]:
-    """Chunks: shots of `render.chunk` frames of the camera that are built together, with their pictures.
+    """Split into chunks: shots of `render.chunk` frames of the camera, built together, with their pictures.
 
     Chunk boundaries do not depend on the requested frames.
     """
@@ -371,7 +371,7 @@ def _parts(shot: Shot, wanted: list[Any]) -> Iterator[tuple[Shot, list[Any]]]:
 
 
 def smoke_frames(shot: Shot, wanted: list[Any]) -> list[int]:
-    """Frames of pictures that show smoke, ascending."""
+    """List the frames of pictures that show smoke, ascending."""
     from ..render import plan
     from ..shot import passes
 

@@ -27,14 +27,14 @@ def run(
     tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
 ) -> int:
-    """Render the requested passes of a scene in a .blend file, then the films; only of the run that it shows.
+    """Render the requested passes of a scene in a .blend file, then the films; only for the run it shows.
 
     Parameters
     ----------
     choice
         Source of the shot that the scene was built from. It sets frames, passes, thermal colours and films.
     asked
-        With `resume`, pictures already rendered of this very file are retained.
+        With `resume`, pictures already rendered from this file are retained.
 
     Returns
     -------
@@ -70,7 +70,7 @@ def run(
 
 
 def _made_with(digest: str, wanted: list[Any]) -> dict[tuple[str, str], dict[str, Any]]:
-    """Fingerprint inputs of pictures of this .blend file, by camera and pass."""
+    """Collect fingerprint inputs of pictures of this .blend file, by camera and pass."""
     from ..render.fingerprint import versions
     from ..shot import passes
 
@@ -127,7 +127,7 @@ def in_blender(
 
 
 def _with_scene_settings(shot: Shot, scene: Any) -> Shot:
-    """The shot with the engine and resolution of the Blender scene; a stereo picture stacks both eyes."""
+    """Return the shot with engine and resolution of the Blender scene; a stereo picture stacks both eyes."""
     render, part = scene.render, scene.render.resolution_percentage / 100.0
     sides = render.resolution_x, render.resolution_y * (2 if render.use_multiview else 1)
     size = tuple(2 * max(round(side * part / 2), 8) for side in sides)

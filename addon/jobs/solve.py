@@ -1,4 +1,4 @@
-"""Solver job: solves a shot's smoke flow in a process of its own, concurrently with rendering."""
+"""Solver job: solves a shot's smoke flow in a separate process, concurrently with rendering."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Working = Callable[[], bool]
 
 @contextlib.contextmanager
 def in_parallel(choice: ShotSource, view: str, frames: list[int], progress: Progress) -> Iterator[Working]:
-    """Context: solve a view's flow up to these frames in parallel; yields a test of whether it runs.
+    """Solve a view's flow up to these frames in parallel; yield a test of whether the solver runs.
 
     The solver's half a gigabyte belongs to the other process. Its errors are not raised here: the renderer
     meets them again when it solves a missing snapshot itself.

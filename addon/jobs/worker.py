@@ -158,7 +158,7 @@ class _Watchdog:
     Attributes
     ----------
     over
-        Whether it ended the child.
+        True if it ended the child.
     """
 
     def __init__(self, child: subprocess.Popen[str], seconds: float) -> None:
@@ -236,7 +236,7 @@ def _end(child: subprocess.Popen[str]) -> None:
 
 
 def _command(code: str) -> list[str]:
-    """Command line of the child: Python with Blender as a module, or Blender's executable inside Blender."""
+    """Compose the child's command: Python with Blender as a module, or Blender's executable in Blender."""
     blender = sys.modules["bpy"].app.binary_path if "bpy" in sys.modules else ""
     return (
         [blender, "--background", "--disable-autoexec", "--python-expr", code]
@@ -271,7 +271,7 @@ def _ending(code: int, eevee: bool) -> str:
 
 
 def _signal(number: int) -> str:
-    """Name of a signal; the set of signals differs between systems."""
+    """Return the name of a signal; the set of signals differs between systems."""
     try:
         return signal.Signals(number).name
     except ValueError:
@@ -279,7 +279,7 @@ def _signal(number: int) -> str:
 
 
 def serve(blender: bool = True) -> None:
-    """Worker side of `run`: executes the parent's request."""
+    """Execute the parent's request; worker side of `run`."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches both; the parent decides
     channel = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)
@@ -317,7 +317,7 @@ def serve(blender: bool = True) -> None:
 
 
 def _as_firetwin_error(error: Exception) -> Error:
-    """An error as one of ours."""
+    """Convert an exception to an Error of Firetwin."""
     from ..errors import Error, TryAgainError, full_disk_error, input_error, is_worth_another_try
 
     if isinstance(error, Error):

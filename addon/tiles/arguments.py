@@ -1,4 +1,4 @@
-"""The command line of `firetwin tiles`; nothing heavy is imported here."""
+"""Command line of `firetwin tiles`; imports only light modules."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def add(parser: argparse.ArgumentParser, path: Callable[[str], Path], count: Cal
         "--files",
         metavar="N",
         type=count,
-        help="most JSON files and subtrees to read (all; 50 of a server, 1 where it forbids more)",
+        help="maximum JSON files and subtrees to read (default: all; 50 of a server, 1 if it forbids more)",
     )
     add_access(info)
     summary = "make a tileset of a scene's ground and of buildings"
@@ -48,23 +48,24 @@ def add(parser: argparse.ArgumentParser, path: Callable[[str], Path], count: Cal
         "--geoid",
         metavar="M",
         type=float,
-        help="height of the geoid above the WGS84 ellipsoid, m (that of EGM96 by a grid of this machine)",
+        help="height of the geoid above the WGS84 ellipsoid, m (default: EGM96, by a grid of this machine)",
     )
-    make.add_argument("--credit", metavar="TEXT", default="", help="who is named for the data (the run)")
+    text = "credit of the data (default: run and orthophoto)"
+    make.add_argument("--credit", metavar="TEXT", default="", help=text)
 
 
 def add_access(parser: argparse.ArgumentParser) -> None:
-    """Define how tiles may be had, for every command that reads them."""
-    parser.add_argument("--strict", action="store_true", help="fail where a tile is missing")
+    """Define the options for access to tiles, for every command that reads them."""
+    parser.add_argument("--strict", action="store_true", help="fail if a tile is missing")
     parser.add_argument(
-        "--offline", action="store_true", help="use tiles of the cache and of this machine alone"
+        "--offline", action="store_true", help="use only cached tiles and files on this machine"
     )
     parser.add_argument(
         "--host",
         metavar="HOST",
         action="append",
         default=[],
-        help="further host that files of a tileset may lie on",
+        help="additional host that files of a tileset may be on",
     )
     parser.add_argument(
         "--private", action="store_true", help="allow tilesets at addresses of private networks"

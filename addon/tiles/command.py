@@ -1,4 +1,4 @@
-"""What each verb of `firetwin tiles` does."""
+"""Verb `info` of `firetwin tiles`."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def run(arguments: argparse.Namespace, network: Network) -> None:
     Raises
     ------
     Error
-        A file is missing, and it is to be strict.
+        A file is missing, with `--strict`.
     """
     source = open_source(arguments.source, network)
     try:
@@ -36,7 +36,7 @@ def run(arguments: argparse.Namespace, network: Network) -> None:
 
 
 def _default_files(source: Source) -> int | None:
-    """Files to read without being asked for more."""
+    """Return the default limit on files to read."""
     if not source.policy.may_prefetch:
         return 1
     return None if source.local else _MAX_SERVER_FILES

@@ -1,4 +1,4 @@
-"""What a tile's content is, by its first bytes, and whether all of it is there."""
+"""Type of a tile's content, from its magic bytes, and detection of truncated files."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _ENDINGS = {"glb": "glb", "gltf": "gltf", "json": "json", "b3dm": "b3dm", "i3dm"
 
 
 def kind(data: bytes) -> str:
-    """Kind of a content: ``b3dm``, ``i3dm``, ``cmpt``, ``pnts``, ``glb``, ``json`` or ``unknown``."""
+    """Detect the type of a content: a value of `MAGIC`, ``json`` or ``unknown``."""
     found = MAGIC.get(data[:4])
     if found is not None:
         return found
@@ -29,13 +29,13 @@ def kind(data: bytes) -> str:
 
 
 def kind_by_name(uri: str) -> str:
-    """Kind of a content as its name has it, which may be wrong."""
+    """Guess the type of a content from its name."""
     ending = uri.partition("#")[0].partition("?")[0].rpartition(".")[2].lower()
     return ending if ending in (*MAGIC.values(), *_ENDINGS) else "unknown"
 
 
 def truncation(data: bytes) -> str | None:
-    """How a file falls short of the length in its own header; None where it does not."""
+    """Describe a file that is shorter than its header states; None if it is complete."""
     found = MAGIC.get(data[:4])
     if found is None:
         return None
@@ -52,7 +52,7 @@ def truncation(data: bytes) -> str | None:
 
 
 def references(value: Any) -> Iterator[str]:
-    """URIs of the contents of a tileset's JSON, from its root on."""
+    """List the URIs of the contents of a tileset's JSON, from its root on."""
     stack = [value.get("root")] if isinstance(value, dict) else []
     while stack:
         tile = stack.pop()

@@ -1,4 +1,4 @@
-"""One choice of tiles for a whole shot: the same for each of its frames, whatever their order."""
+"""Selection of the tiles of a shot: one for all frames, independent of their order."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ class Views:
     eyes
         (k, 3) places of the perspective cameras, m.
     horizon
-        (4, 4) from Earth-centred metres to the scene: what is behind the Earth for all eyes is not seen.
-        None: it counts, as for orthographic cameras, which no eyes stand for.
+        (4, 4) from Earth-centred metres to the scene, for horizon culling: tiles behind the Earth for all
+        eyes are not visible. None: no horizon culling, as for orthographic cameras, which have no eyes.
     """
 
     view_set: lod.ViewSet
@@ -41,7 +41,7 @@ class Views:
 
 
 def pixels(height: ArrayLike, half_height: ArrayLike) -> NDArray[np.float64]:
-    """`Views.pixels` of pictures with `height` pixels.
+    """Compute `Views.pixels` of pictures with `height` pixels.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ def pixels(height: ArrayLike, half_height: ArrayLike) -> NDArray[np.float64]:
 
 @dataclass(frozen=True)
 class Budget:
-    """Most tiles, bytes and triangles of a choice; None: no limit."""
+    """Limits on tiles, bytes and triangles of a selection; None: no limit."""
 
     tiles: int | None = None
     bytes: int | None = None
@@ -73,13 +73,13 @@ class Choice:
     error
         Screen-space error above which tiles are refined, pixels.
     asked
-        What was asked for, pixels; less than `error` where the budget does not suffice.
+        Requested screen-space error, pixels; less than `error` if the budget does not suffice.
     fits
-        Whether the budget suffices at all.
+        False if even the coarsest tiles exceed the budget.
     stand_ins
         Tiles that stand in for broken ones below them.
     missing
-        Why contents or children of tiles cannot be had, by tile.
+        Reasons for missing contents or children, by tile.
     """
 
     tiles: NDArray[np.int64]
@@ -93,11 +93,11 @@ class Choice:
     missing: Mapping[int, str]
 
     def message(self) -> str:
-        """What a user should know of a choice that is coarser than asked for, or not whole; else nothing."""
+        """Describe a selection that is coarser than requested, or incomplete; empty otherwise."""
         parts = []
         if self.error > self.asked:
             parts.append(
-                f"tiles are shown to {self.error:.3g} pixels, not {self.asked:.3g}, to keep the budget"
+                f"tiles are shown to {self.error:.3g} pixels, not {self.asked:.3g}, to stay in the budget"
             )
         if not self.fits:
             parts.append("even the coarsest tiles are beyond the budget")
@@ -109,7 +109,7 @@ class Choice:
 
 @dataclass
 class _Measured:
-    """Screen-space errors and request volumes of the tiles that are known so far."""
+    """Screen-space errors and request volumes of the tiles read so far."""
 
     loader: Loader
     views: Views
@@ -120,7 +120,7 @@ class _Measured:
     outside_request_volume: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, bool))
 
     def extend(self) -> None:
-        """Measure the tiles that are new."""
+        """Measure tiles that were read since the last call."""
         tree, known = self.loader.tree, len(self.error)
         if known == tree.size:
             return
@@ -136,11 +136,11 @@ class _Measured:
         self.outside_request_volume = np.concatenate([self.outside_request_volume, outside])
 
     def to_scene(self, volumes: Volumes) -> Volumes:
-        """Volumes in the scene."""
+        """Transform volumes to the scene."""
         return volumes.moved(self.matrix[None], np.zeros(len(volumes.padding), np.int64))
 
     def visible_error(self, volumes: Volumes, error: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Screen-space errors of volumes in the scene, pixels; -1: no view sees them."""
+        """Compute the screen-space errors of volumes in the scene, pixels; -1: not visible."""
         scale = float(np.linalg.norm(self.matrix[:3, :3], ord=2))
         errors = tiles.screen_error(
             *_arrays(volumes),
@@ -174,7 +174,7 @@ def choose(
     triangles: Mapping[int, int] | None = None,
     progress: Progress = silent,
 ) -> Choice:
-    """Choose the tiles that a shot shows; reads as much of the tree as that needs.
+    """Select the tiles of a shot, and read the required part of the tree.
 
     Parameters
     ----------
@@ -185,18 +185,18 @@ def choose(
     margin
         Width added to each view frustum, m: for light from outside of the picture, and blur.
     shadows
-        Whether a tile counts as visible if its shadow falls on a visible place.
+        A tile counts as visible if its shadow falls on a visible place.
     fetch
-        Fetch the contents, to know that they are there and what they are.
+        Fetch the contents to check their presence and type.
     on_content
-        Receives number and bytes of contents as they are fetched; some may not be part of the choice.
+        Called with the number and bytes of each fetched content; some may not be part of the selection.
     triangles
-        Of contents, as far as known.
+        Known numbers of triangles, by content.
 
     Raises
     ------
     InputError
-        A file of the tileset is wrong, or refused, or the source does not go on.
+        A file of the tileset is invalid or refused, or the source stopped answering.
     """
     measured = _Measured(loader, views, matrix, margin, shadows)
     sizes = _Sizes(loader, triangles or {}, on_content, progress)
@@ -225,7 +225,7 @@ def choose(
 
 
 class _Sizes:
-    """Bytes and triangles of tiles, as far as they are known."""
+    """Known bytes and triangles of tiles."""
 
     def __init__(
         self,
@@ -238,7 +238,7 @@ class _Sizes:
         self.known: dict[int, int] = {}
 
     def arrays(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Bytes (n,) and triangles (n,) of all tiles, 0 where unknown."""
+        """Return bytes (n,) and triangles (n,) of all tiles; 0: unknown."""
         result = np.zeros((2, self.loader.tree.size), np.int64)
         for row, numbers in zip(result, (self.known, self.triangles), strict=True):
             if numbers:
@@ -247,7 +247,7 @@ class _Sizes:
         return result[0], result[1]
 
     def fetch_sizes(self, contents: NDArray[np.int64]) -> bool:
-        """Ask the source for the bytes of contents; whether there is something new."""
+        """Get the bytes of contents from the source; return whether any are new."""
         source, new = self.loader.source, False
         for content in map(int, contents):
             if content not in self.known and (size := source.size(self.loader.content_uri(content))):
@@ -256,7 +256,7 @@ class _Sizes:
         return new
 
     def check(self, contents: NDArray[np.int64]) -> bool:
-        """Fetch contents that are new; whether the tree, or a size that counts, has changed."""
+        """Fetch new contents; return whether the tree or a size has changed."""
 
         def keep(content: int, data: bytes) -> None:
             self.known[content] = len(data)
@@ -268,7 +268,7 @@ class _Sizes:
 
 
 def _visible_contents(measured: _Measured, cut: tiles.Cut) -> NDArray[np.int64]:
-    """Contents of the tiles of a cut. Added tiles lack those whose own volume no view sees."""
+    """Return the contents of a cut, without invisible contents of added tiles."""
     tree = measured.loader.tree
     contents = tree.contents_of(cut.tiles)
     contents = contents[tree.content_kind[contents] == MODEL]

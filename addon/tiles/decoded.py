@@ -46,7 +46,7 @@ class Material:
     Attributes
     ----------
     colour
-        Linear red, green, blue and alpha, multiplied with the picture's and the vertices'.
+        Linear red, green, blue and alpha, multiplied with colours of the picture and the vertices.
     picture
         File of the picture; empty: none.
     wrap
@@ -68,9 +68,9 @@ class Summary:
     Attributes
     ----------
     points
-        Vertices at the end that are points of a cloud; no triangle has them.
+        Number of vertices at the end that are points of a cloud, without triangles.
     spacing
-        m between neighbouring points; 0 without.
+        Distance of neighbouring points, m; 0 without points.
     credit
         Copyright notices, with semicolons between them.
     """
@@ -119,11 +119,11 @@ class Decoded:
 
     @property
     def pictures(self) -> list[str]:
-        """Files of its pictures, each once."""
+        """Files of the pictures, without duplicates."""
         return list(dict.fromkeys(each.picture for each in self.materials if each.picture))
 
     def without_points(self) -> Decoded:
-        """Its triangles alone."""
+        """Return the tile without its points."""
         left = len(self.position) - self.about.points
         return replace(
             self,
@@ -136,12 +136,12 @@ class Decoded:
 
 
 def write(tile: tiles.Tile, path: Path, resources: dict[str, bytes]) -> None:
-    """Write a decoded tile to `path`, and its pictures beside it.
+    """Write a decoded tile to `path`, and its pictures into the same folder.
 
     Parameters
     ----------
     resources
-        Files beside the content by uri, for pictures that lie there.
+        External files of the content by URI, for external pictures.
     """
     pictures = [_store_picture(each, path.parent, resources) for each in tile.images]
     materials: list[dict[str, Any]] = [
@@ -185,7 +185,7 @@ def write(tile: tiles.Tile, path: Path, resources: dict[str, bytes]) -> None:
 
 
 def _vertex_colours(tile: tiles.Tile) -> NDArray[np.float32]:
-    """Colours of the vertices, those of points multiplied with their material's."""
+    """Compute vertex colours; colours of points include the colour of their material."""
     tints = [
         (part, np.asarray(tile.materials[part.material].colour, np.float32))
         for part in tile.ranges
@@ -200,7 +200,7 @@ def _vertex_colours(tile: tiles.Tile) -> NDArray[np.float32]:
 
 
 def read_summary(path: Path) -> Summary | None:
-    """Numbers of a decoded tile; None where the file is not there or not whole."""
+    """Read the numbers of a decoded tile; None if the file is missing or incomplete."""
     try:
         with path.open("rb") as stream:
             about, start = _header(stream.read(len(_FIRST) + 4), stream.read)
@@ -224,7 +224,7 @@ def read(path: Path) -> Decoded:
         at = len(_FIRST) + 4
         about, start = _header(data[:at], lambda count: data[at : at + count])
         if start + _array_bytes(about) != len(data):
-            raise ValueError("its length is another")
+            raise ValueError("unexpected length")
         arrays = {}
         for name, (kind, length, width) in _ARRAYS.items():
             array = np.frombuffer(data, kind, about[length] * width, start)
@@ -236,22 +236,22 @@ def read(path: Path) -> Decoded:
         )
         found = Decoded(**arrays, materials=materials, about=_summary(about))
     except (OSError, ValueError, LookupError, TypeError, struct.error) as error:
-        raise input_error(path, f"is no decoded tile ({error}); delete it") from None
+        raise input_error(path, f"is not a decoded tile ({error}); delete it") from None
     if not _is_consistent(found):
-        raise input_error(path, "is no decoded tile: its numbers do not fit together; delete it")
+        raise input_error(path, "is not a decoded tile (inconsistent numbers); delete it")
     return found
 
 
 def _header(first: bytes, read: Any) -> tuple[dict[str, Any], int]:
-    """Header, and where the arrays begin."""
+    """Read the header; return it and the offset of the arrays."""
     if not first.startswith(_FIRST):
-        raise ValueError("it begins otherwise")
+        raise ValueError("unexpected signature")
     (length,) = struct.unpack("<I", first[len(_FIRST) :])
     return json.loads(read(length)), len(first) + length
 
 
 def _array_bytes(about: dict[str, Any]) -> int:
-    """Bytes of all arrays."""
+    """Sum the bytes of all arrays."""
     return sum(about[length] * width * np.dtype(kind).itemsize for kind, length, width in _ARRAYS.values())
 
 
@@ -261,7 +261,7 @@ def _summary(about: dict[str, Any]) -> Summary:
 
 
 def picture_names(path: Path) -> set[str]:
-    """Names of the pictures that a decoded tile's file names; none where it cannot be read."""
+    """Read the names of a decoded tile's pictures; empty if the file cannot be read."""
     try:
         with path.open("rb") as stream:
             about, _ = _header(stream.read(len(_FIRST) + 4), stream.read)
@@ -271,7 +271,7 @@ def picture_names(path: Path) -> set[str]:
 
 
 def _is_consistent(tile: Decoded) -> bool:
-    """Whether every triangle names vertices and a material that exist."""
+    """Test whether the vertices and materials of all triangles exist."""
     count = len(tile.position)
     if len(tile.colour) not in (0, count) or not 0 <= tile.about.points <= count:
         return False
@@ -284,7 +284,7 @@ def _is_consistent(tile: Decoded) -> bool:
 
 
 def _store_picture(image: tiles.Image, folder: Path, resources: dict[str, bytes]) -> str:
-    """Name of a picture's file, which is written where it is new."""
+    """Write a picture's file unless it exists; return its name."""
     data = image.data or resources.get(image.uri, b"")
     if not data or image.kind not in _ENDS:
         return ""

@@ -1,4 +1,4 @@
-"""Head of a tileset.json: version, extensions, and the tilesets that lead to it."""
+"""Head of a tileset.json: version, extensions and enclosing tilesets."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ MOST_NESTED = 64  # tilesets in one another
 
 
 def is_tileset(node: Node) -> bool:
-    """Whether a JSON text is a tileset, not a glTF or anything else."""
+    """Test whether a JSON text is a tileset, not a glTF or another format."""
     return isinstance(node.value, dict) and ("root" in node or "geometricError" in node)
 
 
@@ -34,7 +34,7 @@ def read(tree: Tree, node: Node, uri: str, holder: int, load: Callable[[str], No
                 raise each.error(f"the required extension {each.text()[:80]!r} is not known to Firetwin")
     above = tree.documents[int(tree.document[holder])].chain if holder >= 0 else ()
     if uri in above:
-        raise node.error("the tileset holds itself, through other tilesets")
+        raise node.error("the tileset contains itself, through other tilesets")
     if len(above) >= MOST_NESTED:
         raise node.error(f"more than {MOST_NESTED} tilesets in one another")
     up_axis = asset.get("gltfUpAxis")

@@ -1,4 +1,4 @@
-"""Reading of a tileset.json into rows of a tree, with the lenience that tilesets in use need."""
+"""Reader of a tileset.json into rows of a tree; tolerates common deviations from the specification."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _SINGULAR = 1e-12  # determinant of columns of length 1
 
 @dataclass(frozen=True)
 class External:
-    """A tileset that a tile holds, to be read.
+    """An external tileset to read.
 
     Attributes
     ----------
@@ -33,7 +33,7 @@ class External:
 
 @dataclass
 class _Pending:
-    """A tile to visit: its JSON, and what it has from its parent."""
+    """A tile to visit: its JSON, and values inherited from its parent."""
 
     node: Node
     parent: int
@@ -55,13 +55,13 @@ def read(
     Parameters
     ----------
     node
-        All of the file.
+        Root of the JSON text.
     uri
-        Of the file, for its source.
+        URI of the file for its source.
     holder
-        Tile that holds the tileset; -1: it is the root's.
+        Tile whose content the tileset is; -1: the root tileset.
     load
-        Reads a JSON file that this one refers to; None where it is not there.
+        Reads a JSON file by a reference in this one; returns None if it is missing.
 
     Returns
     -------
@@ -70,14 +70,14 @@ def read(
     Raises
     ------
     InputError
-        It is no tileset that can be read; nothing was appended.
+        The tileset is invalid; nothing was appended.
     """
     document = documents.read(tree, node, uri, holder, load)
     return _Walk(tree, node, document, holder).run()
 
 
 class _Walk:
-    """Visits the tiles of one document with a stack of its own."""
+    """Traversal of the tiles of one document with an explicit stack."""
 
     def __init__(self, tree: Tree, node: Node, document: Document, holder: int) -> None:
         self.tree, self.holder, self.document = tree, holder, document
@@ -112,7 +112,7 @@ class _Walk:
         self.placeholders: list[int] = []
 
     def run(self) -> int:
-        """Visit all; then append them."""
+        """Visit all tiles, then append them."""
         while self.stack:
             self._visit(self.stack.pop())
         tree = self.tree
@@ -146,7 +146,7 @@ class _Walk:
         )
 
     def _volumes(self, matrix: NDArray[np.int64]) -> Volumes:
-        """Bounding volumes of all rows in the root's frame."""
+        """Compute the bounding volumes of all rows in the root's frame."""
         used, which = np.unique(matrix, return_inverse=True)
         matrices = np.stack([self.matrices[int(each)][0] for each in used])
         order, parts = [], []
@@ -196,7 +196,7 @@ class _Walk:
             self.stack += reversed(below)
 
     def _transform(self, node: Node, above: int) -> int:
-        """Number of the product of a tile's transform and those above."""
+        """Multiply a tile's transform with its parent's; return the number of the product."""
         transform = node.get("transform")
         if transform is None:
             return above
@@ -209,7 +209,7 @@ class _Walk:
             unit = local[:3, :3] / np.where(lengths > 0.0, lengths, 1.0)
             singular = not abs(np.linalg.det(unit)) > _SINGULAR if np.isfinite(unit).all() else True
         if singular or not np.isfinite(matrix).all():
-            raise transform.error("cannot be inverted (determinant 0), or is not finite with those above it")
+            raise transform.error("cannot be inverted (determinant 0), or is not finite with its parents'")
         number = self.tree.matrix_count + len(self.new_matrices)
         self.new_matrices.append(matrix)
         self.matrices[number] = self._scaled(matrix)
@@ -220,7 +220,7 @@ class _Walk:
         return matrix, float(volumes.largest_scale(matrix[None, :3, :3])[0])
 
     def _raw_error(self, node: Node, tile: _Pending, overrides: metadata.Overrides) -> float:
-        """Geometric error in the tile's own frame; half the parent's where it is missing."""
+        """Return the geometric error in the tile's frame; half the parent's error if it is missing."""
         if overrides.error is not None:
             return overrides.error
         stated = node.get("geometricError")
@@ -269,7 +269,7 @@ def _error(node: Node) -> float:
 
 
 def _contents(node: Node) -> list[Node]:
-    """Contents of a tile, of which a 1.0 tileset has several by an extension."""
+    """List the contents of a tile; in 1.0 an extension allows several."""
     one = node.get("content")
     if one is not None and "extensions" not in node and "contents" not in node:
         return [one]

@@ -1,7 +1,7 @@
-"""Height of the geoid above the WGS84 ellipsoid, by the grid of EGM96 that this machine has.
+"""Height of the geoid above the WGS84 ellipsoid, from a grid of EGM96 on this machine.
 
-EGM96 is the geoid of most elevation models (Lemoine et al. 1998, NASA/TP-1998-206861). Its grid has 4 MB, and
-comes with PROJ and GeographicLib rather than with Firetwin. Between its points heights are bilinear.
+EGM96 is the geoid of most elevation models (Lemoine et al. 1998, NASA/TP-1998-206861). Its grid of 4 MB comes
+with PROJ and GeographicLib, not with Firetwin. Heights are interpolated bilinearly.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from ..errors import input_error
 Array = NDArray[np.float64]
 REMEDY = (
     "this machine has no grid of EGM96: write the geoid's height as a number (m; -24.9 at the King Fire), or "
-    "install egm96_15.gtx of PROJ (Debian: proj-data) or egm96-5.pgm of GeographicLib; a folder of it that "
-    "PROJ_DATA or GEOGRAPHICLIB_GEOID_PATH names is found too"
+    "install egm96_15.gtx of PROJ (Debian: proj-data) or egm96-5.pgm of GeographicLib; folders named by "
+    "PROJ_DATA or GEOGRAPHICLIB_GEOID_PATH are searched too"
 )
 _PROJ = ("egm96_15.gtx",)
 _GEOGRAPHICLIB = ("egm96-5.pgm", "egm96-15.pgm")
@@ -35,7 +35,7 @@ _STEP = 1.0e4  # m, over which the slope is measured
 
 @dataclass(frozen=True)
 class Geoid:
-    """A geoid's heights above the ellipsoid at points that go all around the Earth.
+    """Heights of a geoid above the ellipsoid on a global grid.
 
     Attributes
     ----------
@@ -54,7 +54,7 @@ class Geoid:
     offset: float = 0.0
 
     def height(self, latitude: ArrayLike, longitude: ArrayLike) -> Array:
-        """Heights of the geoid above the ellipsoid, m, at places in degrees."""
+        """Interpolate heights above the ellipsoid, m, at places in degrees."""
         rows, columns = self.value.shape
         row = np.clip((np.asarray(latitude, float) - self.first[0]) / self.step[0], 0, rows - 1)
         column = (np.asarray(longitude, float) - self.first[1]) / self.step[1]
@@ -68,7 +68,7 @@ class Geoid:
         return (1.0 - v) * ((1.0 - u) * low + u * east) + v * ((1.0 - u) * north + u * far)
 
     def plane(self, frame: geo.LocalFrame) -> tuple[float, float, float]:
-        """Height at a frame's origin, m, and its rise per metre to the east and north."""
+        """Compute the height at a frame's origin, m, and its rise per metre to the east and north."""
         ways = np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)]) * _STEP
         latitude, longitude, _ = frame.reverse(np.column_stack([ways, np.zeros(len(ways))]))
         middle, *sides = self.height(latitude, longitude).tolist()
@@ -76,7 +76,7 @@ class Geoid:
 
 
 def find() -> Geoid | None:
-    """EGM96 as this machine has it; None without.
+    """Find and read a grid of EGM96 on this machine; None without one.
 
     Raises
     ------
@@ -93,19 +93,19 @@ def read(path: Path) -> Geoid:
     Raises
     ------
     InputError
-        The file is damaged, or does not go all around the Earth.
+        The file is damaged, or its grid is not global.
     """
     try:
         found = _gtx(path) if path.suffix == ".gtx" else _pgm(path)
     except (OSError, ValueError, LookupError, TypeError, struct.error) as error:
-        raise input_error(path, f"is no grid of a geoid ({error}); install it again") from None
+        raise input_error(path, f"is not a geoid grid ({error}); install it again") from None
     if abs(found.value.shape[1] * found.step[1] - 360.0) > 1.0e-6:
-        raise input_error(path, "does not go all around the Earth; install the whole grid")
+        raise input_error(path, "is not a global grid; install the complete grid")
     return found
 
 
 def _gtx(path: Path) -> Geoid:
-    """GTX, of NOAA's VDatum: rows from the south, float32, big-endian."""
+    """Read GTX, the format of NOAA's VDatum: rows from the south, float32, big-endian."""
     with path.open("rb") as stream:
         south, west, up, across, rows, columns = _HEADER.unpack(stream.read(_HEADER.size))
     value = np.memmap(path, ">f4", "r", _HEADER.size, (rows, columns))
@@ -113,7 +113,7 @@ def _gtx(path: Path) -> Geoid:
 
 
 def _pgm(path: Path) -> Geoid:
-    """GeographicLib's "Geoid height" format: from the North Pole and Greenwich, 16 bits, big-endian."""
+    """Read GeographicLib's "Geoid height" format: from the North Pole and Greenwich, 16 bits, big-endian."""
     with path.open("rb") as stream:
         head = stream.read(4096)
     found = re.match(rb"P5\s(?:#[^\n]*\n)*\s*(\d+)\s+(\d+)\s+65535\s", head)
@@ -127,7 +127,7 @@ def _pgm(path: Path) -> Geoid:
 
 
 def _candidates() -> Iterator[Path]:
-    """Where grids may lie, by the variables and folders of PROJ and GeographicLib."""
+    """List possible files by the variables and folders of PROJ and GeographicLib."""
     named = [part for key in ("PROJ_DATA", "PROJ_LIB") for part in os.environ.get(key, "").split(os.pathsep)]
     usual = [f"{share}/proj" for share in (*_SHARES, f"{sys.prefix}/share", f"{sys.prefix}/Library/share")]
     for folder in filter(None, (*named, *usual)):

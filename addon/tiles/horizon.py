@@ -1,8 +1,8 @@
-"""Horizon culling: tiles behind the Earth, as every eye of a shot sees it.
+"""Horizon culling of tiles that are behind the Earth for all eyes of a shot.
 
-Places are scaled by the axes of the ellipsoid, which becomes the unit sphere (Cozzi and Ring, 3D Engine
-Design for Virtual Globes, 2011, 2.4 and 12.2.3). What an eye does not see then lies beyond the plane of its
-horizon and within the cone that touches the sphere. A sphere is hidden if all of it is.
+Coordinates are divided by the axes of the ellipsoid, which becomes the unit sphere (Cozzi and Ring, 3D Engine
+Design for Virtual Globes, 2011, 2.4 and 12.2.3). Hidden points are beyond the plane of the eye's horizon and
+within the cone that touches the sphere. A sphere is hidden if all of its points are.
 """
 
 from __future__ import annotations
@@ -12,21 +12,21 @@ from numpy.typing import NDArray
 
 from ..ellipsoid import E2, A
 
-LOWEST = 1000.0  # m below WGS84: no ground is lower where it could hide something (Dead Sea: 430 m)
+LOWEST = 1000.0  # m below WGS84: all ground is higher (Dead Sea: -430 m)
 _AXES = np.array([A, A, A * np.sqrt(1.0 - E2)]) - LOWEST
 
 Array = NDArray[np.float64]
 
 
 def hidden_mask(centre: Array, radius: Array, eyes: Array) -> NDArray[np.bool_]:
-    """Whether spheres (n,) are behind the Earth for all eyes; none is without an eye.
+    """Test whether spheres (n,) are behind the Earth for all eyes; none without an eye.
 
     Parameters
     ----------
     centre, radius
         (n, 3) and (n,) Earth-centred, m.
     eyes
-        (k, 3) Earth-centred, m. An eye below the ground sees all.
+        (k, 3) Earth-centred, m. For an eye below the ground nothing is hidden.
     """
     result = np.full(len(centre), len(eyes) > 0)
     place, size = centre / _AXES, radius / _AXES.min()
@@ -39,7 +39,7 @@ def hidden_mask(centre: Array, radius: Array, eyes: Array) -> NDArray[np.bool_]:
 
 
 def _is_behind(place: Array, radius: Array, eye: Array) -> NDArray[np.bool_]:
-    """Whether scaled spheres are behind the unit sphere for one scaled eye."""
+    """Test whether scaled spheres are behind the unit sphere for one scaled eye."""
     away = float(np.linalg.norm(eye))
     if away <= 1.0:
         return np.zeros(len(place), bool)

@@ -1,4 +1,4 @@
-"""Implicit tilings (3D Tiles 1.1, and 3DTILES_implicit_tiling of 1.0): subtrees to rows of a tree."""
+"""Reader of implicit tilings (3D Tiles 1.1, and 3DTILES_implicit_tiling of 1.0) into rows of a tree."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ class Place:
     Attributes
     ----------
     numbers
-        Of its box or region.
+        Numbers of its box or region.
     matrix
-        Of the tree.
+        Number of its matrix in the tree.
     error
-        Of the whole tiling, m.
+        Geometric error of the tiling's root, m.
     """
 
     kind: str
@@ -41,7 +41,7 @@ class Place:
 
 @dataclass(frozen=True)
 class Subtree:
-    """A subtree to be read, at (level, x, y, z)."""
+    """A subtree to read, at (level, x, y, z)."""
 
     scheme: Scheme
     place: Place
@@ -50,7 +50,7 @@ class Subtree:
 
     @property
     def reference(self) -> str:
-        """Its URI as its document has it."""
+        """URI as written in its document."""
         return filled(self.scheme.subtrees, *self.at)
 
 
@@ -62,14 +62,14 @@ def expand(
     Parameters
     ----------
     data, name
-        Of the subtree's file.
+        Bytes and name of the subtree's file.
     load
-        Reads another file, by a reference within the subtree.
+        Reads another file by a reference in the subtree.
 
     Raises
     ------
     InputError
-        The subtree is wrong; nothing was appended.
+        The subtree is invalid; nothing was appended.
     """
     scheme = job.scheme
     found = subtree.read(data, name, scheme.branches, scheme.levels, len(job.contents), load)
@@ -102,7 +102,7 @@ class _Cells:
 
 
 def _available(tree: Tree, found: Availability, job: Subtree, levels: int, name: str) -> _Cells:
-    """Tiles that are available and whose parents are."""
+    """List the tiles that are available and have available parents."""
     branches = job.scheme.branches
     parts: list[tuple[NDArray[np.int64], ...]] = []
     morton, above, start, rows = np.zeros(1, np.int64), np.full(1, -1, np.int64), 0, 0
@@ -151,7 +151,7 @@ def _scale(tree: Tree, place: Place) -> float:
 
 
 def _coordinates(job: Subtree, cells: _Cells) -> NDArray[np.int64]:
-    """(n, 4) level, x, y, z of tiles in the whole tiling."""
+    """Compute level, x, y, z (n, 4) of tiles in the tiling."""
     dimensions = 2 if job.scheme.branches == 4 else 3
     at = np.zeros((len(cells.index), 4), np.int64)
     at[:, 0] = job.at[0] + cells.level
@@ -164,7 +164,7 @@ def _coordinates(job: Subtree, cells: _Cells) -> NDArray[np.int64]:
 
 
 def _overrides(found: Availability, cells: _Cells, place: Place) -> list[metadata.Overrides]:
-    """What metadata say of each tile; empty where they say nothing."""
+    """Read the metadata of each tile; empty without metadata."""
     node, tables = found.node, found.node.get("propertyTables")
     holder = node
     if (extensions := node.get("extensions")) is not None and "3DTILES_metadata" in extensions:
@@ -187,7 +187,7 @@ def _overrides(found: Availability, cells: _Cells, place: Place) -> list[metadat
 def _volumes(
     tree: Tree, scheme: Scheme, place: Place, at: NDArray[np.int64], overrides: list[metadata.Overrides]
 ) -> Volumes:
-    """Volumes (n,) of tiles, each directly from the whole tiling's: halving again and again would round."""
+    """Compute volumes (n,) directly from the root's: repeated halving would accumulate error."""
     numbers = divide(place.kind, np.array(place.numbers), at, scheme.branches)
     own: dict[str, list[int]] = {kind: [] for kind in volumes.KINDS}
     every: dict[str, list[list[float]]] = {kind: [] for kind in volumes.KINDS}
@@ -212,7 +212,7 @@ def _moved(tree: Tree, place: Place, kind: str, numbers: NDArray[np.float64]) ->
 def divide(
     kind: str, numbers: NDArray[np.float64], at: NDArray[np.int64], branches: int
 ) -> NDArray[np.float64]:
-    """Numbers (n, 12) of boxes or (n, 6) of regions of tiles (n, 4): level, x, y, z."""
+    """Divide a box or region; returns numbers (n, 12) or (n, 6) of tiles (n, 4): level, x, y, z."""
     parts = 2.0 ** at[:, 0]
     dimensions = 2 if branches == 4 else 3
     result = np.tile(numbers, (len(at), 1))
@@ -235,7 +235,7 @@ def divide(
 def _contents(
     tree: Tree, job: Subtree, found: Availability, cells: _Cells, at: NDArray[np.int64]
 ) -> NDArray[np.int64]:
-    """(k, 7) as `Rows` has them, by tile."""
+    """Compute the contents (k, 7) of `Rows`, ordered by tile."""
     parts = [np.empty((0, 7), np.int64)]
     for node, bits in zip(job.contents, found.contents, strict=True):
         rows = np.flatnonzero(bits.at(cells.index))
@@ -250,7 +250,7 @@ def _contents(
 def _below(
     job: Subtree, found: Availability, cells: _Cells, at: NDArray[np.int64], levels: int
 ) -> dict[int, list[Subtree]]:
-    """Further subtrees below the tiles of the last level."""
+    """List child subtrees, by tile of the last level."""
     scheme = job.scheme
     if levels < scheme.levels or job.at[0] + scheme.levels >= scheme.available:
         return {}

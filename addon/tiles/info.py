@@ -1,4 +1,4 @@
-"""What is in a tileset."""
+"""Facts of a tileset, for `firetwin tiles info`."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from .loader import Loader
 from .place import ecef_to_frame
 from .tree import MODEL
 
-_SAMPLED = 1000  # contents of a folder or archive whose first bytes are read
-_EARTH = 6_000_000.0  # m; what lies nearer to the origin is not Earth-centred
+_SAMPLED = 1000  # contents of a folder or archive whose type is read from magic bytes
+_EARTH = 6_000_000.0  # m; coordinates nearer to the origin are not Earth-centred
 
 
 def gather(loader: Loader, most: int | None) -> dict[str, Any]:
-    """Facts of a tileset, as JSON data.
+    """Gather the facts of a tileset, as JSON data.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ def gather(loader: Loader, most: int | None) -> dict[str, Any]:
     Raises
     ------
     InputError
-        A file is wrong, or refused.
+        A file is invalid or refused.
     """
     whole = loader.expand_all(most)
     tree, source = loader.tree, loader.source
@@ -70,7 +70,7 @@ def gather(loader: Loader, most: int | None) -> dict[str, Any]:
 
 
 def format_text(facts: dict[str, Any]) -> str:
-    """The facts for people."""
+    """Format the facts as text."""
     kinds = ", ".join(f"{number:,} {name}" for name, number in facts["kinds"].items()) or "none"
     how = "" if facts["by_first_bytes"] else " (by their names)"
     refine = ", ".join(f"{number:,} {word}" for word, number in facts["refine"].items() if number)
@@ -93,7 +93,7 @@ def format_text(facts: dict[str, Any]) -> str:
 
 
 def _centre(place: np.ndarray) -> dict[str, float] | None:
-    """Latitude and longitude of an Earth-centred place; None where it is none."""
+    """Return latitude and longitude of a place; None if it is not Earth-centred."""
     if np.linalg.norm(place) < _EARTH:
         return None
     frame = geo.LocalFrame(0.0, 0.0, 0.0)

@@ -1,4 +1,4 @@
-"""JSON of others, read within limits; errors name the file and the JSON path."""
+"""Untrusted JSON, read within limits; errors name the file and the JSON path."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def parse(data: bytes, file: str) -> Node:
     Raises
     ------
     InputError
-        It is larger than 64 MB, deeper than 256, not UTF-8, not JSON, or has a number that is not finite.
+        It exceeds 64 MB or a depth of 256, is not UTF-8 or not JSON, or has a number that is not finite.
     """
     if len(data) > MAX_BYTES:
         raise input_error(file, f"is larger than {MAX_BYTES >> 20} MB; split the tileset")
@@ -48,7 +48,7 @@ def _no_constant(name: str) -> NoReturn:
 
 
 def _depth(data: bytes) -> int:
-    """Most arrays and objects in one another; 0 where there cannot be too many."""
+    """Compute the nesting depth of arrays and objects; 0 if it cannot exceed the limit."""
     if data.count(b"[") + data.count(b"{") <= DEEPEST:
         return 0
     text = np.frombuffer(_TEXT.sub(b"", data), np.uint8)
@@ -58,7 +58,7 @@ def _depth(data: bytes) -> int:
 
 
 class Node:
-    """A value of a JSON text, with its place."""
+    """A value of a JSON text, with its JSON path."""
 
     __slots__ = ("_above", "_path", "file", "value")
 
@@ -67,7 +67,7 @@ class Node:
 
     @property
     def path(self) -> str:
-        """JSON path; of a member it is made when asked for."""
+        """JSON path, composed on demand."""
         if self._above is not None:
             name = self._path if _NAME.fullmatch(self._path) else f"[{self._path[:80]!r}]"
             dot = "." if name == self._path else ""
@@ -75,14 +75,14 @@ class Node:
         return self._path
 
     def error(self, reason: str) -> InputError:
-        """InputError with file and JSON path."""
+        """Make an InputError with file and JSON path."""
         return input_error(self.file, f"{self.path}: {reason}")
 
     def __contains__(self, name: str) -> bool:
         return isinstance(self.value, dict) and name in self.value
 
     def get(self, *names: str) -> Node | None:
-        """Member by the first of these names that is there; None without one."""
+        """Return the member by the first of these names that exists; None without one."""
         value = self.value
         if type(value) is not dict:
             raise self.error("must be an object")
@@ -93,7 +93,7 @@ class Node:
         return None
 
     def need(self, *names: str) -> Node:
-        """Member by the first of these names that is there.
+        """Return the member by the first of these names that exists.
 
         Raises
         ------
@@ -106,32 +106,32 @@ class Node:
         return found
 
     def object(self) -> dict[str, Any]:
-        """The value, which must be an object."""
+        """Return the value, which must be an object."""
         if not isinstance(self.value, dict):
             raise self.error("must be an object")
         return self.value
 
     def items(self) -> Iterator[Node]:
-        """Elements of the value, which must be an array."""
+        """List the elements of the value, which must be an array."""
         if not isinstance(self.value, list):
             raise self.error("must be an array")
         path = self.path
         return (Node(each, self.file, f"{path}[{i}]") for i, each in enumerate(self.value))
 
     def text(self) -> str:
-        """The value, which must be a string."""
+        """Return the value, which must be a string."""
         if not isinstance(self.value, str):
             raise self.error("must be a string")
         return self.value
 
     def number(self) -> float:
-        """The value, which must be a finite number."""
+        """Return the value, which must be a finite number."""
         if not _finite(self.value):
             raise self.error("must be a finite number")
         return float(self.value)
 
     def index(self, most: int, least: int = 0) -> int:
-        """The value, which must be a whole number from `least` to `most`."""
+        """Return the value, which must be a whole number from `least` to `most`."""
         value = self.value
         whole = isinstance(value, int) or (isinstance(value, float) and value.is_integer())
         if isinstance(value, bool) or not whole or not least <= value <= most:
@@ -139,7 +139,7 @@ class Node:
         return int(value)
 
     def numbers(self, count: int) -> list[float]:
-        """The value, which must be `count` finite numbers."""
+        """Return the value, which must be `count` finite numbers."""
         value = self.value
         if type(value) is not list or len(value) != count:
             raise self.error(f"must be {count} numbers")
@@ -149,7 +149,7 @@ class Node:
 
 
 def _finite(value: Any) -> bool:
-    kind = type(value)  # bool is no number here
+    kind = type(value)  # bool is a subclass of int
     if kind is not float and kind is not int:
         return False
     try:

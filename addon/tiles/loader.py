@@ -1,4 +1,4 @@
-"""A tree that grows as it is asked for: tilesets within tilesets and subtrees, fetched side by side."""
+"""Loader of a tree on demand: external tilesets and subtrees, fetched concurrently."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ Job = External | Subtree
 
 
 class Loader:
-    """Reads a source's tileset.
+    """Loader of a source's tileset.
 
     Attributes
     ----------
     tree
-        What has been read.
+        The part of the tileset that has been read.
     files
-        Number of JSON files and subtrees that have been read.
+        Number of JSON files and subtrees read.
 
     Raises
     ------
@@ -42,7 +42,7 @@ class Loader:
         explicit.read(self.tree, node, source.root, load=self._json(source.root))
 
     def expand(self, tile_ids: Iterable[int]) -> None:
-        """Read what tells the children of some tiles. What is missing makes a tile broken.
+        """Read the external tilesets and subtrees of these tiles; a tile with a missing file is broken.
 
         Raises
         ------
@@ -71,7 +71,7 @@ class Loader:
         return True
 
     def content_uri(self, content: int) -> str:
-        """URI of a content, as the source knows it."""
+        """Resolve the URI of a content for the source."""
         document = self.tree.documents[int(self.tree.content[content, 1])]
         return self.source.resolve(document.uri, self.tree.reference(content))
 
@@ -81,18 +81,18 @@ class Loader:
         on_content: Callable[[int, bytes], object] | None = None,
         progress: Progress = silent,
     ) -> bool:
-        """Fetch contents, and find out what they are.
+        """Fetch contents and detect their types.
 
-        One that is a tileset is grafted, one that is missing makes its tile broken.
+        External tilesets are grafted; a tile with a missing content is broken.
 
         Parameters
         ----------
         on_content
-            Receives the number and the bytes of each content that can be shown.
+            Called with the number and bytes of each content that can be shown.
 
         Returns
         -------
-        Whether the tree has changed.
+        True if the tree has changed.
         """
         numbers = [number for number in map(int, content_ids) if number not in self._kinds]
         changed = False
@@ -105,7 +105,7 @@ class Loader:
         return changed
 
     def kind(self, content: int) -> str:
-        """Kind of a content: as `check` found it, otherwise by its name."""
+        """Return the type of a content: from `check`, otherwise by its name."""
         return self._kinds.get(content) or contents.kind_by_name(self.tree.reference(content))
 
     def _note(
@@ -123,7 +123,7 @@ class Loader:
         self._kinds[content] = contents.kind(data)
         if self._kinds[content] == "json":
             self._kinds[content] = "gltf"
-            with contextlib.suppress(InputError):  # what is no JSON is no tileset; its reader says why
+            with contextlib.suppress(InputError):  # not JSON, so not a tileset; the decoder reports it
                 if documents.is_tileset(node := parse(data, self.source.name(uri))):
                     self._kinds[content] = "tileset"
         if self._kinds[content] == "tileset":
@@ -159,7 +159,7 @@ class Loader:
         explicit.read(self.tree, node, uri, holder, self._json(uri))
 
     def _fetch(self, uris: list[str], max_bytes: int | None = None) -> list[bytes | MissingError]:
-        """Contents of files, or why they are missing."""
+        """Read files; an error in place of each missing one."""
 
         def one(uri: str) -> bytes | MissingError:
             try:
@@ -169,7 +169,7 @@ class Loader:
 
         if self.source.parallel == 1 or len(uris) < 2:
             return [one(uri) for uri in uris]
-        if self._pool is None:  # kept, as each of its threads has the cache open
+        if self._pool is None:  # reused: each of its threads has the cache open
             self._pool = ThreadPoolExecutor(self.source.parallel)
         return list(self._pool.map(one, uris))
 

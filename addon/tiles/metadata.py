@@ -1,4 +1,4 @@
-"""Metadata that replaces a tile's own bounding volume or error (3D Tiles 1.1: semantics of tiles)."""
+"""Metadata that override a tile's bounding volume or error (3D Tiles 1.1: semantics of tiles)."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _SIZES = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "M
 
 @dataclass(frozen=True)
 class Overrides:
-    """What metadata say of one tile."""
+    """Values of one tile from metadata."""
 
     volume: tuple[str, list[float]] | None = None
     low: float | None = None
@@ -34,7 +34,7 @@ class Overrides:
     error: float | None = None
 
     def with_heights(self, kind: str, numbers: list[float]) -> list[float]:
-        """Numbers of a volume; those of a region with the tile's own heights, m."""
+        """Replace the heights of a region, m; other volumes are unchanged."""
         if kind != "region":
             return numbers
         low = numbers[4] if self.low is None else self.low
@@ -44,12 +44,12 @@ class Overrides:
 
 @dataclass(frozen=True)
 class Property:
-    """A property of a class that has a semantic Firetwin knows.
+    """A property of a class with a known semantic.
 
     Attributes
     ----------
     count
-        Numbers of one value.
+        Number of components of one value.
     """
 
     semantic: str
@@ -62,7 +62,7 @@ class Property:
 
 
 def schema_of(tileset: Node, load: Callable[[str], Node | None]) -> Node | None:
-    """Schema of a tileset, of 1.1 or of the extension; `load` reads one in a file of its own."""
+    """Return the schema of a tileset, of 1.1 or of the extension; `load` reads an external schema."""
     holder = tileset
     if (extensions := tileset.get("extensions")) is not None:
         holder = extensions.get("3DTILES_metadata") or tileset
@@ -72,7 +72,7 @@ def schema_of(tileset: Node, load: Callable[[str], Node | None]) -> Node | None:
 
 
 def properties(schema: Node | None, name: str) -> dict[str, Property]:
-    """Properties of a class with a semantic that replaces something, by their ids."""
+    """List the properties of a class with a known semantic, by their ids."""
     if schema is None or (classes := schema.get("classes")) is None or (found := classes.get(name)) is None:
         return {}
     result: dict[str, Property] = {}
@@ -99,7 +99,7 @@ def properties(schema: Node | None, name: str) -> dict[str, Property]:
 
 
 def of_tile(tile: Node, schema: Node | None) -> Overrides:
-    """What the metadata of an explicit tile say."""
+    """Read the metadata of an explicit tile."""
     node = tile.get("metadata")
     if node is None and (extensions := tile.get("extensions")) is not None:
         node = extensions.get("3DTILES_metadata")
@@ -116,7 +116,7 @@ def of_tile(tile: Node, schema: Node | None) -> Overrides:
 
 
 def real(raw: NDArray[Any], found: Property, table: dict[str, Any], node: Node) -> NDArray[np.float64]:
-    """Numbers (n, count) of a property: normalised integers, then scale and offset of the table or class."""
+    """Convert values of a property (n, count): normalised integers, then scale and offset."""
     values = raw.astype(np.float64)
     if found.normalized and raw.dtype.kind in "iu":
         values = np.maximum(values / np.iinfo(raw.dtype).max, -1.0)
@@ -133,7 +133,7 @@ def real(raw: NDArray[Any], found: Property, table: dict[str, Any], node: Node) 
 
 
 def of_row(values: dict[str, NDArray[np.float64]], row: int, node: Node) -> Overrides:
-    """What the values of semantics say of one row."""
+    """Make overrides from one row of the values of semantics."""
     volume = None
     for semantic, kind in _VOLUMES.items():
         if semantic in values:
@@ -149,16 +149,16 @@ def of_row(values: dict[str, NDArray[np.float64]], row: int, node: Node) -> Over
 def read_table(
     subtree: Node, buffers: list[memoryview], schema: Node | None, tables: Node, number: int
 ) -> tuple[dict[str, NDArray[np.float64]], int]:
-    """Values of the semantics in a property table, and its number of rows.
+    """Read the values of semantics in a property table, and its number of rows.
 
     Parameters
     ----------
     subtree
-        For messages.
+        JSON of the subtree, for messages.
     buffers
         Buffer views of the subtree.
     tables, number
-        `propertyTables` of the subtree, and which of them.
+        `propertyTables` of the subtree, and the number of a table.
     """
     every = list(tables.items())
     if number >= len(every):

@@ -1,8 +1,8 @@
-"""Copyright notices in one text, as `asset.copyright` of glTF has them: semicolons separate them."""
+"""Copyright notices separated by semicolons, as in `asset.copyright` of glTF."""
 
 from __future__ import annotations
 
 
 def split(text: str) -> list[str]:
-    """Notices of a text."""
+    """Split a text into its notices."""
     return [part for each in text.split(";") if (part := each.strip())]

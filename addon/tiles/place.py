@@ -1,4 +1,4 @@
-"""Places of tiles: Earth-centred metres to a local frame."""
+"""Transform from Earth-centred metres to a local frame."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from ..ellipsoid import ecef, enu_axes
 def ecef_to_frame(
     frame: geo.LocalFrame, undulation: float = 0.0, slope: tuple[float, float] = (0.0, 0.0)
 ) -> NDArray[np.float64]:
-    """Matrix (4, 4) from Earth-centred (WGS84, EPSG:4978) to local east-north-up metres.
+    """Compute the matrix (4, 4) from Earth-centred (WGS84, EPSG:4978) to local east-north-up metres.
 
-    It is to be multiplied with the tiles' own matrices in double precision: in the sum of both nothing
-    Earth-centred is left, whose float32 would be wrong by 0.5 m.
+    Multiply it with the matrices of tiles in double precision: the product has local coordinates.
+    Earth-centred coordinates in float32 are wrong by 0.5 m.
 
     Parameters
     ----------
     undulation
-        Height of the geoid above the ellipsoid at the scene, m. A scene of orthometric heights shows
-        what is h above the ellipsoid at h - undulation.
+        Height of the geoid above the ellipsoid at the scene, m. In a scene of orthometric heights a point
+        h above the ellipsoid is at h - undulation.
     slope
         Rise of the geoid per metre to the east and north.
     """

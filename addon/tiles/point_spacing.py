@@ -1,4 +1,4 @@
-"""Spacing of a cloud's points, from how many of them share a cell."""
+"""Estimate of the point spacing of a cloud from the number of points per cell."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 _IN_A_CELL = 8.0
-"""Points in a cell, about."""
+"""Approximate points per cell."""
 _ITERATIONS = 6
 
 
 def estimate(position: NDArray[np.float32]) -> float:
-    """Distance between neighbouring points (n, 3) of a surface, m: sqrt(area / n); 0 for less than 2 points.
+    """Estimate the distance of neighbouring points (n, 3) of a surface, m: sqrt(area / n); 0 if n < 2.
 
-    The area is that of the cells that hold points; cells are so large that about 8 points share one.
+    The area is the total area of occupied cells; the cell size gives about 8 points per cell.
     """
     points = np.asarray(position, np.float64)
     if len(points) < 2:
@@ -31,6 +31,6 @@ def estimate(position: NDArray[np.float32]) -> float:
 
 
 def _count_cells(points: NDArray[np.float64], side: float) -> int:
-    """Number of cells that hold points."""
+    """Count occupied cells."""
     x, y, z = np.floor(points / side).astype(np.int64).T
     return len(np.unique((x << 42) ^ (y << 21) ^ z))

@@ -1,4 +1,4 @@
-"""How a tile is divided by an implicit tiling."""
+"""Subdivision scheme of an implicit tiling."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ class Scheme:
     branches
         Children of a tile: 4 or 8.
     levels
-        Of one subtree.
+        Levels of one subtree.
     available
-        Levels of the whole tiling.
+        Levels of the tiling.
     subtrees
         Template of the subtrees' URIs.
     """
@@ -36,12 +36,12 @@ class Scheme:
 
 
 def read(tile: Node) -> Scheme | None:
-    """The implicit tiling of a tile; None without one.
+    """Read the implicit tiling of a tile; None without one.
 
     Raises
     ------
     InputError
-        It is wrong, or too large.
+        It is invalid or too large.
     """
     node = tile.get("implicitTiling")
     if node is None and (extensions := tile.get("extensions")) is not None:
@@ -62,5 +62,5 @@ def read(tile: Node) -> Scheme | None:
     if volumes.read(bounds)[0] == "sphere":
         raise bounds.error("a sphere cannot be divided; an implicit tiling needs a box or a region")
     if (children := tile.get("children")) is not None and children.value:
-        raise children.error("a tile with an implicit tiling has no children of its own")
+        raise children.error("a tile with an implicit tiling must not have explicit children")
     return Scheme(branches, levels, available, node.need("subtrees").need("uri").text(), node)

@@ -22,7 +22,7 @@ class Bits:
     Attributes
     ----------
     data
-        Bits, the lowest of each byte first; None: all are as `constant` says.
+        Bits, lowest bit of each byte first; None: all equal `constant`.
     """
 
     length: int
@@ -30,13 +30,13 @@ class Bits:
     constant: bool = False
 
     def at(self, index: NDArray[np.int64]) -> NDArray[np.bool_]:
-        """Whether the nodes at indices are available."""
+        """Return the availability of the nodes at these indices."""
         if self.data is None:
             return np.full(len(index), self.constant)
         return (self.data[index >> 3] >> (index & 7).astype(np.uint8)) & 1 > 0
 
     def ranks(self, index: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Number of available nodes before each index: its row of a property table."""
+        """Count the available nodes before each index, which is its row of a property table."""
         if self.data is None:
             return index if self.constant else np.zeros_like(index)
         before = np.concatenate([[0], np.cumsum(_ONES[self.data])])
@@ -46,14 +46,14 @@ class Bits:
 
 @dataclass(frozen=True)
 class Availability:
-    """A subtree.
+    """Availability of a subtree.
 
     Attributes
     ----------
     contents
-        Of each content.
+        Availability of each content.
     children
-        Of the subtrees below it.
+        Availability of the child subtrees.
     """
 
     node: Node
@@ -77,12 +77,12 @@ def read(
     contents
         Number of contents of a tile.
     load
-        Reads another file of the subtree's.
+        Reads another file by a reference in the subtree.
 
     Raises
     ------
     InputError
-        It is no subtree, or a buffer ends early.
+        It is not a subtree, or a buffer ends early.
     """
     if data[:4] == b"subt":
         node, inner = _open(data, name)
@@ -99,7 +99,7 @@ def read(
 
 
 def _open(data: bytes, name: str) -> tuple[Node, bytes]:
-    """JSON and buffer of a binary subtree."""
+    """Split a binary subtree into JSON and buffer."""
     whole = Node(None, name, "header")
     if len(data) < _HEADER.size:
         raise whole.error("the subtree ends within its header")
@@ -113,7 +113,7 @@ def _open(data: bytes, name: str) -> tuple[Node, bytes]:
 
 
 def _views(node: Node, inner: bytes | None, load: Callable[[str], bytes]) -> list[memoryview]:
-    """Bytes of each buffer view."""
+    """List the bytes of each buffer view."""
     buffers: list[memoryview] = []
     for number, each in enumerate(items(node, "buffers")):
         length = each.need("byteLength").index(1 << 40)
@@ -139,7 +139,7 @@ def _views(node: Node, inner: bytes | None, load: Callable[[str], bytes]) -> lis
 
 
 def items(node: Node, name: str) -> list[Node]:
-    """Elements of a member that may be missing."""
+    """List the elements of a member; empty if it is missing."""
     found = node.get(name)
     return list(found.items()) if found is not None else []
 

@@ -1,4 +1,4 @@
-"""The tree of a tileset as flat arrays, read as far as asked for."""
+"""Tree of a tileset as flat arrays, read on demand."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .volumes import Volumes
 
 MOST_TILES = 1_000_000
 MODEL, EXTERNAL = 0, 1
-"""Kinds of content: something to show, or another tileset."""
+"""Kinds of content: a model, or an external tileset."""
 
 
 @dataclass(frozen=True)
@@ -24,15 +24,15 @@ class Document:
     Attributes
     ----------
     uri
-        As its source knows it.
+        URI for its source.
     name
-        For messages.
+        Name for messages.
     chain
-        Documents that lead to it, itself included.
+        URIs of the documents from the root to this one.
     up_axis
-        Axis of its glTF files that points up: "Y", unless it says otherwise (`asset.gltfUpAxis`).
+        Axis of its glTF files that points up: `asset.gltfUpAxis`, by default "Y".
     copyright
-        `asset.copyright`, or nothing.
+        `asset.copyright`, or empty.
     """
 
     uri: str
@@ -45,7 +45,7 @@ class Document:
 
 @dataclass
 class Rows:
-    """Tiles to append, and what they hold.
+    """Tiles to append, with their contents.
 
     Attributes
     ----------
@@ -56,22 +56,22 @@ class Rows:
     replaces
         (n,) whether children replace the tile.
     volumes
-        In the root's frame.
+        Bounding volumes in the root's frame.
     matrix
-        (n,) of `Tree.matrices`.
+        (n,) numbers in `Tree.matrices`.
     document
-        (n,) of `Tree.documents`.
+        (n,) numbers in `Tree.documents`.
     contents
-        (k, 7): the tile within these rows, document, text of `Tree.texts`, and level, x, y, z that go into
-        it; level -1: the text is the URI.
+        (k, 7): row of the tile, document, number in `Tree.texts`, and level, x, y, z to fill into this
+        template; level -1: the text is the URI.
     request
-        Row within these rows -> its viewer request volume.
+        Viewer request volumes by row.
     content_volume
-        Content within these rows -> its own bounding volume.
+        Bounding volumes of contents, by their number in these rows.
     jobs
-        Row within these rows -> what is to be read to know its children.
+        Files to read for the children, by row.
     placeholders
-        Rows that stand for the root of an implicit tiling.
+        Rows that are the root of an implicit tiling.
     paths
         JSON paths of the rows; empty for implicit tiles.
     """
@@ -91,18 +91,18 @@ class Rows:
 
 
 class Tree:
-    """Tiles that have been read, a parent before its children.
+    """Tiles that have been read, parents before children.
 
     Attributes
     ----------
     matrices
         (m, 4, 4) products of transforms, each from a tile's content to the root's frame.
     jobs
-        Tile -> what is to be read to know its children.
+        Files to read for the children, by tile.
     broken
-        Tile -> why its content or its children cannot be had.
+        Reasons for missing contents or children, by tile.
     placeholders
-        Tiles that stand for the root of an implicit tiling.
+        Tiles that are the root of an implicit tiling.
     """
 
     def __init__(self) -> None:
@@ -121,33 +121,33 @@ class Tree:
         self.size, self.contents = 0, 0
 
     def add_document(self, document: Document) -> int:
-        """Number of a document, now part of the tree."""
+        """Append a document; return its number."""
         self.documents.append(document)
         return len(self.documents) - 1
 
     def add_text(self, text: str) -> int:
-        """Number of a URI or a template of URIs."""
+        """Append a URI or a template of URIs; return its number."""
         self.texts.append(text)
         return len(self.texts) - 1
 
     def add_matrix(self, matrix: NDArray[np.float64]) -> int:
-        """Number of a matrix (4, 4)."""
+        """Append a matrix (4, 4); return its number."""
         self._matrices.append(matrix)
         return len(self._matrices) - 1
 
     def room(self, more: int, name: str) -> None:
-        """Check that there may be so many more tiles.
+        """Check that this many tiles can be added.
 
         Raises
         ------
         InputError
-            There may not.
+            The tree would exceed `MOST_TILES`.
         """
         if self.size + more > MOST_TILES:
             raise input_error(name, f"makes more than {MOST_TILES:,} tiles; take a part of the tileset")
 
     def append(self, rows: Rows) -> int:
-        """Append tiles; returns the number of the first one."""
+        """Append tiles; return the number of the first one."""
         first = self.size
         self._rows.append(rows)
         self._kinds.append(np.zeros(len(rows.contents), np.uint8))
@@ -172,11 +172,11 @@ class Tree:
         return len(self._matrices)
 
     def matrix_number(self, number: int) -> NDArray[np.float64]:
-        """(4, 4) by its number."""
+        """Return a matrix (4, 4) by its number."""
         return self._matrices[number]
 
     def matrix_of(self, tile: int) -> NDArray[np.float64]:
-        """(4, 4) from the tile's frame to the root's."""
+        """Return the matrix (4, 4) from the tile's frame to the root's."""
         return self._matrices[int(self.matrix[tile])]
 
     @property
@@ -237,26 +237,26 @@ class Tree:
 
     @property
     def content_kind(self) -> NDArray[np.uint8]:
-        """(k,) MODEL or EXTERNAL, as far as is known."""
+        """(k,) MODEL or EXTERNAL, as known so far."""
         if len(self._kinds) > 1:
             self._kinds = [np.concatenate(self._kinds)]
         return self._kinds[0] if self._kinds else np.empty(0, np.uint8)
 
     def set_kind(self, content: int, kind: int) -> None:
-        """Note what a content is."""
+        """Set the kind of a content."""
         self.content_kind[content] = kind
 
     def reference(self, content: int) -> str:
-        """URI of a content as its document has it."""
+        """Return the URI of a content as written in its document."""
         _, _, text, level, x, y, z = map(int, self.content[content])
         return self.texts[text] if level < 0 else filled(self.texts[text], level, x, y, z)
 
     def contents_of(self, some: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Numbers of the contents of some tiles, ascending."""
+        """Return the numbers of the contents of these tiles, ascending."""
         return np.flatnonzero(np.isin(self.content[:, 0], some))
 
     def flags(self) -> NDArray[np.uint8]:
-        """(n,) flags for `firetwin_core.tiles.select`; the caller adds OUTSIDE_REQUEST_VOLUME."""
+        """Compute flags (n,) for `firetwin_core.tiles.select`; the caller adds OUTSIDE_REQUEST_VOLUME."""
         owner, kind = self.content[:, 0], self.content_kind
         model, external = np.zeros((2, self.size), bool)
         model[owner[kind == MODEL]] = True
@@ -284,12 +284,12 @@ class Tree:
         ).astype(np.uint8)
 
     def error_at(self, tile: int, reason: str) -> InputError:
-        """InputError that names a tile by its file and JSON path."""
+        """Make an InputError with the file and JSON path of a tile."""
         document = self.documents[int(self.document[tile])]
         return input_error(document.name, f"{self.path(tile)}: {reason}")
 
     def path(self, tile: int) -> str:
-        """JSON path of a tile in its document; a tile of an implicit tiling has its number."""
+        """Return the JSON path of a tile in its document; its number for a tile of an implicit tiling."""
         for rows in self._rows:
             if tile < len(rows.parent):
                 return rows.paths[tile] if rows.paths else f"implicit tile {tile}"
@@ -304,7 +304,7 @@ class Tree:
 
 
 def filled(template: str, level: int, x: int, y: int, z: int) -> str:
-    """A template of URIs with its variables filled in."""
+    """Fill in the variables of a template of URIs."""
     for name, value in (("{level}", level), ("{x}", x), ("{y}", y), ("{z}", z)):
         template = template.replace(name, str(value))
     return template

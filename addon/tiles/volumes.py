@@ -40,13 +40,13 @@ class Volumes:
         return np.linalg.norm(self.half, axis=1) + self.padding
 
     def corners(self) -> NDArray[np.float64]:
-        """(n, 8, 3) corners of the boxes, m."""
+        """Compute the corners (n, 8, 3) of the boxes, m."""
         signs = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1], indexing="ij")).reshape(3, 8).T
         edges = self.axis * self.half[:, :, None]
         return self.centre[:, None] + np.einsum("kj,nji->nki", signs.astype(float), edges)
 
     def moved(self, matrices: NDArray[np.float64], which: NDArray[np.int64]) -> Volumes:
-        """Volumes moved by ``matrices[which]``, (m, 4, 4) and (n,); a radius grows by their largest scale."""
+        """Transform by ``matrices[which]``, (m, 4, 4) and (n,); radii grow by the largest scale."""
         if len(matrices) == 1 and np.array_equal(matrices[0], np.eye(4)):
             return self
         linear = matrices[which, :3, :3]
@@ -56,12 +56,12 @@ class Volumes:
         return Volumes(centre, axis, half, self.padding * largest_scale(matrices[:, :3, :3])[which])
 
     def take(self, which: NDArray[np.int64]) -> Volumes:
-        """Some of them."""
+        """Select volumes by index."""
         return Volumes(self.centre[which], self.axis[which], self.half[which], self.padding[which])
 
     @staticmethod
     def concatenate(parts: list[Volumes]) -> Volumes:
-        """All of several, in their order."""
+        """Concatenate several sets of volumes."""
         if not parts:
             return Volumes(np.empty((0, 3)), np.empty((0, 3, 3)), np.empty((0, 3)), np.empty(0))
         return Volumes(
@@ -73,12 +73,12 @@ class Volumes:
 
 
 def largest_scale(linear: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n,) largest factor by which matrices (n, 3, 3) stretch a length: their largest singular value."""
+    """Compute the largest scale (n,) of matrices (n, 3, 3): their largest singular value."""
     return np.linalg.svd(linear, compute_uv=False)[..., 0] if len(linear) else np.empty(0)
 
 
 def orthonormal(edges: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Least box with directions of some half edges (n, 3, 3) around the body that these span.
+    """Compute the smallest aligned box around the body spanned by half edges (n, 3, 3).
 
     Edges at right angles keep their lengths. Otherwise the longest keeps its direction.
 
@@ -97,10 +97,10 @@ def orthonormal(edges: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArra
 
 
 def _fitted(edges: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """`orthonormal` of edges that are not at right angles, or flat."""
+    """Compute `orthonormal` of edges that are flat or not at right angles."""
     order = np.argsort(-np.linalg.norm(edges, axis=2), axis=1, kind="stable")
     sorted_edges = np.take_along_axis(edges, order[:, :, None], axis=1)
-    # Lengths of 1 keep what is flat from rounding; columns are edges.
+    # Unit lengths avoid rounding of flat boxes; columns are edges.
     scale = np.linalg.norm(sorted_edges[:, :1], axis=2, keepdims=True)
     q, _ = np.linalg.qr(np.swapaxes(sorted_edges / np.where(scale > 0.0, scale, 1.0), 1, 2))
     axis = np.swapaxes(q, 1, 2)
@@ -109,24 +109,25 @@ def _fitted(edges: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np
 
 
 def of_boxes(numbers: NDArray[np.float64]) -> Volumes:
-    """Boxes of 3D Tiles (n, 12): centre and three half edges, m; flat ones and slanted ones too."""
+    """Convert boxes of 3D Tiles (n, 12): centre and three half edges, m; may be flat or slanted."""
     numbers = np.reshape(numbers, (-1, 12))
     axis, half = orthonormal(numbers[:, 3:].reshape(-1, 3, 3))
     return Volumes(numbers[:, :3], axis, half, np.zeros(len(numbers)))
 
 
 def of_spheres(numbers: NDArray[np.float64]) -> Volumes:
-    """Spheres of 3D Tiles (n, 4): centre and radius, m."""
+    """Convert spheres of 3D Tiles (n, 4): centre and radius, m."""
     numbers = np.reshape(numbers, (-1, 4))
     n = len(numbers)
     return Volumes(numbers[:, :3], np.broadcast_to(np.eye(3), (n, 3, 3)), np.zeros((n, 3)), numbers[:, 3])
 
 
 def of_regions(numbers: NDArray[np.float64]) -> Volumes:
-    """Boxes around regions of 3D Tiles (n, 6): west, south, east, north, rad; lowest, highest, m (EPSG:4979).
+    """Bound regions of 3D Tiles (n, 6): west, south, east, north, rad; lowest, highest, m (EPSG:4979).
 
-    Up to half a turn wide, a box lies in the east-north-up frame of the region's middle. There the extremes
-    are at its corners, its middle meridian, or the equator. Wider ones have boxes along the Earth's axes.
+    The box of a region at most half a turn wide is aligned with the east-north-up frame of its middle. The
+    extremes are at its corners, middle meridian or the equator. Boxes of wider regions are aligned with
+    the Earth's axes.
     """
     numbers = np.reshape(numbers, (-1, 6))
     west, south, east, north = numbers[:, :4].T
@@ -157,12 +158,12 @@ _ROUNDING = 1e-6  # rad beyond a pole or half a turn
 
 
 def read(node: Node) -> tuple[str, list[float]]:
-    """Kind and numbers of a bounding volume.
+    """Read the kind and numbers of a bounding volume.
 
     Raises
     ------
     InputError
-        It has none of the kinds, or wrong numbers.
+        Its kind is unknown, or its numbers are invalid.
     """
     for kind, count in KINDS.items():
         if (found := node.get(kind)) is not None:
@@ -188,5 +189,5 @@ def _check(node: Node, kind: str, numbers: list[float]) -> None:
 
 
 def from_numbers(kind: str, numbers: NDArray[np.float64]) -> Volumes:
-    """Volumes of one kind."""
+    """Convert the numbers of volumes of one kind."""
     return {"box": of_boxes, "sphere": of_spheres, "region": of_regions}[kind](numbers)

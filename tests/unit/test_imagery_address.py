@@ -29,7 +29,7 @@ def test_columns_go_around_the_earth_and_levels_may_have_names():
         ("https://a.example/{z}/{x}/{x}/{y}.png", "each once"),
         ("https://a.example/{z}/{x}/{y}{r}.png", "has {r}; known are"),
         ("https://a.example/{q}.png", "has {q}; known are"),
-        ("https://{s}.a.example/{z}/{x}/{y}.png", "place to fill in its host"),
+        ("https://{s}.a.example/{z}/{x}/{y}.png", "has a variable in its host"),
         ("http://a.example/{z}/{x}/{y}.png", "is plain http"),
         ("ftp://a.example/{z}/{x}/{y}.png", "only https is"),
         ("https://me@a.example/{z}/{x}/{y}.png", "has a user name"),
@@ -58,7 +58,7 @@ def test_keys_come_from_the_environment_into_secret_parameters_alone(monkeypatch
     monkeypatch.setenv("MY_KEY", "s3cret-value")
     assert address.with_variables(HTTPS + "?key=${MY_KEY}") == HTTPS + "?key=s3cret-value"
     for wrong in ("https://a.example/${MY_KEY}/{z}/{x}/{y}.png", HTTPS + "?colour=${MY_KEY}"):
-        with pytest.raises(InputError, match="not the whole of a parameter") as error:
+        with pytest.raises(InputError, match="not the complete value of a parameter") as error:
             address.with_variables(wrong)
         assert "s3cret" not in str(error.value)
     with pytest.raises(InputError, match="needs the environment variable NOT_THERE"):

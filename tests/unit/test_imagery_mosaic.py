@@ -137,7 +137,7 @@ def test_a_server_without_any_tile_is_an_error_with_its_reason(make):
 @pytest.mark.parametrize(
     ("body", "why"),
     [
-        (b"<html>not here</html>", "is no PNG or JPEG"),
+        (b"<html>not here</html>", "is not a PNG or JPEG"),
         (b"\x89PNG\r\n\x1a\n", "cannot"),
         (png(np.zeros((256, 200, 3))), "200 x 256 pixels"),
         (png(np.zeros((300, 300, 3))), "300 x 300 pixels"),

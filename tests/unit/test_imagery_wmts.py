@@ -74,9 +74,9 @@ def test_layers_are_chosen_by_name():
 @pytest.mark.parametrize(
     ("text", "why"),
     [
-        (b"<html><body>log in</body></html>", "it has no Contents"),
-        (b"not xml", "is no WMTS capabilities"),
-        (b"", "is no WMTS capabilities"),
+        (b"<html><body>log in</body></html>", "Contents is missing"),
+        (b"not xml", "is not WMTS capabilities"),
+        (b"", "is not WMTS capabilities"),
         (b'<!DOCTYPE a [<!ENTITY b "cccc">]><a>&b;</a>', "document type"),
         (document(), "has no layer"),
         (document(layer(inner=RESOURCE.format(kind="png").replace("Time", "Season")), matrices()), "Season"),

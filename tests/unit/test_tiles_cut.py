@@ -136,7 +136,7 @@ def test_a_budget_is_kept_and_the_price_said():
     kept = cut.choose(loader, looking(0.0), HERE, 2.0, Budget(tiles=3))
     assert names(loader, kept) == ["r.glb"]
     assert kept.error > 1000.0
-    assert "not 2, to keep the budget" in kept.message()
+    assert "not 2, to stay in the budget" in kept.message()
     by_bytes = cut.choose(load(root, files), looking(0.0), HERE, 2.0, Budget(bytes=30))
     assert (by_bytes.bytes, by_bytes.fits) == (12, True)
     none = cut.choose(load(root, files), looking(0.0), HERE, 2.0, Budget(tiles=0))

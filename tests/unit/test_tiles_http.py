@@ -332,7 +332,7 @@ def test_without_the_network_the_cache_answers_and_what_is_missing_is_listed(ser
         ("ftp://127.0.0.1/a", "ftp: is not"),
         ("data:application/octet-stream;base64,AAAA", "data: is not"),
         ("https://user:word@elsewhere.example/a", "user name"),
-        ("http://[::1", "refers to no URL"),
+        ("http://[::1", "refers to an invalid URL"),
     ],
 )
 def test_a_tileset_stays_on_its_host(server, opened, reference, message):
@@ -539,7 +539,7 @@ def test_what_must_not_be_used_offline_is_not(server, opened):
     forbids = Policy("imitation", may_work_offline=False)
     server.answers["/t/x"] = Reply(200, b"x", {"Cache-Control": "max-age=0"})
     assert opened(policy=forbids).read(f"{server.url}/t/x") == b"x"
-    with pytest.raises(MissingError, match="must not be used without asking"):
+    with pytest.raises(MissingError, match="must not be used without the server"):
         opened(policy=forbids, online=False).read(f"{server.url}/t/x")
     assert opened(online=False).read(f"{server.url}/t/x") == b"x"
 

@@ -126,7 +126,7 @@ def test_a_stale_answer_is_confirmed_without_its_body(tmp_path):
         source.close()
         time[0] = NOW + 1000
         offline = Http(f"{server.url}/t.json", Network(online=False, cache=tmp_path), clock)
-        with pytest.raises(InputError, match="must not be used without asking"):
+        with pytest.raises(InputError, match="must not be used without the server"):
             offline.read(f"{server.url}/a")
         offline.close()
 

@@ -194,7 +194,7 @@ def changed(**change):
         (changed(subdivisionScheme="OCTREE", availableLevels=22), "from 1 to 21"),
         (changed(subtrees={}), "subtrees: uri is missing"),
         (tiling(volume={"sphere": [0, 0, 0, 1]}), "a sphere cannot be divided"),
-        (tiling(children=[tile(1.0)]), "has no children of its own"),
+        (tiling(children=[tile(1.0)]), "must not have explicit children"),
     ],
 )
 def test_refused_tilings(root, message):

@@ -213,7 +213,7 @@ def test_a_json_text_of_more_than_64_mb_is_refused(monkeypatch):
 def test_cycles_are_refused():
     files = {"a.json": tileset(tile(4.0, "b.json")), "b.json": tileset(tile(2.0, "a.json"))}
     loader = load(tile(8.0, "a.json"), files)
-    with pytest.raises(InputError, match=r"^a\.json: \$: the tileset holds itself"):
+    with pytest.raises(InputError, match=r"^a\.json: \$: the tileset contains itself"):
         loader.expand_all()
 
 

@@ -1,4 +1,4 @@
-"""How a job may get tiles: which hosts, whether a missing one is an error, and Blender's own permission."""
+"""Access of jobs to tiles: hosts, strictness, and Blender's permission for the network."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ PREFERENCE = "allow it by Edit > Preferences > System > Network > Allow Online A
 
 @dataclass(frozen=True)
 class TileAccess:
-    """How tiles may be had; plain values, for another process.
+    """Access to tiles; plain values, for another process.
 
     Attributes
     ----------
     strict
-        A tile that is missing is an error; otherwise an ancestor stands in and it is reported.
+        A missing tile is an error; otherwise an ancestor replaces it, with a message.
     online
-        Servers may be asked; otherwise the cache and files of this machine are used alone.
+        Requests to servers are allowed; otherwise only the cache and files on this machine are used.
     setting
-        Where that is set, for messages.
+        Remedy for `online` being off, for messages.
     hosts, private
-        As `Network` has them.
+        As in `Network`.
     """
 
     strict: bool = False
@@ -34,25 +34,25 @@ class TileAccess:
     private: bool = False
 
     def plain(self) -> dict[str, Any]:
-        """Plain form, which `from_plain` takes."""
+        """Return the plain form, for `from_plain`."""
         return asdict(self)
 
     def network(self) -> Network:
-        """What a source may ask of the network."""
+        """Return the network permissions of a source."""
         return Network(self.online, self.setting, tuple(self.hosts), self.private)
 
 
 def from_plain(values: dict[str, Any]) -> TileAccess:
-    """Access from its plain form; JSON has made its tuples lists."""
+    """Make an access from its plain form, in which JSON has turned tuples into lists."""
     return TileAccess(**values | {"hosts": tuple(values["hosts"])})
 
 
 def apply_preferences(access: TileAccess) -> TileAccess:
-    """What Blender's preferences leave of it, where this is Blender; asked anew by each job."""
+    """Restrict an access by Blender's current preferences, inside Blender."""
     return access if is_online() else replace(access, online=False, setting=PREFERENCE)
 
 
 def is_online() -> bool:
-    """Whether the user lets Blender use the network; Python without Blender's window has no such setting."""
+    """Test whether Blender may use the network; always true for Python without Blender's window."""
     bpy = sys.modules.get("bpy")
     return bpy is None or bool(bpy.app.module) or bool(bpy.app.online_access)

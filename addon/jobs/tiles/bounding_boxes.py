@@ -1,4 +1,4 @@
-"""Bounding boxes of a shot's tilesets, and what is known of each before any tile is fetched."""
+"""Bounding boxes and facts of a shot's tilesets from their root documents, without fetching tiles."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .. import worker
 from .access import TileAccess, apply_preferences, from_plain
 
 MOST = 2000
-"""Boxes of a source at most, those of the coarsest tiles."""
+"""Maximum boxes of a source; the coarsest tiles are listed."""
 
 
 def run(
@@ -21,17 +21,17 @@ def run(
     tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
 ) -> list[dict[str, Any]]:
-    """Read the root documents of a scene's tilesets: no further file, and no tile.
+    """Read the root documents of a scene's tilesets, but no other files.
 
     Returns
     -------
-    For each source `name`, number of `tiles` that its root document lists, `credits`, and `corners`: of each
-    box eight, with x, y, z one after the other, m in the scene.
+    For each source: `name`, number of `tiles` in its root document, `credits`, and `corners`: x, y, z of
+    eight corners for each box, m in the scene.
 
     Raises
     ------
     InputError
-        A tileset is wrong, or refused.
+        A tileset is invalid or refused.
     """
     about = {"choice": choice.plain(), "access": apply_preferences(TileAccess()).plain()}
     return worker.run(f"{__name__}:in_process", about, progress, tell=tell, blender=False, stop=stop)
@@ -40,7 +40,7 @@ def run(
 def in_process(
     choice: dict[str, str], access: dict[str, Any], progress: Progress, tell: MessageCallback
 ) -> list[dict[str, Any]]:
-    """Read; worker side."""
+    """Read the root documents; worker side."""
     from ...tiles.loader import Loader
     from . import source as tile_source
 

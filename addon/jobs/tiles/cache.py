@@ -1,7 +1,7 @@
-"""Decoded tiles in a scene's cache: each shot's choice with its files, and what no choice names.
+"""Decoded tiles in a scene's cache: the selection of each shot with its files, and unused files.
 
-Choices share files. A file counts for the choice that was used last, and goes with the last choice that names
-it.
+Selections share files. A file counts for the selection used last, and is removed with the last selection that
+names it.
 """
 
 from __future__ import annotations
@@ -29,18 +29,18 @@ _OURS = re.compile(
 
 @dataclass(frozen=True)
 class CachedTiles:
-    """Tiles of one choice, or what no choice names.
+    """Tiles of one selection, or files of no selection.
 
     Attributes
     ----------
     folder
-        File of the choice; the whole folder for the rest.
+        File of the selection; the folder of tiles for the rest.
     bytes
-        On the disk, of files that no choice names that was used later.
+        Bytes on the disk, without files that a later selection names.
     used
         Time of last use, s since 1970.
     names
-        Files, within the folder of tiles.
+        Files, relative to the folder of tiles.
     """
 
     folder: Path
@@ -50,12 +50,12 @@ class CachedTiles:
 
     @property
     def in_use(self) -> bool:
-        """Whether a render may be using them."""
+        """True if a render may be using them."""
         return time.time() - self.used < IN_USE
 
 
 def list_tiles(cache: Path) -> list[CachedTiles]:
-    """Tiles in a cache, most recently used first. Foreign files are ignored."""
+    """List tiles in a cache, most recently used first. Foreign files are ignored."""
     place = cache / FOLDER
     files = _files(place)
     cuts = {path: _names(path, files) for path in place.glob("*.json") if _CUT.fullmatch(path.stem)}
@@ -70,7 +70,7 @@ def list_tiles(cache: Path) -> list[CachedTiles]:
 
 
 def remove(tiles: CachedTiles) -> bool:
-    """Remove tiles unless they are in use, or another choice names them by now."""
+    """Remove tiles that are not in use and that no other selection names."""
     place = tiles.folder if tiles.folder.name == FOLDER else tiles.folder.parent
     files = _files(place)
     own = tiles.folder if tiles.folder.is_file() else None
@@ -78,7 +78,7 @@ def remove(tiles: CachedTiles) -> bool:
         return False
     others = (path for path in place.glob("*.json") if _CUT.fullmatch(path.stem) and path != own)
     kept = frozenset().union(*(_names(path, files) for path in others))
-    if own is not None:  # first, so that no render takes a choice whose files are going
+    if own is not None:  # first, so that no render uses a selection whose files are being removed
         own.unlink(missing_ok=True)
     for name in tiles.names - kept:
         with contextlib.suppress(OSError):
@@ -90,7 +90,7 @@ def remove(tiles: CachedTiles) -> bool:
 
 
 def _files(place: Path) -> dict[str, os.stat_result]:
-    """Our files in a folder of tiles."""
+    """List Firetwin's files in a folder of tiles."""
     found = {}
     for path in place.rglob("*") if place.is_dir() else ():
         name = path.relative_to(place).as_posix()
@@ -101,7 +101,7 @@ def _files(place: Path) -> dict[str, os.stat_result]:
 
 
 def _names(path: Path, files: Iterable[str]) -> frozenset[str]:
-    """Files of a choice: its own, decoded tiles, and their pictures."""
+    """List the files of a selection: its own, decoded tiles, and their pictures."""
     own = {name for name in files if name.split("/")[0].split(".")[0] == path.stem}
     try:
         cut = tile_cut.read(path)
@@ -112,7 +112,7 @@ def _names(path: Path, files: Iterable[str]) -> frozenset[str]:
 
 
 def _size(names: Iterable[str], files: dict[str, os.stat_result], seen: set[tuple[int, int]]) -> int:
-    """Bytes of files that were not counted yet, links among them."""
+    """Sum the bytes of files that were not counted yet; hard links count once."""
     total = 0
     for name in names:
         if (about := files.get(name)) is not None and (key := (about.st_dev, about.st_ino)) not in seen:

@@ -1,7 +1,7 @@
-"""Decodes tiles in processes of their own, with limits of memory and time.
+"""Decoding of tiles in separate processes, with limits on memory and time.
 
-Decoders of compressed meshes read what strangers wrote. A process that dies or takes too much loses one tile:
-it is named, and the others go on.
+Decoders of compressed meshes read untrusted files. If a process crashes or exceeds a limit, one tile is lost:
+it is reported, and the others are decoded.
 """
 
 from __future__ import annotations
@@ -22,27 +22,27 @@ from ...tiles import decoded
 from .. import worker
 
 _MEMORY = 3 << 30
-"""bytes of address space of a decoding process."""
+"""Limit on the address space of a decoding process, bytes."""
 _SECONDS = 60.0
-"""s that a tile may take."""
+"""Limit on the time of a tile, s."""
 
 
 @dataclass(frozen=True)
 class DecodeTask:
-    """What is to be decoded.
+    """A content to decode.
 
     Attributes
     ----------
     file, resources
         File of the content, and the files that it refers to, by URI.
     name
-        For messages.
+        Name of the content, for messages.
     matrix, earth_matrix
-        (4, 4) rows: the content's frame to the scene's, and to the Earth-centred one.
+        (4, 4) rows: from the content's frame to the scene, and to Earth-centred metres.
     up_axis
         `asset.gltfUpAxis` of the tileset.
     out
-        File that the arrays are written to.
+        File for the decoded arrays.
     """
 
     file: str
@@ -55,11 +55,11 @@ class DecodeTask:
 
 
 def run(contents: Sequence[DecodeTask], progress: Progress = silent) -> dict[str, str]:
-    """Decode contents whose `out` is not there, or not whole.
+    """Decode contents whose `out` is missing or incomplete.
 
     Returns
     -------
-    Reasons by name, of those that could not be decoded.
+    Reasons of failures, by name.
     """
     left = [each for each in contents if decoded.read_summary(Path(each.out)) is None]
     ways = min(max(os.cpu_count() or 1, 1), max(len(left) // 8, 1))
@@ -79,7 +79,7 @@ def run(contents: Sequence[DecodeTask], progress: Progress = silent) -> dict[str
 
 
 def _decode(contents: list[DecodeTask], follow: Any) -> dict[str, str]:
-    """Decode one after the other; a process that dies is replaced behind the tile that it died of."""
+    """Decode in sequence; after a crash a new process continues with the next tile."""
     bad: dict[str, str] = {}
     first = 0
     while first < len(contents):
@@ -104,7 +104,7 @@ def _decode(contents: list[DecodeTask], follow: Any) -> dict[str, str]:
 def in_process(
     contents: list[dict[str, Any]], progress: Progress, tell: MessageCallback, memory: int = _MEMORY
 ) -> dict[str, str]:
-    """Decode within `memory` bytes; worker side. Reasons by name, of those that are refused."""
+    """Decode within `memory` bytes; worker side. Returns reasons of failures, by name."""
     from firetwin_core import tiles
 
     _limit(memory)
@@ -130,7 +130,7 @@ def in_process(
 
 
 def _limit(memory: int) -> None:
-    """Limit this process's memory, where the system can: Windows has no such module."""
+    """Limit this process's memory, if the system can: Windows has no module `resource`."""
     with contextlib.suppress(ImportError, ValueError, OSError):
         import resource
 

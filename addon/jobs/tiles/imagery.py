@@ -1,6 +1,6 @@
-"""Fetches the orthophoto of a server before a shot is built: tiles, put together to pictures of the cache.
+"""Imagery of servers: fetches the tiles of a shot's orthophoto before its build, into pictures of the cache.
 
-Fetching happens in a process without Blender, with the cache, pauses and checks of 3-D tiles' servers.
+Tiles are fetched in a process without Blender, with the cache, back-off and checks of servers of 3D tiles.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from ...tiles.sources.network import Network
 from .. import worker
 from .access import TileAccess, apply_preferences, from_plain
 
-_NAMED = 3  # missing tiles that are named; all are in the drape's file
+_NAMED = 3  # missing tiles in a message; the drape's file lists all
 
 
 def prepare(
@@ -45,17 +45,17 @@ def prepare(
     stop: worker.Stop | None = None,
     access: TileAccess | None = None,
 ) -> None:
-    """Fetch the orthophoto of a scene; without `terrain.photo_url` there is nothing to do.
+    """Fetch the orthophoto of a scene with `terrain.photo_url`.
 
     Parameters
     ----------
     views
-        Views that are built each by itself; empty: all cameras are built together.
+        Views that are built separately; empty: all cameras are built together.
 
     Raises
     ------
     InputError
-        The address is wrong or refused, or the server does not go on.
+        The address is invalid or refused, or the server stopped answering.
     """
     if choice.settings().terrain.photo_url:
         allowed = apply_preferences(access or TileAccess())
@@ -70,7 +70,7 @@ def in_process(
     progress: Progress,
     tell: MessageCallback,
 ) -> None:
-    """Fetch; worker side."""
+    """Fetch the orthophoto; worker side."""
     shot, network = ShotSource(**choice).shot(), from_plain(access).network()
     made = set()
     for built in comparison.for_views(shot, views):
@@ -87,7 +87,7 @@ def make(
 
     Returns
     -------
-    What the user should know.
+    Messages for the user.
     """
     terrain, path = shot.settings.terrain, drape.location(shot)
     picture_credits.check_room(shot, picture_credits.of_settings(shot.settings))
@@ -117,7 +117,7 @@ def make(
 
 
 def _tile_address(source: Http, shot: Shot) -> TileAddress:
-    """Address of the tiles, from the settings or the server's capabilities."""
+    """Read the address of the tiles from the settings or the server's capabilities."""
     terrain, url = shot.settings.terrain, address.with_variables(shot.settings.terrain.photo_url)
     if address.is_template(url):
         return TileAddress(url, highest=terrain.photo_level)
@@ -135,7 +135,7 @@ def _tile_address(source: Http, shot: Shot) -> TileAddress:
 
 
 def _plan(shot: Shot, server: TileServer) -> tuple[list[str], list[PlannedArea]]:
-    """Plan the areas: with the side of the server's tiles, and no level that it has nowhere here."""
+    """Plan the areas by the size of the server's tiles and its available levels."""
     tiles, side = server.address, 256
     lowest, highest = tiles.lowest, min(tiles.highest, max(shot.settings.terrain.photo_level, tiles.lowest))
     messages: list[str] = []
@@ -156,7 +156,7 @@ def _plan(shot: Shot, server: TileServer) -> tuple[list[str], list[PlannedArea]]
 
 
 def _probe_level(server: TileServer, patch: Patch) -> int:
-    """Finest level of which one of five places of a patch has a tile, at most the patch's."""
+    """Find the finest level, at most the patch's, with a tile at one of five places of the patch."""
     for up in range(patch.level - server.address.lowest + 1):
         for across, down in ((2, 2), (1, 1), (3, 1), (1, 3), (3, 3)):
             x, y = (
@@ -191,7 +191,7 @@ def _pair(place: NDArray[np.float64]) -> tuple[float, float]:
 
 
 def _level_message(area: PlannedArea, highest: int, side: int) -> str:
-    """Level of an area in words, and what kept it from being finer."""
+    """Describe the level of an area, and the reason for not using a finer level."""
     width, height = (tiles * side for tiles in area.patch.size)
     text = f"orthophoto: level {area.patch.level} of {highest}, {area.step:.3g} m a texel, {width} x {height}"
     if not area.limited:
@@ -208,4 +208,6 @@ def _missing_messages(missing: Sequence[str]) -> list[str]:
         return []
     more = f"; and {len(missing) - _NAMED} more" if len(missing) > _NAMED else ""
     named = "; ".join(missing[:_NAMED])
-    return [f"{count(len(missing), 'tile')} of the orthophoto missing, coarser ones stand in: {named}{more}"]
+    return [
+        f"{count(len(missing), 'tile')} of the orthophoto missing, replaced by coarser tiles: {named}{more}"
+    ]

@@ -1,4 +1,4 @@
-"""Makes 3-D Tiles of a scene's ground: elevation, orthophoto or fuel colours, and buildings."""
+"""Writer of 3D tiles of a scene's ground: elevation, orthophoto or fuel colours, and buildings."""
 
 from __future__ import annotations
 
@@ -22,26 +22,25 @@ from ...tiles.make.tileset import Maker, Summary
 Array = NDArray[np.float64]
 _FINEST = 4097  # points along an axis of an elevation model
 _BARE, _GREEN = (150.0, 132.0, 104.0), (58.0, 76.0, 44.0)
-"""sRGB of ground without fuel, and with the run's largest load: made up, for ground without a photo."""
+"""sRGB of ground without fuel, and with the run's largest load, where there is no photo (assumed)."""
 
 
 @dataclass(frozen=True)
 class TilesRequest:
-    """What is asked for.
+    """Request for a tileset.
 
     Attributes
     ----------
     out
         Folder of the tileset.
     levels
-        Depth of the quadtree; None: as the heights' own spacing needs.
+        Depth of the quadtree; None: by the spacing of the heights.
     footprints
-        File of buildings' footprints; None: the scene's, if it has one.
+        File of buildings' footprints; None: the scene's file, if any.
     geoid
-        Height of the geoid above the WGS84 ellipsoid, m; None: that of EGM96. It is added to orthometric
-        heights.
+        Height of the geoid above the WGS84 ellipsoid, m; None: EGM96. It is added to orthometric heights.
     credit
-        Who is named for the data.
+        Credit of the data; empty: the run, and the credit of the scene's orthophoto.
     """
 
     out: Path
@@ -62,8 +61,8 @@ def run(
     Raises
     ------
     InputError
-        The folder holds something else, the footprints cannot be read, or the heights are those of tiles
-        that must not be written to other formats.
+        The folder has other files, the footprints cannot be read, or the heights come from tiles whose
+        terms forbid export.
     """
     if shot.settings.terrain.height_source == "tiles":
         tile_terms.check(shot.settings, [("export", "`firetwin tiles make`")])
@@ -83,17 +82,17 @@ def run(
 
 
 def ground_surface(shot: Shot, undulation: float | None) -> Surface:
-    """Heights of a shot's ground above the ellipsoid, where the run is; finer where a model is finer.
+    """Compute heights of a shot's ground above the ellipsoid, at the resolution of the run or a finer model.
 
     Parameters
     ----------
     undulation
-        Height of the geoid, m; None: that of EGM96. It is added where the run's heights are orthometric.
+        Height of the geoid, m; None: EGM96. It is added if the run's heights are orthometric.
 
     Raises
     ------
     UsageError
-        This machine has no grid of EGM96.
+        There is no grid of EGM96 on this machine.
     """
     fields, relief = shot.ground.fields, shot.relief
     inside = slice(fields.margin, -fields.margin or None)
@@ -113,7 +112,7 @@ def ground_surface(shot: Shot, undulation: float | None) -> Surface:
 
 
 def _egm96(latitude: Array, longitude: Array) -> Array:
-    """Heights (ny, nx) of the geoid on axes in degrees, m."""
+    """Compute the heights (ny, nx) of the geoid on axes in degrees, m."""
     found = geoid.find()
     if found is None:
         raise UsageError(f"--geoid: {geoid.REMEDY}")
@@ -127,7 +126,7 @@ def _heights(surface: Surface, latitude: Array, longitude: Array) -> Array:
 
 
 class _FuelColours:
-    """Ground coloured by its fuel: greener is denser."""
+    """Ground colours by fuel load: greener is denser."""
 
     def __init__(self, shot: Shot) -> None:
         fields = shot.ground.fields
@@ -143,7 +142,7 @@ class _FuelColours:
 
 
 class _PhotoColours:
-    """A scene's orthophoto; ground that it does not cover is coloured by its fuel."""
+    """Ground colours of a scene's orthophoto, and by fuel outside of it."""
 
     def __init__(self, shot: Shot) -> None:
         self._photo, self._fuel = orthophoto.source_of(shot), _FuelColours(shot)

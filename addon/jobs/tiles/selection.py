@@ -1,7 +1,7 @@
-"""Prepares a shot's 3-D Tiles: chooses them, fetches what is new, and decodes it to files of the cache.
+"""Selection of a shot's 3D tiles: selects, fetches and decodes them to files of the cache.
 
-Fetching happens in a process without Blender, decoding in processes of their own (`decode`). Blender
-reads arrays that were checked.
+Tiles are fetched in a process without Blender, and decoded in separate processes (`decode`). Blender reads
+validated arrays.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ from .access import TileAccess, apply_preferences, from_plain
 from .source import PreparedTiles, TileSource
 
 PREVIEW_ERROR, PREVIEW_SIZE = 64.0, 200
-"""Pixels and MB of a coarse choice."""
-_NAMED = 6  # missing tiles that are named in messages; the manifest has all
+"""Screen-space error in pixels and limit in MB of a coarse selection."""
+_NAMED = 6  # missing tiles in messages; the manifest lists all
 
 
 def prepare(
@@ -48,26 +48,26 @@ def prepare(
     keep: bool = False,
     preview: bool = False,
 ) -> None:
-    """Prepare the tiles of a scene; without sources there is nothing to do.
+    """Prepare the tiles of a scene with sources.
 
     Parameters
     ----------
     views
-        Views that are built each by itself; empty: all cameras are built together.
+        Views that are built separately; empty: all cameras are built together.
     access
-        How tiles may be had.
+        Access to tiles.
     uses
-        What is to be made of them, besides what the scene's own settings say.
+        Uses of the tiles in addition to the scene's settings.
     keep
-        Choices of servers' tiles stay as they are where they are whole, so that a film is continued with the
-        tiles that it has, also without the server.
+        Keep complete selections of servers' tiles, so that a film continues with its tiles, even without the
+        server.
     preview
-        A coarse choice (see `coarse`).
+        Make a coarse selection (see `coarse_shot`).
 
     Raises
     ------
     InputError
-        A tileset is wrong, or refused, or its policy does not allow what is to be made of it.
+        A tileset is invalid or refused, or its policy forbids a use.
     Error
         A tile is missing, and `access` is strict.
     """
@@ -89,7 +89,7 @@ def prepare(
 
 
 def coarse_shot(shot: Shot) -> Shot:
-    """The same shot with a coarse choice of tiles, for the window: soon there, and small."""
+    """Make a shot with a coarse, small selection of tiles, for a quick preview."""
     tiles, terrain = shot.settings.tiles, shot.settings.terrain
     least, most = max(tiles.max_screen_space_error, PREVIEW_ERROR), min(tiles.max_size, PREVIEW_SIZE)
     settings = replace(
@@ -110,7 +110,7 @@ def in_process(
     tell: MessageCallback,
     preview: bool = False,
 ) -> None:
-    """Prepare; worker side."""
+    """Prepare the tiles; worker side."""
     source, how = ShotSource(**choice), from_plain(access)
     wanted = [(use, what) for use, what in uses]
     shot = source.shot()
@@ -134,34 +134,34 @@ def in_process(
 
 
 def _can_keep(shot: Shot, keep: bool) -> bool:
-    """Whether a shot's choice stays as it is; files of this machine may have changed, and are read again."""
+    """Test whether a shot's selection can be kept; local files may have changed, so they are read again."""
     try:
         cut = tile_cut.prepared(shot) if keep else None
-    except InputError:  # damaged: it is made again
+    except InputError:  # damaged: select again
         return False
     places = shot.settings.tiles.sources
     remote = all("://" in place and policies.for_source(place).may_work_offline for place in places)
     if not remote or cut is None or not cut.is_whole():
         return False
-    os.utime(tile_cut.location(shot))  # when it was used last
+    os.utime(tile_cut.location(shot))  # time of last use
     return True
 
 
 def make(
     shot: Shot, progress: Progress = silent, access: TileAccess | None = None, uses: Sequence[Use] = ()
 ) -> list[str]:
-    """Write the cut of a shot.
+    """Select the tiles of a shot and write the cut.
 
     Returns
     -------
-    What the user should know.
+    Messages for the user.
 
     Raises
     ------
     Error
         A tile is missing, and `access` is strict.
     InputError
-        A policy forbids the uses, or pictures are too small for the credits.
+        A policy forbids a use, or pictures are too small for the credits.
     """
     settings, path, access = shot.settings.tiles, tile_cut.location(shot), access or TileAccess()
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -197,7 +197,7 @@ def make(
 
 
 def _heights(shot: Shot, path: Path, names: Sequence[str]) -> TileHeights | None:
-    """Write heights of a cut's tiles beside it; None without tiles."""
+    """Write the heights of a cut's tiles next to it; None without tiles."""
     if not names:
         path.with_suffix(tile_cut.HEIGHTS).unlink(missing_ok=True)
         return None
@@ -208,7 +208,7 @@ def _heights(shot: Shot, path: Path, names: Sequence[str]) -> TileHeights | None
 
 
 def _messages(cut: TileCut, prepared: Sequence[PreparedTiles]) -> Iterator[str]:
-    """What the user should know of a cut."""
+    """List the messages on a cut."""
     if cut.words:
         yield f"credits of tiles, which pictures show: {cut.words.text()}"
     for each in prepared:

@@ -1,4 +1,4 @@
-"""Tiles of one source of a shot: chosen, fetched and decoded, until all that is chosen can be shown."""
+"""Tiles of one source of a shot: selected, fetched and decoded until all selected tiles can be shown."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from ...tiles.loader import Loader
     from ...tiles.sources import Source
 
-_TRIES = 8  # choices at most; each leaves out what could not be decoded, or knows more triangles
+_TRIES = 8  # maximum selections; each excludes undecodable tiles, or knows more triangles
 
 
 def open_tileset(shot: Shot, number: int, access: TileAccess) -> Source:
@@ -40,7 +40,7 @@ def open_tileset(shot: Shot, number: int, access: TileAccess) -> Source:
     Raises
     ------
     InputError
-        It is not there, or not allowed.
+        The source does not exist, or is not allowed.
     """
     from ...tiles.sources import open_source
 
@@ -50,14 +50,14 @@ def open_tileset(shot: Shot, number: int, access: TileAccess) -> Source:
 
 
 def to_scene(shot: Shot) -> tuple[float | None, NDArray[np.float64]]:
-    """The geoid's height at a scene, m, and the matrix (4, 4) from Earth-centred metres.
+    """Compute the height of the geoid at a scene, m, and the matrix (4, 4) from Earth-centred metres.
 
-    The height is None for a run of heights above the ellipsoid, which needs none.
+    The height is None for a run with heights above the ellipsoid.
 
     Raises
     ------
     InputError
-        It is not known.
+        The height is unknown.
     """
     from ...tiles import geoid
     from ...tiles.place import ecef_to_frame
@@ -76,22 +76,22 @@ def to_scene(shot: Shot) -> tuple[float | None, NDArray[np.float64]]:
 
 @dataclass(frozen=True)
 class PreparedTiles:
-    """A source's share of a cut.
+    """The part of a cut from one source.
 
     Attributes
     ----------
     names
-        Of decoded tiles.
+        Names of decoded tiles.
     credits
         A credit for each tile.
     missing
-        What cannot be had, and why.
+        Names and reasons of missing tiles.
     empty
-        Tiles without triangles.
+        Number of tiles without triangles and points.
     triangles
-        Of all of them.
+        Triangles of all tiles.
     advised
-        The error is the policy's.
+        The screen-space error is the policy's recommendation.
     """
 
     choice: Choice
@@ -139,7 +139,7 @@ class TileSource:
         self._decoded: dict[str, Summary | None] = {}
 
     def prepared(self, progress: Progress) -> PreparedTiles:
-        """Choose, fetch and decode until everything that is chosen can be shown."""
+        """Select, fetch and decode until all selected tiles can be shown."""
         from ...tiles.cut import choose
 
         triangles: dict[int, int] = {}
@@ -182,7 +182,7 @@ class TileSource:
         )
 
     def _contents(self, numbers: list[int]) -> tuple[dict[int, DecodeTask], dict[int, str]]:
-        """What is to be decoded, and why the rest cannot be: files beside it are missing, or it is wrong."""
+        """List decoding tasks, and reasons for contents that are invalid or whose resources are missing."""
         wanted, bad = dict[int, DecodeTask](), dict[int, str]()
         for number in numbers:
             try:
@@ -192,7 +192,7 @@ class TileSource:
         return wanted, bad
 
     def _store_content(self, content: int, data: bytes) -> None:
-        """Keep a content under a name that follows it."""
+        """Store a content under the hash of its bytes."""
         self.files[content] = self._store(data)
 
     def _store(self, data: bytes) -> str:
@@ -201,7 +201,7 @@ class TileSource:
         return str(path)
 
     def _content(self, content: int) -> DecodeTask:
-        """What is to be decoded of a content."""
+        """Make the decoding task of a content."""
         tree = self.loader.tree
         tile, document = int(tree.content[content, 0]), tree.documents[int(tree.content[content, 1])]
         earth = tree.matrix_of(tile)
@@ -219,7 +219,7 @@ class TileSource:
         )
 
     def _fetch_resources(self, uri: str, path: str) -> dict[str, str]:
-        """Files beside a content that it needs, by their uri."""
+        """Fetch the external resources of a content, by URI."""
         source, name = self.loader.source, self.loader.source.name(uri)
         data, found = Path(path).read_bytes(), dict[str, bytes]()
         while wanted := [each for each in _missing_resources(data, name, found) if each not in found]:
@@ -227,13 +227,13 @@ class TileSource:
         return {each: self._store(content) for each, content in found.items()}
 
     def _summary(self, content: DecodeTask) -> Summary | None:
-        """Numbers of a decoded content, read once; None where it could not be decoded, or is damaged."""
+        """Read the numbers of a decoded content once; None if it was not decoded or is damaged."""
         if self._decoded.get(content.out) is None:
             self._decoded[content.out] = decoded.read_summary(Path(content.out))
         return self._decoded[content.out]
 
     def _credits(self, shown: Iterable[Summary]) -> Iterator[str]:
-        """A notice for each tile that has one, its document's own after it."""
+        """List the notices of tiles, then of documents."""
         texts = [about.credit for about in shown]
         texts += [document.copyright for document in self.loader.tree.documents]
         for text in texts:
@@ -241,16 +241,16 @@ class TileSource:
 
 
 class _WrongError(Exception):
-    """A content that cannot be read, and is named as a tile that is missing."""
+    """A content that cannot be read, reported as a missing tile."""
 
 
 def _missing_resources(data: bytes, name: str, found: dict[str, bytes]) -> list[str]:
-    """Files beside a content that it names.
+    """List the external resources of a content that are not in `found`.
 
     Raises
     ------
     _WrongError
-        It cannot be read.
+        The content cannot be read.
     """
     from firetwin_core import tiles
 
@@ -261,5 +261,5 @@ def _missing_resources(data: bytes, name: str, found: dict[str, bytes]) -> list[
 
 
 def _rounded_bytes(matrix: NDArray[np.float64]) -> bytes:
-    """A matrix to a tenth of a millimetre at 60 km, so that rounding does not make another tile of it."""
+    """Round a matrix to 0.1 mm at 60 km, so that rounding errors do not change a tile's key."""
     return np.round(matrix, 9).tobytes()

@@ -1,1 +1,1 @@
-"""3-D Tiles in the scene: meshes of the chosen tiles, and their pictures."""
+"""3D tiles in the scene: meshes of the selected tiles, and their pictures."""

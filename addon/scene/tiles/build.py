@@ -1,7 +1,6 @@
-"""Tiles builder: a mesh for each chosen tile, which burns, glows and cools as the ground does.
+"""Tiles builder: a mesh for each selected tile, which burns, glows and cools like the ground.
 
-A rebuild keeps what is the same (see `reuse`): of a cut that did not change no mesh, material or image is
-made again.
+A rebuild keeps unchanged meshes, materials and images (see `reuse`).
 """
 
 from __future__ import annotations
@@ -51,7 +50,7 @@ def build(shot: Shot, stage: Stage, cut: TileCut, grown: Stand | None) -> None:
 
 
 def _pieces(cut: TileCut) -> list[str]:
-    """Names of what is to be built of a cut's tiles: triangles and points."""
+    """List the pieces of a cut's tiles by name: triangles and points."""
     found = []
     for name in cut.tiles:
         about = decoded.read_summary(cut.folder / name)
@@ -63,19 +62,19 @@ def _pieces(cut: TileCut) -> list[str]:
 
 
 def _shape_digest(shot: Shot, cut: TileCut, name: str) -> str:
-    """Digest of what the heights of all tiles make of a piece; empty where they change nothing."""
+    """Compute the digest of a piece's changes by the heights of all tiles; empty without changes."""
     if name.endswith(_POINTS) or tile_cut.heights(shot) is None:
         return ""
     return mesh.shape_digest(shot, decoded.read(cut.folder / name))
 
 
 def _file(piece: str) -> str:
-    """Name of the decoded tile of a piece."""
+    """Return the name of a piece's decoded tile."""
     return piece.removesuffix(_POINTS)
 
 
 def _fill(data: bpy.types.Mesh, shot: Shot, tile: Decoded, slots: dict[str, Slot], cloud: bool) -> str:
-    """Write a piece into an empty mesh; returns the digest of its shape."""
+    """Write a piece into an empty mesh; return the digest of its shape."""
     if not cloud:
         return mesh.fill(data, shot, tile, slots)
     points.fill(data, shot, tile)
@@ -89,7 +88,7 @@ def remove(stage: Stage) -> None:
 
 
 def _arranged(cut: TileCut, wanted: list[str], kept: Kept) -> tuple[dict[str, Slot], dict[str, Decoded]]:
-    """Slots of all pictures, and the tiles to be built; what must move in its image is no longer kept."""
+    """Arrange slots of all pictures; return them and the tiles to build, with those of moved pictures."""
     lacking = dict.fromkeys(_file(name) for name in wanted if name not in kept.meshes)
     new = {name: decoded.read(cut.folder / name) for name in lacking}
     before = {name: reuse.slots(data) for name, data in kept.meshes.items()}
@@ -103,7 +102,7 @@ def _arranged(cut: TileCut, wanted: list[str], kept: Kept) -> tuple[dict[str, Sl
 
 
 def _assign(data: bpy.types.Mesh, materials: list[bpy.types.Material]) -> None:
-    """Give a mesh these materials; those that it has already stay."""
+    """Assign materials to a mesh where they differ."""
     for number, each in enumerate(materials):
         if number == len(data.materials):
             data.materials.append(each)

@@ -1,4 +1,4 @@
-"""Growth that tiles show, pushed down onto the ground below it, where the scene plants its own."""
+"""Flattening of vegetation in tiles onto the ground, where the scene plants its own."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from ...shot.tiles import tile_cut, tile_vegetation
 from ...tiles.decoded import Decoded
 
 LEAST = 1.0
-"""m above the ground from which a vertex is pushed down."""
+"""m above the ground from which a vertex is flattened."""
 
 
 def flatten(shot: Shot, tile: Decoded) -> Decoded:
-    """A tile without its growth: vertices in growth lie on the ground, and normals follow. Buildings stay."""
+    """Move vertices of vegetation onto the ground, and recompute their normals; buildings stay."""
     heights = tile_cut.heights(shot)
     if heights is None or shot.settings.tiles.vegetation == "tileset":
         return tile
@@ -34,9 +34,9 @@ def flatten(shot: Shot, tile: Decoded) -> Decoded:
 
 
 def _renewed(tile: Decoded, position: NDArray[np.float32], moved: NDArray[np.integer]) -> NDArray[np.float32]:
-    """Normals (n, 3), recomputed at corners of triangles of which a corner was moved.
+    """Recompute normals (n, 3) of all vertices of triangles with a moved vertex.
 
-    They are means of the triangles' normals, weighted by area. Where these cancel each other it is up.
+    A normal is the area-weighted mean of the triangles' normals, or up if the mean is zero.
     """
     changed = np.zeros(len(position), bool)
     changed[moved] = True
@@ -45,7 +45,7 @@ def _renewed(tile: Decoded, position: NDArray[np.float32], moved: NDArray[np.int
     around = tile.triangle[changed[tile.triangle].any(axis=1)]
     first, second, third = (position[around[:, k]].astype(np.float64) for k in range(3))
     across = np.cross(second - first, third - first)
-    across[across[:, 2] < 0.0] *= -1.0  # folded over: growth overhangs
+    across[across[:, 2] < 0.0] *= -1.0  # folded over: overhanging vegetation
     total = np.zeros((len(position), 3))
     for k in range(3):
         np.add.at(total, around[:, k], across)

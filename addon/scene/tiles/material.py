@@ -1,4 +1,4 @@
-"""Materials of tiles: the ground's, in the colours of their pictures; kept while nothing changes them."""
+"""Materials of tiles: the ground's material with colours of the tiles' pictures; reused if unchanged."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def build(
     grown: Stand | None,
     known: list[bpy.types.Material],
 ) -> list[bpy.types.Material]:
-    """A material for tiles without a picture, and one for each image: all use one group of nodes.
+    """Build a material for tiles without a picture, and one for each image; all share one node group.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def build(
 
 
 def colour(tiles: bpy.types.Material, image: bpy.types.Image | None, vertices: str = COLOUR) -> None:
-    """Give a material's group the colour of the mesh (`vertices`), multiplied with a picture."""
+    """Connect the colour of the mesh (`vertices`), multiplied with a picture, to a material's group."""
     tree = nodes.Tree(tiles.node_tree)
     shown = tree.attribute(vertices, output="Color")
     if image:

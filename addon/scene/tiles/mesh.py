@@ -61,7 +61,7 @@ def shape(data: bpy.types.Mesh, tile: Decoded, slots: Mapping[str, Slot]) -> Non
 
 
 def shape_digest(shot: Shot, tile: Decoded) -> str:
-    """Digest of what flattening and skirt make of a tile; empty where they change nothing."""
+    """Compute the digest of a tile's changes by flattening and skirt; empty without changes."""
     plain = tile.without_points()
     return _digest(plain, add_skirt(shot, flatten(shot, plain)))
 
@@ -78,7 +78,7 @@ def _digest(plain: Decoded, found: Decoded) -> str:
 def add_ground(
     data: bpy.types.Mesh, shot: Shot, position: NDArray[np.float32], origin: NDArray[np.float64]
 ) -> None:
-    """Write what the ground's material reads at each vertex: `elevation` and `grid`."""
+    """Write the vertex attributes of the ground's material: `elevation` and `grid`."""
     ground = shot.ground
     latitude, longitude, height = ground.frame.reverse(position.astype(np.float64) + origin)
     row, column = ground.indices(latitude, longitude)
@@ -88,6 +88,6 @@ def add_ground(
 
 
 def _triangles(data: bpy.types.Mesh, tile: Decoded, position: NDArray[np.float32]) -> None:
-    """Vertices, triangles and normals; arrays only, so that a tile costs the same in any scene."""
+    """Write vertices, triangles and normals as arrays, so that the cost does not depend on the scene."""
     fill_mesh(data, position, tile.triangle)
     add_attribute(data, "custom_normal", "FLOAT_VECTOR", tile.normal)

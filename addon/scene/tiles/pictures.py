@@ -1,4 +1,4 @@
-"""Pictures of tiles as tiled images (UDIM): links of one name to files of the cache."""
+"""Pictures of tiles as tiled images (UDIM): links with UDIM names to files of the cache."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ _FIRST = 1001
 def load(
     slots: Mapping[str, Slot], folder: Path, known: Sequence[bpy.types.Image] = ()
 ) -> list[bpy.types.Image]:
-    """The images of all slots.
+    """Load the images of all slots.
 
-    Their files are links, in a folder named by what is in them, to the pictures in `folder`.
+    Their files are links to the pictures in `folder`, in a folder named by the hash of their contents.
 
     Parameters
     ----------
     known
-        Images of the last build, which are kept if they are the same.
+        Images of the last build, which are reused if unchanged.
     """
     members: dict[int, dict[int, str]] = {}
     for picture, slot in slots.items():
@@ -64,7 +64,7 @@ def _at(image: bpy.types.Image) -> str:
 
 
 def _state(image: bpy.types.Image) -> str:
-    """What an artist may change of an image, as text."""
+    """List the settings of an image that an artist may change, as text."""
     numbers = sorted(part.number for part in image.tiles)
     packed = bool(image.packed_files) or image.is_dirty
     space = image.colorspace_settings.name, image.alpha_mode
@@ -72,7 +72,7 @@ def _state(image: bpy.types.Image) -> str:
 
 
 def _link(source: Path, path: Path) -> None:
-    """Have the same file under another name: a link where the disk allows it, else a copy."""
+    """Link a file under another name, or copy it if the disk has no links."""
     if path.exists() and path.samefile(source):
         return
 

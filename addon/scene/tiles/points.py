@@ -1,4 +1,4 @@
-"""Point clouds of tiles: vertices that geometry nodes show as spheres, in the ground's material."""
+"""Point clouds of tiles: vertices shown as spheres by geometry nodes, with the ground's material."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from . import mesh
 RADIUS = "radius"
 """Radius of points, m."""
 COVERING = 1.0
-"""Radius of a point as a part of the spacing. Points of a square grid cover their surface from 0.71 on; of
-random points, which these leave 4 % open."""
+"""Radius of a point / spacing. Points of a square grid cover their surface from 0.71 on; random points leave
+4 % open at 1."""
 _GROUP = "tile_points"
 
 
@@ -38,7 +38,7 @@ def show(obj: bpy.types.Object, stage: Stage, material: bpy.types.Material) -> N
 
 
 def _group(stage: Stage, material: bpy.types.Material) -> bpy.types.NodeTree:
-    """Geometry nodes, once per scene: vertices to points of this material."""
+    """Make geometry nodes from vertices to points with this material, once per scene."""
     group = stage.root.get(_GROUP)
     if group is None:
         tree, entry = nodes.geometry("Firetwin Tile Points")

@@ -1,4 +1,4 @@
-"""Tiles before a build: bounding boxes as one object of lines, and coarse tiles in plain materials."""
+"""Preview of tiles: bounding boxes as one object of lines, and coarse tiles with plain materials."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _EDGES = np.array([(a, b) for a in range(8) for b in range(a + 1, 8) if bin(a ^ 
 
 
 def show_boxes(stage: Stage, corners: NDArray[np.float64]) -> bpy.types.Object:
-    """Show boxes (n, 8, 3), m in the scene, as one object that no picture has; removes an earlier preview."""
+    """Show boxes (n, 8, 3), m in the scene, as one object hidden in renders; replaces an earlier preview."""
     collection = stage.part(PART)
     edges = (np.arange(len(corners), dtype=np.int32)[:, None, None] * 8 + _EDGES).reshape(-1, 2)
     data = create_mesh(f"Firetwin {BOXES}", corners.reshape(-1, 3), edges=edges)
@@ -32,7 +32,7 @@ def show_boxes(stage: Stage, corners: NDArray[np.float64]) -> bpy.types.Object:
 
 
 def show_tiles(stage: Stage, cut: TileCut, boxes: bool = True) -> None:
-    """Show the tiles of a cut in their own colours, without light of the fire and without scar.
+    """Show the tiles of a cut in their colours, without light of the fire and without scar.
 
     Parameters
     ----------
@@ -55,13 +55,13 @@ def show_tiles(stage: Stage, cut: TileCut, boxes: bool = True) -> None:
 
 
 def remove(stage: Stage) -> None:
-    """Remove what was shown."""
+    """Remove the preview."""
     if stage.objects_of(PART):
         stage.part(PART)
 
 
 def join(parts: Sequence[Sequence[float]]) -> NDArray[np.float64]:
-    """Corners (n, 8, 3) of the boxes of several sources."""
+    """Concatenate corners (n, 8, 3) of the boxes of several sources."""
     return np.concatenate([np.empty(0), *map(np.asarray, parts)]).reshape(-1, 8, 3)
 
 

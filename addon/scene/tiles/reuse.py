@@ -1,4 +1,4 @@
-"""What a rebuild keeps: data-blocks of the last build whose inputs are the same, and which nobody edited."""
+"""Reuse of data-blocks of the last build with equal inputs and without edits."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ from ...tiles.decoded import Decoded
 from .slot import Slot
 
 MADE_OF, STATE = "firetwin_made_of", "firetwin_state"
-"""Properties of a data-block: digests of its inputs, and of what was built of them."""
+"""Properties of a data-block: digests of its inputs and of its built state."""
 TILE, SLOTS, ORIGIN = "firetwin_tile", "firetwin_slots", "firetwin_origin"
 """Properties of a mesh: name of its decoded tile, slots of its pictures (JSON), place in the scene (m)."""
 
 
 @dataclass
 class Kept:
-    """Data-blocks of the last build that are still what they were.
+    """Unchanged data-blocks of the last build.
 
     Attributes
     ----------
     meshes
-        By the name of the decoded tile.
+        Meshes by the name of their decoded tile.
     materials, images
-        In their order.
+        Materials and images, in order.
     """
 
     meshes: dict[str, bpy.types.Mesh] = field(default_factory=dict)
@@ -41,14 +41,14 @@ class Kept:
 
 
 def find(stage: Stage, part: str, wanted: Sequence[str], made_of: Callable[[str], str]) -> Kept:
-    """What the last build of a part left.
+    """Find the reusable data-blocks of the last build of a part.
 
     Parameters
     ----------
     wanted
         Names of decoded tiles.
     made_of
-        Gives the digest of what a tile's mesh depends on besides.
+        Computes the digest of the other inputs of a tile's mesh.
     """
     kept, some = Kept(), set(wanted)
     for obj in stage.objects_of(part):
@@ -66,7 +66,7 @@ def find(stage: Stage, part: str, wanted: Sequence[str], made_of: Callable[[str]
 
 
 def note(data: bpy.types.Mesh, name: str, made_of: str, tile: Decoded, slots: Mapping[str, Slot]) -> None:
-    """Write on a mesh what it was made of."""
+    """Store the inputs of a mesh in its properties."""
     mine = {picture: (slots[picture].image, slots[picture].part) for picture in tile.pictures}
     data[TILE], data[MADE_OF], data[SLOTS] = name, made_of, json.dumps(mine)
     data[ORIGIN] = tile.origin.tolist()
@@ -74,12 +74,12 @@ def note(data: bpy.types.Mesh, name: str, made_of: str, tile: Decoded, slots: Ma
 
 
 def slots(data: bpy.types.Mesh) -> dict[str, Slot]:
-    """Slots of the pictures of a mesh."""
+    """Read the slots of a mesh's pictures."""
     return {picture: Slot(*at) for picture, at in json.loads(data[SLOTS]).items()}
 
 
 def place_digest(shot: Shot) -> str:
-    """Digest of what `elevation` and `grid` of a place depend on: the scene's frame, and the run's grid."""
+    """Compute the digest of the inputs of `elevation` and `grid`: the scene's frame and the run's grid."""
     ground = shot.ground
     frame, fields = ground.frame, ground.fields
     digest = hashlib.sha256(repr((frame.latitude, frame.longitude, frame.height, fields.margin)).encode())
@@ -90,7 +90,7 @@ def place_digest(shot: Shot) -> str:
 
 @contextmanager
 def held(kept: Kept) -> Iterator[None]:
-    """Context: these data-blocks outlive that their objects are removed."""
+    """Keep these data-blocks while their objects are removed."""
     blocks = [*kept.meshes.values(), *kept.materials, *kept.images]
     mine = [block for block in dict.fromkeys(blocks) if not block.use_fake_user]
     for block in mine:
@@ -103,6 +103,6 @@ def held(kept: Kept) -> Iterator[None]:
 
 
 def images(material: bpy.types.Material) -> list[bpy.types.Image]:
-    """Images in the tree of a material of tiles."""
+    """List the images in the node tree of a material of tiles."""
     nodes = material.node_tree.nodes
     return [node.image for node in nodes if node.type == "TEX_IMAGE" and node.image is not None]

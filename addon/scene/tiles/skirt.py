@@ -1,4 +1,4 @@
-"""Skirts: walls below the border of all tiles, down into the ground beside them, so that no gap shows."""
+"""Skirts: walls from the border of the tiles down into the adjacent ground, which hide gaps."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from ...shot.shot import Shot
 from ...shot.tiles import tile_cut
 from ...tiles.decoded import Decoded
 
-_BELOW = 2.0  # m that a skirt reaches below the ground beside it
+_BELOW = 2.0  # m, depth of a skirt below the adjacent ground
 
 
 def add_skirt(shot: Shot, tile: Decoded) -> Decoded:
-    """A tile with walls below its open edges at the border of all tiles."""
+    """Add walls below a tile's open edges at the border of all tiles."""
     heights = tile_cut.heights(shot)
     if heights is None or not len(tile.triangle):
         return tile
@@ -47,7 +47,7 @@ def add_skirt(shot: Shot, tile: Decoded) -> Decoded:
 
 
 def open_edges(triangle: NDArray[np.int32]) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
-    """Edges (e, 2) that one triangle alone has, in its own direction, and the number of this triangle."""
+    """Find edges (e, 2) of only one triangle, in its direction, and the number of this triangle."""
     edge = triangle[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
     low, high = edge.min(axis=1).astype(np.int64), edge.max(axis=1)
     _, first, count = np.unique(low << 32 | high, return_index=True, return_counts=True)

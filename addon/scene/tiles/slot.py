@@ -1,4 +1,4 @@
-"""Places of tiles' pictures in tiled images (UDIM), so that one material shows hundreds of files.
+"""Slots of tiles' pictures in tiled images (UDIM), so that one material shows hundreds of files.
 
 Blender numbers the parts of a tiled image 1001 + u + 10 v, up to 2000. A picture fills a part, and the tile's
 texture coordinates are moved there.
@@ -14,32 +14,32 @@ import numpy as np
 from numpy.typing import NDArray
 
 PARTS = 1000
-"""Pictures in one image at most."""
+"""Maximum pictures in one image."""
 _ROW = 10
-_INSET = 1.0e-5  # of a part; keeps coordinates at the edge of a picture inside of it
+_INSET = 1.0e-5  # of a part; keeps edge coordinates inside the picture
 
 
 @dataclass(frozen=True)
 class Slot:
-    """Where a picture is: the number of its image, and its part."""
+    """Position of a picture: number of its image, and part."""
 
     image: int
     part: int
 
     def moved(self, uv: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Texture coordinates (n, 2) of the picture, clamped to it, as coordinates of the image."""
+        """Convert texture coordinates (n, 2) of the picture, clamped to it, to coordinates of the image."""
         inside = np.clip(uv, _INSET, 1.0 - _INSET)
         return (inside + np.array([self.part % _ROW, self.part // _ROW])).astype(np.float32)
 
 
 def arrange(pictures: Sequence[str], known: Mapping[str, Slot] | None = None) -> dict[str, Slot]:
-    """Slots of pictures' files: one image holds files of one kind, `PARTS` at most.
+    """Assign slots to pictures' files: an image has files of one type, at most `PARTS`.
 
     Parameters
     ----------
     known
-        Slots of the last build. What is in one stays there, so that its tile need not be built again; new
-        pictures fill the gaps. An image whose first part would be empty has its pictures arranged anew.
+        Slots of the last build. Pictures keep their slots, so that their tiles need no rebuild; new pictures
+        fill the gaps. If the first part of an image would be empty, all slots are assigned again.
     """
     wanted = dict.fromkeys(pictures)
     slots = {name: slot for name, slot in (known or {}).items() if name in wanted}
@@ -64,13 +64,13 @@ def arrange(pictures: Sequence[str], known: Mapping[str, Slot] | None = None) ->
 
 
 def _gaps(taken: set[Slot], images: list[int]) -> Iterator[Slot]:
-    """Free slots of some images."""
+    """Iterate over the free slots of these images."""
     every = (Slot(image, part) for image in images for part in range(PARTS))
     return (slot for slot in every if slot not in taken)
 
 
 def _is_whole(slots: Iterable[Slot]) -> bool:
-    """Whether images are numbered without gaps, and each has its first part."""
+    """Test whether images are numbered without gaps, and each has its first part."""
     given = set(slots)
     images = {slot.image for slot in given}
     return images == set(range(len(images))) and all(Slot(image, 0) in given for image in images)

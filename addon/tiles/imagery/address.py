@@ -1,4 +1,4 @@
-"""Addresses of tiles: ``https://.../{z}/{x}/{y}.png``, or ``{-y}`` for rows from the south (TMS)."""
+"""URL templates of tiles: ``https://.../{z}/{x}/{y}.png``, or ``{-y}`` for rows from the south (TMS)."""
 
 from __future__ import annotations
 
@@ -23,18 +23,18 @@ WORLD = (-180.0, -NORTHMOST, 180.0, NORTHMOST)
 
 @dataclass(frozen=True)
 class TileAddress:
-    """Where a server has its tiles, in the matrix set WebMercatorQuad.
+    """URLs, levels and bounds of a server's tiles in the matrix set WebMercatorQuad.
 
     Attributes
     ----------
     template
         URL with {z}, {x} and {y} or {-y}.
     lowest, highest
-        Levels that there are.
+        Available levels.
     names
-        Names of levels, where they are not their numbers.
+        Names of levels that differ from their numbers.
     bounds
-        West, south, east and north of what there is, degrees.
+        West, south, east and north of the coverage, degrees.
     """
 
     template: str
@@ -44,7 +44,7 @@ class TileAddress:
     bounds: tuple[float, float, float, float] = WORLD
 
     def url(self, level: int, column: int, row: int) -> str:
-        """URL of a tile; columns beyond the date line are those of the other side."""
+        """Fill in the URL of a tile; columns wrap at the date line."""
         count = 1 << level
         values = {
             "z": self.names.get(level, str(level)),
@@ -56,17 +56,17 @@ class TileAddress:
 
 
 def is_template(url: str) -> bool:
-    """Whether a URL is one of tiles, and not of WMTS capabilities."""
+    """Test whether a URL is a template of tiles, not the URL of WMTS capabilities."""
     return bool(_PLACES.search(_VARIABLE.sub("", url)))
 
 
 def check(url: str) -> None:
-    """Check the address of a drape without asking anybody.
+    """Check the address of a drape without network access.
 
     Raises
     ------
     InputError
-        It is no such address, or its service does not allow it.
+        The address is invalid, or the terms of its service forbid draping.
     """
     name = secret.Redactor().text(secret.split(url)[0])
     host = origin(url, name).host
@@ -76,7 +76,7 @@ def check(url: str) -> None:
     if not is_template(url):
         return
     if "{" in (urlsplit(url).netloc):
-        raise input_error(name, "has a place to fill in its host; name one host")
+        raise input_error(name, "has a variable in its host; name one host")
     found = [each[1] for each in _PLACES.finditer(_VARIABLE.sub("", url))]
     if unknown := sorted(set(found) - _KNOWN):
         raise input_error(name, f"has {{{unknown[0]}}}; known are {{z}}, {{x}}, {{y}} and {{-y}}")
@@ -86,12 +86,12 @@ def check(url: str) -> None:
 
 
 def with_variables(url: str) -> str:
-    """The URL with ``${NAME}`` replaced by environment variables.
+    """Replace ``${NAME}`` in a URL by environment variables.
 
     Raises
     ------
     InputError
-        A variable is not set, or stands where its value would not be kept secret.
+        A variable is not set, or is not a secret parameter of the URL.
     """
     name = secret.split(url)[0]
     values = []
@@ -110,6 +110,6 @@ def with_variables(url: str) -> str:
 
 
 def misplaced(name: str) -> InputError:
-    """Error of a variable that is no parameter of its own."""
+    """Make the error of a variable that is not a secret parameter."""
     known = "key, api_key, access_token or token"
-    return input_error(name, f"has a variable that is not the whole of a parameter such as {known}")
+    return input_error(name, f"has a variable that is not the complete value of a parameter such as {known}")

@@ -1,6 +1,6 @@
 """Web Mercator and its quadtree of square tiles.
 
-Formulas: EPSG Guidance Note 7-2, method 1024 (EPSG:3857), which takes the Earth for a sphere of radius A.
+Formulas: EPSG Guidance Note 7-2, method 1024 (EPSG:3857), for a sphere of radius A.
 Tiles: matrix set WebMercatorQuad of OGC 17-083r4, "Two Dimensional Tile Matrix Set".
 """
 
@@ -14,9 +14,9 @@ from numpy.typing import ArrayLike, NDArray
 from ...ellipsoid import A, metres_per_degree
 
 HALF = math.pi * A
-"""m, half the side of the square that is the Earth: 20,037,508.34 m."""
+"""m, half the side of the map's square: 20,037,508.34 m."""
 NORTHMOST = math.degrees(math.atan(math.sinh(math.pi)))
-"""Degrees, latitude of the square's upper edge: 85.05."""
+"""Latitude of the square's upper edge, degrees: 85.05."""
 DENOMINATOR = 559_082_264.028_717_8
 """Scale denominator of level 0 with tiles of 256 pixels of 0.28 mm."""
 DEEPEST = 30  # level: beyond, columns do not fit 32 bits
@@ -25,15 +25,15 @@ Array = NDArray[np.float64]
 
 
 def project(latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
-    """Metres east and north (EPSG:3857) of degrees."""
+    """Project degrees to metres east and north (EPSG:3857)."""
     east = A * np.radians(longitude)
     return east, A * np.arcsinh(np.tan(np.radians(latitude)))
 
 
 def tile_at(latitude: ArrayLike, longitude: ArrayLike, level: int) -> tuple[Array, Array]:
-    """Column and row of places in tiles, with their fractions; rows count from the north.
+    """Compute fractional columns and rows of places in tiles; rows count from the north.
 
-    Longitudes beyond 180 degrees go on: columns below 0 and from 2^level on.
+    Longitudes beyond 180 degrees give columns below 0 or from 2^level on.
     """
     east, north = project(latitude, longitude)
     scale = 2.0**level / (2.0 * HALF)
@@ -41,20 +41,20 @@ def tile_at(latitude: ArrayLike, longitude: ArrayLike, level: int) -> tuple[Arra
 
 
 def place_of(column: ArrayLike, row: ArrayLike, level: int) -> tuple[Array, Array]:
-    """Latitude and longitude, degrees: the inverse of `tile_at`."""
+    """Compute latitude and longitude, degrees: the inverse of `tile_at`."""
     scale = 2.0 * HALF / 2.0**level
     east, north = np.asarray(column) * scale - HALF, HALF - np.asarray(row) * scale
     return np.degrees(np.arctan(np.sinh(north / A))), np.degrees(east / A)
 
 
 def texel(latitude: float, level: int, side: int) -> float:
-    """Size of a texel on the ground, m, in tiles of `side` pixels.
+    """Compute the size of a texel on the ground, m, in tiles of `side` pixels.
 
-    Its width on the WGS84 ellipsoid; its height is smaller by up to 0.7 %.
+    The result is the width on the WGS84 ellipsoid; the height is up to 0.7 % smaller.
     """
     return metres_per_degree(latitude)[1] * 360.0 / (side * 2.0**level)
 
 
 def level_for(step: float, latitude: float, side: int) -> int:
-    """Coarsest level whose texels are at most `step` metres large at a latitude."""
+    """Find the coarsest level with texels of at most `step` metres at a latitude."""
     return int(np.clip(math.ceil(math.log2(texel(latitude, 0, side) / step) - 1.0e-9), 0, DEEPEST))

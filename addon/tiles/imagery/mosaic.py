@@ -1,4 +1,4 @@
-"""Fetches tiles of an area and puts them together; where one is missing, a coarser one stands in."""
+"""Mosaic of the tiles of an area; coarser tiles replace missing tiles."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ Pixels = NDArray[np.uint8]
 _MAX_BYTES = 16 << 20  # of a tile
 _SIDES = (128, 256, 512, 1024)
 _KINDS = (b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff")
-_MAX_MISSES = 16  # tiles in a row of which nothing was there
+_MAX_MISSES = 16  # consecutive tiles without a coarser one either
 
 
 @dataclass(frozen=True)
 class Patch:
-    """Tiles of one level, columns and rows from first to last + 1; columns may pass the date line."""
+    """Tiles of one level, columns and rows from first to last + 1; columns may cross the date line."""
 
     level: int
     columns: tuple[int, int]
     rows: tuple[int, int]
 
     def tiles(self) -> Iterator[tuple[int, int]]:
-        """Column and row of each tile."""
+        """Iterate over column and row of each tile."""
         return ((x, y) for y in range(*self.rows) for x in range(*self.columns))
 
     @property
@@ -43,14 +43,14 @@ class Patch:
 
 
 class TileServer:
-    """Tiles of a server as pixels; each is asked for once.
+    """Tiles of a server as pixels; each is requested once.
 
     Attributes
     ----------
     side
-        Pixels along a tile; those of the first that was read.
+        Pixels along the side of a tile, from the first tile; 0: not known yet.
     missing
-        Name and reason of what could not be had, by level, column and row.
+        Name and reason of missing tiles, by level, column and row.
     """
 
     def __init__(self, source: Http, address: TileAddress) -> None:
@@ -61,12 +61,12 @@ class TileServer:
         self._consecutive_misses = 0
 
     def mosaic(self, patch: Patch, progress: Progress = silent) -> Pixels:
-        """A patch as one picture (h, w, 4), north up; transparent where nothing is.
+        """Assemble the tiles of a patch into one picture (h, w, 4), north up; gaps are transparent.
 
         Raises
         ------
         InputError
-            The server does not go on, or has nothing at all.
+            The server stopped answering, or has no tile of the scene.
         """
         self.fetch_ahead(patch, progress)
         found = {tile: self.best_available(patch.level, *tile) for tile in patch.tiles()}
@@ -81,7 +81,7 @@ class TileServer:
         return whole
 
     def fetch_ahead(self, patch: Patch, progress: Progress = silent) -> None:
-        """Ask for a patch's tiles, several at once."""
+        """Fetch the tiles of a patch, several at a time."""
         every = [tile for tile in patch.tiles() if self._tile_key(patch.level, *tile) not in self._known]
         with ThreadPoolExecutor(self.source.parallel) as pool:
             for first in range(0, len(every), self.source.parallel):
@@ -92,7 +92,7 @@ class TileServer:
                 progress(first + len(part), len(every), "tiles of the orthophoto")
 
     def best_available(self, level: int, column: int, row: int) -> Pixels | None:
-        """A tile, else the part of the next coarser one that is there, enlarged; None without any."""
+        """Return a tile, or the enlarged part of the next coarser available tile; None without any."""
         found = self.tile(level, column, row)
         for up in range(1, level - self.address.lowest + 1):
             if found is not None:
@@ -105,14 +105,14 @@ class TileServer:
         return found
 
     def tile(self, level: int, column: int, row: int) -> Pixels | None:
-        """Pixels of a tile (side, side, 4); None where it is missing."""
+        """Return the pixels of a tile (side, side, 4); None if it is missing."""
         key = self._tile_key(level, column, row)
         if key not in self._known:
             self._store_body(key, self._fetch_body(*key))
         return self._known[key]
 
     def _no_tile_error(self) -> InputError:
-        """Error of a server without any tile of the scene."""
+        """Make the error of a server without any tile of the scene."""
         name, reason = next(iter(self.missing.values()), ("the orthophoto", "has no tiles"))
         return input_error(name, f"{reason}; the server has no tile of the scene")
 
@@ -143,29 +143,29 @@ class TileServer:
 
 
 def decode(body: bytes, name: str) -> Pixels:
-    """Pixels (side, side, 4) of a PNG or JPEG.
+    """Decode a PNG or JPEG to pixels (side, side, 4).
 
     Raises
     ------
     MissingError
-        It is none, is damaged, or has another shape than tiles have.
+        Its format or shape is unsupported, or it is damaged.
     """
     if not body.startswith(_KINDS):
-        raise missing(name, "is no PNG or JPEG")
+        raise missing(name, "is not a PNG or JPEG")
     try:
         read = sensor.decode_image(body, name)
     except InputError as error:
         raise missing(name, error.reason) from None
     height, width, bands = read.shape
     if height != width or height not in _SIDES:
-        raise missing(name, f"is a picture of {width} x {height} pixels, and no tile")
+        raise missing(name, f"is not a tile: {width} x {height} pixels")
     colour = read[..., :3] if bands > 2 else np.repeat(read[..., :1], 3, axis=-1)
     alpha = read[..., -1:] if bands in (2, 4) else np.ones((height, width, 1), np.float32)
     return np.rint(255.0 * np.clip(np.concatenate([colour, alpha], axis=-1), 0.0, 1.0)).astype(np.uint8)
 
 
 def _enlarge_part(coarse: Pixels, up: int, column: int, row: int) -> Pixels | None:
-    """Part of a tile `up` levels coarser that belongs to a finer one, each texel repeated."""
+    """Enlarge the part of a tile `up` levels coarser that a finer tile covers, by repeating texels."""
     side, count = len(coarse), 1 << up
     at = (np.arange(side) + 0.5) / side
     rows, columns = (

@@ -1,7 +1,7 @@
-"""Capabilities of a WMTS (OGC 07-057r7, version 1.0.0): the address of a layer's tiles in Web Mercator.
+"""Capabilities of a WMTS (OGC 07-057r7, version 1.0.0): URLs of a layer's tiles in Web Mercator.
 
-A matrix set counts as WebMercatorQuad (GoogleMapsCompatible) by its numbers: projection, corner and scales.
-Others are refused by name.
+A matrix set counts as WebMercatorQuad (GoogleMapsCompatible) if projection, corner and scales match. The
+error for other sets names them.
 """
 
 from __future__ import annotations
@@ -20,30 +20,30 @@ from .mercator import DEEPEST, DENOMINATOR, HALF
 MAX_BYTES = 32 << 20  # of the capabilities
 _FORMATS = ("image/jpeg", "image/png", "image/jpg")
 _CODES = ("3857", "900913", "102100", "102113", "3785")
-_NEAR = 1.0e-3  # of scales and corners: servers round them
+_NEAR = 1.0e-3  # relative tolerance of scales and corners, which servers round
 _OURS = ("service", "request", "version")
 _BRACES = re.compile(r"\{([^{}]*)\}")
 
 
 def address_of(data: bytes, name: str, url: str, layer: str = "") -> TileAddress:
-    """Address of a layer's tiles.
+    """Find the address of a layer's tiles.
 
     Parameters
     ----------
     data, name, url
-        The capabilities, their name for messages, and where they come from.
+        The capabilities, their name for messages, and their URL.
     layer
-        Identifier; empty: the only layer.
+        Identifier of the layer; empty: the only layer.
 
     Raises
     ------
     InputError
-        These are no capabilities, there is no such layer, or none of its matrix sets is WebMercatorQuad.
+        The capabilities are invalid, the layer is missing, or has no matrix set WebMercatorQuad.
     """
     root = _parsed(data, name)
     contents = root.find("./{*}Contents")
     if contents is None:
-        raise input_error(name, "is no WMTS: it has no Contents; name the URL of its capabilities")
+        raise input_error(name, "is not a WMTS: Contents is missing; name the URL of its capabilities")
     chosen = _layer(contents, name, layer)
     matrices, levels = _matrix_set(contents, chosen, name)
     if not levels:
@@ -54,7 +54,7 @@ def address_of(data: bytes, name: str, url: str, layer: str = "") -> TileAddress
 
 
 class _NoDoctype(ElementTree.TreeBuilder):
-    """Refuses a document type, whose entities can grow without bound."""
+    """Tree builder that refuses a document type, as its entities can grow without bound."""
 
     def doctype(self, *_: object) -> None:
         raise ValueError("it has a document type")
@@ -65,7 +65,7 @@ def _parsed(data: bytes, name: str) -> Element:
         return ElementTree.fromstring(data, ElementTree.XMLParser(target=_NoDoctype()))
     except (ElementTree.ParseError, ValueError, LookupError) as error:
         line, column = getattr(error, "position", (0, 0))
-        reason = f"is no WMTS capabilities: {error}; tiles without them are named by {{z}}, {{x}} and {{y}}"
+        reason = f"is not WMTS capabilities: {error}; for other tiles write {{z}}, {{x}} and {{y}}"
         raise input_error(name, reason, line=line, column=column) from None
 
 
@@ -87,7 +87,7 @@ def _layer(contents: Element, name: str, wanted: str) -> Element:
 
 
 def _matrix_set(contents: Element, layer: Element, name: str) -> tuple[str, dict[int, str]]:
-    """Identifier of the layer's matrix set that is WebMercatorQuad, and its matrices' by level."""
+    """Find the layer's WebMercatorQuad matrix set; return its identifier, and matrices' by level."""
     linked = [_text(each, "./{*}TileMatrixSet") for each in layer.findall("./{*}TileMatrixSetLink")]
     sets = {_text(each, "./{*}Identifier"): each for each in contents.findall("./{*}TileMatrixSet")}
     for each in linked:
@@ -99,7 +99,7 @@ def _matrix_set(contents: Element, layer: Element, name: str) -> tuple[str, dict
 
 
 def _levels(matrices: Element) -> dict[int, str] | None:
-    """Matrices by level; None if one is not of WebMercatorQuad."""
+    """List matrices by level; None if any is not of WebMercatorQuad."""
     if not _text(matrices, "./{*}SupportedCRS").endswith(_CODES):
         return None
     found: dict[int, str] = {}
@@ -119,9 +119,9 @@ def _levels(matrices: Element) -> dict[int, str] | None:
 
 
 def _template(layer: Element, name: str, matrices: str, operation: str, url: str) -> str:
-    """Template of a layer's tiles, its own places filled in; {z}, {x} and {y} are left.
+    """Make the template of a layer's tiles with {z}, {x} and {y}; other variables are filled in.
 
-    `operation` is the address of GetTile by keys and values, `url` that of the capabilities.
+    `operation` is the address of GetTile by keys and values, `url` the address of the capabilities.
     """
     styles = layer.findall("./{*}Style")
     style = next((each for each in styles if each.get("isDefault") == "true"), styles[0] if styles else None)
@@ -144,14 +144,16 @@ def _filled(template: str, chosen: dict[str, str], name: str) -> str:
 
     def value(found: re.Match[str]) -> str:
         if (text := places.get(found[1].lower())) is None:
-            raise input_error(name, f"its tiles need a {found[1][:60]!r}, which it does not explain")
+            raise input_error(
+                name, f"its tiles need a {found[1][:60]!r}, which the capabilities do not define"
+            )
         return text
 
     return _BRACES.sub(value, template)
 
 
 def _by_key_and_value(layer: Element, name: str, chosen: dict[str, str], url: str) -> str:
-    """Template of GetTile by keys and values."""
+    """Make the template of GetTile by keys and values."""
     formats = [(each.text or "").strip() for each in layer.findall("./{*}Format")]
     kind = next((each for each in _FORMATS if each in formats), "")
     if not kind:
@@ -171,7 +173,7 @@ def _by_key_and_value(layer: Element, name: str, chosen: dict[str, str], url: st
 
 
 def _operation(root: Element) -> str:
-    """Address of GetTile by keys and values; empty where there is none."""
+    """Find the address of GetTile by keys and values; empty without one."""
     for each in root.findall("./{*}OperationsMetadata/{*}Operation[@name='GetTile']//{*}Get"):
         encodings = [(value.text or "").upper() for value in each.findall(".//{*}Value")]
         if not encodings or "KVP" in encodings:
@@ -180,7 +182,7 @@ def _operation(root: Element) -> str:
 
 
 def _box(layer: Element) -> tuple[float, float, float, float]:
-    """What a layer covers, degrees; the world where it does not say."""
+    """Read the bounds of a layer, degrees; by default the world."""
     box = layer.find("./{*}WGS84BoundingBox")
     corners = [
         finite(each) for key in ("LowerCorner", "UpperCorner") for each in _text(box, f"./{{*}}{key}").split()

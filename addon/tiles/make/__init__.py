@@ -1,1 +1,1 @@
-"""Makes 3-D Tiles of a run's elevation, an orthophoto and building footprints."""
+"""Writer of 3D Tiles from a run's elevation, an orthophoto and building footprints."""

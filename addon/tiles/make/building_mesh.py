@@ -1,4 +1,4 @@
-"""The mesh of buildings in a tile: walls and level roofs, with flat shading."""
+"""Mesh of the buildings in a tile: walls and flat roofs, with flat shading."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _COLOUR = (0.48, 0.44, 0.40, 1.0)
 
 
 def mesh(buildings: Sequence[Building]) -> Mesh:
-    """One mesh of several buildings; every face has vertices of its own."""
+    """Make one mesh of several buildings; triangles share no vertices."""
     corners = np.concatenate([blocks.block(each)[0] for each in buildings]).reshape(-1, 3)
     longitude, latitude = np.radians(corners[:, :2]).T
     position = ecef(latitude, longitude, corners[:, 2])

@@ -1,4 +1,4 @@
-"""Writes binary glTF 2.0 of one mesh with one material (Khronos glTF 2.0 specification, section 4.4)."""
+"""Writer of binary glTF 2.0 with one mesh and one material (Khronos glTF 2.0 specification, section 4.4)."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ class Mesh:
     Attributes
     ----------
     origin
-        (3,) Earth-centred metres about which the positions are kept.
+        (3,) Earth-centred origin of the positions, m.
     position, normal
-        (n, 3) Earth-centred axes; m about the origin, and unit vectors.
+        (n, 3) along Earth-centred axes; m relative to the origin, and unit vectors.
     uv
         (n, 2) of the picture, from its upper left corner; None without.
     triangles
@@ -48,7 +48,7 @@ class Mesh:
 
 
 def encode(mesh: Mesh, credit: str) -> bytes:
-    """The mesh as a .glb; its y axis is up, as glTF wants it.
+    """Encode a mesh as a .glb, whose y axis is up.
 
     Parameters
     ----------
@@ -87,12 +87,12 @@ def encode(mesh: Mesh, credit: str) -> bytes:
 
 
 def _y_up(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Vectors (n, 3) with z up as glTF has them: tiles turn (x, y, z) to (x, -z, y)."""
+    """Rotate vectors (n, 3) with z up to glTF's y up; readers of tiles map (x, y, z) to (x, -z, y)."""
     return vectors[:, [0, 2, 1]] * (1.0, 1.0, -1.0)
 
 
 class _Buffer:
-    """Bytes of a .glb with the views and accessors that say what they are."""
+    """Buffer of a .glb with its views and accessors."""
 
     def __init__(self) -> None:
         self.data = bytearray()
@@ -100,7 +100,7 @@ class _Buffer:
         self._accessors: list[dict[str, Any]] = []
 
     def view(self, data: bytes, target: int = 0) -> int:
-        """Number of a view of these bytes."""
+        """Append bytes; return the number of their view."""
         self.data += b"\0" * (-len(self.data) % 4)
         found = {"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data)}
         self._views.append(found | ({"target": target} if target else {}))
@@ -108,7 +108,7 @@ class _Buffer:
         return len(self._views) - 1
 
     def accessor(self, values: NDArray, kind: int, shape: str, target: int, bounds: bool = False) -> int:
-        """Number of an accessor of these values (n, k)."""
+        """Append values (n, k); return the number of their accessor."""
         stored = values.astype(_TYPES[kind])
         found = {
             "bufferView": self.view(stored.tobytes(), target),
@@ -122,7 +122,7 @@ class _Buffer:
         return len(self._accessors) - 1
 
     def about(self) -> dict[str, Any]:
-        """The JSON that describes it."""
+        """Describe the buffer as JSON."""
         return {
             "buffers": [{"byteLength": len(self.data)}],
             "bufferViews": self._views,

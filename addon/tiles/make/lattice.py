@@ -1,4 +1,4 @@
-"""Heights on a lattice that every level of a quadtree shares, and the errors of its levels.
+"""Heights on a lattice that all levels of a quadtree share, and the errors of the levels.
 
 A level is the lattice thinned by a power of two, so that neighbours of one level share their vertices.
 """
@@ -15,12 +15,12 @@ from ... import ellipsoid
 
 Array = NDArray[np.float64]
 CELLS = 64
-"""Cells along the side of a tile at most, where the depth is not given."""
+"""Maximum cells along the side of a tile, if the depth is not given."""
 
 
 @dataclass(frozen=True)
 class Surface:
-    """Heights to make tiles of.
+    """Heights of the ground of a tileset.
 
     Attributes
     ----------
@@ -36,16 +36,16 @@ class Surface:
 
 
 class Lattice:
-    """Heights of a surface as tiles need them: the same number of cells in every tile of a level.
+    """Heights of a surface with equal numbers of cells in all tiles of a level.
 
-    Beyond its northern and eastern edge the surface goes on level, for fewer than 2**levels cells.
+    Heights of the northern and eastern edge are continued outwards, for fewer than 2**levels cells.
 
     Attributes
     ----------
     levels
-        Depth of the quadtree; its level `levels` has the surface's own points, level 0 one tile.
+        Depth of the quadtree: level 0 has one tile, level `levels` all points of the surface.
     cells
-        Cells of a tile from south to north, and from west to east.
+        Cells of a tile, south to north and west to east.
     latitude, longitude
         (rows + 1,), (columns + 1,) degrees.
     height
@@ -69,16 +69,16 @@ class Lattice:
         self.height = np.pad(surface.height, [(0, count) for count in more], "edge")
 
     def stride(self, level: int) -> int:
-        """Lattice steps between vertices of a level."""
+        """Return the lattice steps between vertices of a level."""
         return 1 << (self.levels - level)
 
     def block(self, level: int, row: int, column: int) -> tuple[slice, slice]:
-        """Rows and columns of the lattice under a tile, borders included."""
+        """Return rows and columns of the lattice under a tile, borders included."""
         height, width = (cells * self.stride(level) for cells in self.cells)
         return slice(row * height, (row + 1) * height + 1), slice(column * width, (column + 1) * width + 1)
 
     def error(self, level: int, row: int, column: int) -> float:
-        """Largest vertical distance, m, of a tile's triangles from the lattice under it.
+        """Compute the largest vertical distance, m, of a tile's triangles from the lattice under it.
 
         The sag of a chord of length d below the ellipsoid, d^2 / 8R, is added.
         """
@@ -88,7 +88,7 @@ class Lattice:
         return off + self._sag(stride)
 
     def edge_gap(self, level: int, row: int, column: int) -> float:
-        """Largest distance, m, of a tile's four edges from the same lines at any other level."""
+        """Compute the largest distance, m, of a tile's four edges from the same lines at other levels."""
         rows, columns = self.block(level, row, column)
         lines = (
             self.height[rows.start, columns],
@@ -113,7 +113,7 @@ class Lattice:
 
 
 def triangulated(height: NDArray[np.float32], stride: int) -> NDArray[np.float32]:
-    """Heights (n, m) of the triangles whose corners are every `stride`-th of these heights (n, m).
+    """Interpolate heights (n, m) in the triangles between every `stride`-th of these heights (n, m).
 
     The diagonal of a cell goes from its north-western to its south-eastern corner (rows go north).
     """
@@ -137,6 +137,6 @@ def _polyline(line: NDArray[np.float32], stride: int) -> Array:
 
 
 def _continued(axis: Array, count: int) -> Array:
-    """An axis with `count` more points, at its last step."""
+    """Extend an axis by `count` points with its last step."""
     step = axis[-1] - axis[-2]
     return np.concatenate([axis, axis[-1] + step * np.arange(1, count + 1)])

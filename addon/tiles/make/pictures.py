@@ -17,17 +17,17 @@ class Colours(Protocol):
     """Ground colours at places."""
 
     resolution: float
-    """Size of their own pixels, m."""
+    """Size of the source's pixels, m."""
 
     def __call__(self, latitude: Array, longitude: Array) -> NDArray[np.uint8]:
-        """Colours (h, w, 3), sRGB, on axes (h,) and (w,) in degrees, both ascending."""
+        """Sample colours (h, w, 3), sRGB, on axes (h,) and (w,) in degrees, both ascending."""
         ...
 
 
 def draw(colours: Colours, latitude: Array, longitude: Array, pixels: int) -> bytes:
-    """A JPEG of `pixels` x `pixels` between the ends of two axes, north up; a PNG without Pillow.
+    """Draw a JPEG of `pixels` x `pixels` between the ends of two axes, north up; a PNG without Pillow.
 
-    Blender's own Python has no Pillow.
+    Blender's Python has no Pillow.
     """
     rows, columns = (_centres(axis[0], axis[-1], pixels) for axis in (latitude, longitude))
     picture = np.ascontiguousarray(colours(rows, columns)[::-1])
@@ -41,12 +41,12 @@ def draw(colours: Colours, latitude: Array, longitude: Array, pixels: int) -> by
 
 
 def kind(data: bytes) -> str:
-    """Media type of a picture that was drawn."""
+    """Return the media type of a drawn picture."""
     return "image/png" if data.startswith(b"\x89PNG") else "image/jpeg"
 
 
 def side(metres: float, resolution: float, least: int = 64, most: int = 512) -> int:
-    """Pixels along a tile of so many metres: a power of two, no finer than twice the colours' own pixels."""
+    """Choose the pixels along a tile: a power of two, with at most twice the source's resolution."""
     wanted = int(2 ** np.ceil(np.log2(max(metres / resolution, 1.0))))
     return min(max(wanted, least), most)
 

@@ -1,4 +1,4 @@
-"""The mesh of one tile of terrain, with a skirt that closes the gaps to neighbours of other levels."""
+"""Mesh of one tile of terrain, with a skirt that closes gaps to neighbours of other levels."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _MARGIN = 0.05  # m, added to skirts for the rounding of vertices
 
 
 def mesh(lattice: Lattice, level: int, row: int, column: int, picture: bytes) -> Mesh:
-    """The mesh of a tile; vertices of a border are those of the neighbour of the same level."""
+    """Make the mesh of a tile; neighbours of one level share border vertices."""
     stride = lattice.stride(level)
     rows, columns = lattice.block(level, row, column)
     latitude, longitude = lattice.latitude[rows][::stride], lattice.longitude[columns][::stride]
@@ -41,7 +41,7 @@ def mesh(lattice: Lattice, level: int, row: int, column: int, picture: bytes) ->
 
 
 def heights(lattice: Lattice, level: int, row: int, column: int) -> tuple[float, float]:
-    """Lowest and highest point of a tile's mesh, skirt included, m above the ellipsoid."""
+    """Compute the lowest and highest point of a tile's mesh, skirt included, m above the ellipsoid."""
     stride = lattice.stride(level)
     height = lattice.height[lattice.block(level, row, column)][::stride, ::stride]
     skirt = lattice.edge_gap(level, row, column) + _MARGIN
@@ -51,7 +51,7 @@ def heights(lattice: Lattice, level: int, row: int, column: int) -> tuple[float,
 def _normals(
     lattice: Lattice, rows: slice, columns: slice, stride: int, latitude: Array, longitude: Array
 ) -> Array:
-    """Unit normals (n, n, 3) by central differences over `stride`, one-sided at the lattice's border."""
+    """Compute unit normals (n, n, 3) by central differences over `stride`, one-sided at the border."""
     scale = ellipsoid.metres_per_degree(float(lattice.latitude.mean()))
     slopes = []
     for axis, (span, degrees, metres) in enumerate(
@@ -85,14 +85,14 @@ def _numbers(cells: tuple[int, int]) -> NDArray[np.int64]:
 
 @functools.cache
 def _border(cells: tuple[int, int]) -> NDArray[np.int64]:
-    """Vertices (b,) along the border, anticlockwise seen from above, from the south-western corner."""
+    """List vertices (b,) along the border, anticlockwise from above, from the south-western corner."""
     number = _numbers(cells)
     return np.concatenate([number[0, :-1], number[:-1, -1], number[-1, :0:-1], number[:0:-1, 0]])
 
 
 @functools.cache
 def _triangles(cells: tuple[int, int]) -> NDArray[np.int64]:
-    """Triangles (t, 3) of the surface and of the skirt, counter-clockwise from outside."""
+    """List triangles (t, 3) of the surface and of the skirt, counter-clockwise from outside."""
     number = _numbers(cells)
     low, east = number[:-1, :-1].ravel(), number[:-1, 1:].ravel()
     north, far = number[1:, :-1].ravel(), number[1:, 1:].ravel()

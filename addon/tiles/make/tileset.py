@@ -1,4 +1,4 @@
-"""A 3-D Tiles 1.1 tileset: a quadtree of terrain, and buildings that its leaves add."""
+"""Writer of a 3D Tiles 1.1 tileset: a quadtree of terrain, with buildings added to its leaves."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ _FILE = "tileset.json"
 
 @dataclass
 class Summary:
-    """What was made.
+    """Numbers of the written tileset.
 
     Attributes
     ----------
     errors
-        Largest geometric error of each level, m, the root's first.
+        Largest geometric error of each level, m, from the root on.
     """
 
     tiles: int = 0
@@ -39,12 +39,12 @@ class Summary:
 
 
 class Maker:
-    """Writes the tiles of a lattice into a folder.
+    """Writer of the tiles of a lattice into a folder.
 
     Parameters
     ----------
     credit
-        Who is named for the data, in every tile.
+        Credits of the data, written into every tile.
     """
 
     def __init__(
@@ -65,7 +65,7 @@ class Maker:
         Raises
         ------
         InputError
-            The folder holds something else.
+            The folder has other files.
         """
         self._check()
         total = (4 ** (self.lattice.levels + 1) - 1) // 3
@@ -88,12 +88,12 @@ class Maker:
     def _check(self) -> None:
         path = self.out / _FILE
         if self.out.is_dir() and any(self.out.iterdir()) and not _is_ours(path):
-            raise input_error(self.out, "is no empty folder and no tileset of Firetwin; name another --out")
+            raise input_error(self.out, "is neither empty nor a tileset of Firetwin; name another --out")
 
     def _tile(
         self, level: int, row: int, column: int, tiles: dict[tuple[int, int, int], Any]
     ) -> dict[str, Any]:
-        """A tile as tileset.json has it; its children are taken out of `tiles`."""
+        """Write a tile; return its JSON. Its children are removed from `tiles`."""
         children = [
             tiles.pop((level + 1, 2 * row + i, 2 * column + j))
             for i in (0, 1)
@@ -120,7 +120,7 @@ class Maker:
         return about | ({"children": children} if children else {})
 
     def _sides(self, level: int, row: int, column: int) -> list[float]:
-        """West, south, east and north of a tile, radians."""
+        """Return west, south, east and north of a tile, radians."""
         rows, columns = self.lattice.block(level, row, column)
         lat, lon = self.lattice.latitude[rows], self.lattice.longitude[columns]
         return [float(np.radians(at)) for at in (lon[0], lat[0], lon[-1], lat[-1])]
@@ -140,7 +140,7 @@ class Maker:
         )
 
     def _built(self, buildings: list[Building], row: int, column: int) -> dict[str, Any]:
-        """The tile of a leaf's buildings."""
+        """Write the tile of a leaf's buildings; return its JSON."""
         west, south, east, north = self._sides(self.lattice.levels, row, column)
         sides = [np.radians(each.footprint.outer).T for each in buildings]
         low, high = min(each.base for each in buildings), max(each.roof for each in buildings)
@@ -171,7 +171,7 @@ class Maker:
 
 
 def _by_leaf(lattice: Lattice, buildings: Sequence[Building]) -> dict[tuple[int, int], list[Building]]:
-    """Buildings by row and column of the leaf that holds their middle; those outside are left out."""
+    """Group buildings by row and column of the leaf that contains their middle; others are omitted."""
     found: dict[tuple[int, int], list[Building]] = {}
     borders = [
         axis[::cells]
@@ -188,7 +188,7 @@ def _by_leaf(lattice: Lattice, buildings: Sequence[Building]) -> dict[tuple[int,
 
 
 def _diagonal(lattice: Lattice) -> float:
-    """Length of the whole, m: the error if nothing of it is drawn."""
+    """Compute the diagonal of the lattice, m: the error if nothing is drawn."""
     scale = ellipsoid.metres_per_degree(float(lattice.latitude.mean()))
     sides = [axis[-1] - axis[0] for axis in (lattice.latitude, lattice.longitude)]
     return float(np.hypot(*(side * metres for side, metres in zip(sides, scale, strict=True))))

@@ -1,4 +1,4 @@
-"""What a source of tiles allows, as data: one file for each service, without keys."""
+"""Terms of services of tiles, as data: one file for each service, without keys."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ class Policy:
     Attributes
     ----------
     name
-        For messages.
+        Name for messages.
     hosts
-        Hosts it holds for, with those below them.
+        Hosts of the service, subdomains included.
     assets
         Numbers of Cesium ion's assets that lead to this service.
     key_variable
@@ -28,9 +28,9 @@ class Policy:
     session_parameter
         Parameter of URLs that carries a session; empty: there are none.
     may_store
-        Answers may be kept in the cache, as their headers say.
+        Answers may be cached, as their headers allow.
     may_work_offline
-        What is in the cache may be used without the server.
+        Cached answers may be used without the server.
     may_prefetch
         Tiles that no view shows may be fetched, as `firetwin tiles info` does.
     may_flatten
@@ -46,9 +46,9 @@ class Policy:
     pixel_error
         Screen-space error that the source recommends, pixels; 0: none.
     logo
-        Words that must stand in each picture besides the tiles' credits.
+        Text that each picture must show in addition to the tiles' credits.
     no_drape
-        Why its pictures may not be laid on the ground; empty: they may.
+        Reason for which its pictures must not be draped; empty: they may be.
     """
 
     name: str = ""
@@ -74,13 +74,13 @@ OPEN = Policy("a server that you name")
 
 
 def known() -> Iterator[Policy]:
-    """Policy of each service."""
+    """List the policies of all services."""
     for module in sorted(pkgutil.iter_modules(__path__), key=lambda each: each.name):
         yield importlib.import_module(f".{module.name}", __name__).POLICY
 
 
 def for_host(host: str) -> Policy:
-    """Policy of a host; `OPEN` for one that no service claims."""
+    """Return the policy of a host; `OPEN` for hosts of no known service."""
     for policy in known():
         if any(host == each or host.endswith(f".{each}") for each in policy.hosts):
             return policy
@@ -88,9 +88,10 @@ def for_host(host: str) -> Policy:
 
 
 def for_source(place: str) -> Policy:
-    """Policy of a source as a user names it, without asking anybody.
+    """Return the policy of a source by its name, without network access.
 
-    An asset of ion may lead to a service that only its answer names: the opened source has its own policy.
+    An asset of ion may refer to another service, known only from ion's answer: the opened source has its
+    policy.
     """
     kind, _, number = place.partition(":")
     if kind == "ion":
@@ -98,5 +99,5 @@ def for_source(place: str) -> Policy:
         return next(own, importlib.import_module(".ion", __name__).POLICY)
     try:
         return for_host(urlsplit(place).hostname or "") if "://" in place else OPEN
-    except ValueError:  # no URL, as reading it says
+    except ValueError:  # not a URL: opening it reports the error
         return OPEN

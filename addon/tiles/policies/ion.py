@@ -1,4 +1,4 @@
-"""Assets of Cesium ion; each asset has credits of its own."""
+"""Assets of Cesium ion; each asset has its credits."""
 
 from . import Policy
 

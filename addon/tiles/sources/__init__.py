@@ -1,4 +1,4 @@
-"""Where tilesets come from: one file for each kind of source."""
+"""Sources of tilesets: one file for each kind of source."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def open_source(place: str, network: Network | None = None) -> Source:
     Raises
     ------
     InputError
-        It is not there, or not allowed.
+        The source does not exist, or is not allowed.
     """
     if place.startswith(ion.PREFIX):
         return ion.open_asset(place, network or Network())

@@ -1,4 +1,4 @@
-"""What every source of tiles does, and limits of what it reads."""
+"""Interface of sources of tiles, and limits on file sizes and decompression."""
 
 from __future__ import annotations
 
@@ -10,33 +10,33 @@ from ...errors import InputError, input_error
 from ..policies import OPEN, Policy
 
 MAX_BYTES = 256 << 20  # of one file
-GROWTH = 64  # most that something compressed may grow
-_FREE = 1 << 20  # bytes to which anything may grow
+GROWTH = 64  # maximum ratio of decompressed to compressed size
+_FREE = 1 << 20  # bytes; smaller results may exceed the ratio
 _GZIP = b"\x1f\x8b"
 
 
 class MissingError(InputError):
-    """A file that is not there, or cannot be had now: an ancestor stands in for the tile."""
+    """A file that does not exist or is unavailable: an ancestor is shown in place of the tile."""
 
 
 def missing(path: str | PathLike[str], reason: str) -> MissingError:
-    """MissingError in the format of `input_error`."""
+    """Make a MissingError in the format of `input_error`."""
     error = MissingError(f"{path}: {reason}")
     error.path, error.line, error.column, error.reason = str(path), 0, 0, reason
     return error
 
 
 class Source(ABC):
-    """A tileset's files.
+    """Files of a tileset.
 
     Attributes
     ----------
     root
         URI of its tileset.json.
     parallel
-        How many files are best read at once.
+        Number of concurrent reads.
     local
-        Files are of this machine, so that all may be looked at.
+        Files are on this machine, so reading all of them is cheap.
     """
 
     root: str
@@ -46,60 +46,60 @@ class Source(ABC):
 
     @abstractmethod
     def resolve(self, base: str, reference: str) -> str:
-        """URI of what a file refers to.
+        """Resolve a reference of a file to a URI.
 
         Parameters
         ----------
         base
-            URI of the file.
+            URI of the referring file.
         reference
-            As the file has it.
+            Reference as written in the file.
 
         Raises
         ------
         InputError
-            It leads out of the source.
+            The reference leaves the source.
         """
 
     @abstractmethod
     def read(self, uri: str, max_bytes: int = MAX_BYTES) -> bytes:
-        """Content of a file, unpacked.
+        """Read a file and decompress it.
 
         Raises
         ------
         MissingError
-            It is not there, or cannot be had now.
+            The file does not exist or is unavailable.
         InputError
-            It is larger than `max_bytes` bytes, or the source does not go on.
+            The file exceeds `max_bytes` bytes, or the source stopped answering.
         """
 
     def size(self, uri: str) -> int | None:
-        """Bytes of a file where they are known without reading it."""
+        """Return the bytes of a file if known without reading it."""
         return None
 
     def name(self, uri: str) -> str:
-        """A URI for messages, without secrets."""
+        """Return a URI for messages, without secrets."""
         return uri
 
     def close(self) -> None:  # noqa: B027 (a folder has nothing to close)
-        """Let go of files and connections."""
+        """Close files and connections."""
 
 
 def unpack(data: bytes, max_bytes: int, name: str) -> bytes:
-    """Content of a gzip file; other data as they are.
+    """Decompress gzip data; return other data unchanged.
 
     Raises
     ------
     MissingError
-        It is damaged, or ends early.
+        The data are damaged or end early.
     InputError
-        It would grow beyond `max_bytes` bytes, or more than 64 times.
+        The result exceeds `max_bytes` bytes, or 64 times the compressed size.
     """
     return gunzip(data, max_bytes, name) if data[:2] == _GZIP else data
 
 
 def gunzip(data: bytes, max_bytes: int, name: str, bits: int = 31) -> bytes:
-    """Decompress within the limits of growth; `bits` as zlib has them: 31 gzip, 15 zlib, -15 neither."""
+    """Decompress within the limits; `bits` is zlib's `wbits`: 31 gzip, 15 zlib, -15 raw."""
     limit = min(max_bytes, max(GROWTH * len(data), _FREE))
     engine = zlib.decompressobj(bits)
     try:

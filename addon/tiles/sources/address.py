@@ -1,4 +1,4 @@
-"""Which URLs and addresses are asked: one host, over TLS, never inside of a network by a public tileset."""
+"""Checks of URLs and addresses: TLS, allowed hosts, and no private addresses for public tilesets."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ class Origin:
 
 
 def origin(url: str, name: str) -> Origin:
-    """Origin of a URL.
+    """Parse the origin of a URL.
 
     Parameters
     ----------
     name
-        Of the URL or of the file with it, for messages.
+        Name of the URL or of the file with it, for messages.
 
     Raises
     ------
     InputError
-        It is no http or https URL, has a user name, or is plain http of another machine.
+        The URL is not http or https, has a user name, or is plain http to another machine.
     """
     try:
         parts: SplitResult = urlsplit(url)
@@ -54,7 +54,7 @@ def origin(url: str, name: str) -> Origin:
 
 
 def is_loopback(host: str) -> bool:
-    """Whether a host is this machine by its name."""
+    """Test whether a host name refers to this machine."""
     if host == "localhost":
         return True
     try:
@@ -64,26 +64,26 @@ def is_loopback(host: str) -> bool:
 
 
 class Guard:
-    """Connects to hosts, once their addresses are checked.
+    """Connections to hosts whose addresses were checked.
 
     Parameters
     ----------
     private
-        Addresses of private networks are allowed.
+        Allow addresses of private networks.
     """
 
     def __init__(self, private: bool) -> None:
         self.private = private
 
     def connect(self, host: str, port: int, timeout: float) -> socket.socket:
-        """A connection to the address that was checked, so that a second look-up cannot change it.
+        """Connect to the checked address, so that no second look-up can change it.
 
         Raises
         ------
         InputError
             The host has a private address.
         OSError
-            It is not known, or does not answer.
+            The host is unknown or does not answer.
         """
         found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)
         for *_, place in found:
@@ -114,6 +114,6 @@ class Guard:
 
 
 def refused_address(host: str, address: str) -> InputError:
-    """InputError of a host with a private address."""
+    """Make the InputError of a host with a private address."""
     reason = f"has the address {address}, which is not public; --private allows private networks"
     return input_error(host, reason)

@@ -14,17 +14,17 @@ from .local import relative
 
 _METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 _MOST_MEMBERS = 2_000_000
-_FREE = 1 << 20  # bytes to which any member may grow
+_FREE = 1 << 20  # bytes; smaller members may exceed the ratio
 _ENCRYPTED = 0x1
 
 
 class Archive(Source):
-    """A .3tz file. Its members are read one after another.
+    """A .3tz file, read by one thread at a time.
 
     Raises
     ------
     InputError
-        It is no such archive, or a member's name leads out of it.
+        The archive is invalid, or a member's name leaves it.
     """
 
     root = "tileset.json"
@@ -43,7 +43,7 @@ class Archive(Source):
             raise
 
     def resolve(self, base: str, reference: str) -> str:
-        """Name of a member."""
+        """Resolve to the name of a member."""
         return relative(base, reference, self.name(base))
 
     def read(self, uri: str, max_bytes: int = MAX_BYTES) -> bytes:
@@ -71,12 +71,12 @@ class Archive(Source):
         return unpack(data, max_bytes, name)
 
     def size(self, uri: str) -> int | None:
-        """Bytes in the archive."""
+        """Return the compressed size."""
         member = self._members.get(uri)
         return None if member is None else member.compress_size
 
     def name(self, uri: str) -> str:
-        """Archive and member."""
+        """Return the paths of archive and member."""
         return f"{self.path}/{uri}"
 
     def close(self) -> None:

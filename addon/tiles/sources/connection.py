@@ -1,4 +1,4 @@
-"""HTTP requests by urllib3, which Blender brings along: checked addresses, verified TLS, limits of size."""
+"""HTTP requests with urllib3 (bundled with Blender): checked addresses, verified TLS, size limits."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from ._source import GROWTH, missing
 from .address import Guard, origin
 from .secret import Redactor
 
-TIMEOUT = 30.0  # s without anything arriving
+TIMEOUT = 30.0  # s without data
 _PIECE = 1 << 16  # bytes
-_FREE = 1 << 20  # bytes to which anything may grow
+_FREE = 1 << 20  # bytes; smaller bodies may exceed the ratio
 
 
 class TransportError(Exception):
-    """No answer, or not all of it.
+    """A missing or incomplete answer.
 
     Attributes
     ----------
     cut_off
-        The answer began, and ended early.
+        The answer began and ended early.
     """
 
     def __init__(self, text: str, cut_off: bool = False) -> None:
@@ -39,7 +39,7 @@ class TransportError(Exception):
 
 @dataclass(frozen=True)
 class Response:
-    """An answer; its body is unpacked."""
+    """An answer with decompressed body."""
 
     status: int
     headers: Mapping[str, str]
@@ -52,7 +52,7 @@ class Connection:
     Raises
     ------
     UsageError
-        urllib3 is not there.
+        urllib3 is not installed.
     """
 
     def __init__(self, private: bool, redactor: Redactor) -> None:
@@ -62,21 +62,21 @@ class Connection:
         logging.getLogger("urllib3.connectionpool").addFilter(redactor)
 
     def ask(self, url: str, headers: dict[str, str], max_bytes: int, name: str) -> Response:
-        """One GET, without redirects and repetitions.
+        """Send one GET request, without redirects and retries.
 
         Parameters
         ----------
         max_bytes
-            Bytes of the body, as it comes and unpacked.
+            Limit on the body, compressed and decompressed.
         name
-            Of the URL, for messages.
+            Name of the URL, for messages.
 
         Raises
         ------
         TransportError
-            No answer came, or not all of it.
+            The answer is missing or incomplete.
         InputError
-            The certificate or the address is refused, or the answer is too large.
+            The certificate or address is refused, or the answer is too large.
         """
         parts, library = urlsplit(url), self._library
         path = (parts.path or "/") + (f"?{parts.query}" if parts.query else "")
@@ -104,7 +104,7 @@ class Connection:
         try:
             body = self._body(response, max_bytes, name)
         except BaseException as error:
-            response.close()  # what is left of it would be taken for the next answer
+            response.close()  # the rest would be read as the next answer
             if not isinstance(error, library.exceptions.HTTPError | OSError):
                 raise
             timed_out = isinstance(error, library.exceptions.ReadTimeoutError | TimeoutError)
@@ -114,13 +114,13 @@ class Connection:
         return Response(response.status, response.headers, body)
 
     def close(self) -> None:
-        """Close all."""
+        """Close all connections."""
         for pool in self._pools.values():
             pool.close()
         logging.getLogger("urllib3.connectionpool").removeFilter(self._redactor)
 
     def _body(self, response: Any, max_bytes: int, name: str) -> bytes:
-        """Body within the limits, unpacked; gzip's own checksum is compared."""
+        """Read and decompress the body within the limits; zlib verifies gzip's checksum."""
         coding = response.headers.get("Content-Encoding", "identity").strip().lower()
         if coding not in ("identity", "gzip", ""):
             raise missing(name, f"has the content encoding {coding[:40]!r}, which was not asked for")
@@ -160,7 +160,7 @@ class Connection:
             return self._pools[key]
 
     def _made(self, scheme: str, host: str, port: int) -> Any:
-        """Pool whose connections go to addresses that the guard has checked."""
+        """Make a pool whose connections go to addresses checked by the guard."""
         guard, library = self._guard, self._library
         base: Any = library.connection.HTTPConnection
         if scheme == "https":
@@ -179,7 +179,7 @@ class Connection:
 
 
 def _tls() -> ssl.SSLContext:
-    """Verifies certificates, by the system's authorities and those that come with Blender."""
+    """Make a context that verifies certificates, with authorities of the system and of certifi."""
     context = ssl.create_default_context()
     try:
         import certifi

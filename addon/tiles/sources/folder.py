@@ -10,7 +10,7 @@ from .local import relative
 
 
 class Folder(Source):
-    """A tileset.json and what lies in its folder and below.
+    """A tileset.json and the files in its folder and below.
 
     Parameters
     ----------
@@ -20,7 +20,7 @@ class Folder(Source):
     Raises
     ------
     InputError
-        There is no such file.
+        The file does not exist.
     """
 
     def __init__(self, path: Path) -> None:
@@ -31,11 +31,11 @@ class Folder(Source):
         self.root = file.name
 
     def resolve(self, base: str, reference: str) -> str:
-        """Path below the folder."""
+        """Resolve to a path below the folder."""
         return relative(base, reference, self.name(base))
 
     def read(self, uri: str, max_bytes: int = MAX_BYTES) -> bytes:
-        """Read a file that lies in the folder, links followed."""
+        """Read a file in the folder; links are followed."""
         path = self._path(uri)
         try:
             check_size(path.stat().st_size, max_bytes, self.name(uri))
@@ -47,14 +47,14 @@ class Folder(Source):
         return unpack(data, max_bytes, self.name(uri))
 
     def size(self, uri: str) -> int | None:
-        """Bytes on the disk."""
+        """Return the file size."""
         try:
             return self._path(uri).stat().st_size
         except OSError:
             return None
 
     def name(self, uri: str) -> str:
-        """Path of the file."""
+        """Return the path of the file."""
         return str(self.folder / uri)
 
     def _path(self, uri: str) -> Path:

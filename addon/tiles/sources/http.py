@@ -1,4 +1,4 @@
-"""Tilesets of servers, over https, through the cache."""
+"""Tilesets of servers over https, with the HTTP cache."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ _DENIED = (400, 401, 403)
 _LATER = (408, 425, 429, 500, 502, 503, 504)
 _MOVED = (301, 302, 303, 307, 308)
 _MAX_REDIRECTS = 5
-_MAX_FAILURES = 3  # files in a row that all repetitions could not get
-_DEEPEST_SESSION = 4  # files from the root to the one that names the session
-_WORDS = 300  # characters of a service's own words
+_MAX_FAILURES = 3  # consecutive files that failed after all retries
+_DEEPEST_SESSION = 4  # nesting depth of the file with the session
+_WORDS = 300  # characters of a service's message
 
 
 class Http(Source):
@@ -35,16 +35,16 @@ class Http(Source):
     Parameters
     ----------
     url
-        Of its root; secrets in it go to its own host alone.
+        URL of the root; its secrets are sent only to its host.
     bearer
-        Token for the header Authorization, to the root's host alone.
+        Token for the header Authorization, sent only to the root's host.
     renew
-        Gives URL and bearer of the root once more, where a service hands them out.
+        Gets a new URL and bearer of the root from a service that issues them.
 
     Attributes
     ----------
     missing
-        URIs that could not be had without the network.
+        URIs that were unavailable offline.
     """
 
     local = False
@@ -80,12 +80,12 @@ class Http(Source):
         self._own: dict[str, dict[str, str]] = {}
 
     def resolve(self, base: str, reference: str) -> str:
-        """URL without secrets; a session in it holds for all that follows."""
+        """Resolve to a URL without secrets; a session in it is used for all later requests."""
         name = self.name(base)
         try:
             url, secrets = secret.split(urljoin(base, reference.strip()))
         except ValueError as error:
-            raise input_error(name, f"refers to no URL: {self._redacted(error)}") from None
+            raise input_error(name, f"refers to an invalid URL: {self._redacted(error)}") from None
         self.redactor.add(*secrets.values())
         self._check_origin(url, name)
         session = secrets.pop(self.policy.session_parameter, "")
@@ -96,7 +96,7 @@ class Http(Source):
         return url
 
     def read(self, uri: str, max_bytes: int = MAX_BYTES) -> bytes:
-        """Body of the answer, from the cache where it is fresh."""
+        """Read the body of the answer, from the cache if it is fresh."""
         now, name = self.clock.now(), self.name(uri)
         fresh_root = uri == self.root and bool(self.policy.session_parameter)
         kept = self._cache.find(uri, now) if self._cache and not fresh_root else None
@@ -107,7 +107,7 @@ class Http(Source):
         return unpack(self._fetch(uri, kept, max_bytes), max_bytes, name)
 
     def name(self, uri: str) -> str:
-        """The URL; secrets are not part of it."""
+        """Return the URL, redacted."""
         return self.redactor.text(uri)
 
     def close(self) -> None:
@@ -117,12 +117,12 @@ class Http(Source):
             self._cache.close()
 
     def _offline(self, uri: str, kept: Answer | None, max_bytes: int) -> bytes:
-        """What the cache has without asking the server."""
+        """Read a file from the cache without the server."""
         if kept is not None and not kept.strict and self.policy.may_work_offline:
             return unpack(kept.body, max_bytes, self.name(uri))
         self.missing.append(uri)
         state = (
-            "is not in the cache" if kept is None else "is in the cache, but must not be used without asking"
+            "is not in the cache" if kept is None else "is cached, but must not be used without the server"
         )
         reason = f"{state}, and the network may not be used: {self.network.setting}"
         if uri == self.root:
@@ -130,7 +130,7 @@ class Http(Source):
         raise missing(self.name(uri), reason)
 
     def _check_origin(self, url: str, name: str) -> Origin:
-        """Origin of a URL, which must be the root's or a host that the user named."""
+        """Return the origin of a URL; it must be the root's or an allowed host."""
         found = origin(url, name)
         if found != self.home and not (found.scheme == "https" and found.host in self.network.hosts):
             reason = f"refers to {found}, another host than {self.home}; --host {found.host} allows it"
@@ -138,7 +138,7 @@ class Http(Source):
         return found
 
     def _add_key(self) -> None:
-        """Take the user's key from the environment, where the service wants one and the URL has none."""
+        """Take the user's key from the environment, if the service needs one and the URL has none."""
         policy = self.policy
         if not policy.key_parameter or policy.key_parameter in self._secrets:
             return
@@ -150,7 +150,7 @@ class Http(Source):
         self._secrets[policy.key_parameter] = key
 
     def _fetch(self, uri: str, kept: Answer | None, max_bytes: int) -> bytes:
-        """Body from the server, asked again as long as that helps."""
+        """Fetch a body from the server, with retries."""
         name, tries, cut_off, refreshed = self.name(uri), 0, 0, False
         while True:
             self._backoff.wait()
@@ -194,7 +194,7 @@ class Http(Source):
             tries += 1
 
     def _schedule_retry(self, name: str, why: str, asked: str | None, tries: int) -> None:
-        """Pause the source before a repetition; or give up."""
+        """Pause the source before a retry, or give up."""
         if tries >= MAX_RETRIES:
             with self._lock:
                 self._failures += 1
@@ -208,7 +208,7 @@ class Http(Source):
         self._backoff.extend(wait)
 
     def _ask(self, uri: str, kept: Answer | None, max_bytes: int, session: str) -> Response:
-        """One request, with redirects within the host."""
+        """Send a request; follow redirects within the host."""
         url = uri
         headers = {}
         if kept is not None and kept.etag:
@@ -232,7 +232,7 @@ class Http(Source):
         raise missing(self.name(uri), f"is redirected more than {_MAX_REDIRECTS} times")
 
     def _with_secrets(self, url: str, session: str, headers: dict[str, str]) -> tuple[str, dict[str, str]]:
-        """URL and headers as they are sent: secrets of the root go to its own host alone."""
+        """Add secrets to URL and headers; secrets of the root go only to its host."""
         secrets = dict(self._own.get(url, {}))
         if origin(url, self.name(url)) == self.home:
             secrets = self._secrets | secrets
@@ -255,7 +255,7 @@ class Http(Source):
         return kept.body
 
     def _refresh(self, session: str) -> None:
-        """Ask the root for a new session, unless another thread has one already."""
+        """Get a new session from the root, unless another thread already has."""
         with self._lock:
             if self._session != session:
                 return
@@ -267,7 +267,7 @@ class Http(Source):
             self._session = self._new_session(session)
 
     def _new_session(self, old: str) -> str:
-        """Session that the root names now, itself or in the first tileset that it holds."""
+        """Read the session that the root, or its first nested tileset, names now."""
         url, parameter = self.root, self.policy.session_parameter
         for _ in range(_DEEPEST_SESSION):
             response = self._ask(url, None, MAX_BYTES, "")
@@ -286,14 +286,14 @@ class Http(Source):
         raise input_error(self.name(self.root), "names no new session; try again later")
 
     def _denied_error(self, uri: str, response: Response, within_session: bool) -> InputError:
-        """Error of a request that was refused; a file of an open server is then missing."""
+        """Make the error of a refused request; a file of an open server is missing."""
         reason = f"is refused (status {response.status}{self._service_message(response)})"
         if within_session or uri == self.root or self.bearer:
             return input_error(self.name(uri), f"{reason}; check the key and its rights")
         return missing(self.name(uri), reason)
 
     def _service_message(self, response: Response) -> str:
-        """The service's own words."""
+        """Return the service's message, redacted and shortened."""
         text = " ".join(response.body[:4096].decode("utf-8", "replace").split())
         return f": {self.redactor.text(text)[:_WORDS]}" if text else ""
 

@@ -1,4 +1,4 @@
-"""Answers of servers kept on the disk, as their headers allow (RFC 9111, a private cache)."""
+"""Cache of servers' answers on disk (RFC 9111, a private cache)."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ CREATE TABLE answer (key TEXT PRIMARY KEY, url TEXT NOT NULL, file TEXT NOT NULL
 CREATE INDEX answer_used ON answer (used)
 """
 _COLUMNS = "key, url, file, length, sha256, etag, modified, expires, strict, used"
-_TOUCH = 60.0  # s between notes of a use
-_KEPT = 0.9  # of the limit, after the oldest have gone
+_TOUCH = 60.0  # s between updates of the time of use
+_KEPT = 0.9  # of the limit, after eviction
 
 
 @dataclass(frozen=True)
@@ -39,9 +39,9 @@ class Answer:
     Attributes
     ----------
     expires
-        Seconds since 1970 until which it is fresh.
+        End of freshness, s since 1970.
     strict
-        It must not be used later without asking the server (must-revalidate, no-cache).
+        Must be revalidated when stale (must-revalidate, no-cache).
     """
 
     body: bytes
@@ -53,7 +53,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Rules:
-    """What the headers of an answer say about keeping it."""
+    """Caching rules from the headers of an answer."""
 
     store: bool
     expires: float
@@ -61,7 +61,7 @@ class Rules:
 
 
 def folder() -> Path:
-    """The user's folder of tiles."""
+    """Return the user's cache folder."""
     if sys.platform == "win32":
         base = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData/Local")
     elif sys.platform == "darwin":
@@ -72,9 +72,9 @@ def folder() -> Path:
 
 
 def rules(headers: Mapping[str, str], now: float) -> Rules:
-    """Rules of the headers of an answer, received at `now` (seconds since 1970).
+    """Parse the headers of an answer received at `now` (seconds since 1970).
 
-    Without max-age and Expires an answer is asked about each time.
+    An answer without max-age and Expires is revalidated at each use.
     """
     words: dict[str, str] = {}
     for each in headers.get("Cache-Control", "").lower().split(","):
@@ -101,7 +101,7 @@ class HttpCache:
     Parameters
     ----------
     limit
-        Bytes; beyond them the least recently used go.
+        Limit, bytes; the least recently used answers are evicted.
     """
 
     def __init__(self, place: Path, limit: int = LIMIT) -> None:
@@ -111,11 +111,11 @@ class HttpCache:
         self._size: int | None = None
 
     def find(self, url: str, now: float) -> Answer | None:
-        """The answer of a URL; None where there is none, or it is damaged, which removes it."""
+        """Find the answer of a URL; None without one. A damaged answer is removed."""
         return self._try(lambda data: self._find(data, _key(url), now), None)
 
     def put(self, url: str, body: bytes, headers: Mapping[str, str], now: float) -> None:
-        """Keep an answer, where its headers allow; a disk without room keeps nothing."""
+        """Store an answer if its headers allow; nothing is stored on a full disk."""
         found = rules(headers, now)
         if found.store:
             self._try(lambda data: self._put(data, url, body, headers, found, now), None)
@@ -123,19 +123,19 @@ class HttpCache:
             self._try(lambda data: self._replace(data, _key(url), None), None)
 
     def refresh(self, url: str, headers: Mapping[str, str], now: float) -> None:
-        """Note that the server confirmed an answer (status 304)."""
+        """Update an answer that the server confirmed (status 304)."""
         found = rules(headers, now)
         command = "UPDATE answer SET expires = ?, strict = ?, used = ? WHERE key = ?"
         values = (found.expires, int(found.strict), now, _key(url))
         self._try(lambda data: data.do(command, *values), None)
 
     def prune(self, limit: int | None = None) -> int:
-        """Remove the least recently used answers until `limit` bytes remain; returns the bytes left."""
+        """Remove the least recently used answers until `limit` bytes remain; return the bytes left."""
         most = self.limit if limit is None else limit
         return self._try(lambda data: self._prune(data, most), 0)
 
     def content(self) -> tuple[int, int, float]:
-        """Number of answers, their bytes, and when one was used last (s since 1970)."""
+        """Return the number of answers, their bytes, and the time of last use (s since 1970)."""
         query = "SELECT COUNT(*), COALESCE(SUM(length), 0), COALESCE(MAX(used), 0) FROM answer"
         if not (self.place / "answers.db").exists():
             return 0, 0, 0.0
@@ -143,7 +143,7 @@ class HttpCache:
         return int(number), int(total), float(used)
 
     def close(self) -> None:
-        """Let go of this thread's database."""
+        """Close this thread's database."""
         data = getattr(self._own, "data", None)
         if data is not None:
             data.close()
@@ -185,7 +185,7 @@ class HttpCache:
         self._grown(data, len(body))
 
     def _replace(self, data: Database, key: str, values: tuple[Any, ...] | None) -> None:
-        """Put a row in place of that of a key, or none; the file of the former row goes."""
+        """Replace or remove the row of a key; the file of the former row is removed."""
         with data.change():
             before = data.one("SELECT file FROM answer WHERE key = ?", key)
             data.do("DELETE FROM answer WHERE key = ?", key)
@@ -225,7 +225,7 @@ class HttpCache:
             (self.place / name).unlink(missing_ok=True)
 
     def _try(self, work: Callable[[Database], _T], otherwise: _T) -> _T:
-        """Work with the database of this thread. What goes wrong with it is as if nothing were kept."""
+        """Use this thread's database; on an error the cache behaves as if empty."""
         try:
             return work(self._data())
         except (InputError, OSError):  # no database, or the disk is full
@@ -241,7 +241,7 @@ class HttpCache:
         return self._own.data
 
     def _set_aside(self) -> None:
-        """Move a file away that is no database, so that the next use makes a new one."""
+        """Remove a file that is not a database, so that the next use creates one."""
         path = self.place / "answers.db"
         try:
             Database(path, _TABLES, create=True, journal="WAL").close()

@@ -1,4 +1,4 @@
-"""Assets of Cesium ion: their endpoint hands out a URL and a token."""
+"""Assets of Cesium ion, whose endpoint issues a URL and a token."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PREFIX = "ion:"
 
 
 def open_asset(asset: str, network: Network, clock: Clock | None = None, api: str = API) -> Http:
-    """Tileset of an asset, such as ``ion:96188``.
+    """Open the tileset of an asset, such as ``ion:96188``.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ def open_asset(asset: str, network: Network, clock: Clock | None = None, api: st
     Raises
     ------
     InputError
-        There is no token in the environment, or the service refuses it.
+        The environment has no token, or the service refuses it.
     """
     number = asset.removeprefix(PREFIX)
     if not number.isdecimal():
@@ -68,7 +68,7 @@ def open_asset(asset: str, network: Network, clock: Clock | None = None, api: st
 
 
 def _policy_of(url: str, external: Node) -> policies.Policy:
-    """Policy of the service that an asset leads to."""
+    """Return the policy of the service that an asset refers to."""
     if external.text() != "3DTILES":
         raise external.error("is not 3DTILES; choose an asset of 3D tiles")
     return policies.for_host(urlsplit(url).hostname or "")

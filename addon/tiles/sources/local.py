@@ -1,4 +1,4 @@
-"""References between files of a folder or an archive, which must not lead out of it."""
+"""References between files of a folder or an archive, which must not leave it."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ _ESCAPED = re.compile(r"%(2e|2f|5c|00|3a)", re.IGNORECASE)
 
 
 def relative(base: str, reference: str, name: str) -> str:
-    r"""Path within a folder, with `/`, of what the file `base` refers to.
+    r"""Resolve a reference of the file `base` to a path within the folder, with `/`.
 
     Parameters
     ----------
     name
-        Of the file with the reference, for messages.
+        Name of the file with the reference, for messages.
 
     Raises
     ------

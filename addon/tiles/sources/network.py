@@ -1,4 +1,4 @@
-"""What a source may ask of the network."""
+"""Network permissions of a source."""
 
 from __future__ import annotations
 
@@ -10,22 +10,22 @@ from .http_cache import LIMIT, folder
 
 @dataclass(frozen=True)
 class Network:
-    """What a source may ask of the network.
+    """Network permissions of a source.
 
     Attributes
     ----------
     online
-        Servers may be asked; otherwise only the cache answers.
+        Requests are allowed; otherwise only the cache is used.
     setting
-        Where that is set, for messages.
+        Remedy for `online` being off, for messages.
     hosts
-        Further hosts that files may lie on, besides the root's.
+        Allowed hosts in addition to the root's.
     private
-        Addresses of private networks are allowed.
+        Allow addresses of private networks.
     cache
-        Folder of the cache; None: none.
+        Folder of the cache; None: no cache.
     limit
-        Bytes of the cache.
+        Limit of the cache, bytes.
     """
 
     online: bool = True

@@ -1,4 +1,4 @@
-"""Secrets of URLs: kept out of names, cache keys, messages and logs."""
+"""Secrets of URLs, which must not reach names, cache keys, messages and logs."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ _NAMED = re.compile(
     r"""(["']?\s*[=:]\s*["']?)[^&\s"'#<>,;}]+"""
 )
 _BEARER = re.compile(r"(?i)\b(bearer\s+)[^\s\"',;]+")
-_SHORTEST = 4  # characters of what is hidden wherever it stands
+_SHORTEST = 4  # characters; shorter values are not redacted
 
 
 def split(url: str) -> tuple[str, dict[str, str]]:
-    """A URL without secrets and fragment, and the secrets by their parameters."""
+    """Split a URL into the URL without secrets and fragment, and the secrets by parameter."""
     parts = urlsplit(url)
     every = parse_qsl(parts.query, keep_blank_values=True)
     secrets = {name: value for name, value in every if name.lower() in NAMES}
@@ -37,33 +37,33 @@ def split(url: str) -> tuple[str, dict[str, str]]:
 
 
 def joined(url: str, secrets: dict[str, str]) -> str:
-    """A URL with secrets."""
+    """Add secrets to a URL."""
     if not secrets:
         return url
     return f"{url}{'&' if urlsplit(url).query else '?'}{urlencode(secrets)}"
 
 
 class Redactor(logging.Filter):
-    """Hides secrets in texts, and in the records of a logger that it filters."""
+    """Filter that hides secrets in texts and log records."""
 
     def __init__(self) -> None:
         super().__init__()
         self._values: set[str] = set()
 
     def add(self, *values: str) -> None:
-        """Hide these wherever they stand."""
+        """Register values to hide."""
         for value in values:
             if len(value) >= _SHORTEST:
                 self._values |= {value, urlencode({"": value})[1:]}
 
     def text(self, text: str) -> str:
-        """The text without secrets."""
+        """Replace secrets in a text."""
         for value in sorted(self._values, key=len, reverse=True):
             text = text.replace(value, HIDDEN)
         text = _BEARER.sub(rf"\1{HIDDEN}", text)
         return _NAMED.sub(rf"\1\2{HIDDEN}", text)
 
     def filter(self, record: logging.LogRecord) -> bool:
-        """Hide them in what a record says."""
+        """Replace secrets in a log record."""
         record.msg, record.args = self.text(record.getMessage()), ()
         return True
