@@ -295,7 +295,7 @@ def exr_output_path(node: bpy.types.Node, folder: str, stem: str) -> None:
         node.file_slots[0].path = f"{stem}######"
 
 
-def lost_files(node: bpy.types.Node) -> bool:
+def has_lost_files(node: bpy.types.Node) -> bool:
     """Return True if an `exr_output` node has no file items, as in 4.5 for files of 5.0 and later."""
     if node.bl_idname != "CompositorNodeOutputFile":
         return False
@@ -307,7 +307,7 @@ def drop_copies() -> None:
     if "compositing_node_group" not in bpy.types.Scene.bl_rna.properties:
         for name in ("Compositing Node Tree", _COMPOSITOR):
             tree = bpy.data.node_groups.get(name)
-            if tree is not None and owned.ours(tree):
+            if tree is not None and owned.is_ours(tree):
                 bpy.data.node_groups.remove(tree)
 
 
@@ -381,7 +381,7 @@ def set_denoising(cycles: Any, wanted: bool) -> None:
     cycles.use_denoising = wanted
 
 
-def stored(datablock: bpy.types.ID) -> Any:
+def stored_properties(datablock: bpy.types.ID) -> Any:
     """Return stored values of registered properties by name, also of properties that no longer exist."""
     # 5.0 stores them separately from custom properties
     system = getattr(datablock, "bl_system_properties_get", None)

@@ -10,10 +10,10 @@ KINDS = ("OPTIX", "CUDA", "HIP", "ONEAPI", "METAL")  # ordered by speed
 _NAMES = {"OPTIX": "OptiX", "CUDA": "CUDA", "HIP": "HIP", "ONEAPI": "oneAPI", "METAL": "Metal"}
 
 
-def take(wanted: str, scene: bpy.types.Scene) -> str:
+def set_device(wanted: str, scene: bpy.types.Scene) -> str:
     """Set the device ("auto", "cpu" or "gpu") of a scene, in a separate Blender process.
 
-    It changes Blender's preferences, so it must not run in an artist's Blender: see `follow`.
+    It changes Blender's preferences, so it must not run in an artist's Blender: see `follow_preferences`.
 
     Returns
     -------
@@ -41,7 +41,7 @@ def take(wanted: str, scene: bpy.types.Scene) -> str:
     return f"{' and '.join(dict.fromkeys(names))} by {_NAMES[kind]}"
 
 
-def follow(wanted: str, scene: bpy.types.Scene) -> None:
+def follow_preferences(wanted: str, scene: bpy.types.Scene) -> None:
     """Set the device of a scene in an artist's Blender, within its preferences; CPU by default."""
     scene.cycles.device = "CPU" if wanted == "cpu" else "GPU"
 

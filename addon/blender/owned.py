@@ -33,7 +33,7 @@ def unmark(block: Any) -> None:
             del block[name]
 
 
-def ours(block: Any, what: str = "") -> bool:
+def is_ours(block: Any, what: str = "") -> bool:
     """Return True if local data have the mark (and this `what`, unless empty)."""
     linked = getattr(block, "library", None) or getattr(block, "override_library", None)
     if linked is not None or MARK not in block:
@@ -49,13 +49,13 @@ class Stage:
     root: bpy.types.Collection
 
     @property
-    def own(self) -> bool:
+    def is_own(self) -> bool:
         """True if the scene itself is owned."""
-        return ours(self.scene)
+        return is_ours(self.scene)
 
     def part(self, name: str, keep: Collection[bpy.types.Object] = ()) -> bpy.types.Collection:
         """Return the collection "Firetwin <name>" without owned objects except `keep`; other objects stay."""
-        collection = next((child for child in self.root.children if ours(child, name)), None)
+        collection = next((child for child in self.root.children if is_ours(child, name)), None)
         if collection is not None:
             _clear(collection, keep)
             purge()
@@ -64,24 +64,24 @@ class Stage:
 
     def objects_of(self, name: str) -> list[bpy.types.Object]:
         """Return the owned objects of a part."""
-        collections = (child for child in self.root.children if ours(child, name))
-        return [obj for child in collections for obj in child.all_objects if ours(obj)]
+        collections = (child for child in self.root.children if is_ours(child, name))
+        return [obj for child in collections for obj in child.all_objects if is_ours(obj)]
 
     def evaluated(self, block: Any) -> Any:
         """Evaluate a data-block at the scene's frame, even if another scene is the current one."""
         layers = self.scene.view_layers
-        layer = next((each for each in layers if ours(each)), layers[0])
+        layer = next((each for each in layers if is_ours(each)), layers[0])
         return block.evaluated_get(layer.depsgraph) if layer.depsgraph else block
 
     def camera(self, name: str) -> bpy.types.Object | None:
         """Find the object of the camera called `name` in the scene file, even if the object was renamed."""
-        matches = [obj for obj in self.root.all_objects if ours(obj, f"camera {name}")]
+        matches = [obj for obj in self.root.all_objects if is_ours(obj, f"camera {name}")]
         return min(matches, key=_originality, default=None)
 
 
-def built(scene: bpy.types.Scene) -> bool:
+def has_data(scene: bpy.types.Scene) -> bool:
     """Return True if a scene has owned data."""
-    return ours(scene) or _root(scene) is not None
+    return is_ours(scene) or _root(scene) is not None
 
 
 def scene(uid: int) -> bpy.types.Scene:
@@ -113,7 +113,7 @@ def new_scene() -> bpy.types.Scene:
 
 def adopt(scene: bpy.types.Scene, what: str = "") -> Stage:
     """Mark a new or empty scene as owned, and return its owned part."""
-    if not ours(scene):
+    if not is_ours(scene):
         mark(scene, what)
         if len(scene.view_layers) == 1:  # the default one of every new scene
             mark(scene.view_layers[0], "spare")
@@ -133,7 +133,7 @@ def remove(scene: bpy.types.Scene) -> None:
             del root[name]
         _clear(root)
         _drop(root)
-    if ours(scene) and scene.world is not None and ours(scene.world):
+    if is_ours(scene) and scene.world is not None and is_ours(scene.world):
         scene.world = None
     unmark(scene)
     purge()
@@ -165,12 +165,12 @@ def add(
 
 def purge() -> None:
     """Delete owned data-blocks without users, and the owned data-blocks that only they used."""
-    while unused := [block for block in _blocks() if block.users == 0 and ours(block)]:
+    while unused := [block for block in _blocks() if block.users == 0 and is_ours(block)]:
         bpy.data.batch_remove(unused)
 
 
 def _root(scene: bpy.types.Scene) -> bpy.types.Collection | None:
-    return next((child for child in scene.collection.children if ours(child, "root")), None)
+    return next((child for child in scene.collection.children if is_ours(child, "root")), None)
 
 
 def _others(scene: bpy.types.Scene) -> list[bpy.types.Scene]:
@@ -180,11 +180,11 @@ def _others(scene: bpy.types.Scene) -> list[bpy.types.Scene]:
 def _clear(collection: bpy.types.Collection, keep: Collection[bpy.types.Object] = ()) -> None:
     """Delete owned objects in a collection except `keep`, and then owned empty collections."""
     for inner in list(collection.children):
-        if ours(inner):
+        if is_ours(inner):
             _clear(inner, keep)
             _drop(inner)
     originals: dict[str, bpy.types.Object] = {}
-    for obj in sorted(filter(ours, collection.objects), key=_originality):
+    for obj in sorted(filter(is_ours, collection.objects), key=_originality):
         if originals.setdefault(obj.get(NAME), obj) != obj:
             unmark(obj)  # an artist's copy
     bpy.data.batch_remove([obj for obj in originals.values() if obj not in keep])

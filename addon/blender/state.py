@@ -45,7 +45,7 @@ _UNSEEN = (
 """Beginnings of properties that do not show in a picture."""
 
 
-def of_mesh(data: bpy.types.Mesh) -> str:
+def digest_mesh(data: bpy.types.Mesh) -> str:
     """Return a digest of a mesh: attributes and faces; empty if it has shape keys or animation."""
     digest = hashlib.blake2b(digest_size=16)
     if data.shape_keys or data.animation_data:
@@ -67,7 +67,7 @@ def of_mesh(data: bpy.types.Mesh) -> str:
     return digest.hexdigest()
 
 
-def of_material(material: bpy.types.Material) -> str:
+def digest_material(material: bpy.types.Material) -> str:
     """Return a digest of a material: its settings, and nodes and links of its tree and of its group.
 
     Nested groups count by name, as all materials share them. The digest is empty if anything is animated.

@@ -10,7 +10,7 @@ import numpy as np
 NEAR, FAR = 20.0, 500_000.0
 
 
-def usual() -> tuple[float, float]:
+def default_clip_range() -> tuple[float, float]:
     """Return the default clipping range (m) of Blender's views."""
     known = bpy.types.SpaceView3D.bl_rna.properties
     return known["clip_start"].default, known["clip_end"].default
@@ -22,7 +22,7 @@ def clip(space: bpy.types.SpaceView3D, before: tuple[float, float], after: tuple
         space.clip_start, space.clip_end = after
 
 
-def coloured(space: bpy.types.SpaceView3D) -> None:
+def show_colours(space: bpy.types.SpaceView3D) -> None:
     """Show colour attributes in solid views that show material colours."""
     if space.shading.color_type == "MATERIAL":
         space.shading.color_type = "VERTEX"
@@ -34,7 +34,7 @@ def prepare_file() -> None:
         for area in screen.areas:
             for space in area.spaces:
                 if space.type == "VIEW_3D":
-                    clip(space, usual(), (NEAR, FAR))
-                    coloured(space)
+                    clip(space, default_clip_range(), (NEAR, FAR))
+                    show_colours(space)
                     if space.region_3d is not None:
                         space.region_3d.view_perspective = "CAMERA"

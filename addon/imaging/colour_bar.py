@@ -69,14 +69,14 @@ def draw(picture: NDArray[np.float32], low: float, high: float, palette: str, kn
     bar = sensor.colour(np.linspace(high, low, bottom - top)[:, None], low, high, palette)
     picture[top - size : bottom + size, left - size : right + size] = 1.0
     picture[top:bottom, left:right] = bar
-    for kelvin in marks(low, high, knee, (bottom - top) / (9.0 * size)):
-        at = bottom - 1 - round((bottom - 1 - top) * place(kelvin, low, high, knee))
+    for kelvin in choose_ticks(low, high, knee, (bottom - top) / (9.0 * size)):
+        at = bottom - 1 - round((bottom - 1 - top) * scale_position(kelvin, low, high, knee))
         picture[at : at + 1, left - 3 * size : left] = 1.0
         _write(picture, f"{kelvin:.0f}", left - 4 * size, at, size)
     _write(picture, "K", right + size, top - 5 * size, size)
 
 
-def title(picture: NDArray[np.float32], lines: list[str]) -> None:
+def write_title(picture: NDArray[np.float32], lines: list[str]) -> None:
     """Write text of capital letters, digits and . - : into the upper left corner of a picture (h, w, 3)."""
     height, width = picture.shape[:2]
     size = max(height // 240, 1)
@@ -86,20 +86,20 @@ def title(picture: NDArray[np.float32], lines: list[str]) -> None:
             _write(picture, line.upper(), right, (7 * number + 6) * size, size)
 
 
-def marks(low: float, high: float, knee: float, most: float) -> list[float]:
+def choose_ticks(low: float, high: float, knee: float, most: float) -> list[float]:
     """Choose tick values: up to about `most` round temperatures (K), well apart on the scale."""
     ticks: list[float] = []
     for step in _STEPS:
         if step < 10 and len(ticks) >= _ENOUGH:
             break
         for kelvin in np.arange(np.ceil(low / step) * step, high + 1e-9, step):
-            places = [place(tick, low, high, knee) for tick in (*ticks, kelvin)]
+            places = [scale_position(tick, low, high, knee) for tick in (*ticks, kelvin)]
             if all(abs(place - places[-1]) >= 1.0 / most for place in places[:-1]):
                 ticks.append(float(kelvin))
     return sorted(ticks)
 
 
-def place(kelvin: float, low: float, high: float, knee: float) -> float:
+def scale_position(kelvin: float, low: float, high: float, knee: float) -> float:
     """Return the position of a temperature on the scale, 0..1."""
     return float(np.log1p((kelvin - low) / knee) / np.log1p((high - low) / knee))
 

@@ -45,7 +45,7 @@ class Credits:
         """Join all credits in one line."""
         return "; ".join((*self.logo, *self.data))
 
-    def joined(self, other: Credits) -> Credits:
+    def merge(self, other: Credits) -> Credits:
         """Merge with other credits, without duplicates."""
         pairs = ((self.data, other.data), (self.logo, other.logo))
         return Credits(*(tuple(dict.fromkeys((*mine, *more))) for mine, more in pairs))
@@ -98,7 +98,7 @@ def blocks(credits: Credits, width: int, height: int, around: bool = False) -> l
     return [_block(found, (width - across) // 2, top + below, across) for below in (0, eye)]
 
 
-def foot(credits: Credits, width: int, height: int) -> int:
+def strip_height(credits: Credits, width: int, height: int) -> int:
     """Return the number of rows along the bottom of a flat picture that credits take."""
     return sum(block.height for block in blocks(credits, width, height))
 
@@ -134,7 +134,7 @@ def _lines(credits: Credits, width: int, size: int) -> tuple[tuple[str, ...], tu
     room = width - size  # half a size at each side
     services = "  ·  ".join(credits.logo)
     at_left = tuple(_wrapped(services, _LEFT_MOST * room if credits.data else room, size))
-    taken = max((length(line, size) for line in at_left), default=-_BETWEEN * size)
+    taken = max((estimate_width(line, size) for line in at_left), default=-_BETWEEN * size)
     return at_left, tuple(_wrapped("; ".join(credits.data), room - taken - _BETWEEN * size, size))
 
 
@@ -143,7 +143,7 @@ def _wrapped(text: str, room: float, size: int) -> Iterator[str]:
     line = ""
     for word in _words(text, room, size):
         longer = f"{line} {word}" if line else word
-        if line and length(longer, size) > room:
+        if line and estimate_width(longer, size) > room:
             yield line
             longer = word
         line = longer
@@ -155,14 +155,14 @@ def _words(text: str, room: float, size: int) -> Iterator[str]:
     for word in text.split():
         part = ""
         for sign in word:
-            if part and length(part + sign, size) > room:
+            if part and estimate_width(part + sign, size) > room:
                 yield part
                 part = ""
             part += sign
         yield part
 
 
-def length(text: str, size: float) -> float:
+def estimate_width(text: str, size: float) -> float:
     """Estimate the width of a text in Blender's typeface, pixels: at most a fifth too wide."""
     return size * sum(_advances(text))
 

@@ -132,9 +132,12 @@ class Sheet:
         """Draw brightness temperatures (h, w), K, and their bar, with the palette of `sensor.colour`."""
         self.picture(place, "THERMAL", sensor.colour(kelvin, low, high, palette, knee), part)
         bar = sensor.colour(np.linspace(high, low, 256)[:, None], low, high, palette)
-        marks = colour_bar.marks(low, high, knee, 0.5 * self.high / 2.0)
+        marks = colour_bar.choose_ticks(low, high, knee, 0.5 * self.high / 2.0)
         self._scale(
-            place, bar, [(f"{mark:.0f}", colour_bar.place(mark, low, high, knee)) for mark in marks], "K"
+            place,
+            bar,
+            [(f"{mark:.0f}", colour_bar.scale_position(mark, low, high, knee)) for mark in marks],
+            "K",
         )
 
     def depth(self, place: int, metres: NDArray, sky: float, part: Part = WHOLE) -> None:

@@ -281,7 +281,7 @@ def _check_device(shot: Shot) -> None:
     if render.engine != "cycles":
         return
     try:
-        devices.take(render.device, bpy.context.scene)
+        devices.set_device(render.device, bpy.context.scene)
     except TryAgainError as error:
         if not path.is_file():
             raise
@@ -321,7 +321,7 @@ def _camera(
         for part, group in _parts(shot, wanted):
             stage = worker_scene.build_scene(part, progress, tell) if drawn else worker_scene.empty()
             if drawn and shot.settings.render.engine == "cycles" and not done:
-                tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
+                tell(f"Cycles renders on {devices.set_device(shot.settings.render.device, stage.scene)}")
             load = expected.load(shot, stage, hazy) if drawn else None
             if load and load.bytes > most:
                 most = load.bytes

@@ -108,7 +108,7 @@ def in_blender(
     shot = _with_scene_settings(ShotSource(**choice).shot(), stage.scene)
     todo = [Picture(*picture) for picture in pictures]
     if stage.scene.render.engine == "CYCLES":
-        tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
+        tell(f"Cycles renders on {devices.set_device(shot.settings.render.device, stage.scene)}")
     known = {(camera, name): values for camera, name, values in made_with}
     frames, done, after = count_frames(todo), 0, 0 if resume else begun
     with (

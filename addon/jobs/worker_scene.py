@@ -33,6 +33,6 @@ def build_scene(shot: Shot, progress: Progress, tell: MessageCallback) -> Stage:
     engine.apply(shot.settings, stage.scene)
     engine.set_metadata(shot.run, stage.scene)
     credits.stamp(stage)
-    devices.follow(shot.settings.render.device, stage.scene)
+    devices.follow_preferences(shot.settings.render.device, stage.scene)
     progress(total, total, "building the scene")
     return stage

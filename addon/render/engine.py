@@ -77,7 +77,7 @@ def _cycles(settings: Settings, scene: bpy.types.Scene) -> None:
     scene.render.use_persistent_data = False  # guiding saved no time in three frames and takes memory
     cycles.pixel_filter_type, cycles.filter_width = "BLACKMAN_HARRIS", 1.5
     cycles.fast_gi_method = "ADD"  # number of bounces: world settings, see `scene.light.build`
-    filled = cycles.use_fast_gi = scene.world is not None and owned.ours(scene.world)
+    filled = cycles.use_fast_gi = scene.world is not None and owned.is_ours(scene.world)
     cycles.diffuse_bounces = 0 if filled else 1  # the fill light approximates the first bounce as well
     if scene.world is not None:  # the sky has no sun disc, and its automatic map resolution costs 2 s a frame
         scene.world.cycles.sampling_method = "MANUAL"

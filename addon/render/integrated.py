@@ -171,7 +171,7 @@ def _prepare(scene: bpy.types.Scene) -> None:
 
 def _shadow(shot: Shot, stage: Stage) -> shadow.Shadow | None:
     """Rebuild the shadow caster of the shot's smoke; None without fires."""
-    for old in [child for child in stage.root.children if owned.ours(child, shadow.NAME)]:
+    for old in [child for child in stage.root.children if owned.is_ours(child, shadow.NAME)]:
         for caster in list(old.objects):
             bpy.data.objects.remove(caster)
         bpy.data.collections.remove(old)
@@ -186,7 +186,7 @@ def _image_node(scene: bpy.types.Scene) -> bpy.types.Image:
     assert tree is not None  # `layers.build` has made it
     image = owned.mark(bpy.data.images.new(f"Firetwin {_PICTURE}", 4, 4, float_buffer=True, is_data=True))
     image.source = "FILE"
-    node = next((each for each in tree.nodes if owned.ours(each, _PICTURE)), None)
+    node = next((each for each in tree.nodes if owned.is_ours(each, _PICTURE)), None)
     if node is None:
         node = owned.mark(tree.nodes.new("CompositorNodeImage"), _PICTURE)
         shown = layers.find_layer(scene, "rgb").name
@@ -198,7 +198,9 @@ def _image_node(scene: bpy.types.Scene) -> bpy.types.Image:
                 and link.from_socket.name == "Image"
             ):
                 tree.links.new(node.outputs[0], link.to_socket)
-        for source in [each for each in tree.nodes if each.bl_idname == layers.SOURCE and owned.ours(each)]:
+        for source in [
+            each for each in tree.nodes if each.bl_idname == layers.SOURCE and owned.is_ours(each)
+        ]:
             tree.nodes.remove(source)
     node.image = image
     return image

@@ -29,7 +29,7 @@ def build(settings: Settings, stage: Stage) -> None:
     Call it last: layers can only exclude existing collections.
     """
     groups.build(settings, stage)
-    if not stage.own:
+    if not stage.is_own:
         return
     repair(stage.scene)
     for rendered_pass in _rendered():
@@ -51,7 +51,7 @@ def complete(settings: Settings, stage: Stage, parts: Collection[str]) -> None:
     Missing layers are created; the rest is unchanged.
     """
     groups.build(settings, stage)
-    if not stage.own:
+    if not stage.is_own:
         return
     repair(stage.scene)
     there = {layer.get(owned.MARK) for layer in stage.scene.view_layers}
@@ -65,14 +65,14 @@ def complete(settings: Settings, stage: Stage, parts: Collection[str]) -> None:
 def remove(scene: bpy.types.Scene) -> None:
     """Remove our view layers, except the last layer of the scene, and our compositor nodes."""
     repair(scene)
-    for layer in [layer for layer in scene.view_layers if owned.ours(layer)]:
+    for layer in [layer for layer in scene.view_layers if owned.is_ours(layer)]:
         if len(scene.view_layers) > 1:
             scene.view_layers.remove(layer)
         else:
             owned.unmark(layer)
     tree = compat.compositor(scene)
-    if tree is not None and owned.ours(tree):
-        for node in [node for node in tree.nodes if owned.ours(node)]:
+    if tree is not None and owned.is_ours(tree):
+        for node in [node for node in tree.nodes if owned.is_ours(node)]:
             tree.nodes.remove(node)
         if tree.nodes:
             owned.unmark(tree)
@@ -87,26 +87,26 @@ def repair(scene: bpy.types.Scene) -> None:
     """
     compat.drop_copies()
     tree = compat.compositor(scene)
-    if tree is None or not owned.ours(tree):
+    if tree is None or not owned.is_ours(tree):
         return
-    for node in [node for node in tree.nodes if owned.ours(node) and compat.lost_files(node)]:
+    for node in [node for node in tree.nodes if owned.is_ours(node) and compat.has_lost_files(node)]:
         each = rendered(node[owned.MARK].removeprefix("exr "))
         tree.nodes.remove(node)
         _file(tree, each, _image(tree, each))
     for link in list(tree.links):
-        if link.to_node.bl_idname == compat.END and owned.ours(link.from_node):
+        if link.to_node.bl_idname == compat.END and owned.is_ours(link.from_node):
             owned.mark(link.to_node)
 
 
 def find_layer(scene: bpy.types.Scene, name: str) -> bpy.types.ViewLayer:
     """Return the view layer of a pass."""
-    return next(layer for layer in scene.view_layers if owned.ours(layer, f"pass {name}"))
+    return next(layer for layer in scene.view_layers if owned.is_ours(layer, f"pass {name}"))
 
 
 def exclude(scene: bpy.types.Scene, part: str, but: str = "") -> None:
     """Exclude the collections of a part from the view layers of all passes but one."""
     for layer in scene.view_layers:
-        if owned.ours(layer) and layer.get(owned.MARK) != f"pass {but}":
+        if owned.is_ours(layer) and layer.get(owned.MARK) != f"pass {but}":
             for child in _parts(layer):
                 if str(child.collection[owned.MARK]).lower() == part:
                     child.exclude = True
@@ -129,7 +129,7 @@ def black_materials(scene: bpy.types.Scene, names: Iterable[str]) -> Iterator[No
     shapes = {f"pass {name}" for name in names if _is_geometry_only(name)}
     geometry_layers = [layer for layer in scene.view_layers if layer.get(owned.MARK) in shapes]
     if not geometry_layers or not all(
-        owned.ours(material) for material in bpy.data.materials if material.users
+        owned.is_ours(material) for material in bpy.data.materials if material.users
     ):
         yield
         return
@@ -185,9 +185,9 @@ def _layer(scene: bpy.types.Scene, each: RenderedPass) -> bpy.types.ViewLayer:
     """Return the view layer of a pass: an existing one, else a new scene's default layer, else a new one."""
     what = f"pass {each.name}"
     for layer in scene.view_layers:
-        if owned.ours(layer, what):
+        if owned.is_ours(layer, what):
             return layer
-    spare = next((layer for layer in scene.view_layers if owned.ours(layer, "spare")), None)
+    spare = next((layer for layer in scene.view_layers if owned.is_ours(layer, "spare")), None)
     layer = spare or scene.view_layers.new(each.name)
     layer.name = each.name
     return owned.mark(layer, what)
@@ -207,7 +207,7 @@ def _parts(layer: bpy.types.ViewLayer) -> Iterator[bpy.types.LayerCollection]:
     pending = list(layer.layer_collection.children)
     while pending:
         child = pending.pop()
-        if owned.ours(child.collection):
+        if owned.is_ours(child.collection):
             yield child
         if not child.exclude:
             pending += child.children
@@ -218,9 +218,9 @@ def _compositor(scene: bpy.types.Scene) -> None:
     tree = compat.compositor(scene)
     if tree is None:
         tree = compat.new_compositor(scene)
-    if not owned.ours(tree):
+    if not owned.is_ours(tree):
         return
-    there = {node[owned.MARK] for node in tree.nodes if owned.ours(node)}
+    there = {node[owned.MARK] for node in tree.nodes if owned.is_ours(node)}
     for each in _rendered():
         if f"exr {each.name}" not in there:
             before = set(tree.nodes)
@@ -254,10 +254,10 @@ def _file(tree: bpy.types.NodeTree, each: RenderedPass, image: bpy.types.NodeSoc
 
 def _image(tree: bpy.types.NodeTree, each: RenderedPass) -> bpy.types.NodeSocket:
     """Return the output socket that `_record` created for a pass's view layer."""
-    ours = [node for node in tree.nodes if owned.ours(node)]
+    ours = [node for node in tree.nodes if owned.is_ours(node)]
     source = next(node for node in ours if node.bl_idname == SOURCE and node.layer == each.name)
     image = source.outputs[each.socket]
     for link in tree.links:
-        if link.from_socket == image and owned.ours(link.to_node) and link.to_node.bl_idname in _BETWEEN:
+        if link.from_socket == image and owned.is_ours(link.to_node) and link.to_node.bl_idname in _BETWEEN:
             return link.to_node.outputs[0]
     return image

@@ -60,7 +60,7 @@ def credit_entry(made_with: dict[str, Any], words: Credits | None = None) -> dic
     words
         Further credits.
     """
-    named = read_credits(made_with).joined(words or Credits())
+    named = read_credits(made_with).merge(words or Credits())
     missing = made_with.get("tiles", {}).get("missing", [])
     found = {"credits": list(named.data), "services": list(named.logo), "missing_tiles": missing}
     return {name: values for name, values in found.items() if values}

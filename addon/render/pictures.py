@@ -163,7 +163,7 @@ class _Frame:
             own = manifest.read_credits(self.session.made_with.get((self.camera, drawn.name), {}))
             path = self.part / Path(self.pictures[drawn.name].file("png")).name
             around = self.shot.camera(self.camera).rig.around
-            credits.burn(path, own.joined(self.words), self.scene.render.stamp_note_text, around)
+            credits.burn(path, own.merge(self.words), self.scene.render.stamp_note_text, around)
 
     def draw_layers(self, pictures: list[Picture]) -> None:
         """Render the view layers of these passes, with smoke."""

@@ -100,7 +100,7 @@ def _strips(
     """
     editor = scene.sequence_editor_create()
     (width, height), around = shot.resolution(shot.camera(camera)), shot.camera(camera).rig.around
-    above = 0.035 + (0.0 if around else credits.foot(words, width, height) / height)
+    above = 0.035 + (0.0 if around else credits.strip_height(words, width, height) / height)
     size, low = (height / 60, (0.17, 0.67)) if around else (height / 20, (above,))
     left, right = (0.44, 0.56) if around else (0.025, 0.975)
     for position, number in enumerate(numbers, start=1):

@@ -71,7 +71,7 @@ def build(shot: Shot, identify: Identify, progress: Progress = silent) -> int:
     camera.build(shot, stage)
     _mark_trees(trees, identify, progress)
     _mark_materials(identify)
-    for group in filter(owned.ours, bpy.data.node_groups):
+    for group in filter(owned.is_ours, bpy.data.node_groups):
         _mark(group, identify(_KINDS[group.bl_idname]), _describe_group(group))
     for obj in (obj for obj in stage.root.all_objects if obj.type == "CAMERA"):
         _mark(obj, identify("Cameras"), "A camera of the shot, with its path")
@@ -106,7 +106,7 @@ def _mark_materials(identify: Identify) -> None:
     """Mark all materials; each gets the preview of the asset that shows it with the fewest others."""
     objects = [obj for obj in bpy.data.objects if obj.asset_data and obj.type == "MESH"]
     objects.sort(key=lambda obj: len(obj.data.materials))
-    for material in filter(owned.ours, bpy.data.materials):
+    for material in filter(owned.is_ours, bpy.data.materials):
         _mark(material, identify("Materials"), f"{material.name}: see the inputs of its node group")
         made = next((obj for obj in objects if material.name in obj.data.materials), None)
         if made is not None:

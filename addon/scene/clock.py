@@ -21,7 +21,7 @@ def build(shot: Shot, stage: Stage) -> None:
 
 def set_frame_range(shot: Shot, stage: Stage) -> None:
     """Set the frame range of Firetwin's scene, and go to its first frame."""
-    if stage.own:
+    if stage.is_own:
         scene = stage.scene
         scene.frame_start, scene.frame_end = 1, shot.frames.count
         scene.render.fps, scene.render.fps_base = shot.settings.time.fps, 1.0
@@ -35,7 +35,7 @@ def remove(scene: bpy.types.Scene) -> None:
         for driver in [driver for driver in data.drivers if driver.data_path == _PATH]:
             data.drivers.remove(driver)
         if _has_own_action(scene):
-            _remove_curves(scene, (_PATH, *(_OF_OUR_OWN if owned.ours(scene) else ())))
+            _remove_curves(scene, (_PATH, *(_OF_OUR_OWN if owned.is_ours(scene) else ())))
         if data.action is None and not data.drivers and not data.nla_tracks:
             scene.animation_data_clear()
     scene.pop(nodes.TIME, None)
@@ -57,7 +57,7 @@ def _remove_curves(scene: bpy.types.Scene, paths: tuple[str, ...]) -> None:
 
 def _has_own_action(scene: bpy.types.Scene) -> bool:
     data = scene.animation_data
-    return data is not None and data.action is not None and owned.ours(data.action)
+    return data is not None and data.action is not None and owned.is_ours(data.action)
 
 
 def _add_curve(shot: Shot, scene: bpy.types.Scene) -> None:

@@ -27,5 +27,5 @@ def read_scene(stage: Stage) -> Credits:
     for part in stage.root.children:
         if PROPERTY in part and part.all_objects:
             data, logo = json.loads(part[PROPERTY])
-            found = found.joined(Credits(tuple(data), tuple(logo)))
+            found = found.merge(Credits(tuple(data), tuple(logo)))
     return found

@@ -49,7 +49,7 @@ def foot(shot: Shot, width: int, height: int, compares: bool = False) -> int:
     compares
         The picture shows all runs.
     """
-    return credits.foot(_of_runs(shot, compares), width, height)
+    return credits.strip_height(_of_runs(shot, compares), width, height)
 
 
 @functools.lru_cache(maxsize=1)

@@ -80,7 +80,7 @@ class FIRETWIN_OT_f12_files(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not owned.ours(context.scene) or not context.scene.firetwin.first_time:
+        if not owned.is_ours(context.scene) or not context.scene.firetwin.first_time:
             cls.poll_message_set("Build the scene with Firetwin first")
             return False
         return working.editable(cls, context)
@@ -191,7 +191,7 @@ class FIRETWIN_PT_queue(bpy.types.Panel):
         from ..render import native_render as shown
 
         layout.operator(FIRETWIN_OT_render_background.bl_idname, icon="RENDER_ANIMATION")
-        built = owned.ours(context.scene) and context.scene.firetwin.first_time
+        built = owned.is_ours(context.scene) and context.scene.firetwin.first_time
         on = bool(built) and shown.has_outputs(context.scene)
         row = layout.row()
         row.operator(FIRETWIN_OT_f12_files.bl_idname, icon="OUTPUT", depress=on).on = not on

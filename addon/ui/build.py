@@ -102,7 +102,7 @@ class FIRETWIN_OT_solve(Working, bpy.types.Operator):
         """Select the solver, and build the smoke, or all parts of an empty scene."""
         panel = context.scene.firetwin
         panel.smoke.method, panel.bake_smoke = solve.replacement(panel), True
-        return (yield from steps(context, "smoke" if owned.built(context.scene) else ALL))
+        return (yield from steps(context, "smoke" if owned.has_data(context.scene) else ALL))
 
 
 def steps(context: bpy.types.Context, part: str) -> Steps:
@@ -129,7 +129,7 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     yield "removing the previous build"
     if bpy.context.mode != "OBJECT":
         raise Error("leave the edit mode, then build again")
-    new = not owned.built(owned.scene(uid))
+    new = not owned.has_data(owned.scene(uid))
     before, (uid, words) = uid, target_scene.prepare(owned.scene(uid), part=part != ALL)
     new = new or uid != before
     told: list[str] = []
@@ -157,12 +157,12 @@ def _finish(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], new: boo
     from ..render import credits, engine, layers
 
     here = owned.stage(scene)
-    if here.own and (new or len(parts) == len(PARTS)):
+    if here.is_own and (new or len(parts) == len(PARTS)):
         layers.build(shot.settings, here)
         engine.apply(shot.settings, scene)
         engine.set_metadata(shot.run, scene)
         credits.stamp(here)
-        devices.follow(shot.settings.render.device, scene)
+        devices.follow_preferences(shot.settings.render.device, scene)
     else:
         layers.complete(shot.settings, here, parts)
     time.remember(scene.firetwin, shot)
@@ -186,7 +186,7 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         if not working.editable(cls, context):
             return False
-        if not owned.built(context.scene):
+        if not owned.has_data(context.scene):
             cls.poll_message_set("Firetwin has built nothing in this scene")
             return False
         if context.mode != "OBJECT":

@@ -18,11 +18,11 @@ def adopt(*_: object) -> None:
     """Move settings and collections of renamed sections to their current names."""
     for former, name in FORMER.items():
         for collection in bpy.data.collections:
-            if owned.ours(collection, former.title()):
+            if owned.is_ours(collection, former.title()):
                 owned.mark(collection, name.title())
                 collection.name = f"Firetwin {name.title()}"
     for scene in bpy.data.scenes:
-        stored = compat.stored(scene).get("firetwin", {})
+        stored = compat.stored_properties(scene).get("firetwin", {})
         for former, name in FORMER.items():
             if former in stored:
                 kept = stored[former].to_dict()

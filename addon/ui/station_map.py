@@ -36,7 +36,7 @@ def icon() -> int:
 def image() -> bpy.types.Image | None:
     """Return the image of the map, if there is one."""
     found = bpy.data.images.get(IMAGE)
-    return found if found is not None and owned.ours(found) else None
+    return found if found is not None and owned.is_ours(found) else None
 
 
 def editors() -> Iterator[bpy.types.Area]:
@@ -123,7 +123,7 @@ def _exercise_text() -> np.ndarray:
 
 
 def _shows(space: bpy.types.Space) -> bool:
-    return space.image is not None and space.image.name == IMAGE and owned.ours(space.image)
+    return space.image is not None and space.image.name == IMAGE and owned.is_ours(space.image)
 
 
 def _preview(pixels: np.ndarray) -> None:

@@ -36,7 +36,7 @@ def select(scene: bpy.types.Scene, key: str) -> None:
 
 def handles(scene: bpy.types.Scene) -> list[bpy.types.Object]:
     """Return the handles of the built stations."""
-    if not owned.built(scene):
+    if not owned.has_data(scene):
         return []
     return [obj for obj in owned.stage(scene).objects_of("Stations") if STATION in obj]
 

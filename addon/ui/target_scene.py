@@ -25,7 +25,7 @@ def prepare(scene: bpy.types.Scene, part: bool) -> tuple[int, str]:
     -------
     `session_uid` of the scene, message for the user
     """
-    if owned.ours(scene) or (part and owned.built(scene)):
+    if owned.is_ours(scene) or (part and owned.has_data(scene)):
         return scene.session_uid, ""
     if not vacant(scene):
         made = owned.new_scene()
@@ -101,8 +101,8 @@ def remove(scene: bpy.types.Scene) -> None:
     from ..render import layers
     from ..scene import build
 
-    made = owned.ours(scene, owned.MADE)
-    if owned.ours(scene):
+    made = owned.is_ours(scene, owned.MADE)
+    if owned.is_ours(scene):
         layers.remove(scene)
     build.remove(scene)
     if made and vacant(scene) and not scene.collection.children and len(bpy.data.scenes) > 1:

@@ -74,7 +74,7 @@ def steps(context: bpy.types.Context, only_boxes: bool) -> Steps:
     uid, chosen = context.scene.session_uid, choice.from_panel(context.scene.firetwin)
     found = yield InThread("reading the tilesets", functools.partial(bounding_boxes.run, chosen))
     yield "drawing the boxes"
-    new = not owned.built(owned.scene(uid))
+    new = not owned.has_data(owned.scene(uid))
     uid, _ = target_scene.prepare(owned.scene(uid), part=True)
     scene, corners = owned.scene(uid), preview.join([each["corners"] for each in found])
     preview.show_boxes(owned.stage(scene), corners)
@@ -121,13 +121,13 @@ class FIRETWIN_OT_tiles_clear(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         from ..scene.tiles import build, preview
 
-        if not owned.built(context.scene):
+        if not owned.has_data(context.scene):
             return {"CANCELLED"}
         stage = owned.stage(context.scene)
         preview.remove(stage)
         if not stage.objects_of(build.PART):
             tile_facts.forget(context.scene.firetwin)
-        if not owned.built(context.scene):
+        if not owned.has_data(context.scene):
             view.narrow(context.scene)
         return {"FINISHED"}
 

@@ -29,14 +29,14 @@ def spaces(scene: bpy.types.Scene) -> Iterator[bpy.types.SpaceView3D]:
 def widen(scene: bpy.types.Scene) -> None:
     """Extend the clipping range of a scene's views to its size, except where an artist has set it."""
     for space in spaces(scene):
-        viewport.clip(space, viewport.usual(), (viewport.NEAR, viewport.FAR))
-        viewport.coloured(space)
+        viewport.clip(space, viewport.default_clip_range(), (viewport.NEAR, viewport.FAR))
+        viewport.show_colours(space)
 
 
 def narrow(scene: bpy.types.Scene) -> None:
     """Restore the clipping range of views that `widen` changed."""
     for space in spaces(scene):
-        viewport.clip(space, (viewport.NEAR, viewport.FAR), viewport.usual())
+        viewport.clip(space, (viewport.NEAR, viewport.FAR), viewport.default_clip_range())
 
 
 def look(scene: bpy.types.Scene, whole: bool = False) -> None:

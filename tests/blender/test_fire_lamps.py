@@ -140,6 +140,6 @@ def test_all_that_fire_and_smoke_make_is_ours_and_goes_again(near, run, scene, s
     smoke.build(shot, stage)
     made = {block for kind in kinds for block in getattr(bpy.data, kind)} - before
     assert len(made) > 50
-    assert [block.name for block in made if not owned.ours(block)] == []
+    assert [block.name for block in made if not owned.is_ours(block)] == []
     owned.remove(scene)
     assert {block for kind in kinds for block in getattr(bpy.data, kind)} == before

@@ -17,7 +17,7 @@ def panel(scene):
 def test_a_file_of_the_last_version_keeps_its_settings(panel, tmp_path):
     """Such a file is made of one of this version, whose section is stored under its former name."""
     panel.terrain.error, panel.labels.enabled, panel.forest.budget = 0.7, True, 17
-    stored = compat.stored(bpy.context.scene)["firetwin"]
+    stored = compat.stored_properties(bpy.context.scene)["firetwin"]
     for former, name in (("ground", "terrain"), ("places", "labels")):
         stored[former] = stored[name].to_dict()
         del stored[name]
@@ -36,8 +36,8 @@ def test_a_file_of_the_last_version_keeps_its_settings(panel, tmp_path):
     assert (found.terrain.height_source, found.tiles.vegetation) == ("tiles", "scene_near_burn")
     assert found.tiles.max_screen_space_error == pytest.approx(3.0)
     assert found.tiles.exact == '{"max_screen_space_error": 3.123456789}'
-    assert owned.ours(bpy.data.collections["Firetwin Terrain"], "Terrain")
-    assert "ground" not in compat.stored(bpy.context.scene)["firetwin"]
+    assert owned.is_ours(bpy.data.collections["Firetwin Terrain"], "Terrain")
+    assert "ground" not in compat.stored_properties(bpy.context.scene)["firetwin"]
 
 
 def test_nothing_is_left_when_the_extension_goes(panel):

@@ -15,14 +15,14 @@ def test_faces_are_those_of_from_pydata(sides, flat):
     faces = np.arange(12).reshape(-1, sides)
     expected = bpy.data.meshes.new("expected")
     expected.from_pydata(CORNERS.tolist(), [], faces.tolist(), shade_flat=flat)
-    assert state.of_mesh(create_mesh("made", CORNERS, faces, flat=flat)) == state.of_mesh(expected)
+    assert state.digest_mesh(create_mesh("made", CORNERS, faces, flat=flat)) == state.digest_mesh(expected)
 
 
 def test_points_and_edges_are_those_of_from_pydata():
     for edges in ([], [(0, 1), (1, 2)]):
         expected = bpy.data.meshes.new("expected")
         expected.from_pydata(CORNERS.tolist(), edges, [], shade_flat=False)
-        assert state.of_mesh(create_mesh("made", CORNERS, edges=edges)) == state.of_mesh(expected)
+        assert state.digest_mesh(create_mesh("made", CORNERS, edges=edges)) == state.digest_mesh(expected)
 
 
 def test_nothing_is_an_empty_mesh():

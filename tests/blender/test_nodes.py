@@ -12,5 +12,5 @@ def test_sockets_are_found_by_name_and_missing_ones_named():
 
 def test_a_material_is_ours_and_has_a_colour_in_the_solid_view():
     material, _tree = nodes.material("test", (0.1, 0.2, 0.3))
-    assert owned.ours(material)
+    assert owned.is_ours(material)
     assert material.diffuse_color[:] == pytest.approx((0.1, 0.2, 0.3, 1.0))

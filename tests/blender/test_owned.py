@@ -46,7 +46,7 @@ def inventory():
     for prop in bpy.data.bl_rna.properties:
         if prop.type == "COLLECTION" and prop.identifier not in _NOT_IN_FILES:
             for block in getattr(bpy.data, prop.identifier):
-                if not owned.ours(block) or isinstance(block, bpy.types.Scene):
+                if not owned.is_ours(block) or isinstance(block, bpy.types.Scene):
                     found[prop.identifier, block.name_full] = digest(block)
     return found
 
@@ -55,9 +55,9 @@ def foreign_parts(scene):
     """Describe an artist's data in a scene of Firetwin: layers, nodes of the compositor, objects."""
     tree = compat.compositor(scene)
     return {
-        "layers": [struct(layer, 0, scene) for layer in scene.view_layers if not owned.ours(layer)],
-        "nodes": [struct(node, 0, tree) for node in tree.nodes if not owned.ours(node)],
-        "objects": {thing.name: digest(thing) for thing in scene.objects if not owned.ours(thing)},
+        "layers": [struct(layer, 0, scene) for layer in scene.view_layers if not owned.is_ours(layer)],
+        "nodes": [struct(node, 0, tree) for node in tree.nodes if not owned.is_ours(node)],
+        "objects": {thing.name: digest(thing) for thing in scene.objects if not owned.is_ours(thing)},
     }
 
 
@@ -90,7 +90,7 @@ def plain(value):
 
 def name_of(block):
     """Kind and name of a data-block; None for none and for ours."""
-    if block is None or owned.ours(block):
+    if block is None or owned.is_ours(block):
         return None
     return type(block).__name__, block.name_full
 
@@ -151,15 +151,15 @@ def pointed(value, depth, owner):
 def ours_inside(thing):
     """Return True for a list item of Firetwin: a node, a view layer, a collection in a view layer."""
     if isinstance(thing, bpy.types.LayerCollection):
-        return owned.ours(thing.collection)
-    return isinstance(thing, bpy.types.Node | bpy.types.ViewLayer) and owned.ours(thing)
+        return owned.is_ours(thing.collection)
+    return isinstance(thing, bpy.types.Node | bpy.types.ViewLayer) and owned.is_ours(thing)
 
 
 def our_blocks():
     """Find all data-blocks of Firetwin in the file, by uid."""
     kinds = [prop.identifier for prop in bpy.data.bl_rna.properties if prop.type == "COLLECTION"]
     found = (block for kind in kinds if kind not in _NOT_IN_FILES for block in getattr(bpy.data, kind))
-    return {block.session_uid: block for block in found if owned.ours(block)}
+    return {block.session_uid: block for block in found if owned.is_ours(block)}
 
 
 def our_counts():
@@ -236,8 +236,8 @@ def changed(before):
 def test_nothing_foreign_changes(busy, shot, request):
     before = inventory()
     build.build(shot, busy)
-    assert owned.built(busy)
-    assert not owned.ours(busy)
+    assert owned.has_data(busy)
+    assert not owned.is_ours(busy)
     assert not changed(before)
     request.getfixturevalue("plain_looks")
     for part in build.PARTS:
@@ -245,7 +245,7 @@ def test_nothing_foreign_changes(busy, shot, request):
         assert not changed(before), part
     build.remove(busy)
     assert not changed(before)
-    assert not owned.built(busy)
+    assert not owned.has_data(busy)
     assert not our_blocks()
     assert nodes.TIME not in busy
 
@@ -279,8 +279,8 @@ def test_the_inventory_sees_what_changes(busy):
 
 def test_an_artists_things_in_our_collections_stay(busy, shot, plain_looks):
     build.build(shot, busy)
-    root = next(child for child in busy.collection.children if owned.ours(child))
-    trees = next(child for child in root.children if owned.ours(child, "Forest"))
+    root = next(child for child in busy.collection.children if owned.is_ours(child))
+    trees = next(child for child in root.children if owned.is_ours(child, "Forest"))
     own = bpy.data.collections.new("Own")
     root.children.link(own)
     for place in (root, trees, own):
@@ -311,14 +311,14 @@ def test_an_artists_things_in_our_collections_stay(busy, shot, plain_looks):
 def test_linked_data_of_ours_is_not_ours(busy, shot):
     linked = next(child for child in busy.collection.children if child.library is not None)
     assert owned.MARK in linked
-    assert not owned.ours(linked)
-    assert not owned.built(busy)
+    assert not owned.is_ours(linked)
+    assert not owned.has_data(busy)
     override = linked.override_hierarchy_create(busy, busy.view_layers[0])
     for block in (override, *override.all_objects):
         assert block.library is None
         assert owned.MARK in block
-        assert not owned.ours(block)
-    assert not owned.built(busy)
+        assert not owned.is_ours(block)
+    assert not owned.has_data(busy)
 
 
 def test_building_twice_makes_nothing_twice(busy, shot, plain_looks):

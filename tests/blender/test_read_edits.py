@@ -179,4 +179,4 @@ def test_the_ground_is_met_where_it_is(film, stage, drone, plain_looks):
         5.0, abs=3.0
     )
     assert ground_raycast.terrain_height(stage, (1.0e6, 0.0)) is None
-    assert owned.built(stage.scene)
+    assert owned.has_data(stage.scene)

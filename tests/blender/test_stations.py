@@ -142,7 +142,7 @@ def test_eyes_alone_see_signs_and_every_pass_sees_buildings(stationed, run, scen
     layers.build(shot.settings, stage)
     seen = {}
     for layer in scene.view_layers:
-        (root,) = [each for each in layer.layer_collection.children if owned.ours(each.collection, "root")]
+        (root,) = [each for each in layer.layer_collection.children if owned.is_ours(each.collection, "root")]
         parts = {str(each.collection[owned.MARK]): not each.exclude for each in root.children}
         seen[layer.name] = parts["Stations"], parts["Buildings"]
     assert len(seen) > 1

@@ -136,13 +136,13 @@ def flipped(data):
 def test_a_tile_that_was_edited_is_made_again(tiled, stage, edit):
     before = build(tiled, stage)
     name, data = next(iter(built_tiles().items()))
-    arrays = state.of_mesh(data)
+    arrays = state.digest_mesh(data)
     uid = data.session_uid
     edit(data)
     after = build(tiled, stage)
     assert len(new(before, after, "meshes")) == 1
     assert uid not in after["meshes"]
-    assert state.of_mesh(built_tiles()[name]) == arrays
+    assert state.digest_mesh(built_tiles()[name]) == arrays
 
 
 def test_an_object_that_was_moved_goes_back(tiled, stage):

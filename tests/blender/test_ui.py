@@ -262,29 +262,29 @@ def faked_cycles(monkeypatch, *gpus):
 def test_a_gpu_is_taken_and_named(scene, monkeypatch):
     given = faked_cycles(monkeypatch, ("CUDA", "Card"), ("OPTIX", "Card"))
     for wanted in ("auto", "gpu"):
-        assert devices.take(wanted, scene) == "Card by OptiX"
+        assert devices.set_device(wanted, scene) == "Card by OptiX"
         assert scene.cycles.device == "GPU"
         assert given.compute_device_type == "OPTIX"
         assert [each.type for each in given.devices if each.use] == ["OPTIX"]
-    assert devices.take("cpu", scene) == "the processor"
+    assert devices.set_device("cpu", scene) == "the processor"
     assert scene.cycles.device == "CPU"
 
 
 def test_without_a_gpu_auto_takes_the_processor_and_says_so(scene, monkeypatch):
     faked_cycles(monkeypatch)
-    assert devices.take("auto", scene) == "the processor (no GPU found)"
+    assert devices.set_device("auto", scene) == "the processor (no GPU found)"
     assert scene.cycles.device == "CPU"
     with pytest.raises(
         Error, match=r'device = "gpu", but Cycles finds no GPU here.*"auto" or "cpu"'
     ) as refused:
-        devices.take("gpu", scene)
+        devices.set_device("gpu", scene)
     assert "\n" not in str(refused.value)
 
 
 def test_an_artists_renders_follow_the_preferences(scene):
-    devices.follow("cpu", scene)
+    devices.follow_preferences("cpu", scene)
     assert scene.cycles.device == "CPU"
-    devices.follow("auto", scene)
+    devices.follow_preferences("auto", scene)
     assert scene.cycles.device == "GPU"  # which is the processor where the preferences name no GPU
 
 
@@ -317,7 +317,7 @@ def test_build_takes_the_place_of_the_startup_scene(settings, scene_file):
     settings.scene_file = str(scene_file)
     assert bpy.ops.firetwin.build() == {"FINISHED"}
     names = {thing.name for thing in bpy.context.scene.objects}
-    assert owned.ours(bpy.context.scene)
+    assert owned.is_ours(bpy.context.scene)
     assert len(bpy.data.scenes) == 1
     assert {"Firetwin Ground", "Firetwin Camera drone", "Firetwin Sun"} <= names
     assert bpy.context.scene.world.name == "Firetwin Sky"
@@ -344,8 +344,8 @@ def test_build_leaves_a_scene_that_somebody_uses(settings, scene_file, somebody)
     assert before.world.name == "World"
     after = bpy.context.window.scene
     assert after.name == "Firetwin"
-    assert owned.ours(after)
-    assert not owned.built(before)
+    assert owned.is_ours(after)
+    assert not owned.has_data(before)
     assert "Firetwin Ground" in after.objects
     assert (after.firetwin.scene_file, after.firetwin.which) == (str(scene_file), "all")
     assert scene_settings.settings(after) == scene_settings.settings(before)
@@ -421,11 +421,11 @@ def test_remove_takes_away_all_of_ours(settings, scene_file):
     assert bpy.ops.firetwin.remove() == {"FINISHED"}
     scene = bpy.context.scene
     assert not scene.objects
-    assert not owned.built(scene)
+    assert not owned.has_data(scene)
     assert len(scene.view_layers) == 1
     assert settings.first_time == ""
     assert "Build the scene first" in refusal(bpy.ops.firetwin.view)
-    assert not [block.name for block in owned._blocks() if owned.ours(block)]
+    assert not [block.name for block in owned._blocks() if owned.is_ours(block)]
     bpy.ops.firetwin.build()
     assert "Firetwin Ground" in scene.objects
 
@@ -449,7 +449,7 @@ def test_remove_keeps_a_scene_that_something_was_added_to(settings, scene_file):
     scene.collection.objects.link(bpy.data.objects.new("Mine", None))
     bpy.ops.firetwin.remove()
     assert scene.objects.keys() == ["Mine"]
-    assert not owned.built(scene)
+    assert not owned.has_data(scene)
 
 
 def test_undo_takes_back_what_was_built_and_removed(settings, scene_file):

@@ -93,7 +93,7 @@ def everything(scene):
             ("world", bpy.data.worlds),
         )
         for block in blocks
-        if block.users and owned.ours(block) and (kind == "group" or block.node_tree)
+        if block.users and owned.is_ours(block) and (kind == "group" or block.node_tree)
     }
     return objects, trees
 

@@ -101,7 +101,7 @@ def look(blend: Path, beside: Path) -> None:
     scene, panel = bpy.context.scene, bpy.context.scene.firetwin
     stage = owned.stage(scene)
     check(settings() == beside.read_text(encoding="utf-8"), "its settings have not changed")
-    check(owned.ours(scene) and stage.camera("drone") == scene.camera, "scene and camera are ours")
+    check(owned.is_ours(scene) and stage.camera("drone") == scene.camera, "scene and camera are ours")
     check(scene.objects["Firetwin Trees"].location.x == 3.0, "objects moved by hand stay")
     check(composited(scene), "the compositor has our nodes")
     before, cameras = picture(scene, blend, "as-it-is"), len(panel.cameras)
@@ -126,7 +126,7 @@ def look(blend: Path, beside: Path) -> None:
     check(away < 0.1, f"built again it shows the same, but for grain: {away:.3f} of 1 at most")
     keep(*blends(blend.parent, f"{blend.stem}-{VERSION}"))
     bpy.ops.firetwin.remove()
-    left = [block.name for block in owned._blocks() if owned.ours(block)]
+    left = [block.name for block in owned._blocks() if owned.is_ours(block)]
     check(not left, f"no data of Firetwin is left after removal: {left}")
     tree = compat.compositor(scene)
     check(tree is None or not tree.nodes, "nor a compositor without a picture")
@@ -140,7 +140,7 @@ def _blurred(pixels: np.ndarray) -> np.ndarray:
 def composited(scene: bpy.types.Scene) -> bool:
     """Return True if the compositor writes our passes."""
     nodes = compat.compositor(scene)
-    return nodes is not None and any(owned.ours(node) for node in nodes.nodes)
+    return nodes is not None and any(owned.is_ours(node) for node in nodes.nodes)
 
 
 def picture(scene: bpy.types.Scene, blend: Path, name: str) -> np.ndarray:

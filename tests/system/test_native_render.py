@@ -108,7 +108,7 @@ def test_what_is_changed_by_hand_is_rendered_beside_the_window(panel, tmp_path):
     """A light turned off, which is not in the scene file; later changes do not matter."""
     scene = bpy.context.scene
     scene.frame_set(FRAME)
-    sun = next(thing for thing in scene.objects if thing.type == "LIGHT" and owned.ours(thing))
+    sun = next(thing for thing in scene.objects if thing.type == "LIGHT" and owned.is_ours(thing))
     panel.which = "frame"
     sun.hide_render = True
     bpy.ops.firetwin.render_background()

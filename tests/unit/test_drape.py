@@ -134,7 +134,9 @@ def test_missing_tiles_are_named(make, tmp_path, server):
     server.answers.gone = {tuple(int(part) for part in gone[3:-4].split("/"))}
     shot, told = fetched(make("photo_size = 1024"), tmp_path, cache=None)
     assert drape.of_shot(shot).missing == (f"{server.url}{gone}: is not there (status 404)",)
-    assert told[-1].startswith("1 tile of the orthophoto missing, replaced by coarser tiles: http://127.0.0.1")
+    assert told[-1].startswith(
+        "1 tile of the orthophoto missing, replaced by coarser tiles: http://127.0.0.1"
+    )
 
 
 def test_a_second_time_nothing_is_asked_and_the_pictures_are_the_same(make, tmp_path, server):

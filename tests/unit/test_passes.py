@@ -140,9 +140,9 @@ def test_the_detector_of_the_settings_measures(tmp_path):
 
 
 def test_a_bar_of_round_temperatures_stands_at_the_right(tmp_path):
-    assert colour_bar.marks(290.0, 1000.0, 5.0, 20.0)[-1] == 1000.0
-    assert all(kelvin % 10 == 0 for kelvin in colour_bar.marks(290.0, 1000.0, 5.0, 20.0))
-    assert len(colour_bar.marks(299.0, 301.0, 5.0, 20.0)) >= 3
+    assert colour_bar.choose_ticks(290.0, 1000.0, 5.0, 20.0)[-1] == 1000.0
+    assert all(kelvin % 10 == 0 for kelvin in colour_bar.choose_ticks(290.0, 1000.0, 5.0, 20.0))
+    assert len(colour_bar.choose_ticks(299.0, 301.0, 5.0, 20.0)) >= 3
     _, picture = thermal(tmp_path, scene(180, 320), palette="inferno")
     bare = sensor.colour(np.full((180, 320), 300.0), 290.0, 1000.0, "inferno", 5.0)
     bar = picture[20:160, 312:316].mean(axis=(1, 2))

@@ -31,7 +31,7 @@ def test_a_strip_along_the_bottom_names_all(width, height):
     assert len(block.at_right) <= 3
     assert block.size >= 11
     assert block.height < 0.15 * height
-    assert credits.foot(MANY, width, height) == block.height
+    assert credits.strip_height(MANY, width, height) == block.height
 
 
 def test_large_pictures_have_larger_text_and_a_smaller_strip():
@@ -68,8 +68,8 @@ def test_no_credit_is_left_out(data, logo, width, height):
         assert letters("".join(block.at_right)) == letters("; ".join(data))
         assert letters("".join(block.at_left)) == letters("  ·  ".join(logo))
         assert 0 <= block.top < block.top + block.height == height
-        left = max((credits.length(each, block.size) for each in block.at_left), default=0.0)
-        right = max((credits.length(each, block.size) for each in block.at_right), default=0.0)
+        left = max((credits.estimate_width(each, block.size) for each in block.at_left), default=0.0)
+        right = max((credits.estimate_width(each, block.size) for each in block.at_right), default=0.0)
         signs = [len(each) for each in (*block.at_left, *block.at_right)]
         assert left + right <= block.width or min(signs, default=0) <= 1
 

@@ -49,7 +49,7 @@ def draw(png: Path, depth: Path, shot: Shot, camera: str, frame: int, long: bool
     colour_bar.draw(shown, low, most, PALETTE, KNEE)
     wave = instrument.long if long else instrument.short
     lines = [f"{instrument.name} {wave:g} um", f"{moment:%Y-%m-%d %H:%M}Z", instrument.label(moment.year)]
-    colour_bar.title(shown, lines)
+    colour_bar.write_title(shown, lines)
     sensor.write_image(png, shown)
 
 

@@ -57,4 +57,4 @@ def clearance_offset(stage: Stage, place: Sequence[float] | NDArray[np.float64],
 
 
 def _is_terrain(obj: bpy.types.Object) -> bool:
-    return obj.type == "MESH" and owned.ours(obj) and obj.get(owned.NAME) == f"{owned.ROOT} Ground"
+    return obj.type == "MESH" and owned.is_ours(obj) and obj.get(owned.NAME) == f"{owned.ROOT} Ground"

@@ -211,7 +211,7 @@ def update_cameras(
         Receives a message for each edit that settings cannot express.
     """
     edited = list(cameras)
-    if not owned.built(scene):
+    if not owned.has_data(scene):
         return tuple(edited)
     stage = owned.stage(scene)
     frame, taken = local_frame(stage), {camera.name for camera in cameras}

@@ -37,12 +37,12 @@ def build(shot: Shot, stage: Stage) -> list[str]:
         Warnings for the user.
     """
     frames, states = light_keyframes(shot)
-    if stage.own and stage.scene.world is not None and owned.ours(stage.scene.world):
+    if stage.is_own and stage.scene.world is not None and owned.is_ours(stage.scene.world):
         stage.scene.world = None  # so that it is removed with Firetwin's other objects
     _build_sun(stage.part("Light"), frames, states)
     group, colour = haze.set_amount(stage, shot.settings.light.haze)
     add_keyframes(group, colour, frames, np.array([(*each.haze, 1.0) for each in states]))
-    if not stage.own:
+    if not stage.is_own:
         return []
     if stage.scene.world is None:
         _build_world(stage, frames, states)
@@ -140,7 +140,7 @@ def _animate_ambient_light(world: bpy.types.World, frames: NDArray[np.float64], 
 
 def _set_thermal_sky(world: bpy.types.World, radiance: float) -> None:
     """Set the sky's infrared emission in thermal view layers; a user's world is not changed."""
-    node = world.node_tree.nodes.get("Thermal Sky") if world.node_tree and owned.ours(world) else None
+    node = world.node_tree.nodes.get("Thermal Sky") if world.node_tree and owned.is_ours(world) else None
     if node is not None:
         compat.find_socket(node.inputs, "Strength").default_value = radiance
 
@@ -150,7 +150,7 @@ def _animate_exposure(
 ) -> None:
     """Keyframe the exposure; in a scene that the artist animates, set it to the value at mid-shot."""
     action = scene.animation_data.action if scene.animation_data else None
-    if action is not None and not owned.ours(action):
+    if action is not None and not owned.is_ours(action):
         frames, exposures = frames[:1], exposures[len(exposures) // 2 :][:1]
     add_keyframes(scene, "view_settings.exposure", frames, exposures)
 

@@ -27,7 +27,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
         return None
     source, place = sources.select(shot), bake.folder(shot)
     drawn = source.layers()
-    if stage.own:
+    if stage.is_own:
         _set_cycles_steps(stage.scene.cycles)
         _set_eevee_slices(stage.scene.eevee, *view.span(shot))
     layers.build(collection, len(drawn))
@@ -70,7 +70,7 @@ def make_paths_relative(blend: Path) -> None:
     not remap the paths again: save with ``relative_remap=False``.
     """
     for volume in bpy.data.volumes:
-        if owned.ours(volume):
+        if owned.is_ours(volume):
             volume.filepath = _relative_path(blend, bpy.path.abspath(volume.filepath))
 
 

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 from firetwin_core import sensor, volume
 
-from ...blender.owned import Stage, ours
+from ...blender.owned import Stage, is_ours
 from ...shot.fire import air_temperature
 from ...shot.light import sky
 from ...shot.sections.thermal import BANDS
@@ -23,7 +23,7 @@ _TABLE = 180.0, 360.0, 0.5  # K, air temperatures of the radiance table, and the
 def material(stage: Stage) -> bpy.types.Material | None:
     """Return the material of the scene's smoke."""
     objects = stage.root.all_objects
-    volumes = [obj.data for obj in objects if obj.type == "VOLUME" and ours(obj)]
+    volumes = [obj.data for obj in objects if obj.type == "VOLUME" and is_ours(obj)]
     return next((each.materials[0] for each in volumes if len(each.materials) and each.materials[0]), None)
 
 

@@ -41,7 +41,7 @@ def build(
     made_of = _inputs(shot, images)
     same = [each.get(MADE_OF) for each in known] == [made_of] * (1 + len(images))
     same = same and [image for each in known for image in reuse.images(each)] == images
-    if same and all(each[STATE] == state.of_material(each) for each in known):
+    if same and all(each[STATE] == state.digest_material(each) for each in known):
         return known
     first = material.build(shot, stage, fields.create_images(shot, grown), skin=_NAME)
     others = [owned.mark(first.copy()) for _ in images]
@@ -50,7 +50,7 @@ def build(
         other.name = image.name
         colour(other, image)
     for each in (first, *others):
-        each[MADE_OF], each[STATE] = made_of, state.of_material(each)
+        each[MADE_OF], each[STATE] = made_of, state.digest_material(each)
     return [first, *others]
 
 

@@ -53,12 +53,12 @@ def find(stage: Stage, part: str, wanted: Sequence[str], made_of: Callable[[str]
     kept, some = Kept(), set(wanted)
     for obj in stage.objects_of(part):
         data = obj.data
-        if not isinstance(data, bpy.types.Mesh) or not owned.ours(data) or TILE not in data:
+        if not isinstance(data, bpy.types.Mesh) or not owned.is_ours(data) or TILE not in data:
             continue
         if not kept.materials and all(each is not None and MADE_OF in each for each in data.materials):
             kept.materials = list(data.materials)
         name = data[TILE]
-        same = name in some and name not in kept.meshes and data.get(STATE) == state.of_mesh(data)
+        same = name in some and name not in kept.meshes and data.get(STATE) == state.digest_mesh(data)
         if same and data.get(MADE_OF) == made_of(name):
             kept.meshes[name] = data
     kept.images = [image for each in kept.materials for image in images(each)]
@@ -70,7 +70,7 @@ def note(data: bpy.types.Mesh, name: str, made_of: str, tile: Decoded, slots: Ma
     mine = {picture: (slots[picture].image, slots[picture].part) for picture in tile.pictures}
     data[TILE], data[MADE_OF], data[SLOTS] = name, made_of, json.dumps(mine)
     data[ORIGIN] = tile.origin.tolist()
-    data[STATE] = state.of_mesh(data)
+    data[STATE] = state.digest_mesh(data)
 
 
 def slots(data: bpy.types.Mesh) -> dict[str, Slot]:
