@@ -64,7 +64,7 @@ def add(
         "--standard-response",
         dest="response",
         metavar="TYPE=N,...",
-        type=response,
+        type=parse_response,
         default={},
         help="minimum number by type or kind that arrives in time, such as engine/3=4,dozer=1 (none)",
     )
@@ -87,7 +87,7 @@ def add(
     parser.add_argument("--json", action="store_true", help="write JSON")
 
 
-def response(text: str) -> dict[str, int]:
+def parse_response(text: str) -> dict[str, int]:
     """Parse numbers by type, such as "engine/3=4,dozer/2=1"."""
     found: dict[str, int] = {}
     for part in text.split(","):

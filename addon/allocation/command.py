@@ -25,7 +25,7 @@ def run(arguments: argparse.Namespace, open_run: Callable[[Path], Run]) -> None:
         The allocation is infeasible; the message gives the reasons.
     """
     run = open_run(arguments.run)
-    start = arguments.start or times.utc(run, job.first_order(run))
+    start = arguments.start or times.utc(run, job.default_order_time(run))
     units, left_out = read.read(arguments.stations, start)
     request = Request(
         arguments.budget,
@@ -36,6 +36,6 @@ def run(arguments: argparse.Namespace, open_run: Callable[[Path], Run]) -> None:
     )
     found = job.suggest(units, run, request, start, arguments.hours, arguments.divisions)
     found["left_out"] += left_out
-    result(json.dumps(found, indent=1) if arguments.json else page.page(found))
+    result(json.dumps(found, indent=1) if arguments.json else page.format_text(found))
     if found["reasons"]:
         raise Error("; ".join(found["reasons"]))

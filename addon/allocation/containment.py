@@ -75,12 +75,12 @@ def solve(problem: Problem, options: Options = USUAL) -> Answer | None:
     if values is None:
         return None
     counts, _ = model.read(values)
-    division = symmetry.assign(model.classes, _without_spare(problem, model.classes, counts))
-    answer = valued(problem, division, _first_hour(problem, built(problem, division)))
+    division = symmetry.assign(model.classes, _remove_spare(problem, model.classes, counts))
+    answer = make_answer(problem, division, _first_hour(problem, built_line(problem, division)))
     return replace(answer, bound=min(bound, answer.cost + answer.loss), in_time=in_time)
 
 
-def shortest_line(problem: Problem, options: Options = USUAL) -> tuple[Array, NDArray[np.int64]]:
+def minimum_shortfall(problem: Problem, options: Options = USUAL) -> tuple[Array, NDArray[np.int64]]:
     """Return the minimum line (k,), m, that is missing with all resources, and its hour (k,)."""
     model = Model(replace(problem, request=replace(problem.request, budget=None)), slack=True)
     values, _, _ = model.run(model.shortfall(), options)
@@ -88,7 +88,7 @@ def shortest_line(problem: Problem, options: Options = USUAL) -> tuple[Array, ND
     return KM * values[model.slack], model.read(values)[1]
 
 
-def _without_spare(problem: Problem, classes: list[Whole], counts: Whole) -> Whole:
+def _remove_spare(problem: Problem, classes: list[Whole], counts: Whole) -> Whole:
     """Remove resources that the answer does not need, the most expensive class and the last division first.
 
     Their cost is within the solver's gap, or 0.
@@ -125,7 +125,7 @@ def _first_hour(problem: Problem, line: Array) -> Whole:
     return np.where(held.any(axis=1), held.argmax(axis=1), -1)
 
 
-def valued(problem: Problem, division: NDArray[np.int64], hour: NDArray[np.int64]) -> Answer:
+def make_answer(problem: Problem, division: NDArray[np.int64], hour: NDArray[np.int64]) -> Answer:
     """Make an answer with sums computed from the arrays of the problem."""
     sent, held = division >= 0, np.flatnonzero(hour >= 0)
     losses = float(problem.loss[held, hour[held]].sum())
@@ -135,7 +135,7 @@ def valued(problem: Problem, division: NDArray[np.int64], hour: NDArray[np.int64
     return Answer(division, hour, cost, losses, cost + losses, True)
 
 
-def built(problem: Problem, division: NDArray[np.int64]) -> Array:
+def built_line(problem: Problem, division: NDArray[np.int64]) -> Array:
     """Compute the line (k, t), m, that the resources have built."""
     at = division[:, None] == np.arange(len(problem.perimeter))
     return np.einsum("nk,nkt->kt", at, problem.line)

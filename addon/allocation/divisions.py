@@ -68,23 +68,23 @@ def divide(run: Run, start: float, hours: int, count: int) -> Divisions:
     grid, reach = ArrivalGrid.from_run(run), front.reach(run)
     centre = _centre(grid, start)
     rows, columns = np.meshgrid(grid.latitude, grid.longitude, indexing="ij")
-    cell = sector(*_metres(rows, columns, centre), count)
+    cell = sector(*_to_metres(rows, columns, centre), count)
     after = np.arange(1, hours + 1, dtype=np.float64)
     perimeter, burned, place = np.zeros((count, hours)), np.zeros((count, hours)), np.full((count, 2), np.nan)
     for t, moment in enumerate(start + HOUR * after):
         line = reach.line(moment)
-        perimeter[:, t], middle = lengths(*line, centre, count)
+        perimeter[:, t], middle = front_lengths(*line, centre, count)
         place = np.where(np.isnan(place), middle, place)
         burned[:, t] = np.bincount(cell.ravel(), (grid.areas * grid.burned(moment)).ravel(), count)
     return Divisions(centre, after, perimeter, burned, place)
 
 
-def ignition(run: Run) -> float:
+def ignition_time(run: Run) -> float:
     """Return the model time (s) at which the fire of a run begins; infinite without fire."""
-    return _first(ArrivalGrid.from_run(run))
+    return _first_arrival(ArrivalGrid.from_run(run))
 
 
-def _first(grid: ArrivalGrid) -> float:
+def _first_arrival(grid: ArrivalGrid) -> float:
     return float(np.min(grid.arrival, initial=np.inf, where=np.isfinite(grid.arrival)))
 
 
@@ -94,7 +94,7 @@ def sector(east: ArrayLike, north: ArrayLike, count: int) -> NDArray[np.int64]:
     return np.minimum((bearing * count).astype(np.int64), count - 1)
 
 
-def lengths(
+def front_lengths(
     latitude: Array, longitude: Array, after: NDArray[np.int64], centre: tuple[float, float], count: int
 ) -> tuple[Array, Array]:
     """Compute the length (k,) of closed lines in each sector, m, and the middle (k, 2) of each part, degrees.
@@ -106,19 +106,19 @@ def lengths(
     latitude, longitude, after
         Points (n,) of the lines and the index of the next point, with the burned side on the left.
     """
-    outer = outlines(*_metres(latitude, longitude, centre), after)
+    outer = outer_points(*_to_metres(latitude, longitude, centre), after)
     ends = np.stack([latitude, longitude], axis=-1)[np.stack([outer, after[outer]])]
     (middle, way) = (0.5 * (ends[0] + ends[1]), ends[1] - ends[0])
     north, east = metres_per_degree(middle[:, 0])
     length = np.hypot(way[:, 0] * north, way[:, 1] * east)
-    own = sector(*_metres(middle[:, 0], middle[:, 1], centre), count)
+    own = sector(*_to_metres(middle[:, 0], middle[:, 1], centre), count)
     total = np.bincount(own, length, count).astype(np.float64)
     sums = np.stack([np.bincount(own, length * middle[:, axis], count) for axis in (0, 1)], axis=-1)
     with np.errstate(invalid="ignore", divide="ignore"):
         return total, sums / total[:, None]
 
 
-def outlines(x: Array, y: Array, after: NDArray[np.int64]) -> NDArray[np.int64]:
+def outer_points(x: Array, y: Array, after: NDArray[np.int64]) -> NDArray[np.int64]:
     """Return the indices of points on counter-clockwise lines: around burned ground, not around islands."""
     ring = np.arange(len(after))
     step = after
@@ -129,7 +129,7 @@ def outlines(x: Array, y: Array, after: NDArray[np.int64]) -> NDArray[np.int64]:
     return np.flatnonzero(area[ring] > 0.0)
 
 
-def _metres(latitude: ArrayLike, longitude: ArrayLike, centre: tuple[float, float]) -> tuple[Array, Array]:
+def _to_metres(latitude: ArrayLike, longitude: ArrayLike, centre: tuple[float, float]) -> tuple[Array, Array]:
     """Convert points to metres east and north of the centre."""
     north, east = metres_per_degree(centre[0])
     return (np.asarray(longitude) - centre[1]) * east, (np.asarray(latitude) - centre[0]) * north
@@ -137,7 +137,7 @@ def _metres(latitude: ArrayLike, longitude: ArrayLike, centre: tuple[float, floa
 
 def _centre(grid: ArrivalGrid, start: float) -> tuple[float, float]:
     """Return the centre of the area burned by the order, or of the cells that burn first."""
-    weight = np.where(grid.arrival <= max(start, _first(grid)), grid.areas, 0.0)
+    weight = np.where(grid.arrival <= max(start, _first_arrival(grid)), grid.areas, 0.0)
     if weight.sum() == 0.0:
         return 0.5 * float(grid.latitude[0] + grid.latitude[-1]), grid.middle
     weight = weight / weight.sum()

@@ -23,8 +23,8 @@ from .containment import Answer
 from .divisions import HOUR
 from .model import USUAL, Options
 from .nearest import Nearest
-from .problem import Problem, Request, state
-from .resources import Unit, usable
+from .problem import Problem, Request, make_problem
+from .resources import Unit, select_usable
 
 HOURS = 12
 """Hours after the order, if the run is long enough."""
@@ -56,29 +56,29 @@ def suggest(
     StoppedError
         `stop` was used.
     """
-    order = first_order(run) if start is None else times.seconds(run, start)
-    hours = _period(run, order, hours)
+    order = default_order_time(run) if start is None else times.seconds(run, start)
+    hours = _limit_hours(run, order, hours)
     if not 1 <= count <= divisions.MOST:
         raise UsageError(f"--divisions: must be from 1 to {divisions.MOST}, not {count}")
-    kept, left = usable(resources)
+    kept, left = select_usable(resources)
     parts = divisions.divide(run, order, hours, count)
     if not parts.perimeter.any():
         raise UsageError("--from: the run has no front in these hours; give a later time or more hours")
-    problem, burning = state(kept, parts, request)
-    asked = suggestion.Asked(kept, left, parts, burning, problem)
+    problem, burning = make_problem(kept, parts, request)
+    asked = suggestion.AllocationInput(kept, left, parts, burning, problem)
     solved = worker.run(
-        f"{__name__}:in_process",
+        f"{__name__}:solve_in_worker",
         {"problem": problem.as_json(), "names": asked.names, "options": asdict(options)},
         blender=False,
         stop=stop,
     )
-    answer = None if solved["answer"] is None else _answer(solved["answer"])
+    answer = None if solved["answer"] is None else _from_json(solved["answer"])
     pairs = [Nearest(*each) for each in solved["nearest"]]
     found = suggestion.describe(asked, answer, pairs, solved["reasons"])
     return {"run": run.name, "from": times.iso(times.utc(run, order)), **found}
 
 
-def first_order(run: Run) -> float:
+def default_order_time(run: Run) -> float:
     """Return the model time (s) of the ignition, or of the first frame if the fire already burns.
 
     Raises
@@ -86,13 +86,13 @@ def first_order(run: Run) -> float:
     InputError
         The run has no fire.
     """
-    moment = divisions.ignition(run)
+    moment = divisions.ignition_time(run)
     if not np.isfinite(moment):
         raise input_error(Path(run.path), "has no fire and therefore no front to allocate resources to")
     return max(moment, float(run.times[0]))
 
 
-def in_process(
+def solve_in_worker(
     problem: dict[str, Any],
     names: list[str],
     options: dict[str, Any],
@@ -104,23 +104,23 @@ def in_process(
     answer = containment.solve(asked, chosen)
     reasons: list[str] = []
     if answer is None:
-        reasons = shortfall.reasons(asked, tuple(names), chosen)
+        reasons = shortfall.explain(asked, tuple(names), chosen)
         reasons = reasons or ["budget, line and standard response cannot be met together"]
     else:
         containment.check(asked, answer)
     plain = None if answer is None else asdict(answer) | _lists(answer)
-    return {"answer": plain, "nearest": nearest.nearest(asked), "reasons": reasons}
+    return {"answer": plain, "nearest": nearest.pair_nearest(asked), "reasons": reasons}
 
 
 def _lists(answer: Answer) -> dict[str, Any]:
     return {"division": answer.division.tolist(), "hour": answer.hour.tolist()}
 
 
-def _answer(plain: dict[str, Any]) -> Answer:
+def _from_json(plain: dict[str, Any]) -> Answer:
     return Answer(**plain | {name: np.array(plain[name], np.int64) for name in ("division", "hour")})
 
 
-def _period(run: Run, order: float, hours: int | None) -> int:
+def _limit_hours(run: Run, order: float, hours: int | None) -> int:
     """Return the hours after the order, limited to the run."""
     last = float(run.times[-1])
     there = int((last - order) // HOUR) if order >= float(run.times[0]) else 0

@@ -41,7 +41,7 @@ class Options:
 USUAL = Options()
 
 
-def scipy() -> ModuleType:
+def import_scipy() -> ModuleType:
     """Import SciPy's optimisation.
 
     Raises
@@ -66,7 +66,7 @@ class Model:
     """
 
     def __init__(self, problem: Problem, slack: bool = False) -> None:
-        self.problem, self.classes = problem, symmetry.interchangeable(problem)
+        self.problem, self.classes = problem, symmetry.find_classes(problem)
         self.first = np.array([members[0] for members in self.classes], np.int64)
         self.k, self.t = problem.perimeter.shape
         end = len(self.classes) * self.k
@@ -96,7 +96,7 @@ class Model:
 
     def run(self, weight: Array, options: Options) -> tuple[Array | None, float, bool]:
         """Solve; return values, bound, and True if the time limit was not reached; None if infeasible."""
-        optimize = scipy()
+        optimize = import_scipy()
         rows = optimize.LinearConstraint(self._matrix(), self._low, self._high)
         result = optimize.milp(
             weight,

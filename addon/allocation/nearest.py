@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .model import scipy
+from .model import import_scipy
 from .problem import Problem
 
 
@@ -20,7 +20,7 @@ class Nearest(NamedTuple):
     minutes: float
 
 
-def nearest(problem: Problem) -> list[Nearest]:
+def pair_nearest(problem: Problem) -> list[Nearest]:
     """Pair the resources of each kind with divisions so that the sum of travel times is minimal.
 
     With fewer resources of a kind than divisions, some divisions get none.
@@ -28,7 +28,7 @@ def nearest(problem: Problem) -> list[Nearest]:
     found = []
     for kind in sorted({each.partition("/")[0] for each in problem.types}):
         members = np.flatnonzero(problem.of(kind))
-        division, chosen = pair(problem.minutes[members].T)
+        division, chosen = pair_times(problem.minutes[members].T)
         found += [
             Nearest(kind, int(k), int(members[i]), float(problem.minutes[members[i], k]))
             for k, i in zip(division, chosen, strict=True)
@@ -36,6 +36,6 @@ def nearest(problem: Problem) -> list[Nearest]:
     return found
 
 
-def pair(minutes: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def pair_times(minutes: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return rows and columns of the one-to-one pairing with the smallest sum (Crouse 2016, in SciPy)."""
-    return scipy().linear_sum_assignment(minutes)
+    return import_scipy().linear_sum_assignment(minutes)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 
-def page(found: dict[str, Any]) -> str:
+def format_text(found: dict[str, Any]) -> str:
     """Format divisions, sums, assumptions and limits, with the exercise label first and last."""
     return "\n".join(_lines(found))
 

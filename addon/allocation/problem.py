@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .divisions import Divisions
-from .resources import Unit, costs, is_of, minutes
+from .resources import Unit, is_of, period_costs, travel_times
 
 SMALLEST = 0.01  # unit of costs and losses, in the currency
 
@@ -108,7 +108,9 @@ class Problem:
 _ARRAYS = ("minutes", "rate", "cost", "hours", "perimeter", "loss")
 
 
-def state(resources: Sequence[Unit], divisions: Divisions, request: Request) -> tuple[Problem, list[int]]:
+def make_problem(
+    resources: Sequence[Unit], divisions: Divisions, request: Request
+) -> tuple[Problem, list[int]]:
     """Make the problem of resources, by ascending id, and of burning divisions; return their indices.
 
     A resource is paid for mobilisation, and from the order to the end of the period. A division cannot be
@@ -122,9 +124,9 @@ def state(resources: Sequence[Unit], divisions: Divisions, request: Request) -> 
     problem = Problem(
         tuple(each.id for each in resources),
         tuple(each.type for each in resources),
-        minutes(resources, divisions.place[burning]),
+        travel_times(resources, divisions.place[burning]),
         np.array([each.line_m_h or 0.0 for each in resources], np.float64),
-        np.round(costs(resources, period) / SMALLEST) * SMALLEST,
+        np.round(period_costs(resources, period) / SMALLEST) * SMALLEST,
         divisions.hours,
         np.where(come, perimeter, np.nan),
         np.where(come, loss, np.nan),

@@ -50,15 +50,15 @@ class Unit(NamedTuple):
     cost_day: float | None = None
 
 
-def usable(units: Iterable[Unit]) -> tuple[list[Unit], list[str]]:
+def select_usable(units: Iterable[Unit]) -> tuple[list[Unit], list[str]]:
     """Return the usable units in the order of ids, and messages on omitted ones.
 
     A missing line rate counts as 0.
     """
     kept, left = [], []
-    for each in sorted(units, key=lambda one: natural(one.id)):
-        missing = [name for name in ("mobilise_min", "speed_km_h") if not _known(each, name)]
-        if not (_known(each, "cost_hour") or _known(each, "cost_day")):
+    for each in sorted(units, key=lambda one: natural_key(one.id)):
+        missing = [name for name in ("mobilise_min", "speed_km_h") if not _is_known(each, name)]
+        if not (_is_known(each, "cost_hour") or _is_known(each, "cost_day")):
             missing.append("cost_hour")
         if missing:
             left.append(f"{each.id} ({each.type}) has no {' and no '.join(missing)}")
@@ -67,13 +67,13 @@ def usable(units: Iterable[Unit]) -> tuple[list[Unit], list[str]]:
     return kept, left
 
 
-def _known(unit: Unit, name: str) -> bool:
+def _is_known(unit: Unit, name: str) -> bool:
     value = getattr(unit, name)
     least = 0.0 if name != "speed_km_h" else np.nextafter(0.0, 1.0)
     return value is not None and bool(np.isfinite(value)) and value >= least
 
 
-def natural(text: str) -> tuple[tuple[int, str], ...]:
+def natural_key(text: str) -> tuple[tuple[int, str], ...]:
     """Return a sort key that puts 9 before 10, and 7-2 before 7-10."""
     return tuple((len(part), part) for part in re.split(r"[-. ]", text))
 
@@ -83,23 +83,26 @@ def is_of(kind: str, wanted: str) -> bool:
     return kind == wanted or kind.partition("/")[0] == wanted
 
 
-def values(units: Sequence[Unit], name: str) -> Array:
+def field_values(units: Sequence[Unit], name: str) -> Array:
     """Return a numeric field (n,) of units; NaN: unknown."""
     found = (getattr(each, name) for each in units)
     return np.array([np.nan if each is None else each for each in found], np.float64)
 
 
-def costs(units: Sequence[Unit], hours: float) -> Array:
+def period_costs(units: Sequence[Unit], hours: float) -> Array:
     """Compute the cost (n,) of mobilisation and hours of work, as in a search."""
-    mobilise, hour, day = (values(units, f"cost_{name}") for name in ("mobilise", "hour", "day"))
+    mobilise, hour, day = (field_values(units, f"cost_{name}") for name in ("mobilise", "hour", "day"))
     return unit_cost(mobilise, hour, day, hours)
 
 
-def minutes(units: Sequence[Unit], place: ArrayLike) -> Array:
+def travel_times(units: Sequence[Unit], place: ArrayLike) -> Array:
     """Compute the time (n, k), min, from the order to the arrival at points (k, 2), degrees."""
-    at, spots = (values(units, "lat"), values(units, "lon")), np.asarray(place, np.float64).reshape(-1, 2)
+    at, spots = (
+        (field_values(units, "lat"), field_values(units, "lon")),
+        np.asarray(place, np.float64).reshape(-1, 2),
+    )
     air = np.array([each.type.partition("/")[0] in AIR for each in units], bool)
-    speed, first = values(units, "speed_km_h"), values(units, "mobilise_min")
+    speed, first = field_values(units, "speed_km_h"), field_values(units, "mobilise_min")
     found = np.empty((len(units), len(spots)))
     for k, (latitude, longitude) in enumerate(spots.tolist()):
         far = distance_km(*at, (latitude, longitude))

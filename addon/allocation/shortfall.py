@@ -13,7 +13,7 @@ from .problem import SMALLEST, Problem
 _LEAST = 0.1  # m of line
 
 
-def reasons(problem: Problem, names: tuple[str, ...], options: Options = USUAL) -> list[str]:
+def explain(problem: Problem, names: tuple[str, ...], options: Options = USUAL) -> list[str]:
     """Explain the shortfall, in this order: types of the standard response, line, budget.
 
     Parameters
@@ -49,7 +49,7 @@ def _response(problem: Problem) -> list[str]:
 
 
 def _line(problem: Problem, names: tuple[str, ...], options: Options) -> list[str]:
-    missing, hour = containment.shortest_line(problem, options)
+    missing, hour = containment.minimum_shortfall(problem, options)
     short = np.flatnonzero(missing > _LEAST)
     if not short.size:
         return []

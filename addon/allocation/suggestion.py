@@ -20,7 +20,7 @@ UNITS = {"perimeter": "m", "line": "m", "arrival": "min", "hour": "h", "position
 
 
 @dataclass(frozen=True)
-class Asked:
+class AllocationInput:
     """Resources (n), divisions, indices (k) of the burning ones, and their problem."""
 
     resources: Sequence[Unit]
@@ -35,7 +35,9 @@ class Asked:
         return tuple(self.divisions.names[k] for k in self.burning)
 
 
-def describe(asked: Asked, answer: Answer | None, pairs: list[Nearest], reasons: list[str]) -> dict[str, Any]:
+def describe(
+    asked: AllocationInput, answer: Answer | None, pairs: list[Nearest], reasons: list[str]
+) -> dict[str, Any]:
     """Return the suggestion, or the reasons if it is infeasible."""
     request, divisions = asked.problem.request, asked.divisions
     return {
@@ -57,7 +59,7 @@ def describe(asked: Asked, answer: Answer | None, pairs: list[Nearest], reasons:
     }
 
 
-def _division(asked: Asked, answer: Answer | None, which: int) -> dict[str, Any]:
+def _division(asked: AllocationInput, answer: Answer | None, which: int) -> dict[str, Any]:
     divisions = asked.divisions
     found: dict[str, Any] = {
         "name": divisions.names[which],
@@ -70,7 +72,7 @@ def _division(asked: Asked, answer: Answer | None, which: int) -> dict[str, Any]
         return found
     k, problem = asked.burning.index(which), asked.problem
     hour = int(answer.hour[k])
-    line = containment.built(problem, answer.division)[k, hour]
+    line = containment.built_line(problem, answer.division)[k, hour]
     held = hour >= 0
     found |= {
         "contained_at_hour": float(problem.hours[hour]) if held else None,
@@ -101,7 +103,7 @@ def _sums(answer: Answer) -> dict[str, Any]:
     }
 
 
-def _pair(asked: Asked, each: Nearest) -> dict[str, Any]:
+def _pair(asked: AllocationInput, each: Nearest) -> dict[str, Any]:
     return {
         "kind": each.kind,
         "division": asked.names[each.division],
@@ -110,11 +112,11 @@ def _pair(asked: Asked, each: Nearest) -> dict[str, Any]:
     }
 
 
-def _currency(asked: Asked) -> str:
+def _currency(asked: AllocationInput) -> str:
     return next((each.currency for each in asked.resources if each.currency), "")
 
 
-def _assumptions(asked: Asked) -> list[str]:
+def _assumptions(asked: AllocationInput) -> list[str]:
     request, period = asked.problem.request, asked.divisions.hours[-1]
     escape = (
         "must be contained" if request.escape is None else f"may escape at a loss of {request.escape:,.2f}"

@@ -16,7 +16,7 @@ from .problem import Problem
 Whole = NDArray[np.int64]
 
 
-def interchangeable(problem: Problem) -> list[Whole]:
+def find_classes(problem: Problem) -> list[Whole]:
     """Return the classes: ascending indices of resources that differ by their ids alone, by first member."""
     kinds = [problem.types.index(kind) for kind in problem.types]
     rows = np.column_stack([kinds, problem.rate, problem.cost, problem.minutes])

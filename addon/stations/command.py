@@ -44,7 +44,7 @@ def run_stations(arguments: argparse.Namespace, fire: OpenFire) -> None:
 def import_files(arguments: argparse.Namespace) -> None:
     """Make a station file from other files."""
     _check_out(arguments)
-    about = merging.About(arguments.source, arguments.licence, arguments.date or "", arguments.url)
+    about = merging.SourceOptions(arguments.source, arguments.licence, arguments.date or "", arguments.url)
     batches = [(path, importers.read(path)) for path in arguments.files]
     station_file, messages = merging.merge(batches, about)
     for message in messages:
@@ -67,7 +67,7 @@ def make_exercise(arguments: argparse.Namespace, fire: OpenFire) -> None:
         reason = "is not a known fire with published towns; name a list of bases with --towns"
         raise input_error(arguments.run, reason)
     if arguments.towns is None:
-        station_file = exercise.of_event(run.event, arguments.seed)
+        station_file = exercise.make_for_event(run.event, arguments.seed)
     else:
         begins, ends = (times.utc(run, float(run.times[index])) for index in (0, -1))
         station_file = exercise.make(
@@ -88,7 +88,7 @@ def make_exercise(arguments: argparse.Namespace, fire: OpenFire) -> None:
 def show_info(arguments: argparse.Namespace) -> None:
     """List the content of a station file."""
     facts = page.facts(reading.read(arguments.file))
-    result(json.dumps(facts, indent=1, ensure_ascii=False) if arguments.json else page.info(facts))
+    result(json.dumps(facts, indent=1, ensure_ascii=False) if arguments.json else page.format_facts(facts))
 
 
 def find_resources(arguments: argparse.Namespace, fire: OpenFire) -> int:
@@ -105,7 +105,9 @@ def find_resources(arguments: argparse.Namespace, fire: OpenFire) -> int:
     answer = page.Answer(station_file, query, found, opened.run if opened else None)
     if arguments.ahead:
         answer = answer.ahead(arguments.clearance)
-    result(json.dumps(answer.plain(), indent=1, ensure_ascii=False) if arguments.json else answer.page())
+    result(
+        json.dumps(answer.as_json(), indent=1, ensure_ascii=False) if arguments.json else answer.format_text()
+    )
     if answer.shortfall:
         say(f"no set: {answer.shortfall}")
         return 1

@@ -29,7 +29,7 @@ _SHARES = {"available": 0.75, "committed": 0.15, "unavailable": 0.10}
 
 
 @dataclass(frozen=True)
-class Assumed:
+class Assumptions:
     """Assumptions about a type; None: not applicable. Loads that follow from the tank are omitted.
 
     Attributes
@@ -51,19 +51,19 @@ class Assumed:
     night: bool = True
 
 
-ASSUMED = {
-    "engine/1": Assumed(0.4, 55.0, 5.0, 200.0, 140.0, 2400.0, "career"),
-    "engine/3": Assumed(1.2, 60.0, 5.0, 150.0, 110.0, 1900.0, "career", line_m_h=120.0),
-    "engine/4": Assumed(0.5, 60.0, 8.0, 150.0, 100.0, 1700.0, "seasonal", line_m_h=90.0),
-    "engine/6": Assumed(0.8, 70.0, 6.0, 100.0, 80.0, 1400.0, "volunteer", line_m_h=80.0),
-    "dozer/2": Assumed(0.5, 40.0, 30.0, 600.0, 220.0, 3600.0, "call-when-needed", line_m_h=500.0),
-    "crew/IHC": Assumed(0.3, 60.0, 20.0, 400.0, 700.0, 11000.0, "seasonal", line_m_h=200.0, night=False),
-    "crew/2IA": Assumed(0.5, 60.0, 30.0, 300.0, 550.0, 9000.0, "seasonal", line_m_h=140.0, night=False),
-    "helicopter/2": Assumed(
+ASSUMPTIONS = {
+    "engine/1": Assumptions(0.4, 55.0, 5.0, 200.0, 140.0, 2400.0, "career"),
+    "engine/3": Assumptions(1.2, 60.0, 5.0, 150.0, 110.0, 1900.0, "career", line_m_h=120.0),
+    "engine/4": Assumptions(0.5, 60.0, 8.0, 150.0, 100.0, 1700.0, "seasonal", line_m_h=90.0),
+    "engine/6": Assumptions(0.8, 70.0, 6.0, 100.0, 80.0, 1400.0, "volunteer", line_m_h=80.0),
+    "dozer/2": Assumptions(0.5, 40.0, 30.0, 600.0, 220.0, 3600.0, "call-when-needed", line_m_h=500.0),
+    "crew/IHC": Assumptions(0.3, 60.0, 20.0, 400.0, 700.0, 11000.0, "seasonal", line_m_h=200.0, night=False),
+    "crew/2IA": Assumptions(0.5, 60.0, 30.0, 300.0, 550.0, 9000.0, "seasonal", line_m_h=140.0, night=False),
+    "helicopter/2": Assumptions(
         0.3, 180.0, 10.0, 500.0, 2500.0, 30000.0, "call-when-needed",
         load_kg=1000.0, radius_km=120.0, night=False,
     ),
-    "airtanker/3": Assumed(
+    "airtanker/3": Assumptions(
         0.2, 280.0, 15.0, 800.0, 3500.0, 42000.0, "call-when-needed", radius_km=250.0, night=False
     ),
 }  # fmt: skip
@@ -80,7 +80,7 @@ def towns(event: str) -> list[Label]:
     ]
 
 
-def of_event(event: str, seed: int = 0) -> StationFile:
+def make_for_event(event: str, seed: int = 0) -> StationFile:
     """Make an exercise for a known fire: bases in its towns, windows from the ignition to the last report."""
     known = history.load(event)
     begins, ends = known.ignitions[0].time, known.acreages[-1].time
@@ -140,7 +140,7 @@ def _resources(
     """Draw the resources of each base; the first base has at least one of each type."""
     number = 0
     for at, (station, base) in enumerate(zip(stations, bases, strict=True)):
-        for code, assumed in ASSUMED.items():
+        for code, assumed in ASSUMPTIONS.items():
             rows = int(rng.poisson(assumed.often))
             for row in range(1, max(rows, 1 if at == 0 else 0) + 1):
                 number += 1
@@ -148,7 +148,7 @@ def _resources(
 
 
 def _resource(number: int, station: Station, base: Label, code: str, row: int, source: Source) -> Resource:
-    assumed, (kind, _, type_) = ASSUMED[code], code.partition("/")
+    assumed, (kind, _, type_) = ASSUMPTIONS[code], code.partition("/")
     return Resource(
         number,
         station.id,

@@ -25,7 +25,7 @@ OUTSIDE, NEVER, BEFORE, REACHED = range(4)
 STATES = ("outside of the run", "never", "burned before the run", "reached")
 """States of a point; "never" holds until the end of the run."""
 
-OWN = "fuel_arrival_time"
+ARRIVAL_FIELD = "fuel_arrival_time"
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class Arrivals:
         )
         return first, second, third
 
-    def text(self, run: Run, index: int, zone: str) -> str:
+    def format_arrival(self, run: Run, index: int, zone: str) -> str:
         """Format the time of a point; without arrival, its state, and the closest approach of the fire."""
         state, near = int(self.state[index]), float(self.nearest_km[index])
         there = float(self.nearest_time[index])
@@ -83,15 +83,15 @@ def sample(run: Run, latitude: ArrayLike, longitude: ArrayLike, until: float | N
         Last model time that counts, s; by default the last time of the run.
     """
     cells = ArrivalGrid.from_run(run)
-    grid = _Corners.of(front.reach(run), latitude, longitude)
+    grid = _Corners.from_reach(front.reach(run), latitude, longitude)
     last = float(run.times[-1])
     end = max(last, float(np.nanmax(grid.field, initial=last))) if until is None else until
     since = bilinear(fill_unburned(grid.field - end), grid.row, grid.column)
     burned = grid.inside & (since <= 0.0) & np.isfinite(grid.time)
     time = np.where(burned, grid.time, np.nan)
     earliest, latest = grid.earliest, grid.latest
-    if not run.has(OWN):
-        earliest, latest = _of_model(run, latitude, longitude, earliest, latest)
+    if not run.has(ARRIVAL_FIELD):
+        earliest, latest = _widen_to_model(run, latitude, longitude, earliest, latest)
     latest = np.where(grid.stops, np.maximum(latest, end), latest)
     state = np.where(burned, np.where(time < run.times[0], BEFORE, REACHED), NEVER)
     near, near_time = _nearest(cells, latitude, longitude, ~burned, end)
@@ -105,21 +105,21 @@ def sample(run: Run, latitude: ArrayLike, longitude: ArrayLike, until: float | N
     )
 
 
-def text(run: Run, arrivals: Arrivals, index: int) -> str:
+def format_arrival(run: Run, arrivals: Arrivals, index: int) -> str:
     """Format the arrival at a point with its bounds."""
-    found = arrivals.text(run, index, zone.time_zone(run))
+    found = arrivals.format_arrival(run, index, zone.time_zone(run))
     if arrivals.state[index] != REACHED:
         return found
-    bounds = (clock(run, float(each[index])) for each in (arrivals.earliest, arrivals.latest))
+    bounds = (format_time(run, float(each[index])) for each in (arrivals.earliest, arrivals.latest))
     return f"{found} ({' to '.join(bounds)})"
 
 
-def clock(run: Run, seconds: float) -> str:
+def format_time(run: Run, seconds: float) -> str:
     """Format a model time, s, in the time zone of the run."""
     return times.text(times.utc(run, seconds), zone.time_zone(run))
 
 
-def first_burned(run: Run) -> tuple[float, float] | None:
+def first_burned_point(run: Run) -> tuple[float, float] | None:
     """Return the mean position of the fuel cells that burn first, degrees; None without a fire."""
     grid = ArrivalGrid.from_run(run)
     if not np.isfinite(grid.arrival).any():
@@ -164,7 +164,7 @@ class _Corners:
     stops: NDArray[np.bool_]
 
     @classmethod
-    def of(cls, fire: Reach, latitude: ArrayLike, longitude: ArrayLike) -> _Corners:
+    def from_reach(cls, fire: Reach, latitude: ArrayLike, longitude: ArrayLike) -> _Corners:
         """Find the cells; the time is bilinear between the cells that burn."""
         field = fire.arrival
         row, column = fire.at(latitude, longitude)
@@ -194,13 +194,13 @@ class _Corners:
         )
 
 
-def _of_model(
+def _widen_to_model(
     run: Run, latitude: ArrayLike, longitude: ArrayLike, earliest: Array, latest: Array
 ) -> tuple[Array, Array]:
     """Widen the bounds to the surrounding cells of the model, and by one output interval."""
     order = [slice(None, None, -1 if axis[0] > axis[-1] else 1) for axis in (run.latitude, run.longitude)]
     time = np.asarray(run.arrival_time(), np.float64)[order[0], order[1]]
     grid = ArrivalGrid(run.latitude[order[0]], run.longitude[order[1]], time)
-    model = _Corners.of(Reach(grid), latitude, longitude)
+    model = _Corners.from_reach(Reach(grid), latitude, longitude)
     step = float(np.max(np.diff(run.times), initial=0.0))
     return np.minimum(earliest, model.earliest) - step, np.maximum(latest, model.latest) + step

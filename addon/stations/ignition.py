@@ -13,5 +13,5 @@ def find(run: Run) -> tuple[tuple[float, float], str] | None:
     if run.event in history.events():
         point = history.load(run.event).ignitions[0]
         return (point.latitude, point.longitude), point.source
-    first = fire_arrival.first_burned(run)
+    first = fire_arrival.first_burned_point(run)
     return None if first is None else (first, "the run's first cells")

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
-from .names import readable
+from .names import make_readable
 from .records import Resource
 from .station_file import StationFile
 
@@ -100,9 +100,9 @@ class ResourceDraft:
 def add(batch: Batch, latitude: Any, longitude: Any, draft: Draft) -> None:
     """Add a station with normalised texts to a batch, or count it as rejected."""
     draft.name, draft.agency, draft.address = (
-        readable(without_telephones(text)) for text in (draft.name, draft.agency, draft.address)
+        make_readable(remove_telephones(text)) for text in (draft.name, draft.agency, draft.address)
     )
-    position = degrees(latitude, longitude)
+    position = parse_position(latitude, longitude)
     if isinstance(position, str):
         batch.rejected.add(position, draft.place)
     elif is_medical(f"{draft.name} {draft.agency}"):
@@ -115,7 +115,7 @@ def add(batch: Batch, latitude: Any, longitude: Any, draft: Draft) -> None:
         batch.stations.append(draft)
 
 
-def degrees(latitude: Any, longitude: Any) -> tuple[float, float] | str:
+def parse_position(latitude: Any, longitude: Any) -> tuple[float, float] | str:
     """Return the position in degrees north and east, or the reason for rejection.
 
     0, 0 counts as missing, as exports write it for unknown positions.
@@ -136,11 +136,11 @@ def is_medical(text: str) -> bool:
     return bool(_MEDICAL.search(text)) and not _FIRE.search(text)
 
 
-def without_telephones(text: str) -> str:
+def remove_telephones(text: str) -> str:
     """Remove telephone numbers from a text."""
     return " ".join(_TELEPHONE.sub(" ", text).split()).strip(" ,;")
 
 
-def private(names: Iterable[str]) -> list[str]:
+def private_columns(names: Iterable[str]) -> list[str]:
     """Select the names of columns or tags with telephone numbers and persons."""
     return sorted({name for name in names if _PRIVATE.search(name)})

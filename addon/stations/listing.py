@@ -42,23 +42,23 @@ class Listing:
     left_out: dict[str, int] = field(default_factory=dict)
 
 
-def key(station: Station) -> str:
+def station_key(station: Station) -> str:
     """Return the permanent identifier of a station: its number in the file, and its name."""
     return f"{station.id} {station.name}"
 
 
 def find(listed: Sequence[Station], wanted: str) -> Station | None:
     """Find the station of a key; if number and name do not match, the only station of this name."""
-    same = [each for each in listed if key(each) == wanted]
+    same = [each for each in listed if station_key(each) == wanted]
     same = same or [each for each in listed if each.name == wanted.partition(" ")[2]]
     return same[0] if len(same) == 1 else None
 
 
 def survey(station_file: StationFile, query: Query) -> Listing:
     """List the stations with a resource that matches a query; all stations if it has no such condition."""
-    own = _own(station_file)
+    own = _exercise_stations(station_file)
     if not _has_resource_condition(query) or not station_file.resources:
-        least = _least(search.find(station_file, query)) if station_file.resources else {}
+        least = _shortest_times(search.find(station_file, query)) if station_file.resources else {}
         found = station_search.survey(station_file, query)
         rows = [
             Row(each.station, each.distance_km, least.get(each.station.id), _exercise(each.station, own))
@@ -66,7 +66,7 @@ def survey(station_file: StationFile, query: Query) -> Listing:
         ]
         return Listing(rows, found.left_out)
     answer = search.survey(station_file, query)
-    least = _least(answer.matches)
+    least = _shortest_times(answer.matches)
     first = {each.station.id: each for each in reversed(answer.matches)}
     order = {each.station.id: None for each in answer.matches}
     rows = [
@@ -103,7 +103,7 @@ def _has_resource_condition(query: Query) -> bool:
     return replace(query, near=None, within_km=None) != Query()
 
 
-def _least(matches: Sequence[search.Match]) -> dict[int, float]:
+def _shortest_times(matches: Sequence[search.Match]) -> dict[int, float]:
     """Return the shortest time of each station, min, by its number."""
     least: dict[int, float] = {}
     for each in matches:
@@ -113,7 +113,7 @@ def _least(matches: Sequence[search.Match]) -> dict[int, float]:
     return least
 
 
-def _own(station_file: StationFile) -> set[int]:
+def _exercise_stations(station_file: StationFile) -> set[int]:
     """Return the numbers of stations with a resource of an exercise."""
     return {each.station for each in station_file.resources if each.origin == "exercise"}
 

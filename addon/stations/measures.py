@@ -56,9 +56,9 @@ def measure(station_file: StationFile, query: Query) -> Measures:
         far = distance_km(*station_file.positions, query.near)[columns.station]
     way = np.where(air, 1.0, query.detour)
     minutes = travel_minutes(far, air, columns.speed_km_h, columns.mobilise_min, query.detour)
-    cost = cost_of(station_file, query.hours)
-    tonnes = delivery(station_file, query, far, way)
-    coverage, covered = coverages(station_file, query, far)
+    cost = resource_costs(station_file, query.hours)
+    tonnes = delivery_rates(station_file, query, far, way)
+    coverage, covered = coverage_areas(station_file, query, far)
     return Measures(
         far,
         minutes,
@@ -67,7 +67,7 @@ def measure(station_file: StationFile, query: Query) -> Measures:
         coverage,
         _whole(np.round(cost * 100.0)),
         _whole(np.floor(tonnes * 1000.0 + 1e-6)),
-        tuple(_tests(station_file, query, far, minutes, cost, tonnes, covered)),
+        tuple(_omission_tests(station_file, query, far, minutes, cost, tonnes, covered)),
     )
 
 
@@ -82,7 +82,7 @@ def travel_minutes(
     return mobilise_min + 60.0 * way / speed_km_h
 
 
-def least_minutes(station_file: StationFile, near: tuple[float, float]) -> Array:
+def shortest_minutes(station_file: StationFile, near: tuple[float, float]) -> Array:
     """Compute the shortest time (stations,), min, of the resources of each station; NaN: unknown."""
     columns, least = station_file.columns, np.full(len(station_file.stations), np.nan)
     far = distance_km(*station_file.positions, near)[columns.station]
@@ -91,7 +91,7 @@ def least_minutes(station_file: StationFile, near: tuple[float, float]) -> Array
     return least
 
 
-def cost_of(station_file: StationFile, hours: float) -> Array:
+def resource_costs(station_file: StationFile, hours: float) -> Array:
     """Compute the cost (n,) of mobilisation and of hours of work; see `unit_cost`."""
     columns = station_file.columns
     return columns.count * unit_cost(columns.cost_mobilise, columns.cost_hour, columns.cost_day, hours)
@@ -107,7 +107,7 @@ def unit_cost(mobilise: Array, hour: Array, day: Array, hours: float) -> Array:
     return np.nan_to_num(mobilise) + work
 
 
-def delivery(station_file: StationFile, query: Query, far: Array, way: Array) -> Array:
+def delivery_rates(station_file: StationFile, query: Query, far: Array, way: Array) -> Array:
     """Compute the delivery (n,), t/h, by round trips between the place and the refill point.
 
     Air tankers fill at their station, all others at `Query.refill_km`. 0 for resources without a load.
@@ -120,7 +120,7 @@ def delivery(station_file: StationFile, query: Query, far: Array, way: Array) ->
         return columns.count * np.where(np.isnan(columns.load_kg), 0.0, columns.load_kg / 1000.0 / trip)
 
 
-def coverages(station_file: StationFile, query: Query, far: Array) -> tuple[NDArray[np.int64], Mask]:
+def coverage_areas(station_file: StationFile, query: Query, far: Array) -> tuple[NDArray[np.int64], Mask]:
     """Return the kind of area of coverage (n,) of each resource, and a mask (n,): the place is in it."""
     columns = station_file.columns
     drawn = np.zeros(len(station_file.stations), np.bool_)
@@ -137,7 +137,7 @@ def coverages(station_file: StationFile, query: Query, far: Array) -> tuple[NDAr
     return coverage, np.where(by_area, inside[columns.station], within)
 
 
-def _tests(
+def _omission_tests(
     station_file: StationFile,
     query: Query,
     far: Array,

@@ -25,7 +25,7 @@ _MANY_STATIONS = "several stations have this name (use the number)"
 
 
 @dataclass(frozen=True)
-class About:
+class SourceOptions:
     """Source of the files, as the user gives it; empty: as the format or the file gives it."""
 
     name: str = ""
@@ -47,7 +47,7 @@ class _Merged:
     messages: list[str] = field(default_factory=list)
 
 
-def merge(batches: Sequence[tuple[Path, Batch]], about: About) -> tuple[StationFile, list[str]]:
+def merge(batches: Sequence[tuple[Path, Batch]], about: SourceOptions) -> tuple[StationFile, list[str]]:
     """Merge all batches; also return messages on the rows imported, merged, rejected and dropped.
 
     Tables of resources come after all stations, independent of the order of the files.
@@ -55,14 +55,14 @@ def merge(batches: Sequence[tuple[Path, Batch]], about: About) -> tuple[StationF
     merged = _Merged(types={each.code: each for each in types.standard_types()})
     for path, batch in sorted(batches, key=lambda pair: bool(pair[1].resources)):
         if batch.station_file is not None:
-            _take_over(merged, batch.station_file)
+            _add_station_file(merged, batch.station_file)
             stations, resources = len(batch.station_file.stations), len(batch.station_file.resources)
-            merged.messages.append(f"{path}: {_counted(stations, resources)}")
+            merged.messages.append(f"{path}: {_format_counts(stations, resources)}")
             continue
         source = _source(merged, path, batch, about)
         _add_stations(merged, batch, source)
         number = _add_resources(merged, batch, source)
-        _tell(merged, path, batch, source, number)
+        _report(merged, path, batch, source, number)
     _merge_duplicates(merged)
     station_file = StationFile(
         tuple(merged.stations), tuple(merged.resources), tuple(merged.availability), tuple(merged.sources),
@@ -71,12 +71,12 @@ def merge(batches: Sequence[tuple[Path, Batch]], about: About) -> tuple[StationF
     return station_file, merged.messages
 
 
-def _counted(stations: int, resources: int) -> str:
+def _format_counts(stations: int, resources: int) -> str:
     parts = [count(stations, "station")] if stations or not resources else []
     return " and ".join(parts + ([count(resources, "resource")] if resources else []))
 
 
-def _source(merged: _Merged, path: Path, batch: Batch, about: About) -> Source:
+def _source(merged: _Merged, path: Path, batch: Batch, about: SourceOptions) -> Source:
     """Return the source of a file; its date is the date of the file if no other is given."""
     changed = datetime.fromtimestamp(path.stat().st_mtime, UTC).date().isoformat()
     with path.open("rb") as file:
@@ -93,8 +93,8 @@ def _source(merged: _Merged, path: Path, batch: Batch, about: About) -> Source:
     return source
 
 
-def _tell(merged: _Merged, path: Path, batch: Batch, source: Source, resources: int) -> None:
-    what = _counted(len(batch.stations), resources)
+def _report(merged: _Merged, path: Path, batch: Batch, source: Source, resources: int) -> None:
+    what = _format_counts(len(batch.stations), resources)
     about = f"source {source.name}, licence {source.licence}, data of {source.retrieved}"
     merged.messages.append(f"{path}: {what}; {about}")
     merged.messages += [f"{path}: {line}" for line in batch.rejected.lines()]
@@ -132,7 +132,7 @@ def _add_resources(merged: _Merged, batch: Batch, source: Source) -> int:
             known[key] = number
             made = replace(draft.resource, id=number, station=station, source=source.id)
             merged.resources.append(made)
-            own = types.own_type(made.type)
+            own = types.user_type(made.type)
             if own is not None:
                 merged.types.setdefault(own.code, own)
         if draft.window is not None:
@@ -158,7 +158,7 @@ def _station_of(by_word: dict[str, set[int]], draft: ResourceDraft, batch: Batch
     return next(iter(found))
 
 
-def _take_over(merged: _Merged, station_file: StationFile) -> None:
+def _add_station_file(merged: _Merged, station_file: StationFile) -> None:
     """Add a station file with new numbers."""
     source, station, resource, area = (
         max((each.id for each in rows), default=0)
@@ -183,7 +183,7 @@ def _take_over(merged: _Merged, station_file: StationFile) -> None:
 
 def _merge_duplicates(merged: _Merged) -> None:
     """Merge duplicates within `NEAR` into the first station, which takes over missing values."""
-    into = duplicates(merged.stations)
+    into = find_duplicates(merged.stations)
     if not into:
         return
     by_id = {each.id: each for each in merged.stations}
@@ -199,7 +199,7 @@ def _merge_duplicates(merged: _Merged) -> None:
     merged.messages.append(f"{len(into):,} {what} merged (within {NEAR:g} m, similar name, same kind)")
 
 
-def duplicates(stations: Sequence[Station]) -> dict[int, int]:
+def find_duplicates(stations: Sequence[Station]) -> dict[int, int]:
     """Map the number of each duplicate to the station that keeps it; exercise stations are never merged."""
     latitude = np.array([each.latitude for each in stations])
     order = np.argsort(latitude, kind="stable")

@@ -17,15 +17,15 @@ _COMMON = {
 }
 
 
-def readable(text: str) -> str:
+def make_readable(text: str) -> str:
     """Normalise blanks; convert a text in capitals to capitalised words."""
     text = " ".join(text.split())
     if not text.isupper():
         return text
-    return "".join(_cased(word, at) for at, word in enumerate(_WORD.findall(text)))
+    return "".join(_capitalise(word, at) for at, word in enumerate(_WORD.findall(text)))
 
 
-def _cased(word: str, at: int) -> str:
+def _capitalise(word: str, at: int) -> str:
     if word in _CAPITALS or not word[0].isalpha():
         return word
     if word.lower() in _SMALL and at > 0:

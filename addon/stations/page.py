@@ -96,13 +96,13 @@ class Answer:
             ]
         if self.run is not None:
             lines.append(f"fire: run {self.run.name}, until {self._text(float(self.run.times[-1]))}")
-            if not self.run.has(fire_arrival.OWN):
+            if not self.run.has(fire_arrival.ARRIVAL_FIELD):
                 lines.append(
                     "fire: times are estimated from heat fluxes; ground burned before the run counts as never"
                 )
         return lines
 
-    def plain(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, Any]:
         """Return JSON data; lengths in km, times in UTC."""
         query = asdict(self.query)
         query["at"] = times.iso(self.query.at) if self.query.at else None
@@ -127,7 +127,7 @@ class Answer:
             }
         return answer
 
-    def page(self) -> str:
+    def format_text(self) -> str:
         """Format the result as text."""
         found, lines = self.found, [EXERCISE] if self.exercise else []
         rows = [self._row(k, each) for k, each in enumerate(self.matches)]
@@ -188,11 +188,11 @@ class Answer:
     def _fire_text(self, index: int) -> str:
         arrivals, run = self.arrivals, self.run
         assert arrivals is not None and run is not None  # noqa: PT018
-        return fire_arrival.text(run, arrivals, index)
+        return fire_arrival.format_arrival(run, arrivals, index)
 
     def _text(self, seconds: float) -> str:
         assert self.run is not None
-        return fire_arrival.clock(self.run, seconds)
+        return fire_arrival.format_time(self.run, seconds)
 
 
 def facts(station_file: StationFile) -> dict[str, Any]:
@@ -220,7 +220,7 @@ def facts(station_file: StationFile) -> dict[str, Any]:
     }
 
 
-def info(known: dict[str, Any]) -> str:
+def format_facts(known: dict[str, Any]) -> str:
     """Format `facts` as text."""
     lines = [known["label"]] if known["exercise"] else []
     lines.append(f"stations   {known['stations']:,}")

@@ -70,7 +70,7 @@ class Map:
         return int(np.argmin(far)) if far.size else None
 
 
-def prepare(field: Field | None, latitude: ArrayLike, longitude: ArrayLike) -> Map | None:
+def prepare_map(field: Field | None, latitude: ArrayLike, longitude: ArrayLike) -> Map | None:
     """Prepare the map of a run's ground and of the stations around it; None without either."""
     y, x = np.asarray(latitude, np.float64), np.asarray(longitude, np.float64)
     if field is None and not y.size:
@@ -84,7 +84,7 @@ def prepare(field: Field | None, latitude: ArrayLike, longitude: ArrayLike) -> M
     ground = np.broadcast_to(np.array(_EMPTY, np.float32), (SIDE, SIDE, 3)).copy()
     arrival = np.full((SIDE, SIDE), np.nan)
     if field is not None:
-        _lay(field, (south, north, west, east), ground, arrival)
+        _draw_ground(field, (south, north, west, east), ground, arrival)
     return Map(south, north, west, east, ground, arrival)
 
 
@@ -115,12 +115,12 @@ def draw(
         picture[mask, :3] += _SHARE * (np.array(colour, np.float32) - picture[mask, :3])
     row, column = plan.pixels(latitude, longitude)
     for y, x, origin in zip(row.tolist(), column.tolist(), origins, strict=True):
-        _ring(picture, y, x, 0.0, _RIM, (0.05, 0.05, 0.05))
-        _ring(picture, y, x, 0.0, _DOT, COLOURS[origin])
+        _draw_ring(picture, y, x, 0.0, _RIM, (0.05, 0.05, 0.05))
+        _draw_ring(picture, y, x, 0.0, _DOT, COLOURS[origin])
     if selected is not None:
         y, x = float(row[selected]), float(column[selected])
-        _ring(picture, y, x, _RING[0] - 1.5, _RING[1] + 1.5, (0.05, 0.05, 0.05))
-        _ring(picture, y, x, *_RING, (1.0, 1.0, 1.0))
+        _draw_ring(picture, y, x, _RING[0] - 1.5, _RING[1] + 1.5, (0.05, 0.05, 0.05))
+        _draw_ring(picture, y, x, *_RING, (1.0, 1.0, 1.0))
     return picture
 
 
@@ -135,7 +135,9 @@ def _box(field: Field | None, y: Array, x: Array) -> tuple[float, float, float, 
     return float(y.min()), float(y.max()), float(x.min()), float(x.max())
 
 
-def _lay(field: Field, box: tuple[float, float, float, float], ground: Pixels, arrival: Array) -> None:
+def _draw_ground(
+    field: Field, box: tuple[float, float, float, float], ground: Pixels, arrival: Array
+) -> None:
     """Draw the shaded ground and the arrival times of the run onto the map."""
     south, north, west, east = box
     centre = (np.arange(SIDE) + 0.5) / SIDE
@@ -174,7 +176,7 @@ def _index(axis: Array, at: Array) -> Array:
     return np.where((at >= edges[0]) & (at <= edges[1]), found, np.nan)
 
 
-def _ring(
+def _draw_ring(
     picture: Pixels, row: float, column: float, inner: float, outer: float, colour: tuple[float, ...]
 ) -> None:
     """Draw a ring or a disc with antialiased edges, clipped to the picture."""

@@ -101,7 +101,7 @@ class _Reader:
             points = geopackage.points(blob)
             found = (float(points[0][1]), float(points[0][0])) if points else None
         if found is None or not (abs(found[0]) <= 90.0 and abs(found[1]) <= 540.0):
-            self.wrong("station", number, "has no position in degrees; move it in a map, or remove it")
+            self.fail("station", number, "has no position in degrees; move it in a map, or remove it")
         return found
 
     def availability(self) -> tuple[Availability, ...]:
@@ -121,7 +121,7 @@ class _Reader:
         try:
             when = datetime.fromisoformat(text)
         except (TypeError, ValueError):
-            self.wrong("availability", number, f"has no time in {column}; write 2014-09-17T22:42:00Z")
+            self.fail("availability", number, f"has no time in {column}; write 2014-09-17T22:42:00Z")
         return when.astimezone(UTC) if when.tzinfo else when.replace(tzinfo=UTC)
 
     def areas(self) -> tuple[Area, ...]:
@@ -130,7 +130,7 @@ class _Reader:
         for number, blob, name, kind, station in self.base.execute(command):
             polygons = geopackage.polygons(blob) if isinstance(blob, bytes) else ()
             if not polygons:
-                self.wrong("area", number, "has no polygon; draw it again, or remove it")
+                self.fail("area", number, "has no polygon; draw it again, or remove it")
             found.append(Area(number, _text(name), _text(kind), station, polygons))
         return tuple(found)
 
@@ -143,27 +143,27 @@ class _Reader:
         for each in station_file.resources:
             self.origin("resource", each.id, each.origin, each.source in sources)
             if each.station not in stations:
-                self.wrong("resource", each.id, f"names station {each.station}, which does not exist")
+                self.fail("resource", each.id, f"names station {each.station}, which does not exist")
             if each.type not in station_file.type_of:
-                self.wrong("resource", each.id, f'has type "{each.type}", which is not in table type')
+                self.fail("resource", each.id, f'has type "{each.type}", which is not in table type')
             if each.mode not in MODES:
-                self.wrong("resource", each.id, f'has mode "{each.mode}"; use one of {", ".join(MODES)}')
+                self.fail("resource", each.id, f'has mode "{each.mode}"; use one of {", ".join(MODES)}')
             self.numbers(each)
         for window in station_file.availability:
             if window.resource not in resources:
-                self.wrong("resource", window.resource, "has a window of availability but does not exist")
+                self.fail("resource", window.resource, "has a window of availability but does not exist")
             if window.status not in STATUSES:
                 reason = f'has status "{window.status}"; use one of {", ".join(STATUSES)}'
-                self.wrong("resource", window.resource, reason)
+                self.fail("resource", window.resource, reason)
         for area in station_file.areas:
             if area.station not in stations:
-                self.wrong("area", area.id, f"names station {area.station}, which does not exist")
+                self.fail("area", area.id, f"names station {area.station}, which does not exist")
 
     def origin(self, table: str, number: int, origin: str, known: bool) -> None:
         if origin not in ORIGINS:
-            self.wrong(table, number, f'has origin "{origin}"; use one of {", ".join(ORIGINS)}')
+            self.fail(table, number, f'has origin "{origin}"; use one of {", ".join(ORIGINS)}')
         if not known:
-            self.wrong(table, number, "has no source; enter an id of table source")
+            self.fail(table, number, "has no source; enter an id of table source")
 
     def numbers(self, each: Resource) -> None:
         """Check that numbers are finite and not negative, the speed above 0, and the count at least 1."""
@@ -172,13 +172,13 @@ class _Reader:
             if value is None:
                 continue
             if not isinstance(value, int | float) or not 0.0 <= value < math.inf:
-                self.wrong("resource", each.id, f"has {name} {value!r}; enter a number of at least 0")
+                self.fail("resource", each.id, f"has {name} {value!r}; enter a number of at least 0")
         if each.speed_km_h == 0.0:
-            self.wrong("resource", each.id, "has speed_km_h 0; leave it empty if it is unknown")
+            self.fail("resource", each.id, "has speed_km_h 0; leave it empty if it is unknown")
         if not isinstance(each.count, int) or each.count < 1:
-            self.wrong("resource", each.id, f"has count {each.count!r}; enter a whole number of at least 1")
+            self.fail("resource", each.id, f"has count {each.count!r}; enter a whole number of at least 1")
 
-    def wrong(self, table: str, number: int, reason: str) -> NoReturn:
+    def fail(self, table: str, number: int, reason: str) -> NoReturn:
         raise input_error(self.path, f"{table} {number} {reason}")
 
 

@@ -142,15 +142,15 @@ class StationFile:
         """Values of all resources as arrays."""
         resources, (latitude, longitude) = self.resources, self.positions
         tanks = {each.code: (each.tank_l or np.nan) * WATER_KG_L for each in self.types}
-        station = _whole(self.station_row[each.station] for each in resources)
+        station = _integers(self.station_row[each.station] for each in resources)
         own = _floats(resources, lambda each: each.load_kg)
         least = _floats(resources, lambda each: tanks.get(each.type))
         return Columns(
-            id=_whole(each.id for each in resources),
+            id=_integers(each.id for each in resources),
             station=station,
             latitude=latitude[station],
             longitude=longitude[station],
-            count=_whole(each.count for each in resources),
+            count=_integers(each.count for each in resources),
             load_kg=np.where(np.isnan(own), least, own),
             speed_km_h=_floats(resources, lambda each: each.speed_km_h),
             mobilise_min=_floats(resources, lambda each: each.mobilise_min),
@@ -169,7 +169,7 @@ class StationFile:
         begins = np.array([each.begins.timestamp() for each in self.availability], np.float64)
         order = np.argsort(begins, kind="stable")
         return Windows(
-            _whole(row[each.resource] for each in self.availability)[order],
+            _integers(row[each.resource] for each in self.availability)[order],
             order.astype(np.int64),
             begins[order],
             np.array([each.ends.timestamp() for each in self.availability], np.float64)[order],
@@ -194,5 +194,5 @@ def _floats(resources: Sequence[Resource], value: Callable[[Resource], float | N
     return np.array([np.nan if each is None else each for each in found], np.float64)
 
 
-def _whole(values: Iterable[int]) -> NDArray[np.int64]:
+def _integers(values: Iterable[int]) -> NDArray[np.int64]:
     return np.fromiter(values, np.int64)

@@ -69,7 +69,7 @@ def standard_types() -> tuple[Type, ...]:
     return (*engines, *tankers, *helicopters, *dozers, *crews)
 
 
-def own_type(code: str) -> Type | None:
+def user_type(code: str) -> Type | None:
     """Make a type from a user-defined code, such as ``tender/1``; None if the code has another form."""
     if not _CODE.fullmatch(code):
         return None

@@ -124,7 +124,7 @@ def load(file: Path, folder: Path | None) -> Loaded:
     """
     station_file = reading.read(file)
     if folder is None:
-        return Loaded(station_file, plan=picture.prepare(None, *station_file.positions))
+        return Loaded(station_file, plan=picture.prepare_map(None, *station_file.positions))
     try:
         run = readers.open(folder)
         ground = picture.Field(
@@ -133,7 +133,7 @@ def load(file: Path, folder: Path | None) -> Loaded:
         arrivals = fire_arrival.sample(run, *station_file.positions)
         began = ignition.find(run)
     except (Error, OSError, ValueError, RuntimeError) as error:
-        plan = picture.prepare(None, *station_file.positions)
+        plan = picture.prepare_map(None, *station_file.positions)
         return Loaded(station_file, plan=plan, problem=job.describe_error(error))
-    plan = picture.prepare(ground, *station_file.positions)
+    plan = picture.prepare_map(ground, *station_file.positions)
     return Loaded(station_file, run, arrivals, began and began[0], Head(run), plan)

@@ -106,7 +106,9 @@ def describe(panel: bpy.types.PropertyGroup) -> None:
         return
     lines = listing.facts(loaded.station_file, station)
     if loaded.run is not None and loaded.arrivals is not None:
-        reached = fire_arrival.text(loaded.run, loaded.arrivals, loaded.station_file.station_row[station.id])
+        reached = fire_arrival.format_arrival(
+            loaded.run, loaded.arrivals, loaded.station_file.station_row[station.id]
+        )
         marked = not lines[-1][0]  # the label of an exercise comes last
         lines.insert(len(lines) - marked, ("Fire", reached))
     _detail = now, Detail(station, lines)
@@ -130,7 +132,7 @@ def _survey(wanted: Key, loaded: Loaded, asked: Query) -> ListState:
     out = ", ".join(f"{number:,} {reason}" for reason, number in found.left_out.items())
     status += f"; left out: {out}" if out else ""
     status += f". {loaded.problem}" if loaded.problem else ""
-    places = {listing.key(each.station): k for k, each in enumerate(found.rows)}
+    places = {listing.station_key(each.station): k for k, each in enumerate(found.rows)}
     return ListState(wanted, asked, loaded, found.rows, places, status)
 
 

@@ -96,7 +96,7 @@ def station_at(up: float, along: float) -> str | None:
     row = now.loaded.plan.nearest(
         [each.latitude for each in stations], [each.longitude for each in stations], (up, along)
     )
-    return None if row is None else listing.key(stations[row])
+    return None if row is None else listing.station_key(stations[row])
 
 
 def clear() -> None:

@@ -117,7 +117,7 @@ def test_routes_lie_on_the_ground_as_wide_in_every_picture(stationed, run, scene
     shot = Shot(routed, run)
     build.build(shot, scene, ("cameras", "stations"))
     obj = bpy.data.objects["Firetwin Routes"]
-    line = routes.draped(shot, station_signs.routes(shot, station_signs.signs(shot))[0].line)
+    line = routes.drape_line(shot, station_signs.routes(shot, station_signs.signs(shot))[0].line)
     assert np.linalg.norm(np.diff(line[:, :2], axis=0), axis=1).max() < 30.01
     assert line[0] == pytest.approx(shot.ground.point(*NEAR)[0], abs=0.01)
     assert line[-1] == pytest.approx(shot.ground.point(*station_signs.ignition(shot))[0], abs=0.01)

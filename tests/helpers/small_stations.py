@@ -29,7 +29,7 @@ def put(
 ) -> Path:
     """Write records, with the types that the resources name."""
     known = {each.code: each for each in types.standard_types()}
-    known |= {each.type: types.own_type(each.type) for each in resources if each.type not in known}
+    known |= {each.type: types.user_type(each.type) for each in resources if each.type not in known}
     writing.write(
         StationFile(tuple(stations), tuple(resources), tuple(windows), (SOURCE,), tuple(known.values())), path
     )

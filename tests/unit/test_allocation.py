@@ -93,7 +93,7 @@ def test_it_is_the_best_of_all_assignments(seed, n, k, budget, escape, response)
     best, answer = brute_force(problem), containment.solve(problem, EXACT)
     if best is None:
         assert answer is None
-        assert shortfall.reasons(problem, tuple("ABC"[:k]), EXACT)
+        assert shortfall.explain(problem, tuple("ABC"[:k]), EXACT)
         return
     containment.check(problem, answer)
     assert answer.cost + answer.loss == pytest.approx(best, abs=2e-3, rel=1e-9)
@@ -115,12 +115,12 @@ def test_it_is_the_same_each_time_and_in_any_order():
     ]
     found = []
     for order in (range(60), range(60), reversed(range(60)), rng.permutation(60)):
-        kept, _ = resources.usable([units[i] for i in order])
+        kept, _ = resources.select_usable([units[i] for i in order])
         problem = replace(
             made(1, 60, 3, 4),
             ids=tuple(unit.id for unit in kept),
             types=tuple(unit.type for unit in kept),
-            minutes=resources.minutes(kept, [[38.9, -120.5], [38.8, -120.5], [38.9, -120.7]]),
+            minutes=resources.travel_times(kept, [[38.9, -120.5], [38.8, -120.5], [38.9, -120.7]]),
             rate=np.array([unit.line_m_h for unit in kept]),
             cost=np.array([unit.cost_hour for unit in kept]),
         )
@@ -128,7 +128,7 @@ def test_it_is_the_same_each_time_and_in_any_order():
         found.append([(unit.id, int(k)) for unit, k in zip(kept, answer.division, strict=True) if k >= 0])
     assert found[0]
     assert found == found[:1] * 4
-    assert [unit.id for unit in resources.usable(units[::-1])[0]] == [str(i) for i in range(60)]
+    assert [unit.id for unit in resources.select_usable(units[::-1])[0]] == [str(i) for i in range(60)]
 
 
 def test_of_the_same_resources_the_lowest_ids_go():
@@ -154,7 +154,7 @@ def test_ties_are_decided_exactly_whatever_the_gap_of_the_solver(seed, gap, resp
     containment.check(problem, answer)
 
     def hours(division):
-        held = containment.built(problem, division) >= problem.perimeter - 0.01
+        held = containment.built_line(problem, division) >= problem.perimeter - 0.01
         return np.where(held.any(1), held.argmax(1), -1).tolist()
 
     assert answer.hour.tolist() == hours(answer.division)
@@ -163,7 +163,7 @@ def test_ties_are_decided_exactly_whatever_the_gap_of_the_solver(seed, gap, resp
         there = problem.in_time[np.arange(14), fewer] & (fewer >= 0)
         met = all((there & problem.of(kind)).sum() >= number for kind, number in response.items())
         assert not met or hours(fewer) != answer.hour.tolist()
-    for members in symmetry.interchangeable(problem):
+    for members in symmetry.find_classes(problem):
         sent = answer.division[members]
         chosen = sent[sent >= 0].tolist()
         assert sent.tolist() == sorted(chosen) + [-1] * (len(sent) - len(chosen))
@@ -206,7 +206,7 @@ def simple(**request):
 def test_it_says_why_there_is_none(request_, words):
     problem = simple(**request_)
     assert containment.solve(problem, EXACT) is None
-    (reason,) = shortfall.reasons(problem, ("A",), EXACT)
+    (reason,) = shortfall.explain(problem, ("A",), EXACT)
     assert re.search(words, reason), reason
 
 
@@ -214,9 +214,9 @@ def test_it_says_how_much_line_is_missing():
     """At hour 2 the three have 100, 83.3 and 300 m."""
     problem = replace(simple(), perimeter=np.array([[500.0, 600.0]]))
     assert containment.solve(problem, EXACT) is None
-    (reason,) = shortfall.reasons(problem, ("C",), EXACT)
+    (reason,) = shortfall.explain(problem, ("C",), EXACT)
     assert "117 m of the 600 m of division C at hour 2 are missing, a rate of 58 m/h" in reason
-    lacking, _ = containment.shortest_line(problem, EXACT)
+    lacking, _ = containment.minimum_shortfall(problem, EXACT)
     assert lacking[0] == pytest.approx(600.0 - 100.0 - 250.0 / 3.0 - 300.0)
 
 
@@ -229,14 +229,14 @@ def test_a_division_cannot_be_contained_before_the_fire_comes():
 def test_the_nearest_of_each_kind_are_paired_one_to_one():
     minutes = np.array([[10.0, 11.0], [12.0, 30.0], [50.0, 60.0]])
     problem = replace(made(0, 3, 2, 2), types=("engine/3", "engine/6", "dozer/2"), minutes=minutes)
-    found = {(each.kind, each.division): problem.ids[each.resource] for each in nearest.nearest(problem)}
+    found = {(each.kind, each.division): problem.ids[each.resource] for each in nearest.pair_nearest(problem)}
     assert found == {("engine", 0): "1", ("engine", 1): "0", ("dozer", 0): "2"}
 
 
 def test_minutes_are_by_road_or_straight():
     north, _ = areas.metres_per_degree(38.9)
     engine = Unit("1", "engine/3", 0.0, 5.0, 60.0, 0.0, 38.9 - 30_000.0 / north, -120.6)
-    both = resources.minutes([engine, engine._replace(type="helicopter/2")], [[38.9, -120.6]])
+    both = resources.travel_times([engine, engine._replace(type="helicopter/2")], [[38.9, -120.6]])
     assert both[:, 0] == pytest.approx([5.0 + 42.0, 5.0 + 30.0], rel=5e-3)
 
 
@@ -276,7 +276,7 @@ def test_islands_need_no_line():
     x = np.concatenate([2.0 * np.cos(turn), np.cos(-turn)])
     y = np.concatenate([2.0 * np.sin(turn), np.sin(-turn)])
     after = np.concatenate([np.roll(np.arange(60), -1), 60 + np.roll(np.arange(60), -1)])
-    assert divisions.outlines(x, y, after).tolist() == list(range(60))
+    assert divisions.outer_points(x, y, after).tolist() == list(range(60))
 
 
 UNITS = [
@@ -296,7 +296,7 @@ def test_a_suggestion_says_what_it_is(round_run):
     sent = [each["id"] for part in found["divisions"] for each in part["resources"]]
     assert len(sent) == len(set(sent))
     assert found["sums"]["cost"] == 100.0 * len(sent)
-    text = page.page(found)
+    text = page.format_text(found)
     assert text.startswith(f"*** {EXERCISE} ***")
     assert text.endswith(f"*** {EXERCISE} ***")
     assert all(f"- {limit}" in text for limit in LIMITS)
@@ -334,7 +334,7 @@ def test_without_scipy_it_says_what_to_install(monkeypatch):
 def test_what_lacks_a_number_is_left_out_and_told():
     units = [Unit("1", "engine/3", None, 5.0, 60.0, 10.0, 38.9, -120.6)]
     units += [units[0]._replace(id="2", speed_km_h=None), units[0]._replace(id="3", cost_hour=-1.0)]
-    kept, left = resources.usable(units)
+    kept, left = resources.select_usable(units)
     assert [unit.id for unit in kept] == ["1"]
     assert left == ["2 (engine/3) has no speed_km_h", "3 (engine/3) has no cost_hour"]
 
@@ -379,9 +379,9 @@ def test_a_unit_costs_what_a_search_says(station_file):
     rows = [replace(each, count=1, **more) for each, more in zip(found.resources, rates, strict=True)]
     small_stations.put(station_file, found.stations, rows)
     units, _ = read.read(station_file, START)
-    assert resources.usable(units) == (units, [])
-    assert resources.costs(units, 30.0).tolist() == [40.0 + 3000.0, 1800.0]
-    assert measures.cost_of(reading.read(station_file), 30.0).tolist() == [40.0 + 3000.0, 1800.0]
+    assert resources.select_usable(units) == (units, [])
+    assert resources.period_costs(units, 30.0).tolist() == [40.0 + 3000.0, 1800.0]
+    assert measures.resource_costs(reading.read(station_file), 30.0).tolist() == [40.0 + 3000.0, 1800.0]
 
 
 def test_an_exercise_of_the_program_can_be_allocated(round_run, tmp_path, capsys):
@@ -413,5 +413,5 @@ def test_the_command_prints_a_suggestion_or_why_there_is_none(round_run, station
 @pytest.mark.parametrize("text", ["engine", "engine=0", "engine=x", "=3", "engine=1,engine=2", ""])
 def test_a_response_that_cannot_be_read_is_told(text):
     with pytest.raises(argparse.ArgumentTypeError, match=r"must have the form|names engine twice"):
-        arguments.response(text)
-    assert arguments.response("engine/3=4, dozer=1") == {"engine/3": 4, "dozer": 1}
+        arguments.parse_response(text)
+    assert arguments.parse_response("engine/3=4, dozer=1") == {"engine/3": 4, "dozer": 1}

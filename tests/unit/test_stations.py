@@ -83,7 +83,7 @@ def test_air_goes_straight_and_the_ground_by_roads(tmp_path):
     sent = [(1, *known[0]), (2, *known[0]), (2, *known[1]), (3, *known[2])]
     resources = [(station, type_, 1, speed, minutes, "fact") for station, type_, speed, minutes in sent]
     found = reading.read(small_stations.write(tmp_path / "stations.gpkg", rows, resources))
-    least = measures.least_minutes(found, to)
+    least = measures.shortest_minutes(found, to)
     np.testing.assert_allclose(least, [3.0 + 14.0, 3.0 + 10.0, np.nan, np.nan], atol=0.05)
 
 

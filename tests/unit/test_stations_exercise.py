@@ -12,7 +12,7 @@ from firetwin.run.labels import Label
 from firetwin.stations import exercise, reading, types, writing
 from firetwin.stations.records import EXERCISE, MODES, STAFFING, STATUSES
 
-KING = exercise.of_event("king_fire")
+KING = exercise.make_for_event("king_fire")
 
 
 def test_every_row_says_that_it_is_an_exercise():
@@ -45,8 +45,8 @@ def test_nothing_looks_like_a_telephone_a_call_sign_or_an_agency():
 
 def test_types_are_the_standards_and_values_are_in_the_closed_lists():
     known = {each.code for each in types.standard_types()}
-    assert set(exercise.ASSUMED) <= known
-    assert {each.type for each in KING.resources} == set(exercise.ASSUMED)
+    assert set(exercise.ASSUMPTIONS) <= known
+    assert {each.type for each in KING.resources} == set(exercise.ASSUMPTIONS)
     for each in KING.resources:
         assert each.mode in MODES
         assert each.staffing in STAFFING
@@ -87,7 +87,7 @@ def test_what_does_not_work_at_night_is_not_available_then():
 def test_the_same_seed_makes_the_same_bytes_and_another_one_others(tmp_path):
     paths = [tmp_path / f"{k}.gpkg" for k in range(3)]
     for path, seed in zip(paths, (0, 0, 1), strict=True):
-        writing.write(exercise.of_event("king_fire", seed), path)
+        writing.write(exercise.make_for_event("king_fire", seed), path)
     one, other, different = (path.read_bytes() for path in paths)
     assert one == other
     assert one != different
@@ -100,7 +100,7 @@ def test_bases_of_the_users_own():
         [Label("A", 1.0, 2.0)], begins, begins + timedelta(days=1), "Etc/GMT", "X", "mine.csv"
     )
     assert [each.name for each in made.stations] == ["Exercise base A"]
-    assert {each.type for each in made.resources} == set(exercise.ASSUMED)  # the first base has each type
+    assert {each.type for each in made.resources} == set(exercise.ASSUMPTIONS)  # the first base has each type
     assert "mine.csv" in made.sources[0].name
 
 
@@ -121,7 +121,7 @@ def test_types_have_the_minima_of_pms_200(code, value, figure):
 
 
 def test_codes_of_the_users_own():
-    assert types.own_type("tender/1").kind == "tender"
-    assert types.own_type("Engine 3") is None
+    assert types.user_type("tender/1").kind == "tender"
+    assert types.user_type("Engine 3") is None
     assert types.mode_of("engine/2") == "structure"
     assert types.mode_of("boat/1") == "attack"

@@ -95,12 +95,12 @@ def test_times_from_fluxes_are_an_interval_less_certain(make_run):
 
 def test_the_first_cells_and_a_run_without_fire(burning, make_run):
     run, y, x, _ = burning
-    assert fire_arrival.first_burned(run) == pytest.approx((y[0, 0], x[0, 0]))
+    assert fire_arrival.first_burned_point(run) == pytest.approx((y[0, 0], x[0, 0]))
 
 
 def test_a_run_without_fire_reaches_nothing(make_run):
     run = runs.open(make_run(heat_flux=np.zeros_like(small_fields()["heat_flux"])))
-    assert fire_arrival.first_burned(run) is None
+    assert fire_arrival.first_burned_point(run) is None
     found = fire_arrival.sample(run, [38.9], [-120.6])
     assert found.state.tolist() == [fire_arrival.NEVER]
     assert np.isnan(found.nearest_km[0])

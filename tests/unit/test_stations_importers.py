@@ -23,7 +23,7 @@ from station_files import (
     write_usgs,
 )
 
-NOBODY = merging.About()
+NOBODY = merging.SourceOptions()
 
 
 def merged(*paths, about=NOBODY):
@@ -97,7 +97,7 @@ def test_usgs_fire_stations_among_structures(tmp_path, form):
     assert station_file.sources[0].retrieved == "2023-05-04"
     assert ": other structure (FCODE is not 74026)" in "\n".join(messages)
     assert ": no coordinates" in "\n".join(messages)
-    assert importers.importer(path) is usgs
+    assert importers.find_importer(path) is usgs
 
 
 def test_overpass_nodes_and_centres_of_ways_and_relations(tmp_path):
@@ -156,7 +156,7 @@ def test_tables_of_the_users_own(tmp_path):
     stations.write_text(STATIONS)
     resources.write_text(RESOURCES)
     station_file, messages = merged(
-        resources, stations, about=merging.About("me", "CC0", "2026-01-02", "here")
+        resources, stations, about=merging.SourceOptions("me", "CC0", "2026-01-02", "here")
     )
     assert [(each.name, each.kind, each.origin) for each in station_file.stations] == [
         ("My Camp", "camp", "user"),
@@ -215,7 +215,7 @@ def test_a_file_of_places_is_taken_over_beside_others(tmp_path):
     writing.write(known, tmp_path / "known.gpkg")
     stations = tmp_path / "stations.csv"
     stations.write_text("name,lat,lon\nCamp,10,20\n")
-    assert importers.importer(tmp_path / "known.gpkg") is firetwin
+    assert importers.find_importer(tmp_path / "known.gpkg") is firetwin
     station_file, _ = merged(stations, tmp_path / "known.gpkg", tmp_path / "known.gpkg")
     assert len(station_file.stations) == 1 + 2 * len(known.stations)
     assert len(station_file.resources) == 2 * len(known.resources)
@@ -283,8 +283,8 @@ def test_names_that_mean_the_same(one, other, same):
 
 
 def test_capitals_are_made_readable_and_others_are_left():
-    assert names.readable("  McCLOUD  Station ") == "McCLOUD Station"
-    assert names.readable("CITY OF MCARTHUR VFD #2 - O'BRIEN") == "City of McArthur VFD #2 - O'brien"
+    assert names.make_readable("  McCLOUD  Station ") == "McCLOUD Station"
+    assert names.make_readable("CITY OF MCARTHUR VFD #2 - O'BRIEN") == "City of McArthur VFD #2 - O'brien"
 
 
 def test_duplicates_are_those_within_150_metres():
@@ -292,7 +292,7 @@ def test_duplicates_are_those_within_150_metres():
         return replace(Station(number, "Nowhere 1", 38.9 + north / 111_000.0, -120.6, "fact", 1), **more)
 
     def into(*stations):
-        return merging.duplicates(stations)
+        return merging.find_duplicates(stations)
 
     assert into(station(1, 0.0), station(2, 149.0)) == {2: 1}
     assert into(station(1, 0.0), station(2, 151.0)) == {}
@@ -304,8 +304,8 @@ def test_duplicates_are_those_within_150_metres():
 
 def test_numbers_of_telephones_are_taken_out_of_texts():
     for text in ("Call 530-555-0101", "Call (530) 555-0101 x12", "Call +1 530.555.0101"):
-        assert import_rows.without_telephones(text) == "Call"
-    assert import_rows.without_telephones("1234 Route 50, 95726-1234") == "1234 Route 50, 95726-1234"
+        assert import_rows.remove_telephones(text) == "Call"
+    assert import_rows.remove_telephones("1234 Route 50, 95726-1234") == "1234 Route 50, 95726-1234"
 
 
 def test_columns_are_those_of_the_first_line():
@@ -320,7 +320,7 @@ def test_no_source_is_invented(tmp_path):
     assert (station_file.sources[0].name, station_file.sources[0].licence) == ("mine", merging.NO_LICENCE)
     assert isinstance(station_file, StationFile)
     assert isinstance(station_file.sources[0], Source)
-    assert importers.importer(path) is stations_csv
+    assert importers.find_importer(path) is stations_csv
 
 
 def test_a_geopackage_of_something_else_is_no_file_of_places(tmp_path):

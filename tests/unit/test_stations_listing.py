@@ -52,7 +52,7 @@ def test_without_a_condition_on_resources_every_station_is_listed():
 
 def test_a_station_is_found_by_number_and_name_or_by_its_only_name():
     near, base, _ = STATION_FILE.stations
-    assert listing.find(STATION_FILE.stations, listing.key(base)) is base
+    assert listing.find(STATION_FILE.stations, listing.station_key(base)) is base
     moved = [replace(near, id=9), base]
     assert listing.find(moved, "1 Near Station") is moved[0]
     assert listing.find([replace(near, id=8), *moved], "1 Near Station") is None
@@ -82,7 +82,7 @@ def field():
 
 
 def test_the_map_shows_what_has_burned(field):
-    plan = picture.prepare(field, [], [])
+    plan = picture.prepare_map(field, [], [])
 
     def share(time, colour):
         seen = picture.draw(plan, time, [], [], [], None)[..., :3]
@@ -96,7 +96,7 @@ def test_the_map_shows_what_has_burned(field):
 
 
 def test_the_map_is_true_to_scale_and_in_the_order_of_the_sky(field):
-    plan = picture.prepare(field, [], [])
+    plan = picture.prepare_map(field, [], [])
     row, column = plan.pixels([38.8, 38.9, 38.9], [-120.6, -120.6, -120.5])
     assert row[1] > row[0]
     assert column[2] > column[1]
@@ -104,7 +104,7 @@ def test_the_map_is_true_to_scale_and_in_the_order_of_the_sky(field):
     assert wide / high == pytest.approx(np.cos(np.radians(38.85)), abs=0.004)
     turned = replace(field, latitude=field.latitude[::-1], elevation=field.elevation[::-1])
     turned = replace(turned, arrival=field.arrival[::-1])
-    same = picture.prepare(turned, [], [])
+    same = picture.prepare_map(turned, [], [])
     np.testing.assert_allclose(same.ground, plan.ground, atol=1e-6)
     assert np.nanmax(np.abs(same.arrival - plan.arrival)) == 60.0 * 0  # rows are the same ones
 
@@ -117,7 +117,7 @@ def test_a_slope_that_faces_the_light_is_brighter():
 
 def test_the_selected_station_has_a_ring(field):
     y, x = [38.82, 38.87], [-120.57, -120.53]
-    plan = picture.prepare(field, y, x)
+    plan = picture.prepare_map(field, y, x)
     row, column = (np.rint(each).astype(int) for each in plan.pixels(y, x))
     plain, ringed = (picture.draw(plan, 0.0, y, x, ["fact", "user"], k) for k in (None, 1))
     changed = np.argwhere(np.abs(plain - ringed).max(axis=-1) > 0.01)
@@ -129,7 +129,7 @@ def test_the_selected_station_has_a_ring(field):
 
 def test_the_nearest_station_of_a_point_of_the_map(field):
     y, x = [38.82, 38.87], [-120.57, -120.53]
-    plan = picture.prepare(field, y, x)
+    plan = picture.prepare_map(field, y, x)
     row, column = plan.pixels(y, x)
     for k in range(2):
         assert plan.nearest(y, x, ((row[k] + 3) / 512, (column[k] - 3) / 512)) == k
@@ -137,16 +137,16 @@ def test_the_nearest_station_of_a_point_of_the_map(field):
 
 
 def test_stations_far_from_the_run_are_not_on_the_map(field):
-    near = picture.prepare(field, [38.95], [-120.55])
+    near = picture.prepare_map(field, [38.95], [-120.55])
     assert near.north > 38.95
-    far = picture.prepare(field, [48.0], [-120.55])
+    far = picture.prepare_map(field, [48.0], [-120.55])
     assert far.north < 39.0
     assert picture.draw(far, 0.0, [48.0], [-120.55], ["fact"], 0).shape == (512, 512, 4)
-    assert picture.prepare(None, [], []) is None
-    assert picture.prepare(None, [38.8], [-120.5]).north > 38.8
+    assert picture.prepare_map(None, [], []) is None
+    assert picture.prepare_map(None, [38.8], [-120.5]).north > 38.8
 
 
 def test_a_run_of_no_known_fire_begins_at_its_first_cells(monkeypatch):
-    monkeypatch.setattr(ignition.fire_arrival, "first_burned", lambda run: (1.0, 2.0))
+    monkeypatch.setattr(ignition.fire_arrival, "first_burned_point", lambda run: (1.0, 2.0))
     nothing = type("Run", (), {"event": ""})()
     assert ignition.find(nothing) == ((1.0, 2.0), "the run's first cells")

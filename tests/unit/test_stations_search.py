@@ -226,6 +226,6 @@ def test_costs_without_a_rate_by_the_hour_are_by_days():
     station_file = random_stations(1, resources=1)
     each = replace(station_file.resources[0], cost_hour=None, cost_day=1000.0, cost_mobilise=50.0, count=2)
     daily = replace(station_file, resources=(each,))
-    assert [measures.cost_of(daily, hours)[0] for hours in (1, 24, 25)] == [2100.0, 2100.0, 4100.0]
+    assert [measures.resource_costs(daily, hours)[0] for hours in (1, 24, 25)] == [2100.0, 2100.0, 4100.0]
     free = replace(station_file, resources=(replace(each, cost_day=None),))
-    assert np.isnan(measures.cost_of(free, 1.0)[0])
+    assert np.isnan(measures.resource_costs(free, 1.0)[0])

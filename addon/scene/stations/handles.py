@@ -11,7 +11,7 @@ from ...shot.shot import Shot
 from ...shot.stations.station_signs import Sign
 
 STATION = "firetwin_station"
-"""Property of a handle: number and name of its station, as in `listing.key`."""
+"""Property of a handle: number and name of its station, as in `listing.station_key`."""
 
 _RADIUS = 60.0  # m
 

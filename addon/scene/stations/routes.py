@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 
 def build(shot: Shot, collection: bpy.types.Collection, shown: Sequence[Route]) -> bpy.types.Object | None:
     """Build "Firetwin Routes"; None without routes."""
-    lines = [draped(shot, each.line) for each in shown]
+    lines = [drape_line(shot, each.line) for each in shown]
     tubes = [(_tube(line), each.origin) for line, each in zip(lines, shown, strict=True) if len(line) > 1]
     if not tubes:
         return None
@@ -49,7 +49,7 @@ def build(shot: Shot, collection: bpy.types.Collection, shown: Sequence[Route]) 
     return obj
 
 
-def draped(shot: Shot, line: Array) -> Array:
+def drape_line(shot: Shot, line: Array) -> Array:
     """Drape a line (degrees east and north) on the ground: points (n, 3), m, clipped to the ground."""
     fields = shot.ground.fields
     longitude = areas.turned(line[:, 0], float(np.mean(fields.longitude)))

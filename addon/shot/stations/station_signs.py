@@ -132,7 +132,7 @@ def routes(shot: Shot, shown: Iterable[Sign]) -> list[Route]:
 
 def ignition(shot: Shot) -> tuple[float, float] | None:
     """Return the mean position of the fuel cells that burn first, degrees; None if nothing burns."""
-    return fire_arrival.first_burned(shot.run)
+    return fire_arrival.first_burned_point(shot.run)
 
 
 def moving(shot: Shot) -> Moving:
@@ -183,7 +183,7 @@ def _minutes(shot: Shot, known: StationFile, here: Sequence[Station]) -> list[st
     began = ignition(shot)
     if "minutes" not in shot.settings.stations.show or began is None:
         return [""] * len(here)
-    least = measures.least_minutes(known, began)[[known.station_row[each.id] for each in here]]
+    least = measures.shortest_minutes(known, began)[[known.station_row[each.id] for each in here]]
     return ["" if np.isnan(each) else f"{each:.0f} min to the ignition" for each in least]
 
 
@@ -192,7 +192,7 @@ def _fire(shot: Shot, here: Sequence[Station]) -> list[str]:
     if "fire" not in shot.settings.stations.show:
         return [""] * len(here)
     found = fire_arrival.sample(shot.run, [each.latitude for each in here], [each.longitude for each in here])
-    return [f"fire: {found.text(shot.run, k, shot.settings.time.zone)}" for k in range(len(here))]
+    return [f"fire: {found.format_arrival(shot.run, k, shot.settings.time.zone)}" for k in range(len(here))]
 
 
 def _sign(

@@ -18,7 +18,7 @@ MODULES = ("firetwin", "usgs", "hifld", "osm", "resources_csv", "stations_csv")
 _HEAD = 65536  # bytes passed to `sniff`
 
 
-def importer(path: Path) -> ModuleType:
+def find_importer(path: Path) -> ModuleType:
     """Select the importer that recognises a file.
 
     Raises
@@ -36,7 +36,7 @@ def importer(path: Path) -> ModuleType:
         module = importlib.import_module(f".{name}", __name__)
         if module.sniff(path, head):
             return module
-    raise input_error(path, _unknown())
+    raise input_error(path, _unknown_format())
 
 
 def read(path: Path) -> Batch:
@@ -48,7 +48,7 @@ def read(path: Path) -> Batch:
         The file is missing, has an unknown format, or is damaged.
     """
     try:
-        return importer(path).read(path)
+        return find_importer(path).read(path)
     except Error:
         raise
     except OSError as error:
@@ -60,7 +60,7 @@ def read(path: Path) -> Batch:
         raise input_error(path, f"is damaged or incomplete: {reason}") from error
 
 
-def _unknown() -> str:
+def _unknown_format() -> str:
     known = (
         "HIFLD fire stations (CSV, GeoJSON), USGS structures (GeoPackage, GeoJSON), OpenStreetMap (Overpass "
         "JSON, GeoJSON), CSV of stations (name, latitude, longitude) and of resources (station, type)"

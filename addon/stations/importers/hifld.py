@@ -49,7 +49,7 @@ def _read_features(path: Path, batch: Batch) -> None:
         names |= set(map(str, feature.properties))
         x, y = feature.points[0] if len(feature.points) else (row.get("x"), row.get("y"))
         _add(batch, row, y, x, feature.place)
-    batch.dropped = import_rows.private(names)
+    batch.dropped = import_rows.private_columns(names)
 
 
 def _read_table(path: Path, batch: Batch) -> None:
@@ -63,7 +63,7 @@ def _read_table(path: Path, batch: Batch) -> None:
                 latitude = row.get("y") or row.get("latitude")
                 longitude = row.get("x") or row.get("longitude")
                 _add(batch, row, latitude, longitude, f"line {reader.line_num}")
-    batch.dropped = import_rows.private(names)
+    batch.dropped = import_rows.private_columns(names)
 
 
 def _first_line(path: Path) -> str:

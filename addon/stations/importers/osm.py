@@ -97,7 +97,7 @@ def _read_features(path: Path, batch: Batch) -> None:
 def _add(
     batch: Batch, tags: Mapping[str, Any], latitude: Any, longitude: Any, identity: str, place: str
 ) -> None:
-    batch.dropped = sorted({*batch.dropped, *import_rows.private(map(str, tags))})
+    batch.dropped = sorted({*batch.dropped, *import_rows.private_columns(map(str, tags))})
     if tags.get("amenity") != "fire_station":
         medical = tags.get("emergency") in _AMBULANCE or tags.get("amenity") in _AMBULANCE
         batch.rejected.add(import_rows.EMS if medical else _OTHER, place)

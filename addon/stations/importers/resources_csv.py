@@ -40,7 +40,7 @@ def sniff(path: Path, head: bytes) -> bool:
 
 def read(path: Path) -> Batch:
     """Read all resources; their origin is ``user``, unless a column gives another."""
-    batch = Batch(name=path.stem, dropped=import_rows.private(tables.header(path).values()))
+    batch = Batch(name=path.stem, dropped=import_rows.private_columns(tables.read_header(path).values()))
     help = 'station and type, such as "engine/3"'
     for line, row in tables.rows(path, _NAMES, _NEEDED, help):
         plain = {key: " ".join(value.split()) for key, value in row.items()}
@@ -52,12 +52,12 @@ def read(path: Path) -> Batch:
 
 def _resource(path: Path, line: int, row: Mapping[str, str]) -> Resource:
     code = row["type"]
-    if types.own_type(code) is None:
+    if types.user_type(code) is None:
         raise input_error(
             path, f'has type "{code}"; write kind/type, such as engine/3 or tender/1', line=line
         )
     word = _words(path, line, row)
-    name = import_rows.without_telephones(row.get("name", "")) or code
+    name = import_rows.remove_telephones(row.get("name", "")) or code
     return Resource(
         0, 0, code, name, word("origin", ORIGINS, "user"), 0,
         count=_count(path, line, row.get("count", "")),
@@ -66,7 +66,7 @@ def _resource(path: Path, line: int, row: Mapping[str, str]) -> Resource:
         mode=word("mode", MODES, types.mode_of(code)),
         staffing=word("staffing", STAFFING, ""),
         night=_YES[word("night", tuple(_YES), "")],
-        note=import_rows.without_telephones(row.get("note", "")),
+        note=import_rows.remove_telephones(row.get("note", "")),
     )  # fmt: skip
 
 

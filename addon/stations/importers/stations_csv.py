@@ -33,7 +33,7 @@ def sniff(path: Path, head: bytes) -> bool:
 
 def read(path: Path) -> Batch:
     """Read all stations; their origin is ``user``, unless a column gives another."""
-    batch = Batch(name=path.stem, dropped=import_rows.private(tables.header(path).values()))
+    batch = Batch(name=path.stem, dropped=import_rows.private_columns(tables.read_header(path).values()))
     for line, row in tables.rows(path, _NAMES, _NEEDED, "name, latitude and longitude (degrees)"):
         origin = row.get("origin", "").strip().lower() or "user"
         if origin not in ORIGINS:

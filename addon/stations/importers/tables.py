@@ -14,20 +14,20 @@ def columns(head: bytes) -> set[str]:
     line = "\n".join(head.decode("utf-8-sig", "replace").splitlines()[:1]).strip()
     if not line or line[0] in "{[" or "\0" in line:
         return set()
-    return set(named(line))
+    return set(column_names(line))
 
 
-def named(line: str) -> dict[str, str]:
+def column_names(line: str) -> dict[str, str]:
     """Map column names of a first line, in lower case and without a unit in brackets, to their spelling."""
     comma = max(",;\t", key=line.count)
     found = next(csv.reader([line], delimiter=comma), [])
     return {name.partition("(")[0].partition("[")[0].strip().lower(): name.strip() for name in found}
 
 
-def header(path: Path) -> dict[str, str]:
+def read_header(path: Path) -> dict[str, str]:
     """Map column names of a file, in lower case, to their spelling."""
     with path.open(encoding="utf-8-sig") as file:
-        return named(file.readline().strip())
+        return column_names(file.readline().strip())
 
 
 def rows(

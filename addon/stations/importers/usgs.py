@@ -67,7 +67,7 @@ def read(path: Path) -> Batch:
         )  # fmt: skip
         import_rows.add(batch, y, x, draft)
         batch.retrieved = max(batch.retrieved, _day(row.get("loaddate")))
-    batch.dropped = import_rows.private(names)
+    batch.dropped = import_rows.private_columns(names)
     return batch
 
 
