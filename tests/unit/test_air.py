@@ -10,7 +10,7 @@ from firetwin.smoke import atmosphere
 def test_the_sky_is_clear_and_the_air_stable(sun, ground):
     around = atmosphere.air(sun, ground)
     pressure = atmosphere._pressure(ground + around.height)
-    humidity = around.water / atmosphere._held(around.potential_temperature, pressure)
+    humidity = around.water / atmosphere._saturation(around.potential_temperature, pressure)
     assert humidity.min() > 0.0
     assert humidity.max() <= 0.8 + 1e-9
     assert np.all(np.diff(around.potential_temperature) > 0.0)
@@ -26,6 +26,6 @@ def test_nights_are_cold_below_and_no_warmer_aloft():
 def test_air_holds_the_water_that_tables_say():
     """Saturation mixing ratios at 1000 hPa in g/kg are from the Smithsonian Meteorological Tables."""
     celsius = np.array([0.0, 20.0, 30.0])
-    held = atmosphere._held(celsius + 273.15, np.full(3, 1e5))
+    held = atmosphere._saturation(celsius + 273.15, np.full(3, 1e5))
     mixing = held / (1.0 - held)
     assert mixing == pytest.approx(np.array([3.84, 14.95, 27.69]) * 1e-3, rel=0.01)
