@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the film and the small pictures of README.md from renders of the synthetic sample run, into this folder.
+# Makes the film and the small pictures of README.md from renders of the synthetic sample run, and how/tiles.svg.
 # The film took 26 minutes on two cores that other work shared; a second run renders only missing files.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -12,3 +12,4 @@ out=../../examples/out
 "$firetwin" render forest.toml --out "$out/forest" --resume
 [[ -f $out/maps/intensity.png ]] || "$firetwin" maps "$out/sample" --out "$out/maps"
 ../../.venv/bin/python pictures.py "$out" .
+../../.venv/bin/python tile_selection.py how/tiles.svg

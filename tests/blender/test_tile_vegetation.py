@@ -37,7 +37,7 @@ def seen(shot, tmp_path, decoded_here):
         if height_source == "elevation":
             return first
         settings = replace(settings, terrain=replace(terrain, height_source=height_source))
-        heights = tile_cut.location(first).with_suffix(tile_cut.HEIGHTS)
+        heights = tile_cut.heights_file(tile_cut.location(first))
         tile_heights_file.location(settings, shot.run).write_bytes(heights.read_bytes())
         second = Shot(settings, shot.run)
         selection.make(second)

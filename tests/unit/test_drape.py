@@ -247,6 +247,8 @@ def test_keys_are_in_no_file_message_and_log(make, tmp_path, server, caplog, mon
 
 def test_a_tileset_that_is_made_has_these_colours(make, tmp_path):
     shot, _ = fetched(make("photo_size = 512"), tmp_path)
+    assert make_job.default_credit(shot, photo=True).endswith("; Somebody; Somebody else")
+    assert "Somebody" not in make_job.default_credit(shot, photo=False)
     colours = make_job._PhotoColours(shot)
     (area,) = drape.of_shot(shot).areas
     x, y = 0.5 + np.floor(mercator.tile_at(38.904, -120.592, area.level))

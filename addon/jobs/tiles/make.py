@@ -15,7 +15,7 @@ from ...run import areas, buildings
 from ...shot.shot import Shot
 from ...shot.surface import orthophoto
 from ...shot.tiles import tile_terms
-from ...tiles import geoid
+from ...tiles import geoid, notices
 from ...tiles.make.lattice import Lattice, Surface
 from ...tiles.make.tileset import Maker, Summary
 
@@ -76,9 +76,16 @@ def run(
             found.outlines, lambda at: _heights(surface, at[:, 1], at[:, 0]), (east, north)
         )
     lattice = Lattice(surface, request.levels)
-    credit = request.credit or (f"{shot.run.name}, synthetic" if shot.run.synthetic else shot.run.name)
-    colours = _PhotoColours(shot) if orthophoto.photographed(shot.settings) else _FuelColours(shot)
+    photo = orthophoto.photographed(shot.settings)
+    colours = _PhotoColours(shot) if photo else _FuelColours(shot)
+    credit = request.credit or default_credit(shot, photo)
     return Maker(lattice, colours, built, request.out, credit).run(progress)
+
+
+def default_credit(shot: Shot, photo: bool) -> str:
+    """Compose the credit of a shot's run and, with `photo`, of its orthophoto."""
+    run = f"{shot.run.name}, synthetic" if shot.run.synthetic else shot.run.name
+    return "; ".join([run, *(notices.split(shot.settings.terrain.photo_credit) if photo else [])])
 
 
 def ground_surface(shot: Shot, undulation: float | None) -> Surface:

@@ -123,7 +123,7 @@ def in_process(
         heights = tile_heights_file.location(shot.settings, shot.run)
         if not (_can_keep(first, keep) and heights.exists()):
             make(first, progress, how, wanted)
-            found = tile_cut.location(first).with_suffix(tile_cut.HEIGHTS)
+            found = tile_cut.heights_file(tile_cut.location(first))
             if found.is_file():
                 shutil.copyfile(found, heights)
         shot = source.shot()
@@ -199,11 +199,11 @@ def make(
 def _heights(shot: Shot, path: Path, names: Sequence[str]) -> TileHeights | None:
     """Write the heights of a cut's tiles next to it; None without tiles."""
     if not names:
-        path.with_suffix(tile_cut.HEIGHTS).unlink(missing_ok=True)
+        tile_cut.heights_file(path).unlink(missing_ok=True)
         return None
     found = (decoded.read(path.parent / name) for name in names)
     surface = tile_heights.rasterise(found, shot.bare_ground.up, land_use.buildings(shot))
-    tile_heights.write(path.with_suffix(tile_cut.HEIGHTS), surface)
+    tile_heights.write(tile_cut.heights_file(path), surface)
     return TileHeights(shot.ground.frame, surface)
 
 

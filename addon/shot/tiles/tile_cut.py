@@ -20,8 +20,6 @@ from ..terrain import tile_heights
 from ..terrain.tile_heights import TileHeights
 
 Finder = Callable[[str], "TileCut | None"]
-HEIGHTS = ".npz"
-"""End of the file of a cut's heights (see `terrain.tile_heights`), which else has the cut's name."""
 
 
 @dataclass(frozen=True)
@@ -69,9 +67,14 @@ class TileCut:
 
     def is_whole(self) -> bool:
         """Return whether all its files exist, and no tile was missing when it was selected."""
-        heights = self.folder / f"{self.name}{HEIGHTS}"
         there = all((self.folder / name).is_file() for name in self.tiles)
+        heights = heights_file(self.folder / self.name)
         return there and not self.missing and (heights.is_file() or not self.tiles)
+
+
+def heights_file(path: Path) -> Path:
+    """Return the file of the heights of a cut (see `terrain.tile_heights`), by the file of the cut."""
+    return path.with_suffix(".npz")
 
 
 def write(cut: TileCut, path: Path) -> None:
@@ -152,11 +155,11 @@ def of_pass(shot: Shot, view: str, name: str, find: Finder) -> list[TileCut]:
 
 def heights(shot: Shot) -> TileHeights | None:
     """Read the heights of a shot's tiles; None without tiles, and before they are prepared."""
-    if not shot.settings.tiles.sources or not location(shot).with_suffix(HEIGHTS).is_file():
+    if not shot.settings.tiles.sources or not heights_file(location(shot)).is_file():
         return None
     return _read_heights(shot)
 
 
 @cached_on_shot
 def _read_heights(shot: Shot) -> TileHeights:
-    return tile_heights.read(location(shot).with_suffix(HEIGHTS), shot.run)
+    return tile_heights.read(heights_file(location(shot)), shot.run)
