@@ -38,11 +38,11 @@ def info(arguments: argparse.Namespace) -> None:
     from .run import info, zone
 
     if arguments.run.suffix == ".toml" and arguments.run.is_file():
-        runs = _runs(arguments.run)
+        runs = _open_runs(arguments.run)
         facts = {name: info.gather(run, zone.time_zone(run)) for name, run in runs.items()}
         page = "\n\n".join(f"{name}: {runs[name].path}\n{info.page(each)}" for name, each in facts.items())
     else:
-        run = _open(arguments.run)
+        run = _open_run(arguments.run)
         facts = info.gather(run, zone.time_zone(run))
         page = info.page(facts)
     if arguments.json:
@@ -62,14 +62,14 @@ def new(arguments: argparse.Namespace) -> None:
     if arguments.out.exists() and not arguments.overwrite:
         raise UsageError(f"-o: {arguments.out} exists already; choose another name, or add --overwrite")
     asked = arguments.start, arguments.end
-    text = _fitted(arguments.run, arguments.out, arguments.out.parent / "cache", asked)
+    text = _fit_scene(arguments.run, arguments.out, arguments.out.parent / "cache", asked)
     files.write_text(arguments.out, text)
     result(arguments.out)
 
 
 def maps(arguments: argparse.Namespace) -> None:
     """Draw the maps of a run."""
-    run = _open(arguments.run)
+    run = _open_run(arguments.run)
     say("drawing the fuel map and the fire intensity map")
     from .run import maps, observations, zone
 
@@ -87,12 +87,12 @@ def score(arguments: argparse.Namespace) -> None:
     from .run.score import page, used
 
     if arguments.run.suffix == ".toml" and arguments.run.is_file():
-        run, *others = _runs(arguments.run).values()
+        run, *others = _open_runs(arguments.run).values()
         named = arguments.against or [other.path for other in others]
     else:
-        run = _open(arguments.run)
+        run = _open_run(arguments.run)
         named = arguments.against or observations.beside(arguments.run)
-    runs = [_open(Path(each)) for each in named if not observations.is_one(each)]
+    runs = [_open_run(Path(each)) for each in named if not observations.is_one(each)]
     if len(runs) > 1:
         raise UsageError("--against: accepts one other run; remove the others")
     if arguments.report and arguments.report.suffix.lower() != ".html":
@@ -125,7 +125,7 @@ def imager(arguments: argparse.Namespace) -> None:
     from .run import times
     from .shot.satellites import geotiff, imager
 
-    run = _open(arguments.run)
+    run = _open_run(arguments.run)
     instrument = imager.INSTRUMENTS[arguments.instrument]
     moments = imager.times(run, arguments.every)
     report = Reporter("pictures")
@@ -167,7 +167,7 @@ def build(arguments: argparse.Namespace) -> None:
 
     if arguments.out.suffix != ".blend":
         raise UsageError(f"-o: {arguments.out} does not end in .blend; name a .blend file")
-    build.run(_choice(arguments), arguments.out, Reporter(), say, access=_access(arguments))
+    build.run(_find_source(arguments), arguments.out, Reporter(), say, access=_tile_access(arguments))
     result(arguments.out)
 
 
@@ -175,7 +175,7 @@ def bake(arguments: argparse.Namespace) -> None:
     """Write the smoke volumes."""
     from .jobs import bake
 
-    folders = bake.run(_choice(arguments), Reporter("smoke"), say)
+    folders = bake.run(_find_source(arguments), Reporter("smoke"), say)
     if not folders:
         say("nothing to bake: this scene has no smoke ([smoke] enabled = false)")
     for folder in folders:
@@ -192,34 +192,34 @@ def render(arguments: argparse.Namespace) -> None:
         arguments.camera,
         arguments.passes,
         arguments.resume,
-        access=_access(arguments),
+        access=_tile_access(arguments),
     )
-    made = render.run(_choice(arguments), asked, Reporter(), say)
+    made = render.run(_find_source(arguments), asked, Reporter(), say)
     if arguments.json:
-        print(json.dumps(_made(arguments.out, made), indent=1))
+        print(json.dumps(_render_json(arguments.out, made), indent=1))
     else:
-        _list(arguments.out)
+        _list_output(arguments.out)
 
 
 def farm(arguments: argparse.Namespace) -> int | None:
     """Plan, run or follow a farm job."""
     from .farm import command
 
-    return command.run(arguments, _choice)
+    return command.run(arguments, _find_source)
 
 
 def stations(arguments: argparse.Namespace) -> None:
     """Make or list a file of stations and resources."""
     from .stations import command
 
-    command.run_stations(arguments, _fire)
+    command.run_stations(arguments, _open_fire)
 
 
 def resources(arguments: argparse.Namespace) -> int:
     """List resources that match a query."""
     from .stations import command
 
-    return command.find_resources(arguments, _fire)
+    return command.find_resources(arguments, _open_fire)
 
 
 def tiles(arguments: argparse.Namespace) -> None:
@@ -230,10 +230,10 @@ def tiles(arguments: argparse.Namespace) -> None:
     from .jobs.tiles.access import apply_preferences
     from .tiles import command
 
-    command.run(arguments, apply_preferences(_access(arguments)).network())
+    command.run(arguments, apply_preferences(_tile_access(arguments)).network())
 
 
-def _access(arguments: argparse.Namespace) -> TileAccess:
+def _tile_access(arguments: argparse.Namespace) -> TileAccess:
     """Collect the options on access to tiles."""
     from .jobs.tiles.access import TileAccess
 
@@ -251,7 +251,7 @@ def _make_tiles(arguments: argparse.Namespace) -> None:
     request = make.TilesRequest(
         arguments.out, arguments.levels, arguments.buildings, arguments.geoid, arguments.credit
     )
-    choice, reporter = _choice(arguments), Reporter("tiles")
+    choice, reporter = _find_source(arguments), Reporter("tiles")
     imagery.prepare(choice, (), reporter, say)
     made = make.run(choice.shot(), request, reporter, say)
     errors = ", ".join(f"{error:.3g}" for error in made.errors)
@@ -264,7 +264,7 @@ def allocate(arguments: argparse.Namespace) -> None:
     """Suggest an allocation of resources. Exercise: not operational advice."""
     from .allocation import command
 
-    command.run(arguments, _open)
+    command.run(arguments, _open_run)
 
 
 def track(arguments: argparse.Namespace) -> None:
@@ -276,7 +276,7 @@ def track(arguments: argparse.Namespace) -> None:
 
     if arguments.out.suffix.lower() != ".gpx":
         raise UsageError(f"--out: {arguments.out} does not end in .gpx; name a .gpx file")
-    shot = _choice(arguments).shot()
+    shot = _find_source(arguments).shot()
     names = [camera.name for camera in shot.settings.cameras]
     if not names:
         raise UsageError(f"{arguments.scene} has no [[cameras]]; add one to write its path")
@@ -297,24 +297,24 @@ def cache(arguments: argparse.Namespace) -> None:
     where = " and ".join(map(str, folders))
     folder, number, total, used = cache.answers()
     if not arguments.prune:
-        _cached(kept)
+        _list_cached(kept)
         if number:
             ago = duration(time.time() - used)
             result(f"{folder}  {size(total)}  {count(number, 'response')}, used {ago} ago")
-        say(f"{size(sum(each.bytes for each in kept))} of {_kinds(kept)} in {where}")
+        say(f"{size(sum(each.bytes for each in kept))} of {_name_content(kept)} in {where}")
         return
     gone = cache.prune(kept, arguments.limit, arguments.dry_run)
-    _cached(gone)
+    _list_cached(gone)
     freed = sum(each.bytes for each in gone)
     left = sum(each.bytes for each in kept) - freed
     word = "would free" if arguments.dry_run else "freed"
-    say(f"{word} {size(freed)}; {size(left)} of {_kinds(kept)} remain in {where}")
+    say(f"{word} {size(freed)}; {size(left)} of {_name_content(kept)} remain in {where}")
     if number:
         left = cache.prune_answers(arguments.answers, arguments.dry_run)
         say(f"{word} {size(total - left)}; {size(left)} of tile server responses remain in {folder}")
 
 
-def _kinds(kept: Iterable[Cached]) -> str:
+def _name_content(kept: Iterable[Cached]) -> str:
     """Name the content of a cache."""
     from .jobs.tiles.cache import CachedTiles
 
@@ -322,7 +322,7 @@ def _kinds(kept: Iterable[Cached]) -> str:
     return "smoke volumes and tiles" if has_tiles else "smoke volumes"
 
 
-def _cached(kept: Iterable[Cached]) -> None:
+def _list_cached(kept: Iterable[Cached]) -> None:
     for each in kept:
         ago = "in use" if each.in_use else f"used {duration(time.time() - each.used)} ago"
         result(f"{each.folder}  {size(each.bytes)}  {ago}")
@@ -374,13 +374,13 @@ def bench(arguments: argparse.Namespace) -> int:
     return 1 if missed else 0
 
 
-def _made(out: Path, made: RenderResult) -> dict[str, Any]:
+def _render_json(out: Path, made: RenderResult) -> dict[str, Any]:
     """Collect the result of a render for JSON; memory in bytes, None if unknown."""
     memory = {"expected": made.expected or None, "peak": made.peak or None}
-    return {"folder": str(out), "pictures": made.pictures, "files": _files(out), "memory": memory}
+    return {"folder": str(out), "pictures": made.pictures, "files": _finished_files(out), "memory": memory}
 
 
-def _files(out: Path) -> list[str]:
+def _finished_files(out: Path) -> list[str]:
     """List the finished files, relative to the folder."""
     from .render.store import Store
 
@@ -388,11 +388,11 @@ def _files(out: Path) -> list[str]:
         return store.names()
 
 
-def _list(out: Path) -> None:
+def _list_output(out: Path) -> None:
     """List the output: a line per folder of pictures and per film."""
     from .render import manifest
 
-    files = _files(out)
+    files = _finished_files(out)
     folders: dict[str, int] = {}
     for name in files:
         if not name.endswith(".mp4"):
@@ -406,7 +406,7 @@ def _list(out: Path) -> None:
     result(out / manifest.NAME)
 
 
-def _runs(scene: Path) -> dict[str, Run]:
+def _open_runs(scene: Path) -> dict[str, Run]:
     """Open all runs of a scene file, by name and in order."""
     from .shot.source import ShotSource
 
@@ -414,22 +414,26 @@ def _runs(scene: Path) -> dict[str, Run]:
     return {shot.label: shot.run, **shot.others}
 
 
-def _open(folder: Path) -> Run:
+def _open_run(folder: Path) -> Run:
     from .run import readers
 
     return readers.open(folder)
 
 
-def _fire(path: Path) -> Fire:
+def _open_fire(path: Path) -> Fire:
     """Open the run of a folder, or the first run of a scene file, with the head of its fire."""
     from .shot.runs.run_head import Head
     from .stations.command import Fire
 
-    run = next(iter(_runs(path).values())) if path.suffix == ".toml" and path.is_file() else _open(path)
+    run = (
+        next(iter(_open_runs(path).values()))
+        if path.suffix == ".toml" and path.is_file()
+        else _open_run(path)
+    )
     return Fire(run, Head(run))
 
 
-def _choice(arguments: argparse.Namespace) -> ShotSource:
+def _find_source(arguments: argparse.Namespace) -> ShotSource:
     """Find the shot source: a scene file, or for a run folder a fitted scene file in the cache."""
     import hashlib
 
@@ -439,14 +443,14 @@ def _choice(arguments: argparse.Namespace) -> ShotSource:
 
     scene, cache = arguments.scene, Path("cache")
     if folder.sniff(scene):
-        text = _fitted(scene, cache / "scene.toml", cache)
+        text = _fit_scene(scene, cache / "scene.toml", cache)
         scene = cache / f"{scene.absolute().name}-{hashlib.sha256(text.encode()).hexdigest()[:12]}.toml"
         files.write_text(scene, text)
         say(f"these settings are in {scene}; to edit them, run: firetwin new {arguments.scene} -o SCENE.toml")
     return ShotSource(scene=str(scene), beside=getattr(arguments, "run", None) or "")
 
 
-def _fitted(
+def _fit_scene(
     run: Path, path: Path, cache: Path, asked: tuple[datetime | None, datetime | None] = (None, None)
 ) -> str:
     """Write the text of a scene file `path` that fits a run in the requested times; prints its choices."""
@@ -456,7 +460,7 @@ def _fitted(
     from .shot import auto_framing
     from .shot.sections import Time
 
-    opened, window = _open(run), Time(*asked)
+    opened, window = _open_run(run), Time(*asked)
     first, last = (times.utc(opened, float(opened.times[i])) for i in (0, -1))
     for name, moment in zip(("start", "end"), asked, strict=True):
         if moment is not None and not first <= moment <= last:

@@ -60,43 +60,43 @@ class Database:
     @contextlib.contextmanager
     def change(self) -> Iterator[None]:
         """Group commands into one transaction, which is rolled back on an exception."""
-        self.do("BEGIN IMMEDIATE")
+        self.execute("BEGIN IMMEDIATE")
         try:
             yield
-            self.do("COMMIT")
+            self.execute("COMMIT")
         except BaseException:
             with contextlib.suppress(sqlite3.Error):
                 self._data.execute("ROLLBACK")
             raise
 
-    def do(self, command: str, *values: Any) -> None:
+    def execute(self, command: str, *values: Any) -> None:
         """Run a command; outside `change` it is a transaction."""
         with self._convert_errors():
             self._data.execute(command, values)
 
-    def one(self, command: str, *values: Any) -> tuple[Any, ...] | None:
+    def fetch_one(self, command: str, *values: Any) -> tuple[Any, ...] | None:
         """Return the first row of a query, or None."""
         with self._convert_errors():
             return self._data.execute(command, values).fetchone()
 
-    def all(self, command: str, *values: Any) -> list[tuple[Any, ...]]:
+    def fetch_all(self, command: str, *values: Any) -> list[tuple[Any, ...]]:
         """Return all rows of a query."""
         with self._convert_errors():
             return self._data.execute(command, values).fetchall()
 
     def _prepare(self, tables: str, journal: str) -> None:
         if self._format() == 0:
-            self.do(f"PRAGMA journal_mode = {journal}")
+            self.execute(f"PRAGMA journal_mode = {journal}")
             with self.change():
-                if self._format() == 0 and not self.one("SELECT 1 FROM sqlite_master"):
+                if self._format() == 0 and not self.fetch_one("SELECT 1 FROM sqlite_master"):
                     for command in tables.strip().rstrip(";").split(";"):
-                        self.do(command)
-                    self.do(f"PRAGMA user_version = {_FORMAT}")
+                        self.execute(command)
+                    self.execute(f"PRAGMA user_version = {_FORMAT}")
         if self._format() != _FORMAT:
             raise input_error(self.path, BROKEN.format("a store"))
 
     def _format(self) -> int:
-        (number,) = self.one("PRAGMA user_version") or (0,)
+        (number,) = self.fetch_one("PRAGMA user_version") or (0,)
         return number
 
     @contextlib.contextmanager

@@ -13,7 +13,7 @@ from typing import Any
 from firetwin_core import Error, InputError
 
 __all__ = [
-    "FULL",
+    "DISK_FULL",
     "Error",
     "FullDiskError",
     "InputError",
@@ -26,11 +26,13 @@ __all__ = [
     "input_error",
     "is_nearly_full",
     "is_worth_another_try",
-    "plain",
+    "to_plain",
     "writing",
 ]
 
-FULL = "the disk is full; free some space or choose another folder, then run it again; finished files stay"
+DISK_FULL = (
+    "the disk is full; free some space or choose another folder, then run it again; finished files stay"
+)
 _LITTLE = 1 << 22  # bytes, below which a disk counts as full
 _NO_ROOM = (errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC))
 
@@ -69,10 +71,10 @@ def input_error(
 
 def full_disk_error(path: str | PathLike[str]) -> InputError:
     """Create the FullDiskError for a file."""
-    return input_error(path, FULL, kind=FullDiskError)
+    return input_error(path, DISK_FULL, kind=FullDiskError)
 
 
-def plain(error: Error) -> dict[str, Any]:
+def to_plain(error: Error) -> dict[str, Any]:
     """Convert an error to plain data for another process; `from_plain` is the reverse."""
     kind = next(name for each in type(error).__mro__ if (name := each.__name__) in _KINDS)
     if isinstance(error, InputError):

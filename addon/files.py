@@ -36,7 +36,7 @@ def publish(part: Path, path: Path, durable: bool = True) -> None:
         _sync_folder(path.parent)
 
 
-def part_of(path: Path) -> Path:
+def temporary_path(path: Path) -> Path:
     """Return a unique temporary name in the folder of `path`, with the same extension."""
     return path.with_name(f".{path.stem}.{uuid.uuid4().hex[:12]}.part{path.suffix}")
 
@@ -49,7 +49,7 @@ def write(path: Path, put: Callable[[Path], object], durable: bool = True) -> No
     InputError
         The disk is full, or the folder cannot be written.
     """
-    part = part_of(path)
+    part = temporary_path(path)
     try:
         with writing(path):
             path.parent.mkdir(parents=True, exist_ok=True)

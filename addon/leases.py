@@ -118,22 +118,22 @@ class Leases:
     def take(self, name: str) -> bool:
         """Acquire a lease; False if another owner has it."""
         with self.data.change():
-            self.data.do("INSERT OR IGNORE INTO owners VALUES (?, 0)", self.owner)
-            self.data.do("INSERT OR IGNORE INTO claims VALUES (?, ?)", name, self.owner)
+            self.data.execute("INSERT OR IGNORE INTO owners VALUES (?, 0)", self.owner)
+            self.data.execute("INSERT OR IGNORE INTO claims VALUES (?, ?)", name, self.owner)
         return self.is_held(name)
 
     def is_held(self, name: str) -> bool:
         """Check whether this process still has the lease, which can expire while the machine sleeps."""
-        return self.data.one("SELECT owner FROM claims WHERE name = ?", name) == (self.owner,)
+        return self.data.fetch_one("SELECT owner FROM claims WHERE name = ?", name) == (self.owner,)
 
     def release(self, name: str) -> None:
         """Release a lease."""
-        self.data.do("DELETE FROM claims WHERE name = ? AND owner = ?", name, self.owner)
+        self.data.execute("DELETE FROM claims WHERE name = ? AND owner = ?", name, self.owner)
 
     def of_others(self) -> set[str]:
         """Return the leases of other owners, after removing expired ones."""
         self._expire()
-        rows = self.data.all("SELECT name FROM claims WHERE owner != ?", self.owner)
+        rows = self.data.fetch_all("SELECT name FROM claims WHERE owner != ?", self.owner)
         return {name for (name,) in rows}
 
     @contextlib.contextmanager
@@ -171,8 +171,8 @@ def leave(data: Database, owner: str, beat: int | None = None) -> None:
     with data.change():
         if beat is not None and _beats(data).get(owner) != beat:
             return
-        data.do("DELETE FROM claims WHERE owner = ?", owner)
-        data.do("DELETE FROM owners WHERE owner = ?", owner)
+        data.execute("DELETE FROM claims WHERE owner = ?", owner)
+        data.execute("DELETE FROM owners WHERE owner = ?", owner)
     sweep(data)
 
 
@@ -187,9 +187,9 @@ def sweep(data: Database) -> None:
 
 def _beat(data: Database, owner: str) -> None:
     with data.change():
-        data.do("INSERT OR IGNORE INTO owners VALUES (?, 0)", owner)
-        data.do("UPDATE owners SET beat = beat + 1 WHERE owner = ?", owner)
+        data.execute("INSERT OR IGNORE INTO owners VALUES (?, 0)", owner)
+        data.execute("UPDATE owners SET beat = beat + 1 WHERE owner = ?", owner)
 
 
 def _beats(data: Database) -> dict[str, int]:
-    return dict(data.all("SELECT owner, beat FROM owners"))
+    return dict(data.fetch_all("SELECT owner, beat FROM owners"))

@@ -51,7 +51,7 @@ class PrivateFolder:
         """Copy newly finished files into the film, then log them."""
         with Store(self.folder) as store:
             query = "SELECT number, path, settings, entry FROM files WHERE number > ? ORDER BY number"
-            rows = store.data.all(query, self.published)
+            rows = store.data.fetch_all(query, self.published)
         entries = []
         for _, path, key, text in rows:
             made = json.loads(text)

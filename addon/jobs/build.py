@@ -54,7 +54,7 @@ def _writable(out: Path) -> None:
         raise input_error(out, "is a folder; name a file in it that ends in .blend")
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
-        part = files.part_of(out)
+        part = files.temporary_path(out)
         part.touch()
         part.unlink()
     except OSError as error:
@@ -97,7 +97,7 @@ def save(out: Path, **how: bool) -> None:
     """
     import bpy
 
-    part = files.part_of(out)
+    part = files.temporary_path(out)
     bpy.context.preferences.filepaths.save_version = 0
     try:
         bpy.ops.wm.save_as_mainfile(filepath=str(part), compress=True, **how)

@@ -293,7 +293,7 @@ def serve(blender: bool = True) -> None:
     if blender:
         import bpy  # noqa: F401 (before the core: the first of two libtbb.so.12 wins, and it must be Blender's)
 
-    from ..errors import InputError, plain
+    from ..errors import InputError, to_plain
 
     module, _, function = request["task"].partition(":")
     try:
@@ -304,12 +304,12 @@ def serve(blender: bool = True) -> None:
             **request["arguments"],
         )
     except InputError as error:
-        answer(error=plain(error))
+        answer(error=to_plain(error))
     except Exception as error:
         import traceback
 
         traceback.print_exc()
-        answer(error=plain(_as_firetwin_error(error)))
+        answer(error=to_plain(_as_firetwin_error(error)))
     else:
         answer(result=result)
     sys.stderr.flush()

@@ -57,9 +57,9 @@ class Store:
         """Enter finished files (path -> entry with the values of `describe`), made with these `settings`."""
         key = fingerprint(settings)
         with self.data.change():
-            self.data.do("INSERT OR IGNORE INTO settings VALUES (?, ?)", key, json.dumps(settings))
+            self.data.execute("INSERT OR IGNORE INTO settings VALUES (?, ?)", key, json.dumps(settings))
             for path, entry in entries.items():
-                self.data.do(
+                self.data.execute(
                     "INSERT OR REPLACE INTO files (path, settings, camera, pass, frame, stamp, entry) "
                     "VALUES (?, ?, ?, ?, ?, ?, ?)",
                     *(path, key, entry.get("camera"), entry.get("pass"), entry.get("frame")),
@@ -76,14 +76,14 @@ class Store:
         """
         query = "SELECT number, settings, stamp, entry FROM files WHERE path = ?"
         for path in paths:
-            row = self.data.one(query, path)
+            row = self.data.fetch_one(query, path)
             if row is None or row[0] <= after or row[1] != key or not self._is_unchanged(path, *row[2:]):
                 return False
         return True
 
     def made_with_other_settings(self, keys: Iterable[str], since: int) -> list[tuple[str, int, str]]:
         """List pictures (camera, frame, pass) entered after `since` with other fingerprints than `keys`."""
-        return self.data.all(
+        return self.data.fetch_all(
             "SELECT camera, frame, pass FROM files WHERE number > ? AND frame IS NOT NULL "
             "AND settings NOT IN (SELECT value FROM json_each(?)) ORDER BY number",
             *(since, json.dumps(list(keys))),
@@ -91,7 +91,7 @@ class Store:
 
     def pictures(self, camera: str, name: str, key: str, suffix: str) -> dict[int, str]:
         """Return hashes, by frame, of a camera's unchanged pictures in a pass made with these settings."""
-        rows = self.data.all(
+        rows = self.data.fetch_all(
             "SELECT frame, path, stamp, entry FROM files WHERE camera = ? AND pass = ? AND settings = ? "
             "AND frame IS NOT NULL ORDER BY frame",
             *(camera, name, key),
@@ -104,30 +104,30 @@ class Store:
 
     def latest_number(self) -> int:
         """Return the number of the latest entry; numbers increase with every entry."""
-        (last,) = self.data.one("SELECT max(number) FROM files") or (None,)
+        (last,) = self.data.fetch_one("SELECT max(number) FROM files") or (None,)
         return last or 0
 
     def names(self) -> list[str]:
         """List the paths of all finished files, sorted."""
-        return [path for (path,) in self.data.all("SELECT path FROM files ORDER BY path")]
+        return [path for (path,) in self.data.fetch_all("SELECT path FROM files ORDER BY path")]
 
     def note(self, name: str) -> str | None:
         """Read the note stored under a name; None if there is none."""
-        row = self.data.one("SELECT note FROM notes WHERE name = ?", name)
+        row = self.data.fetch_one("SELECT note FROM notes WHERE name = ?", name)
         return row[0] if row else None
 
     def write_note(self, name: str, note: str) -> None:
         """Store a note under a name."""
-        self.data.do("INSERT OR REPLACE INTO notes VALUES (?, ?)", name, note)
+        self.data.execute("INSERT OR REPLACE INTO notes VALUES (?, ?)", name, note)
 
     def export(self) -> None:
         """Write the manifest unless it is up to date."""
         number = str(self.latest_number())
         if self.note("exported") == number and (self.out / manifest.NAME).exists():
             return
-        rows = self.data.all("SELECT path, settings, entry FROM files ORDER BY path")
+        rows = self.data.fetch_all("SELECT path, settings, entry FROM files ORDER BY path")
         used = {key for _, key, _ in rows}
-        made = self.data.all("SELECT key, made FROM settings ORDER BY key")
+        made = self.data.fetch_all("SELECT key, made FROM settings ORDER BY key")
         settings = {key: json.loads(text) for key, text in made if key in used}
         entries = {path: json.loads(entry) | {"settings": key} for path, key, entry in rows}
         manifest.write(self.out, settings, entries)

@@ -122,7 +122,7 @@ def _films(out):
 def _made(out):
     """Number of each entry; a file that was made again has another."""
     with Store(out) as store:
-        return dict(store.data.all("SELECT path, number FROM files"))
+        return dict(store.data.fetch_all("SELECT path, number FROM files"))
 
 
 def _passes(before, after):
@@ -165,7 +165,7 @@ def test_two_renders_make_no_picture_twice(start, tmp_path):
     for process in running:
         assert process.wait(timeout=600) == 0, process.stderr.read()
     with Store(out) as store:
-        count, last = store.data.one("SELECT count(*), max(number) FROM files")
+        count, last = store.data.fetch_one("SELECT count(*), max(number) FROM files")
     assert count == last == (FRAMES + 2) * (2 + 1 + 1 + 2) + 4  # files of both cameras, and films
 
 

@@ -148,7 +148,7 @@ def test_reading_says_that_it_goes_on(tmp_path, monkeypatch):
     paths, _ = made.cfbm(tmp_path, count=5)
     signs = []
     monkeypatch.setattr(heartbeat, "_OFTEN", 0.0)
-    monkeypatch.setattr(worker, "sign", lambda: signs.append(1))
+    monkeypatch.setattr(worker, "send_heartbeat", lambda: signs.append(1))
     in_process(paths, tmp_path / "out")
     assert len(signs) > 5 * 6  # opened, and five fields of each
 

@@ -19,7 +19,7 @@ import pytest
 from firetwin import files
 from firetwin.data import sample
 from firetwin.errors import (
-    FULL,
+    DISK_FULL,
     FullDiskError,
     InputError,
     TryAgainError,
@@ -169,7 +169,7 @@ def test_errors_of_writing_say_what_to_do(tmp_path):
         raise PermissionError(errno.EACCES, "Permission denied")
     with pytest.raises(InputError) as caught, writing("a"):
         raise OSError(errno.ENOSPC, "No space left on device")
-    assert caught.value.reason == FULL
+    assert caught.value.reason == DISK_FULL
     assert disk_is_full(Error("a.vdb: cannot be written: No space left on device"))
     assert not disk_is_full(OSError(errno.EIO, "No space left on device"))
     with pytest.raises(Error, match="else"), writing("a"):
@@ -369,8 +369,8 @@ def test_errors_cross_processes_with_their_kind(tmp_path, monkeypatch):
     path = os.pathsep.join(filter(None, [str(tmp_path), os.environ.get("PYTHONPATH")]))
     monkeypatch.setenv("PYTHONPATH", path)
     expected = {
-        "full": (FullDiskError, f"a.png: {FULL}", True),
-        "room": (FullDiskError, f"b.png: {FULL}", True),
+        "full": (FullDiskError, f"a.png: {DISK_FULL}", True),
+        "room": (FullDiskError, f"b.png: {DISK_FULL}", True),
         "nameless": (TryAgainError, "[Errno 28] No space left on device", True),
         "other": (InputError, "c.png: Input/output error", False),
         "device": (TryAgainError, "no GPU", True),

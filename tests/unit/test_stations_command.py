@@ -174,7 +174,7 @@ def test_the_head_is_where_the_fire_is_then(exercise, run, capsys):
     )
     assert status == 1
     assert "has no fire and therefore no head" in said
-    assert commands._fire(run).head(times.utc(opened, -60.0)) is None
+    assert commands._open_fire(run).head(times.utc(opened, -60.0)) is None
 
 
 @pytest.mark.parametrize(

@@ -55,7 +55,7 @@ class SingleVolume(Source):
         position, power = self.lights(time)
         if len(power):
             more |= {"flame_position": position, "flame_power": power}
-        mine = files.part_of(path)
+        mine = files.temporary_path(path)
         with writing(path):
             written = self._write_volume(mine, time, more)
         cache.publish(mine, path, written.bytes)

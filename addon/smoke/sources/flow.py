@@ -103,14 +103,14 @@ class FlowSource(Source):
         beyond: flow_frames.OuterLayer | None = None
         for painter in self.painters:
             place = painter.layer.file(path.parent, frame)
-            mine = files.part_of(place)
+            mine = files.temporary_path(place)
             inputs = mine, frame, self._glow(time), self.view_set(frame), metadata, eyes, beyond
             paint = functools.partial(painter.write, *inputs)
             with writing(place):
                 written, beyond = self._with_intact_snapshots(frame, paint)
             cache.publish(mine, place, written.bytes)
         if not self.painters:
-            mine = files.part_of(path)
+            mine = files.temporary_path(path)
             with writing(path):
                 nothing = {name: np.zeros((1, 1, 1)) for name in flow_frames.GRIDS}
                 written = volume.write(mine, nothing, _EMPTY, metadata=metadata)

@@ -127,7 +127,7 @@ class HttpCache:
         found = rules(headers, now)
         command = "UPDATE answer SET expires = ?, strict = ?, used = ? WHERE key = ?"
         values = (found.expires, int(found.strict), now, _key(url))
-        self._try(lambda data: data.do(command, *values), None)
+        self._try(lambda data: data.execute(command, *values), None)
 
     def prune(self, limit: int | None = None) -> int:
         """Remove the least recently used answers until `limit` bytes remain; return the bytes left."""
@@ -139,7 +139,7 @@ class HttpCache:
         query = "SELECT COUNT(*), COALESCE(SUM(length), 0), COALESCE(MAX(used), 0) FROM answer"
         if not (self.place / "answers.db").exists():
             return 0, 0, 0.0
-        number, total, used = self._try(lambda data: data.one(query), None) or (0, 0, 0.0)
+        number, total, used = self._try(lambda data: data.fetch_one(query), None) or (0, 0, 0.0)
         return int(number), int(total), float(used)
 
     def close(self) -> None:
@@ -150,7 +150,7 @@ class HttpCache:
             self._own.data = None
 
     def _find(self, data: Database, key: str, now: float) -> Answer | None:
-        row = data.one(f"SELECT {_COLUMNS} FROM answer WHERE key = ?", key)
+        row = data.fetch_one(f"SELECT {_COLUMNS} FROM answer WHERE key = ?", key)
         if row is None:
             return None
         _, _, name, length, sha256, etag, modified, expires, strict, used = row
@@ -159,11 +159,11 @@ class HttpCache:
         except OSError:
             body = b""
         if len(body) != length or hashlib.sha256(body).hexdigest() != sha256:
-            data.do("DELETE FROM answer WHERE key = ? AND file = ?", key, name)
+            data.execute("DELETE FROM answer WHERE key = ? AND file = ?", key, name)
             self._unlink(name)
             return None
         if abs(now - used) > _TOUCH:
-            data.do("UPDATE answer SET used = ? WHERE key = ?", now, key)
+            data.execute("UPDATE answer SET used = ? WHERE key = ?", now, key)
         return Answer(body, etag, modified, expires, bool(strict))
 
     def _put(
@@ -187,10 +187,10 @@ class HttpCache:
     def _replace(self, data: Database, key: str, values: tuple[Any, ...] | None) -> None:
         """Replace or remove the row of a key; the file of the former row is removed."""
         with data.change():
-            before = data.one("SELECT file FROM answer WHERE key = ?", key)
-            data.do("DELETE FROM answer WHERE key = ?", key)
+            before = data.fetch_one("SELECT file FROM answer WHERE key = ?", key)
+            data.execute("DELETE FROM answer WHERE key = ?", key)
             if values is not None:
-                data.do(f"INSERT INTO answer ({_COLUMNS}) VALUES ({', '.join('?' * 10)})", *values)
+                data.execute(f"INSERT INTO answer ({_COLUMNS}) VALUES ({', '.join('?' * 10)})", *values)
         if before is not None:
             self._unlink(before[0])
 
@@ -210,10 +210,12 @@ class HttpCache:
         gone = []
         with data.change():
             total = _total(data)
-            for key, name, length in data.all("SELECT key, file, length FROM answer ORDER BY used, key"):
+            for key, name, length in data.fetch_all(
+                "SELECT key, file, length FROM answer ORDER BY used, key"
+            ):
                 if total <= limit:
                     break
-                data.do("DELETE FROM answer WHERE key = ?", key)
+                data.execute("DELETE FROM answer WHERE key = ?", key)
                 gone.append(name)
                 total -= length
         for name in gone:
@@ -253,7 +255,7 @@ class HttpCache:
 
 
 def _total(data: Database) -> int:
-    (total,) = data.one("SELECT COALESCE(SUM(length), 0) FROM answer") or (0,)
+    (total,) = data.fetch_one("SELECT COALESCE(SUM(length), 0) FROM answer") or (0,)
     return int(total)
 
 
