@@ -391,7 +391,7 @@ def test_a_changed_source_changes_what_it_makes_and_no_more(tmp_path, monkeypatc
     assert changed("scene/smoke/material.py") == shown
     assert changed("scene/fire/flames.py") == shown
     assert {"rgb", "thermal", "masks", "depth"} <= changed("scene/stations/signs.py")
-    assert {"rgb", "thermal", "masks", "depth"} <= changed("places/store.py")
+    assert {"rgb", "thermal", "masks", "depth"} <= changed("stations/reading.py")
     assert changed("imaging/colour_bar.py") == set(passes.known()) - {"rgb", "normal"}
     assert changed("scene/terrain/build.py") == set(passes.known())
     assert changed("scene/haze.py") == set(passes.known())
