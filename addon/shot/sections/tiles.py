@@ -53,6 +53,6 @@ class TileSettings:
     vegetation: str = key(
         "scene",
         "vegetation on tiles",
-        choices={"scene": "vegetation of the tileset is flattened", "tileset": "", "scene_near_burn": ""},
+        choices={"scene": "flattens vegetation of tiles", "tileset": "", "scene_near_burn": ""},
         affects=("terrain", "forest"),
     )
