@@ -61,7 +61,7 @@ class Budget:
 
 
 @dataclass(frozen=True)
-class Choice:
+class TileSelection:
     """The tiles of a shot.
 
     Attributes
@@ -72,7 +72,7 @@ class Choice:
         (k,) numbers of their contents, ascending.
     error
         Screen-space error above which tiles are refined, pixels.
-    asked
+    requested_error
         Requested screen-space error, pixels; less than `error` if the budget does not suffice.
     fits
         False if even the coarsest tiles exceed the budget.
@@ -85,7 +85,7 @@ class Choice:
     tiles: NDArray[np.int64]
     contents: NDArray[np.int64]
     error: float
-    asked: float
+    requested_error: float
     fits: bool
     bytes: int
     triangles: int
@@ -95,9 +95,10 @@ class Choice:
     def message(self) -> str:
         """Describe a selection that is coarser than requested, or incomplete; empty otherwise."""
         parts = []
-        if self.error > self.asked:
+        if self.error > self.requested_error:
             parts.append(
-                f"tiles are shown to {self.error:.3g} pixels, not {self.asked:.3g}, to stay in the budget"
+                f"tiles are shown to {self.error:.3g} pixels, not {self.requested_error:.3g}, "
+                "to stay in the budget"
             )
         if not self.fits:
             parts.append("even the coarsest tiles are beyond the budget")
@@ -160,7 +161,7 @@ class _Measured:
         return errors
 
 
-def choose(
+def select_tiles(
     loader: Loader,
     views: Views,
     matrix: NDArray[np.float64],
@@ -173,7 +174,7 @@ def choose(
     on_content: Callable[[int, bytes], object] | None = None,
     triangles: Mapping[int, int] | None = None,
     progress: Progress = silent,
-) -> Choice:
+) -> TileSelection:
     """Select the tiles of a shot, and read the required part of the tree.
 
     Parameters
@@ -218,7 +219,7 @@ def choose(
         if limits[1] >= 0 and sizes.fetch_sizes(contents):
             continue
         if not fetch or not sizes.check(contents):
-            return Choice(
+            return TileSelection(
                 *(cut.tiles, contents, cut.error, error, cut.fits, cut.bytes, cut.triangles, cut.stand_ins),
                 dict(sorted(tree.broken.items())),
             )

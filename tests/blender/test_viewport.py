@@ -1,4 +1,4 @@
-"""Stand-ins of the viewport, and that no render shows them."""
+"""Proxies of the viewport, and that no render shows them."""
 
 from dataclasses import replace
 

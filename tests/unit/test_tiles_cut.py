@@ -93,9 +93,9 @@ def test_a_choice_is_what_brute_force_over_frames_and_views_finds(seed, count, t
     assume(wanted is not None)
     loader = Loader(Memory(files))
     views = Views(tile_views.view_set(shown), shown[-1], eyes)
-    choice = cut.choose(loader, views, HERE, target)
+    choice = cut.select_tiles(loader, views, HERE, target)
     assert sorted(names(loader, choice)) == wanted
-    again = cut.choose(Loader(Memory(files)), views, HERE, target)
+    again = cut.select_tiles(Loader(Memory(files)), views, HERE, target)
     assert again.contents.tolist() == choice.contents.tolist()
 
 
@@ -107,7 +107,7 @@ def test_nothing_more_is_read_than_the_shot_shows():
         tile(5.0, "behind.json", volume=box(-100.0)),
     ]
     loader = load(tile(50.0, "a.glb", below, volume=box(half=200.0), refine="ADD"), files)
-    choice = cut.choose(loader, looking(0.0), HERE, 16.0)
+    choice = cut.select_tiles(loader, looking(0.0), HERE, 16.0)
     assert names(loader, choice) == ["a.glb", "n.glb"]
     assert loader.source.reads == ["tileset.json", "near.json", "a.glb", "n.glb"]
     assert choice.message() == ""
@@ -119,11 +119,11 @@ def test_the_error_is_that_of_the_nearest_point_in_pixels_of_the_picture():
     files = {"a.glb": GLB, "b.glb": GLB}
     for target, wanted in ((10.79, ["b.glb"]), (10.81, ["a.glb"])):
         loader = load(root, files)
-        assert names(loader, cut.choose(loader, looking(0.0), HERE, target)) == wanted
+        assert names(loader, cut.select_tiles(loader, looking(0.0), HERE, target)) == wanted
     scaled = np.diag([0.5, 0.5, 0.5, 1.0])  # half as large, half as far
     for target, wanted in ((10.79, ["b.glb"]), (10.81, ["a.glb"])):
         loader = load(root, files)
-        assert names(loader, cut.choose(loader, looking(0.0), scaled, target)) == wanted
+        assert names(loader, cut.select_tiles(loader, looking(0.0), scaled, target)) == wanted
 
 
 def test_a_budget_is_kept_and_the_price_said():
@@ -131,18 +131,18 @@ def test_a_budget_is_kept_and_the_price_said():
     root = tile(30.0, "r.glb", below, volume=box(100.0, half=80.0), refine="REPLACE")
     files = {f"{i}.glb": GLB for i in range(4)} | {"r.glb": GLB}
     loader = load(root, files)
-    free = cut.choose(loader, looking(0.0), HERE, 2.0)
+    free = cut.select_tiles(loader, looking(0.0), HERE, 2.0)
     assert len(free.tiles) == 4
-    kept = cut.choose(loader, looking(0.0), HERE, 2.0, Budget(tiles=3))
+    kept = cut.select_tiles(loader, looking(0.0), HERE, 2.0, Budget(tiles=3))
     assert names(loader, kept) == ["r.glb"]
     assert kept.error > 1000.0
     assert "not 2, to stay in the budget" in kept.message()
-    by_bytes = cut.choose(load(root, files), looking(0.0), HERE, 2.0, Budget(bytes=30))
+    by_bytes = cut.select_tiles(load(root, files), looking(0.0), HERE, 2.0, Budget(bytes=30))
     assert (by_bytes.bytes, by_bytes.fits) == (12, True)
-    none = cut.choose(load(root, files), looking(0.0), HERE, 2.0, Budget(tiles=0))
+    none = cut.select_tiles(load(root, files), looking(0.0), HERE, 2.0, Budget(tiles=0))
     assert "even the coarsest" in none.message()
     known = dict.fromkeys(range(5), 1000)
-    by_triangles = cut.choose(loader, looking(0.0), HERE, 2.0, Budget(triangles=2000), triangles=known)
+    by_triangles = cut.select_tiles(loader, looking(0.0), HERE, 2.0, Budget(triangles=2000), triangles=known)
     assert by_triangles.triangles == 1000
 
 
@@ -150,7 +150,7 @@ def test_an_ancestor_stands_in_for_what_is_missing_and_it_is_named():
     below = [tile(1.0, "a.glb", volume=box(50.0)), tile(1.0, "b.glb", volume=box(60.0))]
     root = tile(30.0, "r.glb", below, volume=box(50.0, half=20.0), refine="REPLACE")
     loader = load(root, {"a.glb": GLB, "r.glb": GLB})
-    choice = cut.choose(loader, looking(0.0), HERE, 2.0)
+    choice = cut.select_tiles(loader, looking(0.0), HERE, 2.0)
     assert names(loader, choice) == ["r.glb"]
     assert choice.stand_ins.tolist() == [0]
     assert "1 tiles are missing, the first: b.glb: is not there" in choice.message()
@@ -160,12 +160,12 @@ def test_contents_are_handed_over_once():
     got = []
     loader = load(tile(1.0, "a.glb", volume=box(50.0)), {"a.glb": GLB})
     for _ in range(2):
-        cut.choose(
+        cut.select_tiles(
             loader, looking(0.0), HERE, 2.0, on_content=lambda number, data: got.append((number, data))
         )
     assert got == [(0, GLB)]
     unread = load(tile(1.0, "a.glb", volume=box(50.0)), {})
-    assert names(unread, cut.choose(unread, looking(0.0), HERE, 2.0, fetch=False)) == ["a.glb"]
+    assert names(unread, cut.select_tiles(unread, looking(0.0), HERE, 2.0, fetch=False)) == ["a.glb"]
 
 
 def test_an_added_content_out_of_sight_is_left_out():
@@ -177,7 +177,7 @@ def test_an_added_content_out_of_sight_is_left_out():
     files = {"a.glb": GLB, "b.glb": GLB}
     for word, wanted in (("ADD", ["a.glb"]), ("REPLACE", ["a.glb", "b.glb"])):
         loader = load(tile(50.0, None, [wide], volume=box(0.0, half=60.0), refine=word), files)
-        assert names(loader, cut.choose(loader, looking(0.0), HERE, 2.0)) == wanted
+        assert names(loader, cut.select_tiles(loader, looking(0.0), HERE, 2.0)) == wanted
 
 
 def test_a_request_volume_asks_for_an_eye_of_any_frame():
@@ -185,7 +185,7 @@ def test_a_request_volume_asks_for_an_eye_of_any_frame():
     root = tile(30.0, "r.glb", [inner], volume=box(50.0, half=20.0), refine="ADD")
     for x, wanted in ((0.0, ["r.glb", "p.glb"]), (-20.0, ["r.glb"])):
         loader = load(root, {"p.glb": GLB, "r.glb": GLB})
-        assert names(loader, cut.choose(loader, looking(x), HERE, 2.0)) == wanted
+        assert names(loader, cut.select_tiles(loader, looking(x), HERE, 2.0)) == wanted
 
 
 def test_subtrees_are_read_as_they_are_reached():
@@ -195,12 +195,12 @@ def test_subtrees_are_read_as_they_are_reached():
     files = {f"{n}.{x}.{y}": subtree(1, [1], 1) for n in range(4) for x in range(8) for y in range(8)}
     files |= {f"{n}_{x}_{y}": GLB for n in range(4) for x in range(8) for y in range(8)}
     loader = load(root, files)
-    few = cut.choose(loader, looking(-1000.0), HERE, 50.0)
+    few = cut.select_tiles(loader, looking(-1000.0), HERE, 50.0)
     assert names(loader, few) == ["1_0_0", "1_1_0", "1_0_1", "1_1_1"]
     assert [uri for uri in loader.source.reads if "." in uri] == [
         *("tileset.json", "0.0.0", "1.0.0", "1.1.0", "1.0.1", "1.1.1"),
     ]
-    assert len(cut.choose(loader, looking(-1000.0), HERE, 1.0).tiles) == 64
+    assert len(cut.select_tiles(loader, looking(-1000.0), HERE, 1.0).tiles) == 64
 
 
 @pytest.mark.parametrize("count", [10_000])
@@ -208,6 +208,6 @@ def test_ten_thousand_tiles_are_chosen_in_few_passes(count):
     """Work, not time: the tree is measured once, and the choice is one pass over it."""
     below = [tile(1.0, f"{i}.glb", volume=box(50.0 + i % 100, i // 100 - 50.0)) for i in range(count)]
     loader = load(tile(30.0, None, below, volume=box(100.0, half=80.0), refine="ADD"))
-    choice = cut.choose(loader, looking(0.0), HERE, 2.0, fetch=False)
+    choice = cut.select_tiles(loader, looking(0.0), HERE, 2.0, fetch=False)
     assert 5_000 < len(choice.tiles) < count
     assert loader.source.reads == ["tileset.json"]

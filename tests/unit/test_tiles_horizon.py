@@ -100,7 +100,7 @@ def test_the_far_side_of_the_earth_is_not_chosen(height, wanted):
     for earth in (None, matrix):
         loader = Loader(Memory(files))
         seen = Views(views, cut.pixels([1080], 5.0), eye, earth)
-        choice = cut.choose(loader, seen, matrix, 1e-9)
+        choice = cut.select_tiles(loader, seen, matrix, 1e-9)
         shown[earth is None] = sorted(loader.tree.reference(k) for k in choice.contents)
     assert shown[False] == wanted
     assert "behind.glb" in shown[True], "without the horizon the far side is chosen"

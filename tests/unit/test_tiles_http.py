@@ -78,7 +78,7 @@ def two_children(server, **replies):
 
 def chosen(source):
     loader = Loader(source)
-    return loader, cut.choose(loader, looking(0.0), HERE, 2.0)
+    return loader, cut.select_tiles(loader, looking(0.0), HERE, 2.0)
 
 
 @pytest.mark.parametrize("status", [404, 410])

@@ -181,11 +181,11 @@ def make(
         names,
         tuple(notice for notice, _ in notices.most_common()),
         tuple(sorted(reason for each in prepared for reason in each.missing)),
-        max(each.choice.error for each in prepared),
+        max(each.selection.error for each in prepared),
         tuple(dict.fromkeys(each.policy.logo for each in prepared if each.policy.logo)),
         sum(each.empty for each in prepared),
         tile_difference.measure(heights, shot.settings, shot.run) if heights else None,
-        sum(each.choice.bytes for each in prepared),
+        sum(each.selection.bytes for each in prepared),
         sum(each.triangles for each in prepared),
     )
     picture_credits.check_room(shot, picture_credits.of_cuts(shot.settings, [cut]))
@@ -214,10 +214,10 @@ def _messages(cut: TileCut, prepared: Sequence[PreparedTiles]) -> Iterator[str]:
     for each in prepared:
         if each.advised:
             yield (
-                f"{each.policy.name} recommends tiles to {each.choice.asked:g} pixels; "
+                f"{each.policy.name} recommends tiles to {each.selection.requested_error:g} pixels; "
                 "tiles.max_screen_space_error sets another value"
             )
-        if sentence := each.choice.message():
+        if sentence := each.selection.message():
             yield sentence
     if more := cut.missing[1:_NAMED]:
         yield f"also missing: {'; '.join(more)}" + (" ..." if len(cut.missing) > _NAMED else "")

@@ -27,7 +27,7 @@ from .access import TileAccess
 from .decode import DecodeTask
 
 if TYPE_CHECKING:
-    from ...tiles.cut import Choice
+    from ...tiles.cut import TileSelection
     from ...tiles.loader import Loader
     from ...tiles.sources import Source
 
@@ -94,7 +94,7 @@ class PreparedTiles:
         The screen-space error is the policy's recommendation.
     """
 
-    choice: Choice
+    selection: TileSelection
     names: list[str]
     credits: list[str]
     missing: list[str]
@@ -140,11 +140,11 @@ class TileSource:
 
     def prepared(self, progress: Progress) -> PreparedTiles:
         """Select, fetch and decode until all selected tiles can be shown."""
-        from ...tiles.cut import choose
+        from ...tiles.cut import select_tiles
 
         triangles: dict[int, int] = {}
         for _ in range(_TRIES):
-            choice = choose(
+            selection = select_tiles(
                 self.loader,
                 self.views,
                 self.matrix,
@@ -154,7 +154,7 @@ class TileSource:
                 on_content=self._store_content,
                 triangles=triangles,
             )
-            wanted, bad = self._contents(choice.contents.tolist())
+            wanted, bad = self._contents(selection.contents.tolist())
             failed = decode.run(list(wanted.values()), progress)
             bad |= {number: failed[each.name] for number, each in wanted.items() if each.name in failed}
             for number, reason in bad.items():
@@ -171,7 +171,7 @@ class TileSource:
         self.loader.source.close()
         there = {each.out: about for each in wanted.values() if (about := self._summary(each))}
         return PreparedTiles(
-            choice,
+            selection,
             [Path(out).name for out in there],
             list(self._credits(there.values())),
             sorted(self.loader.tree.broken.values()),

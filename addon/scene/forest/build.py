@@ -165,7 +165,7 @@ def _instances(
     points: dict[str, NDArray],
     library: bpy.types.Collection,
 ) -> bpy.types.Object:
-    """Create an object of plant instances, and its stand-ins for the viewport."""
+    """Create an object of plant instances, and its proxies for the viewport."""
     group = node_group(shot, f"Firetwin {name}", library)
     full = _object(collection, name, points, group)
     shown = []
@@ -174,7 +174,7 @@ def _instances(
         few = preview.used(title, library, some)
         group = node_group(shot, f"Firetwin {title}", few, burns=follows)
         shown.append(_object(collection, title, some, group))
-    preview.stand_in(full, shown)
+    preview.show_proxies(full, shown)
     return full
 
 

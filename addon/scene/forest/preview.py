@@ -1,9 +1,9 @@
 """Viewport preview of the forest: fewer and wider trees, so that a frame change is fast.
 
 Blender evaluates all instances of an object again when its nodes depend on time or camera: 0.6 us of CPU time
-per tree. So the viewport hides a forest of more than `MOST` trees and shows stand-ins: one object for trees
+per tree. So the viewport hides a forest of more than `MOST` trees and shows proxies: one object for trees
 that burn during the shot and turn into snags, and one for the rest, whose nodes depend on nothing. Renders
-draw the full forest and no stand-ins.
+draw the full forest and no proxies.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ Points = dict[str, NDArray]
 
 
 def parts(shot: Shot, points: Points, levelled: bool) -> Iterator[tuple[str, Points, bool]]:
-    """Stand-ins for plants with these attributes: a name, attributes, and whether they depend on time.
+    """Proxies of plants with these attributes: a name, attributes, and whether they depend on time.
 
     Empty for `MOST` plants or fewer. Models of `levelled` plants have levels of detail.
     """
@@ -67,7 +67,7 @@ def used(title: str, library: bpy.types.Collection, points: Points) -> bpy.types
     return few
 
 
-def stand_in(full: bpy.types.Object, shown: list[bpy.types.Object]) -> None:
+def show_proxies(full: bpy.types.Object, shown: list[bpy.types.Object]) -> None:
     """Show these objects in the viewport in place of an object that renders draw."""
     full.hide_viewport = bool(shown)
     for obj in shown:
