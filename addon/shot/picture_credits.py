@@ -32,7 +32,7 @@ def of_settings(settings: Settings) -> Credits:
 
 def of_cuts(settings: Settings, cuts: Iterable[TileCut]) -> Credits:
     """Those of the settings, and of these cuts."""
-    return functools.reduce(Credits.joined, (cut.words for cut in cuts), of_settings(settings))
+    return functools.reduce(Credits.merge, (cut.words for cut in cuts), of_settings(settings))
 
 
 def of_shot(shot: Shot) -> Credits:
@@ -57,7 +57,7 @@ def _of_runs(shot: Shot, compares: bool) -> Credits:
     """Credits of a shot, or of all its runs; kept for the next frame."""
     labels = shot.others if compares else ()
     shots = [shot, *(comparison.for_run(shot, label) for label in labels)]
-    return functools.reduce(Credits.joined, map(of_shot, shots))
+    return functools.reduce(Credits.merge, map(of_shot, shots))
 
 
 def check_room(shot: Shot, words: Credits) -> None:
