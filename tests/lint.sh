@@ -30,6 +30,7 @@ for file in "${files[@]}"; do
   esac
 done
 .venv/bin/codespell "${files[@]}"
+.venv/bin/python tests/prose # all files: the rate is by folder
 if ((${#python[@]})); then
   .venv/bin/ruff format --check "${python[@]}"
   .venv/bin/ruff check "${python[@]}"
