@@ -103,7 +103,7 @@ def test_the_key_is_what_is_in_the_run_not_when_it_was_written(smoky, run, run_f
 
 def test_frames_in_parallel_are_the_frames_one_by_one(smoky, run, tmp_path, monkeypatch):
     def frames(cache, at_once):
-        monkeypatch.setattr(bake, "_at_once", lambda frames: at_once)
+        monkeypatch.setattr(bake, "_parallel_frames", lambda frames: at_once)
         place = bake.bake(Shot(replace(smoky, cache=tmp_path / cache), run))
         return [plumes.read(place / f"smoke_{n:06d}.vdb") for n in (1, 2, 3)]
 
