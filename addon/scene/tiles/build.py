@@ -88,7 +88,7 @@ def remove(stage: Stage) -> None:
 
 
 def _arranged(cut: TileCut, wanted: list[str], kept: Kept) -> tuple[dict[str, Slot], dict[str, Decoded]]:
-    """Arrange slots of all pictures; return them and the tiles to build (new ones, or with moved pictures)."""
+    """Arrange slots of all pictures; return them and the tiles to build (new, or with moved pictures)."""
     lacking = dict.fromkeys(_file(name) for name in wanted if name not in kept.meshes)
     new = {name: decoded.read(cut.folder / name) for name in lacking}
     before = {name: reuse.slots(data) for name, data in kept.meshes.items()}
