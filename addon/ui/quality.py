@@ -14,7 +14,7 @@ from . import job, keys, sections, working
 _MOVED = (
     ("terrain", "near_radius"),
     ("terrain", "error"),
-    ("tiles", "error"),
+    ("tiles", "max_screen_space_error"),
     ("forest", "budget"),
     ("forest", "understorey"),
     ("forest", "draw_distance"),
