@@ -46,7 +46,7 @@ def main() -> None:
     parser.add_argument("--resources", metavar="N", type=int, default=100_000, help="resources (100000)")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        time_searches(Path(folder) / "places.gpkg", options.resources)
+        time_searches(Path(folder) / "stations.gpkg", options.resources)
         compare_arrivals(options.run, Path(folder) / "run")
 
 

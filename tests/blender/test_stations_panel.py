@@ -26,7 +26,7 @@ def blend(run_folder, tmp_path_factory):
     folder = tmp_path_factory.mktemp("stations")
     path = panel_scene.build(run_folder, folder)
     for panel in panel_scene.opened(path):
-        panel.stations.file = str(exercise_stations.write(folder / "places.gpkg"))
+        panel.stations.file = str(exercise_stations.write(folder / "stations.gpkg"))
         panel.stations.enabled = True
         bpy.ops.firetwin.build(part="stations")
         bpy.ops.wm.save_mainfile()

@@ -162,7 +162,9 @@ def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path
         if name == "solve":
             bpy.context.scene.firetwin.smoke.method = "puffs"
         if name == "station_map":
-            bpy.context.scene.firetwin.stations.file = str(exercise_stations.write(tmp_path / "places.gpkg"))
+            bpy.context.scene.firetwin.stations.file = str(
+                exercise_stations.write(tmp_path / "stations.gpkg")
+            )
             stations_panel.sync()
         if name.startswith("tiles"):
             bpy.context.scene.firetwin.tiles.sources = '"set"'

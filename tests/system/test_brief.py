@@ -50,7 +50,7 @@ def page(tmp_path_factory):
     rng = random.Random(7)
     spots = [(f"Station {name}", 38.73 + 0.4 * rng.random(), -120.78 + 0.5 * rng.random()) for name in NAMES]
     spots[0] = (spots[0][0], 39.00699, -120.48458)  # burns late
-    gpkg = small_stations.briefed(folder / "places.gpkg", [*spots, (HOSTILE, 38.80, -120.58)])
+    gpkg = small_stations.briefed(folder / "stations.gpkg", [*spots, (HOSTILE, 38.80, -120.58)])
     out = folder / "brief.html"
     command = [sys.executable, "-m", "firetwin", "brief", folder / "sample", "--stations", gpkg, "--out", out]
     subprocess.run(command, check=True)

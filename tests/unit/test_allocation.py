@@ -350,7 +350,7 @@ def station_file(tmp_path):
     ]
     day, five = timedelta(days=1), datetime(2014, 9, 17, 5, tzinfo=UTC)
     windows = [Availability(9, five - day, five, "committed"), Availability(9, five, five + day)]
-    return small_stations.put(tmp_path / "places.gpkg", bases, sent, windows)
+    return small_stations.put(tmp_path / "stations.gpkg", bases, sent, windows)
 
 
 def test_resources_are_read_as_they_are_at_the_time(station_file):

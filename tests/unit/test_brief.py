@@ -59,7 +59,7 @@ def parts(scene, limit=10_000_000, **options):
 
 @pytest.fixture
 def gpkg(tmp_path):
-    return small_stations.briefed(tmp_path / "places.gpkg", PLACES)
+    return small_stations.briefed(tmp_path / "stations.gpkg", PLACES)
 
 
 def test_leaflet_is_the_published_one_with_its_licence():

@@ -45,7 +45,7 @@ def exercise(tmp_path, run, capsys):
 
 
 def test_import_says_what_it_did_and_info_lists_it(tmp_path, capsys):
-    path, out = write_hifld(tmp_path / "stations.csv"), tmp_path / "places.gpkg"
+    path, out = write_hifld(tmp_path / "stations.csv"), tmp_path / "stations.gpkg"
     status, printed, said = firetwin(
         capsys, "stations", "import", path, "--out", out, "--licence", "mine", "--date", "2026-11-01"
     )
@@ -131,7 +131,7 @@ STATIONS = (
 
 def test_what_lies_ahead_of_the_fire_and_when(tmp_path, run, capsys):
     (tmp_path / "stations.csv").write_text(STATIONS)
-    out = tmp_path / "places.gpkg"
+    out = tmp_path / "stations.gpkg"
     firetwin(capsys, "stations", "import", tmp_path / "stations.csv", "--out", out)
     every = json.loads(firetwin(capsys, "resources", out, "--run", run, "--json")[1])
     states = {each["station"]["name"]: each["fire"] for each in every["matches"]}

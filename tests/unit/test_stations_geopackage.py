@@ -24,7 +24,7 @@ def with_area(station_file):
 @pytest.fixture
 def file(tmp_path):
     station_file = with_area(random_stations(1))
-    path = tmp_path / "places.gpkg"
+    path = tmp_path / "stations.gpkg"
     writing.write(station_file, path)
     return path, station_file
 

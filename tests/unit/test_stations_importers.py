@@ -65,8 +65,8 @@ def test_no_telephone_and_no_person_is_stored(tmp_path):
     overpass = tmp_path / "osm.json"
     overpass.write_text(json.dumps(OVERPASS))
     station_file, _ = merged(write_hifld(tmp_path / "a.csv"), write_usgs(tmp_path / "u.gpkg"), overpass)
-    writing.write(station_file, tmp_path / "places.gpkg")
-    stored = (tmp_path / "places.gpkg").read_bytes().lower() + texts(station_file).lower().encode()
+    writing.write(station_file, tmp_path / "stations.gpkg")
+    stored = (tmp_path / "stations.gpkg").read_bytes().lower() + texts(station_file).lower().encode()
     for secret in (b"555", b"person", b"chief", b"example.org"):
         assert secret not in stored
     assert b"invented ridge lookout" in stored
