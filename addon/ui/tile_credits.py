@@ -56,7 +56,7 @@ def _draw() -> None:
 
 
 def _lines(text: str, width: float) -> list[str]:
-    """The text in lines that fit into a width, pixels."""
+    """Split a text into lines that fit into a width, pixels."""
     import blf
 
     lines = [""]

@@ -49,7 +49,7 @@ class FIRETWIN_OT_tiles_preview(Working, bpy.types.Operator):
 
     @classmethod
     def description(cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """The tooltip."""
+        """Return the tooltip."""
         if properties.boxes:
             return "Show the bounding boxes of the tiles. No tile is fetched"
         return (

@@ -193,10 +193,10 @@ def _object(
 
 
 def _drawn(tree: nodes.Tree, shot: Shot) -> nodes.Value | bool:
-    """Whether plants are rendered: not for a satellite that resolves none.
+    """Return a value that is true if plants are rendered: not for a satellite that resolves none.
 
-    Plants placed for other cameras would be a patch in its picture. There the ground's colour stands for the
-    forest.
+    Plants placed for other cameras would be a patch in its picture, in which the ground's colour represents
+    the forest.
     """
     if not visibility.too_far(shot):
         return True

@@ -1,6 +1,6 @@
 """Cover of open land: shrubs, hollows and valleys, as fields (ny, nx) of the terrain grid. Without Blender.
 
-Where fuel gives no cover it is procedural. Hollows are the terrain's, and noise on level land.
+Cover without fuel data is procedural. Hollows come from the terrain, and from noise on level land.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ def mapped(shot: Shot) -> Array:
 
 
 def on_ground(shot: Shot, field: NDArray) -> Array:
-    """A field (fy, fx) of the run's fuel grid resampled to the terrain grid; NaN beyond the run."""
+    """Resample a field (fy, fx) of the run's fuel grid to the terrain grid; NaN beyond the run."""
     run: Run = shot.run
     row, column = (
         np.interp(wanted, *_ascending(own), left=np.nan, right=np.nan)
@@ -90,7 +90,7 @@ def on_ground(shot: Shot, field: NDArray) -> Array:
 
 
 def _ascending(axis: Array) -> tuple[Array, Array]:
-    """An axis in ascending order, and its indices."""
+    """Return an axis in ascending order, and its indices."""
     order = np.argsort(axis)
     return axis[order], order.astype(np.float64)
 
@@ -125,7 +125,7 @@ def _noise(ground: Terrain) -> Array:
 
 
 def _mean(field: Array, cells: list[int]) -> Array:
-    """Moving means of `cells` cells to each side along both axes; edge values extend the field."""
+    """Compute moving means of `cells` cells to each side along both axes; edge values extend the field."""
     for axis, reach in enumerate(cells):
         pad = [(reach + 1, reach) if k == axis else (0, 0) for k in (0, 1)]
         total = np.cumsum(np.pad(field, pad, "edge"), axis=axis)

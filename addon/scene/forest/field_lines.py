@@ -1,7 +1,7 @@
-"""Procedural lines of farmland: field boundaries, on which hedges stand, and tracks. Without Blender.
+"""Procedural lines of farmland: field boundaries with hedges, and tracks. Without Blender.
 
-All are functions of position, which the ground's material and the plants evaluate alike: rows of fields in a
-brick pattern, distorted by sines. Lengths are metres.
+All are functions of position, the same for the ground's material and the plants: rows of fields in a brick
+pattern, distorted by sines. Lengths are metres.
 """
 
 from __future__ import annotations

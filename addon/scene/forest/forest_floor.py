@@ -21,7 +21,7 @@ _GOLDEN = 2.399963  # rad
 
 
 def log(seed: int, level: int) -> Shape:
-    """A fallen trunk along x, 12 to 20 times as long as thick, slightly crooked, with stubs of branches."""
+    """Model a fallen trunk along x, 12 to 20 times as long as thick, a little crooked, with stubs."""
     random, shape = np.random.default_rng(seed), Shape()
     length, sides = random.uniform(12.0, 20.0), (11, 9, 7, 5)[level]
     at = np.linspace(-0.5, 0.5, (9, 7, 5, 3)[level]) * length
@@ -48,7 +48,7 @@ def log(seed: int, level: int) -> Shape:
 
 
 def rock(seed: int, level: int) -> Shape:
-    """A boulder: a sphere cut by planes, as joints cut granite; a quarter of it is below ground."""
+    """Model a boulder: a sphere cut by planes, as joints cut granite; a quarter of it is below ground."""
     random, shape = np.random.default_rng(seed), Shape()
     points, faces = _ball(_TURNS[level])
     cuts = random.normal(0.0, 1.0, (9, 3))
@@ -68,7 +68,7 @@ def rock(seed: int, level: int) -> Shape:
 
 
 def tuft(seed: int, level: int, burned: bool = False) -> Shape:
-    """A bunch of dry grass; burned, its black stubble."""
+    """Model a bunch of dry grass; burned, its black stubble."""
     random, shape = np.random.default_rng(seed), Shape()
     n, wider = ((70, 1.0), (48, 1.3), (24, 1.9), (10, 3.0))[level]
     angle = _GOLDEN * np.arange(n) + random.normal(0.0, 0.3, n)

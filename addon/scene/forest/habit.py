@@ -50,7 +50,7 @@ class Habit:
     colour, wood
         Linear reflectances of leaves and bark.
     fit
-        Of levels of detail 1, 2 and 3: factors of the triangles' width and height and of the colour's
+        Levels of detail 1, 2 and 3: factors of the triangles' width and height and of the colour's
         brightness that give them the cover and the brightness of level 0, from the side and from above
         (measured).
     """

@@ -67,7 +67,7 @@ def fans(shape: Shape, leaves: Leaves, groups: NDArray[np.int64], fit: Fit) -> N
 
 
 def slabs(leaves: Leaves) -> NDArray[np.int64]:
-    """Groups (n,) of leaves: horizontal slabs of equal counts, divided into sectors round the trunk.
+    """Group leaves (n,): horizontal slabs of equal counts, divided into sectors around the trunk.
 
     A tall crown has many slabs of few sectors, a wide crown the reverse.
     """

@@ -13,9 +13,9 @@ state
     "living" (the default), or "snag": burned, without needles; of a tuft its stubble. Logs, rocks and twigs
     have one state.
 
-Position and size of an object are normalized: its lowest point is put on the ground and its origin on the
-trunk's axis. Its height becomes that of the tree, or the diameter of a log, which lies along x. Its materials
-are retained. They can read fire state and variation from the instancer attributes that `material` names.
+Position and size of an object are normalized: its lowest point is on the ground and its origin on the axis of
+the trunk. Its height becomes the height of the tree, or the diameter of a log along x. Its materials are
+retained. They can read fire state and variation from the instancer attributes that `material` names.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ Kind = tuple[str, str]  # class and state
 
 
 def tree_models(shot: Shot, stage: Stage, drawn: set[int] | None = None) -> bpy.types.Collection:
-    """A collection outside of the scene: all models in all levels of detail, indexed by `models.instance`.
+    """Collect all models in all levels of detail outside of the scene, indexed by `models.instance`.
 
     Parameters
     ----------
@@ -94,14 +94,14 @@ def _looks(shot: Shot, stage: Stage) -> Callable[[models.TreeModel], Look]:
 
 
 def drawn(points: dict[str, NDArray]) -> set[int]:
-    """Indices of the models of these points, burned or not, as renders and the viewport draw them."""
+    """Return the model indices of these points, burned or not, as renders and the viewport draw them."""
     model, level = np.divmod(np.unique(np.concatenate([points["model"], points["snag_model"]])), LEVELS)
     coarse = models.instance(model, np.maximum(level, preview.LEVEL))
     return {*models.instance(model, level).tolist(), *coarse.tolist()}
 
 
 def grass_models(shot: Shot, stage: Stage) -> bpy.types.Collection:
-    """A collection outside of the scene with all models of grass, in the order of their indices."""
+    """Collect all models of grass outside of the scene, in the order of their indices."""
     straw = material.grass(shot, stage)
     library = owned.library("Grass Models")
     for k, shape in enumerate(models.clumps()):
@@ -132,7 +132,7 @@ def _mesh(name: str, shape: Shape, look: Look) -> bpy.types.Mesh:
 
 
 def _artists() -> dict[Kind, dict[int, list[bpy.types.Mesh]]]:
-    """Copies of an artist's models by class and state and by level, a metre tall.
+    """Copy an artist's models by class and state and by level, a metre tall.
 
     Raises
     ------
@@ -191,7 +191,7 @@ def _copy(obj: bpy.types.Object) -> bpy.types.Mesh:
 
 
 def _of_level(theirs: dict[int, list[bpy.types.Mesh]], level: int, turn: int) -> bpy.types.Mesh:
-    """The artist's model of this turn in this level, or the next finer one, or else the finest."""
+    """Choose the artist's model of this turn in this level, or the next finer level, or else the finest."""
     finer = [known for known in theirs if known <= level]
     meshes = theirs[max(finer) if finer else min(theirs)]
     return meshes[turn % len(meshes)]

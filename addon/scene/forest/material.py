@@ -121,8 +121,8 @@ def grass(shot: Shot, stage: Stage) -> bpy.types.Material:
     material, tree = nodes.material("Firetwin Grass", (0.42, 0.38, 0.16))
     tint = tree.attribute("tint", "INSTANCER")
     here = biomes.choose(shot)
-    straw = tree.input("Dry Colour", here.biome.grass[0], "Of grass that has dried", "Variety")
-    green = tree.input("Green Colour", here.biome.grass[1], "Of grass that is still green", "Variety")
+    straw = tree.input("Dry Colour", here.biome.grass[0], "Colour of dry grass", "Variety")
+    green = tree.input("Green Colour", here.biome.grass[1], "Colour of green grass", "Variety")
     if here.biome.open_land is not None:
         tint = (tint + 2.0 * here.green - 1.0).clamp()
     dry = tree.mix_colour(tint, straw, green)
@@ -161,7 +161,7 @@ def _place(tree: nodes.Tree) -> nodes.Value:
 
 
 def _rounded(tree: nodes.Tree, place: nodes.Value) -> nodes.Value:
-    """Normals that point away from the trunk, which give a crown a sunlit and a shaded side."""
+    """Point normals away from the trunk, which gives a crown a sunlit and a shaded side."""
     x, y, z = tree.separate(place)
     radial = tree.output(
         "ShaderNodeVectorTransform",

@@ -71,7 +71,7 @@ class TreeModel:
 
 
 def tree(habit: Habit, seed: int, level: int) -> Shape:
-    """A living tree in a level of detail."""
+    """Model a living tree in a level of detail."""
     limbs, leaves = grown(habit, seed)
     height = float(leaves.corners()[..., 2].max())
     shape, random = Shape(), np.random.default_rng(seed + 1)
@@ -87,7 +87,7 @@ def tree(habit: Habit, seed: int, level: int) -> Shape:
 
 
 def snag(habit: Habit, seed: int, stubs: int, top: float, level: int) -> Shape:
-    """A burned tree (snag): a bare trunk, often broken, with stubs of branches."""
+    """Model a burned tree (snag): a bare trunk, often broken, with stubs of branches."""
     random, shape = np.random.default_rng(seed), Shape()
     heights = np.array([-0.03, 0.02, 0.30 * top, 0.65 * top, top])[:: (1, 1, 2, 4)[level]]
     lean = random.normal(0.0, 0.02, 2)
@@ -103,7 +103,7 @@ def snag(habit: Habit, seed: int, stubs: int, top: float, level: int) -> Shape:
 
 
 def grass(seed: int) -> Shape:
-    """A clump of grass and low shrubs, 1.6 m tall: planted 0.7 m deep, 0.9 m of it are above ground."""
+    """Model a clump of grass and low shrubs, 1.6 m tall: 0.7 m below and 0.9 m above ground."""
     random, shape, n = np.random.default_rng(seed), Shape(), 70
     foot = np.concatenate([random.normal(0.0, 0.8, (n, 2)), np.zeros((n, 1))], axis=1)
     tall, angle = random.uniform(0.9, 1.6, n), random.uniform(0.0, np.pi, n)

@@ -81,7 +81,7 @@ def draws(noise: Noise, middling: Any, land: OpenLand) -> Any:
 
 
 def bushes(noise: Noise, shrub: Any, wet: Any, land: OpenLand) -> tuple[Any, Any]:
-    """Groups of bushes, 0..1, and shrub cover, whose mean is about `shrub`."""
+    """Return groups of bushes, 0..1, and shrub cover, whose mean is about `shrub`."""
     groups = noise(62.0, 4.0, 0.68)
     begin = shrub * -0.33 + 0.645
     cover = (groups + wet * (0.09 * land.hollows) - begin).smoothstep(-0.05, 0.08)

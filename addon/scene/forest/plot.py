@@ -17,7 +17,7 @@ from ...shot.shot import Shot
 from . import stand_structure, visible_cells
 
 _CELL = 74.0  # m, least size of a cell beyond the run; its fuels have larger patches
-_OTHER = 7919  # added to the seed, so that land beyond the run is no copy of it
+_OTHER = 7919  # added to the seed, so that land beyond the run is not a copy of it
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Plot:
 
 
 def plots(shot: Shot, height: float, reach: float) -> list[Plot]:
-    """The run's plot, and the one beyond it where cameras come close enough to see trees there.
+    """Return the run's plot, and a plot beyond it if cameras come close enough to see trees there.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def _lines(
 
 
 def _near_edge(shot: Shot, reach: float) -> bool:
-    """Whether a perspective camera comes closer to the run's boundary than `reach`."""
+    """Return True if a perspective camera comes closer to the run's boundary than `reach`."""
     fields, cell = shot.ground.fields, shot.ground.cell
     for view in shot.perspective_paths:
         place = view.position[shot.filmed(view)]

@@ -75,7 +75,7 @@ class Shape:
         self.add(points.reshape(-1, 3), triangles, BARK, colour)
 
     def scaled(self, height: float) -> Shape:
-        """A copy scaled by 1 / `height`."""
+        """Scale by 1 / `height`."""
         self.points = [points / height for points in self.points]
         return self
 

@@ -43,9 +43,9 @@ class Stand:
     key
         (n, 2) integers that seed a tree's random choices.
     distance
-        (n,) metres from the nearest camera over the whole shot.
+        (n,) metres from the nearest camera in any frame.
     radius
-        Distance (m) beyond which there are no trees.
+        Draw distance of trees, m.
     """
 
     position: NDArray[np.float64]
@@ -135,11 +135,10 @@ def _fade(distance: NDArray, reach: float) -> NDArray[np.float64]:
 
 
 def _retained(shot: Shot, plots: list[Plot]) -> list[NDArray[np.float32]]:
-    """Fraction (fy, fx) of the stems to retain: 1 where pixels are small, falling with their projected area.
+    """Compute fractions (fy, fx) of stems to retain: 1 for small pixels, falling with projected area.
 
-    The pixel size at a point is that of the sharpest camera at the distance of the nearest. All trees are
-    retained where a pixel is smaller than a crown, or smaller than the size at which `forest.budget` trees
-    are retained in all.
+    The pixel size at a point is the size for the sharpest camera at the distance of the nearest. All trees
+    are retained if a pixel is smaller than a crown, or than the size at which `forest.budget` trees remain.
     """
     if shot.visibility.unculled:
         return [np.ones(each.mask.shape, np.float32) for each in plots]

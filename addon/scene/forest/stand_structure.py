@@ -2,7 +2,7 @@
 
 A fuel cell gives an amount, not positions. Sierra forests of mixed conifers are clumps and openings (Larson
 and Churchill 2012, Forest Ecology and Management 267:74-92), and end in ragged edges with single trees beyond
-them. Sizes and shares are chosen by eye. The mean position of an edge is that of the cells.
+them. Sizes and shares are chosen by eye. The mean position of an edge is the edge of the cells.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Understorey: brush, logs, rocks, tufts of grass and twigs near the cameras, without Blender.
 
-Each kind has a lattice of its own over the scene, with at most one plant or object per cell. It is a function
+Each kind has a separate lattice over the scene, with at most one plant or object per cell. It is a function
 of the cell, so it is the same in every shot. Its size in pixels decides whether it is drawn.
 """
 
@@ -19,11 +19,11 @@ from ...shot.terrain import noise
 from ...shot.tiles import tile_vegetation
 from . import biomes, cover, field_lines, models
 
-_PIXELS = 2.0  # least height in pixels of what is drawn; at this height a half of it is
+_PIXELS = 2.0  # smallest height of drawn instances, pixels; half of them are drawn at this height
 _BLOCK = 32.0  # m; size of blocks that are culled together
 _FARTHEST = 600.0  # m
 _STEEPEST = 1.2  # slope up to which logs and rocks stay
-_HEDGE = 30.0  # density factor of bushes in a hedge over those of open land
+_HEDGE = 30.0  # density of bushes in a hedge / density on open land
 _LYING = (*models.LOGS, *models.TWIGS)
 
 Array = NDArray[np.float64]
@@ -203,7 +203,7 @@ class Instances:
     size: Array
 
     def take(self, chosen: NDArray) -> Instances:
-        """A subset."""
+        """Select instances."""
         return Instances(*(getattr(self, field.name)[chosen] for field in fields(self)))
 
 
@@ -321,7 +321,7 @@ def _ground(shot: Shot, place: Array) -> tuple[Array, Array, Array, Array]:
 
 
 def _settled(shot: Shot, instances: Instances) -> Instances:
-    """Instances aligned with the slope where they lie flat; dropped where it is too steep."""
+    """Align lying instances with the slope; drop them on slopes that are too steep."""
     lies = np.flatnonzero(np.isin(instances.model, _LYING))
     if len(lies) == 0:
         return instances

@@ -19,25 +19,25 @@ def visible(
     height: NDArray | float,
     reach: float,
     wider: NDArray | float = 1.0,
-    beside: NDArray | float = 0.0,
+    offset: NDArray | float = 0.0,
 ) -> NDArray[np.bool_]:
-    """Mask of plants (n,) `height` m tall with bases at (n, 3) that are visible or shade visible ground.
+    """Find plants (n,) `height` m tall with bases at (n, 3) that are visible or shade visible ground.
 
     Plants within `_AROUND` of a view are retained too, as they occlude the sky's light. Plants beyond
-    `reach`, or too small for a satellite, are culled. `wider` scales the bounding spheres; `beside` is the
-    greatest offset of bases, m. Shadow lengths follow the sun's elevation in each frame (`lod.visible_mask`),
+    `reach`, or too small for a satellite, are culled. `wider` scales the bounding spheres; `offset` is the
+    largest offset of bases, m. Shadow lengths follow the sun's elevation in each frame (`lod.visible_mask`),
     so no margin is assumed.
     """
     height = np.broadcast_to(height, len(foot))
     middle = np.column_stack([foot[:, :2], foot[:, 2] + 0.5 * height])
-    radius = models.REACH * height * np.maximum(wider, 1.0) + beside
+    radius = models.REACH * height * np.maximum(wider, 1.0) + offset
     return shot.visibility.visible_mask(
         middle, radius, reach=reach, margin=_AROUND, shadows=True, pixel=PIXEL
     )
 
 
 def too_far(shot: Shot) -> bool:
-    """Whether the shot has satellites, and none with pixels small enough for trees."""
+    """Return True if the shot has satellites, but none with pixels small enough for trees."""
     return PIXEL <= shot.pixel[1] < np.inf
 
 

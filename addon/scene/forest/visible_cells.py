@@ -42,7 +42,7 @@ def visible_cells(
     row, column = np.nonzero(counts)
     foot = shot.local_frame.forward(latitude[row], longitude[column], elevation[row, column])
     size = _size(shot, latitude, longitude, _slope(elevation, row, column))
-    counts[row, column] = visibility.visible(shot, foot, height, reach, beside=size)
+    counts[row, column] = visibility.visible(shot, foot, height, reach, offset=size)
     return counts
 
 
@@ -92,7 +92,7 @@ def _blocks(
     steps = dilate(np.where(known, high, -np.inf), 1) + dilate(np.where(known, -low, -np.inf), 1)
     size = across + 0.5 * (high - low) + _size(shot, latitude, longitude, 2.0 * steps)
     counts = np.zeros(known.shape, bool)
-    counts[known] = visibility.visible(shot, middle[known], height, reach, beside=size[known])
+    counts[known] = visibility.visible(shot, middle[known], height, reach, offset=size[known])
     whole = np.repeat(np.repeat(counts, _BLOCK, axis=0), _BLOCK, axis=1)
     return whole[: elevation.shape[0], : elevation.shape[1]].copy()
 

@@ -210,7 +210,7 @@ def _apply_orthophoto(
     image: bpy.types.Image,
     ground: nodes.Value,
 ) -> nodes.Value:
-    """Apply the orthophoto's colour where it has data and nothing burned. It needs no bump map."""
+    """Apply the orthophoto's colour in unburned areas with data. It needs no bump map."""
     shown = _picture_node(tree, here, picture, image)
     counts = tree.pick(shown, "Alpha") * (1.0 - here.burned)
     return tree.mix_shader(counts, ground, _matte_shader(tree, tree.pick(shown, "Color"), None))

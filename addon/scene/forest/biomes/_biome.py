@@ -25,7 +25,7 @@ class Land:
     Attributes
     ----------
     latitude, longitude
-        Of its centre, degrees.
+        Position of its centre, degrees.
     grass, shrub, wood
         Fractions 0..1 of the ground with fuel that is grass, shrub, and wood (timber litter, slash, any
         canopy).
@@ -38,7 +38,7 @@ class Land:
     wood: float
 
     def within(self, south: float, north: float, west: float, east: float) -> bool:
-        """Whether its centre lies in a box, degrees."""
+        """Return True if its centre is in a box, degrees."""
         return south <= self.latitude <= north and west <= self.longitude <= east
 
 
@@ -103,7 +103,7 @@ class OpenLand:
     bleached, straw, stale
         Dry grass: palest, medium and darkest.
     green, lush
-        Growing grass, and that of wet hollows.
+        Growing grass, and grass in wet hollows.
     soil, shrub
         Darkest and lightest.
     bare
@@ -155,13 +155,13 @@ class Plants:
     Attributes
     ----------
     density
-        Factor on the number, by kind; 1 where it is not named.
+        Factor on the number, by kind; 1 by default.
     height, width
         Factors on height, and on the ratio of width to height, by kind.
     finer
         Factor on the lattice cells along a side, by kind; a cell holds at most one instance.
     models
-        Indices of models that replace those of `KINDS`, before and after the fire, by kind.
+        Indices of models that replace the models of `KINDS`, before and after the fire, by kind.
     """
 
     density: Mapping[str, float] = field(default_factory=dict)
@@ -198,7 +198,7 @@ class Biome:
     grass
         Dry and green blades near cameras.
     species
-        Trees of the stand; none: those of the core, with oaks in the foothills.
+        Trees of the stand; none: species of the core, with oaks in the foothills.
     tree_cover, shrub_cover
         Fractions of open land under lone trees, and under bushes where its fuel is grass.
     shrub_load
