@@ -1,16 +1,19 @@
-"""Migration of .blend files with former names of sections or keys.
+"""Migration of .blend files and presets with former names of sections or keys.
 
 Choices are stored as numbers, which do not change when their names do.
 """
 
 from __future__ import annotations
 
+import contextlib
 import json
+import re
+from pathlib import Path
 
 import bpy
 
 from ..blender import compat, owned
-from ..shot.schema.former import FORMER, FORMER_KEYS
+from ..shot.schema.former import FORMER, FORMER_KEYS, FORMER_VALUES, current
 
 
 @bpy.app.handlers.persistent
@@ -39,8 +42,30 @@ def adopt(*_: object) -> None:
                 kept["exact"] = json.dumps(exact | {name: exact.pop(former)})
 
 
+def update_presets() -> None:
+    """Replace former names in the user's presets."""
+    for folder in bpy.utils.preset_paths("firetwin"):
+        for path in Path(folder).glob("*.py"):
+            with contextlib.suppress(OSError, UnicodeDecodeError):  # it stays as it is
+                text = path.read_text(encoding="utf-8")
+                if (new := _with_present_names(text)) != text:
+                    path.write_text(new, encoding="utf-8")
+
+
+def _with_present_names(preset: str) -> str:
+    """Replace former names in the text of a preset, lines such as ``firetwin.tiles.error = 2.0``."""
+
+    def line(found: re.Match[str]) -> str:
+        section, key = map(str, current((found[1], found[2])))
+        value = FORMER_VALUES.get((section, key), {}).get(found[3].strip("'\""))
+        return f"firetwin.{section}.{key} = {repr(value) if value else found[3]}"
+
+    return re.sub(r"^firetwin\.(\w+)\.(\w+) = (.*)$", line, preset, flags=re.MULTILINE)
+
+
 def register() -> None:
-    """Migrate each file after it was loaded."""
+    """Migrate presets, and each file after it was loaded."""
+    update_presets()
     bpy.app.handlers.load_post.append(adopt)
 
 

@@ -40,6 +40,26 @@ def test_a_file_of_the_last_version_keeps_its_settings(panel, tmp_path):
     assert "ground" not in compat.stored_properties(bpy.context.scene)["firetwin"]
 
 
+def test_presets_of_the_last_version_are_updated(tmp_path, monkeypatch):
+    path = tmp_path / "mine.py"
+    path.write_text(
+        "import bpy\nfiretwin = bpy.context.scene.firetwin\n\nfiretwin.seed = 1\n"
+        "firetwin.ground.stand = 'tiles'\n"
+        "firetwin.render.skip = True\nfiretwin.tiles.error = 3.0\nfiretwin.tiles.trees = 'theirs'\n"
+        "firetwin.tiles.use_geoid = False\n"
+    )
+    monkeypatch.setattr(bpy.utils, "preset_paths", lambda _: [str(tmp_path)])
+    former_names.update_presets()
+    assert path.read_text().splitlines()[3:] == [
+        "firetwin.seed = 1",
+        "firetwin.terrain.height_source = 'tiles'",
+        "firetwin.render.cull = True",
+        "firetwin.tiles.max_screen_space_error = 3.0",
+        "firetwin.tiles.vegetation = 'tileset'",
+        "firetwin.tiles.use_geoid = False",
+    ]
+
+
 def test_nothing_is_left_when_the_extension_goes(panel):
     assert former_names.adopt in bpy.app.handlers.load_post
     firetwin.unregister()
