@@ -91,7 +91,7 @@ def test_it_is_built_for_cameras_in_space_alone(space, shot, stage, scene):
     [
         (b"\xff\xd8\xff\xe0", "", "globe_credit"),
         (b"GIF89a..", "NASA", "by its first bytes"),
-        (None, "NASA", "is no file"),
+        (None, "NASA", "is not a file"),
     ],
 )
 def test_a_picture_is_checked_and_needs_a_credit(settings, run, tmp_path, content, credit, words):
