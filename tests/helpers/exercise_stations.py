@@ -1,4 +1,4 @@
-"""A file of invented places around the small run, and one beyond it."""
+"""Station file with invented stations around the small run, and one beyond it."""
 
 from datetime import UTC, datetime
 

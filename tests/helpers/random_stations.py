@@ -1,4 +1,4 @@
-"""Places drawn by chance, for tests of searches."""
+"""Random station files for tests of searches."""
 
 from datetime import UTC, datetime, timedelta
 

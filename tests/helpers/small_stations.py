@@ -1,4 +1,4 @@
-"""Files of places with a few invented rows, for tests: written as the program writes them."""
+"""Station files with a few invented rows, written by the program, for tests."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Suggested allocation: against brute force and closed forms, the same each time, and why there is none."""
+"""Suggested allocation: compared with brute force and closed forms, ties, and reasons for a failure."""
 
 import argparse
 import itertools
@@ -341,7 +341,7 @@ def test_what_lacks_a_number_is_left_out_and_told():
 
 @pytest.fixture
 def station_file(tmp_path):
-    """A file of places: seven engines, and a dozer that is committed until five."""
+    """A station file: seven engines, and a dozer that is committed until five."""
     bases = [Station(1, "North", 38.95, -120.6, "exercise", 1), Station(2, "", 38.9, -120.7, "exercise", 1)]
     known = {"line_m_h": 8000.0, "cost_hour": 100.0, "currency": "USD"}
     sent = [

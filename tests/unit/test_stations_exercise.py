@@ -1,4 +1,4 @@
-"""The exercise: invented throughout, labelled in every row, the same each time, no real station."""
+"""The exercise: invented, labelled in every row, reproducible, and without real stations."""
 
 import itertools
 import json

@@ -1,4 +1,4 @@
-"""When the fire reaches places, against the run's own arrival times and against its front."""
+"""Fire arrival at points, compared with the arrival times and with the front of the run."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""A file of stations: round trip, valid GeoPackage, and messages on edits of other programs."""
+"""Station file: round trip, valid GeoPackage, and messages on edits of other programs."""
 
 import sqlite3
 import struct

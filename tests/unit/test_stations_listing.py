@@ -1,4 +1,4 @@
-"""Stations of a list are those whose resources a search finds; the map shows fire and dots."""
+"""Station list: stations with a resource that a search finds; the map shows fire and dots."""
 
 from dataclasses import replace
 

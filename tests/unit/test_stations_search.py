@@ -1,4 +1,4 @@
-"""Searches among resources, against the same conditions one by one, and sets against all subsets."""
+"""Search: results compared with the conditions one by one, and sets compared with all subsets."""
 
 import itertools
 import math
