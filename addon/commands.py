@@ -209,7 +209,7 @@ def farm(arguments: argparse.Namespace) -> int | None:
 
 
 def stations(arguments: argparse.Namespace) -> None:
-    """Make or list a file of stations and resources."""
+    """Make or list a station file."""
     from .stations import command
 
     command.run_stations(arguments, _open_fire)

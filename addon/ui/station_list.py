@@ -19,7 +19,7 @@ from ..stations.records import Station
 from . import station_data, station_filter
 from .station_data import Key, Loaded
 
-NO_FILE = "Choose a file of stations above"
+NO_FILE = "Choose a station file above"
 READING = "Reading the stations"
 
 

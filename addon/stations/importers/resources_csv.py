@@ -1,6 +1,6 @@
 """Resources of the user: CSV with station, type and optional columns.
 
-The station is given by name or number, as in a file of stations. A row with begins, ends and status is a
+The station is given by name or number, as in a CSV of stations. A row with begins, ends and status is a
 window of availability; further rows with the same name and station add windows.
 """
 
