@@ -7,7 +7,7 @@
 namespace firetwin {
 namespace {
 
-constexpr std::size_t longest_reason = 1000;
+constexpr std::size_t max_reason_length = 1000;
 
 /// Escapes control characters: text from a file must not break a message or control a terminal.
 std::string one_line(const std::string& text) {
@@ -27,8 +27,8 @@ std::string one_line(const std::string& text) {
 
 /// Truncates at a UTF-8 character boundary.
 std::string shortened(std::string text) {
-  if (text.size() > longest_reason) {
-    std::size_t end = longest_reason;
+  if (text.size() > max_reason_length) {
+    std::size_t end = max_reason_length;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
       --end;
     }

@@ -21,8 +21,8 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double left_over = 0.05;
 /// Minimum number of burned-out cells inside the fire for statistics.
 constexpr std::size_t enough_cells = 10;
-constexpr double least_share = 0.02;
-constexpr double least_delay = 1.0; ///< s
+constexpr double min_share = 0.02;
+constexpr double min_delay = 1.0; ///< s
 /// Relative standard deviations of the crossing time, the delay and the heat of a cell.
 constexpr double ragged = 0.8, uneven_fuel = 0.5, uneven_heat = 0.25;
 constexpr std::size_t heat_reach =
@@ -152,7 +152,7 @@ private:
     }
     if (heats.size() >= enough_cells) {
       heat_ = median(heats);
-      delay_ = std::max(median(delays), least_delay);
+      delay_ = std::max(median(delays), min_delay);
     }
   }
 
@@ -167,7 +167,7 @@ private:
       load += whole_[k] ? fuel(k) : 0.0;
     });
     const double usual = load > 0.0 ? heat / load : heat_;
-    return std::clamp(heat_so_far(i) / (usual * fuel(i)), least_share, 1.0);
+    return std::clamp(heat_so_far(i) / (usual * fuel(i)), min_share, 1.0);
   }
 
   double time(std::size_t i) const {

@@ -16,7 +16,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Cells; a front that moves farther in an interval gives no information about the cells in
 /// between.
-constexpr std::ptrdiff_t widest_band = 32;
+constexpr std::ptrdiff_t max_band_width = 32;
 
 struct Estimate {
   double time; ///< s
@@ -139,7 +139,7 @@ private:
     const auto y = static_cast<std::ptrdiff_t>(cell / columns_);
     const auto x = static_cast<std::ptrdiff_t>(cell % columns_);
     std::array<double, 2> square = {infinity, infinity};
-    for (std::ptrdiff_t r = 1; r <= widest_band; ++r) {
+    for (std::ptrdiff_t r = 1; r <= max_band_width; ++r) {
       if (static_cast<double>(r * r) >= std::max(square[0], square[1])) {
         break;
       }

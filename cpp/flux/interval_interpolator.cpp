@@ -10,7 +10,7 @@ namespace {
 /// Smoothing of sudden rises may add the same amount.
 constexpr double slack = 0.025;
 /// Minimum rise time of a new cell as a fraction of the interval, if the slack allows it.
-constexpr double least_rise = 1.0 / 16.0;
+constexpr double min_rise = 1.0 / 16.0;
 /// Tolerance for equal times, as a fraction of an interval.
 constexpr double same_time = 1e-6;
 
@@ -73,8 +73,8 @@ void IntervalInterpolator::add(std::int64_t cell, float before, float after, dou
 double IntervalInterpolator::rise(double fraction, double arrival, double turn,
                                   double share) const {
   const double near = std::clamp(arrival, turn - leeway_, turn + leeway_);
-  const double begin = std::clamp(near, 0.0, 1.0 - std::min(share, least_rise));
-  const double length = std::min(std::max(share, std::min(leeway_, least_rise)), 1.0 - begin);
+  const double begin = std::clamp(near, 0.0, 1.0 - std::min(share, min_rise));
+  const double length = std::min(std::max(share, std::min(leeway_, min_rise)), 1.0 - begin);
   return std::clamp((fraction - begin) / length, 0.0, 1.0);
 }
 

@@ -11,8 +11,8 @@ namespace {
 // Cruz et al. (2003), mixed conifer
 constexpr double constant = -4.824, of_basal_area = 0.804, of_stems = 0.333;
 constexpr double hectare = 1.0e4;              // m2
-constexpr double least_diameter = 0.05;        // m
-constexpr double largest_diameter = 1.6;       // m
+constexpr double min_diameter = 0.05;          // m
+constexpr double max_diameter = 1.6;           // m
 constexpr double inch = 0.0254, foot = 0.3048; // m
 
 constexpr int fuels = 16, parts = 48, steps = 400;
@@ -69,9 +69,8 @@ double stems(double canopy_fuel) {
 double height(double canopy_fuel, double rank) {
   const double square = mean_diameter(canopy_fuel) * mean_diameter(canopy_fuel);
   // mean square of a shifted exponential distribution with minimum `least` and mean `least + mean`
-  const double mean =
-      0.5 * (std::sqrt(2.0 * square - least_diameter * least_diameter) - least_diameter);
-  const double diameter = std::min(least_diameter - mean * std::log(rank), largest_diameter);
+  const double mean = 0.5 * (std::sqrt(2.0 * square - min_diameter * min_diameter) - min_diameter);
+  const double diameter = std::min(min_diameter - mean * std::log(rank), max_diameter);
   return foot * (4.5 + std::exp(4.86039 - 9.32795 / (diameter / inch + 1.0)));
 }
 

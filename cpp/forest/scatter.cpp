@@ -23,12 +23,12 @@ namespace {
 
 using Range = tbb::blocked_range<std::size_t>;
 constexpr std::size_t rows_per_task = 16;
-constexpr std::size_t widest_gap = 16; // longest gap of empty cells within a run
+constexpr std::size_t max_gap = 16; // longest gap of empty cells within a run
 
 constexpr double grass_depth = 0.70; // m
 
 struct Class {
-  double least_fuel; ///< kg/m2
+  double min_fuel; ///< kg/m2
   double multiplier_low;
   double multiplier_high;
   int models;
@@ -39,9 +39,9 @@ constexpr std::array<Class, 3> classes = {
     {{min_canopy_fuel, 0.7, 1.0, 4}, {0.8, 0.9, 1.2, 4}, {1.6, 1.1, 1.4, 2}}};
 
 SizeClass size_class(double fuel) {
-  return fuel >= classes[large_tree].least_fuel    ? large_tree
-         : fuel >= classes[medium_tree].least_fuel ? medium_tree
-                                                   : small_tree;
+  return fuel >= classes[large_tree].min_fuel    ? large_tree
+         : fuel >= classes[medium_tree].min_fuel ? medium_tree
+                                                 : small_tree;
 }
 
 void write_tree(Plants& plants, std::size_t i, const PlantingSite& site, double fuel,
@@ -113,7 +113,7 @@ void place(const Placement& placement, std::size_t y, std::span<const std::uint3
   for (std::size_t k = 0; k < column.size();) {
     const std::size_t first = column[k];
     std::size_t last = first + 1;
-    for (++k; k < column.size() && column[k] < last + widest_gap; ++k) {
+    for (++k; k < column.size() && column[k] < last + max_gap; ++k) {
       last = std::size_t{column[k]} + 1;
     }
     placement.place(y, first, last, row);

@@ -17,7 +17,7 @@ int open(const std::filesystem::path& path);
 std::optional<std::uint64_t> size(int descriptor);
 
 /// Bytes per read call: the limit of macOS is 2^31 - 1, of Windows 2^32 - 1.
-constexpr std::size_t most_at_once = 1U << 30;
+constexpr std::size_t max_bytes_per_read = 1U << 30;
 
 /// Reads up to out.size() bytes from `offset` without moving the file position. Returns the number
 /// of bytes read, 0 at the end of the file, or -1 with errno set.

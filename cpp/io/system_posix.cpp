@@ -23,7 +23,7 @@ std::optional<std::uint64_t> size(int descriptor) {
 }
 
 std::ptrdiff_t read(int descriptor, std::uint64_t offset, std::span<char> out) {
-  const std::size_t most = std::min(out.size(), most_at_once);
+  const std::size_t most = std::min(out.size(), max_bytes_per_read);
   for (;;) {
     const auto n = ::pread(descriptor, out.data(), most, static_cast<off_t>(offset));
     if (n >= 0 || errno != EINTR) {

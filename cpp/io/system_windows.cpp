@@ -30,7 +30,7 @@ std::ptrdiff_t read(int descriptor, std::uint64_t offset, std::span<char> out) {
   OVERLAPPED place{}; // offset of this call, as with pread
   place.Offset = static_cast<DWORD>(offset);
   place.OffsetHigh = static_cast<DWORD>(offset >> 32);
-  const auto most = static_cast<DWORD>(std::min(out.size(), most_at_once));
+  const auto most = static_cast<DWORD>(std::min(out.size(), max_bytes_per_read));
   const auto handle = reinterpret_cast<HANDLE>(::_get_osfhandle(descriptor));
   DWORD n = 0;
   if (::ReadFile(handle, out.data(), most, &n, &place) == 0) {

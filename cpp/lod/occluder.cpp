@@ -11,7 +11,7 @@
 namespace firetwin::lod {
 namespace {
 
-constexpr double most_cells = 4.0e6;
+constexpr double max_cells = 4.0e6;
 constexpr double cells_per_quad = 4.0; ///< a higher resolution loses less at ridges
 /// Fraction of a cell by which a quad is enlarged, for curvature between its nodes.
 constexpr double bend = 0.01;
@@ -48,8 +48,8 @@ Occluder::Occluder(std::span<const double> node, std::size_t rows, std::size_t c
   }
   const double area = x.length() * y.length();
   const double quads = static_cast<double>((rows - 1) * (columns - 1));
-  cell_ = std::sqrt(area / std::min(cells_per_quad * quads, most_cells));
-  if (!(cell_ > 0.0) || !(std::max(x.length(), y.length()) / cell_ < most_cells)) {
+  cell_ = std::sqrt(area / std::min(cells_per_quad * quads, max_cells));
+  if (!(cell_ > 0.0) || !(std::max(x.length(), y.length()) / cell_ < max_cells)) {
     throw std::invalid_argument("position must cover an area");
   }
   x_ = x.low, y_ = y.low;

@@ -7,8 +7,8 @@
 namespace firetwin::particles {
 namespace {
 
-constexpr double longest_part = 1.0; // s
-constexpr double most_parts = 10'000.0;
+constexpr double max_step = 1.0; // s
+constexpr double max_steps = 10'000.0;
 
 bool below(const Vector& position, const geo::HeightField& ground) {
   return position[2] < ground.highest() && position[2] < ground.at(position[0], position[1]);
@@ -41,9 +41,8 @@ double bisect(const Motion& motion, double low, double high, const geo::HeightFi
 
 std::optional<double> ground_contact(const Motion& motion, double duration, double until,
                                      const geo::HeightField& ground) {
-  const double part =
-      std::min(longest_part, 0.5 * ground.smallest_cell() / fastest(motion, duration));
-  const double parts = std::clamp(std::ceil(duration / part), 1.0, most_parts);
+  const double part = std::min(max_step, 0.5 * ground.smallest_cell() / fastest(motion, duration));
+  const double parts = std::clamp(std::ceil(duration / part), 1.0, max_steps);
   double before = 0.0;
   for (double i = 1.0; i <= parts && before < until; ++i) {
     const double now = duration * (i / parts);

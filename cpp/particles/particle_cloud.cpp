@@ -16,7 +16,7 @@
 namespace firetwin::particles {
 namespace {
 
-constexpr double most_particles = 1e8;
+constexpr double max_particles = 1e8;
 
 /// Second word of the Philox key; 0 is used by the forest.
 constexpr std::uint64_t stream = 1;
@@ -50,7 +50,7 @@ void check(double time, const Sources& sources, const ParticleKind& kind, const 
     }
     expected += sources.rate[i] * kind.life[1];
   }
-  if (expected > most_particles) {
+  if (expected > max_particles) {
     throw std::invalid_argument("rate and life give " + std::to_string(expected) +
                                 " particles; the limit is 1e8");
   }

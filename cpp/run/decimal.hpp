@@ -16,8 +16,8 @@ inline constexpr std::array<double, 23> powers_of_ten{
     1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-constexpr std::ptrdiff_t most_digits = 15; ///< decimal digits that a double represents exactly
-constexpr std::ptrdiff_t room = 24;        ///< upper bound of the characters that read_short reads
+constexpr std::ptrdiff_t max_digits = 15; ///< decimal digits that a double represents exactly
+constexpr std::ptrdiff_t room = 24;       ///< upper bound of the characters that read_short reads
 
 inline unsigned digit(char c) {
   return static_cast<unsigned char>(c) - unsigned{'0'};
@@ -45,16 +45,16 @@ template <class T> const char* read_short(const char* first, const char* last, T
   const bool negative = *first == '-';
   const char* begin = first + (negative ? 1 : 0);
   std::uint64_t number = 0;
-  const char* place = read_digits(begin, begin + most_digits + 1, number);
+  const char* place = read_digits(begin, begin + max_digits + 1, number);
   std::ptrdiff_t digits = place - begin;
   int exponent = 0;
   if (*place == '.') {
     const char* fraction = ++place;
-    place = read_digits(fraction, begin + most_digits + 2, number);
+    place = read_digits(fraction, begin + max_digits + 2, number);
     digits += place - fraction;
     exponent = -static_cast<int>(place - fraction);
   }
-  if (digits == 0 || digits > most_digits) {
+  if (digits == 0 || digits > max_digits) {
     return nullptr;
   }
   if (*place == 'e' || *place == 'E') {

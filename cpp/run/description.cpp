@@ -52,7 +52,7 @@ public:
       m.no_data = number(*node, "no_data must be a number");
     }
     if (const toml::node* node = table_.get("source"); node && !node->is_table()) {
-      fail(node->source(), "source must be a table that says what the run was made from");
+      fail(node->source(), "source must be a table that describes the origin of the run");
     }
     if (const toml::node* node = table_.get("mean_s")) {
       const std::string form = "mean_s must be a number of seconds, 0 for fluxes at their time";
@@ -118,7 +118,7 @@ private:
   std::string vertical(Description& m) const {
     const toml::node* node = table_.get("vertical");
     if (!node) {
-      m.warnings.push_back("run.toml does not say what elevations refer to; vertical = "
+      m.warnings.push_back("run.toml gives no vertical reference; vertical = "
                            "\"orthometric\" (above sea level) is assumed");
       return "orthometric";
     }
@@ -204,7 +204,7 @@ private:
           field->spellings.end()) {
         fail(unit.source(), std::string(key.str()) + " is in '" + given + "' but must be in '" +
                                 std::string(field->spellings.front()) +
-                                "'; convert the field and say so here");
+                                "'; convert the field and change the unit here");
       }
     }
   }

@@ -58,7 +58,7 @@ Folder::Folder(const fs::path& path) {
   std::sort(strangers_.begin(), strangers_.end());
   const auto twice = std::adjacent_find(fields_.begin(), fields_.end());
   if (twice != fields_.end()) {
-    io::fail(path_ / *twice, "is there more than once (.txt, .npy or a folder); keep one of them");
+    io::fail(path_ / *twice, "exists more than once (.txt, .npy or a folder); keep one of them");
   }
 }
 
@@ -127,7 +127,7 @@ std::vector<fs::path> Folder::frames(const fs::path& folder) const {
   for_each_entry(folder, [&](const fs::directory_entry& entry) {
     if (const auto index = frame_index(entry.path())) {
       if (!found.emplace(*index, entry.path()).second) {
-        io::fail(folder / frame_name(*index), "is there as .txt and as .npy; keep one of them");
+        io::fail(folder / frame_name(*index), "exists as .txt and as .npy; keep one of them");
       }
     }
   });

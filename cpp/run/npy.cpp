@@ -13,7 +13,7 @@
 namespace firetwin::run {
 namespace {
 
-constexpr std::size_t longest_header = 1 << 20;
+constexpr std::size_t max_header_length = 1 << 20;
 constexpr std::size_t block_bytes = 1 << 20; ///< block size of reads with conversion
 /// In Fortran order, values farther apart are read one by one: a system call costs about as much as
 /// copying this many bytes.
@@ -61,7 +61,7 @@ Prefix read_prefix(const io::File& file) {
 }
 
 NpyHeader read_header(const io::File& file, const Prefix& prefix) {
-  if (prefix.header_size > longest_header ||
+  if (prefix.header_size > max_header_length ||
       prefix.header_offset + prefix.header_size > file.size()) {
     fail(file, "the .npy header is truncated; copy the file again");
   }

@@ -8,7 +8,7 @@
 namespace firetwin::run {
 namespace {
 
-constexpr int most_dots = 7;
+constexpr int max_dots = 7;
 
 class Guard {
 public:
@@ -38,7 +38,7 @@ private:
   }
 
   void check_character(char c) {
-    if (c == '.' && ++dots_ > most_dots) {
+    if (c == '.' && ++dots_ > max_dots) {
       fail("has a key of more than eight parts; write keys like units.elevation");
     }
     if (c == '\n') {

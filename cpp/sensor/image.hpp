@@ -25,7 +25,7 @@ struct Image {
 Image read_image(const std::filesystem::path& path);
 
 /// Decodes an encoded image in memory, with the formats and limits of `read_image`.
-/// @param name stands for the path in error messages
+/// @param name replaces the path in error messages
 /// @throws InputError
 Image decode_image(std::span<const unsigned char> data, const std::string& name);
 

@@ -166,7 +166,7 @@ void Points::fill_tiles() {
   });
 }
 
-double Points::least_tolerance(std::size_t row, std::size_t column) const {
+double Points::min_tolerance(std::size_t row, std::size_t column) const {
   const float* low = &input_.tolerance[row * input_.columns + column];
   const float* high = low + input_.columns;
   return double{std::min({low[0], low[1], high[0], high[1]})};

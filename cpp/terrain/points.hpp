@@ -37,7 +37,7 @@ private:
   double weight(const Vector& place) const;
   void raise_nodes();
   void fill_tiles();
-  double least_tolerance(std::size_t row, std::size_t column) const;
+  double min_tolerance(std::size_t row, std::size_t column) const;
   template <class Visit>
   bool tile(std::size_t row, std::size_t column, std::int32_t left, std::int32_t right,
             std::int32_t low, std::int32_t high, const Visit& visit) const;
@@ -98,7 +98,7 @@ bool Points::tile(std::size_t row, std::size_t column, std::int32_t left, std::i
   const auto first = [&](std::int32_t from) { return from <= 0 ? 0 : (from + step - 1) / step; };
   const auto last = [&](std::int32_t to) { return std::min(to / step, count); };
   const float* height = &tiles_[offset_[cell]];
-  const double tolerance = least_tolerance(row, column), part = 1.0 / count;
+  const double tolerance = min_tolerance(row, column), part = 1.0 / count;
   for (std::int32_t j = first(low - y0); j <= last(high - y0); ++j) {
     for (std::int32_t i = first(left - x0); i <= last(right - x0); ++i) {
       Vector place = between(row, column, j * part, i * part);

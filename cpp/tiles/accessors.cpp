@@ -92,10 +92,10 @@ AccessorType Accessors::type(const Node& index) const {
   type.components = components_of(node.at("type"));
   type.component = component_type(node.at("componentType"));
   type.normalized = node.boolean("normalized", false);
-  const std::size_t most = type.components == 1 ? max_indices : max_vertices;
-  if (type.count > most) {
+  const std::size_t limit = type.components == 1 ? max_indices : max_vertices;
+  if (type.count > limit) {
     node.at("count").refuse("is " + std::to_string(type.count) + "; the limit is " +
-                            std::to_string(most));
+                            std::to_string(limit));
   }
   return type;
 }

@@ -23,7 +23,7 @@ struct DecodeOptions {
   UpAxis up_axis = UpAxis::y;
 };
 
-/// @param name stands for the content in error messages
+/// @param name identifies the content in error messages
 /// @throws InputError if the content is damaged, exceeds a limit or is not supported
 /// @throws std::invalid_argument if a matrix is not finite, not affine or singular
 Tile decode(Bytes content, const std::string& name, const Resources& resources,

@@ -21,9 +21,9 @@ template <class Decode> auto guarded(const Node& place, Decode decode) {
     }
     return std::move(result).value();
   } catch (const std::bad_alloc&) {
-    place.refuse("its Draco data asks for more memory than there is");
+    place.refuse("its Draco data needs more memory than is available");
   } catch (const std::length_error&) {
-    place.refuse("its Draco data asks for more memory than there is");
+    place.refuse("its Draco data needs more memory than is available");
   }
 }
 

@@ -14,8 +14,8 @@ namespace {
 using Mask = std::vector<std::uint8_t>;
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
-constexpr std::size_t edge_width = 2; // points
-constexpr std::size_t least_roof = 2; // number of points of a smooth surface that make a roof
+constexpr std::size_t edge_width = 2;      // points
+constexpr std::size_t min_roof_points = 2; // number of points of a smooth surface that make a roof
 
 /// Mask of points that an opening lowers by more than its threshold. Opens `surface` in place.
 Mask find_objects(std::vector<float>& surface, std::size_t rows, std::size_t columns,
@@ -150,7 +150,7 @@ Mask find_roofs(const Mask& object, std::span<const float> height, std::size_t r
     }
   }
   for (std::size_t k = 0; k < even.size(); ++k) {
-    even[k] = even[k] && count[static_cast<std::size_t>(patches.number[k])] >= least_roof;
+    even[k] = even[k] && count[static_cast<std::size_t>(patches.number[k])] >= min_roof_points;
   }
   return even;
 }

@@ -37,7 +37,7 @@ def test_nothing_outside_the_run(make_run):
     run = runs.open(make_run())
     for time in (-1e-9, 120.0001, -np.inf, np.inf):
         assert not at_time(run, time).any()
-    with pytest.raises(ValueError, match="not NaN"):
+    with pytest.raises(ValueError, match="must not be NaN"):
         at_time(run, np.nan)
 
 

@@ -154,7 +154,7 @@ def test_a_field_twice(make_run):
 def test_a_frame_twice(make_run):
     folder = make_run("text")
     np.save(folder / "heat_flux" / "000001.npy", np.zeros((4, 5), "f4"))
-    refuse(folder, "heat_flux/000001", "is there as .txt and as .npy")
+    refuse(folder, "heat_flux/000001", "exists as .txt and as .npy")
 
 
 @pytest.mark.parametrize("name", ["run.toml", "elevation.npy"])

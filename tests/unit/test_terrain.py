@@ -317,7 +317,7 @@ def test_what_is_no_patch_is_refused(patch, reason):
         ({"tolerance": np.zeros((3, 4))}, "tolerance must have shape"),
         ({"subdivision": np.zeros((4, 4), np.uint8)}, "subdivision must have shape"),
         ({"subdivision": np.full((3, 3), 200, np.uint8)}, "too many points"),
-        ({"surface": surface(5, 4)[1]}, "surface must have as many"),
+        ({"surface": surface(5, 4)[1]}, "surface must have the same number"),
     ],
 )
 def test_what_makes_no_mesh_is_refused(change, reason):

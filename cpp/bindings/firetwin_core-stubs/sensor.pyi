@@ -141,7 +141,7 @@ def decode_image(data: bytes, name: str = "image") -> NDArray[np.float32]:
     data
         The encoded image.
     name
-        Stands for the path in error messages, for example a URL.
+        Replaces the path in error messages, for example a URL.
 
     Returns
     -------

@@ -287,7 +287,7 @@ def decode(
     matrix
         (4, 4) transform from the content's frame (z up) to the scene's, m; multiplies column vectors.
     name
-        Stands for the content in error messages.
+        Name of the content in error messages.
     resources
         External files by uri (see `list_missing_resources`). They may include images: their headers are
         checked, and `Image.data` holds them.
