@@ -119,7 +119,8 @@ def visible_mask(
 
     Returns
     -------
-    (n,) True if any view sees the sphere.
+    visible
+        (n,) True if any view sees the sphere.
 
     Raises
     ------

@@ -112,9 +112,21 @@ class Run:
     def burned_fraction(self, index: int) -> NDArray[np.float32]:
         """Read the burned fraction (fy, fx) at times[index], 0..1. Raises Error if the run has none."""
     def temperature(self, index: int) -> NDArray[np.float32]:
-        """Read the air temperature (ny, nx) at times[index], K. Raises Error if the run has none."""
+        """Read the air temperature at times[index], resampled bilinearly to the model grid: (ny, nx) K.
+
+        Raises
+        ------
+        Error
+            The run has no temperature.
+        """
     def wind(self, index: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-        """Read the wind to east and north (ny, nx) at times[index], m/s. Raises Error if there is none."""
+        """Read the wind to east and north at times[index], resampled to the model grid: (ny, nx) m/s.
+
+        Raises
+        ------
+        Error
+            The run has no wind.
+        """
     def has(self, field: str) -> bool:
         """Return True if the run folder contains a field."""
     def smoke_3d(self, index: int) -> NDArray[np.float32]:

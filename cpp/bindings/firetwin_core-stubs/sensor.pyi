@@ -145,7 +145,8 @@ def decode_image(data: bytes, name: str = "image") -> NDArray[np.float32]:
 
     Returns
     -------
-    (h, w, channels) pixels, top row first. Integers are scaled to 0..1, without a change of colour space.
+    pixels
+        (h, w, channels), top row first. Integers are scaled to 0..1, without a change of colour space.
 
     Raises
     ------

@@ -53,7 +53,8 @@ def screen_error(
 
     Returns
     -------
-    (n,) screen-space errors, pixels; -1 for tiles that no view sees.
+    error
+        (n,) screen-space errors, pixels; -1 for tiles that no view sees.
 
     Raises
     ------
