@@ -159,7 +159,7 @@ class _Walk:
 
     def _visit(self, tile: _Pending) -> None:
         node, row = tile.node, len(self.parent)
-        self.tree.room(row + 1, self.document.name)
+        self.tree.check_room(row + 1, self.document.name)
         node.object()
         matrix = self._transform(node, tile.matrix)
         overrides = metadata.of_tile(node, self.document.schema)
@@ -179,7 +179,7 @@ class _Walk:
         self.numbers[kind][0].append(row)
         self.numbers[kind][1].append(numbers)
         if (request := node.get("viewerRequestVolume")) is not None:
-            self.request[row] = self._moved(*volumes.read(request), matrix)
+            self.request[row] = self._transform_volume(*volumes.read(request), matrix)
         contents = _contents(node)
         tiling = scheme.read(node)
         if tiling is not None:
@@ -241,7 +241,7 @@ class _Walk:
             raise refine.error(f"must be ADD or REPLACE, not {word[:40]!r}")
         return word == "REPLACE"
 
-    def _moved(self, kind: str, numbers: list[float], matrix: int) -> Volumes:
+    def _transform_volume(self, kind: str, numbers: list[float], matrix: int) -> Volumes:
         found = volumes.from_numbers(kind, np.array([numbers]))
         if kind == "region":
             return found
@@ -253,7 +253,7 @@ class _Walk:
             return
         number = len(self.contents)
         if (bounds := content.get("boundingVolume")) is not None:
-            self.content_volume[number] = self._moved(*volumes.read(bounds), matrix)
+            self.content_volume[number] = self._transform_volume(*volumes.read(bounds), matrix)
         self.contents.append((row, self.number, len(self.tree.texts) + len(self.texts), -1, 0, 0, 0))
         self.texts.append(uri)
         if _path_of(uri).endswith(".json"):

@@ -12,7 +12,7 @@ from . import metadata, subtree, volumes
 from .json_text import Node
 from .scheme import MOST_SUBTREE_LEVELS, Scheme
 from .subtree import Availability
-from .tree import Document, Rows, Tree, filled
+from .tree import Document, Rows, Tree, fill_template
 from .volumes import Volumes
 
 
@@ -51,7 +51,7 @@ class Subtree:
     @property
     def reference(self) -> str:
         """URI as written in its document."""
-        return filled(self.scheme.subtrees, *self.at)
+        return fill_template(self.scheme.subtrees, *self.at)
 
 
 def expand(
@@ -109,7 +109,7 @@ def _available(tree: Tree, found: Availability, job: Subtree, levels: int, name:
     for level in range(levels):
         here = found.tiles.at(start + morton)
         morton, above = morton[here], above[here]
-        tree.room(rows + len(morton), name)
+        tree.check_room(rows + len(morton), name)
         parts.append((start + morton, np.full(len(morton), level), morton, above))
         above = np.repeat(np.arange(rows, rows + len(morton)), branches)
         rows += len(morton)

@@ -135,7 +135,7 @@ class Tree:
         self._matrices.append(matrix)
         return len(self._matrices) - 1
 
-    def room(self, more: int, name: str) -> None:
+    def check_room(self, more: int, name: str) -> None:
         """Check that this many tiles can be added.
 
         Raises
@@ -249,7 +249,7 @@ class Tree:
     def reference(self, content: int) -> str:
         """Return the URI of a content as written in its document."""
         _, _, text, level, x, y, z = map(int, self.content[content])
-        return self.texts[text] if level < 0 else filled(self.texts[text], level, x, y, z)
+        return self.texts[text] if level < 0 else fill_template(self.texts[text], level, x, y, z)
 
     def contents_of(self, some: NDArray[np.int64]) -> NDArray[np.int64]:
         """Return the numbers of the contents of these tiles, ascending."""
@@ -303,7 +303,7 @@ class Tree:
         return self._columns[name]
 
 
-def filled(template: str, level: int, x: int, y: int, z: int) -> str:
+def fill_template(template: str, level: int, x: int, y: int, z: int) -> str:
     """Fill in the variables of a template of URIs."""
     for name, value in (("{level}", level), ("{x}", x), ("{y}", y), ("{z}", z)):
         template = template.replace(name, str(value))

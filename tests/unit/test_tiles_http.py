@@ -511,7 +511,7 @@ def test_redaction():
         "https://a.example/x?v=1",
         {"session": "q"},
     )
-    assert secret.joined("https://a.example/x?v=1", {"key": "a b"}) == "https://a.example/x?v=1&key=a+b"
+    assert secret.with_secrets("https://a.example/x?v=1", {"key": "a b"}) == "https://a.example/x?v=1&key=a+b"
 
 
 def test_policies_are_data_without_keys(monkeypatch):

@@ -167,7 +167,7 @@ def make(
     path.parent.mkdir(parents=True, exist_ok=True)
     undulation, matrix = tile_source.to_scene(shot)
     prepared = [
-        TileSource(shot, number, path.parent, matrix, access, uses).prepared(
+        TileSource(shot, number, path.parent, matrix, access, uses).prepare(
             share(progress, number, len(settings.sources), "tiles")
         )
         for number in range(len(settings.sources))

@@ -138,7 +138,7 @@ class TileSource:
         self.files: dict[int, str] = {}
         self._decoded: dict[str, Summary | None] = {}
 
-    def prepared(self, progress: Progress) -> PreparedTiles:
+    def prepare(self, progress: Progress) -> PreparedTiles:
         """Select, fetch and decode until all selected tiles can be shown."""
         from ...tiles.cut import select_tiles
 

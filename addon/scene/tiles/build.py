@@ -17,7 +17,7 @@ from ...tiles.decoded import Decoded
 from .. import credits
 from ..forest.stand import Stand
 from . import material, mesh, pictures, points, reuse, slot
-from .reuse import Kept
+from .reuse import Reusable
 from .slot import Slot
 
 PART = "Tiles"
@@ -29,8 +29,8 @@ def build(shot: Shot, stage: Stage, cut: TileCut, grown: Stand | None) -> None:
     wanted = _pieces(cut)
     place = reuse.place_digest(shot)
     kept = reuse.find(stage, PART, wanted, lambda name: place + _shape_digest(shot, cut, name))
-    slots, new = _arranged(cut, wanted, kept)
-    with reuse.held(kept):
+    slots, new = _arrange_slots(cut, wanted, kept)
+    with reuse.keep_alive(kept):
         collection = stage.part(PART)
         credits.store(collection, cut.words)
         images = pictures.load(slots, cut.folder, kept.images)
@@ -87,10 +87,12 @@ def remove(stage: Stage) -> None:
         stage.part(PART)
 
 
-def _arranged(cut: TileCut, wanted: list[str], kept: Kept) -> tuple[dict[str, Slot], dict[str, Decoded]]:
+def _arrange_slots(
+    cut: TileCut, wanted: list[str], kept: Reusable
+) -> tuple[dict[str, Slot], dict[str, Decoded]]:
     """Arrange slots of all pictures; return them and the tiles to build (new, or with moved pictures)."""
-    lacking = dict.fromkeys(_file(name) for name in wanted if name not in kept.meshes)
-    new = {name: decoded.read(cut.folder / name) for name in lacking}
+    missing = dict.fromkeys(_file(name) for name in wanted if name not in kept.meshes)
+    new = {name: decoded.read(cut.folder / name) for name in missing}
     before = {name: reuse.slots(data) for name, data in kept.meshes.items()}
     known = {picture: at for each in before.values() for picture, at in each.items()}
     slots = slot.arrange([*known, *(each for tile in new.values() for each in tile.pictures)], known)

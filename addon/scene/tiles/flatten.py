@@ -30,10 +30,12 @@ def flatten(shot: Shot, tile: Decoded) -> Decoded:
     moved = growing[high]
     position = tile.position.copy()
     position[moved, 2] = ground[high] - tile.origin[2]
-    return replace(tile, position=position, normal=_renewed(tile, position, moved))
+    return replace(tile, position=position, normal=_recompute_normals(tile, position, moved))
 
 
-def _renewed(tile: Decoded, position: NDArray[np.float32], moved: NDArray[np.integer]) -> NDArray[np.float32]:
+def _recompute_normals(
+    tile: Decoded, position: NDArray[np.float32], moved: NDArray[np.integer]
+) -> NDArray[np.float32]:
     """Recompute normals (n, 3) of all vertices of triangles with a moved vertex.
 
     A normal is the area-weighted mean of the triangles' normals, or up if the mean is zero.

@@ -24,7 +24,7 @@ TILE, SLOTS, ORIGIN = "firetwin_tile", "firetwin_slots", "firetwin_origin"
 
 
 @dataclass
-class Kept:
+class Reusable:
     """Unchanged data-blocks of the last build.
 
     Attributes
@@ -40,7 +40,7 @@ class Kept:
     images: list[bpy.types.Image] = field(default_factory=list)
 
 
-def find(stage: Stage, part: str, wanted: Sequence[str], made_of: Callable[[str], str]) -> Kept:
+def find(stage: Stage, part: str, wanted: Sequence[str], made_of: Callable[[str], str]) -> Reusable:
     """Find the reusable data-blocks of the last build of a part.
 
     Parameters
@@ -50,7 +50,7 @@ def find(stage: Stage, part: str, wanted: Sequence[str], made_of: Callable[[str]
     made_of
         Computes the digest of the other inputs of a tile's mesh.
     """
-    kept, some = Kept(), set(wanted)
+    kept, some = Reusable(), set(wanted)
     for obj in stage.objects_of(part):
         data = obj.data
         if not isinstance(data, bpy.types.Mesh) or not owned.is_ours(data) or TILE not in data:
@@ -89,7 +89,7 @@ def place_digest(shot: Shot) -> str:
 
 
 @contextmanager
-def held(kept: Kept) -> Iterator[None]:
+def keep_alive(kept: Reusable) -> Iterator[None]:
     """Keep these data-blocks while their objects are removed."""
     blocks = [*kept.meshes.values(), *kept.materials, *kept.images]
     mine = [block for block in dict.fromkeys(blocks) if not block.use_fake_user]

@@ -40,7 +40,7 @@ def address_of(data: bytes, name: str, url: str, layer: str = "") -> TileAddress
     InputError
         The capabilities are invalid, the layer is missing, or has no matrix set WebMercatorQuad.
     """
-    root = _parsed(data, name)
+    root = _parse(data, name)
     contents = root.find("./{*}Contents")
     if contents is None:
         raise input_error(name, "is not a WMTS: Contents is missing; name the URL of its capabilities")
@@ -60,7 +60,7 @@ class _NoDoctype(ElementTree.TreeBuilder):
         raise ValueError("it has a document type")
 
 
-def _parsed(data: bytes, name: str) -> Element:
+def _parse(data: bytes, name: str) -> Element:
     try:
         return ElementTree.fromstring(data, ElementTree.XMLParser(target=_NoDoctype()))
     except (ElementTree.ParseError, ValueError, LookupError) as error:
@@ -134,11 +134,11 @@ def _template(layer: Element, name: str, matrices: str, operation: str, url: str
         if each.get("resourceType") == "tile"
     }
     if found := next((resources[kind] for kind in _FORMATS if resources.get(kind)), ""):
-        return urljoin(url, _filled(found, chosen, name))
+        return urljoin(url, _fill_template(found, chosen, name))
     return _by_key_and_value(layer, name, chosen, operation)
 
 
-def _filled(template: str, chosen: dict[str, str], name: str) -> str:
+def _fill_template(template: str, chosen: dict[str, str], name: str) -> str:
     places = {"tilematrix": "{z}", "tilecol": "{x}", "tilerow": "{y}"}
     places |= {key: quote(value, safe="") for key, value in chosen.items()}
 

@@ -56,7 +56,7 @@ class Maker:
         credit: str = "",
     ) -> None:
         self.lattice, self.colours, self.out, self.credit = lattice, colours, out, credit
-        self._buildings = _by_leaf(lattice, buildings)
+        self._buildings = _group_by_leaf(lattice, buildings)
         self.summary = Summary(errors=[0.0] * (lattice.levels + 1))
 
     def run(self, progress: Progress = silent) -> Summary:
@@ -87,7 +87,7 @@ class Maker:
 
     def _check(self) -> None:
         path = self.out / _FILE
-        if self.out.is_dir() and any(self.out.iterdir()) and not _is_ours(path):
+        if self.out.is_dir() and any(self.out.iterdir()) and not _is_own_tileset(path):
             raise input_error(self.out, "is neither empty nor a tileset of Firetwin; name another --out")
 
     def _tile(
@@ -102,7 +102,10 @@ class Maker:
         ]
         error = self.lattice.error(level, row, column) if children else 0.0
         if here := self._buildings.get((row, column)) if not children else None:
-            children, error = [self._built(here, row, column)], max(each.footprint.height for each in here)
+            children, error = (
+                [self._write_buildings(here, row, column)],
+                max(each.footprint.height for each in here),
+            )
         error = max([error, *(child["geometricError"] for child in children)])
         self.summary.errors[level] = max(self.summary.errors[level], error)
         low, high = terrain_tile.heights(self.lattice, level, row, column)
@@ -115,7 +118,7 @@ class Maker:
             "boundingVolume": {"region": [*self._sides(level, row, column), low, high]},
             "geometricError": error,
             "refine": "ADD" if here else "REPLACE",
-            "content": {"uri": self._write(level, row, column)},
+            "content": {"uri": self._write_terrain(level, row, column)},
         }
         return about | ({"children": children} if children else {})
 
@@ -125,9 +128,9 @@ class Maker:
         lat, lon = self.lattice.latitude[rows], self.lattice.longitude[columns]
         return [float(np.radians(at)) for at in (lon[0], lat[0], lon[-1], lat[-1])]
 
-    def _write(self, level: int, row: int, column: int) -> str:
+    def _write_terrain(self, level: int, row: int, column: int) -> str:
         mesh = terrain_tile.mesh(self.lattice, level, row, column, self._picture(level, row, column))
-        return self._put(f"{level}/{row}_{column}.glb", mesh)
+        return self._write_mesh(f"{level}/{row}_{column}.glb", mesh)
 
     def _picture(self, level: int, row: int, column: int) -> bytes:
         if self.colours is None:
@@ -139,7 +142,7 @@ class Maker:
             self.colours, latitude, longitude, pictures.side(metres, self.colours.resolution)
         )
 
-    def _built(self, buildings: list[Building], row: int, column: int) -> dict[str, Any]:
+    def _write_buildings(self, buildings: list[Building], row: int, column: int) -> dict[str, Any]:
         """Write the tile of a leaf's buildings; return its JSON."""
         west, south, east, north = self._sides(self.lattice.levels, row, column)
         sides = [np.radians(each.footprint.outer).T for each in buildings]
@@ -153,14 +156,14 @@ class Maker:
             high,
         ]
         self.summary.buildings += len(buildings)
-        uri = self._put(f"buildings/{row}_{column}.glb", building_mesh.mesh(buildings))
+        uri = self._write_mesh(f"buildings/{row}_{column}.glb", building_mesh.mesh(buildings))
         return {
             "boundingVolume": {"region": [float(each) for each in region]},
             "geometricError": 0.0,
             "content": {"uri": uri},
         }
 
-    def _put(self, name: str, mesh: glb.Mesh) -> str:
+    def _write_mesh(self, name: str, mesh: glb.Mesh) -> str:
         data = glb.encode(mesh, self.credit)
         path = self.out / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -170,7 +173,7 @@ class Maker:
         return name
 
 
-def _by_leaf(lattice: Lattice, buildings: Sequence[Building]) -> dict[tuple[int, int], list[Building]]:
+def _group_by_leaf(lattice: Lattice, buildings: Sequence[Building]) -> dict[tuple[int, int], list[Building]]:
     """Group buildings by row and column of the leaf that contains their middle; others are omitted."""
     found: dict[tuple[int, int], list[Building]] = {}
     borders = [
@@ -194,7 +197,7 @@ def _diagonal(lattice: Lattice) -> float:
     return float(np.hypot(*(side * metres for side, metres in zip(sides, scale, strict=True))))
 
 
-def _is_ours(path: Path) -> bool:
+def _is_own_tileset(path: Path) -> bool:
     try:
         return json.loads(path.read_text(encoding="utf-8"))["asset"]["generator"] == _GENERATOR
     except (OSError, ValueError, LookupError, TypeError):

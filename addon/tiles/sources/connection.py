@@ -130,7 +130,7 @@ class Connection:
             raw += len(piece)
             limit = max_bytes if engine is None else min(max_bytes, max(GROWTH * raw, _FREE))
             if engine is not None:
-                piece = self._inflated(engine, piece, limit + 1 - size)
+                piece = self._inflate(engine, piece, limit + 1 - size)
             size += len(piece)
             if size > limit or raw > max_bytes:
                 raise input_error(
@@ -145,7 +145,7 @@ class Connection:
         return b"".join(pieces)
 
     @staticmethod
-    def _inflated(engine: Any, piece: bytes, room: int) -> bytes:
+    def _inflate(engine: Any, piece: bytes, room: int) -> bytes:
         try:
             return engine.decompress(piece, max(room, 1))
         except zlib.error as error:
@@ -156,10 +156,10 @@ class Connection:
         key = (found.scheme, found.host, found.port)
         with self._lock:
             if key not in self._pools:
-                self._pools[key] = self._made(*key)
+                self._pools[key] = self._make_pool(*key)
             return self._pools[key]
 
-    def _made(self, scheme: str, host: str, port: int) -> Any:
+    def _make_pool(self, scheme: str, host: str, port: int) -> Any:
         """Make a pool whose connections go to addresses checked by the guard."""
         guard, library = self._guard, self._library
         base: Any = library.connection.HTTPConnection

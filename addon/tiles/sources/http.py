@@ -240,7 +240,7 @@ class Http(Source):
                 secrets[self.policy.session_parameter] = session
             if self.bearer:
                 headers = headers | {"Authorization": f"Bearer {self.bearer}"}
-        return secret.joined(url, secrets), headers
+        return secret.with_secrets(url, secrets), headers
 
     def _store(self, uri: str, response: Response) -> bytes:
         with self._lock:

@@ -182,7 +182,7 @@ class HttpCache:
         except BaseException:
             self._unlink(name)
             raise
-        self._grown(data, len(body))
+        self._note_growth(data, len(body))
 
     def _replace(self, data: Database, key: str, values: tuple[Any, ...] | None) -> None:
         """Replace or remove the row of a key; the file of the former row is removed."""
@@ -194,7 +194,7 @@ class HttpCache:
         if before is not None:
             self._unlink(before[0])
 
-    def _grown(self, data: Database, more: int) -> None:
+    def _note_growth(self, data: Database, more: int) -> None:
         with self._lock:
             if self._size is None:
                 self._size = _total(data)

@@ -36,7 +36,7 @@ def split(url: str) -> tuple[str, dict[str, str]]:
     return urlunsplit(parts._replace(query=urlencode(rest), fragment="")), secrets
 
 
-def joined(url: str, secrets: dict[str, str]) -> str:
+def with_secrets(url: str, secrets: dict[str, str]) -> str:
     """Add secrets to a URL."""
     if not secrets:
         return url
