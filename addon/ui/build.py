@@ -13,7 +13,7 @@ from ..shot.cameras import camera_warnings
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
 from ..shot.stations import station_signs
-from ..shot.stations.station_signs import Moving
+from ..shot.stations.station_signs import MovingPoints
 from . import (
     auto_framing,
     camera_edits,
@@ -145,10 +145,10 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     return f"Built {what} of {shot.run.name}" + (f"; {words}" if words else "")
 
 
-def _read(chosen: ShotSource, whole: bool) -> tuple[Shot, Moving | None]:
+def _read(chosen: ShotSource, whole: bool) -> tuple[Shot, MovingPoints | None]:
     """Return the shot and, for a build of all parts, the ignition and the head's positions."""
     shot = chosen.shot()
-    return shot, station_signs.moving(shot) if whole else None
+    return shot, station_signs.find_moving_points(shot) if whole else None
 
 
 def _finish(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], new: bool) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from mathutils import Vector
 from numpy.typing import NDArray
 
-from ..shot.stations.station_signs import Moving
+from ..shot.stations.station_signs import MovingPoints
 
 HEAD, IGNITION = "Head of the fire", "Ignition"
 
@@ -18,7 +18,7 @@ _KNOTS = 49  # stored positions of the head, interpolated linearly
 _WORDS = {"head": HEAD, "head of the fire": HEAD, "ignition": IGNITION}
 
 
-def store(panel: bpy.types.PropertyGroup, found: Moving) -> None:
+def store(panel: bpy.types.PropertyGroup, found: MovingPoints) -> None:
     """Store the landmarks in the .blend file."""
     frames = np.unique(np.linspace(0, len(found.head) - 1, _KNOTS).round().astype(int))
     ignition = None if found.ignition is None else np.round(found.ignition, 1).tolist()

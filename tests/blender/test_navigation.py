@@ -237,7 +237,7 @@ def test_head_ignition_and_stations_are_gone_to(panel, tmp_path):
     panel.stations.file = str(path)
     assert (go_to.place(scene, "base two") - go_to.place(scene, "38.84 -120.55")).length < 0.01
     shot = choice.from_panel(panel).shot()
-    latitude, longitude = station_signs.ignition(shot)
+    latitude, longitude = station_signs.ignition_point(shot)
     assert (go_to.place(scene, "ignition") - go_to.place(scene, f"{latitude} {longitude}")).length < 5.0
     wanted = targets.follow("head", shot.bare_ground, shot.frames.times, station_signs._ABOVE)
     for frame in (1, 3):

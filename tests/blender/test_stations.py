@@ -70,7 +70,7 @@ def test_signs_face_the_camera_keep_their_size_and_have_two_forms(stationed, run
 
 
 def test_every_form_of_an_exercise_says_so(stationed, run):
-    near, base = station_signs.signs(Shot(stationed, run))
+    near, base = station_signs.make_signs(Shot(stationed, run))
     assert signs.full(base)[-1] == (EXERCISE, True)
     assert signs.short(base)[-1] == ("Exercise", True)
     assert not any("xercise" in text for text, _ in signs.full(near) + signs.short(near))
@@ -96,7 +96,7 @@ def test_an_outline_gives_a_building_its_shape(stationed, run, scene, tmp_path):
     )
     outlined = replace(stationed.stations, footprints=tmp_path / "outlines.geojson")
     shot = Shot(replace(stationed, stations=outlined), run)
-    near, base = station_signs.signs(shot)
+    near, base = station_signs.make_signs(shot)
     assert (len(near.footprint), base.footprint) == (3, None)
     build.build(shot, scene, ("stations",))
     data = bpy.data.objects["Firetwin Halls"].data
@@ -117,10 +117,10 @@ def test_routes_lie_on_the_ground_as_wide_in_every_picture(stationed, run, scene
     shot = Shot(routed, run)
     build.build(shot, scene, ("cameras", "stations"))
     obj = bpy.data.objects["Firetwin Routes"]
-    line = routes.drape_line(shot, station_signs.routes(shot, station_signs.signs(shot))[0].line)
+    line = routes.drape_line(shot, station_signs.make_routes(shot, station_signs.make_signs(shot))[0].line)
     assert np.linalg.norm(np.diff(line[:, :2], axis=0), axis=1).max() < 30.01
     assert line[0] == pytest.approx(shot.ground.point(*NEAR)[0], abs=0.01)
-    assert line[-1] == pytest.approx(shot.ground.point(*station_signs.ignition(shot))[0], abs=0.01)
+    assert line[-1] == pytest.approx(shot.ground.point(*station_signs.ignition_point(shot))[0], abs=0.01)
     scene.view_layers[0].update()
     made = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
     corners = np.array([v.co[:] for v in made.vertices[:4]])

@@ -44,10 +44,10 @@ def shot_of(make_run, tmp_path):
 
 def test_signs_have_name_kind_resources_minutes_and_origin(shot_of):
     shot = shot_of()
-    fact, base = station_signs.signs(shot)  # one lies beyond the ground
+    fact, base = station_signs.make_signs(shot)  # one lies beyond the ground
     assert (fact.name, fact.origin, fact.lines) == ("Fact Station", "fact", ("fire station", "1 x engine/6"))
     far = np.hypot(
-        *(shot.ground.point(38.906, -120.59) - shot.ground.point(*station_signs.ignition(shot)))[0, :2]
+        *(shot.ground.point(38.906, -120.59) - shot.ground.point(*station_signs.ignition_point(shot)))[0, :2]
     )
     least = 5.0 + 1.4 * far / 1000.0
     assert base.lines == (
@@ -60,7 +60,7 @@ def test_signs_have_name_kind_resources_minutes_and_origin(shot_of):
 
 def test_a_sign_says_when_the_fire_reaches_it_where_that_is_asked_for(shot_of):
     shot = shot_of(show=("fire",))
-    fact, base = station_signs.signs(shot)
+    fact, base = station_signs.make_signs(shot)
     found = fire_arrival.sample(shot.run, [fact.latitude, base.latitude], [fact.longitude, base.longitude])
     assert found.state.tolist() == [fire_arrival.REACHED, fire_arrival.NEVER]
     assert fact.lines == (f"fire: {times.text(found.utc(shot.run, 0)[0], shot.settings.time.zone)}",)
@@ -71,7 +71,7 @@ def test_a_sign_says_when_the_fire_reaches_it_where_that_is_asked_for(shot_of):
 def test_what_an_exercise_adds_to_a_fact_is_an_exercise(shot_of, tmp_path):
     invented = [(1, "engine/3", 1, None, None, "exercise")]
     for show, origin in ((("kind", "resources"), "exercise"), (("kind",), "fact")):
-        fact = station_signs.signs(shot_of(invented, show=show))[0]
+        fact = station_signs.make_signs(shot_of(invented, show=show))[0]
         assert fact.origin == origin
         assert (EXERCISE in fact.lines) == (origin == "exercise")
 
@@ -94,22 +94,22 @@ def test_a_sign_sums_up_resources_and_has_a_short_name(shot_of):
     at = shot.settings.stations.file
     names = ["A " * 99, " \n"]
     small_stations.put(at, [Station(k, name, *ROWS[0][2:4], "fact", 1) for k, name in enumerate(names, 1)])
-    first, second = station_signs.signs(shot)
+    first, second = station_signs.make_signs(shot)
     assert (len(first.name), second.name) == (80, "station 2")
 
 
 def test_routes_are_straight_lines_or_the_users(shot_of, tmp_path):
-    assert not station_signs.routes(shot_of(), [])
+    assert not station_signs.make_routes(shot_of(), [])
     shot = shot_of(routes=True)
-    found = station_signs.routes(shot, station_signs.signs(shot))
+    found = station_signs.make_routes(shot, station_signs.make_signs(shot))
     assert [route.origin for route in found] == ["fact", "exercise"]
-    latitude, longitude = station_signs.ignition(shot)
+    latitude, longitude = station_signs.ignition_point(shot)
     assert all(np.array_equal(route.line[-1], (longitude, latitude)) for route in found)
     line = {"type": "LineString", "coordinates": [[-120.6, 38.9], [-120.59, 38.905], [-120.588, 38.906]]}
     feature = {"type": "Feature", "properties": {"origin": "exercise"}, "geometry": line}
     (tmp_path / "routes.geojson").write_text(json.dumps(feature))
     own = replace(shot.settings.stations, routes_file=tmp_path / "routes.geojson")
-    (route,) = station_signs.routes(Shot(replace(shot.settings, stations=own), shot.run), [])
+    (route,) = station_signs.make_routes(Shot(replace(shot.settings, stations=own), shot.run), [])
     assert (len(route.line), route.origin) == (3, "exercise")
 
 

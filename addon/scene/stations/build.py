@@ -12,10 +12,10 @@ def build(shot: Shot, stage: Stage) -> None:
     """Build signs, buildings, handles and routes; nothing if stations are off."""
     settings = shot.settings.stations
     written, walls = stage.part("Stations"), stage.part("Buildings")
-    shown = station_signs.signs(shot)
+    shown = station_signs.make_signs(shot)
     if shown and settings.signs:
         signs.build(shot, written, shown)
     if shown and settings.buildings:
         buildings.build(shot, stage, walls, shown)
     handles.build(shot, written, shown)
-    routes.build(shot, written, station_signs.routes(shot, shown))
+    routes.build(shot, written, station_signs.make_routes(shot, shown))

@@ -79,14 +79,14 @@ class Route:
     origin: str
 
 
-class Moving(NamedTuple):
+class MovingPoints(NamedTuple):
     """Scene positions, m: ignition (3,), or None, and head of the fire at each frame (frames, 3)."""
 
     ignition: Array | None
     head: Array
 
 
-def signs(shot: Shot) -> list[Sign]:
+def make_signs(shot: Shot) -> list[Sign]:
     """Make the signs of the stations on the ground of the run; none if stations are off.
 
     Raises
@@ -106,7 +106,7 @@ def signs(shot: Shot) -> list[Sign]:
     ]
 
 
-def routes(shot: Shot, shown: Iterable[Sign]) -> list[Route]:
+def make_routes(shot: Shot, shown: Iterable[Sign]) -> list[Route]:
     """Return the lines of the user, or straight lines from stations to the ignition; none if routes are off.
 
     Raises
@@ -123,23 +123,23 @@ def routes(shot: Shot, shown: Iterable[Sign]) -> list[Route]:
         if not lines:
             raise input_error(settings.routes_file, "has no lines; draw routes as LineString features")
         return lines
-    began = ignition(shot)
+    began = ignition_point(shot)
     if not settings.routes or began is None:
         return []
     end = (began[1], began[0])
     return [Route(np.array([(each.longitude, each.latitude), end]), each.origin) for each in shown]
 
 
-def ignition(shot: Shot) -> tuple[float, float] | None:
+def ignition_point(shot: Shot) -> tuple[float, float] | None:
     """Return the mean position of the fuel cells that burn first, degrees; None if nothing burns."""
     return fire_arrival.first_burned_point(shot.run)
 
 
-def moving(shot: Shot) -> Moving:
+def find_moving_points(shot: Shot) -> MovingPoints:
     """Return the positions of ignition and head."""
-    began, ground = ignition(shot), shot.bare_ground
+    began, ground = ignition_point(shot), shot.bare_ground
     head = targets.follow("head", ground, shot.frames.times, _ABOVE)
-    return Moving(None if began is None else ground.point(*began)[0], head)
+    return MovingPoints(None if began is None else ground.point(*began)[0], head)
 
 
 def covers(ground: Terrain, latitude: float, longitude: float) -> bool:
@@ -180,7 +180,7 @@ def check(settings: Settings) -> None:
 
 def _minutes(shot: Shot, known: StationFile, here: Sequence[Station]) -> list[str]:
     """Format the shortest time from the order to the arrival at the ignition; empty if unknown or hidden."""
-    began = ignition(shot)
+    began = ignition_point(shot)
     if "minutes" not in shot.settings.stations.show or began is None:
         return [""] * len(here)
     least = measures.shortest_minutes(known, began)[[known.station_row[each.id] for each in here]]
