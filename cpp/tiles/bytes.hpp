@@ -11,7 +11,7 @@
 
 namespace firetwin::tiles {
 
-static_assert(std::endian::native == std::endian::little, "glTF and 3-D Tiles are little-endian");
+static_assert(std::endian::native == std::endian::little, "glTF and 3D Tiles are little-endian");
 
 using Bytes = std::span<const std::uint8_t>;
 

@@ -1,4 +1,4 @@
-"""3-D Tiles in the scene: made of the run's own ground, chosen, decoded, and built in its place."""
+"""3D Tiles in the scene: made of the run's own ground, chosen, decoded, and built in its place."""
 
 import json
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""3-D Tiles content made with struct and json alone: glTF from arrays, and the headers around it."""
+"""3D Tiles content made with struct and json alone: glTF from arrays, and the headers around it."""
 
 import json
 import struct
@@ -163,6 +163,6 @@ def wavy(count, seed=5):
 
 
 def to_z_up(points):
-    """Convert the axes of glTF to the axes of 3-D Tiles."""
+    """Convert the axes of glTF to the axes of 3D Tiles."""
     points = np.asarray(points, float)
     return np.stack([points[:, 0], -points[:, 2], points[:, 1]], 1)

@@ -1,4 +1,4 @@
-"""Content of 3-D Tiles: headers, the order of matrices, nodes, precision, copyright."""
+"""Content of 3D Tiles: headers, the order of matrices, nodes, precision, copyright."""
 
 import json
 import struct

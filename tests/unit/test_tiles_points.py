@@ -1,4 +1,4 @@
-"""Point clouds of 3-D Tiles."""
+"""Point clouds of 3D Tiles."""
 
 import struct
 

@@ -61,7 +61,7 @@ class Waypoints:
 def short(ground: Terrain, position: Array, clearance: Array) -> Array:
     """Height deficit (frames,), m: how much cameras must rise to keep their terrain clearance.
 
-    Over 3-D Tiles the clearance is above roofs and crowns. It holds between frames too: the path is straight
+    Over 3D Tiles the clearance is above roofs and crowns. It holds between frames too: the path is straight
     there. A frame takes the largest deficit along its two adjacent legs. Between samples the terrain is
     assumed to rise by 1.5 times its difference from sample to sample.
 

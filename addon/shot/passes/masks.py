@@ -9,7 +9,7 @@ burned   2     ground and brush behind the front
 tree     3     living or burned
 smoke    4     transmits less than half of the light behind it, in green
 fire     5     flames in the air, on the ground and in crowns, and firebrands
-building 6     blocks of footprints and of stations, burned or not; buildings in 3-D Tiles are ground
+building 6     blocks of footprints and of stations, burned or not; buildings in 3D Tiles are ground
 ======== ===== =================================================================================
 
 The EXR has `class`; `clear`, the transmittance 0..1 of smoke; and `instance`, the number of the tree or

@@ -7,7 +7,7 @@ coordinates count from the picture's upper left corner, u to the right and v dow
 planar depth. In an orthographic projection u and v do not depend on d, and fx and fy are pixels per metre.
 Lenses are free of distortion. The camera in Blender agrees within 0.05 pixels. `files` are the files of the
 camera's other passes, relative to the sidecar. `credits` and `services` are the credits that the picture
-needs. `tiles`, if 3-D Tiles are shown, has missing tiles and the screen-space error of the selection, pixels.
+needs. `tiles`, if 3D Tiles are shown, has missing tiles and the screen-space error of the selection, pixels.
 
 In a panorama the left eye's picture, `eye` pixels high, is above the right eye's. A direction (x, y, z)
 projects to u = cx + fx atan2(x, -z) and v = cy - fy asin(y) in each eye's picture; fx and fy are pixels per

@@ -47,7 +47,7 @@ class SceneSettings:
         default_factory=TerrainSettings,
         help="the run's grid, relief near the cameras and an apron to the horizon",
     )
-    tiles: TileSettings = key(default_factory=TileSettings, help="3-D Tiles as ground")
+    tiles: TileSettings = key(default_factory=TileSettings, help="3D Tiles as ground")
     forest: Forest = key(default_factory=Forest, help="trees and grass")
     fire: FireSettings = key(default_factory=FireSettings, help="flames, firebrands and glowing ash")
     smoke: SmokeSettings = key(default_factory=SmokeSettings, help="the smoke volume")

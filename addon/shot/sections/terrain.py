@@ -81,7 +81,7 @@ class TerrainSettings:
     height_source: str = key(
         "elevation",
         "source of ground heights",
-        choices={"elevation": "run or model", "tiles": "3-D Tiles"},
+        choices={"elevation": "run or model", "tiles": "3D Tiles"},
         affects=(),
     )
     globe: Path | None = key(

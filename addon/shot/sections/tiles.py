@@ -9,7 +9,7 @@ from ..schema import key
 
 @dataclass(frozen=True)
 class TileSettings:
-    """3-D Tiles as ground: photogrammetry, terrain and buildings, chosen once for the whole shot."""
+    """3D Tiles as ground: photogrammetry, terrain and buildings, chosen once for the whole shot."""
 
     sources: tuple[str, ...] = key(
         (),

@@ -1,7 +1,7 @@
 """Terrain elevation of a shot: the run's heights, or the data of a user's elevation model (DEM).
 
 All objects on the ground take their heights from here. At its edges and gaps the model blends into
-the run's heights over `_BLEND` metres. Beside 3-D Tiles the ground blends into the tiles, outside of them.
+the run's heights over `_BLEND` metres. Next to 3D Tiles the ground blends into the tiles, outside of them.
 """
 
 from __future__ import annotations
@@ -47,12 +47,12 @@ class Elevation:
 
     @property
     def tiles(self) -> TileHeights | None:
-        """The 3-D Tiles that it is of; None without."""
+        """3D Tiles that give this elevation; None without."""
         return self.model.tiles if isinstance(self.model, _Stacked) else None
 
     @property
     def parts(self) -> tuple[Elevation, Elevation]:
-        """Elevation of the 3-D Tiles alone, and of the ground around them; only for elevation from tiles."""
+        """Elevation of the 3D Tiles alone, and of the ground around them; only for elevation from tiles."""
         assert isinstance(self.model, _Stacked)
         return Elevation(self.run, _Stacked(self.model.tiles, None)), Elevation(self.run, self.model.model)
 

@@ -1,4 +1,4 @@
-"""Ground around 3-D Tiles, raised or lowered to meet their border without a step."""
+"""Ground around 3D Tiles, raised or lowered to meet their border without a step."""
 
 from __future__ import annotations
 

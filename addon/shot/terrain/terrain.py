@@ -291,7 +291,7 @@ class Terrain:
         return self.point(*self.geodetic(east, north))[:, 2]
 
     def top(self, east: ArrayLike, north: ArrayLike) -> Array:
-        """Scene z (n,) of the ground, or of roofs and crowns if 3-D Tiles are the ground."""
+        """Scene z (n,) of the ground, or of roofs and crowns if 3D Tiles are the ground."""
         east, north = (np.atleast_1d(np.asarray(v, np.float64)) for v in np.broadcast_arrays(east, north))
         up, tiles = self.up(east, north), self._relief.tiles
         return up if tiles is None else np.fmax(up, tiles.top(east, north))

@@ -1,4 +1,4 @@
-"""Heights of 3-D Tiles: their ground, as an elevation model for all that stands on it, and their roofs."""
+"""Heights of 3D Tiles: their ground, as an elevation model for all objects on it, and their roofs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far the ground of 3-D Tiles lies from a scene's own: a wrong geoid shows there."""
+"""Height difference between the ground of 3D Tiles and the terrain of a scene: shows a wrong geoid."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fuzzes the readers: text grids, .npy files, run.toml, complete run folders, and the content of 3-D Tiles. Builds into build/fuzz.
+# Fuzzes the readers: text grids, .npy files, run.toml, complete run folders, and the content of 3D Tiles. Builds into build/fuzz.
 #
 #   tests/system/fuzz/run.sh                   200,000 executions of each
 #   tests/system/fuzz/run.sh --runs 10000000   as many of each

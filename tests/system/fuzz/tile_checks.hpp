@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-/// Shared by the fuzzers of 3-D Tiles: content is assembled from parts of an input, so that its
+/// Shared by the fuzzers of 3D Tiles: content is assembled from parts of an input, so that its
 /// lengths are right, and decoded arrays must satisfy their invariants.
 namespace firetwin::fuzz {
 

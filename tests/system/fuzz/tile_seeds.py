@@ -1,4 +1,4 @@
-"""Contents of 3-D Tiles that fuzzing starts from, in the parts that fuzz_*.cpp puts together."""
+"""Contents of 3D Tiles that fuzzing starts from, in the parts that fuzz_*.cpp puts together."""
 
 import base64
 import json
