@@ -1,4 +1,4 @@
-"""Who must be named in a shot's pictures: the owners of tiles, orthophoto and picture of the Earth."""
+"""Credits that a shot's pictures must show: for tiles, orthophoto and picture of the Earth."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def of_settings(settings: Settings) -> Credits:
-    """Those that the settings name: of the orthophoto, and of the picture of the Earth."""
+    """Collect the credits in the settings: of the orthophoto, and of the picture of the Earth."""
     terrain, found = settings.terrain, list[str]()
     if orthophoto.photographed(settings):
         found += notices.split(terrain.photo_credit)
@@ -31,18 +31,18 @@ def of_settings(settings: Settings) -> Credits:
 
 
 def of_cuts(settings: Settings, cuts: Iterable[TileCut]) -> Credits:
-    """Those of the settings, and of these cuts."""
+    """Collect the credits of the settings and of these cuts."""
     return functools.reduce(Credits.merge, (cut.words for cut in cuts), of_settings(settings))
 
 
 def of_shot(shot: Shot) -> Credits:
-    """Those of a shot; of its tiles where they were prepared."""
+    """Collect the credits of a shot, including its tiles if they are prepared."""
     cut = tile_cut.prepared(shot)
     return of_cuts(shot.settings, [cut] if cut else [])
 
 
 def foot(shot: Shot, width: int, height: int, compares: bool = False) -> int:
-    """Rows along the bottom of a one-camera shot's picture that credits take (see `imaging.credits`).
+    """Compute the rows of credits along the bottom of a one-camera shot's picture (see `imaging.credits`).
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def foot(shot: Shot, width: int, height: int, compares: bool = False) -> int:
 
 @functools.lru_cache(maxsize=1)
 def _of_runs(shot: Shot, compares: bool) -> Credits:
-    """Credits of a shot, or of all its runs; kept for the next frame."""
+    """Collect the credits of a shot, or of all its runs; cached for the next frame."""
     labels = shot.others if compares else ()
     shots = [shot, *(comparison.for_run(shot, label) for label in labels)]
     return functools.reduce(Credits.merge, map(of_shot, shots))
