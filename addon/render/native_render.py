@@ -63,6 +63,11 @@ def to_none(stage: Stage) -> None:
             node.mute = True
 
 
+def has_outputs(scene: bpy.types.Scene) -> bool:
+    """Return whether Blender's own renders write pass files."""
+    return any(str(node.get(owned.MARK, "")).startswith("exr ") and not node.mute for node in _nodes(scene))
+
+
 def _nodes(scene: bpy.types.Scene) -> Iterable[bpy.types.Node]:
     """Return the compositor's nodes; an artist may have removed the compositor."""
     tree = compat.compositor(scene)

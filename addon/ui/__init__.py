@@ -78,10 +78,10 @@ def register() -> None:
 
 def unregister() -> None:
     """Undo `register` in reverse order; running tasks are cancelled."""
-    working.abandon()
+    working.cancel_task()
     queue.clear()
     feature_panels.unregister()
-    maps.forget()
+    maps.clear()
     tile_credits.unregister()
     stations_panel.unregister()
     former_names.unregister()

@@ -27,14 +27,14 @@ class FIRETWIN_OT_assets(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return run.ready(cls, context)
+        return run.is_ready(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Run the job in a worker process."""
         from ..jobs import assets
 
         settings = context.scene.firetwin
-        out = bpy.path.abspath(self.directory) or scene_file.output(settings, "assets")
+        out = bpy.path.abspath(self.directory) or scene_file.output_folder(settings, "assets")
         if not out:
             raise Error(render.NO_OUTPUT)
         made = yield InThread(

@@ -48,32 +48,32 @@ def _frame_folder(folder: str, stamps: str, start: datetime | None, end: datetim
     run = readers.open(folder)
     fits = auto_framing.fit(run, Settings(run=Path(folder), time=Time(start, end)))
     values = {part.name: plain(part.type, getattr(fits.settings.time, part.name)) for part in fields(Time)}
-    return {"cameras": camera_list.text(fits.settings.cameras), "time": values, "lines": fits.lines}
+    return {"cameras": camera_list.to_text(fits.settings.cameras), "time": values, "lines": fits.lines}
 
 
-def put(panel: bpy.types.PropertyGroup, fits: dict[str, Any]) -> None:
+def apply_framing(panel: bpy.types.PropertyGroup, fits: dict[str, Any]) -> None:
     """Apply the framing of the panel's run to values that are defaults or come from an earlier framing."""
-    before = _usual(panel)
-    here = camera_list.text(camera_list.cameras(panel))
+    before = _automatic_framing(panel)
+    here = camera_list.to_text(camera_list.cameras(panel))
     if not panel.scene_file:
-        _put_time(panel.time, before.get("time", {}), fits["time"])
+        _update_time(panel.time, before.get("time", {}), fits["time"])
     if here in ("", before.get("cameras", "")):
         if not here and not panel.scene_file:
             from ..smoke import sources
 
             panel.smoke.method = sources.preview()  # a slower method is announced first
-        camera_list.fill(panel, camera_list.listed(fits["cameras"]))
+        camera_list.fill(panel, camera_list.from_text(fits["cameras"]))
     panel.usual = json.dumps(fits | {"placed_for": [fits["time"][name] for name in _WINDOW]})
 
 
-def again(uid: int) -> Steps:
+def reframe(uid: int) -> Steps:
     """Place automatic cameras again after the user changed the time window."""
     from ..run import readers, times
 
     panel = owned.scene(uid).firetwin
-    usual, time = _usual(panel), _time_of(panel)
+    usual, time = _automatic_framing(panel), _time_settings(panel)
     window = [plain(datetime, moment) for moment in (time.start, time.end)]
-    here = camera_list.text(camera_list.cameras(panel))
+    here = camera_list.to_text(camera_list.cameras(panel))
     if panel.scene_file or here != usual.get("cameras") or window == usual["placed_for"]:
         return ""
     run = readers.open(bpy.path.abspath(panel.run))
@@ -82,41 +82,43 @@ def again(uid: int) -> Steps:
         return ""  # the next reader of the settings reports it
     fits = yield InThread("placing the cameras", lambda **_: frame_run(run, time.start, time.end))
     panel = owned.scene(uid).firetwin
-    camera_list.fill(panel, camera_list.listed(fits["cameras"]))
+    camera_list.fill(panel, camera_list.from_text(fits["cameras"]))
     kept = {"cameras": fits["cameras"], "lines": fits["lines"], "placed_for": window}
     panel.usual = json.dumps(usual | kept)
     return ""
 
 
-def lines(panel: bpy.types.PropertyGroup) -> list[str]:
+def framing_messages(panel: bpy.types.PropertyGroup) -> list[str]:
     """Return messages about the framing, while its cameras are the panel's."""
-    told, names = _told(panel.usual)
+    told, names = _parse_messages(panel.usual)
     return told if [item.name for item in panel.cameras] == names else []
 
 
 @functools.lru_cache(maxsize=8)
-def _told(usual: str) -> tuple[list[str], list[str]]:
+def _parse_messages(usual: str) -> tuple[list[str], list[str]]:
     """Return messages, and names of the cameras, cached for drawing."""
     kept = json.loads(usual or "{}")
-    return kept.get("lines", []), [each.name for each in camera_list.listed(kept.get("cameras", ""))]
+    return kept.get("lines", []), [each.name for each in camera_list.from_text(kept.get("cameras", ""))]
 
 
-def _usual(panel: bpy.types.PropertyGroup) -> dict[str, Any]:
+def _automatic_framing(panel: bpy.types.PropertyGroup) -> dict[str, Any]:
     return json.loads(panel.usual or "{}")
 
 
-def _time_of(panel: bpy.types.PropertyGroup) -> Time:
+def _time_settings(panel: bpy.types.PropertyGroup) -> Time:
     return Time(**{part.name: keys.take(panel.time, part) for part in fields(Time)})
 
 
-def _put_time(group: bpy.types.PropertyGroup, before: dict[str, Any], now: dict[str, Any]) -> None:
+def _update_time(group: bpy.types.PropertyGroup, before: dict[str, Any], now: dict[str, Any]) -> None:
     """Update keys of [time] that are defaults, or come from the earlier framing, to the new framing."""
     for part in fields(Time):
-        if not keys.differs(group, part) or keys.shows(group, part, _values(before)[part.name]):
-            keys.put(group, part, _values(now)[part.name])
+        if not keys.is_changed(group, part) or keys.is_showing(
+            group, part, _parse_time_values(before)[part.name]
+        ):
+            keys.put(group, part, _parse_time_values(now)[part.name])
 
 
-def _values(kept: dict[str, Any]) -> dict[str, Any]:
+def _parse_time_values(kept: dict[str, Any]) -> dict[str, Any]:
     """Return values of [time] from their JSON, with defaults for missing keys."""
     moments = {name: datetime.fromisoformat(kept[name]) for name in _WINDOW if kept.get(name)}
     return asdict(Time()) | kept | moments

@@ -8,7 +8,7 @@ import bpy
 
 from ..blender import owned
 from . import choice, queue, render, run, scene_file, working
-from .text import paragraph
+from .text import draw_paragraph
 
 _ICONS = {
     queue.WAITING: "TIME",
@@ -35,12 +35,12 @@ class FIRETWIN_OT_render_background(bpy.types.Operator):
         if not settings.first_time:
             cls.poll_message_set("Build the scene first")
             return False
-        if not scene_file.output(settings):
+        if not scene_file.output_folder(settings):
             cls.poll_message_set(render.NO_OUTPUT)
             return False
-        return run.ready(cls, context)
+        return run.is_ready(cls, context)
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         from ..jobs import render_blend
         from ..jobs.render import RenderRequest
@@ -48,7 +48,7 @@ class FIRETWIN_OT_render_background(bpy.types.Operator):
         scene, settings = context.scene, context.scene.firetwin
         frames = {"frame": str(scene.frame_current), "list": settings.frame_list, "all": None}
         camera = None if settings.camera == "*" else settings.camera
-        asked = RenderRequest(Path(scene_file.output(settings)), frames[settings.which], camera)
+        asked = RenderRequest(Path(scene_file.output_folder(settings)), frames[settings.which], camera)
         which = {
             "frame": f"frame {scene.frame_current}",
             "list": f"frames {settings.frame_list}",
@@ -83,14 +83,14 @@ class FIRETWIN_OT_f12_files(bpy.types.Operator):
         if not owned.is_ours(context.scene) or not context.scene.firetwin.first_time:
             cls.poll_message_set("Build the scene with Firetwin first")
             return False
-        return working.editable(cls, context)
+        return working.is_editable(cls, context)
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         from ..render import native_render as shown
 
         scene, settings = context.scene, context.scene.firetwin
-        stage, out = owned.stage(scene), scene_file.output(settings)
+        stage, out = owned.stage(scene), scene_file.output_folder(settings)
         names = [item.name for item in settings.cameras if stage.camera(item.name) == scene.camera]
         if not self.on:
             shown.to_none(stage)
@@ -127,7 +127,7 @@ class FIRETWIN_OT_queue_esc(bpy.types.Operator):
             type(self).on = False
             return {"FINISHED", "PASS_THROUGH"}
         pressed = event.type == "ESC" and event.value == "PRESS"
-        if pressed and busy is not None and working.over_sidebar(context.window, event):
+        if pressed and busy is not None and working.is_over_sidebar(context.window, event):
             queue.pause(busy)
             return {"RUNNING_MODAL"}
         return {"PASS_THROUGH"}
@@ -166,7 +166,7 @@ class FIRETWIN_OT_queue(bpy.types.Operator):
             cls.poll_message_set("Nothing renders in the background")
         return bool(queue.items)
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         if not 0 <= self.index < len(queue.items):
             return {"CANCELLED"}
@@ -207,7 +207,7 @@ class FIRETWIN_PT_queue(bpy.types.Panel):
             if item.state == queue.RENDERING:
                 box.progress(factor=item.factor, text=item.text)
             else:
-                paragraph(context, box, item.text)
+                draw_paragraph(context, box, item.text)
             icons = queue.thumbnails(item)
             if icons:
                 grid = box.grid_flow(row_major=True, columns=3, even_columns=True, align=True)

@@ -33,7 +33,7 @@ from . import (
     working,
 )
 from .job import InThread, Message, Steps
-from .text import labelled, paragraph
+from .text import draw_paragraph, labelled_row
 from .working import Working
 
 ALL = "all"
@@ -43,12 +43,12 @@ _CHOICES = (
 )
 
 
-def _ready(operator: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+def _can_build(operator: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     """Return whether a scene can be built; otherwise set the poll message."""
     if context.mode != "OBJECT":
         operator.poll_message_set("Leave the edit mode first")
         return False
-    return run.ready(operator, context)
+    return run.is_ready(operator, context)
 
 
 class FIRETWIN_OT_build(Working, bpy.types.Operator):
@@ -74,7 +74,7 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return _ready(cls, context)
+        return _can_build(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Build smoke in a worker process, then all other parts in this one."""
@@ -93,15 +93,15 @@ class FIRETWIN_OT_solve(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not solve.replacement(context.scene.firetwin):
+        if not solve.replaced_method(context.scene.firetwin):
             cls.poll_message_set("The smoke is already solved, or Build scene solves it")
             return False
-        return _ready(cls, context)
+        return _can_build(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Select the solver, and build the smoke, or all parts of an empty scene."""
         panel = context.scene.firetwin
-        panel.smoke.method, panel.bake_smoke = solve.replacement(panel), True
+        panel.smoke.method, panel.bake_smoke = solve.replaced_method(panel), True
         return (yield from steps(context, "smoke" if owned.has_data(context.scene) else ALL))
 
 
@@ -113,15 +113,15 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
 
     uid, settings = context.scene.session_uid, context.scene.firetwin
     parts = tuple(PARTS) if part == ALL else (part,)
-    for text in camera_edits.pull(context.scene):
+    for text in camera_edits.read_camera_edits(context.scene):
         yield Message(text, "WARNING")
-    yield from auto_framing.again(uid)
+    yield from auto_framing.reframe(uid)
     settings = owned.scene(uid).firetwin
-    then = changed_settings.digests(settings)
+    then = changed_settings.compute_digests(settings)
     chosen, smoke = choice.from_panel(settings), settings.bake_smoke and "smoke" in parts
     if settings.tiles.sources:
         yield InThread("tiles", functools.partial(selection.prepare, chosen))
-    shot, moving = yield InThread("reading the run", lambda **_: _read(chosen, part == ALL))
+    shot, moving = yield InThread("reading the run", lambda **_: _read_shot(chosen, part == ALL))
     if smoke and shot.settings.smoke.enabled:
         yield InThread("smoke", functools.partial(bake.run, chosen, together=True))
     if shot.settings.terrain.photo_url and "terrain" in parts:
@@ -134,24 +134,24 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     new = new or uid != before
     told: list[str] = []
     yield from build.steps(shot, owned.scene(uid), parts, told.append)
-    changed_settings.remember(owned.scene(uid).firetwin, then, parts)
-    _finish(owned.scene(uid), shot, parts, new)
+    changed_settings.store_digests(owned.scene(uid).firetwin, then, parts)
+    _finish_build(owned.scene(uid), shot, parts, new)
     if moving is not None:
         landmarks.store(owned.scene(uid).firetwin, moving)
-    yield from solve.price(uid)
+    yield from solve.estimate_cost(uid)
     for text in (*shot.warnings(), *camera_warnings.mono_vr(shot.settings.cameras), *told):
         yield Message(text, "WARNING")
     what = f"{shot.frames.count} frames" if part == ALL else f"the {part}"
     return f"Built {what} of {shot.run.name}" + (f"; {words}" if words else "")
 
 
-def _read(chosen: ShotSource, whole: bool) -> tuple[Shot, MovingPoints | None]:
+def _read_shot(chosen: ShotSource, whole: bool) -> tuple[Shot, MovingPoints | None]:
     """Return the shot and, for a build of all parts, the ignition and the head's positions."""
     shot = chosen.shot()
     return shot, station_signs.find_moving_points(shot) if whole else None
 
 
-def _finish(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], new: bool) -> None:
+def _finish_build(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], new: bool) -> None:
     """Set engine and view layers of Firetwin's scene, the panel's state, and the clipping of the 3D views."""
     from ..blender import devices
     from ..render import credits, engine, layers
@@ -165,14 +165,14 @@ def _finish(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], new: boo
         devices.follow_preferences(shot.settings.render.device, scene)
     else:
         layers.complete(shot.settings, here, parts)
-    time.remember(scene.firetwin, shot)
+    time.store_mapping(scene.firetwin, shot)
     if "terrain" in parts:
         tile_facts.remember(scene.firetwin, shot)
-    view.remember(scene.firetwin, shot.run)
+    view.store_run_size(scene.firetwin, shot.run)
     if new:
-        view.look(scene)
+        view.align_views(scene)
     else:
-        view.widen(scene)
+        view.extend_clipping(scene)
 
 
 class FIRETWIN_OT_remove(bpy.types.Operator):
@@ -184,7 +184,7 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not working.editable(cls, context):
+        if not working.is_editable(cls, context):
             return False
         if not owned.has_data(context.scene):
             cls.poll_message_set("Firetwin has built nothing in this scene")
@@ -203,14 +203,14 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
             confirm_text="Remove",
         )
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene = context.scene
-        view.narrow(scene)
-        time.forget(scene.firetwin)
-        landmarks.forget(scene.firetwin)
+        view.restore_clipping(scene)
+        time.clear_mapping(scene.firetwin)
+        landmarks.clear(scene.firetwin)
         tile_facts.forget(scene.firetwin)
-        changed_settings.forget(scene.firetwin)
+        changed_settings.clear(scene.firetwin)
         target_scene.remove(scene)
         self.report({"INFO"}, "Removed what Firetwin built")
         return {"FINISHED"}
@@ -230,7 +230,7 @@ class FIRETWIN_MT_parts(bpy.types.Menu):
         layout.operator(FIRETWIN_OT_remove.bl_idname, text="Remove all", icon="TRASH")
 
 
-def again(layout: bpy.types.UILayout, part: str, due: bool = False) -> None:
+def draw_rebuild_button(layout: bpy.types.UILayout, part: str, due: bool = False) -> None:
     """Draw a rebuild button in a panel's header, highlighted if the part is out of date."""
     row = layout.row(align=True)
     row.enabled, row.alert = job.Job.current is None, due
@@ -252,22 +252,22 @@ class FIRETWIN_PT_build(bpy.types.Panel):
         layout, settings = self.layout, context.scene.firetwin
         row = layout.row(align=True)
         row.scale_y = 1.3
-        working.button(row, FIRETWIN_OT_build, "WORLD")
+        working.draw_button(row, FIRETWIN_OT_build, "WORLD")
         if job.Job.current is None:
             row.menu(FIRETWIN_MT_parts.bl_idname, text="", icon="DOWNARROW_HLT")
         if settings.changed:
             names = ", ".join(map(panel_order.title, settings.changed.split()))
-            paragraph(context, layout.column(align=True), f"Changed since the build: {names}", "INFO")
+            draw_paragraph(context, layout.column(align=True), f"Changed since the build: {names}", "INFO")
         column = layout.column()
         column.enabled = job.Job.current is None
         quality.draw(column, settings)
         column.prop(settings, "bake_smoke")
         solve.draw(column, settings)
-        labelled(column, "Seed").prop(settings, "seed", text="")
+        labelled_row(column, "Seed").prop(settings, "seed", text="")
         row = layout.row(align=True)
         row.operator(view.FIRETWIN_OT_view.bl_idname, text="Through camera", icon="CAMERA_DATA").whole = False
         row.operator(view.FIRETWIN_OT_view.bl_idname, text="Whole run", icon="WORLD_DATA").whole = True
-        working.messages(context, layout, FIRETWIN_OT_build)
+        working.draw_messages(context, layout, FIRETWIN_OT_build)
 
 
 classes = (

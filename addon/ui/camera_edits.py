@@ -8,7 +8,7 @@ from ..scene.camera import read_edits
 from . import camera_list
 
 
-def pull(scene: bpy.types.Scene) -> list[str]:
+def read_camera_edits(scene: bpy.types.Scene) -> list[str]:
     """Read the edits; return messages about edits that settings cannot express."""
     panel = scene.firetwin
     told: list[str] = []

@@ -9,7 +9,7 @@ An item has a name, and the camera's table as scene-file text (`[[cameras]]` wit
     camera_list.cameras(scene.firetwin)  # all cameras, in order
 
 The item's name overrides the name in the table, so that a list in a panel can rename a camera. Build, render
-and export use exactly these cameras (see `scene_file.settings`). The object of a built camera is
+and export use exactly these cameras (see `scene_file.read_settings`). The object of a built camera is
 `owned.stage(scene).camera(item.name)`. `scene.firetwin.camera_index` is the item selected in the panel
 FIRETWIN_PT_cameras (see `cameras_panel`). Panels of a camera use that panel as their `bl_parent_id`.
 """
@@ -34,9 +34,9 @@ class FIRETWIN_PG_camera(bpy.types.PropertyGroup):
     name: bpy.props.StringProperty(
         name="Name",
         description="Name of the camera, its folder and its files: letters, digits, - and _",
-        update=changed_settings.note,
+        update=changed_settings.update_changes,
     )
-    table: bpy.props.StringProperty(options={"HIDDEN"}, update=changed_settings.note)
+    table: bpy.props.StringProperty(options={"HIDDEN"}, update=changed_settings.update_changes)
 
 
 def get(item: FIRETWIN_PG_camera) -> Camera:
@@ -48,14 +48,14 @@ def get(item: FIRETWIN_PG_camera) -> Camera:
         Its text is not a valid camera of this version.
     """
     try:
-        return replace(_read(item.table), name=item.name)
+        return replace(_parse_camera(item.table), name=item.name)
     except InputError as error:
         raise Error(f'camera "{item.name}" cannot be read: {error.reason}') from None
 
 
 def put(item: FIRETWIN_PG_camera, camera: Camera) -> None:
     """Store a camera in an item."""
-    item.name, item.table = camera.name, tables.to_text(_part(), (camera,))
+    item.name, item.table = camera.name, tables.to_text(_cameras_field(), (camera,))
 
 
 def add(panel: bpy.types.PropertyGroup, camera: Camera) -> FIRETWIN_PG_camera:
@@ -66,7 +66,7 @@ def add(panel: bpy.types.PropertyGroup, camera: Camera) -> FIRETWIN_PG_camera:
     return item
 
 
-def renamed(panel: bpy.types.PropertyGroup, camera: Camera) -> Camera:
+def make_unique(panel: bpy.types.PropertyGroup, camera: Camera) -> Camera:
     """Rename a camera so that its name is unique in the list: ``drone``, ``drone-2``."""
     taken = {item.name for item in panel.cameras}
     name = next(
@@ -90,22 +90,22 @@ def fill(panel: bpy.types.PropertyGroup, cameras: Iterable[Camera]) -> None:
     panel.camera_index = 0
 
 
-def text(cameras: Iterable[Camera]) -> str:
+def to_text(cameras: Iterable[Camera]) -> str:
     """Serialize cameras to canonical text, for comparison."""
-    return tables.to_text(_part(), tuple(cameras))
+    return tables.to_text(_cameras_field(), tuple(cameras))
 
 
-def listed(text: str) -> tuple[Camera, ...]:
+def from_text(text: str) -> tuple[Camera, ...]:
     """Parse the cameras of `text`."""
-    return tables.from_text(_part(), text)
+    return tables.from_text(_cameras_field(), text)
 
 
 @functools.lru_cache(maxsize=64)
-def _read(text: str) -> Camera:
-    return listed(text)[0]
+def _parse_camera(text: str) -> Camera:
+    return from_text(text)[0]
 
 
-def _part() -> Field:
+def _cameras_field() -> Field:
     return next(part for part in fields(Settings) if part.name == "cameras")
 
 

@@ -14,7 +14,7 @@ from ..scene.camera import ground_raycast, read_edits
 from ..shot.cameras import sparse_keys, targets
 from . import choice, go_to, navigation
 from .job import InThread, Steps
-from .working import Working, reported
+from .working import Working, report_errors
 
 AIM, PATH = "Firetwin Aim", "Firetwin Path"  # names of the constraints
 _TARGETS = (
@@ -51,12 +51,12 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
         uid, name, other = scene.session_uid, scene.camera.name, context.active_object
         way = None
         if target == "point":
-            matrix = navigation.eye(context)[0]
+            matrix = navigation.camera_from_view(context)[0]
             place, turn = read_edits.matrix_pose(matrix)
             met = ground_raycast.cast_ray(owned.stage(scene), place, -turn[:, 2])
             way = np.array([met if met is not None else place - 2000.0 * turn[:, 2]])
         elif target == "station":
-            met = go_to.place(scene, at)
+            met = go_to.find_position(scene, at)
             if met is None:
                 raise Error(f'no place is called "{at}"; choose one from the list, or type coordinates')
             way = np.array([met])
@@ -68,13 +68,13 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
         yield "turning the camera"
         scene = owned.scene(uid)
         obj = scene.objects[name]
-        _unhook(obj, AIM)
+        _remove_constraint(obj, AIM)
         if target == "none":
             return f"{name} looks in the direction of its keys"
         empty = other
         if target != "object":
             assert way is not None
-            empty = moving_empty(scene, f"Aim at {at if target == 'station' else target}", way)
+            empty = create_moving_empty(scene, f"Aim at {at if target == 'station' else target}", way)
         if empty is None or empty == obj:
             return "Select another object as the target first"
         hook = obj.constraints.new("TRACK_TO")
@@ -83,7 +83,7 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
         return f"{name} looks at {empty.name}"
 
 
-def moving_empty(scene: bpy.types.Scene, name: str, way: np.ndarray) -> bpy.types.Object:
+def create_moving_empty(scene: bpy.types.Scene, name: str, way: np.ndarray) -> bpy.types.Object:
     """Create an empty, owned by the artist, that follows a path (frames, 3) with few keyframes."""
     empty = bpy.data.objects.new(name, None)
     empty.empty_display_type, empty.empty_display_size = "SPHERE", 100.0
@@ -97,7 +97,7 @@ def moving_empty(scene: bpy.types.Scene, name: str, way: np.ndarray) -> bpy.type
     return empty
 
 
-def _unhook(obj: bpy.types.Object, name: str) -> None:
+def _remove_constraint(obj: bpy.types.Object, name: str) -> None:
     for each in [constraint for constraint in obj.constraints if constraint.name == name]:
         obj.constraints.remove(each)
 
@@ -121,17 +121,17 @@ class FIRETWIN_OT_camera_path(bpy.types.Operator):
             return False
         return True
 
-    @reported
+    @report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene, obj, chosen = context.scene, context.scene.camera, context.active_object
         if chosen is not None and chosen.type == "CURVE" and chosen.select_get():
             curve, factors = chosen, {1: 0.0, scene.firetwin.frames: 1.0}
         else:
-            keyed = _keyed(obj)
+            keyed = _keyed_positions(obj)
             if len(keyed) < 2:
                 self.report({"WARNING"}, "Set two keys of the camera, or select a curve, first")
                 return {"CANCELLED"}
-            curve, factors = _drawn(scene, obj, keyed)
+            curve, factors = _draw_curve(scene, obj, keyed)
         curve.data.use_path = True
         compat.remove_fcurves(obj, ("location",))
         obj.location = (0.0, 0.0, 0.0)
@@ -145,7 +145,7 @@ class FIRETWIN_OT_camera_path(bpy.types.Operator):
         return {"FINISHED"}
 
 
-def _keyed(obj: bpy.types.Object) -> dict[int, Vector]:
+def _keyed_positions(obj: bpy.types.Object) -> dict[int, Vector]:
     """Return positions of a camera at the frames of its location keyframes."""
     curves = [curve for curve in compat.fcurves(obj) if curve.data_path == "location"]
     frames = sorted({round(point.co[0]) for curve in curves for point in curve.keyframe_points})
@@ -153,7 +153,7 @@ def _keyed(obj: bpy.types.Object) -> dict[int, Vector]:
     return {f: Vector(at[i].evaluate(f) if i in at else obj.location[i] for i in range(3)) for f in frames}
 
 
-def _drawn(
+def _draw_curve(
     scene: bpy.types.Scene, obj: bpy.types.Object, keyed: dict[int, Vector]
 ) -> tuple[bpy.types.Object, dict[int, float]]:
     """Create a curve through points; also return the camera's offset along it at their frames."""

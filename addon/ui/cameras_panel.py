@@ -38,9 +38,9 @@ class FIRETWIN_OT_camera_remove(bpy.types.Operator):
         if not 0 <= panel.camera_index < len(panel.cameras):
             cls.poll_message_set("Select a camera in the list first")
             return False
-        return working.editable(cls, context)
+        return working.is_editable(cls, context)
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         panel = context.scene.firetwin
         panel.cameras.remove(panel.camera_index)
@@ -60,11 +60,11 @@ class FIRETWIN_OT_camera_copy(bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         return FIRETWIN_OT_camera_remove.poll(context)
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         panel = context.scene.firetwin
         camera = camera_list.get(panel.cameras[panel.camera_index])
-        camera_list.add(panel, camera_list.renamed(panel, camera))
+        camera_list.add(panel, camera_list.make_unique(panel, camera))
         return {"FINISHED"}
 
 
@@ -80,7 +80,7 @@ class FIRETWIN_PT_cameras(bpy.types.Panel):
     bl_order = panel_order.CAMERAS
 
     def draw_header_preset(self, context: bpy.types.Context) -> None:
-        build.again(self.layout, "cameras")
+        build.draw_rebuild_button(self.layout, "cameras")
 
     def draw(self, context: bpy.types.Context) -> None:
         panel, row = context.scene.firetwin, self.layout.row()

@@ -24,7 +24,7 @@ built."""
 _ELSEWHERE = ("path", "cache")
 
 
-def digests(panel: bpy.types.PropertyGroup) -> dict[str, str]:
+def compute_digests(panel: bpy.types.PropertyGroup) -> dict[str, str]:
     """Return digests of the panel's values of every section, of the run and of the cameras."""
     values = {
         part.name: _shown_values(panel, part) for part in fields(Settings) if part.name not in _ELSEWHERE
@@ -44,7 +44,7 @@ def _shown_values(panel: bpy.types.PropertyGroup, part: Field) -> object:
     return use, sorted(value) if isinstance(value, set) else value
 
 
-def remember(panel: bpy.types.PropertyGroup, then: dict[str, str], built: tuple[str, ...]) -> None:
+def store_digests(panel: bpy.types.PropertyGroup, then: dict[str, str], built: tuple[str, ...]) -> None:
     """Store the digests from the time when a build of these parts began."""
     if set(built) > set(ALONE):
         panel.built = json.dumps(then)
@@ -54,7 +54,7 @@ def remember(panel: bpy.types.PropertyGroup, then: dict[str, str], built: tuple[
     compare(panel)
 
 
-def forget(panel: bpy.types.PropertyGroup) -> None:
+def clear(panel: bpy.types.PropertyGroup) -> None:
     """Delete the digests, because nothing is built."""
     panel.built = panel.changed = ""
 
@@ -63,11 +63,11 @@ def compare(panel: bpy.types.PropertyGroup) -> None:
     """Store the names of sections that differ from the build."""
     if not panel.built:
         return
-    built, now = json.loads(panel.built), digests(panel)
+    built, now = json.loads(panel.built), compute_digests(panel)
     panel.changed = " ".join(name for name, digest in now.items() if built.get(name, digest) != digest)
 
 
-def note(group: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+def update_changes(group: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """Compare settings after one has changed (update callback)."""
     panel = getattr(group.id_data, "firetwin", None)
     if panel is not None:

@@ -35,7 +35,7 @@ def _decimal(text: str) -> tuple[float, float] | None:
         return None
     latitude = float(match[1]) * (-1.0 if match[2].upper() == "S" else 1.0)
     longitude = float(match[3]) * (-1.0 if match[4].upper() == "W" else 1.0)
-    return _on_earth(latitude, longitude, 360.0)
+    return _validate(latitude, longitude, 360.0)
 
 
 def _sexagesimal(text: str) -> tuple[float, float] | None:
@@ -46,7 +46,7 @@ def _sexagesimal(text: str) -> tuple[float, float] | None:
     if latitude is None or longitude is None:
         return None
     south, west = match["ns"].upper() == "S", match["ew"].upper() == "W"
-    return _on_earth(-latitude if south else latitude, -longitude if west else longitude, 180.0)
+    return _validate(-latitude if south else latitude, -longitude if west else longitude, 180.0)
 
 
 def _angle(text: str) -> float | None:
@@ -63,5 +63,5 @@ def _angle(text: str) -> float | None:
     return float(match["degrees"]) + float(minutes) / 60.0 + float(seconds or 0.0) / 3600.0
 
 
-def _on_earth(latitude: float, longitude: float, most: float) -> tuple[float, float] | None:
+def _validate(latitude: float, longitude: float, most: float) -> tuple[float, float] | None:
     return (latitude, longitude) if abs(latitude) <= 90.0 and abs(longitude) <= most else None

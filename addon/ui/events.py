@@ -19,21 +19,21 @@ class Event(NamedTuple):
     place: str = ""
 
 
-def known(panel: bpy.types.PropertyGroup) -> list[Event]:
+def list_events(panel: bpy.types.PropertyGroup) -> list[Event]:
     """Return events of the run in order of time, with station events once a thread has read them."""
-    moments = run.read(panel.facts)["moments"] if panel.facts else []
+    moments = run.parse_facts(panel.facts)["moments"] if panel.facts else []
     found = [Event(datetime.fromisoformat(time), words) for time, words in moments]
-    return sorted([*found, *_arrivals(panel)], key=lambda event: event.time)
+    return sorted([*found, *_station_arrivals(panel)], key=lambda event: event.time)
 
 
-def find(panel: bpy.types.PropertyGroup, text: str) -> Event | None:
+def find_event(panel: bpy.types.PropertyGroup, text: str) -> Event | None:
     """Return the event with this text, or the first whose text contains it."""
     wanted = text.strip().lower()
-    matches = [event for event in known(panel) if wanted and wanted in event.words.lower()]
+    matches = [event for event in list_events(panel) if wanted and wanted in event.words.lower()]
     return min(matches, key=lambda event: event.words.lower() != wanted, default=None)
 
 
-def _arrivals(panel: bpy.types.PropertyGroup) -> list[Event]:
+def _station_arrivals(panel: bpy.types.PropertyGroup) -> list[Event]:
     """Return the run's arrival times of the fire at stations."""
     key = station_data.key(panel)
     loaded = station_data.get(key) if key else None

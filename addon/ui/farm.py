@@ -20,7 +20,7 @@ from ..progress import MessageCallback, Progress, count
 from ..shot.source import ShotSource
 from . import camera_edits, farm_watch, job, keys, run, scene_file, working
 from .job import InThread, Message, Steps
-from .text import labelled, paragraph
+from .text import draw_paragraph, labelled_row
 from .working import Working
 
 NOT_SAVED = "Save the .blend file first; the scene file of the job is written next to it"
@@ -28,7 +28,7 @@ NO_OUTPUT = "Choose an output folder for the farm first"
 NO_JOB = "has no farm job; write one with Write job"
 
 
-def _items() -> tuple[tuple[str, str, str, str, int], ...]:
+def _engine_items() -> tuple[tuple[str, str, str, str, int], ...]:
     """List the engines; the number of each in .blend files does not change when others are added."""
     texts = {name: engine.help.partition(":") for name, engine in engines.known().items()}
     return tuple(
@@ -37,11 +37,11 @@ def _items() -> tuple[tuple[str, str, str, str, int], ...]:
     )
 
 
-def _out(panel: bpy.types.PropertyGroup) -> Path:
-    return Path(scene_file.resolved(panel.farm_output))
+def _output_folder(panel: bpy.types.PropertyGroup) -> Path:
+    return Path(scene_file.resolve_path(panel.farm_output))
 
 
-def _options(panel: bpy.types.PropertyGroup) -> tuple[str, ...]:
+def _parse_options(panel: bpy.types.PropertyGroup) -> tuple[str, ...]:
     """Split the options of the engine.
 
     Raises
@@ -65,9 +65,9 @@ def _has_output(cls: type[bpy.types.Operator], panel: bpy.types.PropertyGroup) -
     return bool(panel.farm_output)
 
 
-def _writable(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+def _can_write(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     """Return whether a job can be written; otherwise set the poll message."""
-    if not run.ready(cls, context):
+    if not run.is_ready(cls, context):
         return False
     if not bpy.data.filepath:
         cls.poll_message_set(NOT_SAVED)
@@ -75,13 +75,13 @@ def _writable(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool
     return _has_output(cls, context.scene.firetwin)
 
 
-def _present(out: Path) -> None:
+def _check_job(out: Path) -> None:
     """Check that a folder has a job; the error message names the panel's button."""
     if not (plan.job_dir(out) / plan.FILE).is_file():
         raise Error(f"{out} {NO_JOB}")
 
 
-def _write(
+def _write_job(
     scene: Path,
     out: Path,
     size: int,
@@ -100,7 +100,7 @@ def _write(
     return submission.prepare(out, chosen)
 
 
-def _missing(
+def _find_missing(
     out: Path,
     options: Callable[[str], tuple[str, ...]],
     progress: Progress,
@@ -123,17 +123,17 @@ def _missing(
     return submission.prepare(out, chosen, numbers)
 
 
-def _written(context: bpy.types.Context) -> Generator[InThread | Message, Any, list[str]]:
+def _write_files(context: bpy.types.Context) -> Generator[InThread | Message, Any, list[str]]:
     """Write the scene file next to the .blend file, and its job; return the submit command."""
     panel = context.scene.firetwin
-    for text in camera_edits.pull(context.scene):
+    for text in camera_edits.read_camera_edits(context.scene):
         yield Message(text, "WARNING")
-    chosen = Submission(panel.farm_engine, _options(panel))
-    out, size = _out(panel), panel.farm_chunk
-    scene, fresh = scene_file.beside(context.scene)
+    chosen = Submission(panel.farm_engine, _parse_options(panel))
+    out, size = _output_folder(panel), panel.farm_chunk
+    scene, fresh = scene_file.write_next_to_blend(context.scene)
     try:
         yield Message(f"The scene file of the job is {scene}")
-        work = functools.partial(_write, scene, out, size, chosen)
+        work = functools.partial(_write_job, scene, out, size, chosen)
         return (yield InThread("planning the film", work))
     except BaseException:
         if fresh:
@@ -141,11 +141,11 @@ def _written(context: bpy.types.Context) -> Generator[InThread | Message, Any, l
         raise
 
 
-def _submitted(command: list[str], out: Path, last: str) -> Steps:
+def _submit(command: list[str], out: Path, last: str) -> Steps:
     """Run an engine's command, then read the status of the job."""
     yield InThread("submitting", functools.partial(submission.run_command, command, out))
-    yield InThread("reading the status", lambda **_: farm_watch.read(out))
-    farm_watch.start(out)
+    yield InThread("reading the status", lambda **_: farm_watch.read_status(out))
+    farm_watch.start_watch(out)
     return last
 
 
@@ -153,7 +153,7 @@ class FarmProperties:
     """Properties of the scene that this panel shows."""
 
     farm_engine: bpy.props.EnumProperty(
-        name="Engine", description="Engine that runs the tasks", items=_items(), default="slurm"
+        name="Engine", description="Engine that runs the tasks", items=_engine_items(), default="slurm"
     )
     farm_output: bpy.props.StringProperty(
         name="Output",
@@ -183,11 +183,11 @@ class FIRETWIN_OT_farm_write(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return _writable(cls, context)
+        return _can_write(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Plan in a thread."""
-        command = yield from _written(context)
+        command = yield from _write_files(context)
         return f"To submit it: {shlex.join(command)}"
 
 
@@ -200,24 +200,24 @@ class FIRETWIN_OT_farm_submit(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return _writable(cls, context)
+        return _can_write(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Plan in a thread, then wait for the engine's command."""
-        out = _out(context.scene.firetwin)
-        command = yield from _written(context)
-        return (yield from _submitted(command, out, f"Submitted the job of {out}"))
+        out = _output_folder(context.scene.firetwin)
+        command = yield from _write_files(context)
+        return (yield from _submit(command, out, f"Submitted the job of {out}"))
 
 
-class _OfJob(Working):
+class _JobOperator(Working):
     """An operator on the job of the output folder."""
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return working.editable(cls, context) and _has_output(cls, context.scene.firetwin)
+        return working.is_editable(cls, context) and _has_output(cls, context.scene.firetwin)
 
 
-class FIRETWIN_OT_farm_status(_OfJob, bpy.types.Operator):
+class FIRETWIN_OT_farm_status(_JobOperator, bpy.types.Operator):
     """Read how many tasks and pictures of the job are finished, from its files"""
 
     bl_idname = "firetwin.farm_status"
@@ -226,15 +226,15 @@ class FIRETWIN_OT_farm_status(_OfJob, bpy.types.Operator):
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Read the files in a thread; the panel reads them again while tasks are unfinished."""
-        out = _out(context.scene.firetwin)
-        _present(out)
-        found = yield InThread("reading the status", lambda **_: farm_watch.read(out))
-        if farm_watch.unfinished(found):
-            farm_watch.start(out)
+        out = _output_folder(context.scene.firetwin)
+        _check_job(out)
+        found = yield InThread("reading the status", lambda **_: farm_watch.read_status(out))
+        if farm_watch.is_unfinished(found):
+            farm_watch.start_watch(out)
         return "; ".join(text for _, text in status.rows(found))
 
 
-class FIRETWIN_OT_farm_resume(_OfJob, bpy.types.Operator):
+class FIRETWIN_OT_farm_resume(_JobOperator, bpy.types.Operator):
     """Read all pictures of the job and submit the tasks of those that are missing or damaged"""
 
     bl_idname = "firetwin.farm_resume"
@@ -244,14 +244,14 @@ class FIRETWIN_OT_farm_resume(_OfJob, bpy.types.Operator):
     def steps(self, context: bpy.types.Context) -> Steps:
         """Read the pictures in a thread, then wait for the engine's command."""
         panel = context.scene.firetwin
-        out, engine, own = _out(panel), panel.farm_engine, _options(panel)
-        _present(out)
-        work = functools.partial(_missing, out, lambda before: own if before == engine else ())
+        out, engine, own = _output_folder(panel), panel.farm_engine, _parse_options(panel)
+        _check_job(out)
+        work = functools.partial(_find_missing, out, lambda before: own if before == engine else ())
         command = yield InThread("reading the pictures", work)
-        return (yield from _submitted(command, out, f"Submitted the tasks of missing pictures in {out}"))
+        return (yield from _submit(command, out, f"Submitted the tasks of missing pictures in {out}"))
 
 
-class FIRETWIN_OT_farm_cancel(_OfJob, bpy.types.Operator):
+class FIRETWIN_OT_farm_cancel(_JobOperator, bpy.types.Operator):
     """Cancel the submitted tasks of the job. Finished pictures remain"""
 
     bl_idname = "firetwin.farm_cancel"
@@ -260,8 +260,8 @@ class FIRETWIN_OT_farm_cancel(_OfJob, bpy.types.Operator):
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Wait for the engine's command."""
-        out = _out(context.scene.firetwin)
-        _present(out)
+        out = _output_folder(context.scene.firetwin)
+        _check_job(out)
         command = submission.cancel_command(out)
         yield InThread("cancelling", functools.partial(submission.run_command, command, out))
         return f"Cancelled the job of {out}; Resume continues it"
@@ -290,17 +290,17 @@ class FIRETWIN_PT_farm(bpy.types.Panel):
         column.prop(panel, "farm_chunk")
         column.prop(panel, "farm_options", placeholder="--partition=gpu --time=4:00:00")
         if not bpy.data.filepath:
-            paragraph(context, layout.column(align=True), NOT_SAVED, "INFO")
-        working.button(layout.row(align=True), FIRETWIN_OT_farm_write, "FILE_TICK")
-        working.button(layout.row(align=True), FIRETWIN_OT_farm_submit, "EXPORT")
-        working.button(layout.row(align=True), FIRETWIN_OT_farm_status, "FILE_REFRESH")
+            draw_paragraph(context, layout.column(align=True), NOT_SAVED, "INFO")
+        working.draw_button(layout.row(align=True), FIRETWIN_OT_farm_write, "FILE_TICK")
+        working.draw_button(layout.row(align=True), FIRETWIN_OT_farm_submit, "EXPORT")
+        working.draw_button(layout.row(align=True), FIRETWIN_OT_farm_status, "FILE_REFRESH")
         row = layout.row(align=True)
-        working.button(row, FIRETWIN_OT_farm_resume, "PLAY")
-        working.button(row, FIRETWIN_OT_farm_cancel, "CANCEL")
+        working.draw_button(row, FIRETWIN_OT_farm_resume, "PLAY")
+        working.draw_button(row, FIRETWIN_OT_farm_cancel, "CANCEL")
         for operator in _WORKS:
-            working.messages(context, layout, operator)
-        if panel.farm_output and scene_file.resolved(panel.farm_output):
-            _draw_status(context, layout, farm_watch.known(_out(panel)))
+            working.draw_messages(context, layout, operator)
+        if panel.farm_output and scene_file.resolve_path(panel.farm_output):
+            _draw_status(context, layout, farm_watch.last_status(_output_folder(panel)))
 
 
 def _draw_status(context: bpy.types.Context, layout: bpy.types.UILayout, found: Status | str | None) -> None:
@@ -309,13 +309,13 @@ def _draw_status(context: bpy.types.Context, layout: bpy.types.UILayout, found: 
         return
     box = layout.box().column(align=True)
     if isinstance(found, str):
-        paragraph(context, box, found, "ERROR")
+        draw_paragraph(context, box, found, "ERROR")
         return
     box.progress(factor=found.finished / max(found.pictures, 1), text=status.rows(found)[1][1])
     for label, text in status.rows(found):
-        labelled(box, keys.sentence(label)).label(text=text)
+        labelled_row(box, keys.sentence(label)).label(text=text)
     for line in status.failures(found):
-        paragraph(context, box, keys.sentence(line), "ERROR")
+        draw_paragraph(context, box, keys.sentence(line), "ERROR")
 
 
 _WORKS = (
@@ -331,4 +331,4 @@ properties = FarmProperties
 
 def unregister() -> None:
     """Stop watching the job."""
-    farm_watch.forget()
+    farm_watch.stop_watch()

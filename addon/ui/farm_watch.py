@@ -19,12 +19,12 @@ _thread: threading.Thread | None = None
 _out: Path | None = None
 
 
-def known(out: Path) -> Status | str | None:
+def last_status(out: Path) -> Status | str | None:
     """Return the last status of the job in a folder, or an error message; None before the first reading."""
     return _known.get(out)
 
 
-def read(out: Path) -> Status:
+def read_status(out: Path) -> Status:
     """Read the files of a job.
 
     Raises
@@ -36,7 +36,7 @@ def read(out: Path) -> Status:
     return found
 
 
-def start(out: Path) -> None:
+def start_watch(out: Path) -> None:
     """Read the status of a job periodically, until its tasks are done or another file is opened."""
     global _out
     _out = out
@@ -44,7 +44,7 @@ def start(out: Path) -> None:
         bpy.app.timers.register(_tick, first_interval=_PERIOD)
 
 
-def forget() -> None:
+def stop_watch() -> None:
     """Stop reading, and clear all cached states."""
     global _out
     _out = None
@@ -53,7 +53,7 @@ def forget() -> None:
     _known.clear()
 
 
-def unfinished(found: Status | str | None) -> bool:
+def is_unfinished(found: Status | str | None) -> bool:
     """Return whether tasks are running or waiting."""
     return isinstance(found, Status) and bool(found.running or found.waiting)
 
@@ -63,18 +63,18 @@ def _tick() -> float | None:
     if _thread is None:
         if _out is None:
             return None
-        _thread = threading.Thread(target=_look, args=(_out,), name="Firetwin farm", daemon=True)
+        _thread = threading.Thread(target=_read_in_thread, args=(_out,), name="Firetwin farm", daemon=True)
         _thread.start()
         return _SHORT
     if _thread.is_alive():
         return _SHORT
     _thread = None
     working.redraw()
-    return _PERIOD if _out is not None and unfinished(known(_out)) else None
+    return _PERIOD if _out is not None and is_unfinished(last_status(_out)) else None
 
 
-def _look(out: Path) -> None:
+def _read_in_thread(out: Path) -> None:
     try:
-        read(out)
+        read_status(out)
     except Exception as error:
         _known[out] = job.describe_error(error)

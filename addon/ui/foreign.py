@@ -14,7 +14,7 @@ from .job import InThread, Steps
 from .working import Working
 
 
-class Said:
+class ImportOptions:
     """Import options for information that files may not contain, as properties of an operator."""
 
     start: bpy.props.StringProperty(
@@ -35,7 +35,7 @@ class Said:
     )
 
 
-class FIRETWIN_OT_convert(Said, Working, bpy.types.Operator):
+class FIRETWIN_OT_convert(ImportOptions, Working, bpy.types.Operator):
     """Convert a fire model's files to a run, next to them or in the output folder, and open the run"""
 
     bl_idname = "firetwin.convert"
@@ -48,17 +48,17 @@ class FIRETWIN_OT_convert(Said, Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return working.editable(cls, context)
+        return working.is_editable(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Convert in a worker process, unless the run already exists; then inspect the run."""
         from ..jobs import convert
 
-        uid, paths = context.scene.session_uid, chosen(self)
+        uid, paths = context.scene.session_uid, selected_files(self)
         panel = context.scene.firetwin
         panel.problem = ""
         try:
-            output = scene_file.output(panel)
+            output = scene_file.output_folder(panel)
             folders = [paths[0].parent, *([Path(output)] if output else []), scene_file.own_folder() / "runs"]
             said = {name: getattr(self, name).strip() for name in ("start", "at", "projection")}
             out, there = convert.default_output(paths, folders, **said)
@@ -67,13 +67,13 @@ class FIRETWIN_OT_convert(Said, Working, bpy.types.Operator):
                     "reading the model's files", functools.partial(convert.run, paths, out, **said)
                 )
         except Exception as error:
-            owned.scene(uid).firetwin.problem = _words(error)
+            owned.scene(uid).firetwin.problem = _reword_error(error)
             raise
-        begin(owned.scene(uid).firetwin, str(out))
-        return (yield from run.look(uid))
+        select_run(owned.scene(uid).firetwin, str(out))
+        return (yield from run.inspect_run(uid))
 
 
-def _words(error: Exception) -> str:
+def _reword_error(error: Exception) -> str:
     """Rewrite an error text with the operator's fields in place of command-line options."""
     option = r"--(start|at|projection)\b"
     return re.sub(
@@ -83,7 +83,7 @@ def _words(error: Exception) -> str:
     )
 
 
-def chosen(operator: bpy.types.Operator) -> list[Path]:
+def selected_files(operator: bpy.types.Operator) -> list[Path]:
     """Return the selected files, file or folder."""
     names = [file.name for file in operator.files if file.name]
     if names and operator.directory:
@@ -91,7 +91,7 @@ def chosen(operator: bpy.types.Operator) -> list[Path]:
     return [Path(bpy.path.abspath(operator.filepath or operator.directory))]
 
 
-def begin(panel: bpy.types.PropertyGroup, folder: str) -> None:
+def select_run(panel: bpy.types.PropertyGroup, folder: str) -> None:
     """Select a run; time window and cameras of another run are reset."""
     if bpy.path.abspath(panel.run) != folder:
         panel.scene_file = panel.time.start = panel.time.end = panel.facts = panel.smoke_cost = ""

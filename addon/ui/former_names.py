@@ -17,7 +17,7 @@ from ..shot.schema.former import FORMER, FORMER_KEYS, FORMER_VALUES, current
 
 
 @bpy.app.handlers.persistent
-def adopt(*_: object) -> None:
+def migrate(*_: object) -> None:
     """Move settings and collections of renamed sections to their current names."""
     for former, name in FORMER.items():
         for collection in bpy.data.collections:
@@ -66,9 +66,9 @@ def _with_present_names(preset: str) -> str:
 def register() -> None:
     """Migrate presets, and each file after it was loaded."""
     update_presets()
-    bpy.app.handlers.load_post.append(adopt)
+    bpy.app.handlers.load_post.append(migrate)
 
 
 def unregister() -> None:
     """Stop the migration of loaded files."""
-    bpy.app.handlers.load_post.remove(adopt)
+    bpy.app.handlers.load_post.remove(migrate)

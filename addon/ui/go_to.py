@@ -14,7 +14,7 @@ from ..blender import owned
 from ..escaped import escaped
 from ..scene.camera import ground_raycast, read_edits
 from . import coordinates, events, landmarks, place_names, working
-from .navigation import can_navigate, space
+from .navigation import can_navigate, find_view
 
 _DATE = re.compile(r"\s*(\d{4}-\d\d-\d\d)[ T](\d\d?:\d\d)\s*(Z|UTC)?\s*", re.IGNORECASE)
 _TILTS = (1.05, 0.8, 0.5, 0.2, 0.0)  # rad from straight down, tilts of views at the end of a flight
@@ -28,18 +28,18 @@ def parse_time(panel: bpy.types.PropertyGroup, text: str) -> datetime | None:
     if match := _DATE.fullmatch(text):
         zone = UTC if match[3] else zoneinfo.ZoneInfo(panel.zone)
         return datetime.fromisoformat(f"{match[1]} {match[2]:0>5}").replace(tzinfo=zone).astimezone(UTC)
-    event = events.find(panel, text)
+    event = events.find_event(panel, text)
     return None if event is None else event.time
 
 
-def frame_of(panel: bpy.types.PropertyGroup, when: datetime) -> int:
+def nearest_frame(panel: bpy.types.PropertyGroup, when: datetime) -> int:
     """Return the frame of a time, or the nearest one."""
     passed = (when - datetime.fromisoformat(panel.first_time)).total_seconds()
     frame = 1 + round(passed / panel.seconds_per_frame) if panel.seconds_per_frame else 1
     return min(max(frame, 1), panel.frames)
 
 
-def place(scene: bpy.types.Scene, text: str) -> Vector | None:
+def find_position(scene: bpy.types.Scene, text: str) -> Vector | None:
     """Return the scene position of a text: coordinates on the terrain, head or ignition, or a name.
 
     The name may belong to a place, a station or an object.
@@ -47,7 +47,7 @@ def place(scene: bpy.types.Scene, text: str) -> Vector | None:
     stage, pair = owned.stage(scene), coordinates.parse(text)
     if pair is None and (found := landmarks.find(scene.firetwin, text)):
         return found
-    if pair is None and (label := place_names.find(scene.firetwin, text)):
+    if pair is None and (label := place_names.find_place(scene.firetwin, text)):
         pair = label.latitude, label.longitude
     if pair:
         east, north, _ = read_edits.built_frame(stage).forward([pair[0]], [pair[1]], [0.0])[0]
@@ -79,32 +79,32 @@ class FIRETWIN_OT_go(bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         return can_navigate(cls, context)
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene, text = context.scene, self.text or context.scene.firetwin.go_to
-        where, when = place(scene, text), None
+        where, when = find_position(scene, text), None
         if where is None and (when := parse_time(scene.firetwin, text)) is not None:
-            scene.frame_set(frame_of(scene.firetwin, when))
+            scene.frame_set(nearest_frame(scene.firetwin, when))
             self.report({"INFO"}, f"Frame {scene.frame_current}, the nearest to {when:%d %b %Y %H:%M} UTC")
-            event = events.find(scene.firetwin, text)
-            where = place(scene, event.place) if event and event.place else None
+            event = events.find_event(scene.firetwin, text)
+            where = find_position(scene, event.place) if event and event.place else None
         if where is None and when is None:
-            self.report({"WARNING"}, _unknown(scene.firetwin, text))
+            self.report({"WARNING"}, _explain_unknown(scene.firetwin, text))
             return {"CANCELLED"}
-        shown = space(context)
+        shown = find_view(context)
         if where is not None and shown is not None:
-            _fly(context, shown.region_3d, where, self.distance, self.smooth and not bpy.app.background)
+            _fly_view(context, shown.region_3d, where, self.distance, self.smooth and not bpy.app.background)
         return {"FINISHED"}
 
 
-def _unknown(panel: bpy.types.PropertyGroup, text: str) -> str:
+def _explain_unknown(panel: bpy.types.PropertyGroup, text: str) -> str:
     """Explain why a text is not a destination."""
     words = f'"{escaped(text)}" is not a known name, nor coordinates on the terrain'
-    why = place_names.refusal(panel)
+    why = place_names.explain_refusal(panel)
     return f"{words}. {why}" if why else words
 
 
-def _fly(
+def _fly_view(
     context: bpy.types.Context,
     region: bpy.types.RegionView3D,
     where: Vector,
@@ -119,7 +119,7 @@ def _fly(
         region.view_location = camera.translation - camera.col[2].to_3d() * distance
     start = region.view_location.copy(), region.view_rotation.copy(), region.view_distance
     bearing = region.view_rotation.to_euler().z
-    end = where, above(owned.stage(context.scene), where, bearing, distance), distance
+    end = where, view_from_above(owned.stage(context.scene), where, bearing, distance), distance
     if not smooth:
         _flight_point(region, start, end, 1.0)
         return
@@ -136,7 +136,7 @@ def _fly(
     bpy.app.timers.register(step)
 
 
-def above(stage: owned.Stage, where: Vector, bearing: float, distance: float) -> Quaternion:
+def view_from_above(stage: owned.Stage, where: Vector, bearing: float, distance: float) -> Quaternion:
     """Return the rotation of a view that looks at a point from above the terrain, as flat as possible."""
     for tilt in _TILTS:
         turn = Euler((tilt, 0.0, bearing)).to_quaternion()
@@ -169,10 +169,10 @@ class FIRETWIN_MT_go(bpy.types.Menu):
     def draw(self, context: bpy.types.Context) -> None:
         layout, panel = self.layout, context.scene.firetwin
         groups = (
-            ("FORCE_TURBULENCE", landmarks.known(panel)),
-            ("HOME", [each.name for each in place_names.stations(panel)[:_SHOWN]]),
-            ("BOOKMARKS", [each.name for each in place_names.known(panel)[:_SHOWN]]),
-            ("TIME", [each.words for each in events.known(panel)][:_SHOWN]),
+            ("FORCE_TURBULENCE", landmarks.list_names(panel)),
+            ("HOME", [each.name for each in place_names.list_stations(panel)[:_SHOWN]]),
+            ("BOOKMARKS", [each.name for each in place_names.list_labels(panel)[:_SHOWN]]),
+            ("TIME", [each.words for each in events.list_events(panel)][:_SHOWN]),
         )
         for icon, names in groups:
             for name in names:

@@ -31,7 +31,7 @@ _UNDONE = "undo was used during the build, so the scene is incomplete; build it 
 class InThread:
     """A call without Blender data: ``function(progress=..., tell=..., stop=...)``, run in a thread."""
 
-    what: str
+    label: str
     function: Callable[..., Any]
 
 
@@ -55,7 +55,7 @@ class JobResult:
     """Messages of the last finished task, and the file that was open then (None: any file)."""
 
     name: str
-    told: tuple[Message, ...]
+    messages: tuple[Message, ...]
     file: str | None
 
 
@@ -70,7 +70,7 @@ class Job:
         True once a step in Blender has run, so that there are changes to undo.
     undone
         True if undo or redo was used after that.
-    said
+    messages
         Messages so far.
     """
 
@@ -81,8 +81,8 @@ class Job:
         self.name, self.steps = name, steps
         self.what, self.done, self.total = name, 0, 1
         self.stop, self.touched, self.undone = Stop(), False, False
-        self.said: list[Message] = []
-        self.told = ""
+        self.messages: list[Message] = []
+        self.result = ""
         self._since = time.monotonic()
         self._thread: threading.Thread | None = None
         self._outcome: dict[str, Any] = {}
@@ -92,7 +92,7 @@ class Job:
         """Run all steps at once and return the final message."""
         while not self._step(wait=True):
             pass
-        return self.told
+        return self.result
 
     def advance(self) -> bool:
         """Run a step or poll the thread, without blocking; return whether the task has finished."""
@@ -112,7 +112,7 @@ class Job:
 
     def tell(self, text: str) -> None:
         """Add a message (callback of the thread)."""
-        self.said.append(Message(text))
+        self.messages.append(Message(text))
 
     @property
     def factor(self) -> float:
@@ -122,14 +122,14 @@ class Job:
     @property
     def text(self) -> str:
         """Status text: step, progress and remaining time."""
-        words = self.what[:1].upper() + self.what[1:]
+        text = self.what[:1].upper() + self.what[1:]
         if self.total <= 1:
-            return words
-        words += f" {self.done} of {self.total}"
+            return text
+        text += f" {self.done} of {self.total}"
         if not 0 < self.done < self.total:
-            return words
+            return text
         left = (time.monotonic() - self._since) / self.done * (self.total - self.done)
-        return f"{words}, {duration(left)} left"
+        return f"{text}, {duration(left)} left"
 
     def _step(self, wait: bool) -> bool:
         if self._thread is not None:
@@ -143,9 +143,9 @@ class Job:
         try:
             step = self._next(outcome)
         except StopIteration as end:
-            self.told = end.value or ""
+            self.result = end.value or ""
             return True
-        self.what, self.done, self.total, self._since = _label(step), 0, 1, time.monotonic()
+        self.what, self.done, self.total, self._since = _step_label(step), 0, 1, time.monotonic()
         if isinstance(step, InThread):
             thread = self._send_away(step.function)
             if wait:
@@ -160,7 +160,7 @@ class Job:
         else:
             step = self.steps.send(outcome.get("result"))
         while isinstance(step, Message):
-            self.said.append(step)
+            self.messages.append(step)
             step = next(self.steps)
         return step
 
@@ -179,8 +179,8 @@ class Job:
         return self._thread
 
 
-def _label(step: str | InThread) -> str:
-    return step.what if isinstance(step, InThread) else step
+def _step_label(step: str | InThread) -> str:
+    return step.label if isinstance(step, InThread) else step
 
 
 unexpected: list[str] = []
@@ -189,14 +189,14 @@ unexpected: list[str] = []
 
 def describe_error(error: BaseException) -> str:
     """Return a one-line message for an error: location and remedy, without a traceback."""
-    return message(_words(error))
+    return message(_error_text(error))
 
 
-def _words(error: BaseException) -> str:
+def _error_text(error: BaseException) -> str:
     if isinstance(error, UsageError):
         option, _, rest = str(error).partition(": ")
         return f"{option[2:].capitalize()}: {rest}" if option.startswith("--") else str(error)
-    if isinstance(error, InputError) and Path(error.path).parent == scene_file.folder():
+    if isinstance(error, InputError) and Path(error.path).parent == scene_file.temporary_folder():
         return keys.sentence(error.reason)  # the user does not know this temporary file
     if isinstance(error, Error):
         return str(error)

@@ -32,7 +32,7 @@ _UNITS = {"m": "LENGTH", "s": "TIME_ABSOLUTE"}  # units that Blender displays
 _RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"}
 
 
-def prop(kind: type, name: str, first: tuple[str, str, str] | None = None, **options: Any) -> Any:
+def create_property(kind: type, name: str, first: tuple[str, str, str] | None = None, **options: Any) -> Any:
     """Create the Blender property of the key `name` of a settings dataclass.
 
     Parameters
@@ -45,18 +45,18 @@ def prop(kind: type, name: str, first: tuple[str, str, str] | None = None, **opt
     part = next(part for part in fields(kind) if part.name == name)
     about = {"name": label(name), "description": sentence(part.key.described())}
     if part.key.choices is not None:
-        return bpy.props.EnumProperty(**{**about, **_choice(part, first), **options})
-    make, more = _plain(part)
+        return bpy.props.EnumProperty(**{**about, **_choice_options(part, first), **options})
+    make, more = _plain_property(part)
     return make(**{**about, **more, **options})
 
 
-def switch(part: Field, **options: Any) -> Any:
-    """Create the Blender property that enables an optional number; `options` as in `prop`."""
+def create_switch(part: Field, **options: Any) -> Any:
+    """Create the Blender property that enables an optional number; `options` as in `create_property`."""
     text = f"Set this value: {part.key.described()}"
     return bpy.props.BoolProperty(name=label(part.name), description=text, default=False, **options)
 
 
-def switched(part: Field) -> bool:
+def has_switch(part: Field) -> bool:
     """Return whether a number is optional and needs a switch; empty text needs none."""
     return part.default is None and (part.type in _NUMBERS or typing.get_origin(part.type) is tuple)
 
@@ -88,7 +88,7 @@ def put(group: bpy.types.PropertyGroup, part: Field, value: Any) -> None:
     exact.pop(part.name, None)
     _show(group, part, value)
     if take(group, part, {}) != value:
-        exact[part.name] = _stored(value)
+        exact[part.name] = _serialize(value)
     group.exact = json.dumps(exact) if exact else ""
 
 
@@ -101,33 +101,33 @@ def take(group: bpy.types.PropertyGroup, part: Field, exact: dict[str, Any] | No
         A typed text is not a valid value.
     """
     exact = json.loads(group.exact or "{}") if exact is None else exact
-    kept = _restored(part, exact[part.name]) if part.name in exact else _ABSENT
-    same = kept is not _ABSENT and stored_value(group, part) == _as_shown(part, kept)
+    kept = _restore(part, exact[part.name]) if part.name in exact else _ABSENT
+    same = kept is not _ABSENT and stored_value(group, part) == _stored_as(part, kept)
     return kept if same else _value(group, part)
 
 
-def shows(group: bpy.types.PropertyGroup, part: Field, value: Any) -> bool:
+def is_showing(group: bpy.types.PropertyGroup, part: Field, value: Any) -> bool:
     """Return whether a property shows this value."""
-    return stored_value(group, part) == _as_shown(part, value)
+    return stored_value(group, part) == _stored_as(part, value)
 
 
-def differs(group: bpy.types.PropertyGroup, part: Field) -> bool:
+def is_changed(group: bpy.types.PropertyGroup, part: Field) -> bool:
     """Return whether a property differs from its default."""
-    return not shows(group, part, part.default)
+    return not is_showing(group, part, part.default)
 
 
 _ABSENT = object()
 
 
-def _stored(value: Any) -> Any:
+def _serialize(value: Any) -> Any:
     """Serialize a value to JSON, without loss."""
     if isinstance(value, datetime):
         return value.isoformat()
     return list(value) if isinstance(value, tuple) else str(value) if isinstance(value, Path) else value
 
 
-def _restored(part: Field, stored: Any) -> Any:
-    """Restore a value from `_stored` JSON, if it is valid for the key."""
+def _restore(part: Field, stored: Any) -> Any:
+    """Restore a value from `_serialize` JSON, if it is valid for the key."""
     try:
         if part.type is datetime:
             return datetime.fromisoformat(stored)
@@ -139,8 +139,8 @@ def _restored(part: Field, stored: Any) -> Any:
 
 
 def _show(group: bpy.types.PropertyGroup, part: Field, value: Any) -> None:
-    use, shown = _as_shown(part, value)
-    if switched(part):
+    use, shown = _stored_as(part, value)
+    if has_switch(part):
         setattr(group, USE + part.name, use)
     if use:
         setattr(group, part.name, shown)
@@ -148,16 +148,16 @@ def _show(group: bpy.types.PropertyGroup, part: Field, value: Any) -> None:
 
 def stored_value(group: bpy.types.PropertyGroup, part: Field) -> tuple[bool, Any]:
     """Return the panel's value: whether it is enabled, and the value as stored by Blender."""
-    if switched(part) and not getattr(group, USE + part.name):
+    if has_switch(part) and not getattr(group, USE + part.name):
         return False, None
     value = getattr(group, part.name)
     return True, tuple(value) if isinstance(value, bpy.types.bpy_prop_array) else value
 
 
-def _as_shown(part: Field, value: Any) -> tuple[bool, Any]:
+def _stored_as(part: Field, value: Any) -> tuple[bool, Any]:
     """Return the result of `stored_value` for a property set to `value`."""
     if value is None:
-        return (False, None) if switched(part) else (True, "")
+        return (False, None) if has_switch(part) else (True, "")
     if isinstance(value, datetime):
         utc = value.astimezone(UTC).replace(tzinfo=None)
         return True, utc.isoformat(sep=" ", timespec="minutes")
@@ -168,13 +168,13 @@ def _as_shown(part: Field, value: Any) -> tuple[bool, Any]:
             return True, set(value)
         if typing.get_args(part.type)[-1] is Ellipsis:
             return True, json.dumps(plain(part.type, value))[1:-1]
-        return True, tuple(_number(part, each) for each in value)
+        return True, tuple(_stored_number(part, each) for each in value)
     if type(value) in _NUMBERS:
-        return True, _number(part, value)
+        return True, _stored_number(part, value)
     return True, value
 
 
-def _number(part: Field, value: float) -> float:
+def _stored_number(part: Field, value: float) -> float:
     """Return a number as stored by Blender: clamped, in single precision."""
     low, high = _bounds(part)
     if isinstance(value, int):
@@ -193,13 +193,13 @@ def _value(group: bpy.types.PropertyGroup, part: Field) -> Any:
     if inner and part.key.choices is not None:
         return tuple(name for name in part.key.names() if name in value)
     if inner and inner[-1] is Ellipsis:
-        return _listed(part, value)
+        return _parse_list(part, value)
     if inner:
         return tuple(_shortest(each) for each in value)
     if part.type in (Path, datetime):
         if not value.strip():
             return None
-        return Path(bpy.path.abspath(value)) if part.type is Path else _moment(part, value)
+        return Path(bpy.path.abspath(value)) if part.type is Path else _parse_time(part, value)
     return _shortest(value)
 
 
@@ -207,7 +207,7 @@ def _shortest(value: Any) -> Any:
     return float(str(np.float32(value))) if isinstance(value, float) else value
 
 
-def _listed(part: Field, text: str) -> tuple[Any, ...]:
+def _parse_list(part: Field, text: str) -> tuple[Any, ...]:
     """Parse a typed list such as ``1, 2.5``, or of texts with or without quotation marks."""
     kind = typing.get_args(part.type)[0]
     try:
@@ -221,7 +221,7 @@ def _listed(part: Field, text: str) -> tuple[Any, ...]:
     return tuple(kind(each) for each in listed)
 
 
-def _moment(part: Field, text: str) -> datetime:
+def _parse_time(part: Field, text: str) -> datetime:
     """Parse a typed time; UTC without a zone."""
     try:
         moment = datetime.fromisoformat(text.strip())
@@ -231,7 +231,7 @@ def _moment(part: Field, text: str) -> datetime:
     return moment.astimezone(UTC) if moment.tzinfo else moment.replace(tzinfo=UTC)
 
 
-def _choice(part: Field, first: tuple[str, str, str] | None) -> dict[str, Any]:
+def _choice_options(part: Field, first: tuple[str, str, str] | None) -> dict[str, Any]:
     known = items(part.key)
     if typing.get_origin(part.type) is tuple:
         return {"items": known, "options": {"ENUM_FLAG"}, "default": set(part.default)}
@@ -245,10 +245,10 @@ def _bounds(part: Field) -> tuple[float | None, float | None]:
     return key.at_least if key.at_least is not None else above, key.at_most
 
 
-def _plain(part: Field) -> tuple[Any, dict[str, Any]]:
+def _plain_property(part: Field) -> tuple[Any, dict[str, Any]]:
     """Return property type and arguments of a key without choices."""
     kind, inner = part.type, typing.get_args(part.type)
-    default = None if part.default is None else _as_shown(part, part.default)[1]
+    default = None if part.default is None else _stored_as(part, part.default)[1]
     if kind is bool:
         return bpy.props.BoolProperty, {"default": default}
     if kind is Path:

@@ -26,12 +26,12 @@ def store(panel: bpy.types.PropertyGroup, found: MovingPoints) -> None:
     panel.landmarks = json.dumps({"ignition": ignition, "frames": (frames + 1).tolist(), "head": head})
 
 
-def forget(panel: bpy.types.PropertyGroup) -> None:
+def clear(panel: bpy.types.PropertyGroup) -> None:
     """Delete the landmarks, because nothing is built."""
     panel.landmarks = ""
 
 
-def known(panel: bpy.types.PropertyGroup) -> list[str]:
+def list_names(panel: bpy.types.PropertyGroup) -> list[str]:
     """Return the names of the scene's landmarks."""
     found = _read(panel.landmarks)
     if not found or found["ignition"] is None:
@@ -42,14 +42,14 @@ def known(panel: bpy.types.PropertyGroup) -> list[str]:
 def find(panel: bpy.types.PropertyGroup, text: str) -> Vector | None:
     """Return the scene position of the head at the current frame, or of the ignition, by name."""
     name = _WORDS.get(text.strip().lower())
-    if name not in known(panel):
+    if name not in list_names(panel):
         return None
     if name == IGNITION:
         return Vector(_read(panel.landmarks)["ignition"])
-    return Vector(track(panel)[min(max(panel.id_data.frame_current, 1), panel.frames) - 1])
+    return Vector(head_track(panel)[min(max(panel.id_data.frame_current, 1), panel.frames) - 1])
 
 
-def track(panel: bpy.types.PropertyGroup) -> NDArray[np.float64]:
+def head_track(panel: bpy.types.PropertyGroup) -> NDArray[np.float64]:
     """Return positions (frames, 3) of the head, above the ground."""
     found = _read(panel.landmarks)
     head, every = np.array(found["head"]), np.arange(1, panel.frames + 1)

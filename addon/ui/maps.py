@@ -14,7 +14,7 @@ _kept: dict[str, bpy.utils.previews.ImagePreviewCollection] = {}
 
 def show(run: str, images: Images) -> None:
     """Replace all maps with the maps of a run folder."""
-    forget()
+    clear()
     kept = _kept[run] = bpy.utils.previews.new()
     for name, pixels in images.items():
         preview = kept.new(name)
@@ -29,7 +29,7 @@ def icon(run: str, name: str) -> int:
     return kept[name].icon_id if kept is not None and name in kept else 0
 
 
-def forget() -> None:
+def clear() -> None:
     """Free all maps."""
     while _kept:
         bpy.utils.previews.remove(_kept.popitem()[1])

@@ -22,7 +22,7 @@ _SENSOR = 36.0  # mm, sensor width assumed for a view
 _kinds: list[tuple[str, str, str]] = []  # Blender does not hold a reference to these texts
 
 
-def space(context: bpy.types.Context) -> bpy.types.SpaceView3D | None:
+def find_view(context: bpy.types.Context) -> bpy.types.SpaceView3D | None:
     """Return the 3D view whose sidebar was clicked, or one of the window; None without any."""
     if context.space_data is not None and context.space_data.type == "VIEW_3D":
         return context.space_data
@@ -30,9 +30,9 @@ def space(context: bpy.types.Context) -> bpy.types.SpaceView3D | None:
     return next((area.spaces.active for area in areas if area.type == "VIEW_3D"), None)
 
 
-def eye(context: bpy.types.Context) -> tuple[Matrix, float, float]:
+def camera_from_view(context: bpy.types.Context) -> tuple[Matrix, float, float]:
     """Return the 3D view as a camera: matrix, and focal length and sensor (mm) of the same field of view."""
-    shown, camera = space(context), context.scene.camera
+    shown, camera = find_view(context), context.scene.camera
     region = shown.region_3d if shown is not None else None  # the sidebar's region has none
     if shown is None or region is None or (region.view_perspective == "CAMERA" and camera is not None):
         return camera.matrix_world.copy(), camera.data.lens, camera.data.sensor_width
@@ -43,7 +43,7 @@ def eye(context: bpy.types.Context) -> tuple[Matrix, float, float]:
     return matrix, 0.5 * _SENSOR * region.window_matrix[0][0], _SENSOR
 
 
-def view(stage: owned.Stage, matrix: Matrix, lens: float, sensor: float) -> View:
+def create_view(stage: owned.Stage, matrix: Matrix, lens: float, sensor: float) -> View:
     """Create the view of this camera, from which rigs are created."""
     frame = read_edits.built_frame(stage)
     place, turn = read_edits.matrix_pose(matrix)
@@ -69,7 +69,7 @@ def view(stage: owned.Stage, matrix: Matrix, lens: float, sensor: float) -> View
 
 def can_navigate(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     """Return whether there is a built scene to navigate; otherwise set the poll message."""
-    if not working.editable(cls, context):
+    if not working.is_editable(cls, context):
         return False
     if not context.scene.firetwin.first_time:
         cls.poll_message_set("Build the scene first")
@@ -78,7 +78,7 @@ def can_navigate(cls: type[bpy.types.Operator], context: bpy.types.Context) -> b
 
 def has_editable_camera(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     """Return whether the scene has an editable camera; otherwise set the poll message."""
-    if not working.editable(cls, context):
+    if not working.is_editable(cls, context):
         return False
     obj = context.scene.camera
     if obj is None or obj.type != "CAMERA":
@@ -112,7 +112,7 @@ class FIRETWIN_OT_camera_add(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return can_navigate(cls, context) and run.ready(cls, context)
+        return can_navigate(cls, context) and run.is_ready(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Add the camera's settings, then rebuild the cameras."""
@@ -120,9 +120,9 @@ class FIRETWIN_OT_camera_add(Working, bpy.types.Operator):
 
         scene, kind = context.scene, self.kind
         uid, stage = scene.session_uid, owned.stage(scene)
-        for text in camera_edits.pull(scene):
+        for text in camera_edits.read_camera_edits(scene):
             yield Message(text, "WARNING")
-        rig = rigs.kinds()[kind].from_view(view(stage, *eye(context)))
+        rig = rigs.kinds()[kind].from_view(create_view(stage, *camera_from_view(context)))
         taken = {item.name for item in scene.firetwin.cameras}
         name = next(name for n in range(1, 1000) if (name := kind if n == 1 else f"{kind}{n}") not in taken)
         item = camera_list.add(scene.firetwin, Camera(name, rig))
@@ -168,10 +168,10 @@ class FIRETWIN_OT_camera_key(bpy.types.Operator):
             return False
         return True
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene, obj = context.scene, context.scene.camera
-        stage, matrix = owned.stage(scene), eye(context)[0]
+        stage, matrix = owned.stage(scene), camera_from_view(context)[0]
         lifted = ground_raycast.clearance_offset(stage, matrix.translation, self.clearance)
         turn = matrix.to_quaternion()
         if obj.rotation_mode == "QUATERNION":
@@ -232,7 +232,7 @@ class FIRETWIN_OT_camera_lens(bpy.types.Operator):
             return False
         return True
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         data, lens = context.scene.camera.data, LENSES[self.preset]
         compat.remove_fcurves(data, ("lens",))

@@ -18,7 +18,7 @@ _RUN = "run.toml"
 _FILES = "*.toml;*.nc;*.npz;*.asc;*.tif;*.tiff;*.bil;*.lcp;*.prj;*.geojson;*.kml;*.csv;*.ff;wrfout*"
 
 
-class FIRETWIN_OT_open(foreign.Said, bpy.types.Operator, ImportHelper):
+class FIRETWIN_OT_open(foreign.ImportOptions, bpy.types.Operator, ImportHelper):
     """Open a run (its run.toml or its folder), a scene file, or a fire model's files"""
 
     bl_idname = "firetwin.open"
@@ -39,22 +39,22 @@ class FIRETWIN_OT_open(foreign.Said, bpy.types.Operator, ImportHelper):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return working.editable(cls, context)
+        return working.is_editable(cls, context)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if self.filepath and Path(self.filepath).is_file():  # dropped on the view
             return self.execute(context)
         return ImportHelper.invoke(self, context, event)
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         panel, path = context.scene.firetwin, Path(self.filepath)
-        if readers.foreign(foreign.chosen(self)[0]):
+        if readers.foreign(foreign.selected_files(self)[0]):
             return self._convert(panel)
         if path.suffix == ".toml" and path.name != _RUN and not path.is_dir():
             panel.scene_file = str(path)
         else:
-            foreign.begin(panel, str(path.parent if path.name == _RUN else path))
+            foreign.select_run(panel, str(path.parent if path.name == _RUN else path))
         if panel.problem:
             self.report({"ERROR"}, panel.problem)
         return {"FINISHED"}
@@ -81,9 +81,9 @@ class FIRETWIN_OT_export(bpy.types.Operator, ExportHelper):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return run.ready(cls, context)
+        return run.is_ready(cls, context)
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene_file.export(context.scene, Path(self.filepath))
         self.report({"INFO"}, f"Wrote {self.filepath}")
@@ -124,7 +124,7 @@ class FIRETWIN_OT_sample(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return working.editable(cls, context)
+        return working.is_editable(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Write the run in a worker process, unless it exists; then inspect it."""
@@ -133,8 +133,8 @@ class FIRETWIN_OT_sample(Working, bpy.types.Operator):
         uid = context.scene.session_uid
         folder = Path(bpy.path.abspath(self.folder)) if self.folder else scene_file.own_folder() / "king_fire"
         yield InThread("writing the sample run", functools.partial(sample.run, folder))
-        foreign.begin(owned.scene(uid).firetwin, str(folder))
-        return (yield from run.look(uid))
+        foreign.select_run(owned.scene(uid).firetwin, str(folder))
+        return (yield from run.inspect_run(uid))
 
 
 class FIRETWIN_MT_add(bpy.types.Menu):
@@ -144,12 +144,12 @@ class FIRETWIN_MT_add(bpy.types.Menu):
     bl_label = "Firetwin"
 
     def draw(self, context: bpy.types.Context) -> None:
-        entries(self.layout)
+        draw_entries(self.layout)
         self.layout.operator(build.FIRETWIN_OT_build.bl_idname, icon="WORLD")
         self.layout.operator("firetwin.assets", icon="ASSET_MANAGER")
 
 
-def entries(layout: bpy.types.UILayout) -> None:
+def draw_entries(layout: bpy.types.UILayout) -> None:
     """Draw menu entries that open a run."""
     layout.operator_context = "INVOKE_DEFAULT"
     layout.operator(FIRETWIN_OT_open.bl_idname, text="Open run...", icon="FILEBROWSER")

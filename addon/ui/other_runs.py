@@ -10,10 +10,10 @@ from ..shot.schema import fields
 from ..shot.settings import OtherRun
 from . import sections
 
-FIRETWIN_PG_otherrun = sections.group(OtherRun)
+FIRETWIN_PG_otherrun = sections.group_class(OtherRun)
 
 
-def runs(panel: bpy.types.PropertyGroup) -> tuple[OtherRun, ...]:
+def list_runs(panel: bpy.types.PropertyGroup) -> tuple[OtherRun, ...]:
     """Return all comparison runs in order."""
     return tuple(sections.take(item, fields(OtherRun), OtherRun()) for item in panel.runs)
 

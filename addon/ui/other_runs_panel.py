@@ -6,7 +6,7 @@ import bpy
 
 from ..shot.settings import MOST_RUNS
 from . import job, working
-from .text import paragraph
+from .text import draw_paragraph
 
 
 class FIRETWIN_OT_run_add(bpy.types.Operator):
@@ -21,9 +21,9 @@ class FIRETWIN_OT_run_add(bpy.types.Operator):
         if len(context.scene.firetwin.runs) >= MOST_RUNS:
             cls.poll_message_set(f"At most {MOST_RUNS} other runs")
             return False
-        return working.editable(cls, context)
+        return working.is_editable(cls, context)
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         panel = context.scene.firetwin
         taken = {item.name for item in panel.runs}
@@ -44,9 +44,9 @@ class FIRETWIN_OT_run_remove(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return working.editable(cls, context)
+        return working.is_editable(cls, context)
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.scene.firetwin.runs.remove(self.index)
         return {"FINISHED"}
@@ -74,7 +74,7 @@ class FIRETWIN_PT_other_runs(bpy.types.Panel):
         column.operator(FIRETWIN_OT_run_add.bl_idname, icon="ADD")
         if panel.runs:
             text = "The passes split and difference compare runs. Fronts, under Fire, draws their fronts"
-            paragraph(context, column.column(align=True), text, "INFO")
+            draw_paragraph(context, column.column(align=True), text, "INFO")
 
 
 classes = (FIRETWIN_OT_run_add, FIRETWIN_OT_run_remove, FIRETWIN_PT_other_runs)

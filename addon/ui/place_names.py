@@ -17,7 +17,7 @@ from ..tiles import policies
 from . import run, sections
 
 
-def refusal(panel: bpy.types.PropertyGroup) -> str:
+def explain_refusal(panel: bpy.types.PropertyGroup) -> str:
     """Explain why the tiles' policy forbids a search for place names; empty if it is allowed."""
     parts = tuple(part for part in fields(TileSettings) if part.name == "sources")
     try:
@@ -31,15 +31,15 @@ def refusal(panel: bpy.types.PropertyGroup) -> str:
     return ""
 
 
-def known(panel: bpy.types.PropertyGroup) -> tuple[labels.Label, ...]:
+def list_labels(panel: bpy.types.PropertyGroup) -> tuple[labels.Label, ...]:
     """Return all place names; empty if the user's list is invalid, which the labels' build reports.
 
-    Also empty if a policy of tiles forbids the search (see `refusal`).
+    Also empty if a policy of tiles forbids the search (see `explain_refusal`).
     """
-    if refusal(panel):
+    if explain_refusal(panel):
         return ()
     if not panel.labels.file:
-        places = run.read(panel.facts).get("places", ()) if panel.facts else ()
+        places = run.parse_facts(panel.facts).get("places", ()) if panel.facts else ()
         return tuple(labels.Label(*each) for each in places)
     path = Path(bpy.path.abspath(panel.labels.file))
     try:
@@ -48,7 +48,7 @@ def known(panel: bpy.types.PropertyGroup) -> tuple[labels.Label, ...]:
         return ()
 
 
-def stations(panel: bpy.types.PropertyGroup) -> tuple[Station, ...]:
+def list_stations(panel: bpy.types.PropertyGroup) -> tuple[Station, ...]:
     """Return stations of the user's file; empty if it is invalid, which building them reports."""
     if not panel.stations.file:
         return ()
@@ -69,10 +69,10 @@ def _read(path: Path, changed: int) -> tuple[labels.Label, ...]:
     return tuple(labels.read(path))
 
 
-def find(panel: bpy.types.PropertyGroup, text: str) -> labels.Label | Station | None:
+def find_place(panel: bpy.types.PropertyGroup, text: str) -> labels.Label | Station | None:
     """Return the place or station of this name, or the first whose name contains it."""
     wanted = text.strip().lower()
-    every: list[labels.Label | Station] = [*known(panel), *stations(panel)]
+    every: list[labels.Label | Station] = [*list_labels(panel), *list_stations(panel)]
     matches = [place for place in every if wanted and wanted in place.name.lower()]
     return min(matches, key=lambda place: place.name.lower() != wanted, default=None)
 
@@ -84,7 +84,7 @@ class FIRETWIN_MT_named(bpy.types.Menu):
     bl_label = "Look at a Place"
 
     def draw(self, context: bpy.types.Context) -> None:
-        places = known(context.scene.firetwin)
+        places = list_labels(context.scene.firetwin)
         for place in places:
             aim = self.layout.operator("firetwin.camera_aim", text=place.name)
             aim.target, aim.place = "station", place.name

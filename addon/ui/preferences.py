@@ -17,7 +17,7 @@ class FIRETWIN_AP_preferences(bpy.types.AddonPreferences):
 
     bl_idname = _PACKAGE
 
-    device: keys.prop(Render, "device", AS_FILE)
+    device: keys.create_property(Render, "device", AS_FILE)
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout

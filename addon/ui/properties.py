@@ -22,7 +22,7 @@ from . import (
 
 _BLEND_RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"}
 _NOT_COPIED = ("runs", "cameras", "model_time", "station_index", "station_filter")
-_SETTINGS = sections.properties(sections.single() + sections.sections(), Settings)
+_SETTINGS = sections.annotations(sections.top_level_keys() + sections.sections(), Settings)
 
 
 _Settings: type = type("Settings", (), {"__annotations__": _SETTINGS})
@@ -36,16 +36,16 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings, *feature_panels.prop
         description="Folder of the run: run.toml, and a file or a folder of files per field",
         subtype="DIR_PATH",
         options=_BLEND_RELATIVE,
-        update=run.chosen,
+        update=run.on_run_changed,
     )
     scene_file: bpy.props.StringProperty(
         name="Scene file",
         description="TOML file of the settings. Choosing a file fills the panel",
         subtype="FILE_PATH",
         options=_BLEND_RELATIVE,
-        update=run.imported,
+        update=run.on_scene_file_changed,
     )
-    cache: keys.prop(
+    cache: keys.create_property(
         Settings,
         "cache",
         description="Folder of smoke volumes, which are reused; empty: in the output folder, or "
@@ -137,14 +137,14 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings, *feature_panels.prop
 
 def copy(source: bpy.types.Scene, target: bpy.types.Scene) -> None:
     """Copy settings, choices and facts to another scene's panel, during a running task."""
-    scene_file.fill(target, scene_file.settings(source))
+    scene_file.fill(target, scene_file.read_settings(source))
     station_filter.copy(source.firetwin.station_filter, target.firetwin.station_filter)
     for name in FIRETWIN_PG_scene.__annotations__.keys() - set(_NOT_COPIED):
         setattr(target.firetwin, name, getattr(source.firetwin, name))
 
 
 classes = (
-    *sections.groups(),
+    *sections.group_classes(),
     *other_runs.classes,
     *camera_list.classes,
     *station_filter.classes,

@@ -56,24 +56,26 @@ _NOT_SAVED = {
 def apply(panel: bpy.types.PropertyGroup, level: str) -> None:
     """Apply all settings of a quality level."""
     for (section, name), value in LEVELS[level].items():
-        group, part = _found(panel, section, name)
+        group, part = _find_group(panel, section, name)
         keys.put(group, part, value)
 
 
-def level(panel: bpy.types.PropertyGroup) -> str:
+def current_level(panel: bpy.types.PropertyGroup) -> str:
     """Return the current quality level of the panel; empty: none."""
     for each, values in LEVELS.items():
-        if all(keys.shows(*_found(panel, *place), value) for place, value in values.items()):
+        if all(keys.is_showing(*_find_group(panel, *place), value) for place, value in values.items()):
             return each
     return ""
 
 
-def _found(panel: bpy.types.PropertyGroup, section: str, name: str) -> tuple[bpy.types.PropertyGroup, Field]:
-    return getattr(panel, section), _part(section, name)
+def _find_group(
+    panel: bpy.types.PropertyGroup, section: str, name: str
+) -> tuple[bpy.types.PropertyGroup, Field]:
+    return getattr(panel, section), _find_field(section, name)
 
 
 @functools.cache
-def _part(section: str, name: str) -> Field:
+def _find_field(section: str, name: str) -> Field:
     kind = next(part.table for part in sections.sections() if part.name == section)
     return next(part for part in fields(kind) if part.name == name)
 
@@ -94,9 +96,9 @@ class FIRETWIN_OT_quality(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return working.editable(cls, context)
+        return working.is_editable(cls, context)
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         apply(context.scene.firetwin, self.level)
         return {"FINISHED"}
@@ -114,7 +116,7 @@ class FIRETWIN_OT_preset(AddPresetBase, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return working.editable(cls, context)
+        return working.is_editable(cls, context)
 
     @property
     def preset_values(self) -> list[str]:
@@ -129,7 +131,7 @@ class FIRETWIN_OT_preset(AddPresetBase, bpy.types.Operator):
             switches = [
                 keys.USE + part.name
                 for part in fields(section.table)
-                if part.name in names and keys.switched(part)
+                if part.name in names and keys.has_switch(part)
             ]
             saved += [f"firetwin.{section.name}.{name}" for name in (*switches, *names)]
         return saved
@@ -153,7 +155,7 @@ def draw(layout: bpy.types.UILayout, panel: bpy.types.PropertyGroup) -> None:
     """Draw the quality levels, with the current one pressed, and the presets."""
     row = layout.row(align=True)
     row.enabled = job.Job.current is None
-    here = level(panel)
+    here = current_level(panel)
     for name in LEVELS:
         row.operator(FIRETWIN_OT_quality.bl_idname, text=keys.label(name), depress=name == here).level = name
     row = layout.row(align=True)

@@ -50,7 +50,7 @@ class Item:
     what: str = ""
     done: int = 0
     total: int = 0
-    told: str = ""
+    message: str = ""
     resume: bool = False
     finished: list[Path] = field(default_factory=list)
     stop: worker.Stop = field(default_factory=worker.Stop)
@@ -72,7 +72,7 @@ class Item:
     def text(self) -> str:
         """Status text: progress and remaining time."""
         if self.state != RENDERING:
-            return f"{self.state.capitalize()}{f': {self.told}' if self.told else ''}"
+            return f"{self.state.capitalize()}{f': {self.message}' if self.message else ''}"
         if not self.total:
             return "Starting Blender"
         words = f"{self.what.capitalize()} {self.done} of {self.total}"
@@ -83,7 +83,7 @@ class Item:
 
     def start(self) -> None:
         """Start rendering in a thread that waits for the worker process."""
-        self.state, self.told, self.stop = RENDERING, "", worker.Stop()
+        self.state, self.message, self.stop = RENDERING, "", worker.Stop()
         self.began = self.began or time.time()
         asked = RenderRequest(**{**vars(self.asked), "resume": self.resume})
         self.resume = True
@@ -102,11 +102,11 @@ class Item:
                 stop=stop,
             )
         except worker.StoppedError:
-            self.state, self.told = PAUSED, "finished pictures are kept"
+            self.state, self.message = PAUSED, "finished pictures remain"
         except BaseException as error:
-            self.state, self.told = FAILED, job.describe_error(error)
+            self.state, self.message = FAILED, job.describe_error(error)
         else:
-            self.state, self.told = DONE, f"{made} pictures in {asked.out}"
+            self.state, self.message = DONE, f"{made} pictures in {asked.out}"
 
     def _progress(self, done: int, total: int, what: str = "", note: str = "") -> None:
         if what != self.what or done == 0:
@@ -114,7 +114,7 @@ class Item:
         self.done, self.total, self.what = done, total, what or self.what
 
     def _tell(self, text: str) -> None:
-        self.told = text
+        self.message = text
 
     def poll(self) -> None:
         """Poll for finished pictures."""

@@ -10,7 +10,7 @@ import bpy
 from ..progress import count
 from . import choice, job, panel_order, run, scene_file, working
 from .job import InThread, Steps
-from .text import paragraph
+from .text import draw_paragraph
 from .working import Working
 
 NO_OUTPUT = "Save the .blend file or choose an output folder first"
@@ -40,10 +40,10 @@ class FIRETWIN_OT_render(Working, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         settings = context.scene.firetwin
-        if settings.run and not scene_file.output(settings):
+        if settings.run and not scene_file.output_folder(settings):
             cls.poll_message_set(NO_OUTPUT)
             return False
-        return run.ready(cls, context)
+        return run.is_ready(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Run the job in a worker process."""
@@ -51,7 +51,7 @@ class FIRETWIN_OT_render(Working, bpy.types.Operator):
 
         settings = context.scene.firetwin
         frames = {"frame": str(context.scene.frame_current), "list": settings.frame_list, "all": None}
-        out = Path(scene_file.output(settings))
+        out = Path(scene_file.output_folder(settings))
         camera = None if settings.camera == "*" else settings.camera
         asked = render.RenderRequest(out, frames[settings.which], camera, resume=settings.resume)
         chosen = choice.from_panel(settings)
@@ -89,14 +89,14 @@ class FIRETWIN_PT_render(bpy.types.Panel):
             column.prop(settings, "frame_list")
         row = layout.row(align=True)
         row.scale_y = 1.3
-        working.button(row, FIRETWIN_OT_render, "RENDER_STILL")
-        out = scene_file.output(settings)
+        working.draw_button(row, FIRETWIN_OT_render, "RENDER_STILL")
+        out = scene_file.output_folder(settings)
         folder = row.row(align=True)
         folder.enabled = bool(out)
         folder.operator("wm.path_open", text="", icon="FILE_FOLDER").filepath = out
         if not out:
-            paragraph(context, layout.column(align=True), NO_OUTPUT, "INFO")
-        working.messages(context, layout, FIRETWIN_OT_render)
+            draw_paragraph(context, layout.column(align=True), NO_OUTPUT, "INFO")
+        working.draw_messages(context, layout, FIRETWIN_OT_render)
 
 
 classes = (FIRETWIN_OT_render, FIRETWIN_PT_render)

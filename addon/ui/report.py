@@ -6,7 +6,7 @@ import bpy
 
 from . import keys, panel_order, run, working
 from .job import Job
-from .text import labelled, paragraph
+from .text import draw_paragraph, labelled_row
 
 
 class FIRETWIN_PT_report(bpy.types.Panel):
@@ -22,20 +22,20 @@ class FIRETWIN_PT_report(bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.firetwin
-        facts = run.read(settings.facts) if settings.facts else None
+        facts = run.parse_facts(settings.facts) if settings.facts else None
         if facts is None:
             layout.label(text="Open a run first", icon="INFO")
         for time, reported, area in facts["burned"] if facts else ():
             column = layout.column(align=True)
             column.label(text=time)
-            labelled(column, "Reported", 0.4).label(text=reported)
-            labelled(column, "Run", 0.4).label(text=area)
+            labelled_row(column, "Reported", 0.4).label(text=reported)
+            labelled_row(column, "Run", 0.4).label(text=area)
         if Job.last is not None:
             column = layout.box().column(align=True)
-            lines = [message.text for message in Job.last.told]
+            lines = [message.text for message in Job.last.messages]
             for line in lines:
-                paragraph(context, column, keys.sentence(line))
-            working.copy_button(column, "\n".join((Job.last.name, *lines)))
+                draw_paragraph(context, column, keys.sentence(line))
+            working.draw_copy_button(column, "\n".join((Job.last.name, *lines)))
 
 
 classes = (FIRETWIN_PT_report,)

@@ -6,18 +6,18 @@ import bpy
 
 from ..shot.schema import Field, fields
 from . import keys, sections, working
-from .text import labelled
+from .text import labelled_row
 
 _LABEL = 0.48  # fraction of the width
 _LETTERS = 17  # characters of a label that fit, in a sidebar of default width
 
 
-def key(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Field, section: str) -> None:
+def draw_key(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Field, section: str) -> None:
     """Draw a key on one line, or on two if its value is long."""
     row = layout.row(align=True)
-    shown = _value(row, group, part)
+    shown = _draw_value(row, group, part)
     mark = shown.row(align=True)
-    if keys.differs(group, part):
+    if keys.is_changed(group, part):
         mark.operator_context = "EXEC_DEFAULT"
         reset = mark.operator(FIRETWIN_OT_reset.bl_idname, text="", icon="LOOP_BACK", emboss=False)
         reset.section, reset.key = section, part.name
@@ -25,13 +25,13 @@ def key(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Field,
         mark.label(text="", icon="BLANK1")
 
 
-def _value(row: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Field) -> bpy.types.UILayout:
+def _draw_value(row: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Field) -> bpy.types.UILayout:
     """Draw the label and the value; return the row for the reset button."""
     text = keys.heading(part)
     if part.type is bool:
         row.prop(group, part.name, text=text)
         return row
-    if _long(part):
+    if _needs_full_width(part):
         column = row.column(align=True)
         column.label(text=text)
         line = column.row(align=True)
@@ -40,8 +40,8 @@ def _value(row: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Field)
         else:
             line.column_flow(columns=2, align=True).prop(group, part.name)
         return line
-    line = labelled(row, text, _LABEL)
-    if keys.switched(part):
+    line = labelled_row(row, text, _LABEL)
+    if keys.has_switch(part):
         line.prop(group, keys.USE + part.name, text="")
         value = line.row(align=True)
         value.active = getattr(group, keys.USE + part.name)
@@ -51,10 +51,10 @@ def _value(row: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Field)
     return line
 
 
-def _long(part: Field) -> bool:
+def _needs_full_width(part: Field) -> bool:
     """Return whether a key needs the sidebar's full width: paths, times, lists, and long labels."""
     if part.type in (int, float):
-        return len(keys.heading(part)) > _LETTERS and not keys.switched(part)
+        return len(keys.heading(part)) > _LETTERS and not keys.has_switch(part)
     return part.type is not str or part.key.choices is None
 
 
@@ -70,9 +70,9 @@ class FIRETWIN_OT_reset(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return working.editable(cls, context)
+        return working.is_editable(cls, context)
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         section = next(part for part in sections.sections() if part.name == self.section)
         part = next(part for part in fields(section.table) if part.name == self.key)

@@ -16,11 +16,11 @@ from ..run import readers
 from ..shot.settings import scene_file as file
 from . import auto_framing, changed_settings, choice, job, maps, scene_file, solve, working
 from .job import InThread, Steps
-from .text import labelled, paragraph
+from .text import draw_paragraph, labelled_row
 from .working import Working
 
 
-def chosen(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+def on_run_changed(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """Inspect another run folder (update callback)."""
     changed_settings.compare(settings)
     if job.Job.current is not None:
@@ -31,7 +31,7 @@ def chosen(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> Non
     working.redraw()
 
 
-def imported(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+def on_scene_file_changed(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """Fill the panel from another scene file (update callback)."""
     if job.Job.current is not None or not settings.scene_file:
         return
@@ -55,13 +55,13 @@ def _inspect(settings: bpy.types.PropertyGroup) -> None:
         settings.problem = settings.problem or str(error)
 
 
-def ready(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+def is_ready(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     """Return whether there is a run and no task is running; otherwise set the poll message."""
     settings = context.scene.firetwin
     if not settings.run:
         cls.poll_message_set("Open a run or a scene file first")
         return False
-    return working.editable(cls, context)
+    return working.is_editable(cls, context)
 
 
 class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
@@ -73,27 +73,27 @@ class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return ready(cls, context)
+        return is_ready(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Inspect the run, and check whether the settings fit it."""
-        return (yield from look(context.scene.session_uid))
+        return (yield from inspect_run(context.scene.session_uid))
 
 
-def look(uid: int) -> Steps:
+def inspect_run(uid: int) -> Steps:
     """Inspect in a thread, then store the facts in the scene with this `session_uid`."""
     settings = owned.scene(uid).firetwin
     settings.problem = ""
     folder = Path(bpy.path.abspath(settings.run))
     try:
-        found, images = yield InThread("reading the run", lambda **_: facts(folder))
+        found, images = yield InThread("reading the run", lambda **_: collect_facts(folder))
         owned.scene(uid).firetwin.facts = json.dumps(found)
-        auto_framing.put(owned.scene(uid).firetwin, found["fits"])
+        auto_framing.apply_framing(owned.scene(uid).firetwin, found["fits"])
         maps.show(owned.scene(uid).firetwin.run, images)
-        yield from auto_framing.again(uid)
+        yield from auto_framing.reframe(uid)
         chosen = choice.from_panel(owned.scene(uid).firetwin)
         yield InThread("reading the run", lambda **_: chosen.shot())
-        yield from solve.price(uid)
+        yield from solve.estimate_cost(uid)
     except StoppedError:
         owned.scene(uid).firetwin.problem = "The run was only partly read; use Read run"
         raise
@@ -103,7 +103,7 @@ def look(uid: int) -> Steps:
     return f"Read {found['name']}"
 
 
-def facts(folder: Path) -> tuple[dict[str, Any], maps.Images]:
+def collect_facts(folder: Path) -> tuple[dict[str, Any], maps.Images]:
     """Collect facts of a run for the panel: name, rows, warnings, dated events, framing; and its maps."""
     from ..run import info, labels, thumbnails, zone
 
@@ -117,15 +117,15 @@ def facts(folder: Path) -> tuple[dict[str, Any], maps.Images]:
         "first": report["times"]["first"],
         "last": report["times"]["last"],
         "zone": report["zone"],
-        "moments": _moments(report),
-        "burned": _burned(report),
+        "moments": _dated_events(report),
+        "burned": _burned_areas(report),
         "places": labels.known(run),
         "fits": auto_framing.frame_run(run),
     }
     return told, thumbnails.draw(run)
 
 
-def _moments(found: dict[str, Any]) -> list[tuple[str, str]]:
+def _dated_events(found: dict[str, Any]) -> list[tuple[str, str]]:
     """Return dated events: start and end of the run, and reports in between."""
     from ..run import info
 
@@ -138,7 +138,7 @@ def _moments(found: dict[str, Any]) -> list[tuple[str, str]]:
     return [(times["first"], "the run begins"), *reports, (times["last"], "the run ends")]
 
 
-def _burned(found: dict[str, Any]) -> list[tuple[str, str, str]]:
+def _burned_areas(found: dict[str, Any]) -> list[tuple[str, str, str]]:
     """Return burned areas: date, reported area, and the run's area with its difference."""
     from ..run import info, times
 
@@ -154,7 +154,7 @@ def _burned(found: dict[str, Any]) -> list[tuple[str, str, str]]:
 
 
 @functools.lru_cache(maxsize=8)
-def read(text: str) -> dict[str, Any]:
+def parse_facts(text: str) -> dict[str, Any]:
     """Parse the facts stored as text in the .blend file."""
     return json.loads(text)
 
@@ -174,23 +174,23 @@ class FIRETWIN_PT_run(bpy.types.Panel):
         column = layout.column()
         column.enabled = job.Job.current is None
         if not settings.run:
-            _hint(context, column)
-        row = labelled(column, "Run", 0.2)
+            _draw_hint(context, column)
+        row = labelled_row(column, "Run", 0.2)
         row.prop(settings, "run", text="")
         row.operator(FIRETWIN_OT_inspect.bl_idname, text="", icon="FILE_REFRESH")
-        row = labelled(column, "File", 0.2)
+        row = labelled_row(column, "File", 0.2)
         row.prop(settings, "scene_file", text="", placeholder="Scene file, if any")
         row.operator("firetwin.export", text="", icon="EXPORT")
         if settings.problem:
             box = layout.box().column(align=True)
-            paragraph(context, box, settings.problem, "ERROR")
-            working.copy_button(box, settings.problem)
+            draw_paragraph(context, box, settings.problem, "ERROR")
+            working.draw_copy_button(box, settings.problem)
         maps.draw(layout, settings.run)
 
 
-def _hint(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
+def _draw_hint(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
     """Draw a hint for the first step."""
-    paragraph(context, layout.column(align=True), "Open a run, or try the synthetic King Fire.", "INFO")
+    draw_paragraph(context, layout.column(align=True), "Open a run, or try the synthetic King Fire.", "INFO")
     row = layout.column(align=True)
     row.operator("firetwin.open", text="Open run...", icon="FILEBROWSER")
     row.operator("firetwin.sample", icon="LIGHT_SUN")
@@ -211,15 +211,15 @@ class FIRETWIN_PT_facts(bpy.types.Panel):
         return bool(context.scene.firetwin.facts)
 
     def draw(self, context: bpy.types.Context) -> None:
-        facts = read(context.scene.firetwin.facts)
+        facts = parse_facts(context.scene.firetwin.facts)
         column = self.layout.column(align=True)
-        paragraph(context, column, facts["name"])
+        draw_paragraph(context, column, facts["name"])
         for label, text in facts["rows"]:
-            labelled(column, label).label(text=text)
+            labelled_row(column, label).label(text=text)
         for warning in facts["warnings"]:
-            paragraph(context, column, warning, "ERROR")
-        for line in auto_framing.lines(context.scene.firetwin):
-            paragraph(context, column, f"{line[:1].upper()}{line[1:]}")
+            draw_paragraph(context, column, warning, "ERROR")
+        for line in auto_framing.framing_messages(context.scene.firetwin):
+            draw_paragraph(context, column, f"{line[:1].upper()}{line[1:]}")
 
 
 classes = (FIRETWIN_OT_inspect, FIRETWIN_PT_run, FIRETWIN_PT_facts)

@@ -1,7 +1,7 @@
 """Scene file of the panel: its values as settings, import and export.
 
-Build and render always use the scene file that the panel would export: `written` writes it, and jobs receive
-its path.
+Build and render always use the scene file that the panel would export: `write_temporary` writes it, and jobs
+receive its path.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from ..shot.settings import Settings, scene_file, toml_update
 from . import camera_edits, camera_list, keys, other_runs, sections
 
 
-def settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Settings:
+def read_settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Settings:
     """Return the validated settings of a scene's panel, as if read from the file `path`.
 
     Raises
@@ -28,11 +28,11 @@ def settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Setting
         A value is invalid; the message uses the panel's labels.
     """
     panel = scene.firetwin
-    cache = panel.cache or output(panel, "cache") or own_folder() / "cache"
+    cache = panel.cache or output_folder(panel, "cache") or own_folder() / "cache"
     run, cache = (Path(bpy.path.abspath(str(path))) for path in (panel.run, cache))
-    cameras, runs = camera_list.cameras(panel), other_runs.runs(panel)
+    cameras, runs = camera_list.cameras(panel), other_runs.list_runs(panel)
     whole = Settings(path=path, run=run, cache=cache, cameras=cameras, runs=runs)
-    whole = sections.take(panel, sections.single() + sections.sections(), whole)
+    whole = sections.take(panel, sections.top_level_keys() + sections.sections(), whole)
     places = tuple(bpy.path.abspath(each) if each.startswith("//") else each for each in whole.tiles.sources)
     whole = replace(whole, tiles=replace(whole.tiles, sources=places))
     if mistake := validate(whole):
@@ -43,27 +43,27 @@ def settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Setting
 def fill(scene: bpy.types.Scene, whole: Settings) -> None:
     """Set the panel of a scene to these settings, and inspect the run."""
     panel = scene.firetwin
-    near = tuple(_beside(whole.path, place) for place in whole.tiles.sources)
+    near = tuple(_absolute_location(whole.path, place) for place in whole.tiles.sources)
     whole = replace(whole, tiles=replace(whole.tiles, sources=near))
-    sections.put(panel, sections.single() + sections.sections(), whole)
+    sections.put(panel, sections.top_level_keys() + sections.sections(), whole)
     camera_list.fill(panel, whole.cameras)
     other_runs.fill(panel, whole.runs)
     panel.cache = str(whole.cache.absolute())
     panel.run = str(whole.run.absolute())
 
 
-def _beside(path: Path, place: str) -> str:
+def _absolute_location(path: Path, place: str) -> str:
     """Return a tileset's location; a path relative to the scene file becomes absolute."""
     near = path.absolute().parent / place
     return str(near) if near.exists() else place
 
 
-def output(panel: bpy.types.PropertyGroup, *inside: str) -> str:
+def output_folder(panel: bpy.types.PropertyGroup, *inside: str) -> str:
     """Return the output folder, or its default; empty while it depends on an unsaved .blend file."""
-    return resolved(panel.output, *inside)
+    return resolve_path(panel.output, *inside)
 
 
-def resolved(folder: str, *inside: str) -> str:
+def resolve_path(folder: str, *inside: str) -> str:
     """Return the path in a folder property; empty while it depends on an unsaved .blend file."""
     if folder.startswith("//") and not bpy.data.filepath:
         return ""
@@ -90,22 +90,22 @@ def export(scene: bpy.types.Scene, path: Path) -> None:
     InputError
         The file cannot be written.
     """
-    camera_edits.pull(scene)
-    toml_update.save(settings(scene, path))
+    camera_edits.read_camera_edits(scene)
+    toml_update.save(read_settings(scene, path))
 
 
-def folder() -> Path:
+def temporary_folder() -> Path:
     """Return the temporary folder of scene files for jobs, which exists until Blender ends."""
     return Path(bpy.app.tempdir) / "firetwin"
 
 
-def written(scene: bpy.types.Scene) -> Path:
+def write_temporary(scene: bpy.types.Scene) -> Path:
     """Write the panel's scene file for a job; its name contains a digest of its text."""
-    text = scene_file.text(settings(scene, folder() / "scene.toml"))
-    return _kept(folder() / f"{_digest(text)}.toml", text)
+    text = scene_file.text(read_settings(scene, temporary_folder() / "scene.toml"))
+    return _kept(temporary_folder() / f"{_digest(text)}.toml", text)
 
 
-def beside(scene: bpy.types.Scene) -> tuple[Path, bool]:
+def write_next_to_blend(scene: bpy.types.Scene) -> tuple[Path, bool]:
     """Write the panel's scene file next to the saved .blend file, for other computers.
 
     Its name contains a digest of its text, so that later changes do not affect the scene of an earlier job.
@@ -115,7 +115,7 @@ def beside(scene: bpy.types.Scene) -> tuple[Path, bool]:
     path, whether it is new
     """
     blend = Path(bpy.data.filepath)
-    text = scene_file.text(settings(scene, blend.with_suffix(".toml")))
+    text = scene_file.text(read_settings(scene, blend.with_suffix(".toml")))
     path = blend.with_name(f"{blend.stem}_farm_{_digest(text)[:8]}.toml")
     fresh = not path.is_file()
     return _kept(path, text), fresh

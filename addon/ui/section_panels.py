@@ -23,10 +23,10 @@ def draw(layout: bpy.types.UILayout, panel: bpy.types.PropertyGroup, name: str) 
     column.enabled = job.Job.current is None
     for part in fields(section.table):
         if not part.table and not part.key.variants:
-            rows.key(column, group, part, name)
+            rows.draw_key(column, group, part, name)
 
 
-def _panel(section: Field, place: int) -> type[bpy.types.Panel]:
+def _create_panel(section: Field, place: int) -> type[bpy.types.Panel]:
     """Create the panel class of a section, with a rebuild button if its part can be built separately."""
     name = section.name
 
@@ -34,7 +34,7 @@ def _panel(section: Field, place: int) -> type[bpy.types.Panel]:
         draw(self.layout, context.scene.firetwin, name)
 
     def again(self: bpy.types.Panel, context: bpy.types.Context) -> None:
-        build.again(self.layout, name, name in context.scene.firetwin.changed.split())
+        build.draw_rebuild_button(self.layout, name, name in context.scene.firetwin.changed.split())
 
     own: dict[str, Any] = {
         "__doc__": keys.sentence(section.key.help),
@@ -54,17 +54,17 @@ def _panel(section: Field, place: int) -> type[bpy.types.Panel]:
     return type(own["bl_idname"], (bpy.types.Panel,), own)
 
 
-def _panels() -> tuple[type[bpy.types.Panel], ...]:
+def _create_panels() -> tuple[type[bpy.types.Panel], ...]:
     shown = [part for part in sections.sections() if part.name not in _OWN]
     late = (*_LATE, *_BELOW)
     early = [part for part in shown if part.name not in late]
     return (
-        *(_panel(part, panel_order.SECTIONS + place) for place, part in enumerate(early)),
+        *(_create_panel(part, panel_order.SECTIONS + place) for place, part in enumerate(early)),
         *(
-            _panel(part, panel_order.SENSORS + place)
+            _create_panel(part, panel_order.SENSORS + place)
             for place, part in enumerate(p for p in shown if p not in early)
         ),
     )
 
 
-classes = _panels()
+classes = _create_panels()

@@ -28,51 +28,55 @@ def sections() -> tuple[Field, ...]:
     return tuple(part for part in fields(Settings) if part.table and not part.tables)
 
 
-def single() -> tuple[Field, ...]:
+def top_level_keys() -> tuple[Field, ...]:
     """Return keys before all sections, and lists of tables, except those that the panel stores separately."""
     parts = (part for part in fields(Settings) if not part.table or part.tables)
     return tuple(part for part in parts if part.name not in NOT_HERE)
 
 
-def properties(known: tuple[Field, ...], kind: type) -> dict[str, Any]:
+def annotations(known: tuple[Field, ...], kind: type) -> dict[str, Any]:
     """Return property annotations of a group for keys of a dataclass."""
     annotations: dict[str, Any] = {"exact": bpy.props.StringProperty(options={"HIDDEN"})}
     for part in known:
         if part.tables:
             annotations[part.name] = bpy.props.StringProperty(
-                name=keys.label(part.name), options={"HIDDEN"}, update=changed_settings.note
+                name=keys.label(part.name), options={"HIDDEN"}, update=changed_settings.update_changes
             )
         elif part.table:
-            annotations[part.name] = bpy.props.PointerProperty(type=group(part.table))
+            annotations[part.name] = bpy.props.PointerProperty(type=group_class(part.table))
         else:
-            annotations[part.name] = keys.prop(kind, part.name, update=changed_settings.note)
-            if keys.switched(part):
-                annotations[keys.USE + part.name] = keys.switch(part, update=changed_settings.note)
+            annotations[part.name] = keys.create_property(
+                kind, part.name, update=changed_settings.update_changes
+            )
+            if keys.has_switch(part):
+                annotations[keys.USE + part.name] = keys.create_switch(
+                    part, update=changed_settings.update_changes
+                )
     return annotations
 
 
 _groups: dict[type, type[bpy.types.PropertyGroup]] = {}
 
 
-def group(kind: type) -> type[bpy.types.PropertyGroup]:
+def group_class(kind: type) -> type[bpy.types.PropertyGroup]:
     """Return the property group class of a settings dataclass; the same class on every call."""
     if kind not in _groups:
         _groups[kind] = type(
             f"FIRETWIN_PG_{kind.__name__.lower()}",
             (bpy.types.PropertyGroup,),
-            {"__doc__": keys.sentence(summary(kind)), "__annotations__": properties(fields(kind), kind)},
+            {"__doc__": keys.sentence(summary(kind)), "__annotations__": annotations(fields(kind), kind)},
         )
     return _groups[kind]
 
 
-def groups() -> Iterator[type[bpy.types.PropertyGroup]]:
+def group_classes() -> Iterator[type[bpy.types.PropertyGroup]]:
     """Return all property groups, nested groups first, in Blender's order of registration."""
 
     def inner(kind: type) -> Iterator[type[bpy.types.PropertyGroup]]:
         for part in fields(kind):
             if part.table and not part.tables:
                 yield from inner(part.table)
-        yield group(kind)
+        yield group_class(kind)
 
     for section in sections():
         if section.table:

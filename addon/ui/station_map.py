@@ -142,7 +142,7 @@ def _can_show(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool
     if loaded is None or loaded.plan is None:
         cls.poll_message_set(NO_MAP)
         return False
-    return working.editable(cls, context)
+    return working.is_editable(cls, context)
 
 
 class FIRETWIN_OT_station_map(bpy.types.Operator):
@@ -156,7 +156,7 @@ class FIRETWIN_OT_station_map(bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         return _can_show(cls, context)
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         if (held := image()) is None:
             held = owned.mark(bpy.data.images.new(IMAGE, picture.SIDE, picture.SIDE, alpha=True))

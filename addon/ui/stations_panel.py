@@ -17,7 +17,7 @@ from . import (
     station_sync,
     working,
 )
-from .text import labelled, paragraph
+from .text import draw_paragraph, labelled_row
 
 
 class FIRETWIN_UL_stations(bpy.types.UIList):
@@ -58,7 +58,7 @@ class FIRETWIN_PT_stations(bpy.types.Panel):
         station_sync.wake()
         now, held = station_list.shown(), bpy.context.window_manager.firetwin_stations
         _draw_filters(layout.column(), panel)
-        paragraph(context, layout.column(align=True), now.status, "NONE" if now.rows else "INFO")
+        draw_paragraph(context, layout.column(align=True), now.status, "NONE" if now.rows else "INFO")
         if any(row.exercise for row in now.rows):
             layout.label(text=EXERCISE, icon="EXPERIMENTAL")
         if now.loaded is None:
@@ -95,7 +95,7 @@ def _draw_filters(column: bpy.types.UILayout, panel: bpy.types.PropertyGroup) ->
     chosen = panel.station_filter
     column.enabled = job.Job.current is None
     for name in ("kind", "types", "mode", "near"):
-        labelled(column, chosen.bl_rna.properties[name].name).prop(chosen, name, text="")
+        labelled_row(column, chosen.bl_rna.properties[name].name).prop(chosen, name, text="")
     row = column.row(align=True)
     row.active = chosen.near != station_filter.NOWHERE
     row.prop(chosen, "within")
@@ -110,7 +110,7 @@ def _draw_selected(context: bpy.types.Context, box: bpy.types.UILayout, found: s
         if label:
             line = box.column(align=True).split(factor=0.3)
             line.label(text=label)
-            paragraph(context, line.column(align=True), text)
+            draw_paragraph(context, line.column(align=True), text)
         else:
             box.label(text=text, icon="EXPERIMENTAL")
     row, at = box.row(align=True), (found.station.latitude, found.station.longitude)

@@ -27,12 +27,12 @@ def prepare(scene: bpy.types.Scene, part: bool) -> tuple[int, str]:
     """
     if owned.is_ours(scene) or (part and owned.has_data(scene)):
         return scene.session_uid, ""
-    if not vacant(scene):
+    if not is_vacant(scene):
         made = owned.new_scene()
         properties.copy(scene, made)
-        _show(scene, made)
+        _show_scene(scene, made)
         return made.session_uid, f"in a new scene, {made.name}; {scene.name} is unchanged"
-    gone = _clear(scene)
+    gone = _remove_startup_objects(scene)
     owned.adopt(scene)
     return (
         scene.session_uid,
@@ -40,12 +40,12 @@ def prepare(scene: bpy.types.Scene, part: bool) -> tuple[int, str]:
     )
 
 
-def vacant(scene: bpy.types.Scene) -> bool:
+def is_vacant(scene: bpy.types.Scene) -> bool:
     """Return whether a scene is empty, or has only Blender's unchanged startup objects."""
     tree, editor = compat.compositor(scene), scene.sequence_editor
     return (
-        (not scene.collection.all_objects or _startup(scene))
-        and _plain(scene.world)
+        (not scene.collection.all_objects or _has_startup_objects(scene))
+        and _is_default_world(scene.world)
         and (tree is None or not tree.nodes)
         and scene.animation_data is None
         and (editor is None or not editor.strips)
@@ -53,7 +53,7 @@ def vacant(scene: bpy.types.Scene) -> bool:
     )
 
 
-def _startup(scene: bpy.types.Scene) -> bool:
+def _has_startup_objects(scene: bpy.types.Scene) -> bool:
     """Return whether the scene has only the startup file's cube, light and camera."""
     cube = scene.objects.get("Cube")
     return (
@@ -65,7 +65,7 @@ def _startup(scene: bpy.types.Scene) -> bool:
     )
 
 
-def _plain(world: bpy.types.World | None) -> bool:
+def _is_default_world(world: bpy.types.World | None) -> bool:
     """Return whether a world is missing, or is the grey one of the startup file."""
     if world is None:
         return True
@@ -79,7 +79,7 @@ def _plain(world: bpy.types.World | None) -> bool:
     return np.allclose((*colour[:3], strength), (*_STARTUP_GREY, 1.0), rtol=1.0e-4)
 
 
-def _clear(scene: bpy.types.Scene) -> bool:
+def _remove_startup_objects(scene: bpy.types.Scene) -> bool:
     """Remove the startup objects and world of a vacant scene; return whether there were such objects."""
     objects = list(scene.collection.all_objects)
     bpy.data.batch_remove(objects)
@@ -89,7 +89,7 @@ def _clear(scene: bpy.types.Scene) -> bool:
     return bool(objects)
 
 
-def _show(before: bpy.types.Scene, after: bpy.types.Scene) -> None:
+def _show_scene(before: bpy.types.Scene, after: bpy.types.Scene) -> None:
     """Show another scene in the current window."""
     window = bpy.context.window
     if window is not None and window.scene == before:
@@ -105,5 +105,5 @@ def remove(scene: bpy.types.Scene) -> None:
     if owned.is_ours(scene):
         layers.remove(scene)
     build.remove(scene)
-    if made and vacant(scene) and not scene.collection.children and len(bpy.data.scenes) > 1:
+    if made and is_vacant(scene) and not scene.collection.children and len(bpy.data.scenes) > 1:
         bpy.data.scenes.remove(scene)

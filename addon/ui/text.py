@@ -8,7 +8,7 @@ import textwrap
 import bpy
 
 
-def labelled(layout: bpy.types.UILayout, label: str, share: float = 0.3) -> bpy.types.UILayout:
+def labelled_row(layout: bpy.types.UILayout, label: str, share: float = 0.3) -> bpy.types.UILayout:
     """Add a row after a label of this share of the width, usually less than Blender's default."""
     line = layout.split(factor=share)
     line.label(text=label)
@@ -21,7 +21,9 @@ class _Lines(textwrap.TextWrapper):
     wordsep_re = re.compile(r"((?<!\d)\s+|\s+(?!(?:k?m|s|min|h|K|MB|GB)\b)|(?<=[/\\])(?=[^/\\\s]))")
 
 
-def paragraph(context: bpy.types.Context, layout: bpy.types.UILayout, text: str, icon: str = "NONE") -> None:
+def draw_paragraph(
+    context: bpy.types.Context, layout: bpy.types.UILayout, text: str, icon: str = "NONE"
+) -> None:
     """Draw text wrapped to the sidebar's width."""
     scale = context.preferences.system.ui_scale
     letters = max(int((context.region.width / scale - 60) / 6.5), 16)

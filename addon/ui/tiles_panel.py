@@ -14,7 +14,7 @@ from ..shot.source import ShotSource
 from ..shot.tiles.tile_cut import TileCut
 from . import choice, job, run, target_scene, tile_facts, view, working
 from .job import InThread, Steps
-from .text import labelled, paragraph
+from .text import draw_paragraph, labelled_row
 from .working import Working
 
 _NO_SOURCE = "Name a tileset in Sources: a folder, a .3tz archive or a URL"
@@ -28,7 +28,7 @@ def _ready(operator: type[bpy.types.Operator], context: bpy.types.Context) -> bo
     if context.mode != "OBJECT":
         operator.poll_message_set("Leave the edit mode first")
         return False
-    return run.ready(operator, context)
+    return run.is_ready(operator, context)
 
 
 class FIRETWIN_OT_tiles_preview(Working, bpy.types.Operator):
@@ -115,9 +115,9 @@ class FIRETWIN_OT_tiles_clear(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return working.editable(cls, context)
+        return working.is_editable(cls, context)
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         from ..scene.tiles import build, preview
 
@@ -128,7 +128,7 @@ class FIRETWIN_OT_tiles_clear(bpy.types.Operator):
         if not stage.objects_of(build.PART):
             tile_facts.forget(context.scene.firetwin)
         if not owned.has_data(context.scene):
-            view.narrow(context.scene)
+            view.restore_clipping(context.scene)
         return {"FINISHED"}
 
 
@@ -145,24 +145,24 @@ class FIRETWIN_PT_tiles(bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         layout, panel = self.layout, context.scene.firetwin
         row = layout.row(align=True)
-        working.button(row, FIRETWIN_OT_tiles_preview, "MESH_GRID")
+        working.draw_button(row, FIRETWIN_OT_tiles_preview, "MESH_GRID")
         if job.Job.current is None:
             row.operator(FIRETWIN_OT_tiles_preview.bl_idname, text="", icon="CUBE").boxes = True
             row.operator(FIRETWIN_OT_tiles_clear.bl_idname, text="", icon="TRASH")
         if panel.tile_facts:
             _draw_facts(context, layout.column(align=True), tile_facts.read(panel.tile_facts))
-        working.messages(context, layout, FIRETWIN_OT_tiles_preview)
+        working.draw_messages(context, layout, FIRETWIN_OT_tiles_preview)
 
 
 def _draw_facts(context: bpy.types.Context, column: bpy.types.UILayout, facts: dict[str, Any]) -> None:
     for source in facts["sources"]:
-        paragraph(context, column, source, "FILE_3D")
+        draw_paragraph(context, column, source, "FILE_3D")
     for label, text in facts["lines"]:
-        labelled(column, label).label(text=text)
+        labelled_row(column, label).label(text=text)
     for text in facts["missing"]:
-        paragraph(context, column, text, "ERROR")
+        draw_paragraph(context, column, text, "ERROR")
     if facts["credits"]:
-        paragraph(context, column, f"Credits: {'; '.join(facts['credits'])}")
+        draw_paragraph(context, column, f"Credits: {'; '.join(facts['credits'])}")
 
 
 classes = (FIRETWIN_OT_tiles_preview, FIRETWIN_OT_tiles_clear, FIRETWIN_PT_tiles)

@@ -13,7 +13,7 @@ from ..shot.schema import fields
 from ..shot.sections import Time
 from ..shot.shot import Shot
 from . import job, keys, rows, run, working
-from .text import labelled
+from .text import labelled_row
 
 
 def position(settings: bpy.types.PropertyGroup) -> float:
@@ -27,14 +27,14 @@ def go_to(settings: bpy.types.PropertyGroup, value: float) -> None:
     settings.id_data.frame_current = 1 + round(value * max(settings.frames - 1, 0))
 
 
-def remember(settings: bpy.types.PropertyGroup, shot: Shot) -> None:
+def store_mapping(settings: bpy.types.PropertyGroup, shot: Shot) -> None:
     """Store the mapping between frames and model time."""
     settings.first_time = shot.utc(1).isoformat()
     settings.seconds_per_frame = shot.frames.step
     settings.frames, settings.zone = shot.frames.count, shot.settings.time.zone
 
 
-def forget(settings: bpy.types.PropertyGroup) -> None:
+def clear_mapping(settings: bpy.types.PropertyGroup) -> None:
     """Delete the mapping, because nothing is built."""
     for name in ("first_time", "seconds_per_frame", "frames", "zone"):
         settings.property_unset(name)
@@ -64,10 +64,10 @@ class FIRETWIN_OT_jump(bpy.types.Operator):
             return False
         return True
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         settings = context.scene.firetwin
-        frame = frame_of(settings, datetime.fromisoformat(self.moment))
+        frame = frame_at(settings, datetime.fromisoformat(self.moment))
         if not 1 <= round(frame) <= settings.frames:
             self.report({"WARNING"}, "No frame shows that time; widen Start and End, then rebuild the scene")
         context.scene.frame_current = min(max(round(frame), 1), settings.frames)
@@ -86,24 +86,24 @@ class FIRETWIN_OT_window(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return working.editable(cls, context)
+        return working.is_editable(cls, context)
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         part = next(part for part in fields(Time) if part.name == self.key)
         keys.put(context.scene.firetwin.time, part, datetime.fromisoformat(self.moment).astimezone(UTC))
         return {"FINISHED"}
 
 
-def frame_of(settings: bpy.types.PropertyGroup, moment: datetime) -> float:
+def frame_at(settings: bpy.types.PropertyGroup, moment: datetime) -> float:
     """Return the frame of a time, which may be before the first or after the last frame."""
     since = (moment - datetime.fromisoformat(settings.first_time)).total_seconds()
     return 1 + since / (settings.seconds_per_frame or 1.0)
 
 
-def moments(settings: bpy.types.PropertyGroup) -> list[list[str]]:
+def dated_events(settings: bpy.types.PropertyGroup) -> list[list[str]]:
     """Return dated events of the run: ISO text and description of each."""
-    return run.read(settings.facts)["moments"] if settings.facts else []
+    return run.parse_facts(settings.facts)["moments"] if settings.facts else []
 
 
 class FIRETWIN_MT_moments(bpy.types.Menu):
@@ -114,8 +114,8 @@ class FIRETWIN_MT_moments(bpy.types.Menu):
 
     def draw(self, context: bpy.types.Context) -> None:
         settings = context.scene.firetwin
-        for moment, words in moments(settings):
-            text = f"{_local(datetime.fromisoformat(moment), _zone(settings))}, {words}"
+        for moment, words in dated_events(settings):
+            text = f"{_format_local(datetime.fromisoformat(moment), _time_zone(settings))}, {words}"
             self.layout.operator(FIRETWIN_OT_jump.bl_idname, text=text).moment = moment
 
 
@@ -126,7 +126,7 @@ class FIRETWIN_MT_start(bpy.types.Menu):
     bl_label = "Begin at"
 
     def draw(self, context: bpy.types.Context) -> None:
-        _ends(self.layout, context.scene.firetwin, "start")
+        _draw_event_buttons(self.layout, context.scene.firetwin, "start")
 
 
 class FIRETWIN_MT_end(bpy.types.Menu):
@@ -136,23 +136,23 @@ class FIRETWIN_MT_end(bpy.types.Menu):
     bl_label = "End at"
 
     def draw(self, context: bpy.types.Context) -> None:
-        _ends(self.layout, context.scene.firetwin, "end")
+        _draw_event_buttons(self.layout, context.scene.firetwin, "end")
 
 
-def _ends(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, key: str) -> None:
+def _draw_event_buttons(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, key: str) -> None:
     """Draw dated events as buttons that set the start or end of the time window."""
-    for moment, words in moments(settings):
-        text = f"{_local(datetime.fromisoformat(moment), _zone(settings))}, {words}"
+    for moment, words in dated_events(settings):
+        text = f"{_format_local(datetime.fromisoformat(moment), _time_zone(settings))}, {words}"
         button = layout.operator(FIRETWIN_OT_window.bl_idname, text=text)
         button.moment, button.key = moment, key
 
 
-def _zone(settings: bpy.types.PropertyGroup) -> str:
+def _time_zone(settings: bpy.types.PropertyGroup) -> str:
     """Return the time zone of the clock: from the settings, else the run's."""
-    return settings.time.zone or (run.read(settings.facts).get("zone", "") if settings.facts else "")
+    return settings.time.zone or (run.parse_facts(settings.facts).get("zone", "") if settings.facts else "")
 
 
-def _local(moment: datetime, zone: str) -> str:
+def _format_local(moment: datetime, zone: str) -> str:
     try:
         return times.text(moment, zone)
     except (zoneinfo.ZoneInfoNotFoundError, ValueError, OSError):  # incompletely typed
@@ -160,7 +160,7 @@ def _local(moment: datetime, zone: str) -> str:
 
 
 @functools.lru_cache(maxsize=32)
-def _end(text: str, other: str) -> datetime | None:
+def _window_end(text: str, other: str) -> datetime | None:
     """Return start or end of the time window: the typed time, else the run's; None without either."""
     try:
         moment = datetime.fromisoformat((text or other).strip())
@@ -182,23 +182,29 @@ class FIRETWIN_PT_time(bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.firetwin, self.layout
         if settings.first_time:
-            _clock(layout, settings)
-        facts = run.read(settings.facts) if settings.facts else {"first": "", "last": ""}
+            _draw_clock(layout, settings)
+        facts = run.parse_facts(settings.facts) if settings.facts else {"first": "", "last": ""}
         ends = []
         for name, other, menu in (("start", "first", FIRETWIN_MT_start), ("end", "last", FIRETWIN_MT_end)):
-            moment = _end(getattr(settings.time, name), facts[other])
+            moment = _window_end(getattr(settings.time, name), facts[other])
             ends.append(moment)
             column = layout.column(align=True)
             column.enabled = job.Job.current is None
             typed = bool(getattr(settings.time, name))
-            told = _local(moment, _zone(settings)) if moment else "not a date and time" if typed else ""
+            told = (
+                _format_local(moment, _time_zone(settings))
+                if moment
+                else "not a date and time"
+                if typed
+                else ""
+            )
             column.label(text=f"{keys.label(name)}: {told}" if told else keys.label(name))
             row = column.row(align=True)
             row.prop(settings.time, name, text="", placeholder=f"The run's {other} (UTC)")
             row.menu(menu.bl_idname, text="", icon="DOWNARROW_HLT")
         for part in fields(Time):
             if part.name not in ("start", "end"):
-                rows.key(layout, settings.time, part, "time")
+                rows.draw_key(layout, settings.time, part, "time")
         first, last = ends
         if first and last and settings.time.frames > 1:
             step = (last - first).total_seconds() / (settings.time.frames - 1)
@@ -206,7 +212,7 @@ class FIRETWIN_PT_time(bpy.types.Panel):
             layout.label(text=f"{step:,.7g} s per frame, {speed:,.0f} times real time")
 
 
-def _clock(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
+def _draw_clock(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
     """Draw the current time, local and UTC, with buttons to go to other times."""
     now = shown_time(settings)
     local = times.text(now, settings.zone)
@@ -217,7 +223,7 @@ def _clock(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> Non
         ("UTC", f"{now.day} {now:%b %Y %H:%M}"),
         ("Frame", f"{settings.id_data.frame_current} of {settings.frames}"),
     ):
-        labelled(column, label).label(text=text)
+        labelled_row(column, label).label(text=text)
     layout.menu(FIRETWIN_MT_moments.bl_idname)
 
 

@@ -17,7 +17,7 @@ from . import working
 _TILT = 0.9  # rad from straight down
 
 
-def spaces(scene: bpy.types.Scene) -> Iterator[bpy.types.SpaceView3D]:
+def scene_views(scene: bpy.types.Scene) -> Iterator[bpy.types.SpaceView3D]:
     """Return the 3D views of the windows that show a scene."""
     for window in bpy.context.window_manager.windows:
         if window.scene == scene:
@@ -26,23 +26,23 @@ def spaces(scene: bpy.types.Scene) -> Iterator[bpy.types.SpaceView3D]:
                     yield area.spaces.active
 
 
-def widen(scene: bpy.types.Scene) -> None:
+def extend_clipping(scene: bpy.types.Scene) -> None:
     """Extend the clipping range of a scene's views to its size, except where an artist has set it."""
-    for space in spaces(scene):
+    for space in scene_views(scene):
         viewport.clip(space, viewport.default_clip_range(), (viewport.NEAR, viewport.FAR))
         viewport.show_colours(space)
 
 
-def narrow(scene: bpy.types.Scene) -> None:
-    """Restore the clipping range of views that `widen` changed."""
-    for space in spaces(scene):
+def restore_clipping(scene: bpy.types.Scene) -> None:
+    """Restore the clipping range of views that `extend_clipping` changed."""
+    for space in scene_views(scene):
         viewport.clip(space, (viewport.NEAR, viewport.FAR), viewport.default_clip_range())
 
 
-def look(scene: bpy.types.Scene, whole: bool = False) -> None:
+def align_views(scene: bpy.types.Scene, whole: bool = False) -> None:
     """Align the views of a scene with its camera, or show the entire run from the south."""
-    widen(scene)
-    for space in spaces(scene):
+    extend_clipping(scene)
+    for space in scene_views(scene):
         region = space.region_3d
         if region is None:
             continue
@@ -55,9 +55,9 @@ def look(scene: bpy.types.Scene, whole: bool = False) -> None:
 
 def look_at_points(scene: bpy.types.Scene, points: NDArray[np.float64]) -> None:
     """Show points (n, 3) from the south in the views of a scene."""
-    widen(scene)
+    extend_clipping(scene)
     low, high = points.min(axis=0), points.max(axis=0)
-    for space in spaces(scene):
+    for space in scene_views(scene):
         if space.region_3d is not None:
             _overlook(space.region_3d, (0.5 * (low + high)).tolist(), float((high - low)[:2].max()))
 
@@ -69,7 +69,7 @@ def _overlook(region: bpy.types.RegionView3D, middle: Sequence[float], extent: f
     region.view_rotation = Euler((_TILT, 0.0, 0.0)).to_quaternion()
 
 
-def remember(settings: bpy.types.PropertyGroup, run: Run) -> None:
+def store_run_size(settings: bpy.types.PropertyGroup, run: Run) -> None:
     """Store the size of the run."""
     dx, dy = areas.spacing(run.latitude, run.longitude)
     settings.extent = max(dx * len(run.longitude), dy * len(run.latitude))
@@ -103,9 +103,9 @@ class FIRETWIN_OT_view(bpy.types.Operator):
             return False
         return True
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
-        look(context.scene, self.whole)
+        align_views(context.scene, self.whole)
         return {"FINISHED"}
 
 

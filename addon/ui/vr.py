@@ -33,17 +33,17 @@ class FIRETWIN_OT_vr_landmarks(bpy.types.Operator):
             return False
         return navigation.can_navigate(cls, context)
 
-    @working.reported
+    @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene, panel = context.scene, context.scene.firetwin
         began = landmarks.find(panel, landmarks.IGNITION)
-        names = [each.name for each in place_names.stations(panel)[:MOST]]
-        places = {name: where for name in names if (where := go_to.place(scene, name)) is not None}
+        names = [each.name for each in place_names.list_stations(panel)[:MOST]]
+        places = {name: where for name in names if (where := go_to.find_position(scene, name)) is not None}
         for name, where in places.items():
-            _stand(scene, name, where, began)
+            _add_fixed_landmark(scene, name, where, began)
         if began is not None:
-            _stand(scene, landmarks.IGNITION, began, None)
-            _ride(scene, began)
+            _add_fixed_landmark(scene, landmarks.IGNITION, began, None)
+            _add_head_landmark(scene, began)
         total = len(places) + (0 if began is None else 2)
         if not total:
             self.report({"WARNING"}, "The run has neither stations nor fire")
@@ -52,7 +52,7 @@ class FIRETWIN_OT_vr_landmarks(bpy.types.Operator):
         return {"FINISHED"}
 
 
-def _landmark(scene: bpy.types.Scene, name: str) -> bpy.types.PropertyGroup:
+def _select_landmark(scene: bpy.types.Scene, name: str) -> bpy.types.PropertyGroup:
     """Select the landmark of this name, after creating it if necessary."""
     index = next((k for k, each in enumerate(scene.vr_landmarks) if each.name == name), None)
     if index is None:
@@ -62,27 +62,27 @@ def _landmark(scene: bpy.types.Scene, name: str) -> bpy.types.PropertyGroup:
     return scene.vr_landmarks[index]
 
 
-def _stand(scene: bpy.types.Scene, name: str, where: Vector, to: Vector | None) -> None:
+def _add_fixed_landmark(scene: bpy.types.Scene, name: str, where: Vector, to: Vector | None) -> None:
     """Add a landmark on the ground that looks at a point; without one it looks north."""
-    found = _landmark(scene, name)
+    found = _select_landmark(scene, name)
     found.type = "CUSTOM"
     found.base_pose_location = where
-    found.base_pose_angle = 0.0 if to is None else _angle(to - where)
+    found.base_pose_angle = 0.0 if to is None else _heading(to - where)
 
 
-def _ride(scene: bpy.types.Scene, began: Vector) -> None:
+def _add_head_landmark(scene: bpy.types.Scene, began: Vector) -> None:
     """Add a landmark on an empty that follows the head of the fire and looks in its direction of travel."""
-    track = landmarks.track(scene.firetwin)
+    track = landmarks.head_track(scene.firetwin)
     for old in [obj for obj in scene.objects if obj.name == landmarks.HEAD and obj.type == "EMPTY"]:
         bpy.data.objects.remove(old)
-    empty = camera_targets.moving_empty(scene, landmarks.HEAD, track)
-    empty.rotation_euler.z = _angle(Vector(track[-1]) - began)
-    found = _landmark(scene, landmarks.HEAD)
+    empty = camera_targets.create_moving_empty(scene, landmarks.HEAD, track)
+    empty.rotation_euler.z = _heading(Vector(track[-1]) - began)
+    found = _select_landmark(scene, landmarks.HEAD)
     found.type = "OBJECT"
     found.base_pose_object = empty
 
 
-def _angle(way: Vector) -> float:
+def _heading(way: Vector) -> float:
     """Return the rotation about the vertical, rad, that turns north into this direction."""
     return math.atan2(-way.x, way.y) if np.hypot(way.x, way.y) > 0.0 else 0.0
 

@@ -24,66 +24,66 @@ _NAVIGATION = ("MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "
 _ICONS = {"INFO": "INFO", "WARNING": "ERROR", "ERROR": "CANCEL"}
 
 
-def free(cls: type[bpy.types.Operator]) -> bool:
+def is_free(cls: type[bpy.types.Operator]) -> bool:
     """Return whether no task is running; otherwise set the poll message."""
     if Job.current is not None:
         cls.poll_message_set(f"{Job.current.name} is not finished; press Stop in the sidebar to end it")
     return Job.current is None
 
 
-def editable(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+def is_editable(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     """Return whether no task is running and the scene is editable; otherwise set the poll message."""
     if context.scene.library is not None:
         cls.poll_message_set("This scene is linked from another file: change it there, or make it local")
         return False
-    return free(cls)
+    return is_free(cls)
 
 
-def reported(execute: Callable[..., set[str]]) -> Callable[..., set[str]]:
+def report_errors(execute: Callable[..., set[str]]) -> Callable[..., set[str]]:
     """Turn errors of an operator's `execute` into reports (decorator)."""
 
     @functools.wraps(execute)
-    def told(self: bpy.types.Operator, context: bpy.types.Context) -> set[str]:
+    def wrapper(self: bpy.types.Operator, context: bpy.types.Context) -> set[str]:
         try:
             return execute(self, context)
         except Exception as error:
             self.report({"ERROR"}, job.describe_error(error))
             return {"CANCELLED"}
 
-    return told
+    return wrapper
 
 
-def take_back() -> None:
+def undo_last() -> None:
     """Undo the last step in the first window."""
     with bpy.context.temp_override(window=next(iter(bpy.context.window_manager.windows), None)):
         if bpy.ops.ed.undo.poll():
             bpy.ops.ed.undo()
 
 
-def abandon() -> None:
+def cancel_task() -> None:
     """Cancel the running task without a message, which ends its operator."""
     if Job.current is not None:
         Job.current.stop.now()
         Job.current = None
-        _show(bpy.context, None)
-    _watch(False)
+        _redraw_status(bpy.context, None)
+    _watch_undo(False)
 
 
-def _watch(on: bool) -> None:
+def _watch_undo(on: bool) -> None:
     """Start or stop watching for undo and redo."""
     for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
-        if _undone in handlers:
-            handlers.remove(_undone)
+        if _note_undo in handlers:
+            handlers.remove(_note_undo)
         if on:
-            handlers.append(_undone)
+            handlers.append(_note_undo)
 
 
-def _undone(*_: object) -> None:
+def _note_undo(*_: object) -> None:
     if Job.current is not None and Job.current.touched:
         Job.current.undone = True
 
 
-def over_sidebar(window: bpy.types.Window, event: bpy.types.Event) -> bool:
+def is_over_sidebar(window: bpy.types.Window, event: bpy.types.Event) -> bool:
     """Return whether the pointer is over the sidebar of a 3D view."""
     return any(
         region.x <= event.mouse_x < region.x + region.width
@@ -119,7 +119,7 @@ class Working:
             return self._failed(work, error)
         finally:
             Job.current = None
-        self._tell(work, Message(work.told))
+        self._tell(work, Message(work.result))
         return {"FINISHED"}
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -132,15 +132,15 @@ class Working:
         self.job = Job.current = Job(self.bl_label, self.steps(context))
         self._timer = context.window_manager.event_timer_add(_TICK, window=context.window)
         context.window_manager.modal_handler_add(self)
-        _watch(True)
-        _show(context, self.job)
+        _watch_undo(True)
+        _redraw_status(context, self.job)
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if Job.current is not self.job:  # the add-on was disabled
             self._end(context)
             return {"CANCELLED"}
-        here = over_sidebar(context.window, event)
+        here = is_over_sidebar(context.window, event)
         if event.type == "ESC" and event.value == "PRESS" and here:
             self.job.stop.now()
             return {"RUNNING_MODAL"}
@@ -157,10 +157,10 @@ class Working:
             self._end(context)
             return self._failed(self.job, error, self._goes_back())
         if not over:
-            _show(context, self.job)
+            _redraw_status(context, self.job)
             return {"PASS_THROUGH"}  # other timers of the window
         self._end(context)
-        self._tell(self.job, Message(self.job.told))
+        self._tell(self.job, Message(self.job.result))
         return {"FINISHED"}
 
     def cancel(self, context: bpy.types.Context) -> None:
@@ -172,9 +172,9 @@ class Working:
 
     def _tell(self, work: Job, last: Message) -> None:
         """Report the messages, and store them for the panel."""
-        told = tuple({each.text: each for each in (*work.said, last) if each.text}.values())  # unique
-        Job.last = JobResult(work.name, told, bpy.data.filepath)
-        for message in told:
+        messages = tuple({each.text: each for each in (*work.messages, last) if each.text}.values())  # unique
+        Job.last = JobResult(work.name, messages, bpy.data.filepath)
+        for message in messages:
             self.report({message.level}, message.text)
 
     def _failed(self, work: Job, error: Exception, back: bool = False) -> set[str]:
@@ -185,7 +185,7 @@ class Working:
         else:
             self._tell(work, Message(describe_error(error), "ERROR"))
         if back:
-            bpy.app.timers.register(take_back, first_interval=0.0)  # after Blender has pushed this undo step
+            bpy.app.timers.register(undo_last, first_interval=0.0)  # after Blender has pushed this undo step
         return {"FINISHED"} if work.touched else {"CANCELLED"}  # an incomplete result can be undone then
 
     def _goes_back(self) -> bool:
@@ -199,11 +199,11 @@ class Working:
             self._timer = None
         if Job.current is self.job:
             Job.current = None
-            _watch(False)
-        _show(context, None)
+            _watch_undo(False)
+        _redraw_status(context, None)
 
 
-def _show(context: bpy.types.Context, work: Job | None) -> None:
+def _redraw_status(context: bpy.types.Context, work: Job | None) -> None:
     """Redraw the sidebars and the status bar."""
     if context.workspace is not None:
         how = "Press Stop in the sidebar, or Esc over it, to end the task"
@@ -221,7 +221,7 @@ def redraw() -> None:
                         region.tag_redraw()
 
 
-def button(layout: bpy.types.UILayout, operator: type[bpy.types.Operator], icon: str) -> None:
+def draw_button(layout: bpy.types.UILayout, operator: type[bpy.types.Operator], icon: str) -> None:
     """Draw the button of a task; while it runs, its progress and a stop button instead."""
     if Job.current is not None and Job.current.name == operator.bl_label:
         layout.progress(factor=Job.current.factor, text=Job.current.text)
@@ -230,21 +230,21 @@ def button(layout: bpy.types.UILayout, operator: type[bpy.types.Operator], icon:
         layout.operator(operator.bl_idname, icon=icon)
 
 
-def messages(
+def draw_messages(
     context: bpy.types.Context, layout: bpy.types.UILayout, operator: type[bpy.types.Operator]
 ) -> None:
     """Draw the messages of the operator's last task; while it runs, a hint on how to stop it."""
     column = layout.column(align=True)
     if Job.current is not None and Job.current.name == operator.bl_label:
-        text.paragraph(context, column, "Press Stop, or Esc with the pointer here, to end the task")
+        text.draw_paragraph(context, column, "Press Stop, or Esc with the pointer here, to end the task")
     elif Job.current is None:
         for message in last_messages(operator):
-            text.paragraph(context, column, keys.sentence(message.text), _ICONS[message.level])
+            text.draw_paragraph(context, column, keys.sentence(message.text), _ICONS[message.level])
         if wrong := [message.text for message in last_messages(operator) if message.level == "ERROR"]:
-            copy_button(column, "\n".join(wrong))
+            draw_copy_button(column, "\n".join(wrong))
 
 
-def copy_button(layout: bpy.types.UILayout, message: str) -> None:
+def draw_copy_button(layout: bpy.types.UILayout, message: str) -> None:
     """Draw a button that copies an error message with the details for a support request."""
     layout.operator(FIRETWIN_OT_copy.bl_idname, icon="COPYDOWN").message = message
 
@@ -254,7 +254,7 @@ def last_messages(operator: type[bpy.types.Operator]) -> tuple[Message, ...]:
     last = Job.last
     if last is None or last.name != operator.bl_label or last.file not in (None, bpy.data.filepath):
         return ()
-    return last.told
+    return last.messages
 
 
 class FIRETWIN_OT_stop(bpy.types.Operator):
@@ -270,7 +270,7 @@ class FIRETWIN_OT_stop(bpy.types.Operator):
             cls.poll_message_set("No task is running")
         return Job.current is not None
 
-    @reported
+    @report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         if Job.current is not None:
             Job.current.stop.now()
@@ -286,14 +286,14 @@ class FIRETWIN_OT_copy(bpy.types.Operator):
 
     message: bpy.props.StringProperty(options={"SKIP_SAVE"})
 
-    @reported
+    @report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
-        context.window_manager.clipboard = details(self.message)
+        context.window_manager.clipboard = support_details(self.message)
         self.report({"INFO"}, "Copied the details")
         return {"FINISHED"}
 
 
-def details(message: str) -> str:
+def support_details(message: str) -> str:
     """Return a message with software versions, and the traceback of an unexpected error."""
     import platform
 

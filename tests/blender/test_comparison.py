@@ -18,6 +18,6 @@ def test_runs_are_added_and_removed_in_the_sidebar(scene):
         assert not bpy.ops.firetwin.run_add.poll()
         bpy.ops.firetwin.run_remove(index=0)
         panel.runs[1].path = "/somewhere"
-        assert other_runs.runs(panel)[1] == OtherRun("what-if-3", Path("/somewhere"))
+        assert other_runs.list_runs(panel)[1] == OtherRun("what-if-3", Path("/somewhere"))
     finally:
         firetwin.unregister()

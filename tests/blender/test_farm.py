@@ -48,7 +48,7 @@ def told(operator):
 
 def made(panel):
     """The job as its file has it."""
-    return json.loads((farm._out(panel) / "farm/job.json").read_text())
+    return json.loads((farm._output_folder(panel) / "farm/job.json").read_text())
 
 
 def test_a_job_of_the_panel_is_that_of_the_command_line(panel, blend, tmp_path, capsys):
@@ -89,18 +89,24 @@ def test_what_is_submitted_is_followed_resumed_and_cancelled(panel, tmp_path, sl
     panel.farm_options, panel.render.chunk, panel.farm_chunk = "--partition=gpu --comment='two words'", 1, 1
     assert bpy.ops.firetwin.farm_submit() == {"FINISHED"}
     assert any(text.startswith("submitted Slurm jobs 71") for text in told(farm.FIRETWIN_OT_farm_submit))
-    assert submission.last_submission(farm._out(panel)).options == ("--partition=gpu", "--comment=two words")
-    tasks = len(plan.read(farm._out(panel)).tasks)
+    assert submission.last_submission(farm._output_folder(panel)).options == (
+        "--partition=gpu",
+        "--comment=two words",
+    )
+    tasks = len(plan.read(farm._output_folder(panel)).tasks)
     assert slurm().count("sbatch") == 2  # render and assemble
-    assert farm_watch.known(farm._out(panel)).waiting == list(range(1, tasks + 1))
+    assert farm_watch.last_status(farm._output_folder(panel)).waiting == list(range(1, tasks + 1))
     assert bpy.ops.firetwin.farm_status() == {"FINISHED"}
     assert told(farm.FIRETWIN_OT_farm_status)[0].startswith(
         f"0 done, 0 running, 0 failed, {tasks} waiting, of {tasks}"
     )
     panel.farm_engine, panel.farm_options = "openjd", "--other"  # not of the engine of before
     assert bpy.ops.firetwin.farm_resume() == {"FINISHED"}
-    assert submission.last_submission(farm._out(panel)).engine == "slurm"
-    assert submission.last_submission(farm._out(panel)).options == ("--partition=gpu", "--comment=two words")
+    assert submission.last_submission(farm._output_folder(panel)).engine == "slurm"
+    assert submission.last_submission(farm._output_folder(panel)).options == (
+        "--partition=gpu",
+        "--comment=two words",
+    )
     assert any(
         text.endswith(f"missing: {tasks} tasks to submit") for text in told(farm.FIRETWIN_OT_farm_resume)
     )
@@ -165,7 +171,7 @@ def test_the_choices_are_saved_with_the_file(panel, tmp_path):
 def test_the_panel_reads_no_file(panel, monkeypatch):
     bpy.ops.firetwin.farm_write()
     bpy.ops.firetwin.farm_status()
-    known = farm_watch.known(farm._out(panel))
+    known = farm_watch.last_status(farm._output_folder(panel))
     monkeypatch.setattr("firetwin.farm.status.gather", lambda *_: pytest.fail("the panel reads"))
     drawn = []
 
@@ -180,8 +186,8 @@ def test_the_panel_reads_no_file(panel, monkeypatch):
         def __setattr__(self, name, value):
             pass
 
-    monkeypatch.setattr(farm, "paragraph", lambda *_: None)  # needs a window
-    monkeypatch.setattr(working, "messages", lambda *_: None)
+    monkeypatch.setattr(farm, "draw_paragraph", lambda *_: None)  # needs a window
+    monkeypatch.setattr(working, "draw_messages", lambda *_: None)
     context = SimpleNamespace(scene=bpy.context.scene)
     farm.FIRETWIN_PT_farm.draw(SimpleNamespace(layout=Layout()), context)
     words = [more["text"] for _, _, more in drawn if "text" in more]
@@ -190,7 +196,7 @@ def test_the_panel_reads_no_file(panel, monkeypatch):
 
 def test_the_watch_follows_a_job_until_it_is_done(panel, monkeypatch):
     bpy.ops.firetwin.farm_write()
-    out = farm._out(panel)
+    out = farm._output_folder(panel)
     monkeypatch.setattr(farm_watch, "_out", out)
 
     def looked():
@@ -199,9 +205,9 @@ def test_the_watch_follows_a_job_until_it_is_done(panel, monkeypatch):
         return farm_watch._tick()
 
     assert looked() == farm_watch._PERIOD
-    assert farm_watch.known(out).waiting
+    assert farm_watch.last_status(out).waiting
     (out / "farm/job.json").write_text("{")
     assert looked() is None
-    assert "not a farm job of this version" in farm_watch.known(out)
-    farm_watch.forget()
-    assert farm_watch.known(out) is None
+    assert "not a farm job of this version" in farm_watch.last_status(out)
+    farm_watch.stop_watch()
+    assert farm_watch.last_status(out) is None

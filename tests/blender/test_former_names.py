@@ -61,7 +61,7 @@ def test_presets_of_the_last_version_are_updated(tmp_path, monkeypatch):
 
 
 def test_nothing_is_left_when_the_extension_goes(panel):
-    assert former_names.adopt in bpy.app.handlers.load_post
+    assert former_names.migrate in bpy.app.handlers.load_post
     firetwin.unregister()
-    assert former_names.adopt not in bpy.app.handlers.load_post
+    assert former_names.migrate not in bpy.app.handlers.load_post
     firetwin.register()

@@ -45,7 +45,7 @@ def panel(blend, tmp_path, monkeypatch):
     bpy.ops.wm.open_mainfile(filepath=str(blend))
     settings = bpy.context.scene.firetwin
     settings.output = str(tmp_path / "out")
-    monkeypatch.setattr(navigation, "eye", lambda context: (EYE.copy(), 30.0, 36.0))
+    monkeypatch.setattr(navigation, "camera_from_view", lambda context: (EYE.copy(), 30.0, 36.0))
     yield settings
     firetwin.unregister()
 
@@ -57,7 +57,7 @@ def _back(thing, frame):
 
 def test_every_kind_of_camera_can_be_made_from_a_view(panel):
     stage = owned.stage(bpy.context.scene)
-    seen = navigation.view(stage, EYE, 30.0, 36.0)
+    seen = navigation.create_view(stage, EYE, 30.0, 36.0)
     assert seen.tilt == pytest.approx(90.0 - np.degrees(1.2), abs=0.1)
     assert seen.above == pytest.approx(
         2400.0 - ground_raycast.terrain_height(stage, EYE.translation), abs=1.0
@@ -93,7 +93,7 @@ def test_keys_are_set_where_the_view_is_and_never_in_the_ground(panel, monkeypat
     low = Matrix.Translation((0.0, 0.0, ground - 50.0)) @ Euler((1.4, 0.0, 0.5)).to_matrix().to_4x4()
     bpy.ops.firetwin.camera_key()
     scene.frame_set(3)
-    monkeypatch.setattr(navigation, "eye", lambda context: (low, 30.0, 36.0))
+    monkeypatch.setattr(navigation, "camera_from_view", lambda context: (low, 30.0, 36.0))
     bpy.ops.firetwin.camera_key(clearance=20.0)
     place, ahead = _back(thing, 3)
     assert place.z == pytest.approx(ground + 20.0, abs=0.01)
@@ -119,7 +119,7 @@ def test_a_camera_looks_at_an_empty_that_follows_the_fire_or_stands_at_a_place(p
     panel.labels.file = str(tmp_path / "places.csv")
     assert bpy.ops.firetwin.camera_aim(target="station", place="station 61") == {"FINISHED"}
     empty = scene.objects["Aim at station 61"]
-    assert (empty.location - go_to.place(scene, "38.84 -120.55")).length < 0.01
+    assert (empty.location - go_to.find_position(scene, "38.84 -120.55")).length < 0.01
     place, ahead = _back(scene.camera, 2)
     assert ahead.angle(empty.matrix_world.translation - place) < 1e-3
     with pytest.raises(RuntimeError, match='no place is called "elsewhere"'):
@@ -196,14 +196,14 @@ def test_coordinates_are_read_as_people_write_them(text, pair):
 
 def test_one_goes_to_places_names_and_moments(panel):
     scene = bpy.context.scene
-    where = go_to.place(scene, "38.84 -120.55")
+    where = go_to.find_position(scene, "38.84 -120.55")
     latitude, longitude, _ = read_edits.local_frame(owned.stage(scene)).reverse(np.array([tuple(where)]))
     assert (latitude[0], longitude[0]) == (pytest.approx(38.84, abs=1e-3), pytest.approx(-120.55, abs=1e-3))
-    assert (go_to.place(scene, "camera drone") - scene.camera.matrix_world.translation).length < 1e-3
-    assert go_to.place(scene, "nowhere at all") is None
+    assert (go_to.find_position(scene, "camera drone") - scene.camera.matrix_world.translation).length < 1e-3
+    assert go_to.find_position(scene, "nowhere at all") is None
     del owned.stage(scene).root[read_edits._PLACE]  # as before cameras are built
     with pytest.raises(Error, match="build the scene first"):
-        go_to.place(scene, "38.84 -120.55")
+        go_to.find_position(scene, "38.84 -120.55")
     assert bpy.ops.firetwin.go(text="2014-09-17 13:30") == {"FINISHED"}  # by longitude UTC-8
     assert scene.frame_current == 2
     assert bpy.ops.firetwin.go(text="2014-09-17 21:58 UTC") == {"FINISHED"}
@@ -218,15 +218,15 @@ def test_terms_of_tiles_may_forbid_other_gazetteers(panel, tmp_path):
     (tmp_path / "places.csv").write_text("name,latitude,longitude\nStation 61,38.84,-120.55\n")
     panel.labels.file = str(tmp_path / "places.csv")
     scene = bpy.context.scene
-    assert go_to.place(scene, "station 61") is not None
+    assert go_to.find_position(scene, "station 61") is not None
     (part,) = (each for each in schema.fields(TileSettings) if each.name == "sources")
     keys.put(panel.tiles, part, ("https://tile.googleapis.com/v1/3dtiles/root.json",))
-    assert place_names.known(panel) == ()
-    assert go_to.place(scene, "station 61") is None
-    assert go_to.place(scene, "38.84 -120.55") is not None
-    assert "Google Photorealistic 3D Tiles allows no other gazetteer" in place_names.refusal(panel)
+    assert place_names.list_labels(panel) == ()
+    assert go_to.find_position(scene, "station 61") is None
+    assert go_to.find_position(scene, "38.84 -120.55") is not None
+    assert "Google Photorealistic 3D Tiles allows no other gazetteer" in place_names.explain_refusal(panel)
     keys.put(panel.tiles, part, ("https://tiles.example/tileset.json",))
-    assert place_names.refusal(panel) == ""
+    assert place_names.explain_refusal(panel) == ""
 
 
 def test_head_ignition_and_stations_are_gone_to(panel, tmp_path):
@@ -235,16 +235,22 @@ def test_head_ignition_and_stations_are_gone_to(panel, tmp_path):
         tmp_path / "stations.gpkg", [(1, "Base Two", 38.84, -120.55, "exercise base", "exercise")]
     )
     panel.stations.file = str(path)
-    assert (go_to.place(scene, "base two") - go_to.place(scene, "38.84 -120.55")).length < 0.01
+    assert (
+        go_to.find_position(scene, "base two") - go_to.find_position(scene, "38.84 -120.55")
+    ).length < 0.01
     shot = choice.from_panel(panel).shot()
     latitude, longitude = station_signs.ignition_point(shot)
-    assert (go_to.place(scene, "ignition") - go_to.place(scene, f"{latitude} {longitude}")).length < 5.0
+    assert (
+        go_to.find_position(scene, "ignition") - go_to.find_position(scene, f"{latitude} {longitude}")
+    ).length < 5.0
     wanted = targets.follow("head", shot.bare_ground, shot.frames.times, station_signs._ABOVE)
     for frame in (1, 3):
         scene.frame_set(frame)
-        assert np.array(go_to.place(scene, "Head of the fire")) == pytest.approx(wanted[frame - 1], abs=0.1)
-        assert go_to.place(scene, "head") == go_to.place(scene, "Head of the fire")
-    assert landmarks.known(panel) == ["Head of the fire", "Ignition"]
+        assert np.array(go_to.find_position(scene, "Head of the fire")) == pytest.approx(
+            wanted[frame - 1], abs=0.1
+        )
+        assert go_to.find_position(scene, "head") == go_to.find_position(scene, "Head of the fire")
+    assert landmarks.list_names(panel) == ["Head of the fire", "Ignition"]
 
 
 def test_one_goes_to_the_moment_when_the_fire_reaches_a_station(panel, tmp_path):
@@ -257,16 +263,16 @@ def test_one_goes_to_the_moment_when_the_fire_reaches_a_station(panel, tmp_path)
         ],
     )
     panel.stations.file = str(path)
-    found = {event.words: event for event in events.known(panel)}
+    found = {event.words: event for event in events.list_events(panel)}
     assert "the fire reaches Base Two" in found
     assert "the fire reaches Far Camp" not in found, "it never comes there"
-    times = [event.time for event in events.known(panel)]
+    times = [event.time for event in events.list_events(panel)]
     assert times == sorted(times)
-    event = events.find(panel, "reaches base two")
+    event = events.find_event(panel, "reaches base two")
     assert event.place == "Base Two"
     scene.frame_set(3)
     assert bpy.ops.firetwin.go(text="the fire reaches Base Two") == {"FINISHED"}
-    assert scene.frame_current == go_to.frame_of(panel, event.time)
+    assert scene.frame_current == go_to.nearest_frame(panel, event.time)
 
 
 def test_names_are_off_beside_tiles_whose_terms_forbid_other_gazetteers(panel, tmp_path):
@@ -274,29 +280,29 @@ def test_names_are_off_beside_tiles_whose_terms_forbid_other_gazetteers(panel, t
     file.write_text("name,latitude,longitude\nOld Mill,38.84,-120.55\n")
     panel.labels.file = str(file)
     scene = bpy.context.scene
-    assert [each.name for each in place_names.known(panel)] == ["Old Mill"]
-    assert go_to.place(scene, "old mill") is not None
+    assert [each.name for each in place_names.list_labels(panel)] == ["Old Mill"]
+    assert go_to.find_position(scene, "old mill") is not None
     panel.tiles.sources = '"terrain_tiles", "https://tile.googleapis.com/v1/3dtiles/root.json"'
-    assert place_names.known(panel) == ()
-    assert go_to.place(scene, "old mill") is None
-    assert go_to.place(scene, "38.84 -120.55") is not None
-    assert "Google" in go_to._unknown(panel, "old mill")
+    assert place_names.list_labels(panel) == ()
+    assert go_to.find_position(scene, "old mill") is None
+    assert go_to.find_position(scene, "38.84 -120.55") is not None
+    assert "Google" in go_to._explain_unknown(panel, "old mill")
     panel.tiles.sources = '"https://example.org/tileset.json", "half typed'
-    assert [each.name for each in place_names.known(panel)] == ["Old Mill"]
+    assert [each.name for each in place_names.list_labels(panel)] == ["Old Mill"]
 
 
 def test_a_view_at_a_place_is_above_the_terrain(panel, monkeypatch):
     stage = owned.stage(bpy.context.scene)
-    where = go_to.place(bpy.context.scene, "38.84 -120.55")
+    where = go_to.find_position(bpy.context.scene, "38.84 -120.55")
 
     def height(turn, distance):
         eye = where + turn @ Vector((0.0, 0.0, distance))
         return eye.z - ground_raycast.terrain_height(stage, eye)
 
-    assert height(go_to.above(stage, where, 0.3, 2000.0), 2000.0) > go_to._CLEARANCE
-    flat = go_to.above(stage, where, 0.3, 2000.0)
+    assert height(go_to.view_from_above(stage, where, 0.3, 2000.0), 2000.0) > go_to._CLEARANCE
+    flat = go_to.view_from_above(stage, where, 0.3, 2000.0)
     monkeypatch.setattr(ground_raycast, "terrain_height", lambda stage, eye: where.z + 1200.0)  # a ridge
-    steep = go_to.above(stage, where, 0.3, 2000.0)
+    steep = go_to.view_from_above(stage, where, 0.3, 2000.0)
     assert (steep @ Vector((0, 0, 1))).z > (flat @ Vector((0, 0, 1))).z + 0.1
 
 
@@ -314,8 +320,8 @@ def test_vr_landmarks_stand_on_the_ground_and_go_with_the_head(vr_viewer, panel,
         assert bpy.ops.firetwin.vr_landmarks() == {"FINISHED"}
     found = {each.name: each for each in scene.vr_landmarks}
     assert len(scene.vr_landmarks) == len(found)
-    base, began = found["Base Two"], go_to.place(scene, "ignition")
-    assert (Vector(base.base_pose_location) - go_to.place(scene, "base two")).length < 0.01
+    base, began = found["Base Two"], go_to.find_position(scene, "ignition")
+    assert (Vector(base.base_pose_location) - go_to.find_position(scene, "base two")).length < 0.01
     ahead = Matrix.Rotation(base.base_pose_angle, 3, "Z") @ Vector((0.0, 1.0, 0.0))
     way = (began - Vector(base.base_pose_location)) * Vector((1.0, 1.0, 0.0))
     assert ahead.angle(way) < 1e-3
@@ -323,5 +329,5 @@ def test_vr_landmarks_stand_on_the_ground_and_go_with_the_head(vr_viewer, panel,
     assert found["Head of the fire"].type == "OBJECT"
     for frame in (1, 3):
         scene.frame_set(frame)
-        assert (empty.matrix_world.translation - go_to.place(scene, "head")).length < 1.1
+        assert (empty.matrix_world.translation - go_to.find_position(scene, "head")).length < 1.1
     assert len([obj for obj in scene.objects if obj.name.startswith("Head of the fire")]) == 1

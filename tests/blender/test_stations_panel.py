@@ -282,7 +282,7 @@ def test_panels_draw_what_is_known_and_read_nothing(panel, monkeypatch):
     panel.station_index = names().index("Base Two")
     for module, name in ((station_data, "load"), (station_list, "refresh"), (station_map, "update")):
         monkeypatch.setattr(module, name, lambda *_: pytest.fail("the panel works"))
-    monkeypatch.setattr(stations_panel, "paragraph", lambda *_: None)  # needs a window
+    monkeypatch.setattr(stations_panel, "draw_paragraph", lambda *_: None)  # needs a window
     for cls in (stations_panel.FIRETWIN_PT_stations, stations_panel.FIRETWIN_PT_station_map):
         drawn = []
         cls.draw(type("Self", (), {"layout": Layout(drawn)})(), bpy.context)

@@ -59,7 +59,7 @@ def preview_objects():
 
 
 def test_a_source_beside_the_scene_file_is_found_from_the_panel(tiled_panel, tmp_path):
-    assert scene_file.settings(bpy.context.scene).tiles.sources == (str(tmp_path / "set"),)
+    assert scene_file.read_settings(bpy.context.scene).tiles.sources == (str(tmp_path / "set"),)
 
 
 @pytest.mark.parametrize(
@@ -99,7 +99,7 @@ def test_coarse_tiles_are_shown_and_those_of_the_film_are_ready(tiled_panel):
     lines = dict(tile_facts.read(tiled_panel.tile_facts)["lines"])
     assert "triangles" in lines["Film"]
     assert lines["Error"] == "2 pixels"
-    assert "ready: Build scene shows them" in job.Job.last.told[-1].text
+    assert "ready: Build scene shows them" in job.Job.last.messages[-1].text
     assert len(bpy.data.scenes) == 1
 
 

@@ -96,7 +96,7 @@ def test_every_refusal_says_what_to_do(settings, run_folder, scene_file):
 
 def test_a_run_is_known_as_soon_as_it_is_chosen(settings, run_folder):
     settings.run = str(run_folder)
-    found = run.read(settings.facts)
+    found = run.parse_facts(settings.facts)
     rows = dict(found["rows"])
     assert rows["Grid"].startswith("24 x 24 cells of 3")
     assert rows["First"] == "17 Sep 2014 13:00 -08"  # by its longitude: nobody said which fire it is
@@ -148,7 +148,7 @@ def test_cameras_that_nobody_chose_follow_the_run(settings, run_folder, tmp_path
 def test_the_window_that_nobody_chose_follows_the_run(settings, run_folder, tmp_path):
     settings.run = str(run_folder)
     fits = file.read(_new(run_folder, tmp_path / "scene.toml"))
-    shown = scene_settings.settings(bpy.context.scene)
+    shown = scene_settings.read_settings(bpy.context.scene)
     assert (shown.time, shown.cameras) == (fits.time, fits.cameras)
     settings.time.frames, settings.time.start = 7, "2014-09-17 21:10"
     bpy.ops.firetwin.inspect()
@@ -348,7 +348,7 @@ def test_build_leaves_a_scene_that_somebody_uses(settings, scene_file, somebody)
     assert not owned.has_data(before)
     assert "Firetwin Ground" in after.objects
     assert (after.firetwin.scene_file, after.firetwin.which) == (str(scene_file), "all")
-    assert scene_settings.settings(after) == scene_settings.settings(before)
+    assert scene_settings.read_settings(after) == scene_settings.read_settings(before)
     assert after.firetwin.frames == 3
     assert before.firetwin.frames == 0
     assert "Scene is unchanged" in working.last_messages(build.FIRETWIN_OT_build)[-1].text
@@ -474,7 +474,7 @@ def space(start=0.01, end=1000.0):
 
 def test_views_reach_as_far_as_the_world(settings, scene_file, monkeypatch):
     usual, own = space(), space(0.5, 2000.0)
-    monkeypatch.setattr(view, "spaces", lambda scene: [usual, own])
+    monkeypatch.setattr(view, "scene_views", lambda scene: [usual, own])
     settings.scene_file = str(scene_file)
     bpy.ops.firetwin.build()
     assert usual.clip_end > 200_000
@@ -501,7 +501,7 @@ def test_only_views_of_windows_that_show_the_scene_are_ours_to_set(monkeypatch):
     ]
     manager = SimpleNamespace(window_manager=SimpleNamespace(windows=windows))
     monkeypatch.setattr(view, "bpy", SimpleNamespace(context=manager, types=bpy.types))
-    view.widen(shown)
+    view.extend_clipping(shown)
     assert here.spaces.active.clip_end == viewport.FAR
     assert elsewhere.spaces.active.clip_end == 1000.0
 
@@ -538,8 +538,8 @@ def test_work_in_the_window_goes_step_by_step():
     while not work.advance():
         time.sleep(0.01)
     assert taken == [7, "drawn"]
-    assert work.told == "all done"
-    assert work.said == [job.Message("it counts"), job.Message("it draws", "WARNING")]
+    assert work.result == "all done"
+    assert work.messages == [job.Message("it counts"), job.Message("it draws", "WARNING")]
 
 
 def test_the_progress_of_work_says_how_far_it_is():
@@ -627,7 +627,7 @@ def waiting():
         work.happens()
     yield work
     work.job.stop.now()
-    working.abandon()
+    working.cancel_task()
 
 
 def test_esc_stops_work_only_with_the_pointer_over_the_sidebar(waiting):
@@ -696,7 +696,7 @@ def test_undo_in_the_middle_of_building_ends_it_with_one_report():
     assert work.goes_on() == {"FINISHED"}
     assert [level for level, _ in work.reports] == ["ERROR"]
     assert "undo was used" in work.reports[0][1]
-    assert working._undone not in bpy.app.handlers.undo_post
+    assert working._note_undo not in bpy.app.handlers.undo_post
 
 
 def test_undo_while_it_waits_does_no_harm(waiting):

@@ -140,12 +140,12 @@ def test_a_part_built_again_keeps_what_was_changed_by_hand_elsewhere(opened, pla
 def test_quality_moves_many_settings_and_is_known_again(opened):
     for name in quality.LEVELS:
         bpy.ops.firetwin.quality(level=name)
-        assert quality.level(opened) == name
-        found = scene_file.settings(bpy.context.scene)
+        assert quality.current_level(opened) == name
+        found = scene_file.read_settings(bpy.context.scene)
         for (section, key), value in quality.LEVELS[name].items():
             assert getattr(getattr(found, section), key) == value
     opened.render.samples += 1
-    assert quality.level(opened) == ""
+    assert quality.current_level(opened) == ""
     bpy.ops.firetwin.reset(section="render", key="samples")
     assert opened.render.samples == 6
 
@@ -162,7 +162,7 @@ def test_a_preset_brings_back_all_but_the_run(opened, tmp_path, monkeypatch):
     (saved,) = tmp_path.rglob("Mine.py")
     opened.light.use_exposure, opened.render.passes, opened.time.start = False, {"depth"}, ""
     bpy.ops.script.execute_preset(filepath=str(saved), menu_idname="FIRETWIN_MT_presets")
-    found = scene_file.settings(bpy.context.scene)
+    found = scene_file.read_settings(bpy.context.scene)
     assert (found.light.exposure, found.render.passes, found.time.start) == (1.5, ("rgb", "thermal"), None)
 
 
@@ -204,7 +204,7 @@ def test_a_dated_moment_is_shown_and_bounds_the_window(opened):
     assert bpy.context.scene.frame_current == 2
     bpy.ops.firetwin.jump(moment="2014-09-17T23:00:00Z")
     assert bpy.context.scene.frame_current == 3
-    bpy.ops.firetwin.window(key="end", moment=model_time.moments(opened)[-1][0])
+    bpy.ops.firetwin.window(key="end", moment=model_time.dated_events(opened)[-1][0])
     assert opened.time.end == "2014-09-17 22:00"
 
 
@@ -212,10 +212,10 @@ def test_what_went_wrong_can_be_copied(opened, monkeypatch):
     opened.time.end = "2014-09-19 00:00"
     with pytest.raises(RuntimeError):
         bpy.ops.firetwin.build()
-    (told,) = (each.text for each in job.Job.last.told if each.level == "ERROR")
+    (told,) = (each.text for each in job.Job.last.messages if each.level == "ERROR")
     assert told.startswith("Time.end lies outside of the run, which has 2014-09-17T21:00:00Z to")
-    text = working.details(told)
+    text = working.support_details(told)
     assert text.startswith(told)
     assert bpy.app.version_string in text
     job.describe_error(ValueError("nobody foresaw it"))
-    assert "ValueError: nobody foresaw it" in working.details("x")
+    assert "ValueError: nobody foresaw it" in working.support_details("x")

@@ -38,7 +38,7 @@ def stopped_after(count):
         work.run()
     if work.touched:
         bpy.ops.ed.undo_push(message="Build scene")
-        working.take_back()
+        working.undo_last()
     return work.what
 
 
@@ -107,7 +107,7 @@ def test_a_run_that_vanishes_is_a_message_and_nothing_is_lost(panel, plain_looks
 
 
 def test_reading_a_run_that_is_stopped_says_how_to_go_on(panel):
-    work = job.Job("Read run", run.look(bpy.context.scene.session_uid))
+    work = job.Job("Read run", run.inspect_run(bpy.context.scene.session_uid))
     work._step(wait=True)
     work.stop.now()
     with pytest.raises(StoppedError):
@@ -127,7 +127,7 @@ def test_two_scenes_of_one_file_do_not_mix(panel, plain_looks, blend):
     second = bpy.context.window.scene
     second.name = "Second"
     second.firetwin.scene_file = str(blend.with_suffix(".toml"))
-    before = names(first), file.text(scene_file.settings(first))
+    before = names(first), file.text(scene_file.read_settings(first))
     assert bpy.ops.firetwin.build() == {"FINISHED"}
     assert not names(first) & names(second)
     assert not set(first.collection.children_recursive) & set(second.collection.children_recursive)
@@ -136,7 +136,7 @@ def test_two_scenes_of_one_file_do_not_mix(panel, plain_looks, blend):
     second.camera.location.z, second.camera.name = 7000.0, "Other"
     assert bpy.ops.firetwin.build(part="cameras") == {"FINISHED"}
     assert second.firetwin.cameras.keys() == ["Other"]
-    assert (names(first), file.text(scene_file.settings(first))) == before
+    assert (names(first), file.text(scene_file.read_settings(first))) == before
     assert bpy.ops.firetwin.remove() == {"FINISHED"}
     assert not second.objects
     assert names(first) == before[0]
@@ -150,7 +150,7 @@ REFUSED = ("inspect", "build", "remove", "camera_add", *CAMERA, "render", "open"
 
 
 def test_what_is_linked_is_left_alone_and_what_is_appended_is_ours(panel, plain_looks, blend):
-    there = file.text(scene_file.settings(bpy.context.scene))
+    there = file.text(scene_file.read_settings(bpy.context.scene))
     bpy.ops.wm.read_homefile(use_empty=True)
     with bpy.data.libraries.load(str(blend), link=True) as (known, wanted):
         wanted.scenes = known.scenes
@@ -163,7 +163,7 @@ def test_what_is_linked_is_left_alone_and_what_is_appended_is_ours(panel, plain_
         wanted.scenes = known.scenes
     (appended,) = wanted.scenes
     bpy.context.window.scene = appended
-    assert file.text(scene_file.settings(appended)) == there
+    assert file.text(scene_file.read_settings(appended)) == there
     before = {name for name, _ in names(appended)}
     assert bpy.ops.firetwin.build() == {"FINISHED"}
     assert {name for name, _ in names(appended)} == before

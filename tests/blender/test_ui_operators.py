@@ -38,7 +38,7 @@ def panel(blend, monkeypatch):
     """A built scene of the panel, and a view that looks from EYE."""
     firetwin.register()
     bpy.ops.wm.open_mainfile(filepath=str(blend))
-    monkeypatch.setattr(navigation, "eye", lambda context: (EYE.copy(), 30.0, 36.0))
+    monkeypatch.setattr(navigation, "camera_from_view", lambda context: (EYE.copy(), 30.0, 36.0))
     yield bpy.context.scene.firetwin
     queue.clear()
     firetwin.unregister()

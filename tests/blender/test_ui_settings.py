@@ -40,7 +40,7 @@ def key(kind, name):
 @given(any_table(Settings, path=st.just(Path("/scenes/scene.toml"))))
 def test_any_settings_come_back_from_the_blend_file(panel, whole):
     scene_file.fill(panel.id_data, whole)
-    assert scene_file.settings(panel.id_data, whole.path) == whole
+    assert scene_file.read_settings(panel.id_data, whole.path) == whole
 
 
 def test_every_scene_file_comes_back_from_a_saved_blend_file(panel, tmp_path):
@@ -69,7 +69,7 @@ def test_what_an_artist_changes_is_what_comes_out(panel):
     whole = replace(file.read(EXAMPLES / "king_fire.toml"), render=Render(thermal_low=285.123456789))
     scene_file.fill(panel.id_data, whole)
     panel.render.thermal_high, panel.terrain.error = 700.1, 0.3
-    found = scene_file.settings(panel.id_data)
+    found = scene_file.read_settings(panel.id_data)
     assert (found.render.thermal_low, found.render.thermal_high, found.terrain.error) == (
         285.123456789,
         700.1,
@@ -78,13 +78,13 @@ def test_what_an_artist_changes_is_what_comes_out(panel):
     panel.render.thermal_low = 290.5
     panel.time.start, panel.terrain.photo_extent = "2014-09-17T16:10-07:00", "-121, 38.6, -120.2, 39.1"
     panel.cameras[0].name = "mine"
-    found = scene_file.settings(panel.id_data)
+    found = scene_file.read_settings(panel.id_data)
     assert found.render.thermal_low == 290.5
     assert f"{found.time.start:%H:%M %Z}" == "23:10 UTC"
     assert found.terrain.photo_extent == (-121.0, 38.6, -120.2, 39.1)
     assert found.cameras[0] == replace(whole.cameras[0], name="mine")
     panel.render.use_thermal_low, panel.time.start = False, ""
-    found = scene_file.settings(panel.id_data)
+    found = scene_file.read_settings(panel.id_data)
     assert (found.render.thermal_low, found.time.start) == (None, None)
 
 
@@ -93,7 +93,7 @@ def test_what_an_artist_changes_is_what_comes_out(panel):
     [
         ("time", "start", "yesterday", 'Start: "yesterday" is not a date and time; write it as'),
         ("time", "zone", "America/Los_Angles", 'Time.zone "America/Los_Angles" is not a time zone; did you'),
-        ("terrain", "photo_extent", "west", 'Photo extent: "west" is no list'),
+        ("terrain", "photo_extent", "west", 'Photo extent: "west" is not a list'),
         ("render", "passes", set(), "Render.passes is empty; name at least one"),
     ],
 )
@@ -111,7 +111,7 @@ def test_only_what_differs_from_the_default_is_marked(panel):
             part.name
             for section in sections.sections()
             for part in schema.fields(section.table)
-            if keys.differs(getattr(panel, section.name), part)
+            if keys.is_changed(getattr(panel, section.name), part)
         }
 
     assert marked() == set()
@@ -132,19 +132,19 @@ def test_what_changed_since_it_was_built_is_known(panel):
     scene_file.fill(panel.id_data, file.read(EXAMPLES / "king_fire.toml"))
     panel.forest.budget = 1000
     assert panel.changed == ""  # nothing is built
-    changed_settings.remember(panel, changed_settings.digests(panel), tuple(PARTS))
+    changed_settings.store_digests(panel, changed_settings.compute_digests(panel), tuple(PARTS))
     panel.forest.budget, panel.light.use_exposure, panel.time.frames = 900, True, 2
     panel.cameras[0].name = "mine"
     assert panel.changed == "time forest light cameras"
     panel.light.use_exposure = False
-    changed_settings.remember(panel, changed_settings.digests(panel), ("forest",))
-    changed_settings.remember(panel, changed_settings.digests(panel), ("cameras",))
+    changed_settings.store_digests(panel, changed_settings.compute_digests(panel), ("forest",))
+    changed_settings.store_digests(panel, changed_settings.compute_digests(panel), ("cameras",))
     assert panel.changed == "time cameras"  # built data elsewhere depends on them too
-    changed_settings.remember(panel, changed_settings.digests(panel), tuple(PARTS))
+    changed_settings.store_digests(panel, changed_settings.compute_digests(panel), tuple(PARTS))
     assert panel.changed == ""
     panel.run = "/elsewhere"
     assert panel.changed == "run"
-    changed_settings.forget(panel)
+    changed_settings.clear(panel)
     panel.forest.budget = 800
     assert panel.changed == ""
 

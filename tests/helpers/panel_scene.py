@@ -58,7 +58,7 @@ def opened(blend):
 def settings(scene):
     """Scene file text of a scene's panel, or its error."""
     try:
-        return file.text(scene_file.settings(scene))
+        return file.text(scene_file.read_settings(scene))
     except Error as error:
         return str(error)
 

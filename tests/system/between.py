@@ -64,7 +64,7 @@ def check(good: bool, text: str) -> None:
 
 def settings() -> str:
     """Return the panel's settings as a scene file without comments; names of folders differ elsewhere."""
-    lines = file.text(scene_file.settings(bpy.context.scene)).splitlines()
+    lines = file.text(scene_file.read_settings(bpy.context.scene)).splitlines()
     bare = (line.partition("#")[0].rstrip() for line in lines)
     return "\n".join(line for line in bare if not line.startswith(("run = ", "cache = ")))
 
@@ -158,7 +158,7 @@ if __name__ == "__main__":
     verb, *paths = sys.argv[1:]
     bpy.ops.wm.read_factory_settings()
     firetwin.register()
-    navigation.eye = lambda context: (EYE.copy(), 30.0, 36.0)  # there is no view here
+    navigation.camera_from_view = lambda context: (EYE.copy(), 30.0, 36.0)  # there is no view here
     if verb == "save":
         save(*map(Path, paths))
     else:
