@@ -74,7 +74,7 @@ def timed(work: Callable, repeats: int = REPEATS) -> tuple[float, object]:
 
 def compare_arrivals(folder: Path, copy: Path) -> None:
     """Print the errors of arrival times from heat fluxes."""
-    shutil.copytree(folder, copy, ignore=shutil.ignore_patterns(f"{fire_arrival.OWN}*"))
+    shutil.copytree(folder, copy, ignore=shutil.ignore_patterns(f"{fire_arrival.ARRIVAL_FIELD}*"))
     own, flux = runs.open(folder), runs.open(copy)
     rng = np.random.default_rng(1)
     latitude, longitude = (
