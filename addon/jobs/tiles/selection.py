@@ -134,7 +134,7 @@ def in_process(
 
 
 def _can_keep(shot: Shot, keep: bool) -> bool:
-    """Test whether a shot's selection is still valid; local files may have changed, so they are read again."""
+    """Test whether a shot's selection is still valid; local files may have changed, so read them again."""
     try:
         cut = tile_cut.prepared(shot) if keep else None
     except InputError:  # damaged: select again
