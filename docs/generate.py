@@ -173,23 +173,24 @@ validates a scene file. Former names of sections and keys are read with a note; 
 """
 
 PASSES = """\
-A pass is a kind of picture that a camera records. `[render] passes` lists the passes of all cameras; the
-`passes` of a camera override it. A file in `addon/shot/passes/` is one pass. EXR files have 32 bits per
-value; the EXR of `rgb` is scene-linear.
+A pass is a kind of picture that a camera records. `[render] passes` lists the passes of all
+cameras; the `passes` of a camera override it. Each file in `addon/shot/passes/` defines one pass. EXR files
+have 32 bits per value; the EXR of `rgb` is scene-linear.
 
-`fused`, `split` and `difference` need matplotlib. `imager_short` and `imager_long` are bands of ABI for a
-satellite over the equator, else bands of VIIRS; no satellite took such a picture in 2014. `pose` with `rgb`
-also writes an index for nerfstudio, `CAMERA/transforms.json`. `thermal_map` and `edl` follow the FIRETWIN
-paper. `normal` and `masks` need an additional render with one ray per pixel. The `[thermal]` section sets
-the band (8 to 14 or 3.4 to 4.1 µm), the palette and the flaws of the detector.
+`fused`, `split` and `difference` need matplotlib. `imager_short` (MWIR) and `imager_long` (LWIR) are bands
+of ABI for a geostationary satellite, else bands of VIIRS; no satellite took such a picture in 2014. `pose`
+with `rgb` also writes an index for nerfstudio, `CAMERA/transforms.json`. `thermal_map` and `edl` follow the
+FIRETWIN paper. `normal` and `masks` need an additional render with one ray per pixel. The `[thermal]`
+section sets the band (long-wave infrared, LWIR, 8 to 14 µm, or mid-wave infrared, MWIR, 3.4 to 4.1 µm), the
+palette and the flaws of the detector.
 
 Each built scene has compositor groups with the results of these passes, within 1e-5: *Firetwin Thermal
 Blend*, *Thermal Camera*, *Eye Dome* and *Overlay*.
 """
 
 CAMERAS = """\
-`kind` of `[[cameras]]` is one of these; a file in `addon/shot/cameras/rigs/` is one kind. Focal lengths and
-sensors are in millimetres. Keys have handles that can be moved in Blender.
+`kind` of `[[cameras]]` is one of these; each file in `addon/shot/cameras/rigs/` defines one
+kind. Focal lengths and sensors are in millimetres. Keys have handles that can be moved in Blender.
 
 A drone looks ahead, at a point or at the fire, and stays above its clearance. It flies from key to key or
 along a GPX, KML or CSV track. `firetwin track SCENE.toml --camera NAME --out FILE.gpx` writes a camera's
@@ -197,8 +198,9 @@ path; a drone with `track = "FILE.gpx"` flies it again. Heights of tracks refer 
 elevations.
 
 A `tour` visits places for a film: by the name of a label, by position, the "head" of the fire or its
-"ignition". Times of stays and flights are shares of the film. The camera comes from the side of the previous
-place, stops, and continues with an eased start and end, above the terrain.
+"ignition". `stay` and `travel` are in seconds, and are scaled together so that the tour fills the film. The
+camera arrives from the direction of the previous place, stops, and continues with an eased start and end,
+above the terrain.
 
 A `globe` flies from space to a place: along the geodesic, at constant speed on the screen from 2,000 km down
 (van Wijk and Nuij 2003). It starts with a view straight down and ends like a stop of a `tour`, with a level
@@ -208,13 +210,13 @@ WGS84 ellipsoid, in one colour or in your picture `terrain.globe`, which needs a
 curvature; the sky darkens with height and surrounds the limb.
 
 `vr` needs Cycles. The left eye's equirectangular picture is above the right eye's. Stills have XMP metadata
-for this (GPano), films `st3d` and `sv3d`. A `satellite` looks straight down and to scale from above all
-smoke, or from its longitude over the equator in perspective.
+for this (GPano), films `st3d` and `sv3d`. A `satellite` is an orthographic nadir view from above all smoke
+or, with `geostationary`, a perspective view from that longitude over the equator.
 
-Three examples, each one command, write to `examples/out/NAME`. `examples/film.sh drone_feed` writes all
-feeds of a drone's mount, with their fused view, sidecars and masks. `examples/film.sh satellite` writes the
-complete run from space, in true colour and both bands. `examples/film.sh vr` writes a clip for headsets.
-`examples/rigs.toml` has one camera of each other kind. All four film the synthetic sample run.
+Three example commands write to `examples/out/NAME`: `examples/film.sh drone_feed` writes all feeds of a
+drone's mount, with their fused view, sidecars and masks. `examples/film.sh satellite` writes the complete
+run from space, in true colour and both bands. `examples/film.sh vr` writes a clip for headsets. A fourth
+scene file, `examples/rigs.toml`, has one camera of each remaining kind. All use the synthetic sample run.
 """
 
 

@@ -8,7 +8,7 @@ radiance.
 Over d km of air with w g/m3 of water vapour the transmittance is exp(-0.03 w d^0.75), and the air adds its
 emission. For 7 g/m3 this agrees within 0.01 with the transmission of G. J. Tattersall's Thermimage (after
 FLIR Systems: 0.81 over 1 km, 0.31 over 10 km). The scale height of vapour is 2 km. The same formula is used
-in the middle infrared.
+in the mid-wave infrared.
 
 Smoke is nearly transparent in the infrared: its particles, 0.1 to 0.3 um in diameter (Radke et al. 1990),
 absorb as 1 / wavelength and scatter almost nothing (C. F. Bohren and D. R. Huffman 1983, 5.1). A sixth of the

@@ -165,7 +165,7 @@ class FarmProperties:
     )
     farm_chunk: bpy.props.IntProperty(
         name="Frames per task",
-        description="Frames per task; rounded up to multiples of Chunk if that splits the film",
+        description="Frames per task; rounded up to multiples of Chunk if the build chunk splits the film",
         default=plan.CHUNK,
         min=1,
     )

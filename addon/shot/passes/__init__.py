@@ -1,4 +1,4 @@
-"""Passes: render outputs of a camera; each module of this folder is one, unless its name begins with "_".
+"""Passes: render outputs of a camera; each module here defines one, unless its name begins with "_".
 
 A module defines `PASS`, a `RenderedPass`, `DerivedPass` or `ComparisonPass` with the module's name.
 

@@ -1,4 +1,4 @@
-"""Overlay pass: infrared hot spots over the visible picture, from 350 K on, opaque from 450 K.
+"""Overlay pass: infrared hot spots above 350 K over the visible picture, opaque above 450 K.
 
 Sunlit ground stays below, and ground that burned minutes ago shows faintly (`air_temperature.cooling`).
 The two temperatures are chosen by eye. The palette resembles ironbow, on the scale of the thermal picture.

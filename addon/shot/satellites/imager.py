@@ -11,7 +11,7 @@ The saturation temperatures of ABI, 400 K in band 7 and 330 K in band 14, are fr
 Users of VIIRS's fire product take I4 as saturated from 367 K. No document of the instrument's makers was
 available for that value, nor for the 380 K of I5.
 
-Fire radiative power by middle infrared radiance is A sigma / a (L - L(background)) (Wooster et al. 2003,
+Fire radiative power by mid-wave infrared radiance is A sigma / a (L - L(background)) (Wooster et al. 2003,
 2005), with a = 3.0e-9 W m-2 sr-1 um-1 K-4 at 3.9 um. At 1000 K that is 1.13 of the true power, so all pixels
 together have 0.158 of the run's heat as long as none is saturated.
 
@@ -127,7 +127,7 @@ class ImagerPicture:
     power
         Fire radiative power, W.
     mask
-        Fire mask from the middle infrared band: `NONE`, `BURNING` or `SATURATED`.
+        Fire mask from the mid-wave infrared band: `NONE`, `BURNING` or `SATURATED`.
     limited
         Number of saturated pixels in the band of power; their `power` is a lower bound.
     area

@@ -1,4 +1,4 @@
-"""Section [light]: haze, exposure and lamps."""
+"""Section [light]: haze, exposure and point lights of the flames."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Light:
     )
     lamps: int = key(
         48,
-        "limit on lamps that light terrain and trees for the flames when the sun is low; 0: none",
+        "limit on point lights that replace the flames on terrain and trees at low sun; 0: none",
         at_least=0,
         at_most=500,
     )

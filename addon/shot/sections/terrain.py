@@ -53,17 +53,15 @@ class TerrainSettings:
     )
     photo_url: str = key(
         "",
-        "orthophoto of a server: URL of tiles with {z}, {x} and {y} (or {-y}), or of WMTS capabilities",
+        "orthophoto from a tile server: URL with {z}, {x} and {y} (or {-y}), or of WMTS capabilities",
         affects=(),
     )
     photo_layer: str = key("", "layer of the WMTS capabilities, if there are several")
-    photo_level: int = key(
-        19, "finest level of tiles that the server of photo_url has", at_least=0, at_most=30
-    )
+    photo_level: int = key(19, "highest zoom level of the tile server of photo_url", at_least=0, at_most=30)
     photo_credit: str = key("", "credit of the orthophoto; needed with photo_url")
     photo_size: int = key(
         3072,
-        "longest side of a picture of the orthophoto in the scene",
+        "longest side of an image of the orthophoto in the scene",
         unit="pixels",
         at_least=64,
         at_most=6144,

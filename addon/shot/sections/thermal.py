@@ -13,7 +13,11 @@ BANDS = {"lwir": (8.0, 14.0), "mwir": (3.4, 4.1)}  # um, of infrared cameras
 class Thermal:
     """The infrared camera of the thermal view. By default the detector is ideal."""
 
-    band: str = key("lwir", "wavelength band", choices={"lwir": "8 to 14 µm", "mwir": "3.4 to 4.1 µm"})
+    band: str = key(
+        "lwir",
+        "wavelength band",
+        choices={"lwir": "long-wave, 8 to 14 µm", "mwir": "mid-wave, 3.4 to 4.1 µm"},
+    )
     palette: str = key(
         "white-hot",
         "colour palette of the picture",

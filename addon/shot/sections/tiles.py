@@ -9,7 +9,7 @@ from ..schema import key
 
 @dataclass(frozen=True)
 class TileSettings:
-    """3D Tiles as ground: photogrammetry, terrain and buildings, chosen once for the whole shot."""
+    """3D Tiles as ground: photogrammetry, terrain and buildings, selected once per shot."""
 
     sources: tuple[str, ...] = key(
         (),
@@ -26,7 +26,7 @@ class TileSettings:
     )
     max_tiles: int = key(
         2000,
-        "limit on tiles; beyond a limit the error grows evenly until all fits, and this is reported",
+        "limit on tiles; beyond a limit the error threshold of the shot is raised, and reported",
         at_least=1,
         at_most=1_000_000,
         affects=("terrain",),

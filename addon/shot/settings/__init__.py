@@ -124,7 +124,7 @@ class Render:
     )
     chunk: int = key(
         480,
-        "frames of a film built together; fewer need less memory, 0: all at once",
+        "build chunk: frames of a film built together; fewer need less memory, 0: all at once",
         at_least=0,
         at_most=LARGEST_SEED,
         affects=("terrain", "forest", "fire"),

@@ -69,7 +69,9 @@ class Globe(Lens):
         2000.0, "camera height at the end above the terrain or the place, whichever is higher", **HEIGHT
     )
     bearing: float | None = key(
-        None, "bearing of the camera from the place at the end; default: its side of the start", **ANGLE
+        None,
+        "bearing of the camera from the place at the end; default: the bearing from which it arrives",
+        **ANGLE,
     )
     target_height: float = key(0.0, "target height above the terrain", **AIM)
     hold: float = key(

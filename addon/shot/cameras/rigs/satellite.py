@@ -33,7 +33,7 @@ _LOWEST = 5.0  # degrees, lowest elevation of the satellite; below, air and hill
 
 @dataclass(frozen=True)
 class Satellite(Rig):
-    """Orthographic camera that looks straight down, or a geostationary camera.
+    """Orthographic nadir view, or a perspective view from a geostationary orbit.
 
     It views the latitude and longitude of its first key; without keys, the middle of the run.
     """

@@ -55,7 +55,7 @@ class Stop:
         500.0, "camera height above the terrain or above the place, whichever is higher", **HEIGHT
     )
     bearing: float | None = key(
-        None, "bearing of the camera from the place; default: the side of the previous stop", **ANGLE
+        None, "bearing of the camera from the place; default: the bearing from which it arrives", **ANGLE
     )
     target_height: float = key(0.0, "target height above the terrain", **AIM)
 
