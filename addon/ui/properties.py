@@ -22,13 +22,13 @@ from . import (
 
 _BLEND_RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"}
 _NOT_COPIED = ("runs", "cameras", "model_time", "station_index", "station_filter")
-_SETTINGS = sections.annotations(sections.top_level_keys() + sections.sections(), Settings)
+_SETTINGS = sections.property_annotations(sections.top_level_keys() + sections.sections(), Settings)
 
 
-_Settings: type = type("Settings", (), {"__annotations__": _SETTINGS})
+_Settings: type = type("Settings", feature_panels.properties, {"__annotations__": _SETTINGS})
 
 
-class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings, *feature_panels.properties):
+class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings):
     """Settings of the scene, choices of the panel, and facts about the run"""
 
     run: bpy.props.StringProperty(

@@ -34,7 +34,7 @@ def top_level_keys() -> tuple[Field, ...]:
     return tuple(part for part in parts if part.name not in NOT_HERE)
 
 
-def annotations(known: tuple[Field, ...], kind: type) -> dict[str, Any]:
+def property_annotations(known: tuple[Field, ...], kind: type) -> dict[str, Any]:
     """Return property annotations of a group for keys of a dataclass."""
     annotations: dict[str, Any] = {"exact": bpy.props.StringProperty(options={"HIDDEN"})}
     for part in known:
@@ -64,7 +64,10 @@ def group_class(kind: type) -> type[bpy.types.PropertyGroup]:
         _groups[kind] = type(
             f"FIRETWIN_PG_{kind.__name__.lower()}",
             (bpy.types.PropertyGroup,),
-            {"__doc__": keys.sentence(summary(kind)), "__annotations__": annotations(fields(kind), kind)},
+            {
+                "__doc__": keys.sentence(summary(kind)),
+                "__annotations__": property_annotations(fields(kind), kind),
+            },
         )
     return _groups[kind]
 
