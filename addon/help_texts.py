@@ -61,9 +61,9 @@ Brightness temperatures (K) at 3.9 and 11.2 um (3.74 and 11.45 for viirs), fire 
 mask of fire (10) and saturated (11) pixels, in DIR/abi_20140917T2200Z.tif. abi has a geostationary
 projection and a ground sample distance of 2 km; viirs has a latitude-longitude grid and 375 m. Radiance is
 weighted by the area of fire in a pixel. For the fire power, the detectors saturate at 400 K (abi, 3.9 um)
-and 634 K (viirs, band M13, 750 m). The images are hypothetical: neither instrument observed the fires of
-2014 in this way. The passes imager_short and imager_long of a satellite camera show such images. Needs
-rasterio (pip install 'firetwin[raster]')."""
+and 634 K (viirs, band M13, 750 m). The images are hypothetical: ABI was not yet in orbit in 2014, and
+observations of VIIRS are not used. The passes imager_short and imager_long of a satellite camera show such
+images. Needs rasterio (pip install 'firetwin[raster]')."""
 
 BUILD = """\
 The file can be opened, played and rendered without the add-on. Its smoke volumes remain in the cache

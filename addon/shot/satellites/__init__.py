@@ -1,5 +1,5 @@
 """Satellite imagers: simulated pixels of a run, without Blender.
 
-None of these imagers observed the King Fire of 2014 like this: GOES-18 was launched in 2022. The pictures are
-hypothetical and are labelled so in their metadata.
+The pictures are simulated, not observed, and their metadata labels them as hypothetical. ABI was not yet in
+orbit in September 2014 (GOES-16 was launched in 2016). VIIRS was, but its observations are not used here.
 """
