@@ -12,15 +12,15 @@ _PLAN = VERBS[0]
 
 DETAIL = """\
 Divides the film into tasks in three stages (bake, render, assemble), writes the job to DIR/farm and prints
-the command that submits it; --submit runs that command. Options after `--` go to the engine's command.
+the command that submits it; --submit runs that command. Options after `--` go to the scheduler's command.
 
   firetwin farm SCENE.toml --engine slurm --out DIR --submit -- --partition=gpu --time=4:00:00
-  firetwin farm status DIR     tasks and pictures that are done, running, failed or waiting; time left
+  firetwin farm status DIR     tasks and pictures that are done, running, failed or waiting; remaining time
   firetwin farm resume DIR     check all pictures and submit the tasks of missing or damaged ones
   firetwin farm cancel DIR     cancel the submitted tasks
 
-Engines run `firetwin farm task DIR N` and `firetwin farm assemble DIR`. Exit status: 0 done, 1 failed
-(assemble: pictures are missing), 2 invalid input, 75 no device or disk space now, 143 ended by SIGTERM."""
+Schedulers run `firetwin farm task DIR N` and `firetwin farm assemble DIR`. Exit status: 0 done, 1 failed
+(assemble: pictures are missing), 2 invalid input, 75 no GPU or disk space now, 143 ended by SIGTERM."""
 
 
 def split_options(argv: list[str]) -> tuple[list[str], list[str]]:
@@ -35,7 +35,7 @@ def split_options(argv: list[str]) -> tuple[list[str], list[str]]:
 
 
 def _engines() -> list[str]:
-    """List the engines by file name, without loading them."""
+    """List the schedulers by file name, without loading them."""
     return sorted(path.stem for path in _ENGINES.glob("[a-z]*.py"))
 
 
@@ -54,9 +54,9 @@ def add(parser: argparse.ArgumentParser, path: Callable[[str], Path], count: Cal
         found.add_argument("--debug", action="store_true", help="show a traceback when something fails")
         return found
 
-    plan = verb(_PLAN, "plan a film and write the engine's job (the default verb)")
+    plan = verb(_PLAN, "plan a film and write the scheduler's job (the default verb)")
     plan.add_argument("scene", metavar="SCENE|RUN", type=path, help="scene file, or run folder")
-    plan.add_argument("--engine", choices=_engines(), required=True, help="engine that runs the tasks")
+    plan.add_argument("--engine", choices=_engines(), required=True, help="scheduler that runs the tasks")
     plan.add_argument(
         "--out", metavar="DIR", type=path, required=True, help="folder for the film and the job"
     )
@@ -71,7 +71,7 @@ def add(parser: argparse.ArgumentParser, path: Callable[[str], Path], count: Cal
         ("status", "print the progress of a job, read from its files"),
         ("resume", "submit the tasks whose pictures are missing or damaged"),
         ("cancel", "cancel the submitted tasks"),
-        ("task", "run tasks of a job; engines call this"),
+        ("task", "run tasks of a job; schedulers call this"),
         ("assemble", "check all pictures, then write films and manifest"),
     ):
         found = verb(name, summary)

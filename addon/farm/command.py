@@ -61,7 +61,7 @@ def run_status(arguments: argparse.Namespace) -> None:
 
 
 def run_resume(arguments: argparse.Namespace) -> None:
-    """Submit the tasks of missing pictures with the previous engine and options."""
+    """Submit the tasks of missing pictures with the previous scheduler and options."""
     out = arguments.out.absolute()
     missing, numbers = submission.find_missing(out, Reporter())
     before = submission.last_submission(out)
@@ -100,7 +100,7 @@ def run_assemble(arguments: argparse.Namespace) -> int:
 
 
 def _status(arguments: argparse.Namespace, work: Callable[[], None]) -> int:
-    """Run the work of an engine's command; returns the exit status for the engine."""
+    """Run the work of a scheduler's command; returns the exit status for the scheduler."""
     try:
         work()
     except (Error, UsageError, OSError) as error:
@@ -122,7 +122,7 @@ def _submit(command: list[str]) -> None:
 
 
 def _call(command: list[str]) -> int:
-    """Run an engine's command and show its output; returns its exit status."""
+    """Run a scheduler's command and show its output; returns its exit status."""
     try:
         return subprocess.run(command).returncode
     except FileNotFoundError:

@@ -32,7 +32,7 @@ _FORMAT = 1
 
 @dataclass(frozen=True)
 class Task:
-    """One command that an engine runs.
+    """One command that a scheduler runs.
 
     Attributes
     ----------

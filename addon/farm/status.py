@@ -1,4 +1,4 @@
-"""Progress of a job, read from its files: engines are not queried, and pictures are not opened."""
+"""Progress of a job, read from its files: schedulers are not queried, and pictures are not opened."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Submission of a job, or of the tasks of missing pictures, to an engine; for command line and panel."""
+"""Submission of a job, or of the tasks of missing pictures, to a scheduler; for command line and panel."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ from .engines import Batch, known
 from .plan import Job
 
 _FILE, _LOG = "submitted.json", "submitted.log"
-_TICK, _LOOK = 0.2, 5.0  # s between polls of the engine's command, and of the job's files
+_TICK, _LOOK = 0.2, 5.0  # s between polls of the scheduler's command, and of the job's files
 
 
 @dataclass(frozen=True)
 class Submission:
-    """Engine of a job, with the user's options for it."""
+    """Scheduler of a job, with the user's options for it."""
 
     engine: str
     options: tuple[str, ...] = ()
@@ -45,7 +45,7 @@ def describe(job: Job, out: Path) -> Iterator[str]:
 
 
 def prepare(out: Path, chosen: Submission, numbers: Iterable[int] | None = None) -> list[str]:
-    """Write the engine's files for tasks (None: all tasks), and store engine and options.
+    """Write the scheduler's files for tasks (None: all tasks), and store scheduler and options.
 
     Returns
     -------
@@ -59,7 +59,7 @@ def prepare(out: Path, chosen: Submission, numbers: Iterable[int] | None = None)
 
 
 def last_submission(out: Path) -> Submission:
-    """Read engine and options of the last submission."""
+    """Read scheduler and options of the last submission."""
     found = json.loads((plan.job_dir(out) / _FILE).read_text(encoding="utf-8"))
     return Submission(found["engine"], tuple(found["options"]))
 
@@ -83,14 +83,14 @@ def cancel_command(out: Path) -> list[str]:
     InputError
         The folder has no job.
     UsageError
-        The engine has no such command; the message explains how to cancel.
+        The scheduler has no such command; the message explains how to cancel.
     """
     plan.read(out)
     return known()[last_submission(out).engine]().cancel(out)
 
 
 def not_installed_error(command: list[str]) -> UsageError:
-    """Create the error for an engine whose command is not installed."""
+    """Create the error for a scheduler whose command is not installed."""
     return UsageError(
         f"{command[0]} is not installed here; on a machine that has it, run: {shlex.join(command)}"
     )
@@ -103,10 +103,10 @@ def run_command(
     tell: MessageCallback = no_message,
     stop: Stop | None = None,
 ) -> None:
-    """Run an engine's command from the panel until it ends, with its output in a file of the job.
+    """Run a scheduler's command from the panel until it ends, with its output in a file of the job.
 
-    `tell` receives the last line of the output. If the engine runs the tasks within this command, `progress`
-    follows the files of the job.
+    `tell` receives the last line of the output. If the scheduler runs the tasks within this command,
+    `progress` follows the files of the job.
 
     Raises
     ------
@@ -137,7 +137,7 @@ def run_command(
 
 
 def _wait(child: subprocess.Popen[bytes], out: Path, progress: Progress, stop: Stop | None) -> bool:
-    """Wait for an engine's command; returns whether it received SIGTERM."""
+    """Wait for a scheduler's command; returns whether it received SIGTERM."""
     asked, looked = False, time.monotonic()
     while child.poll() is None:
         if stop is not None and stop.asked and not asked:

@@ -1,4 +1,4 @@
-"""Tasks as engines run them: a task can run twice, and can be stopped and restarted."""
+"""Tasks as schedulers run them: a task can run twice, and can be stopped and restarted."""
 
 from __future__ import annotations
 

@@ -77,9 +77,9 @@ def _smoke(settings: Settings, run: dict[str, str], aspects: frozenset[str]) -> 
 def _built(settings: Settings, camera: Camera) -> Settings:
     """Resolve `render.chunk` for a camera: 0 if all its frames are built at once.
 
-    The chunk determines the terrain mesh, the visible plants, the lamps of the flames and the firebrands.
-    Therefore the pictures of a film in chunks depend on the frames at which chunks begin. A film of one chunk
-    does not depend on the maximum chunk length.
+    A build chunk determines the terrain mesh, visible plants, point lights of the flames and firebrands.
+    Therefore the pictures of a film in build chunks depend on the frames at which chunks begin. A film of one
+    build chunk does not depend on the maximum chunk length.
     """
     chunk = settings.chunk_size(camera)
     return replace(settings, render=replace(settings.render, chunk=chunk))

@@ -29,7 +29,7 @@ NO_JOB = "has no farm job; write one with Write job"
 
 
 def _engine_items() -> tuple[tuple[str, str, str, str, int], ...]:
-    """List the engines; the number of each in .blend files does not change when others are added."""
+    """List the schedulers; the number of each in .blend files does not change when others are added."""
     texts = {name: engine.help.partition(":") for name, engine in engines.known().items()}
     return tuple(
         (name, label, keys.sentence(words.strip()), "NONE", zlib.crc32(name.encode()) >> 1)
@@ -42,7 +42,7 @@ def _output_folder(panel: bpy.types.PropertyGroup) -> Path:
 
 
 def _parse_options(panel: bpy.types.PropertyGroup) -> tuple[str, ...]:
-    """Split the options of the engine.
+    """Split the options of the scheduler.
 
     Raises
     ------
@@ -142,7 +142,7 @@ def _write_files(context: bpy.types.Context) -> Generator[InThread | Message, An
 
 
 def _submit(command: list[str], out: Path, last: str) -> Steps:
-    """Run an engine's command, then read the status of the job."""
+    """Run a scheduler's command, then read the status of the job."""
     yield InThread("submitting", functools.partial(submission.run_command, command, out))
     yield InThread("reading the status", lambda **_: farm_watch.read_status(out))
     farm_watch.start_watch(out)
@@ -153,7 +153,7 @@ class FarmProperties:
     """Properties of the scene that this panel shows."""
 
     farm_engine: bpy.props.EnumProperty(
-        name="Engine", description="Engine that runs the tasks", items=_engine_items(), default="slurm"
+        name="Scheduler", description="Scheduler that runs the tasks", items=_engine_items(), default="slurm"
     )
     farm_output: bpy.props.StringProperty(
         name="Output",
@@ -170,12 +170,12 @@ class FarmProperties:
         min=1,
     )
     farm_options: bpy.props.StringProperty(
-        name="Options", description="Options of the engine's command, as on a command line"
+        name="Options", description="Options of the scheduler's command, as on a command line"
     )
 
 
 class FIRETWIN_OT_farm_write(Working, bpy.types.Operator):
-    """Plan the film as tasks of a render farm and write the engine's job; nothing is submitted"""
+    """Plan the film as tasks of a render farm and write the scheduler's job; nothing is submitted"""
 
     bl_idname = "firetwin.farm_write"
     bl_label = "Write job"
@@ -192,7 +192,7 @@ class FIRETWIN_OT_farm_write(Working, bpy.types.Operator):
 
 
 class FIRETWIN_OT_farm_submit(Working, bpy.types.Operator):
-    """Plan the film as tasks of a render farm, write the engine's job and submit it"""
+    """Plan the film as tasks of a render farm, write the scheduler's job and submit it"""
 
     bl_idname = "firetwin.farm_submit"
     bl_label = "Submit"
@@ -203,7 +203,7 @@ class FIRETWIN_OT_farm_submit(Working, bpy.types.Operator):
         return _can_write(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """Plan in a thread, then wait for the engine's command."""
+        """Plan in a thread, then wait for the scheduler's command."""
         out = _output_folder(context.scene.firetwin)
         command = yield from _write_files(context)
         return (yield from _submit(command, out, f"Submitted the job of {out}"))
@@ -242,7 +242,7 @@ class FIRETWIN_OT_farm_resume(_JobOperator, bpy.types.Operator):
     bl_options = {"REGISTER"}
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """Read the pictures in a thread, then wait for the engine's command."""
+        """Read the pictures in a thread, then wait for the scheduler's command."""
         panel = context.scene.firetwin
         out, engine, own = _output_folder(panel), panel.farm_engine, _parse_options(panel)
         _check_job(out)
@@ -259,7 +259,7 @@ class FIRETWIN_OT_farm_cancel(_JobOperator, bpy.types.Operator):
     bl_options = {"REGISTER"}
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """Wait for the engine's command."""
+        """Wait for the scheduler's command."""
         out = _output_folder(context.scene.firetwin)
         _check_job(out)
         command = submission.cancel_command(out)
@@ -304,7 +304,7 @@ class FIRETWIN_PT_farm(bpy.types.Panel):
 
 
 def _draw_status(context: bpy.types.Context, layout: bpy.types.UILayout, found: Status | str | None) -> None:
-    """Draw the last status of the job: tasks, pictures, time left and errors."""
+    """Draw the last status of the job: tasks, pictures, remaining time and errors."""
     if found is None:
         return
     box = layout.box().column(align=True)

@@ -100,7 +100,7 @@ def test_what_is_submitted_is_followed_resumed_and_cancelled(panel, tmp_path, sl
     assert told(farm.FIRETWIN_OT_farm_status)[0].startswith(
         f"0 done, 0 running, 0 failed, {tasks} waiting, of {tasks}"
     )
-    panel.farm_engine, panel.farm_options = "openjd", "--other"  # not of the engine of before
+    panel.farm_engine, panel.farm_options = "openjd", "--other"  # not of the previous scheduler
     assert bpy.ops.firetwin.farm_resume() == {"FINISHED"}
     assert submission.last_submission(farm._output_folder(panel)).engine == "slurm"
     assert submission.last_submission(farm._output_folder(panel)).options == (
@@ -165,7 +165,7 @@ def test_the_choices_are_saved_with_the_file(panel, tmp_path):
     kept = bpy.context.scene.firetwin
     assert (kept.farm_engine, kept.farm_chunk, kept.farm_options) == ("deadline", 7, "--priority 80")
     numbers = {item.identifier: item.value for item in kept.bl_rna.properties["farm_engine"].enum_items}
-    assert numbers["deadline"] == farm.zlib.crc32(b"deadline") >> 1  # whatever other engines there are
+    assert numbers["deadline"] == farm.zlib.crc32(b"deadline") >> 1  # for any set of schedulers
 
 
 def test_the_panel_reads_no_file(panel, monkeypatch):

@@ -1,4 +1,4 @@
-"""Base class of engines, and the command that their tasks run."""
+"""Base class of schedulers, and the command that their tasks run."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Batch:
     numbers
         Task numbers, ascending.
     options
-        Options of the engine's command, as the user wrote them.
+        Options of the scheduler's command, as the user wrote them.
     """
 
     job: Job
@@ -37,7 +37,7 @@ class Batch:
 
 
 class Engine(ABC):
-    """Translator of a job into the files of an engine.
+    """Translator of a job into the files of a scheduler.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class Engine(ABC):
 
     @abstractmethod
     def write(self, batch: Batch) -> list[str]:
-        """Write the engine's files for a batch; returns the command that submits it."""
+        """Write the scheduler's files for a batch; returns the command that submits it."""
 
     @abstractmethod
     def cancel(self, out: Path) -> list[str]:
@@ -61,11 +61,11 @@ class Engine(ABC):
         Raises
         ------
         UsageError
-            The engine has no such command; the message explains how to cancel.
+            The scheduler has no such command; the message explains how to cancel.
         """
 
     def folder(self, out: Path) -> Path:
-        """Return the folder of the engine's files."""
+        """Return the folder of the scheduler's files."""
         return job_dir(out) / self.name
 
 

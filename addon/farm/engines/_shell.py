@@ -1,4 +1,4 @@
-"""Shell functions that the scripts of several engines share."""
+"""Shell functions that the scripts of several schedulers share."""
 
 from __future__ import annotations
 

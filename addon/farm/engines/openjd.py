@@ -17,7 +17,7 @@ _CHUNK_SECONDS = 600  # target run time of a command that runs several tasks
 
 
 class OpenJD(Engine):
-    """Steps bake, render and assemble; an engine can run several tasks with one command."""
+    """Steps bake, render and assemble; a scheduler can run several tasks with one command."""
 
     name = "openjd"
     help = "Open Job Description: openjd run"
@@ -38,7 +38,7 @@ class OpenJD(Engine):
 
 
 def paths(batch: Batch) -> dict[str, str]:
-    """Return the path parameters, which an engine maps to the paths of each machine."""
+    """Return the path parameters, which a scheduler maps to the paths of each machine."""
     return {"Out": str(batch.out), "Job": str(job_dir(batch.out) / FILE), "Scene": batch.job.scene}
 
 

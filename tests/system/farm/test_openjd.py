@@ -32,7 +32,7 @@ def openjd():
 
 
 def plan(engine, path, out):
-    """Plan a film; arguments of the engine's command."""
+    """Plan a film; arguments of the scheduler's command."""
     return shlex.split(firetwin("farm", path, "--engine", engine, "--out", out, "--chunk", 2))[1:]
 
 
