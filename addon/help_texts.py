@@ -104,6 +104,6 @@ complete keys, show their help and underline mistakes."""
 
 BENCH = """\
 Measures ten steps and their alternatives in turn on this machine: median and range of at least five
-repetitions. Takes about three minutes of processor time. --runs 3 shows the variation between runs.
+repetitions. Takes about three CPU minutes. --runs 3 shows the variation between runs.
 Alternatives that are not installed are listed and skipped (pip install 'firetwin[bench]' installs them).
 The exit status is 1 if a target is missed."""

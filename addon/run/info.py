@@ -167,7 +167,7 @@ def page(info: dict[str, Any]) -> str:
     return "\n".join(
         escaped(line)
         for line in [
-            info["name"] + ("  (SYNTHETIC: made up, not the output of a model)" if info["synthetic"] else ""),
+            info["name"] + ("  (SYNTHETIC: not the output of a model)" if info["synthetic"] else ""),
             info["path"],
             "",
             *_rows(_facts(info)),
@@ -193,7 +193,7 @@ def brief(info: dict[str, Any]) -> list[tuple[str, str]]:
     grid, fuel, when = info["grid"], info["fuel_grid"], info["times"]
     burned = [info["burned"][key] / ACRE for key in ("first", "last")]
     return [
-        *([("Kind", "synthetic, made up")] if info["synthetic"] else []),
+        *([("Kind", "synthetic")] if info["synthetic"] else []),
         ("Grid", _cells(grid)),
         ("Fuels", _cells(fuel)),
         ("Extent", f"{grid['extent'][1] / 1e3:.1f} x {grid['extent'][0] / 1e3:.1f} km"),

@@ -27,7 +27,7 @@ def explain_refusal(panel: bpy.types.PropertyGroup) -> str:
     for place in sources:
         policy = policies.for_source(place)
         if not policy.other_geocoder:
-            return f"{policy.name} allows no other gazetteer; type coordinates"
+            return f"{policy.name} allows no place names from another source; type coordinates"
     return ""
 
 

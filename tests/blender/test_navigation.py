@@ -214,7 +214,7 @@ def test_one_goes_to_places_names_and_moments(panel):
 
 
 def test_terms_of_tiles_may_forbid_other_gazetteers(panel, tmp_path):
-    """Coordinates and names of the run do not search a gazetteer."""
+    """Coordinates and names of the run are found without place names of another source."""
     (tmp_path / "places.csv").write_text("name,latitude,longitude\nStation 61,38.84,-120.55\n")
     panel.labels.file = str(tmp_path / "places.csv")
     scene = bpy.context.scene
@@ -224,7 +224,10 @@ def test_terms_of_tiles_may_forbid_other_gazetteers(panel, tmp_path):
     assert place_names.list_labels(panel) == ()
     assert go_to.find_position(scene, "station 61") is None
     assert go_to.find_position(scene, "38.84 -120.55") is not None
-    assert "Google Photorealistic 3D Tiles allows no other gazetteer" in place_names.explain_refusal(panel)
+    assert (
+        "Google Photorealistic 3D Tiles allows no place names from another source"
+        in place_names.explain_refusal(panel)
+    )
     keys.put(panel.tiles, part, ("https://tiles.example/tileset.json",))
     assert place_names.explain_refusal(panel) == ""
 

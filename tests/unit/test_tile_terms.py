@@ -101,7 +101,7 @@ def _refused(choice, use):
     ("more", "use"),
     [
         ('terrain = { height_source = "tiles" }', r'leave out terrain.height_source = "tiles"'),
-        ("labels = { enabled = true }", "other gazetteers.*labels.enabled"),
+        ("labels = { enabled = true }", "source other than the service.*labels.enabled"),
     ],
 )
 def test_settings_are_refused(scene, more, use):
@@ -112,7 +112,7 @@ def test_settings_are_refused(scene, more, use):
 def test_jobs_are_refused_before_anything_is_fetched(scene, tmp_path):
     choice = ShotSource(scene=str(scene()))
     offline = TileAccess(online=False)
-    _refused(lambda: selection.prepare(choice, access=offline), "without its server.*--offline")
+    _refused(lambda: selection.prepare(choice, access=offline), "used offline.*--offline")
     _refused(lambda: selection.prepare(choice, uses=[("pack", "the file")]), "packed")
     for other in (ion.POLICY, google.POLICY):
         settings = choice.settings()

@@ -279,7 +279,7 @@ def test_three_files_in_a_row_that_cannot_be_had_end_it(chain, clock):
     for path in chain.files:
         if path.endswith(".glb"):
             chain.server.answers[path] = Reply(503, b"out of order")
-    with pytest.raises(InputError, match=r"does not answer .*out of order.*; try again later"):
+    with pytest.raises(InputError, match=r"does not respond .*out of order.*; try again later"):
         chain.make()
 
 

@@ -172,7 +172,7 @@ def test_after_five_repetitions_a_tile_is_missing_and_after_three_such_the_sourc
     for each in "xy":
         with pytest.raises(MissingError):
             source.read(f"{server.url}/t/{each}")
-    with pytest.raises(InputError, match="the server does not answer") as caught:
+    with pytest.raises(InputError, match="the server does not respond") as caught:
         source.read(f"{server.url}/t/z")
     assert not isinstance(caught.value, MissingError)
 

@@ -28,7 +28,7 @@ _TITLES = {"area": "run", "area_bias": "bias"}
 def page(results: dict[str, Any]) -> str:
     """Format the page that `firetwin score` prints."""
     run = results["run"]
-    head = run["name"] + ("  (SYNTHETIC: made up, not the output of a model)" if run["synthetic"] else "")
+    head = run["name"] + ("  (SYNTHETIC: not the output of a model)" if run["synthetic"] else "")
     lines = [
         head,
         *against(results),

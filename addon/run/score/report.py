@@ -89,8 +89,8 @@ def _head(run: Run, results: dict[str, Any], other: Run | None) -> Iterator[str]
         who = "Both runs are" if len(made_up) > 1 else f"{escape(made_up[0])} is"
         yield (
             f'<p class="warn"><b>{"This run is" if run.synthetic and not other else who} synthetic:</b> '
-            "made up, not the output of a fire model. Scores say how the tools work, and nothing of how well "
-            "any model forecasts.</p>"
+            "not the output of a fire model. Scores show that the tools work; they say nothing about the "
+            "forecasts of a model.</p>"
         )
 
 

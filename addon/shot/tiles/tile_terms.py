@@ -23,8 +23,8 @@ _REFUSED = {
     "export": "does not allow that tiles are written to other formats",
     "flatten": "does not allow that the surface of tiles is changed",
     "pack": "does not allow that tiles are packed into files",
-    "work_offline": "does not allow that tiles are used without its server",
-    "other_geocoder": "does not allow that places are searched with other gazetteers than its own",
+    "work_offline": "does not allow that tiles are used offline",
+    "other_geocoder": "does not allow that place names come from a source other than the service",
 }
 """Uses, each an attribute of `Policy` (with "may_" but for the last), and how they are refused."""
 

@@ -28,9 +28,9 @@ class Policy:
     session_parameter
         Parameter of URLs that carries a session; empty: there are none.
     may_store
-        Answers may be cached, as their headers allow.
+        Responses may be cached, as their headers allow.
     may_work_offline
-        Cached answers may be used without the server.
+        Cached responses may be used offline.
     may_prefetch
         Tiles that no view shows may be fetched, as `firetwin tiles info` does.
     may_flatten
@@ -42,7 +42,7 @@ class Policy:
     may_export
         It may be written to other formats.
     other_geocoder
-        Places may be searched with other gazetteers than the source's.
+        Place names may come from a source other than the service.
     pixel_error
         Screen-space error that the source recommends, pixels; 0: none.
     logo
@@ -90,7 +90,7 @@ def for_host(host: str) -> Policy:
 def for_source(place: str) -> Policy:
     """Return the policy of a source by its name, without network access.
 
-    An asset of ion may refer to another service, known only from ion's answer: the opened source has its
+    An asset of ion may refer to another service, known only from ion's response: the opened source has its
     policy.
     """
     kind, _, number = place.partition(":")

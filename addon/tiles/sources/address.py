@@ -83,7 +83,7 @@ class Guard:
         InputError
             The host has a private address.
         OSError
-            The host is unknown or does not answer.
+            The host is unknown or does not respond.
         """
         found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)
         for *_, place in found:

@@ -24,12 +24,12 @@ _FREE = 1 << 20  # bytes; smaller bodies may exceed the ratio
 
 
 class TransportError(Exception):
-    """A missing or incomplete answer.
+    """A missing or incomplete response.
 
     Attributes
     ----------
     cut_off
-        The answer began and ended early.
+        The response began and ended early.
     """
 
     def __init__(self, text: str, cut_off: bool = False) -> None:
@@ -39,7 +39,7 @@ class TransportError(Exception):
 
 @dataclass(frozen=True)
 class Response:
-    """An answer with decompressed body."""
+    """A response with decompressed body."""
 
     status: int
     headers: Mapping[str, str]
@@ -74,9 +74,9 @@ class Connection:
         Raises
         ------
         TransportError
-            The answer is missing or incomplete.
+            The response is missing or incomplete.
         InputError
-            The certificate or address is refused, or the answer is too large.
+            The certificate or address is refused, or the response is too large.
         """
         parts, library = urlsplit(url), self._library
         path = (parts.path or "/") + (f"?{parts.query}" if parts.query else "")
@@ -104,7 +104,7 @@ class Connection:
         try:
             body = self._body(response, max_bytes, name)
         except BaseException as error:
-            response.close()  # the rest would be read as the next answer
+            response.close()  # the rest would be read as the next response
             if not isinstance(error, library.exceptions.HTTPError | OSError):
                 raise
             timed_out = isinstance(error, library.exceptions.ReadTimeoutError | TimeoutError)

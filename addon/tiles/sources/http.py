@@ -96,7 +96,7 @@ class Http(Source):
         return url
 
     def read(self, uri: str, max_bytes: int = MAX_BYTES) -> bytes:
-        """Read the body of the answer, from the cache if it is fresh."""
+        """Read the body of the response, from the cache if it is fresh."""
         now, name = self.clock.now(), self.name(uri)
         fresh_root = uri == self.root and bool(self.policy.session_parameter)
         kept = self._cache.find(uri, now) if self._cache and not fresh_root else None
@@ -200,7 +200,7 @@ class Http(Source):
                 self._failures += 1
                 stop = self._failures >= _MAX_FAILURES
             if stop:
-                raise input_error(name, f"the server does not answer ({why}); try again later")
+                raise input_error(name, f"the server does not respond ({why}); try again later")
             raise missing(name, f"cannot be had after {MAX_RETRIES + 1} attempts ({why})")
         wait = retry_delay(asked, tries, self.clock)
         if wait > MAX_RETRY_AFTER:

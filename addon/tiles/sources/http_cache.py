@@ -1,4 +1,4 @@
-"""Cache of servers' answers on disk (RFC 9111, a private cache)."""
+"""Cache of servers' responses on disk (RFC 9111, a private cache)."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _KEPT = 0.9  # of the limit, after eviction
 
 @dataclass(frozen=True)
 class Answer:
-    """An answer in the cache.
+    """A response in the cache.
 
     Attributes
     ----------
@@ -53,7 +53,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Rules:
-    """Caching rules from the headers of an answer."""
+    """Caching rules from the headers of a response."""
 
     store: bool
     expires: float
@@ -72,9 +72,9 @@ def folder() -> Path:
 
 
 def rules(headers: Mapping[str, str], now: float) -> Rules:
-    """Parse the headers of an answer received at `now` (seconds since 1970).
+    """Parse the headers of a response received at `now` (seconds since 1970).
 
-    An answer without max-age and Expires is revalidated at each use.
+    A response without max-age and Expires is revalidated at each use.
     """
     words: dict[str, str] = {}
     for each in headers.get("Cache-Control", "").lower().split(","):
@@ -96,12 +96,12 @@ def rules(headers: Mapping[str, str], now: float) -> Rules:
 
 
 class HttpCache:
-    """Answers by their URLs without secrets. Several processes may use one folder.
+    """Responses by their URLs without secrets. Several processes may use one folder.
 
     Parameters
     ----------
     limit
-        Limit, bytes; the least recently used answers are evicted.
+        Limit, bytes; the least recently used responses are evicted.
     """
 
     def __init__(self, place: Path, limit: int = LIMIT) -> None:
@@ -111,11 +111,11 @@ class HttpCache:
         self._size: int | None = None
 
     def find(self, url: str, now: float) -> Answer | None:
-        """Find the answer of a URL; None without one. A damaged answer is removed."""
+        """Find the response of a URL; None without one. A damaged response is removed."""
         return self._try(lambda data: self._find(data, _key(url), now), None)
 
     def put(self, url: str, body: bytes, headers: Mapping[str, str], now: float) -> None:
-        """Store an answer if its headers allow; nothing is stored on a full disk."""
+        """Store a response if its headers allow; nothing is stored on a full disk."""
         found = rules(headers, now)
         if found.store:
             self._try(lambda data: self._put(data, url, body, headers, found, now), None)
@@ -123,19 +123,19 @@ class HttpCache:
             self._try(lambda data: self._replace(data, _key(url), None), None)
 
     def refresh(self, url: str, headers: Mapping[str, str], now: float) -> None:
-        """Update an answer that the server confirmed (status 304)."""
+        """Update a response that the server confirmed (status 304)."""
         found = rules(headers, now)
         command = "UPDATE answer SET expires = ?, strict = ?, used = ? WHERE key = ?"
         values = (found.expires, int(found.strict), now, _key(url))
         self._try(lambda data: data.execute(command, *values), None)
 
     def prune(self, limit: int | None = None) -> int:
-        """Remove the least recently used answers until `limit` bytes remain; return the bytes left."""
+        """Remove the least recently used responses until `limit` bytes remain; return the bytes left."""
         most = self.limit if limit is None else limit
         return self._try(lambda data: self._prune(data, most), 0)
 
     def content(self) -> tuple[int, int, float]:
-        """Return the number of answers, their bytes, and the time of last use (s since 1970)."""
+        """Return the number of responses, their bytes, and the time of last use (s since 1970)."""
         query = "SELECT COUNT(*), COALESCE(SUM(length), 0), COALESCE(MAX(used), 0) FROM answer"
         if not (self.place / "answers.db").exists():
             return 0, 0, 0.0
