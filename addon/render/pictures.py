@@ -231,7 +231,7 @@ def publish(
 
 def _heading(shot: Shot, picture: Picture) -> float:
     """Compute the heading of a picture's centre, degrees clockwise from north."""
-    view = pixel_rays.path_of(shot, picture.camera)
+    view = pixel_rays.path_of(shot.paths, picture.camera)
     east, north, _ = compass(shot.local_frame, view.position[picture.frame - 1])
     ahead = -view.rotation[picture.frame - 1][:, 2]
     return float(np.degrees(np.arctan2(ahead @ east, ahead @ north)))

@@ -20,6 +20,8 @@ from ..run import burning, content, times, zone
 from ..run.frame import local_frame
 from . import frames
 from .cameras import camera_warnings, path
+from .cameras.filming import Filming
+from .cameras.mesh_error import error_bounds
 from .cameras.path import SENSOR, Path
 from .cameras.visibility import Visibility
 from .fire import air_temperature, flame_depth, smoke_scale
@@ -268,9 +270,15 @@ class Shot:
         """Smallest pixel size: m per m of distance in perspective, and m in orthographic views."""
         return path.finest(self.paths)
 
+    @property
+    def filming(self) -> Filming:
+        """Inputs of the cameras' paths."""
+        settings = self.settings
+        return Filming(self.run, self.frames, self.cameras, settings.render.resolution, settings.seed)
+
     def _paths(self, ground: Terrain) -> list[Path]:
         return [
-            replace(camera.rig.path(camera, self, ground), width=self.resolution(camera)[0])
+            replace(camera.rig.path(camera, self.filming, ground), width=self.resolution(camera)[0])
             for camera in self.settings.cameras
         ]
 
@@ -291,7 +299,16 @@ class Shot:
     @cached_property
     def visibility(self) -> Visibility:
         """Visibility of objects in the filmed frames."""
-        return Visibility(self)
+        return Visibility(
+            self.paths,
+            self.filmed,
+            [self.resolution(path.camera)[1] for path in self.paths],
+            self.ground,
+            self.run,
+            self.frames.times,
+            error_bounds(self.settings.terrain.error, self.pixel),
+            self.settings.render.cull,
+        )
 
     @cached_property
     def wind(self) -> tuple[float, float]:

@@ -54,14 +54,14 @@ def test_a_ray_leads_to_the_point_that_its_depth_tells_of(settings, run, name):
     bpy.context.view_layer.update()
     random = np.random.default_rng(4)
     away = pixel_rays.path_of(
-        shot, "one"
+        shot.paths, "one"
     ).meet  # lines of sight from so far count as parallel near their target
     depth = (away + random.uniform(-2000.0, 2000.0, size[::-1]) + 5000.0 * (away == 0.0)).astype(np.float32)
     eyes, origins, directions = rays_of(stage.scene, size, name == "vr")
     halves = np.split(depth, len(eyes))
     distance = np.concatenate([each.from_depth(half) for each, half in zip(eyes, halves, strict=True)])
     found = origins + directions * distance[..., None]
-    expected = pixel_rays.points(pixel_rays.path_of(shot, "one"), 2, depth)
+    expected = pixel_rays.points(pixel_rays.path_of(shot.paths, "one"), 2, depth)
     off = np.linalg.norm(found - expected, axis=-1)
     assert off.max() < (15.0 if away else 0.05), "m; steps of 32 bits are 4 m at 36,000 km"
     assert np.linalg.norm(directions, axis=-1) == pytest.approx(1.0)

@@ -81,7 +81,7 @@ def test_it_keeps_its_clearance_all_along_a_canyon(run, frames, above):
     assert len(way) > 10_000
     assert over_ground(shot, way).min() >= 30.0
     low = replace(shot.settings.cameras[0].rig, clearance=1e-3)
-    bare = low.path(shot.settings.cameras[0], shot, shot.ground)
+    bare = low.path(shot.settings.cameras[0], shot.filming, shot.ground)
     assert over_ground(shot, dense(bare.position, 5.0)).min() < 30.0, "it is the clearance that lifts"
 
 

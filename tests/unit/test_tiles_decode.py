@@ -64,7 +64,7 @@ def test_a_decoded_tile_whose_numbers_do_not_fit_is_refused(tmp_path):
     wrong = data.replace(tile.triangle.tobytes(), (tile.triangle + 9).tobytes())
     assert wrong != data
     (tmp_path / "wrong.tile").write_bytes(wrong)
-    with pytest.raises(InputError, match="do not fit together"):
+    with pytest.raises(InputError, match="inconsistent numbers"):
         decoded.read(tmp_path / "wrong.tile")
 
 
@@ -75,7 +75,7 @@ def test_a_decoded_tile_that_is_cut_off_is_decoded_again(tmp_path):
     for length in (0, 10, 30, len(whole) - 1):
         Path(good.out).write_bytes(whole[:length])
         assert decoded.read_summary(Path(good.out)) is None
-        with pytest.raises(InputError, match="no decoded tile"):
+        with pytest.raises(InputError, match="not a decoded tile"):
             decoded.read(Path(good.out))
     decode.run([good])
     assert Path(good.out).read_bytes() == whole
@@ -89,5 +89,5 @@ def test_a_cut_is_read_as_it_was_written(tmp_path):
     tile_cut.write(cut, tmp_path / "cut.json")
     assert tile_cut.read(tmp_path / "cut.json") == cut
     (tmp_path / "cut.json").write_text(json.dumps({"tiles": []}))
-    with pytest.raises(InputError, match="chosen tiles"):
+    with pytest.raises(InputError, match="selected tiles"):
         tile_cut.read(tmp_path / "cut.json")

@@ -29,7 +29,7 @@ _GREY = 0.12
 
 def draw(png: Path, depth: Path, shot: Shot, camera: str, frame: int, long: bool) -> None:
     """Write the brightness temperature of the long or the short band, with colour bar, time and label."""
-    view = pixel_rays.path_of(shot, camera)
+    view = pixel_rays.path_of(shot.paths, camera)
     instrument, grid = _instrument(shot, view.camera.rig)
     moment = shot.utc(frame)
     try:

@@ -15,6 +15,8 @@ from . import Files
 def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
     """Add the range to the rendered planar depth."""
     planar = sensor.read_image(files["exr"])[..., 0]
-    both = np.stack([planar, pixel_rays.ranges(pixel_rays.path_of(shot, camera), frame, planar)], axis=-1)
+    both = np.stack(
+        [planar, pixel_rays.ranges(pixel_rays.path_of(shot.paths, camera), frame, planar)], axis=-1
+    )
     about = {"Comment": "m; planar: along the camera's axis, range: along the line of sight"}
     sensor.write_image(files["exr"], both, about, ["planar", "range"])

@@ -26,7 +26,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     """Tint the picture."""
     rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]
     planar = sensor.read_image(needed["depth"]["exr"])[..., 0]
-    points = pixel_rays.points(pixel_rays.path_of(shot, camera), frame, planar)
+    points = pixel_rays.points(pixel_rays.path_of(shot.paths, camera), frame, planar)
     names, colours = [shot.label, *shot.others], fronts.colours(shot)
     pictures, keys = [], []
     for label, kinds in zip(shot.others, classes(shot, points, frame), strict=True):

@@ -23,7 +23,7 @@ _POINTS = ("N", "NE", "E", "SE", "S", "SW", "W", "NW")
 
 def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
     """Compose the panels."""
-    view = pixel_rays.path_of(shot, camera)
+    view = pixel_rays.path_of(shot.paths, camera)
     made = passes.known()["fused"]
     taken = mount.taken(shot.settings, shot.cameras, camera, made)
     low, high = thermal.scale(shot, frame)
@@ -67,7 +67,7 @@ def _title(shot: Shot, camera: str) -> str:
 
 def facts(shot: Shot, camera: str, frame: int) -> list[tuple[str, list[str]]]:
     """Collect the facts next to the panels, each with label and lines; the first is the time."""
-    view, moment = pixel_rays.path_of(shot, camera), shot.utc(frame)
+    view, moment = pixel_rays.path_of(shot.paths, camera), shot.utc(frame)
     here = pose.pose(shot, view, frame)
     places = (("latitude", "NS"), ("longitude", "EW"))
     degrees = [f"{abs(here[name]):.5f}° {signs[here[name] < 0.0]}" for name, signs in places]

@@ -19,7 +19,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     now = float(shot.frames.time(frame))
     above, _ = air_temperature.warmth(shot.run, now - shot.air.averaged, now)
     planar = sensor.read_image(needed["depth"]["exr"])[..., 0]
-    point = pixel_rays.points(pixel_rays.path_of(shot, camera), frame, planar)
+    point = pixel_rays.points(pixel_rays.path_of(shot.paths, camera), frame, planar)
     ground = np.isfinite(point).all(axis=-1)
     warmth = np.full(planar.shape, np.nan)
     if ground.any():

@@ -11,8 +11,8 @@ from ...blender import owned
 from ...blender.mesh import add_attribute, create_mesh
 from ...blender.owned import Stage
 from ...shot import picture_credits
-from ...shot.cameras import mesh_tolerance
 from ...shot.shot import Shot
+from ...shot.surface import mesh_tolerance
 from ...shot.tiles import tile_cut
 from .. import credits
 from ..forest.stand import Stand

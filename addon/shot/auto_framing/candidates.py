@@ -173,4 +173,4 @@ def percent(share: float) -> str:
 
 def path(front: Front, camera: Camera) -> Path:
     """Path of a camera over the bare terrain."""
-    return camera.rig.path(camera, front.shot, front.ground)
+    return camera.rig.path(camera, front.shot.filming, front.ground)

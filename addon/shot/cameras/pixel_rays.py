@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,15 +11,14 @@ from numpy.typing import NDArray
 from . import panorama
 
 if TYPE_CHECKING:
-    from ..shot import Shot
     from .path import Path
 
 SKY = 1.0e9  # m; larger depths are sky
 
 
-def path_of(shot: Shot, camera: str) -> Path:
-    """Path of a camera, by name."""
-    return next(view for view in shot.paths if view.camera.name == camera)
+def path_of(paths: Iterable[Path], camera: str) -> Path:
+    """Find the path of a camera by its name."""
+    return next(view for view in paths if view.camera.name == camera)
 
 
 def plane(view: Path, frame: int, height: int, width: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -17,9 +17,9 @@ from ...errors import InputError, input_error
 from ...tiles.imagery import address
 from ...tiles.imagery.mercator import NORTHMOST
 from ...tiles.sources import secret
-from ..cameras.view_digest import of_views
 from ..schema import scene_text
 from ..settings import Settings
+from ..view_digest import of_views
 
 if TYPE_CHECKING:
     from ..shot import Shot

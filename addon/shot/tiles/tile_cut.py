@@ -13,11 +13,11 @@ from ... import files
 from ...errors import input_error
 from ...imaging.credits import Credits
 from .. import comparison, passes
-from ..cameras.view_digest import of_views
 from ..settings import mount
 from ..shot import Shot, cached_on_shot
 from ..terrain import tile_heights
 from ..terrain.tile_heights import TileHeights
+from ..view_digest import of_views
 
 Finder = Callable[[str], "TileCut | None"]
 

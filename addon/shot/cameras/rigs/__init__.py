@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from ...frames import Frames
     from ...schema import Where
     from ...sections.camera import CameraSettings
-    from ...shot import Shot
+    from ..filming import Filming
     from ._view import View
 
     Place = tuple[Where, float, float]
@@ -72,7 +72,7 @@ class Rig:
         """Check it against the run: place in its table, and message after the camera's name; or None."""
         return None
 
-    def path(self, camera: CameraSettings, shot: Shot, ground: Any) -> Any:
+    def path(self, camera: CameraSettings, filming: Filming, ground: Any) -> Any:
         """Path of the camera through the shot (`path.Path`) over this `terrain.Terrain`."""
         raise NotImplementedError
 

@@ -13,7 +13,7 @@ from . import Rig
 
 if TYPE_CHECKING:
     from ...sections.camera import CameraSettings
-    from ...shot import Shot
+    from ..filming import Filming
 
 FOCAL_LENGTH: Bounds = {"unit": "mm", "at_least": 1, "at_most": 5000}
 
@@ -25,8 +25,8 @@ class Lens(Rig):
     focal_length: float = key(28.0, "focal length", **FOCAL_LENGTH)
     sensor_width: float = key(SENSOR, "sensor width; 36: full frame, 13.2: 1 inch, 6.4: small drone", **WIDTH)
 
-    def half(self, camera: CameraSettings, shot: Shot) -> tuple[float, float]:
+    def half(self, camera: CameraSettings, filming: Filming) -> tuple[float, float]:
         """Tangents of half the angles of view, across and up; the picture is as wide as the sensor."""
-        width, height = shot.resolution(camera)
+        width, height = filming.resolution(camera)
         half = 0.5 * self.sensor_width / self.focal_length
         return half, half * height / width

@@ -15,8 +15,8 @@ from ._lens import Lens
 
 if TYPE_CHECKING:
     from ...sections.camera import CameraSettings
-    from ...shot import Shot
     from ...terrain.terrain import Terrain
+    from ..filming import Filming
     from ._view import View
 
 
@@ -38,9 +38,9 @@ class Chase(Lens):
         """Keep the distance and height above ground that the eye has from the centre of the view."""
         return cls(**view.lens, distance=max(view.away, 1.0), height=view.above)
 
-    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
-        """Path at an offset from the head, which is smoothed over a fifth of the shot, looking at it."""
-        target = targets.follow("head", ground, shot.frames.times, self.target_height)
+    def path(self, camera: CameraSettings, filming: Filming, ground: Terrain) -> Path:
+        """Path at an offset from the head, which is smoothed over a fifth of the filming, looking at it."""
+        target = targets.follow("head", ground, filming.frames.times, self.target_height)
         away = targets.smoothed(flight.heading(target)) + np.radians(self.side)
         position = target + self.distance * np.stack([np.sin(away), np.cos(away), 0.0 * away], axis=-1)
         position[:, 2] = targets.smoothed(ground.up(position[:, 0], position[:, 1])) + self.height
@@ -52,7 +52,7 @@ class Chase(Lens):
             position,
             path.look(position, target),
             target,
-            self.half(camera, shot),
+            self.half(camera, filming),
             hidden=hidden,
             sensor=self.sensor_width,
         )

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
     from ...frames import Frames
     from ...sections.camera import CameraSettings
-    from ...shot import Shot
     from ...terrain.terrain import Terrain
+    from ..filming import Filming
     from . import Place
     from ._view import View
 
@@ -89,9 +89,9 @@ class Drone(Lens):
         missed = read(self.track).missed(run, frames)
         return (("track",), f"follows {self.track.name}, which {missed}") if missed else None
 
-    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, filming: Filming, ground: Terrain) -> Path:
         """Smooth path between keys or along its track, above the hills between, with its look-at points."""
-        count = shot.frames.count
+        count = filming.frames.count
         moments = np.linspace(0.0, 1.0, count)
         keys = sorted(self.keys, key=lambda pose: pose.at) or [CameraKey(target="ahead")]
         clearance = np.full(count, self.clearance)
@@ -102,10 +102,10 @@ class Drone(Lens):
             clearance = np.maximum(clearance, _CLEARANCE * over)
         else:
             recorded = read(self.track)
-            way, shown = recorded.at(self.track_times, shot.run, shot.frames, ground.frame)
+            way, shown = recorded.at(self.track_times, filming.run, filming.frames, ground.frame)
             position = way.flown(ground, shown)
-        moving = _moving(keys, shot, ground)
-        target = self._target(keys, position, moments, shot, ground, moving)
+        moving = _moving(keys, filming, ground)
+        target = self._target(keys, position, moments, filming, ground, moving)
         short = flight.short(ground, position, clearance)
         hidden = np.zeros(count)
         if any(pose.target in targets.MOVING for pose in keys):  # a pilot cannot foresee the fire's position
@@ -113,13 +113,13 @@ class Drone(Lens):
         if self.over_ridges:
             short = np.maximum(short, hidden)
         position[:, 2] += path.eased(short)
-        target = self._target(keys, position, moments, shot, ground, moving)
+        target = self._target(keys, position, moments, filming, ground, moving)
         rotation = path.look(position, target)
         if self.bank > 0.0:
-            rotation = flight.rolled(rotation, self.bank * flight.bank(position, shot.frames.step))
+            rotation = flight.rolled(rotation, self.bank * flight.bank(position, filming.frames.step))
         if self.vibration > 0.0:
-            rotation = flight.trembling(rotation, self.vibration, shot.settings.seed, camera.name)
-        half = self.half(camera, shot)
+            rotation = flight.trembling(rotation, self.vibration, filming.seed, camera.name)
+        half = self.half(camera, filming)
         return Path(camera, position, rotation, target, half, hidden=hidden, sensor=self.sensor_width)
 
     def _target(
@@ -127,13 +127,13 @@ class Drone(Lens):
         keys: list[CameraKey],
         position: Array,
         moments: Array,
-        shot: Shot,
+        filming: Filming,
         ground: Terrain,
         moving: dict[tuple[str, float], Array],
     ) -> Array:
         """Look-at points (frames, 3) from these positions."""
         at = np.array([pose.at for pose in keys])
-        aims = [_aim(pose, position, shot, ground, moving) for pose in keys]
+        aims = [_aim(pose, position, filming, ground, moving) for pose in keys]
         return path.blend(at, np.array(aims), moments)
 
 
@@ -143,21 +143,21 @@ def _waypoints(keys: list[CameraKey]) -> Waypoints:
     return Waypoints(at, latitude, longitude, height, np.array([pose.above == "ground" for pose in keys]))
 
 
-def _moving(keys: list[CameraKey], shot: Shot, ground: Terrain) -> dict[tuple[str, float], Array]:
+def _moving(keys: list[CameraKey], filming: Filming, ground: Terrain) -> dict[tuple[str, float], Array]:
     """Positions (frames, 3) of moving targets, by name and height above ground."""
     wanted = {(each.target, each.target_height) for each in keys if each.target in targets.MOVING}
-    return {each: targets.follow(each[0], ground, shot.frames.times, each[1]) for each in wanted}
+    return {each: targets.follow(each[0], ground, filming.frames.times, each[1]) for each in wanted}
 
 
 def _aim(
-    at: CameraKey, position: Array, shot: Shot, ground: Terrain, moving: dict[tuple[str, float], Array]
+    at: CameraKey, position: Array, filming: Filming, ground: Terrain, moving: dict[tuple[str, float], Array]
 ) -> Array:
     """Look-at points (frames, 3) of a key."""
     if at.target == "ahead":
         return flight.ahead(position, np.full(len(position), at.tilt))
     if at.target == "point":
         place = ground.point(at.target_latitude, at.target_longitude, at.target_height)
-        return np.repeat(place, shot.frames.count, axis=0)
+        return np.repeat(place, filming.frames.count, axis=0)
     return moving[at.target, at.target_height]
 
 

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
     from ...frames import Frames
     from ...sections.camera import CameraSettings
-    from ...shot import Shot
     from ...terrain.terrain import Terrain
+    from ..filming import Filming
     from . import Place
     from ._view import View
 
@@ -133,12 +133,12 @@ class Globe(Lens):
             return ("begin_longitude",), reason
         return None
 
-    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, filming: Filming, ground: Terrain) -> Path:
         """Flight from above the beginning to the last view, the view of a tour with one stop."""
-        frame, part = ground.frame, self.parts(shot.frames.count)
+        frame, part = ground.frame, self.parts(filming.frames.count)
         begin = self._begin(frame.latitude, frame.longitude)
         back = float(inverse(frame.latitude, frame.longitude, *begin)[1])
-        end = self._end(back).path(camera, shot, ground)
+        end = self._end(back).path(camera, filming, ground)
         position, course = self._flown(ground, begin, end, part)
         position = self._lifted(ground, position)
         position = np.where((part == 1.0)[:, None], end.position, position)

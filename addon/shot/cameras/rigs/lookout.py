@@ -16,8 +16,8 @@ from ._lens import Lens
 
 if TYPE_CHECKING:
     from ...sections.camera import CameraSettings
-    from ...shot import Shot
     from ...terrain.terrain import Terrain
+    from ..filming import Filming
     from . import Place
     from ._view import View
 
@@ -63,9 +63,9 @@ class Lookout(Lens):
         """Position of the mast."""
         return [(("latitude",), self.latitude, self.longitude)]
 
-    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, filming: Filming, ground: Terrain) -> Path:
         """Stay at a fixed position; bearings count from north and tilts from the horizon at the mast."""
-        count = shot.frames.count
+        count = filming.frames.count
         keys = self.keys or (LookoutKey(),)
         at, pan, tilt, zoom = np.array([[k.at, k.pan, k.tilt, k.zoom] for k in keys], np.float64).T
         moments = np.linspace(0.0, 1.0, count)
@@ -77,7 +77,7 @@ class Lookout(Lens):
         flat = np.sin(pan)[:, None] * east + np.cos(pan)[:, None] * north
         position = np.repeat(place, count, axis=0)
         target = position + _FAR * (np.cos(tilt)[:, None] * flat - np.sin(tilt)[:, None] * up)
-        across, high = self.half(camera, shot)
+        across, high = self.half(camera, filming)
         return Path(
             camera,
             position,

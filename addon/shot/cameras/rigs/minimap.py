@@ -16,8 +16,8 @@ from .satellite import down
 
 if TYPE_CHECKING:
     from ...sections.camera import CameraSettings
-    from ...shot import Shot
     from ...terrain.terrain import Terrain
+    from ..filming import Filming
     from ._view import View
 
 
@@ -38,15 +38,15 @@ class Minimap(Rig):
         candidates = (camera for camera in cameras if not hasattr(camera.rig, "follows"))
         return next((candidate for candidate in candidates if self.follows in ("", candidate.name)), None)
 
-    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, filming: Filming, ground: Terrain) -> Path:
         """Path above the followed camera in every frame; above the run's centre without one."""
-        leader = self.followed(shot.cameras)
-        east, north = np.zeros((2, shot.frames.count))
+        leader = self.followed(filming.cameras)
+        east, north = np.zeros((2, filming.frames.count))
         if leader is not None:
-            way = leader.rig.path(leader, shot, ground)
+            way = leader.rig.path(leader, filming, ground)
             east, north = (way.target if way.meet else way.position).T[:2]
         place = np.stack([east, north, ground.up(east, north)], axis=-1)
-        return down(camera, shot, place, self.swath)
+        return down(camera, filming, place, self.swath)
 
 
 RIG = Minimap

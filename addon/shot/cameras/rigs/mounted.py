@@ -14,8 +14,8 @@ from ._lens import FOCAL_LENGTH, Lens
 
 if TYPE_CHECKING:
     from ...sections.camera import CameraSettings
-    from ...shot import Shot
     from ...terrain.terrain import Terrain
+    from ..filming import Filming
 
 
 @dataclass(frozen=True)
@@ -40,12 +40,12 @@ class Mounted(Rig):
         candidates = (camera for camera in cameras if isinstance(camera.rig, Lens))
         return next((candidate for candidate in candidates if candidate.name == self.follows), None)
 
-    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, filming: Filming, ground: Terrain) -> Path:
         """Path of the followed camera with its own lens."""
-        leader = self.followed(shot.cameras)
+        leader = self.followed(filming.cameras)
         assert leader  # the settings see to it
-        way = self.through(leader.rig.path(leader, shot, ground))
-        width, height = shot.resolution(camera)
+        way = self.through(leader.rig.path(leader, filming, ground))
+        width, height = filming.resolution(camera)
         half = way.half[0], way.half[0] * height / width
         return replace(way, camera=camera, half=half, hidden=None)  # the followed camera warns of ridges
 

@@ -15,8 +15,8 @@ from ._lens import FOCAL_LENGTH, Lens
 
 if TYPE_CHECKING:
     from ...sections.camera import CameraSettings
-    from ...shot import Shot
     from ...terrain.terrain import Terrain
+    from ..filming import Filming
     from . import Place
     from ._view import View
 
@@ -72,20 +72,20 @@ class Orbit(Lens):
             return []
         return [(("latitude",), self.latitude, self.longitude)]
 
-    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, filming: Filming, ground: Terrain) -> Path:
         """Circular path at its speed, raised smoothly above hills."""
         middle = ground.frame
         point = ground.point(
             middle.latitude if self.latitude is None else self.latitude,
             middle.longitude if self.longitude is None else self.longitude,
         )[0]
-        elapsed = shot.frames.times - shot.frames.first
+        elapsed = filming.frames.times - filming.frames.first
         angle = np.radians(self.bearing) + self.speed * elapsed / self.radius
         circle = np.stack([np.sin(angle), np.cos(angle), np.zeros(len(angle))], axis=-1)
         position = point + self.radius * circle + np.array([0.0, 0.0, self.height])
         position[:, 2] += path.eased(flight.short(ground, position, np.full(len(angle), self.clearance)))
         target = np.repeat(point[None] + np.array([0.0, 0.0, self.target_height]), len(angle), axis=0)
-        half = self.half(camera, shot)
+        half = self.half(camera, filming)
         return Path(camera, position, path.look(position, target), target, half, sensor=self.sensor_width)
 
 

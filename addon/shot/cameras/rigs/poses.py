@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from firetwin_core import geo
 
     from ...sections.camera import CameraSettings
-    from ...shot import Shot
     from ...terrain.terrain import Terrain
+    from ..filming import Filming
     from . import Place
     from ._view import View
 
@@ -67,7 +67,7 @@ class Poses(Lens):
         """Positions of its poses."""
         return [(("keys", i, "latitude"), at.latitude, at.longitude) for i, at in enumerate(self.keys)]
 
-    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, filming: Filming, ground: Terrain) -> Path:
         """Cubic interpolation of positions, quaternions and logarithms of focal lengths between poses."""
         keys, frame = self.keys, ground.frame
         columns = ((pose.latitude, pose.longitude, pose.height) for pose in keys)
@@ -76,14 +76,14 @@ class Poses(Lens):
         lens = np.log([[pose.lens or self.focal_length] for pose in keys])
         at = np.array([pose.at for pose in keys], np.float64)
         values = np.hstack([place, turning.quaternions(matrix), lens])
-        moments = np.linspace(0.0, 1.0, shot.frames.count)
+        moments = np.linspace(0.0, 1.0, filming.frames.count)
         shown = sparse_keys.through(at, values, moments)
         exact = {round(moment, 12): k for k, moment in enumerate(at)}
         for i, moment in enumerate(moments):  # exact values in the frames of keys
             if (k := exact.get(round(float(moment), 12))) is not None:
                 shown[i] = values[k]
         rotation, wider = turning.matrices(shown[:, 3:7]), np.exp(-shown[:, 7])
-        across, high = self.half(camera, shot)
+        across, high = self.half(camera, filming)
         longest = float(wider.min()) * self.focal_length
         return Path(
             camera,

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
     from ...frames import Frames
     from ...sections.camera import CameraSettings
-    from ...shot import Shot
     from ...terrain.terrain import Terrain
+    from ..filming import Filming
     from . import Place
     from ._view import View
 
@@ -79,18 +79,20 @@ class Satellite(Rig):
         )
         return ("geostationary",), reason
 
-    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, filming: Filming, ground: Terrain) -> Path:
         """Stay at a fixed position."""
         first = self.keys[0] if self.keys else ground.frame
-        place = np.repeat(ground.point(first.latitude, first.longitude), shot.frames.count, axis=0)
+        place = np.repeat(ground.point(first.latitude, first.longitude), filming.frames.count, axis=0)
         if self.geostationary is None:
-            return down(camera, shot, place, self.swath)
+            return down(camera, filming, place, self.swath)
         position = np.repeat(_eye(ground.frame, self.geostationary)[None], len(place), axis=0)
         tilt = np.radians(ground.frame.latitude)
         axis = np.array([0.0, np.cos(tilt), np.sin(tilt)])  # the Earth's: rows of its pictures are parallels
         rotation = path.look(position, place, axis)
         distance = float(np.linalg.norm(position[0] - place[0]))
-        return Path(camera, position, rotation, place, half(camera, shot, self.swath), False, meet=distance)
+        return Path(
+            camera, position, rotation, place, half(camera, filming, self.swath), False, meet=distance
+        )
 
 
 def _eye(frame: geo.LocalFrame, longitude: float) -> Array:
@@ -104,16 +106,16 @@ def _over_horizon(place: Array, eye: Array, frame: geo.LocalFrame) -> float:
     return float(np.degrees(np.arcsin(way @ path.compass(frame, place)[2])))
 
 
-def down(camera: CameraSettings, shot: Shot, place: Array, swath: float) -> Path:
+def down(camera: CameraSettings, filming: Filming, place: Array, swath: float) -> Path:
     """Path above ground points (frames, 3), looking straight down with north up."""
     position = place + np.array([0.0, 0.0, HEIGHT])
     rotation = np.repeat(np.eye(3)[None], len(place), axis=0)
-    return Path(camera, position, rotation, place, half(camera, shot, swath), perspective=False)
+    return Path(camera, position, rotation, place, half(camera, filming, swath), perspective=False)
 
 
-def half(camera: CameraSettings, shot: Shot, swath: float) -> tuple[float, float]:
+def half(camera: CameraSettings, filming: Filming, swath: float) -> tuple[float, float]:
     """Half the width and height (m) of a picture of this swath."""
-    width, height = shot.resolution(camera)
+    width, height = filming.resolution(camera)
     return 0.5 * swath, 0.5 * swath * height / width
 
 

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
     from ...frames import Frames
     from ...sections.camera import CameraSettings
-    from ...shot import Shot
     from ...terrain.terrain import Terrain
+    from ..filming import Filming
     from . import Place
     from ._view import View
 
@@ -129,10 +129,10 @@ class Tour(Lens):
             return ("stops",), reason
         return None
 
-    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, filming: Filming, ground: Terrain) -> Path:
         """Eased flight from stop to stop, raised smoothly above hills and ridges, looking at the places."""
-        share = shares(self.stops, shot.frames.count)
-        place = self._tracks(shot, ground)
+        share = shares(self.stops, filming.frames.count)
+        place = self._tracks(filming, ground)
         offset = _offsets(self.stops, place, share)
         level = np.array([_level(ground, *each) for each in zip(place, self.stops, offset, strict=True)])
         height = level + [[stop.height] for stop in self.stops]
@@ -145,7 +145,7 @@ class Tour(Lens):
         short = flight.short(ground, position, np.full(len(position), self.clearance))
         hidden = np.where(share.max(axis=1) == 1.0, path.hidden(ground, position, target), 0.0)
         position[:, 2] += path.eased(np.maximum(short, hidden) if self.over_ridges else short)
-        half, rotation = self.half(camera, shot), path.look(position, target)
+        half, rotation = self.half(camera, filming), path.look(position, target)
         return Path(camera, position, rotation, target, half, hidden=hidden, sensor=self.sensor_width)
 
     def _known(self, run: Run) -> dict[str, labels.Label]:
@@ -155,9 +155,9 @@ class Tour(Lens):
         places = labels.read(self.places) if self.places else labels.known(run)
         return {label.name.casefold(): label for label in places}
 
-    def _tracks(self, shot: Shot, ground: Terrain) -> Array:
+    def _tracks(self, filming: Filming, ground: Terrain) -> Array:
         """Points on the ground (stops, frames, 3) of the places in every frame; only the head moves."""
-        known, times = self._known(shot.run), shot.frames.times
+        known, times = self._known(filming.run), filming.frames.times
         tracks = []
         for stop in self.stops:
             name = stop.place.casefold()

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
     from ...frames import Frames
     from ...sections.camera import CameraSettings
-    from ...shot import Shot
     from ...terrain.terrain import Terrain
+    from ..filming import Filming
     from . import Place
 
 
@@ -69,9 +69,9 @@ class Vr(Rig):
         """Check that a track with recorded times overlaps the shot."""
         return self._drone().validate_against(run, frames)
 
-    def path(self, camera: CameraSettings, shot: Shot, ground: Terrain) -> Path:
+    def path(self, camera: CameraSettings, filming: Filming, ground: Terrain) -> Path:
         """Path of a drone with these keys, with a level horizon; a target below its feet counts as north."""
-        flown = self._drone().path(camera, shot, ground)
+        flown = self._drone().path(camera, filming, ground)
         latitude, longitude, height = ground.frame.reverse(flown.position)
         low, high = (ground.frame.forward(latitude, longitude, height + d) for d in (-1000.0, 1000.0))
         up = (high - low) / np.linalg.norm(high - low, axis=1, keepdims=True)

@@ -3,21 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..cameras.mesh_error import NEAREST, UNSEEN
+from ..shot import Shot
 from . import shadow_casters
 
-if TYPE_CHECKING:
-    from ..shot import Shot
-
-UNSEEN = 50.0  # m, vertical error of ground that is neither visible nor casts visible shadows
 _BLOCK = 150.0  # m, size of the blocks that are tested
 _MARGIN = 200.0  # m around view frusta from where ground still lights the picture
-_NEAREST = 60.0  # m; nearer ground counts as at this distance
-_LEAST_ERROR = 0.02  # m, smallest error; no elevation model is more accurate
 _FINEST = 6.0  # m, finest spacing; the shortest relief waves are 26 m
 _SPACING = 8.0  # errors between the points where surface and mesh are compared
 _LIMIT = 6_000_000  # points at most; above it their spacing grows
@@ -99,31 +94,12 @@ def _blocks(
     )
 
 
-def most(shot: Shot, distance: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Vertical error bound (m) of visible ground by its distance (m) from the nearest camera."""
-    angle, pixel = _views(shot)
-    near = np.zeros(distance.shape) if angle is None else _clipped(angle * np.maximum(distance, _NEAREST))
-    return np.minimum(np.maximum(near, pixel or 0.0), UNSEEN)
-
-
-def _clipped(error: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Clip error bounds (n,), m, of perspective cameras to the useful range."""
-    return np.clip(error, _LEAST_ERROR, UNSEEN)
-
-
-def _views(shot: Shot) -> tuple[float | None, float | None]:
-    """Error bounds: of perspective cameras, m per m of distance; of orthographic cameras, m."""
-    error = shot.settings.terrain.error
-    angle, pixel = (error * size if np.isfinite(size) else None for size in shot.pixel)
-    return angle, None if pixel is None else max(pixel, _LEAST_ERROR)
-
-
 def _tolerance(
     shot: Shot, centre: NDArray, radius: NDArray, rise: NDArray, shape: tuple[int, int]
 ) -> tuple[NDArray, NDArray]:
     """Vertical error bound (n,) of blocks, m, and distance of the cameras that see them; infinite if none."""
     tolerance, distance = np.full(len(centre), UNSEEN), np.full(len(centre), np.inf)
-    angle, pixel = _views(shot)
+    bounds = shot.visibility.bounds
 
     def shaded(visible: NDArray[np.bool_]) -> NDArray[np.bool_]:
         return shadow_casters.with_shade(
@@ -131,16 +107,16 @@ def _tolerance(
         ).ravel()
 
     near = np.zeros(len(centre), bool)
-    if angle is not None:
+    if bounds.angle is not None:
         near = shot.visibility.visible_mask(centre, radius, margin=_MARGIN)
         visible = shaded(near)
-        distance[visible] = np.maximum(shot.visibility.distance(centre[visible]) - radius[visible], _NEAREST)
-        drawn = np.maximum(shot.visibility.lod_distance(centre[visible]) - radius[visible], _NEAREST)
-        tolerance[visible] = _clipped(angle * drawn)
-    if pixel is not None:
+        distance[visible] = np.maximum(shot.visibility.distance(centre[visible]) - radius[visible], NEAREST)
+        drawn = shot.visibility.lod_distance(centre[visible]) - radius[visible]
+        tolerance[visible] = bounds.perspective(drawn)
+    if bounds.pixel is not None:
         far = shot.visibility.visible_mask(centre, radius, margin=_MARGIN, pixel=np.inf, perspective=False)
         visible = shaded(near | far)
-        tolerance[visible] = np.minimum(tolerance[visible], pixel)
+        tolerance[visible] = np.minimum(tolerance[visible], bounds.pixel)
     return tolerance, distance
 
 

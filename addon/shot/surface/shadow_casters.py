@@ -6,16 +6,12 @@ the shadow of each block.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
 from ...run import sun
+from ..shot import Shot
 from ..terrain.dilation import dilate
-
-if TYPE_CHECKING:
-    from ..shot import Shot
 
 _LOWEST = 1.0  # degrees; lower suns cast no shadows, as in `lod.visible_mask`
 _TURN = 2.0  # degrees; suns closer together are merged, as blocks are dilated on all sides

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import hashlib
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from ..shot import Shot
+from .shot import Shot
 
 
 def of_views(shot: Shot, *words: str) -> str:
