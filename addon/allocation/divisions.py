@@ -44,7 +44,7 @@ class Divisions:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Letters, as for divisions of an incident."""
+        """Letters; they are not the ICS divisions of an incident."""
         return tuple(chr(ord("A") + k) for k in range(len(self.perimeter)))
 
     def bearings(self, k: int) -> tuple[float, float]:

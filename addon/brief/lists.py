@@ -184,6 +184,6 @@ def _web_map(point: Point) -> str:
 
 _METHOD = (
     '<p class="soft">The arrival time at a place is interpolated between the centres of the four surrounding '
-    "fuel cells, whose times also give the range. A place without fuel is never reached, even if fire "
-    "surrounds it: note the distance. The simulated fire is not affected by suppression.</p>"
+    "fuel cells, whose times also give the range. A place in a cell without fuel is listed as not reached, "
+    "even if fire surrounds it: note the distance. The simulated fire is not affected by suppression.</p>"
 )

@@ -25,11 +25,12 @@ equal kind are merged. Telephone numbers and persons are never stored. `exercise
 in towns around the fire of a run; everything in the file is labelled as an exercise."""
 
 RESOURCES = """\
-Lists the resources that meet all conditions, earliest arrival first. Five terms are defined as follows. Area
-of coverage: the polygon of the station, otherwise the radius of the resource, otherwise the area that it
-reaches within --minutes. Budget: mobilisation and --hours of work, summed. Tonnage: water or retardant
-delivered per hour by round trips. Mode: attack, structure, drop, line, water, lift or command. Availability:
-the status at a time.
+Lists the resources that meet all conditions, earliest arrival first. Response time is getaway time (order to
+departure, column mobilise_min) plus travel time. Five terms are defined as follows. Response area: the
+polygon of the station, otherwise the radius of the resource, otherwise the area that it reaches within
+--minutes. Budget: mobilisation and --hours of work, summed. Delivery rate: water or retardant delivered by
+round trips, t/h. Mode: attack, structure, drop, line, water, lift or command. Availability: the status at a
+time.
 
 With --tonnes-per-hour the result is the cheapest set that delivers this much; the exit status is 1 if there
 is no such set within --budget. With --budget only, the result is the earliest resources that the budget pays
@@ -95,7 +96,10 @@ def add_resources(
         "--within", metavar="LENGTH", type=_length, help="maximum straight distance, such as 60km or 40mi"
     )
     parser.add_argument(
-        "--minutes", metavar="N", type=_positive, help="maximum time from the order to the arrival, min"
+        "--minutes",
+        metavar="N",
+        type=_positive,
+        help="maximum response time, from the order to the arrival, min",
     )
     parser.add_argument("--kind", metavar="LIST", type=_words, default=(), help="kinds, such as engine,dozer")
     parser.add_argument(

@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 COVERAGE = ("time", "radius", "area")
-"""Kinds of areas of coverage, by their number in `Measures.coverage`."""
+"""Kinds of response areas, by their number in `Measures.coverage`."""
 
 _MOST = 10**10  # cents and kg/h
 
@@ -74,9 +74,9 @@ def measure(station_file: StationFile, query: Query) -> Measures:
 def travel_minutes(
     far_km: ArrayLike, air: ArrayLike, speed_km_h: Array, mobilise_min: Array, detour: float = DETOUR
 ) -> Array:
-    """Compute the time from the order to the arrival, min: mobilisation and travel, straight by air.
+    """Compute the response time, min: getaway time and travel time, straight by air.
 
-    NaN if the speed or the mobilisation time is NaN. All arguments broadcast.
+    NaN if the speed or the getaway time is NaN. All arguments broadcast.
     """
     way = np.asarray(far_km, np.float64) * np.where(air, 1.0, detour)
     return mobilise_min + 60.0 * way / speed_km_h
@@ -121,7 +121,7 @@ def delivery_rates(station_file: StationFile, query: Query, far: Array, way: Arr
 
 
 def coverage_areas(station_file: StationFile, query: Query, far: Array) -> tuple[NDArray[np.int64], Mask]:
-    """Return the kind of area of coverage (n,) of each resource, and a mask (n,): the place is in it."""
+    """Return the kind of response area (n,) of each resource, and a mask (n,): the place is in it."""
     columns = station_file.columns
     drawn = np.zeros(len(station_file.stations), np.bool_)
     inside = np.zeros(len(station_file.stations), np.bool_)
@@ -162,14 +162,14 @@ def _omission_tests(
         tests += [("of unknown status then", status < 0), ("not available then", status == 0)]
     if query.within_km is not None:
         tests.append((f"farther than {query.within_km:g} km", ~(far <= query.within_km)))
-    tests.append(("outside of their area of coverage", ~covered))
+    tests.append(("outside of their response area", ~covered))
     if query.minutes is not None:
         tests += [
             ("of unknown speed or time to mobilise", np.isnan(minutes)),
             (f"later than {query.minutes:g} min", minutes > query.minutes),
         ]
     if query.tonnes_per_hour is not None:
-        tests += [("of unknown tonnage", np.isnan(tonnes)), ("carry nothing", tonnes <= 0.0)]
+        tests += [("of unknown delivery rate", np.isnan(tonnes)), ("carry nothing", tonnes <= 0.0)]
     if query.budget is not None or query.tonnes_per_hour is not None:
         other = ~codes.currency.isin((query.currency,))
         tests += [("of unknown cost", np.isnan(cost)), (f"not paid in {query.currency}", other)]

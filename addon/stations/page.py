@@ -87,7 +87,7 @@ class Answer:
             lines.append(f"distances: straight to {query.near[0]:.4f}, {query.near[1]:.4f}, km")
         if of_resources:
             lines += [
-                f"minutes: mobilisation and travel; roads are {query.detour:g} times the straight distance, "
+                f"minutes: getaway and travel time; roads are {query.detour:g} times the straight distance, "
                 "aircraft fly straight",
                 f"cost: mobilisation and {query.hours:g} h of work",
                 "t/h: load, or the minimum tank of the type full of water, by round trips to a refill point "

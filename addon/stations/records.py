@@ -131,9 +131,9 @@ class Resource:
     speed_km_h
         Mean travel speed, km/h.
     mobilise_min
-        Mobilisation time: minutes from the order to the departure.
+                Getaway time: minutes from the order to the departure.
     radius_km
-        Radius of its area of coverage, km.
+        Radius of its response area, km.
     line_m_h
         Line production rate of one unit, m/h.
     cost_mobilise, cost_hour, cost_day
@@ -181,7 +181,7 @@ class Availability:
 
 @dataclass(frozen=True, slots=True)
 class Area:
-    """Area of coverage of a station: polygons as lists of rings (n, 2), degrees east and north."""
+    """Response area of a station: polygons as lists of rings (n, 2), degrees east and north."""
 
     id: int
     name: str

@@ -1,8 +1,8 @@
 """Search: resources that match a query, with arrival time, cost and delivery.
 
-Five terms of a query are defined as follows. Area of coverage: the polygons of the station, otherwise the
+Five terms of a query are defined as follows. Response area: the polygons of the station, otherwise the
 radius of the resource, otherwise the area within the travel time of the query. Budget: mobilisation and hours
-of work, summed over the set. Tonnage: water or retardant that the set delivers by round trips, t/h.
+of work, summed over the set. Delivery rate: water or retardant that the set delivers by round trips, t/h.
 Operational mode: one of `records.MODES`. Availability: the status at the time of the query.
 """
 
@@ -30,13 +30,13 @@ class Match:
     distance_km
         Straight distance, km.
     minutes
-        Time from the order to the arrival, min: mobilisation and travel.
+        Response time, min: getaway time and travel time.
     cost
         Mobilisation and the hours of work of the query, in the currency of the resource.
     tonnes_per_hour
         Water or retardant delivered by round trips, t/h.
     coverage
-        Kind of area of coverage: ``area`` (a polygon), ``radius``, or ``time``.
+        Kind of response area: ``area`` (a polygon), ``radius``, or ``time``.
     """
 
     resource: Resource
@@ -55,7 +55,7 @@ class Found:
     Attributes
     ----------
     matches
-        By minutes, then by number; with a budget or a tonnage, only the resources of the set.
+        By minutes, then by number; with a budget or a delivery rate, only the resources of the set.
     left_out
         Number of omitted resources by reason; the first reason of each resource counts.
     candidates
@@ -88,9 +88,9 @@ def find(station_file: StationFile, query: Query) -> list[Match]:
 def survey(station_file: StationFile, query: Query) -> Found:
     """Find the resources that match a query, and count the omitted resources by reason.
 
-    Without budget and tonnage these are all resources that meet the other conditions. With a tonnage it is
-    the cheapest set that delivers it (`cover.cheapest`), within the budget if there is one. With a budget
-    only, these are the earliest resources that the budget pays for.
+    Without budget and delivery rate these are all resources that meet the other conditions. With a delivery
+    rate it is the cheapest set that delivers it (`cover.cheapest`), within the budget if there is one. With a
+    budget only, these are the earliest resources that the budget pays for.
     """
     measured = measures.measure(station_file, query)
     left_out: dict[str, int] = {}
@@ -109,7 +109,7 @@ def survey(station_file: StationFile, query: Query) -> Found:
 
 
 def _set(rows: NDArray[np.int64], measured: measures.Measures, query: Query) -> tuple[NDArray[np.int64], str]:
-    """Choose the rows of the set for the budget and the tonnage of a query; else return the reason."""
+    """Choose the rows of the set for the budget and the delivery rate of a query; else return the reason."""
     if query.tonnes_per_hour is None:
         return (rows, "") if query.budget is None else (_first(rows, measured.cents[rows], query.budget), "")
     by_id = np.sort(rows)
