@@ -147,7 +147,7 @@ def describe_pass(each: passes.Pass) -> str:
     if each.made_from:
         facts.append(f"Made from: {', '.join(f'[`{name}`](#{name})' for name in each.made_from)}")
     if isinstance(each, passes.RenderedPass) and each.excludes:
-        facts.append(f"Excludes: {', '.join(each.excludes)}")
+        facts.append(f"Excludes: {', '.join(each.excludes).replace('lamps', 'point lights of flames')}")
     if isinstance(each, passes.RenderedPass) and each.samples:
         facts.append(f"Rays per pixel: {each.samples}")
     facts += ["Written as a film, too"] if each.film else []

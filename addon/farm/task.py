@@ -23,7 +23,7 @@ from .plan import Job, Task
 from .private import PrivateFolder, verified_entries
 
 EXIT_INPUT, EXIT_RETRY, EXIT_TERMINATED = 2, 75, 128 + signal.SIGTERM
-"""Exit status: invalid input; retry (EX_TEMPFAIL: device or disk); ended by SIGTERM."""
+"""Exit status: invalid input; retry (EX_TEMPFAIL: GPU or disk); ended by SIGTERM."""
 
 
 def run(out: Path, numbers: list[int], scene: str = "") -> None:

@@ -78,8 +78,8 @@ def describe(shot: Shot) -> str:
         return text
     where, low, high, source = _PUBLISHED[bool(mix.dark > 0.75)]
     return (
-        f"{text}; optical depth from above {plume.deepest:.2g} at most, {plume.wide:.2g} over a "
-        f"kilometre, {plume.mean:.2g} over the plume (smoke {where}, spread: {low:g} to {high:g}, {source})"
+        f"{text}; optical depth from above {plume.deepest:.2g} at most, {plume.wide:.2g} averaged over "
+        f"1 km x 1 km, {plume.mean:.2g} over the plume (smoke {where}, spread: {low:g} to {high:g}, {source})"
     )
 
 

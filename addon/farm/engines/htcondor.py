@@ -10,7 +10,7 @@ from ... import files
 from ...errors import UsageError
 from ._engine import Batch, Engine, firetwin_command
 
-_TRIES = 3  # requeues of a task that has no device or disk space
+_TRIES = 3  # requeues of a task that has no GPU or disk space
 _GRACE = 60  # s from SIGTERM to SIGKILL
 
 _DESCRIPTION = """\

@@ -13,7 +13,7 @@ from . import _shell
 from ._engine import Batch, Engine, firetwin_command
 
 DEFAULT_MAX_ARRAY_SIZE = 10_000  # default max_array_size of PBS servers
-_TRIES, _PAUSE = 3, 60  # attempts at a task that has no device or disk space, and s between them
+_TRIES, _PAUSE = 3, 60  # attempts at a task that has no GPU or disk space, and s between them
 
 _TASK = (
     """\

@@ -27,7 +27,7 @@ _TASK = (
     + """\
 run {command} farm task {out} $(($1 + ${{SLURM_ARRAY_TASK_ID:-0}}))
 status=$?
-# 75: no device or disk space; 143: the time limit is near. A cancelled task is no longer RUNNING.
+# 75: no GPU or disk space; 143: the time limit is near. A cancelled task is no longer RUNNING.
 if [[ $status = 75 || $status = 143 ]] && [ "${{SLURM_RESTART_COUNT:-0}}" -lt {tries} ] &&
   [ "$(squeue -h -j "$SLURM_JOB_ID" -o %T)" = RUNNING ]; then
   scontrol requeue "$SLURM_JOB_ID"

@@ -41,7 +41,7 @@ class Satellite(Rig):
     swath: float = key(56_000.0, "swath: width of the picture on the terrain", **SWATH)
     geostationary: float | None = key(
         None,
-        "longitude of a geostationary orbit, 35,786 km high; default: straight down",
+        "longitude of a geostationary orbit, 35,786 km high; default: nadir view",
         unit="degrees east",
         at_least=-180,
         at_most=180,
