@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from ..frames import Frames
 
 _READERS = {".gpx": track_xml.gpx, ".kml": track_xml.kml, ".csv": track_csv.points}
-MOMENTS = {"own": "UTC", "start": "begins at frame 1", "shot": "over all frames"}
+MOMENTS = {"own": "UTC", "start": "from frame 1", "shot": "over all frames"}
 
 
 @dataclass(frozen=True)
