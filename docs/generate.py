@@ -150,7 +150,7 @@ def describe_pass(each: passes.Pass) -> str:
         facts.append(f"Excludes: {', '.join(each.excludes).replace('lamps', 'point lights of flames')}")
     if isinstance(each, passes.RenderedPass) and each.samples:
         facts.append(f"Rays per pixel: {each.samples}")
-    facts += ["Written as a film, too"] if each.film else []
+    facts += ["Also written as a video (MP4)"] if each.film else []
     facts += ["Not for panoramas"] if each.single_view else []
     facts += ["Compares the runs of `[[runs]]`"] if isinstance(each, passes.ComparisonPass) else []
     text = convert_docstring(sys.modules[f"{passes.__name__}.{each.name}"].__doc__)

@@ -1,4 +1,4 @@
-"""The orthophoto of a server: its level, positions of tiles, credits, and rejected settings."""
+"""Orthophoto from a tile server: its level, positions of tiles, credits, and rejected settings."""
 
 import logging
 

@@ -97,7 +97,7 @@ class TerrainSettings:
     )
 
     def validate(self) -> tuple[Where, str] | None:
-        """Check that there is one orthophoto, and a credit for the orthophoto of a server."""
+        """Check that there is one orthophoto, and a credit for an orthophoto from a tile server."""
         if self.photo_url and self.photo:
             return ("photo_url",), "terrain.photo_url and terrain.photo are both there; leave one out"
         if self.photo_url and not self.photo_credit.strip():

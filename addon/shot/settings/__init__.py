@@ -113,7 +113,7 @@ class Render:
         check=_at_least_one,
         affects=("passes",),
     )
-    video: bool = key(True, "write rgb and thermal films of cameras with more than one frame", affects=())
+    video: bool = key(True, "write videos (MP4) of cameras with more than one frame", affects=())
     seed: int = key(
         0, "random seed of the render noise", at_least=0, at_most=LARGEST_SEED, affects=("grain",)
     )
