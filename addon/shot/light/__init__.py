@@ -1,1 +1,1 @@
-"""Light without Blender: sun and moon, sky, and exposure."""
+"""Light without Blender: sky and exposure; the sun and the moon are in `run.sun`."""

@@ -8,11 +8,11 @@ The EXR has two channels, `radiance` (W m-2 sr-1) and `kelvin`, the brightness t
 detector of [thermal] measures them; and `signal`, its counts, if it has a bit depth. The PNG shows
 temperatures in a palette, spread towards the cold end, with a colour bar.
 
-The palette's lower limit is the lowest temperature of level ground and air at that time (a tenth of the air
-is colder; see `air_temperature.coldest_ground`). By day it is the air; by night it is stone, which has cooled
-below the air and reflects the sky. It depends on run, time and band only. Relief therefore has the same
-contrast by night and at noon, and no flare-up or new object changes the colours. `thermal_low` fixes it, for
-colours that must not change over time.
+The palette's lower limit is the lowest temperature of level ground and air at that time (see
+`air_temperature.coldest_ground`; the air value is the 10th percentile). By day it is the air; by night it
+is stone, which has cooled below the air and reflects the sky. It depends on run, time and band only. Relief
+therefore has the same contrast by night and at noon, and no flare-up or new object changes the colours.
+`thermal_low` fixes it, for colours that must not change over time.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Thermal view of the FIRETWIN paper: the model's mean air temperature in colour over the visible picture.
+"""Overlay of the model's mean near-surface air temperature in colour, as in the FIRETWIN paper.
 
 The run's `temperature` is averaged over ten minutes, or over the frame step if that is longer. The gradient
 black, purple, red, orange, yellow, white shows its excess over unburned air of equal elevation
@@ -16,7 +16,7 @@ from . import DerivedPass
 PASS = DerivedPass(
     name="thermal_map",
     order=35,
-    help="Visible picture with the model's mean temperature added in colour",
+    help="Visible picture with the model's mean near-surface air temperature added in colour",
     files=("png",),
     film=True,
     aspects=frozenset({"time", "camera"}),

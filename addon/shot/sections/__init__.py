@@ -58,4 +58,4 @@ class SceneSettings:
     stations: StationSettings = key(
         default_factory=StationSettings, help="stations, their buildings and routes to the fire"
     )
-    thermal: Thermal = key(default_factory=Thermal, help="infrared camera of the thermal view")
+    thermal: Thermal = key(default_factory=Thermal, help="simulated infrared camera of the thermal passes")

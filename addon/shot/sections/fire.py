@@ -23,22 +23,22 @@ class FireSettings:
     flame_length: str = key(
         "auto",
         "flame length formula",
-        choices={"auto": "by fuel", "thomas": "crown fire", "byram": "surface fire"},
+        choices={"auto": "by canopy fuel", "thomas": "crown fire", "byram": "surface fire"},
     )
     budget: int = key(
         20_736, "limit on flames drawn at once; the nearest are drawn", at_least=0, at_most=10_000_000
     )
-    embers: bool = key(True, "draw glowing spots in the ash; the thermal view shows their heat in any case")
+    embers: bool = key(True, "draw glowing ash on the ground; the thermal pass shows its heat in any case")
     firebrands: int = key(
         3000,
-        "limit on firebrands in the air at once, within 1.8 km of the cameras; 0: none",
+        "limit on firebrands (airborne embers) at once, within 1.8 km of the cameras; 0: none",
         at_least=0,
         at_most=100_000,
     )
     torches: bool = key(True, "draw torching: crowns near the cameras flare up when the front reaches them")
     observed: Path | None = key(
         None,
-        "observed perimeters or detections, drawn by date: .geojson, .shp, .kml, .gpkg, .csv or a folder",
+        "observed perimeters or detections, drawn by date: .geojson, .shp, .kml, .kmz, .gpkg, .csv, folder",
         affects=(),
     )
     observed_width: float = key(

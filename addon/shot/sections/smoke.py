@@ -63,7 +63,7 @@ class SmokeSettings:
     max_age: float = key(5400.0, "age at which a puff is removed", unit="s", above=0, at_most=10_000_000)
     extinction: float = key(
         0.0,
-        "extinction of dense smoke; smaller is faster, 0: chosen as voxel_size is",
+        "upper limit of the extinction coefficient; smaller is faster, 0: chosen as voxel_size is",
         unit="1/m",
         at_least=0,
         at_most=10,

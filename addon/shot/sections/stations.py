@@ -39,7 +39,7 @@ class StationSettings:
     signs: bool = key(True, "a sign at each station, which faces the camera")
     show: tuple[str, ...] = key(
         ("kind", "resources", "minutes"),
-        "lines below the name (fire: when it comes)",
+        "lines below the name (fire: its arrival time)",
         choices=("kind", "resources", "minutes", "fire"),
     )
     size: float = key(0.03, "letter height", unit="heights of the picture", at_least=0.001, at_most=0.5)

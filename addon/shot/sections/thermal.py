@@ -11,7 +11,7 @@ BANDS = {"lwir": (8.0, 14.0), "mwir": (3.4, 4.1)}  # um, of infrared cameras
 
 @dataclass(frozen=True)
 class Thermal:
-    """The infrared camera of the thermal view. By default the detector is ideal."""
+    """The simulated infrared camera of the thermal passes. By default the detector is ideal."""
 
     band: str = key(
         "lwir",

@@ -26,7 +26,7 @@ class Minimap(Rig):
     """Orthographic camera straight above another camera, with north up."""
 
     follows: str = key("", "name of the followed camera; empty: the first camera that follows none")
-    swath: float = key(6000.0, "swath: width of the picture on the terrain", **SWATH)
+    swath: float = key(6000.0, "swath: ground width of the picture", **SWATH)
 
     @classmethod
     def from_view(cls, view: View) -> Minimap:

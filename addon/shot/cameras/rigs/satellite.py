@@ -38,7 +38,7 @@ class Satellite(Rig):
     It views the latitude and longitude of its first key; without keys, the middle of the run.
     """
 
-    swath: float = key(56_000.0, "swath: width of the picture on the terrain", **SWATH)
+    swath: float = key(56_000.0, "swath: ground width of the picture", **SWATH)
     geostationary: float | None = key(
         None,
         "longitude of a geostationary orbit, 35,786 km high; default: nadir view",
