@@ -12,13 +12,15 @@ from pathlib import Path
 
 import bpy
 
+from .. import progress
 from ..blender import compat, owned
 from ..shot.schema.former import FORMER, FORMER_KEYS, FORMER_VALUES, current
 
 
 @bpy.app.handlers.persistent
 def migrate(*_: object) -> None:
-    """Move settings and collections of renamed sections to their current names."""
+    """Move settings and collections of renamed sections to their current names, and print which."""
+    renamed: list[str] = []
     for former, name in FORMER.items():
         for collection in bpy.data.collections:
             if owned.is_ours(collection, former.title()):
@@ -32,14 +34,19 @@ def migrate(*_: object) -> None:
                 for gone in {former, name} & {*stored.keys()}:
                     del stored[gone]
                 stored[name] = kept
+                renamed.append(f"[{former}] is called [{name}] now")
         for (section, former), name in FORMER_KEYS.items():
             kept = stored.get(section, {})
             if former in kept:
                 kept[name] = kept[former]
                 del kept[former]
+                renamed.append(f"{section}.{former} is called {section}.{name} now")
             exact = json.loads(kept.get("exact") or "{}")  # see `keys`
             if former in exact:
                 kept["exact"] = json.dumps(exact | {name: exact.pop(former)})
+    if renamed:
+        names = "; ".join(dict.fromkeys(renamed))
+        progress.say(f"{names}; save the file, because former names are read in this version only")
 
 
 def update_presets() -> None:

@@ -14,7 +14,7 @@ def panel(scene):
     firetwin.unregister()
 
 
-def test_a_file_of_the_last_version_keeps_its_settings(panel, tmp_path):
+def test_a_file_of_the_last_version_keeps_its_settings(panel, tmp_path, capsys):
     """Such a file is made of one of this version, whose section is stored under its former name."""
     panel.terrain.error, panel.labels.enabled, panel.forest.budget = 0.7, True, 17
     stored = compat.stored_properties(bpy.context.scene)["firetwin"]
@@ -38,6 +38,9 @@ def test_a_file_of_the_last_version_keeps_its_settings(panel, tmp_path):
     assert found.tiles.exact == '{"max_screen_space_error": 3.123456789}'
     assert owned.is_ours(bpy.data.collections["Firetwin Terrain"], "Terrain")
     assert "ground" not in compat.stored_properties(bpy.context.scene)["firetwin"]
+    note = capsys.readouterr().err
+    assert "[ground] is called [terrain] now" in note
+    assert "tiles.error is called tiles.max_screen_space_error now" in note
 
 
 def test_presets_of_the_last_version_are_updated(tmp_path, monkeypatch):
