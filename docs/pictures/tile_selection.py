@@ -18,7 +18,7 @@ HEIGHT, HALF = 360, (0.5, 0.28)  # pixels of the picture, tangents of half the a
 EYE = np.array([-0.48 * SIDE, 0.0, 250.0])  # m; looks along x
 ROTATION = np.array([[0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 COLOURS = ("#eceff1", "#cfd8dc", "#ffe0b2", "#ffb74d", "#fb8c00", "#e65100", "#bf360c")
-WIDTH, TOP, SCALE = 640, 30, 340.0 / SIDE
+WIDTH, TOP, SCALE = 740, 30, 340.0 / SIDE
 TITLE = "Tiles selected for a camera, from above: smaller tiles near it, none outside of the frustum"
 
 
