@@ -199,9 +199,7 @@ def test_a_drawn_area_counts_instead_of_the_radius():
     station = Station(1, "Base", 38.9, -120.1, "user", 1)
     engine = Resource(1, 1, "engine/3", "Engine", "user", 1, radius_km=1.0)
     station_file = StationFile((station,), (engine,), (), (Source(1, "x", "y", "z"),), standard_types())
-    assert search.survey(station_file, Query(near=CENTRE)).left_out == {
-        "outside of their response area": 1
-    }
+    assert search.survey(station_file, Query(near=CENTRE)).left_out == {"outside of their response area": 1}
     whole = replace(station_file, areas=(Area(1, "a", "", 1, ((SQUARE,),)),))
     assert [each.coverage for each in search.find(whole, Query(near=CENTRE))] == ["area"]
     holed = replace(station_file, areas=(Area(1, "a", "", 1, ((SQUARE, HOLE),)),))
