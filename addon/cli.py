@@ -184,7 +184,7 @@ def _parser() -> argparse.ArgumentParser:
         new.add_argument(f"--{name}", metavar="TIME", type=types.moment, help=text)
     new.add_argument("--overwrite", action="store_true", help="replace an existing file")
 
-    maps = command("maps", "draw the fuel map and the fire intensity map", help_texts.MAPS)
+    maps = command("maps", "draw maps of the fuel load and of the maximum heat flux", help_texts.MAPS)
     maps.add_argument("run", metavar="RUN", type=types.path, help="run folder")
     maps.add_argument("--out", metavar="DIR", type=types.path, required=True, help="folder for the PNG files")
 

@@ -70,7 +70,7 @@ def new(arguments: argparse.Namespace) -> None:
 def maps(arguments: argparse.Namespace) -> None:
     """Draw the maps of a run."""
     run = _open_run(arguments.run)
-    say("drawing the fuel map and the fire intensity map")
+    say("drawing the maps of the fuel load and of the maximum heat flux")
     from .run import maps, observations, zone
 
     observed = observations.read(arguments.against or observations.beside(arguments.run))

@@ -52,9 +52,10 @@ FILE holds dated perimeters (.geojson, .shp, .kml, .kmz, .gpkg) or FIRMS detecti
 (.csv). Append the date to a file without dates: FILE@2014-09-18T04:00-07:00. Scores by date: areas, Sorensen,
 Jaccard, kappa, precision, recall, shape deviation and area difference indices, and distances of the
 perimeters, with and without the area burned before the start of the run. Further scores: errors of arrival
-times, and detections with their lag. Each score is computed on polygons and on cells; the difference is its
-error. Observations outside the times or the grid of the run are counted and ignored. The exit status is 1 if
-none remains. Needs shapely and pyproj (pip install 'firetwin[score]')."""
+times, and detections with their lag. Each score is computed on polygons and on cells; their difference
+estimates the numerical error of the score, not of the fire model. Observations outside the times or the grid
+of the run are counted and ignored. The exit status is 1 if none remains. Needs shapely and pyproj (pip
+install 'firetwin[score]')."""
 
 IMAGER = """\
 Brightness temperatures (K) at 3.9 and 11.2 um (3.74 and 11.45 for viirs), fire radiative power (W) and a

@@ -4,8 +4,8 @@
 class    value content
 ======== ===== =================================================================================
 sky      0     rays that hit nothing
-ground   1     unburned ground, with brush, grass, rocks, water, and forest too far for single trees
-burned   2     ground and brush behind the front
+ground   1     unburned ground, with shrubs, grass, rocks, water, and forest too far for single trees
+burned   2     ground and shrubs behind the front
 tree     3     living or burned
 smoke    4     transmits less than half of the light behind it, in green
 fire     5     flames in the air, on the ground and in crowns, and firebrands
