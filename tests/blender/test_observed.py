@@ -1,4 +1,4 @@
-"""Lines of observations in Blender: visible from their date on, and never in the thermal view."""
+"""Lines of observations in Blender: visible from their date on, and never in the thermal pass."""
 
 from dataclasses import replace
 
