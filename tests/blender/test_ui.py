@@ -78,12 +78,12 @@ def test_every_refusal_says_what_to_do(settings, run_folder, scene_file):
     assert "Open a run" in refusal(bpy.ops.firetwin.inspect)
     assert "Build the scene first" in refusal(bpy.ops.firetwin.view)
     assert "Build the scene first" in refusal(bpy.ops.firetwin.jump)
-    assert "Choose a camera" in refusal(bpy.ops.firetwin.camera_remove)
+    assert "Select a camera" in refusal(bpy.ops.firetwin.camera_remove)
     assert "No task is running" in refusal(bpy.ops.firetwin.stop)
     settings.run = str(run_folder)
     assert bpy.ops.firetwin.build.poll()  # the smoke is in a folder of Firetwin until the .blend is saved
     assert "Save the .blend file" in refusal(bpy.ops.firetwin.render)
-    assert "nothing that Firetwin built" in refusal(bpy.ops.firetwin.remove)
+    assert "has built nothing" in refusal(bpy.ops.firetwin.remove)
     settings.output = str(run_folder.parent / "out")
     assert bpy.ops.firetwin.render.poll()
     job.Job.current = job.Job("Build scene", iter(()))
@@ -784,7 +784,7 @@ def test_every_panel_can_be_drawn_at_any_time(settings, scene_file):
         drawn(kind, bpy.context.scene)
     job.Job.current = job.Job("Build scene", iter(()))
     try:
-        assert "Esc with the pointer here" in drawn(build.FIRETWIN_PT_build, bpy.context.scene)
+        assert "Press Stop, or Esc with the pointer" in drawn(build.FIRETWIN_PT_build, bpy.context.scene)
     finally:
         job.Job.current = None
 
