@@ -47,7 +47,7 @@ for kelvin, left, right in ((300.0, -12.0, 0.5), (1200.0, 0.5, 5.5), (1000.0, 5.
     mesh = bpy.data.meshes.new("plate")
     mesh.from_pydata([(left, -3, 0), (right, -3, 0), (right, 3, 0), (left, 3, 0)], [], [(0, 1, 2, 3)])
     material, tree = nodes.material("plate")
-    radiance = infrared.emitted(tree, shot, stage, kelvin)
+    radiance = infrared.surface_radiance(tree, shot, stage, kelvin)
     tree.surface(nodes.thermal_switch(tree, tree.emission((0, 0, 0)), radiance))
     mesh.materials.append(material)
     scene.collection.objects.link(bpy.data.objects.new("plate", mesh))

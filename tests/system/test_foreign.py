@@ -39,7 +39,7 @@ def test_other_words_make_another_run(panel, file):
 
 
 def test_what_is_missing_is_asked_for_in_the_panels_words(panel, file):
-    with pytest.raises(RuntimeError, match=r"give it: Start \(beside the files in Open run\) 2014-09"):
+    with pytest.raises(RuntimeError, match=r"give it: Start \(next to the files in Open run\) 2014-09"):
         bpy.ops.firetwin.open(filepath=str(file))
     assert "has no start time" in panel.problem
     assert [each.name for each in file.parent.iterdir()] == [file.name]

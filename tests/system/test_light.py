@@ -26,7 +26,7 @@ sys.path[:0] = {path!r}
 from firetwin.scene.light import build as light
 bpy.ops.wm.read_factory_settings(use_empty=True)
 view = bpy.context.scene.view_settings
-print(json.dumps([light._colours(view), view.view_transform, view.look]))
+print(json.dumps([light._set_view_transform(view), view.view_transform, view.look]))
 """
 
 

@@ -57,8 +57,8 @@ def test_the_film_is_told_before_its_scene_is_written(script, tmp_path):
     result = script()
     assert result.returncode == 0, result.stderr
     assert [call.split()[0] for call in _calls(tmp_path)] == ["info", "maps", "render", "build"]
-    assert f"the film is done: {tmp_path}/examples/out/film/drone/drone_rgb.mp4" in result.stderr
-    assert "minutes" in result.stderr.split("the film is done")[1]
+    assert f"the film is finished: {tmp_path}/examples/out/film/drone/drone_rgb.mp4" in result.stderr
+    assert "minutes" in result.stderr.split("the film is finished")[1]
 
 
 def test_nothing_is_announced_that_is_there_already(script, tmp_path):
@@ -68,4 +68,4 @@ def test_nothing_is_announced_that_is_there_already(script, tmp_path):
         path.touch()
     result = script()
     assert [call.split()[0] for call in _calls(tmp_path)] == ["info", "render"]
-    assert "the film is done" not in result.stderr
+    assert "the film is finished" not in result.stderr
