@@ -89,7 +89,9 @@ class Shot:
         self.frames: Frames = frames.resolve(settings.time, run)
         self.cached: dict[Callable[[Shot], Any], Any] = {}
         self._filmed: dict[str, NDArray[np.int64]] = {}
-        self.relief: Elevation = elevation.resolve(settings, run, tile_heights_file.location(settings, run))
+        on_tiles = settings.terrain.height_source == "tiles"
+        tiles = tile_heights_file.location(settings, run) if on_tiles else None
+        self.relief: Elevation = elevation.resolve(settings, run, tiles)
 
     def input_hashes(self, leave_out: Collection[str] = (), progress: Progress = silent) -> dict[str, str]:
         """SHA-256 of each input: the run's fields except `leave_out`, elevation model, tilesets of files."""
@@ -197,7 +199,7 @@ class Shot:
 
     def resolution(self, camera: CameraSettings) -> tuple[int, int]:
         """Picture width and height of a camera, pixels."""
-        return camera.resolution or self.settings.render.resolution
+        return self.filming.resolution(camera)
 
     def frames_of(self, camera: CameraSettings) -> list[int]:
         """Frames that a camera films, ascending, from 1."""

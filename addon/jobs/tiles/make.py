@@ -99,7 +99,7 @@ def ground_surface(shot: Shot, undulation: float | None) -> Surface:
     Raises
     ------
     UsageError
-        No grid of EGM96 was found on this machine.
+        This machine has no grid of EGM96.
     """
     fields, relief = shot.ground.fields, shot.relief
     inside = slice(fields.margin, -fields.margin or None)

@@ -140,7 +140,7 @@ def resolve(settings: SceneSettings, run: Run, tiles: Path | None = None) -> Ele
     Parameters
     ----------
     tiles
-        File of the heights of the scene's tiles.
+        File of the heights of the scene's tiles, if objects are placed on them.
 
     Raises
     ------
@@ -148,9 +148,7 @@ def resolve(settings: SceneSettings, run: Run, tiles: Path | None = None) -> Ele
         The elevation model cannot be used.
     """
     model = GeoTiff(settings, "elevation") if settings.terrain.elevation else None
-    if (
-        settings.terrain.height_source == "tiles" and tiles and tiles.is_file()
-    ):  # else tiles are not selected yet
+    if tiles and tiles.is_file():  # else tiles are not selected yet
         return Elevation(run, _Stacked(tile_heights.read(tiles, run), model))
     return Elevation(run, model)
 

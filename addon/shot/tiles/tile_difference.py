@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -26,10 +25,7 @@ def measure(tiles: TileHeights, settings: Settings, run: Run) -> Difference | No
 
     The scene's ground is the run's, or the elevation model's, at the points of the fuel grid.
     """
-    own = elevation.resolve(
-        replace(settings, terrain=replace(settings.terrain, height_source="elevation")), run
-    )
-    off = tiles.on_grid(run.fuel_latitude, run.fuel_longitude)[0] - own.fuel
+    off = tiles.on_grid(run.fuel_latitude, run.fuel_longitude)[0] - elevation.resolve(settings, run).fuel
     off = off[np.isfinite(off)]
     if not len(off):
         return None
