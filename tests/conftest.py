@@ -1,14 +1,17 @@
-"""Rules of all rooms: the folder of a test marks it, and tests of unit and blender are quick."""
+"""Rules of all rooms: the folder of a test marks it, tests of unit and blender are quick, rooms have budgets.
+
+``tests/helpers/processor_time.py`` explains how the processor time of tests is measured and compared.
+"""
 
 from __future__ import annotations
 
 import json
 import time
-from collections import defaultdict
 from pathlib import Path
 
 import hypothesis
 import pytest
+from processor_time import Account, Speed, processor_s
 
 ROOMS = ("unit", "blender", "render", "system")
 """Folders of tests, by their needs; see CONTRIBUTING.md."""
@@ -17,16 +20,17 @@ hypothesis.settings.register_profile("firetwin", deadline=None)  # machines diff
 hypothesis.settings.register_profile("quick", deadline=None, max_examples=10)
 hypothesis.settings.load_profile("firetwin")
 
-SECONDS = Path(__file__).parents[1] / "build/tests/seconds.json"
-"""Times of the last complete runs of test files, for tests/touched.py."""
-_seconds: dict[str, float] = defaultdict(float)
-_processor = pytest.StashKey[float]()
+TIMES = Path(__file__).parents[1] / "build/tests"
+"""Processor seconds of the last complete runs: of files for tests/touched.py, and of single tests."""
+_account, _speed = Account(), Speed()
+_before = pytest.StashKey[float]()  # processor seconds before a phase of a test
 
 
 def pytest_addoption(parser):
     parser.addini(
         "longest_s", "processor seconds that an unmarked test of unit or blender may take", default="30"
     )
+    parser.addini("budget_factor", "a room that exceeds its budget by this factor fails a run", default="1.5")
 
 
 def pytest_collection_modifyitems(items):
@@ -37,26 +41,27 @@ def pytest_collection_modifyitems(items):
             item.add_marker(room)
 
 
-@pytest.hookimpl(wrapper=True)
-def pytest_runtest_call(item):
-    began = time.process_time()
-    try:
-        return (yield)
-    finally:
-        item.stash[_processor] = time.process_time() - began
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_runtest_protocol(item):
+    _speed.measure()
+    item.stash[_before] = processor_s()
+    return (yield)
 
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item, call):
-    """Fail a test of unit or blender that takes too long; shared fixtures do not count.
+    """Add the times of each phase, and fail a test of unit or blender that takes too long.
 
-    Too long is 30 s of processor time or 180 s of wall time: 10 to 15 s on a fast idle machine,
-    and shared processors are two to three times slower.
+    Too long is 30 s of processor time, child processes included, or 180 s of wall time: 10 to 15 s on a fast
+    idle machine, and shared processors are two to three times slower. Shared fixtures do not count.
     """
+    now = processor_s()
     report = yield
+    took, item.stash[_before] = now - item.stash[_before], now
+    report.processor_s, report.speed = took, _speed.factor
     quick = item.get_closest_marker("unit") or item.get_closest_marker("blender")
     if quick and not item.get_closest_marker("slow") and report.when == "call" and report.passed:
-        longest, took = float(item.config.getini("longest_s")), item.stash[_processor]
+        longest = float(item.config.getini("longest_s"))
         if took > longest or report.duration > 6.0 * longest:
             report.outcome = "failed"
             report.longrepr = f"{item.nodeid} took {took:.1f} s of processor time; {longest:g} s are the most"
@@ -64,16 +69,37 @@ def pytest_runtest_makereport(item, call):
 
 
 def pytest_runtest_logreport(report):
-    _seconds[report.nodeid.split("::")[0]] += report.duration
+    if hasattr(report, "processor_s"):
+        _account.add(report.nodeid, report.processor_s, report.speed)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node):
+    """Add the time of a worker process, imports and collection included."""
+    _account.total_s += getattr(node, "workeroutput", {}).get("processor_s", 0.0)
 
 
 def pytest_sessionfinish(session):
-    """Save the times of files, unless single tests were chosen or this is one of several processes."""
-    options = session.config.option
-    chosen = options.keyword or options.markexpr or any("::" in each for each in session.config.args)
-    if chosen or hasattr(session.config, "workerinput"):
+    """Compare the rooms with their budgets; save the times unless single tests were chosen."""
+    if hasattr(session.config, "workerinput"):
+        session.config.workeroutput["processor_s"] = processor_s()
         return
-    known = json.loads(SECONDS.read_text()) if SECONDS.exists() else {}
-    SECONDS.parent.mkdir(parents=True, exist_ok=True)
-    new = {name: round(seconds, 1) for name, seconds in _seconds.items()}
-    SECONDS.write_text(json.dumps(known | new, indent=0, sort_keys=True))
+    _account.total_s += time.process_time() if _account.total_s else processor_s()
+    factor = float(session.config.getini("budget_factor"))
+    _account.compare(factor)
+    if _account.failures and session.exitstatus == 0:
+        session.exitstatus = pytest.ExitCode.TESTS_FAILED
+    options = session.config.option
+    if not (options.keyword or options.markexpr or any("::" in each for each in session.config.args)):
+        TIMES.mkdir(parents=True, exist_ok=True)
+        for name, new in (("seconds.json", _account.files()), ("tests.json", _account.tests)):
+            path = TIMES / name
+            known = json.loads(path.read_text()) if path.exists() else {}
+            path.write_text(json.dumps(known | new, indent=0, sort_keys=True))
+
+
+def pytest_terminal_summary(terminalreporter):
+    if _account.tests:
+        terminalreporter.section("processor time")
+        for line in (*_account.table, *_account.failures):
+            terminalreporter.line(line)

@@ -19,8 +19,8 @@ ROOT = Path(__file__).parents[1]
 ROOMS = ("unit", "blender", "render")
 PACKAGES = {"addon": ("firetwin",), "data": ("firetwin", "data")}
 SECONDS = ROOT / "build/tests/seconds.json"
-"""Times of test files, written by tests/conftest.py."""
-MOST = 70.0  # seconds of tests; two workers need a little more than half of that
+"""Processor seconds of test files, written by tests/conftest.py."""
+MOST = 70.0  # processor seconds of tests; two workers need a little more than half of that
 UNKNOWN = 5.0  # seconds of a file that has never run
 
 

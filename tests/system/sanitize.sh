@@ -24,7 +24,8 @@ export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 export PYTHONMALLOC=malloc PYTHONPATH=$package LD_PRELOAD=$libraries
 # Tests that measure memory would measure the memory of the sanitizer.
 dense=tests/unit/test_volume_dense.py
-exec "$python" -m pytest tests/unit -q -n "$(nproc)" --dist worksteal -o longest_s=600 -p no:cacheprovider "$@" \
+exec "$python" -m pytest tests/unit -q -n "$(nproc)" --dist worksteal -p no:cacheprovider "$@" \
+  -o longest_s=600 -o budget_factor=50 \
   --deselect "$dense::test_memory_does_not_grow_with_the_grid" \
   --deselect "$dense::test_levels_without_smoke_need_no_memory" \
   --deselect "$dense::test_air_without_smoke_needs_no_memory"
