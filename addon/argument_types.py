@@ -30,6 +30,13 @@ def count(text: str) -> int:
     return int(text)
 
 
+def architecture(text: str) -> str:
+    """Accept the name of an NVIDIA architecture."""
+    if not re.fullmatch(r"sm_\d{2,3}", text):
+        raise argparse.ArgumentTypeError(f"must be an architecture such as sm_90, not {text!r}")
+    return text
+
+
 def moment(text: str) -> datetime:
     """Convert an ISO 8601 time with its UTC offset to UTC."""
     try:

@@ -358,6 +358,16 @@ def _parser() -> argparse.ArgumentParser:
     )
     assets.add_argument("--out", metavar="DIR", type=types.path, required=True, help="folder of the library")
 
+    gpu = command("gpu", "list GPUs, or prepare their kernels", help_texts.GPU)
+    form = gpu.add_mutually_exclusive_group()
+    form.add_argument("--warm", action="store_true", help="compile the kernels into the driver's cache")
+    form.add_argument(
+        "--kernels",
+        metavar="ARCH",
+        type=types.architecture,
+        help="make Cycles' kernels for an NVIDIA architecture, such as sm_90; needs no GPU",
+    )
+
     command("schema", "print the JSON Schema of scene files, for TOML editors", help_texts.SCHEMA)
 
     bench = command("bench", "benchmark run time and error against alternatives", help_texts.BENCH)

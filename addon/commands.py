@@ -328,6 +328,17 @@ def _list_cached(kept: Iterable[Cached]) -> None:
         result(f"{each.folder}  {size(each.bytes)}  {ago}")
 
 
+def gpu(arguments: argparse.Namespace) -> None:
+    """List GPUs, or prepare their kernels."""
+    from .jobs import gpu
+
+    if arguments.kernels:
+        lines = gpu.make_kernels(arguments.kernels, say)
+    else:
+        lines = gpu.warm(say) if arguments.warm else gpu.describe(say)
+    result("\n".join(lines))
+
+
 def assets(arguments: argparse.Namespace) -> None:
     """Write the asset library."""
     import tempfile

@@ -99,6 +99,13 @@ Lists volumes and tiles of each shot with size and last use, most recent first, 
 tile servers. --prune removes the least recently used until volumes and tiles fit into --limit, and responses
 into --answers. Files in use by a bake or render are not removed."""
 
+GPU = """\
+Lists the GPUs that Cycles finds, whether their kernels are ready, and the kernel caches of the driver.
+Blender ships kernels for many NVIDIA cards, but not for A100, H100, H200 and B200. For these the driver
+compiles them at their first use, which takes 6 to 10 minutes. --warm compiles them in advance; run it once on
+each machine of a farm. --kernels makes them with ptxas (Python package nvidia-cuda-nvcc-cu12) and saves them
+in Blender's folder, which must be writable, as in a virtual environment. It needs no GPU."""
+
 SCHEMA = """\
 Save it, and refer to it in the first line of a scene file (`#:schema firetwin.json`). TOML editors then
 complete keys, show their help and underline mistakes."""

@@ -236,14 +236,15 @@ def in_blender(
     from ..render.picture import Picture
     from ..shot import passes
     from ..smoke import plume_mass
+    from . import device
 
     shot = ShotSource(**choice).shot()
     asked = [Picture(*picture) for picture in pictures]
     todo = [picture for picture in asked if not passes.compares(picture.name)]
     drawn = set(todo)
-    if todo:
-        _check_device(shot)
-    frames, expected = count_frames(todo), 0
+    frames, expected, gpus = count_frames(todo), 0, None
+    if todo and shot.settings.render.engine == "cycles":
+        gpus = device.select(shot.settings, frames, tell)
     made_with = fingerprint.compute_pairs(shot, {(camera, name) for camera, name in filmed}, progress)
     everything, after = plan.pictures(shot, *selection), 0 if resume else begun
     with sharing.open_session(Path(out), made_with, owner, after, begun, everything) as session:
@@ -255,10 +256,9 @@ def in_blender(
                 for camera, group in itertools.groupby(free, key=lambda picture: picture.camera):
                     wanted = list(group)
                     own = share(progress, done, frames, "rendering")
-                    expected = max(
-                        expected,
-                        _camera(ShotSource(**choice), for_view(shot, camera), session, wanted, own, tell),
-                    )
+                    view = for_view(shot, camera)
+                    peak = _camera(ShotSource(**choice), view, session, wanted, gpus, own, tell)
+                    expected = max(expected, peak)
                     done += count_frames(wanted)
         if todo and shot.settings.smoke.enabled:
             tell(plume_mass.describe(shot))
@@ -269,35 +269,23 @@ def in_blender(
     return {"pictures": made, "expected": expected, "peak": memory.peak()}
 
 
-def _check_device(shot: Shot) -> None:
-    """Check before the build that the device for Cycles exists."""
-    import bpy
-
-    from ..blender import devices
-    from ..errors import TryAgainError, UnavailableError, input_error
-    from ..shot.schema import scene_text
-
-    render, path = shot.settings.render, shot.settings.path
-    if render.engine != "cycles":
-        return
-    try:
-        devices.set_device(render.device, bpy.context.scene)
-    except TryAgainError as error:
-        if not path.is_file():
-            raise
-        at = scene_text.error_at(path, ("render", "device"), str(error))
-        raise input_error(at.path, at.reason, line=at.line, column=at.column, kind=UnavailableError) from None
-
-
 def count_frames(pictures: list[Any]) -> int:
     """Count the frames of these pictures."""
     return len({(picture.camera, picture.frame) for picture in pictures})
 
 
 def _camera(
-    choice: ShotSource, shot: Shot, session: Any, wanted: list[Any], progress: Progress, tell: MessageCallback
+    choice: ShotSource,
+    shot: Shot,
+    session: Any,
+    wanted: list[Any],
+    gpus: Any,
+    progress: Progress,
+    tell: MessageCallback,
 ) -> int:
     """Render the pictures of a shot's only camera; its smoke is prefetched one frame ahead.
+
+    Cycles renders with `gpus`, or on the processor (None).
 
     Returns the estimated peak memory, bytes.
     """
@@ -320,8 +308,8 @@ def _camera(
     ):
         for part, group in _parts(shot, wanted):
             stage = worker_scene.build_scene(part, progress, tell) if drawn else worker_scene.empty()
-            if drawn and shot.settings.render.engine == "cycles" and not done:
-                tell(f"Cycles renders on {devices.set_device(shot.settings.render.device, stage.scene)}")
+            if drawn and shot.settings.render.engine == "cycles":
+                devices.use(gpus, stage.scene)
             load = expected.load(shot, stage, hazy) if drawn else None
             if load and load.bytes > most:
                 most = load.bytes

@@ -101,6 +101,7 @@ def in_blender(
     from ..render import pictures as renderer
     from ..render.picture import Picture
     from ..smoke import prefetch
+    from . import device
 
     bpy.ops.wm.open_mainfile(filepath=blend, load_ui=False)
     stage = owned.stage(bpy.data.scenes[scene])
@@ -108,7 +109,7 @@ def in_blender(
     shot = _with_scene_settings(ShotSource(**choice).shot(), stage.scene)
     todo = [Picture(*picture) for picture in pictures]
     if stage.scene.render.engine == "CYCLES":
-        tell(f"Cycles renders on {devices.set_device(shot.settings.render.device, stage.scene)}")
+        devices.use(device.select(shot.settings, count_frames(todo), tell), stage.scene)
     known = {(camera, name): values for camera, name, values in made_with}
     frames, done, after = count_frames(todo), 0, 0 if resume else begun
     with (

@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import memory
+from ..gpu import caches
 from ..progress import MessageCallback, Progress, duration, no_message, silent
 
 if TYPE_CHECKING:
@@ -246,7 +247,7 @@ def _command(code: str) -> list[str]:
 
 
 def _environment(eevee: bool) -> dict[str, str]:
-    environment = os.environ | memory.few_arenas()
+    environment = os.environ | memory.few_arenas() | caches.environment(os.environ)
     display = environment.get("DISPLAY") or environment.get("WAYLAND_DISPLAY")
     if eevee and sys.platform == "linux" and not display:
         environment["EGL_PLATFORM"] = "surfaceless"

@@ -20,7 +20,7 @@ from ..shot.cameras.path import compass
 from ..shot.settings import mount
 from ..shot.shot import Shot
 from ..smoke.prefetch import Smoke
-from . import credits, engine, integrated, layers, manifest, plan, png, spherical, verify
+from . import credits, cycles_status, engine, integrated, layers, manifest, plan, png, spherical, verify
 from .finish import finisher
 from .picture import Picture
 from .sharing import FrameQueue, RenderSession
@@ -59,7 +59,11 @@ def render(
     made, note = 0, ""
     marched = integrated.applies(shot, stage.scene) and bool(plan.rendered(shot, wanted))
     renderer = integrated.IntegratedRenderer(shot, stage) if marched else None
-    with session.leases.part_folder() as part, session.queue(wanted, tell) as queue:
+    with (
+        session.leases.part_folder() as part,
+        session.queue(wanted, tell) as queue,
+        cycles_status.reported(tell),
+    ):
         while queue.step():
             progress(queue.done, queue.total, "rendering", note)
             if finished := _frame(shot, stage, session, part, queue, ready, renderer):

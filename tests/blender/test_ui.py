@@ -10,8 +10,8 @@ import bpy
 import firetwin
 import numpy as np
 import pytest
-from firetwin.blender import devices, owned, viewport
-from firetwin.errors import Error, InputError, input_error
+from firetwin.blender import owned, viewport
+from firetwin.errors import InputError, input_error
 from firetwin.jobs import assets
 from firetwin.shot import auto_framing, passes
 from firetwin.shot.schema import fields
@@ -243,49 +243,6 @@ def test_the_preferences_say_what_renders_on(settings, monkeypatch):
     assert choice.from_panel(settings).device == "gpu"
     chosen.preferences.device = "scene"
     assert choice.from_panel(settings).device == ""
-
-
-def faked_cycles(monkeypatch, *gpus):
-    """Preferences of Cycles on a machine with these GPUs: pairs of kind and name."""
-    found = [SimpleNamespace(type=kind, name=name, use=False) for kind, name in gpus]
-    processor = SimpleNamespace(type="CPU", name="Processor", use=True)
-    given = SimpleNamespace(
-        compute_device_type="NONE",
-        devices=[*found, processor],
-        get_device_types=lambda context: [(kind, kind, "", 0) for kind in ("NONE", "CUDA", "OPTIX")],
-        get_devices_for_type=lambda kind: [each for each in found if each.type == kind] + [processor],
-    )
-    monkeypatch.setattr(devices, "_preferences", lambda: given)
-    return given
-
-
-def test_a_gpu_is_taken_and_named(scene, monkeypatch):
-    given = faked_cycles(monkeypatch, ("CUDA", "Card"), ("OPTIX", "Card"))
-    for wanted in ("auto", "gpu"):
-        assert devices.set_device(wanted, scene) == "Card by OptiX"
-        assert scene.cycles.device == "GPU"
-        assert given.compute_device_type == "OPTIX"
-        assert [each.type for each in given.devices if each.use] == ["OPTIX"]
-    assert devices.set_device("cpu", scene) == "the processor"
-    assert scene.cycles.device == "CPU"
-
-
-def test_without_a_gpu_auto_takes_the_processor_and_says_so(scene, monkeypatch):
-    faked_cycles(monkeypatch)
-    assert devices.set_device("auto", scene) == "the processor (no GPU found)"
-    assert scene.cycles.device == "CPU"
-    with pytest.raises(
-        Error, match=r'device = "gpu", but Cycles finds no GPU here.*"auto" or "cpu"'
-    ) as refused:
-        devices.set_device("gpu", scene)
-    assert "\n" not in str(refused.value)
-
-
-def test_an_artists_renders_follow_the_preferences(scene):
-    devices.follow_preferences("cpu", scene)
-    assert scene.cycles.device == "CPU"
-    devices.follow_preferences("auto", scene)
-    assert scene.cycles.device == "GPU"  # which is the processor where the preferences name no GPU
 
 
 @pytest.mark.parametrize(

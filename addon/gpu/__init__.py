@@ -1,0 +1,1 @@
+"""GPUs: ready kernels of Cycles, kernel caches of drivers, and the choice between GPU and processor."""
