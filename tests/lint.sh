@@ -30,6 +30,12 @@ for file in "${files[@]}"; do
   esac
 done
 .venv/bin/codespell "${files[@]}"
+if (($# == 0)); then
+  .venv/bin/zizmor --offline --quiet .github/workflows
+  if [[ -e .git ]]; then # otherwise it would read .venv and build too
+    .venv/bin/reuse lint --quiet || .venv/bin/reuse lint
+  fi
+fi
 .venv/bin/python tests/prose # all files: the rate is by folder
 if ((${#python[@]})); then
   .venv/bin/ruff format --check "${python[@]}"
