@@ -84,7 +84,7 @@ class Render:
     device: str = key(
         "auto",
         "device of Cycles",
-        choices={"auto": "a GPU if there is one", "cpu": "the processor", "gpu": ""},
+        choices={"auto": "the faster of GPU and processor", "cpu": "the processor", "gpu": ""},
         affects=(),
     )
     resolution: tuple[int, int] = key(
