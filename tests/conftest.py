@@ -10,18 +10,17 @@ import time
 from pathlib import Path
 
 import hypothesis
+import hypothesis_profiles  # noqa: F401 -- registers the profiles
 import pytest
 from processor_time import Account, Speed, processor_s
 
 ROOMS = ("unit", "blender", "render", "system")
 """Folders of tests, by their needs; see CONTRIBUTING.md."""
 
-hypothesis.settings.register_profile("firetwin", deadline=None)  # machines differ in speed
-hypothesis.settings.register_profile("quick", deadline=None, max_examples=10)
 hypothesis.settings.load_profile("firetwin")
 
 TIMES = Path(__file__).parents[1] / "build/tests"
-"""Processor seconds of the last complete runs: of files for tests/touched.py, and of single tests."""
+"""Times of the last runs: processor seconds of files (for tests/touched.py), reference seconds of tests."""
 _account, _speed = Account(), Speed()
 _before = pytest.StashKey[float]()  # processor seconds before a phase of a test
 
@@ -92,7 +91,7 @@ def pytest_sessionfinish(session):
     options = session.config.option
     if not (options.keyword or options.markexpr or any("::" in each for each in session.config.args)):
         TIMES.mkdir(parents=True, exist_ok=True)
-        for name, new in (("seconds.json", _account.files()), ("tests.json", _account.tests)):
+        for name, new in (("seconds.json", _account.files()), ("tests.json", _account.reference)):
             path = TIMES / name
             known = json.loads(path.read_text()) if path.exists() else {}
             path.write_text(json.dumps(known | new, indent=0, sort_keys=True))

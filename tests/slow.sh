@@ -38,6 +38,7 @@ slow() { # minutes command...
 
 pytest=(.venv/bin/python -m pytest -q -n "$(nproc)" --dist worksteal --max-worker-restart 0)
 slow 2 "${pytest[@]}" tests/render
+slow 3 "${pytest[@]}" tests/unit -m hypothesis --hypothesis-profile thorough -o budget_factor=10
 slow 3 tests/system/fuzz/run.sh --runs 20000
 slow 3 .venv/bin/python tests/system/fuzz/scenes.py --builds 20 --seconds 150
 slow 3 .venv/bin/python tests/system/fuzz/convert.py --each 200

@@ -8,9 +8,9 @@ minute in total on two processors, by the last times of each file, are omitted, 
 
 from __future__ import annotations
 
-import ast
 import functools
 import json
+import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -24,6 +24,7 @@ MOST = 70.0  # processor seconds of tests; two workers need a little more than h
 UNKNOWN = 5.0  # seconds of a file that has never run
 
 
+@functools.cache
 def tests() -> list[Path]:
     """Find all test files of the rooms of tests/quick.sh."""
     return [path for room in ROOMS for path in sorted((ROOT / "tests" / room).glob("test_*.py"))]
@@ -35,19 +36,32 @@ def module(path: Path) -> tuple[str, ...]:
     return (*PACKAGES[folder], *(part for part in rest if part != "__init__")) if folder in PACKAGES else ()
 
 
+IMPORT = re.compile(
+    r"^[ \t]*(?:from[ \t]+(?P<dots>\.*)(?P<origin>[\w.]*)[ \t]+import[ \t]+(?P<members>\([^)]*\)|[^(\n]+)"
+    r"|import[ \t]+(?P<modules>[^\n]+))",
+    re.MULTILINE,
+)  # a line of a docstring that looks like an import adds a name that no module has
+
+
+def _words(names: str) -> list[str]:
+    """Split the names of an import statement; omit comments and aliases."""
+    return [each.split()[0] for each in re.sub(r"#.*|[()]", "", names).split(",") if each.strip()]
+
+
 @functools.cache
 def imports(path: Path) -> frozenset[str]:
     """Find the full names of modules and members that a file imports, directly or by a test helper."""
     found = set()
     package = module(path) if path.name == "__init__.py" else module(path)[:-1]
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom):
-            above = package[: len(package) - node.level + 1] if node.level else ()
-            name = ".".join((*above, *([node.module] if node.module else [])))
-            found |= {name, *(f"{name}.{alias.name}" for alias in node.names)}
-    for helper in [ROOT / "tests/helpers" / f"{name}.py" for name in found]:
+    for match in IMPORT.finditer(path.read_text(encoding="utf-8")):
+        if match["modules"]:
+            found |= set(_words(match["modules"]))
+        else:
+            level = len(match["dots"])
+            above = package[: len(package) - level + 1] if level else ()
+            name = ".".join((*above, *([match["origin"]] if match["origin"] else [])))
+            found |= {name, *(f"{name}.{each}" for each in _words(match["members"]))}
+    for helper in [ROOT / "tests/helpers" / f"{name}.py" for name in found if "." not in name]:
         if helper.exists() and helper != path:
             found |= imports(helper)
     return frozenset(found)
@@ -77,11 +91,16 @@ def binding(path: Path) -> set[str]:
 
 
 @functools.cache
+def sources() -> list[Path]:
+    """Find all modules of the package."""
+    return [path for folder in PACKAGES for path in (ROOT / folder).rglob("*.py")]
+
+
+@functools.cache
 def users(path: Path) -> frozenset[str]:
     """Find the full names of the package's modules that import a file."""
     mine = names(path)
-    every = [each for folder in PACKAGES for each in (ROOT / folder).rglob("*.py")]
-    return frozenset(".".join(module(each)) for each in every if imports(each) & mine)
+    return frozenset(".".join(module(each)) for each in sources() if imports(each) & mine)
 
 
 def distance(test: Path, changed: Path) -> int | None:

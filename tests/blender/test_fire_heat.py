@@ -11,6 +11,7 @@ from firetwin_core import flux
 from firetwin_core import run as runs
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 
 
 @pytest.fixture(scope="module")
@@ -73,7 +74,7 @@ def test_burning_fuel_lies_in_the_cell_whose_heat_it_gives(run):
     assert np.array_equal(found.cell[fuel], row // 5 * 24 + column // 5)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @given(st.floats(60.0, 3600.0), st.floats(20.0, 1500.0))
 def test_a_cell_consumes_all_its_fuel_and_no_more(crossing, burn_out):
     age = np.linspace(0.0, crossing + 20.0 * burn_out, 40_001)
@@ -83,7 +84,7 @@ def test_a_cell_consumes_all_its_fuel_and_no_more(crossing, burn_out):
     assert np.all(np.diff(total[age > crossing]) <= 0.0)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @given(st.integers(1, 60), st.integers(1, 40), st.integers(0, 2**32 - 1))
 def test_merging_lights_keeps_their_heat_and_its_centre(count, most, seed):
     random = np.random.default_rng(seed)

@@ -15,6 +15,7 @@ from firetwin.shot.settings import scene_file as file
 from firetwin.ui import camera_list, changed_settings, job, keys, scene_file, sections
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 
 sys.path.append(str(Path(__file__).parents[1] / "core"))
 from any_settings import any_table
@@ -36,7 +37,9 @@ def key(kind, name):
     return next(part for part in schema.fields(kind) if part.name == name)
 
 
-@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=examples(25), deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
 @given(any_table(Settings, path=st.just(Path("/scenes/scene.toml"))))
 def test_any_settings_come_back_from_the_blend_file(panel, whole):
     scene_file.fill(panel.id_data, whole)

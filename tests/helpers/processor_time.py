@@ -7,8 +7,8 @@ Machines differ in speed by a factor of two to three, and busy processors slow e
 process repeats a fixed loop of interpreter and NumPy work after every few seconds of tests, and its times are
 scaled to a machine on which the loop takes `LOOP_S`. Budgets are in these reference seconds. The scaled sum
 of a room still varies by about 20 %, so a room above its budget is named, and a run fails if a room exceeds
-its budget by the factor ``budget_factor`` (1.5). Coverage and sanitizers slow the tests but not the loop: give
-``-o budget_factor=5`` there. No test measures wall time.
+its budget by the factor ``budget_factor`` (1.5). Coverage and sanitizers slow the tests but not the loop:
+give ``-o budget_factor=5`` there. No test measures wall time.
 """
 
 from __future__ import annotations

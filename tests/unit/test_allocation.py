@@ -35,6 +35,7 @@ from firetwin.stations import measures, reading
 from firetwin.stations.records import EXERCISE, Availability, Station
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 
 pytest.importorskip("scipy")
 
@@ -87,7 +88,7 @@ def brute_force(problem):
     st.integers(0, 10**6), st.integers(1, 5), st.integers(1, 3), st.sampled_from([None, 2000.0, 4000.0]),
     st.sampled_from([None, 0.0, 3000.0]), st.sampled_from([{}, {"engine": 1}, {"crew/IHC": 1, "dozer/2": 1}]),
 )  # fmt: skip
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 def test_it_is_the_best_of_all_assignments(seed, n, k, budget, escape, response):
     problem = made(seed, n, k, 3, budget=budget, escape=escape, response=response, limit=90.0)
     best, answer = brute_force(problem), containment.solve(problem, EXACT)
@@ -142,7 +143,7 @@ def test_of_the_same_resources_the_lowest_ids_go():
 
 
 @given(st.integers(0, 10**6), st.sampled_from([0.0, 1e-3, 0.3]), st.sampled_from([{}, {"engine": 2}]))
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=examples(40))
 def test_ties_are_decided_exactly_whatever_the_gap_of_the_solver(seed, gap, response):
     """Without losses and with free resources: the first hour counts, and every sent resource helps."""
     problem = made(seed, 14, 2, 4, escape=1e5, response=response, limit=120.0)

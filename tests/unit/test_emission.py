@@ -8,6 +8,7 @@ from firetwin_core import particles
 from firetwin_core.geo import HeightField
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 
 EMBER = particles.ParticleKind(particles.lift(200.0), (0.1, 0.6), (5.0, 25.0), (0.0, 4.0), (5.0, 60.0))
 PLACES = np.array([[0.0, 0.0, 20.0], [100.0, -50.0, 30.0], [5.0, 5.0, 25.0]])
@@ -149,7 +150,7 @@ def test_wind_of_each_source():
     np.testing.assert_array_equal(other.position[~moved], cloud(50.0).position[~moved])
 
 
-@settings(deadline=None, max_examples=25)
+@settings(deadline=None, max_examples=examples(25))
 @given(st.floats(0, 160), st.integers(0, 2**64 - 1))
 def test_threads_do_not_matter(time, seed):
     core.set_threads(1)

@@ -7,6 +7,7 @@ from firetwin_core import flow
 from flow_conservation import advected
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 
 CP, KAPPA, GRAVITY = 1004.7, 287.05 / 1004.7, 9.80665
 
@@ -127,7 +128,7 @@ def test_heat_is_what_was_given():
     assert excess == pytest.approx(heat["warmed"], rel=1e-3)
 
 
-@settings(deadline=None, max_examples=15)
+@settings(deadline=None, max_examples=examples(15))
 @given(st.integers(0, 2**32 - 1), st.floats(0.1, 30.0), st.floats(1.0, 20.0), st.booleans())
 def test_any_wind_is_balanced_and_makes_no_new_extremes(seed, speed, dt, hilly):
     """Random gusts of any Courant number: no divergence is left, smoke stays between 0 and its largest."""

@@ -7,6 +7,7 @@ from firetwin_core import flow
 from flow_moments import DEPTH, SPACING, VOXEL, N, moment
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 
 
 def in_wind(wind=(6.0, -3.0), period=120.0):
@@ -137,7 +138,7 @@ def test_cells_far_away_change_nothing(west):
         assert np.array_equal(one, other)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(
     cells=st.lists(st.tuples(*(st.integers(0, N - 1),) * 3), min_size=1, max_size=6),
     slope=st.floats(-0.3, 0.3),

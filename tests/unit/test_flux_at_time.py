@@ -11,6 +11,7 @@ from firetwin_core.flux import Interpolator, at_time
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from hypothesis_profiles import examples
 from small_run import NX, NY, RUN_TOML, small_fields, write_field
 
 STEP = 60.0
@@ -159,7 +160,7 @@ def opened(tmp_path_factory):
     return write
 
 
-quick = settings(deadline=None, max_examples=60, suppress_health_check=[HealthCheck.too_slow])
+quick = settings(deadline=None, max_examples=examples(60), suppress_health_check=[HealthCheck.too_slow])
 
 
 @quick

@@ -9,6 +9,7 @@ from firetwin_core import forest
 from firetwin_core.geo import LocalFrame
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 
 ORIGIN = (38.93, -120.55, 0.0)
 FRAME = LocalFrame(*ORIGIN)
@@ -223,7 +224,7 @@ def test_wrong_shapes():
         forest.grass([[1.0]], [1.0], [1.0], [[1.0, 2.0]], FRAME)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @given(st.integers(0, 2**32 - 1), st.sampled_from([0.0, 0.003, 0.05, 0.5, 1.0]), st.booleans())
 def test_a_mask_leaves_out_cells_and_changes_no_other_plant(seed, share, blocks):
     rng = np.random.default_rng(seed)
@@ -246,7 +247,7 @@ def test_a_mask_has_the_shape_of_the_fuel():
         trees(fuel_grid(3, 3), mask=np.ones((3, 2), bool))
 
 
-@settings(deadline=None, max_examples=30)
+@settings(deadline=None, max_examples=examples(30))
 @given(st.integers(0, 2**64 - 1))
 def test_grass_stands_where_its_tree_stands(seed):
     grid = fuel_grid(5, 5)

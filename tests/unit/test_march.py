@@ -5,6 +5,7 @@ import pytest
 from firetwin_core import volume
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 
 FIELDS = ("density", "fresh", "sun", "sky", "glow")
 NO_LIGHT = {
@@ -46,7 +47,7 @@ def along_x(distances, start=-100.0):
 
 
 @given(thickness=st.floats(1e-4, 0.02), end=st.floats(0.0, 600.0))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 def test_even_smoke_lets_through_what_beer_and_lambert_say(thickness, end):
     found = volume.march([slab(thickness)], *along_x([end]), light())[0, 0]
     inside = np.clip(end - 100.0, 0.0, 390.0)
@@ -80,7 +81,7 @@ def test_light_scattered_once_is_spread_after_henyey_and_greenstein(way):
 
 
 @given(st.lists(st.floats(0.0, 700.0, width=32), min_size=1, max_size=8), st.integers(0, 2**31))
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=examples(50), deadline=None)
 def test_taps_are_read_in_any_order_and_what_comes_through_only_falls(distances, seed):
     random = np.random.default_rng(seed)
     density = random.uniform(0.0, 0.01, (30, 20, 20)) * (random.uniform(size=(30, 1, 1)) > 0.5)

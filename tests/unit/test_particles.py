@@ -8,6 +8,7 @@ from firetwin_core import constants, particles
 from firetwin_core.geo import HeightField
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 
 speeds = st.tuples(*[st.floats(-50, 50)] * 3)
 
@@ -35,7 +36,7 @@ def one(x, v, wind, step, tau, lift, **options):
     return position[0], velocity[0], landed[0]
 
 
-@settings(deadline=None, max_examples=200)
+@settings(deadline=None, max_examples=examples(200))
 @given(speeds, speeds, speeds, speeds, st.floats(-30, 30), st.floats(-4, 4), st.floats(-6, 3))
 @example((1.0, 2.0, 3.0), (9.0, 0.0, 0.0), (9.0, 0.0, 0.0), (9.0, 0.0, 0.0), -9.8, 0.0, 0.0)
 def test_one_step_is_the_closed_form(velocity, wind, middle, end, lift, log_tau, log_step):

@@ -11,6 +11,7 @@ from firetwin_core.geo import LocalFrame
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from hypothesis_profiles import examples
 from small_run import NX, NY
 
 
@@ -75,7 +76,9 @@ def test_levels_of_any_number_are_levels(distance, nearer):
         assert (closer[~np.isnan(distance)] <= lod.levels(np.abs(distance))[~np.isnan(distance)]).all()
 
 
-@settings(deadline=None, max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    deadline=None, max_examples=examples(20), suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
 @given(arrays(np.float32, (4, 5, 6), elements=st.floats(0, 100, width=32)), st.floats(0.5, 200))
 def test_a_volume_keeps_its_mass(tmp_path, density, voxel):
     frame = volume.write(tmp_path / "mass.vdb", {"density": density}, voxel)

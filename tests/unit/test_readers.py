@@ -10,6 +10,7 @@ from firetwin_core.run import read_grid
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
+from hypothesis_profiles import examples
 from small_run import NX, NY, RUN_TOML, small_fields
 
 NUMBERS = [order + kind for order in "<>" for kind in ("f4", "f8", "i2", "i4", "i8", "u2", "u4", "u8")]
@@ -34,7 +35,7 @@ def as_float32(array):
         return array.astype(np.float32)
 
 
-@settings(deadline=None, max_examples=400)
+@settings(deadline=None, max_examples=examples(400))
 @given(
     array=st.sampled_from(NUMBERS).flatmap(
         lambda kind: hnp.arrays(
@@ -128,7 +129,7 @@ def test_no_data_of_integers(make_run):
     assert np.argwhere(np.isnan(runs.open(make_run(canopy_fuel=canopy)).canopy_fuel)).tolist() == [[2, 3]]
 
 
-@settings(deadline=None, max_examples=200)
+@settings(deadline=None, max_examples=examples(200))
 @given(hnp.arrays(np.float32, hnp.array_shapes(min_dims=2, max_dims=2, max_side=6)), st.data())
 def test_a_comma_may_end_any_row(tmp_path_factory, array, data):
     path = tmp_path_factory.mktemp("text") / "grid.txt"
@@ -184,7 +185,7 @@ def test_a_start_in_quotes(make_run, text, quote):
     assert started(make_run, quote + text + quote).start == "2014-09-17T04:45:00Z"
 
 
-@settings(deadline=None, max_examples=100)
+@settings(deadline=None, max_examples=examples(100))
 @given(
     st.datetimes(datetime(2, 1, 1), datetime(9998, 12, 31), timezones=st.just(UTC)), st.integers(-1439, 1439)
 )

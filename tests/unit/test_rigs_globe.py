@@ -13,6 +13,7 @@ from firetwin.shot.settings import Camera
 from hypothesis import given
 from hypothesis import settings as hypothesis
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 from sample_evening import *  # noqa: F403
 
 EARTH = pyproj.Geod(ellps="WGS84")
@@ -128,7 +129,7 @@ begins = st.fixed_dictionaries(
 
 
 @given(begins)
-@hypothesis(deadline=None, max_examples=40)
+@hypothesis(deadline=None, max_examples=examples(40))
 def test_any_flight_is_above_the_ground_and_well_clipped(whole, settings):
     shot = shot_of(whole, frames=24, **fixed(**settings))
     (view,) = shot.paths
@@ -192,7 +193,7 @@ def test_only_this_kind_of_camera_sees_the_earth_beyond(whole):
 
 
 @given(st.floats(0, 1e7), st.floats(1, 1e8), st.floats(1, 1e8))
-@hypothesis(deadline=None, max_examples=200)
+@hypothesis(deadline=None, max_examples=examples(200))
 def test_a_zoom_begins_and_ends_where_it_should(distance, begin, end):
     part = np.linspace(0.0, 1.0, 101)
     share, width = zoom.flight(*(np.full(101, v) for v in (distance, begin, end)), part)

@@ -13,6 +13,7 @@ from firetwin_core import run as runs
 from hypothesis import HealthCheck, given
 from hypothesis import settings as hypothesis
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 from small_run import FX, FY, NX, NY
 
 ORBIT = Orbit(latitude=38.905, longitude=-120.592, radius=400.0, height=300.0, speed=5.0, bearing=90.0)
@@ -64,7 +65,9 @@ def test_without_a_place_it_circles_the_middle_of_the_run(orbit):
 
 
 @given(st.floats(-50, 50), st.floats(10, 5000), st.floats(1, 3000), st.floats(-720, 720), st.floats(0, 500))
-@hypothesis(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=25)
+@hypothesis(
+    suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=examples(25)
+)
 def test_it_keeps_its_distance_and_its_clearance(orbit, speed, radius, height, bearing, clearance):
     changes = {"speed": speed, "radius": radius, "height": height, "bearing": bearing}
     shot, path = orbit(**changes, clearance=clearance)

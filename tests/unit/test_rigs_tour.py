@@ -13,6 +13,7 @@ from firetwin.shot.settings import Camera, scene_file
 from hypothesis import HealthCheck, given
 from hypothesis import settings as hypothesis
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 from sample_evening import *  # noqa: F403
 
 STOPS = (Stop("Pollock Pines"), Stop("ignition", height=900.0), Stop("head", distance=3000.0))
@@ -41,7 +42,7 @@ def at(latitude, longitude, **more):
     st.integers(1, 400),
     st.lists(st.tuples(st.floats(0, 50), st.floats(0.01, 50)), min_size=1, max_size=8),
 )
-@hypothesis(deadline=None, max_examples=200)
+@hypothesis(deadline=None, max_examples=examples(200))
 def test_the_frames_are_divided_among_the_stops(frames, times):
     share = shares([Stop(stay=stay, travel=travel) for stay, travel in times], frames)
     assert share.shape == (frames, len(times))
@@ -110,7 +111,9 @@ places = st.builds(
 
 
 @given(st.lists(places, min_size=1, max_size=4), st.floats(0, 300), st.booleans(), st.booleans())
-@hypothesis(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=20)
+@hypothesis(
+    suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=examples(20)
+)
 def test_it_never_comes_below_its_clearance_and_passes_every_stop(whole, stops, clearance, over, head):
     stops = (*stops, Stop("head")) if head else tuple(stops)
     shot = shot_of(whole, frames=240, stops=stops, clearance=clearance, over_ridges=over)

@@ -21,6 +21,7 @@ from firetwin.shot.sections import TerrainSettings, Time
 from firetwin.shot.settings import Camera, OtherRun, Settings, scene_file
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "king_fire.toml"
 
@@ -284,7 +285,7 @@ def test_every_number_has_bounds():
 # Any settings come back from their text.
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(any_table(Settings, path=st.just(Path("/scenes/scene.toml"))))
 def test_settings_come_back_from_their_text(tmp_path_factory, whole):
     folder = tmp_path_factory.getbasetemp()

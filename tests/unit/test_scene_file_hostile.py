@@ -10,6 +10,7 @@ import scene_fuzz
 from firetwin.shot.cameras.rigs import kinds
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 
 
 @pytest.fixture(scope="module")
@@ -18,7 +19,7 @@ def folder(tmp_path_factory):
 
 
 @pytest.mark.parametrize("kind", sorted(kinds()))
-@settings(max_examples=25, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(25), suppress_health_check=list(HealthCheck))
 @given(data=st.data())
 def test_any_scene_file_is_planned_or_refused_politely(folder, kind, data):
     path = folder / "scene.toml"

@@ -22,6 +22,7 @@ from firetwin.run.score.grid import ScoreGrid
 from firetwin.run.score.overlap import Overlap
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 from matplotlib import image
 from matplotlib.colors import to_rgb
 
@@ -135,7 +136,7 @@ def test_hausdorff_and_areas_by_shapely_itself():
         assert found["jaccard"] == pytest.approx(one.intersection(two).area / one.union(two).area)
 
 
-@settings(deadline=None, max_examples=12)
+@settings(deadline=None, max_examples=examples(12))
 @given(st.integers(0, 2**32 - 1), st.integers(1, 40))
 def test_cells_by_scikit_learn(seed, side):
     metrics = pytest.importorskip("sklearn.metrics")

@@ -5,6 +5,7 @@ import pytest
 from firetwin_core import volume
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 from plumes import CELL, briggs, burn, read, smoke, steady
 
 
@@ -14,7 +15,7 @@ def burned(cells, time, burn_time):
     return np.sum(fuel * CELL**2 * np.clip((time - arrival) / burn_time, 0.0, 1.0))
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @given(
     time=st.floats(-100.0, 20_000.0),
     max_age=st.floats(30.0, 8000.0),
@@ -44,7 +45,7 @@ def test_emitted_is_airborne_and_left(time, max_age, interval, burn_time, block,
     assert found.left >= -1e-9 * emitted
 
 
-@settings(deadline=None, max_examples=12)
+@settings(deadline=None, max_examples=examples(12))
 @given(time=st.floats(60.0, 6000.0), voxel=st.floats(90.0, 250.0), seed=st.integers(0, 99))
 @example(time=60.0, voxel=197.6875, seed=34)  # few voxels, all rounded down: 3.2e-4
 def test_a_file_holds_the_airborne_mass(tmp_path_factory, time, voxel, seed):

@@ -7,6 +7,7 @@ from firetwin_core import flow, volume
 from flow_moments import VOXEL, N, moment
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 
 THIN, PARTS = 5.0e-5, (0.2, 0.5)
 SLANTED = np.array([0.55, -0.46, 0.70]) / np.linalg.norm([0.55, -0.46, 0.70])
@@ -78,7 +79,7 @@ def seen(bricks):
     return [*marched, volume.optical_depth([bricks], ends[0], slanted[0], slanted[1][:, 0])]
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=examples(12), deadline=None)
 @given(
     seed=st.integers(0, 99),
     cells=st.integers(1, 12),

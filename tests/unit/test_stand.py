@@ -8,6 +8,7 @@ from firetwin_core.geo import LocalFrame
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
+from hypothesis_profiles import examples
 
 FRAME = LocalFrame(38.93, -120.55, 0.0)
 NAMES = ("cell", "position", "size_class", "model", "scale", "rotation", "width", "key")
@@ -112,7 +113,7 @@ FIELD[0][2, 3] = 0.0
 ALL = stand(FIELD, seed=3)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(arrays.arrays(bool, (6, 7)))
 def test_a_cells_trees_do_not_hang_on_which_others_are_asked_for(mask):
     found = stand(FIELD, seed=3, mask=mask)
@@ -121,7 +122,7 @@ def test_a_cells_trees_do_not_hang_on_which_others_are_asked_for(mask):
         np.testing.assert_array_equal(getattr(found, name), getattr(ALL, name)[chosen], name)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(
     arrays.arrays(float, (6, 7), elements=st.floats(0.0, 1.0)),
     arrays.arrays(float, (6, 7), elements=st.floats(0.0, 1.0)),

@@ -6,6 +6,7 @@ from firetwin.shot.terrain import noise
 from firetwin_core import set_threads, terrain
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 
 OCTAVES = ((210.0, 1.0), (52.0, 0.3))
 
@@ -63,7 +64,7 @@ def closed(row, column, triangle, rows, columns):
     assert len(set(zip(row, column, strict=True))) == len(row)
 
 
-@settings(deadline=None, max_examples=15)
+@settings(deadline=None, max_examples=examples(15))
 @given(st.integers(2, 20), st.integers(2, 20), st.integers(0, 99), st.floats(0.2, 0.8), st.floats(0.0, 60.0))
 def test_the_mesh_is_nowhere_farther_off_than_its_tolerance(rows, columns, seed, roughness, most):
     place = grid(rough(rows, columns, seed, roughness))

@@ -8,6 +8,7 @@ import pytest
 from firetwin_core.run import read_grid
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +33,7 @@ def nearest_float32(text: str) -> np.float32:
     )
 
 
-@settings(deadline=None, max_examples=300)
+@settings(deadline=None, max_examples=examples(300))
 @given(st.decimals(-(10**30), 10**30, allow_nan=False, allow_infinity=False) | st.floats(-1e30, 1e30))
 @example(1 + 2**-24)
 @example("1.00000005960464477539062500000000000000000000000000001")

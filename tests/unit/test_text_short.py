@@ -9,6 +9,7 @@ from firetwin_core import InputError
 from firetwin_core import run as runs
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 
 AFTER = "\n# the end of a file is read in the plain way; this keeps it away from the numbers\n"
 
@@ -43,7 +44,7 @@ def words(draw):
     return draw(st.sampled_from(["", "-"])) + body + exponent
 
 
-@settings(deadline=None, max_examples=300)
+@settings(deadline=None, max_examples=examples(300))
 @given(st.lists(words(), min_size=1, max_size=30))
 @example(["8.406433e+03", "-0.000000e+00", "0", ".5", "5.", "5.e+01", ".5E-3", "123456789012345", "1e22"])
 @example(["16777217", "16777217.0000001", "16777216.9999999", "1e-22", "999999999999999e+22", "1e-023"])

@@ -6,6 +6,7 @@ from firetwin.imaging.credits import Credits
 from firetwin.render import manifest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 
 MANY = Credits(
     ("Data SIO, NOAA, U.S. Navy, NGA, GEBCO", "Landsat / Copernicus", "Airbus", "Maxar Technologies") * 2,
@@ -49,7 +50,7 @@ def test_a_panorama_has_a_block_below_the_horizon_of_each_eye():
         assert letters(said(block)) == letters("Google Maps" + "; ".join(MANY.data))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(
     st.lists(st.text(st.characters(codec="utf-8", exclude_categories=["C", "Z"]), max_size=40), max_size=30),
     st.lists(st.text("abc XYZ", min_size=1, max_size=12), max_size=2),

@@ -8,6 +8,7 @@ from firetwin.tiles.cut import Budget, Views
 from firetwin.tiles.loader import Loader
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 from tile_views import HERE, looking, names
 from tilesets import GLB, Memory, box, load, subtree, tile, tileset
 
@@ -81,7 +82,7 @@ def brute(files, views, eyes, target):
     return sorted(found) if certain else None
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @given(st.integers(0, 2**32 - 1), st.integers(1, 12), st.sampled_from([4.0, 16.0, 64.0]))
 def test_a_choice_is_what_brute_force_over_frames_and_views_finds(seed, count, target):
     rng = np.random.default_rng(seed)

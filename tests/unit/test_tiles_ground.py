@@ -5,6 +5,7 @@ import pytest
 from firetwin_core import tiles
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 
 STEP, SIDE = 2.0, 160
 Y, X = np.meshgrid(STEP * np.arange(SIDE), STEP * np.arange(SIDE), indexing="ij")
@@ -103,7 +104,7 @@ def test_planes_stay_at_the_border_and_beside_holes():
     assert (shown[box] == tiles.BUILDING).all()
 
 
-@settings(max_examples=50)
+@settings(max_examples=examples(50))
 @given(st.integers(0, 10_000))
 def test_ground_is_never_above_the_surface(seed):
     rng = np.random.default_rng(seed)

@@ -10,6 +10,7 @@ from firetwin.tiles.place import ecef_to_frame
 from firetwin_core import geo, lod
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 from tilesets import GLB, Memory, tile, tileset
 
 AXES = np.array([6378137.0, 6378137.0, 6356752.314245179])
@@ -36,7 +37,7 @@ places = st.tuples(st.floats(-90, 90), st.floats(-180, 180), st.floats(10.0, 4e7
 
 
 @given(st.lists(places, min_size=1, max_size=3), st.integers(0, 2**32 - 1))
-@settings(deadline=None, max_examples=150)
+@settings(deadline=None, max_examples=examples(150))
 def test_of_a_hidden_sphere_no_point_is_seen(eyes, seed):
     rng = np.random.default_rng(seed)
     eyes = np.array([at(*each) for each in eyes])
@@ -53,7 +54,7 @@ def test_of_a_hidden_sphere_no_point_is_seen(eyes, seed):
 
 
 @given(places, st.integers(0, 2**32 - 1))
-@settings(deadline=None, max_examples=150)
+@settings(deadline=None, max_examples=examples(150))
 def test_of_small_spheres_nearly_all_that_are_behind_are_hidden(eye, seed):
     rng = np.random.default_rng(seed)
     latitude, longitude = np.degrees(np.arcsin(rng.uniform(-1, 1, 500))), rng.uniform(-180, 180, 500)

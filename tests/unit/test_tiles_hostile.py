@@ -9,6 +9,7 @@ from firetwin.tiles import json_text
 from firetwin.tiles.loader import Loader
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 from tile_samples import SAMPLES
 from tilesets import Memory, as_bytes
 
@@ -102,7 +103,7 @@ def test_damaged_bytes(name):
         assert error is None or error.path in files
 
 
-@settings(deadline=None, max_examples=300)
+@settings(deadline=None, max_examples=examples(300))
 @given(st.binary(max_size=60))
 def test_any_bytes_are_json_or_refused(data):
     try:

@@ -17,6 +17,7 @@ from firetwin.tiles.make import building_mesh, glb, lattice, pictures, terrain_t
 from firetwin_core import sensor
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 from PIL import Image
 
 TO_EARTH = pyproj.Transformer.from_crs(4979, 4978)
@@ -65,7 +66,7 @@ def test_earth_centred_coordinates_are_those_of_proj():
     assert np.abs(ecef(*np.radians(place[:2]), place[2]) - expected).max() < 1e-7
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(st.integers(2, 90), st.integers(2, 90), st.integers(0, 3))
 def test_every_point_of_the_surface_is_a_vertex_of_the_leaves(rows, columns, levels):
     given_surface = surface(rows, columns)

@@ -6,6 +6,7 @@ import tile_views
 from firetwin_core import lod, tiles
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 
 R, U, C, P, B, S, H = (
     *(tiles.REPLACES, tiles.UNCONDITIONAL, tiles.CONTENT, tiles.PENDING),
@@ -70,13 +71,13 @@ def trees(draw):
     return np.array(parent), np.array(flags), np.array(error)
 
 
-@settings(deadline=None, max_examples=100)
+@settings(deadline=None, max_examples=examples(100))
 @given(trees(), st.integers(0, 50).map(float))
 def test_a_cut_is_what_recursion_finds(tree, target):
     assert select(*tree, target).tiles.tolist() == brute(*tree, target)
 
 
-@settings(deadline=None, max_examples=150)
+@settings(deadline=None, max_examples=examples(150))
 @given(trees(), st.integers(0, 20).map(float), st.integers(0, 12))
 def test_a_budget_raises_the_error_no_more_than_it_must(tree, target, most):
     parent, flags, error = tree
@@ -153,7 +154,7 @@ def random_volumes(rng, n):
     return rng.normal(0, 60, (n, 3)), axis, rng.uniform(0, 12, (n, 3)), rng.choice([0.0, 0.0, 5.0], n)
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=examples(40))
 @given(st.integers(0, 2**32 - 1), st.integers(1, 30))
 def test_errors_are_those_of_every_view(seed, count):
     rng = np.random.default_rng(seed)

@@ -12,6 +12,7 @@ from firetwin.shot.cameras.rigs._key import CameraKey
 from firetwin.shot.settings import Settings, scene_file, toml_update
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 
 HERE = Path("/scenes/scene.toml")
 EXAMPLE = Path(__file__).parents[2] / "examples" / "king_fire.toml"
@@ -152,7 +153,7 @@ def test_line_ends_and_fresh_files(tmp_path):
 ANY = any_table(Settings, path=st.just(HERE))
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=examples(10), deadline=None)
 @given(ANY, ANY)
 def test_any_scene_file_saved_over_any_other_reads_back(before, after):
     there = "\n".join(f"{line}\n# {i}" for i, line in enumerate(scene_file.text(before).split("\n")))

@@ -18,6 +18,7 @@ from firetwin_core import run as runs
 from hypothesis import HealthCheck, given
 from hypothesis import settings as hypothesis
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 from small_run import FX, FY, NX, NY
 
 TIMES = [f"2014-09-17T04:4{i}:00Z" for i in (5, 6, 7)]  # the small run's three
@@ -215,7 +216,9 @@ def test_a_missing_track_and_a_folder_are_errors(tmp_path):
 
 
 @given(st.binary(max_size=300), st.sampled_from(["gpx", "kml", "csv"]))
-@hypothesis(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=60)
+@hypothesis(
+    suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=examples(60)
+)
 def test_any_bytes_are_a_track_or_an_error(tmp_path, data, kind):
     path = tmp_path / f"any.{kind}"
     path.write_bytes(data)

@@ -6,6 +6,7 @@ import pytest
 from firetwin_core import lod
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis_profiles import examples
 
 DOWN = np.eye(3)  # a camera without rotation looks down
 NORTH = np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]], float)  # -z of the camera is +y of the world
@@ -141,7 +142,7 @@ paths = st.tuples(
 )
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @given(st.integers(0, 2**32 - 1), paths)
 def test_every_ball_with_a_point_in_a_picture_is_seen(seed, path):
     rng = np.random.default_rng(seed)
@@ -157,7 +158,7 @@ def test_every_ball_with_a_point_in_a_picture_is_seen(seed, path):
         assert (found | ~in_a_frame(point, camera, rotation, half, parallel, reach)).all()
 
 
-@settings(deadline=None, max_examples=30)
+@settings(deadline=None, max_examples=examples(30))
 @given(st.integers(0, 2**32 - 1), paths)
 def test_points_are_seen_exactly(seed, path):
     """A ball of no radius is in a picture or not: no frame of a long path is blurred into others."""
@@ -169,7 +170,7 @@ def test_points_are_seen_exactly(seed, path):
     assert (found != in_a_frame(place, camera, rotation, half, parallel)).mean() < 1e-3  # on an edge
 
 
-@settings(deadline=None, max_examples=30)
+@settings(deadline=None, max_examples=examples(30))
 @given(st.integers(0, 2**32 - 1), paths)
 def test_distances_are_those_from_the_nearest_frame(seed, path):
     rng = np.random.default_rng(seed)
@@ -261,7 +262,7 @@ def ray_is_free(nodes, start, ends):
     return free
 
 
-@settings(deadline=None, max_examples=25)
+@settings(deadline=None, max_examples=examples(25))
 @given(st.integers(0, 2**32 - 1), st.integers(1, 4))
 def test_no_ball_in_sight_is_called_hidden(seed, frames):
     """Rays to points of balls that meet no triangle of the ground: such balls are seen."""
@@ -322,7 +323,7 @@ def test_shadows_end_on_the_ground():
     assert seen(beside, 100.0, views={"sun": slope(45), "occluder": level}, **views) == [False]
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=examples(40))
 @given(st.integers(0, 2**32 - 1), st.sampled_from([1, 3, 40]))
 def test_no_shadow_slips_through(seed, frames):
     """Spheres up the sun's rays from a point in a narrow view count; not all others do.

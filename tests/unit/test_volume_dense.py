@@ -11,6 +11,7 @@ from firetwin_core import InputError, lod, volume
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from hypothesis_profiles import examples
 from plumes import read
 
 NORTH = np.column_stack([[1, 0, 0], [0, 0, 1], [0, -1, 0]]).astype(float)  # looks north
@@ -69,7 +70,9 @@ def test_several_fields_are_what_openvdb_writes(tmp_path, half, shape):
     assert frame.mass == pytest.approx(fields["density"].sum(dtype=np.float64), rel=1e-12)
 
 
-@settings(deadline=None, max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    deadline=None, max_examples=examples(20), suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
 @given(
     arrays(np.float32, SHAPES, elements=st.floats(-100, 100, width=32), fill=st.just(0)),
     st.floats(0, 50, width=32),
