@@ -1,0 +1,95 @@
+"""The listing of the extension for Blender, made by Blender's own command from small zips."""
+
+import hashlib
+import importlib.util
+import json
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+PORTABLE = Path(__file__).resolve().parents[2] / "cpp/portable"
+ADDRESS = "https://example.org/download/v{version}"
+PLATFORMS = {
+    "linux-x64": "manylinux_2_28_x86_64",
+    "macos-arm64": "macosx_11_0_arm64",
+    "windows-x64": "win_amd64",
+}
+
+pytestmark = pytest.mark.skipif(
+    importlib.util.find_spec("bpy") is None, reason="the command comes with Blender"
+)
+
+
+@pytest.fixture(scope="module")
+def extension():
+    spec = importlib.util.spec_from_file_location("extension", PORTABLE / "extension.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="module")
+def present(extension):
+    return extension.tomllib.loads((extension.ROOT / "pyproject.toml").read_text())["project"]["version"]
+
+
+@pytest.fixture
+def write_zip(tmp_path, extension, present):
+    """Write a zip with the manifest that `extension.py` makes, and empty wheels."""
+
+    def write(version, platform):
+        wheels = [
+            Path(f"firetwin_core-{version}-{python}-{python}-{PLATFORMS[platform]}.whl")
+            for python in ("cp311", "cp313")
+        ]
+        wheels.append(Path("tqdm-4.67.1-py3-none-any.whl"))
+        manifest = extension.manifest(wheels, [platform], present)
+        path = tmp_path / f"firetwin-{version}-{platform}.zip"
+        with zipfile.ZipFile(path, "w") as archive:
+            archive.writestr("blender_manifest.toml", manifest.replace(present, version))
+            archive.writestr("__init__.py", "")
+            for wheel in wheels:
+                archive.writestr(f"wheels/{wheel}", "")
+        return path
+
+    return write
+
+
+def make(out, zips):
+    command = [sys.executable, PORTABLE / "index.py", out, ADDRESS, *zips]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def test_listing_describes_each_zip(tmp_path, write_zip, present):
+    zips = [
+        write_zip(version, platform) for version in ("0.0.9", present, "0.0.10") for platform in PLATFORMS
+    ]
+    made = make(tmp_path / "out", zips)
+    assert made.returncode == 0, made.stderr
+    for name, version in (("index.json", present), ("index-previous.json", "0.0.10")):
+        listing = json.loads((tmp_path / "out" / name).read_text())
+        assert (listing["version"], listing["blocklist"]) == ("v1", [])
+        assert [entry["platforms"] for entry in listing["data"]] == [[platform] for platform in PLATFORMS]
+        for entry, platform in zip(listing["data"], PLATFORMS, strict=True):
+            zipped = tmp_path / f"firetwin-{version}-{platform}.zip"
+            assert (entry["id"], entry["version"]) == ("firetwin", version)
+            assert entry["blender_version_min"] == "4.5.0"
+            assert entry["python_versions"] == ["3.11", "3.13"]
+            assert entry["archive_url"] == f"https://example.org/download/v{version}/{zipped.name}"
+            assert entry["archive_size"] == zipped.stat().st_size
+            assert entry["archive_hash"] == "sha256:" + hashlib.sha256(zipped.read_bytes()).hexdigest()
+
+
+def test_missing_platform_and_bad_zip_are_refused(tmp_path, write_zip, present):
+    zips = [write_zip(present, platform) for platform in PLATFORMS]
+    made = make(tmp_path / "out", zips[1:])
+    assert made.returncode == 1
+    assert "missing: ['linux-x64']" in made.stderr
+    zips[0].write_bytes(b"not a zip")
+    made = make(tmp_path / "out", zips)
+    assert made.returncode == 1
+    assert "Blender accepted 2 of 3 zips" in made.stderr
+    assert not (tmp_path / "out").exists()
