@@ -2,8 +2,8 @@
 
 ZIPs are the extension in one or two versions, one zip per platform. Blender's `server-generate` describes
 them. The newest version goes to OUT/index.json, the version before it to OUT/index-previous.json, so that
-users can go back. There are two files because Blender (4.5 to 5.2) does not compare versions: of two compatible
-archives in one file it shows the last and installs the first.
+users can go back. There are two files because Blender (4.5 to 5.2) does not compare versions: of two
+compatible archives in one file it shows the last and installs the first.
 
 ADDRESS is the address of the archives without their names; `{version}` in it is replaced.
 """
