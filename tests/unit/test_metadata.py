@@ -11,7 +11,7 @@ def test_one_version():
     manifest = tomllib.loads((ROOT / "addon/blender_manifest.toml").read_text())
     assert manifest["version"] == version
     assert f"\nversion: {version}\n" in (ROOT / "CITATION.cff").read_text()
-    assert f"\n## {version} (" in (ROOT / "CHANGELOG.md").read_text()
+    assert f"\n## {version} - " in (ROOT / "CHANGELOG.md").read_text()
 
 
 def test_licence_text_is_where_people_and_reuse_expect_it():
