@@ -254,10 +254,19 @@ def _parser() -> argparse.ArgumentParser:
     build.add_argument(
         "--run", metavar="NAME", type=types.name, help="name of the run of [[runs]] (the first run)"
     )
+    build.add_argument(
+        "--volumes", action="store_true", help="also write the smoke volumes of all frames, for a farm"
+    )
     tiles.add_access(build)
 
-    bake = command("bake", "write the smoke volumes that the scene needs", help_texts.BAKE)
+    bake = command("bake", "prepare smoke for render, or write smoke volumes", help_texts.BAKE)
     _scene(bake)
+    bake.add_argument(
+        "--volumes", action="store_true", help="write the smoke volumes that a .blend file of build shows"
+    )
+    bake.add_argument(
+        "--frames", metavar="LIST", help="frames of these volumes, such as 1-10 (all that cameras film)"
+    )
 
     render = command("render", "render pictures and films", help_texts.RENDER.format(passes=_passes()))
     _scene(render)

@@ -167,19 +167,37 @@ def build(arguments: argparse.Namespace) -> None:
 
     if arguments.out.suffix != ".blend":
         raise UsageError(f"-o: {arguments.out} does not end in .blend; name a .blend file")
-    build.run(_find_source(arguments), arguments.out, Reporter(), say, access=_tile_access(arguments))
+    access, source = _tile_access(arguments), _find_source(arguments)
+    build.run(source, arguments.out, Reporter(), say, access=access, volumes=arguments.volumes)
     result(arguments.out)
 
 
 def bake(arguments: argparse.Namespace) -> None:
-    """Write the smoke volumes."""
+    """Prepare smoke for `render`, or write smoke volumes."""
+    from .errors import UsageError
     from .jobs import bake
 
-    folders = bake.run(_find_source(arguments), Reporter("smoke"), say)
+    source, frames = _find_source(arguments), None
+    if arguments.frames is not None:
+        if not arguments.volumes:
+            raise UsageError("--frames: selects volumes; add --volumes")
+        frames = _frames(arguments.frames, source)
+    folders = bake.run(source, Reporter("smoke"), say, volumes=arguments.volumes, frames=frames)
     if not folders:
         say("nothing to bake: this scene has no smoke ([smoke] enabled = false)")
     for folder in folders:
         result(folder)
+
+
+def _frames(text: str, source: ShotSource) -> list[int]:
+    """Read a list of frames of a shot."""
+    from .errors import UsageError
+    from .shot.schema.frame_list import FrameList
+
+    try:
+        return FrameList(text).frames(source.settings().time.frames)
+    except ValueError as error:
+        raise UsageError(f"--frames: {error}") from None
 
 
 def render(arguments: argparse.Namespace) -> None:

@@ -67,12 +67,15 @@ observations of VIIRS are not used. The passes imager_short and imager_long of a
 images. Needs rasterio (pip install 'firetwin[raster]')."""
 
 BUILD = """\
-The file can be opened, played and rendered without the add-on. Its smoke volumes remain in the cache
-folder."""
+The file can be opened, played and rendered without the add-on. Its smoke volumes are files in the cache
+folder, about 50 MB per frame of the example. Without --volumes they are written later: by the add-on for
+the frames that you choose, by the add-on before a frame is rendered in Blender, or by `bake --volumes`. A
+frame without volumes says so in the picture. `render` does not need them."""
 
 BAKE = """\
-`render` and `build` bake missing volumes. Use `bake` to do this work separately, or to inspect the
-volumes."""
+Without --volumes, `bake` does the work on smoke that `render` otherwise does: it solves the flow, or writes
+the volumes of smoke that Blender draws. With --volumes it writes the volumes that a .blend file of `build`
+shows; the file itself does not change."""
 
 RENDER = """\
 DIR/CAMERA/PASS/CAMERA_PASS_000001.png   and .exr, by pass

@@ -98,6 +98,12 @@ def scene(uid: int) -> bpy.types.Scene:
     return match
 
 
+def find_stage(scene: bpy.types.Scene) -> Stage | None:
+    """Return the owned part of a scene; None if it is missing."""
+    root = _root(scene)
+    return None if root is None else Stage(scene, root)
+
+
 def stage(scene: bpy.types.Scene) -> Stage:
     """Return the owned part of a scene; create it if it is missing."""
     root = _root(scene)

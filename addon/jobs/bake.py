@@ -1,13 +1,15 @@
-"""Bake job: writes the smoke volumes of the whole shot."""
+"""Bake job: prepares the smoke of a shot for `render`, or writes the volumes that .blend files show."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from ..errors import Error
 from ..progress import READING, MessageCallback, Progress, no_message, notify_if_slow, silent
 from ..shot.comparison import for_view
 from ..shot.runs import scene_runs
+from ..shot.shot import Shot
 from ..shot.source import ShotSource
 from . import worker
 
@@ -17,18 +19,24 @@ def run(
     progress: Progress = silent,
     tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
-    together: bool = False,
+    volumes: bool = False,
+    frames: Sequence[int] | None = None,
 ) -> list[Path]:
-    """Write the missing smoke volumes, separately for each camera as `render` uses them.
+    """Prepare the smoke separately for each camera, as `render` uses it, or write volumes.
+
+    `render` reads volumes if Blender draws the smoke. It integrates solved smoke along camera rays, which
+    needs the solved flow alone.
 
     Parameters
     ----------
-    together
-        Write the volumes of one scene with all cameras.
+    volumes
+        Write the volumes of one scene with all cameras, which .blend files show.
+    frames
+        Frames of these volumes; None: all that cameras film.
 
     Returns
     -------
-    Cache folders of the volumes; empty without smoke.
+    Cache folders of the volumes, and of flows without volumes; empty without smoke.
 
     Raises
     ------
@@ -39,7 +47,7 @@ def run(
         shot = choice.shot()
     if not shot.settings.smoke.enabled:
         return []
-    task = {"choice": choice.plain(), "together": together}
+    task = {"choice": choice.plain(), "volumes": volumes, "frames": None if frames is None else list(frames)}
     try:
         places = worker.run(f"{__name__}:in_process", task, progress, stop=stop, tell=tell, blender=False)
     except worker.EndedError as error:
@@ -48,19 +56,36 @@ def run(
 
 
 def in_process(
-    choice: dict[str, str], together: bool, progress: Progress, tell: MessageCallback
+    choice: dict[str, str],
+    volumes: bool,
+    frames: list[int] | None,
+    progress: Progress,
+    tell: MessageCallback,
 ) -> list[str]:
-    """Bake and return the folders of the volumes."""
-    from ..smoke import bake, plume_mass, sources
+    """Prepare the smoke and return its folders."""
+    from ..smoke import plume_mass
 
     shot = ShotSource(**choice).shot()
     for text in shot.warnings():
         tell(text)
-    shots = [shot] if together else [for_view(shot, view) for view in scene_runs.views(shot.settings)]
-    places = {bake.folder(each, progress): each for each in shots}
-    for place in places.values():
-        if cost := sources.select(place).cost():
-            tell(cost.describe())
-    made = [str(bake.bake(place, progress)) for place in places.values()]
-    tell(plume_mass.describe(shot))
-    return made
+    shots = [shot] if volumes else [for_view(shot, view) for view in scene_runs.views(shot.settings)]
+    made = [place for each in shots for place in _prepare(each, volumes, frames, progress, tell)]
+    if frames is None:
+        tell(plume_mass.describe(shot))
+    return [str(place) for place in dict.fromkeys(made)]
+
+
+def _prepare(
+    shot: Shot, volumes: bool, frames: list[int] | None, progress: Progress, tell: MessageCallback
+) -> list[Path]:
+    """Write the volumes of a shot, or solve its flow if that is all that `render` needs."""
+    from ..smoke import bake, sources
+
+    source = sources.select(shot)
+    if frames is None and (cost := source.cost()):
+        tell(cost.describe())
+    if volumes or not sources.is_integrated(shot):
+        return [bake.bake(shot, progress, frames)]
+    with source.in_use():
+        source.prepare(bake.shot_frames(shot), progress)
+    return [shot.settings.cache.absolute() / name for name in sorted(source.solutions())]

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from .. import files
 from ..errors import disk_is_full, full_disk_error, input_error, is_nearly_full
-from ..progress import READING, MessageCallback, Progress, no_message, notify_if_slow, silent
+from ..progress import READING, MessageCallback, Progress, count, no_message, notify_if_slow, silent
 from ..shot.cameras import camera_warnings
 from ..shot.source import ShotSource
 from . import worker
@@ -23,11 +23,14 @@ def run(
     tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
     access: TileAccess | None = None,
+    volumes: bool = False,
 ) -> None:
     """Build the scene and save it as `out`, a .blend file.
 
     Parameters
     ----------
+    volumes
+        Also write the smoke volumes of all frames that cameras film.
     access
         Access to tiles.
 
@@ -43,9 +46,14 @@ def run(
     pack = ("pack", "the .blend file (render makes pictures without one)")
     selection.prepare(choice, (), progress, tell, stop, access, [pack])
     imagery.prepare(choice, (), progress, tell, stop, access)
-    worker.run(
-        f"{__name__}:in_blender", {"choice": choice.plain(), "out": str(out)}, progress, stop=stop, tell=tell
-    )
+    task = {"choice": choice.plain(), "out": str(out), "volumes": volumes}
+    missing = worker.run(f"{__name__}:in_blender", task, progress, stop=stop, tell=tell)
+    if missing:
+        scene, have = choice.scene or choice.run, "has" if missing == 1 else "have"
+        tell(
+            f"{count(missing, 'frame')} of {out.name} {have} no smoke volume yet; to write volumes, choose "
+            f"Firetwin > Scene > Smoke of frame in Blender, or run: firetwin bake --volumes {scene}"
+        )
 
 
 def _writable(out: Path) -> None:
@@ -64,22 +72,30 @@ def _writable(out: Path) -> None:
         raise input_error(out, "is write-protected; choose another name")
 
 
-def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: MessageCallback) -> None:
-    """Build the scene and save it."""
+def in_blender(
+    choice: dict[str, str], out: str, volumes: bool, progress: Progress, tell: MessageCallback
+) -> int:
+    """Build the scene and save it; return the number of frames whose smoke volume is missing."""
     from ..blender import viewport
-    from ..scene.smoke import build as smoke
+    from ..scene.smoke import notice, volume_files
+    from ..shot.settings import scene_file
     from ..smoke import bake
     from . import worker_scene
 
-    shot = ShotSource(**choice).shot()
+    source = ShotSource(**choice)
+    shot = source.shot()
     for text in (*shot.warnings(), *camera_warnings.mono_vr(shot.settings.cameras)):
         tell(text)
-    if shot.settings.smoke.enabled:
+    if volumes and shot.settings.smoke.enabled:
         bake.bake(shot, progress)
-    worker_scene.build_scene(shot, progress, tell)
+    stage = worker_scene.build_scene(shot, progress, tell)
+    volume_files.store_source(stage, scene_file.portable(source.settings()), source.beside)
+    notice.build(shot, stage)
     viewport.prepare_file()
-    smoke.make_paths_relative(Path(out))
+    volume_files.make_paths_relative(Path(out))
     save(Path(out), relative_remap=False)
+    filmed = bake.shot_frames(shot) if shot.settings.smoke.enabled else ()
+    return len(volume_files.missing(stage, filmed))
 
 
 def save(out: Path, **how: bool) -> None:

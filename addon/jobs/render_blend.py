@@ -100,13 +100,16 @@ def in_blender(
     from ..render import engine, layers, sharing, video
     from ..render import pictures as renderer
     from ..render.picture import Picture
-    from ..smoke import prefetch
+    from ..scene.smoke import volume_files
+    from ..smoke import bake, prefetch, sources
     from . import device
 
     bpy.ops.wm.open_mainfile(filepath=blend, load_ui=False)
     stage = owned.stage(bpy.data.scenes[scene])
     layers.repair(stage.scene)
     shot = _with_scene_settings(ShotSource(**choice).shot(), stage.scene)
+    if shot.settings.smoke.enabled and not sources.is_integrated(shot):
+        volume_files.set_folder(stage, bake.folder(shot))  # in which `prefetch` writes missing volumes
     todo = [Picture(*picture) for picture in pictures]
     if stage.scene.render.engine == "CYCLES":
         devices.use(device.select(shot.settings, count_frames(todo), tell), stage.scene)

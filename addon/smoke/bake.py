@@ -26,7 +26,17 @@ from .sources import Source
 from .sources._single import SHOWN
 from .view import resolution, shot_frames
 
-__all__ = ["ahead", "bake", "estimate", "file", "folder", "resolution", "shot_frames"]
+__all__ = [
+    "ahead",
+    "bake",
+    "estimate",
+    "file",
+    "folder",
+    "marker",
+    "resolution",
+    "shot_frames",
+    "volume_path",
+]
 
 _FRAME_MEMORY = 2 << 30  # bytes of memory per frame; measured: 0.5 GB, and 1.9 GB for a flow
 _FRAME_PROCESSORS = 4  # per frame; on four, two frames in parallel took as long and twice the memory
@@ -44,7 +54,15 @@ def folder(shot: Shot, progress: Progress = silent) -> Path:
 
 def file(shot: Shot, frame: int) -> Path:
     """Return the volume file of a frame."""
-    return _volume_path(folder(shot), frame)
+    return volume_path(folder(shot), frame)
+
+
+def marker(volume_file: Path) -> Path:
+    """Return the small file that marks the volumes of a frame as complete.
+
+    Geometry nodes can read text files: the notice of missing smoke in a .blend file tests for this one.
+    """
+    return volume_file.with_suffix(".txt")
 
 
 def bake(shot: Shot, progress: Progress = silent, frames: Iterable[int] | None = None) -> Path:
@@ -66,7 +84,7 @@ def bake(shot: Shot, progress: Progress = silent, frames: Iterable[int] | None =
     wanted = shot_frames(shot) if frames is None else _frames_of_shot(shot, frames)
 
     def missing_frames() -> list[int]:
-        return [frame for frame in wanted if not _volume_path(place, frame).exists()]
+        return [frame for frame in wanted if not volume_path(place, frame).exists()]
 
     missing = missing_frames()
     for one, listed in shared_frames.frames(shot, missing):
@@ -75,13 +93,15 @@ def bake(shot: Shot, progress: Progress = silent, frames: Iterable[int] | None =
         missing = missing_frames()
     done = len(wanted) - len(missing)
     progress(done, len(wanted), "smoke")
+    for frame in set(wanted) - set(missing):
+        _mark(volume_path(place, frame))
     if not missing:
         return place
     source = sources.select(shot)
     with cache.in_use(place), source.in_use():
         source.prepare(missing, progress)
         with ThreadPoolExecutor(_parallel_frames(len(missing))) as pool:
-            tasks = [pool.submit(source.write, _volume_path(place, frame), frame) for frame in missing]
+            tasks = [pool.submit(_write, source, volume_path(place, frame), frame) for frame in missing]
             try:
                 for task in as_completed(tasks):
                     task.result()
@@ -188,7 +208,7 @@ class _Volumes(BakeQueue):
         after = self.frames[self.frames.index(frame) + 1 :]
         if ahead is not None:
             after = [number for number in ahead if number in self.frames]
-        following = next((number for number in after if not _volume_path(self.place, number).exists()), None)
+        following = next((number for number in after if not volume_path(self.place, number).exists()), None)
         if following is not None:
             self._begin(following)
         task = self.tasks.get(frame)
@@ -205,12 +225,26 @@ class _Volumes(BakeQueue):
         return f"smoke of {count(len(self.frames), 'frame')} takes about {needed} in {self.place}"
 
     def _begin(self, frame: int) -> None:
-        path = _volume_path(self.place, frame)
+        path = volume_path(self.place, frame)
         if frame not in self.tasks and not path.exists():
-            self.tasks[frame] = self.pool.submit(self.source.write, path, frame)
+            self.tasks[frame] = self.pool.submit(_write, self.source, path, frame)
 
 
-def _volume_path(place: Path, frame: int) -> Path:
+def _write(source: Source, path: Path, frame: int) -> None:
+    """Write the volumes of a frame, then their marker."""
+    source.write(path, frame)
+    _mark(path)
+
+
+def _mark(path: Path) -> None:
+    """Write the marker of a volume file, unless it exists."""
+    if not marker(path).exists():
+        with writing(path):
+            marker(path).write_text("complete\n", encoding="utf-8")
+
+
+def volume_path(place: Path, frame: int) -> Path:
+    """Return the volume file of a frame in a folder; it is the last file of the frame to be written."""
     return place / f"smoke_{frame:06d}.vdb"
 
 

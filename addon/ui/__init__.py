@@ -27,6 +27,7 @@ from . import (
     rows,
     run,
     section_panels,
+    smoke_volumes,
     stations_panel,
     tile_credits,
     tiles_panel,
@@ -46,6 +47,7 @@ classes = (
     *open.classes,
     *quality.classes,
     *build.classes,
+    *smoke_volumes.classes,
     *time.classes,
     *cameras_panel.classes,
     *navigation.classes,
@@ -72,6 +74,7 @@ def register() -> None:
     command.register()
     open.register()
     former_names.register()
+    smoke_volumes.register()
     stations_panel.register()
     tile_credits.register()
 
@@ -84,6 +87,7 @@ def unregister() -> None:
     maps.clear()
     tile_credits.unregister()
     stations_panel.unregister()
+    smoke_volumes.unregister()
     former_names.unregister()
     open.unregister()
     command.unregister()

@@ -25,6 +25,7 @@ from . import (
     panel_order,
     quality,
     run,
+    smoke_volumes,
     solve,
     target_scene,
     tile_facts,
@@ -123,7 +124,7 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
         yield InThread("tiles", functools.partial(selection.prepare, chosen))
     shot, moving = yield InThread("reading the run", lambda **_: _read_shot(chosen, part == ALL))
     if smoke and shot.settings.smoke.enabled:
-        yield InThread("smoke", functools.partial(bake.run, chosen, together=True))
+        yield InThread("smoke", functools.partial(bake.run, chosen, volumes=True))
     if shot.settings.terrain.photo_url and "terrain" in parts:
         yield InThread("orthophoto", functools.partial(imagery.prepare, chosen, ()))
     yield "removing the previous build"
@@ -136,6 +137,8 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     yield from build.steps(shot, owned.scene(uid), parts, told.append)
     changed_settings.store_digests(owned.scene(uid).firetwin, then, parts)
     _finish_build(owned.scene(uid), shot, parts, new)
+    if "smoke" in parts:
+        smoke_volumes.store(owned.scene(uid), shot, chosen)
     if moving is not None:
         landmarks.store(owned.scene(uid).firetwin, moving)
     yield from solve.estimate_cost(uid)
@@ -263,6 +266,7 @@ class FIRETWIN_PT_build(bpy.types.Panel):
         quality.draw(column, settings)
         column.prop(settings, "bake_smoke")
         solve.draw(column, settings)
+        smoke_volumes.draw(context, layout)
         labelled_row(column, "Seed").prop(settings, "seed", text="")
         row = layout.row(align=True)
         row.operator(view.FIRETWIN_OT_view.bl_idname, text="Through camera", icon="CAMERA_DATA").whole = False

@@ -43,19 +43,13 @@ def read_settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Se
 def fill(scene: bpy.types.Scene, whole: Settings) -> None:
     """Set the panel of a scene to these settings, and inspect the run."""
     panel = scene.firetwin
-    near = tuple(_absolute_location(whole.path, place) for place in whole.tiles.sources)
+    near = tuple(scene_file.absolute_location(whole.path, place) for place in whole.tiles.sources)
     whole = replace(whole, tiles=replace(whole.tiles, sources=near))
     sections.put(panel, sections.top_level_keys() + sections.sections(), whole)
     camera_list.fill(panel, whole.cameras)
     other_runs.fill(panel, whole.runs)
     panel.cache = str(whole.cache.absolute())
     panel.run = str(whole.run.absolute())
-
-
-def _absolute_location(path: Path, place: str) -> str:
-    """Return a tileset's location; a path relative to the scene file becomes absolute."""
-    near = path.absolute().parent / place
-    return str(near) if near.exists() else place
 
 
 def output_folder(panel: bpy.types.PropertyGroup, *inside: str) -> str:

@@ -63,7 +63,7 @@ def main() -> None:
             cut(given.sample, run, MINUTES, split, series=True)
         scenes[split] = scene(run, given.frame)
     steps = {
-        "bake": lambda path: step("bake", path),
+        "bake": lambda path: step("bake", path, "--volumes"),
         "build": lambda path: step("build", path, "-o", path.with_suffix(".blend")),
         "render": lambda path: step("render", path, "--out", path.with_suffix("")),
     }

@@ -13,6 +13,7 @@ import plumes
 import pytest
 from firetwin.blender import compat, owned
 from firetwin.scene.smoke import build as smoke
+from firetwin.scene.smoke import volume_files
 from firetwin.shot.cameras import visibility
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.sections import Light, SmokeSettings
@@ -39,8 +40,9 @@ def shot(smoky, run):
 def test_bake_writes_what_is_missing_and_nothing_else(shot):
     told = []
     place = bake.bake(shot, lambda *done: told.append(done[:2]))
-    files = sorted(place.iterdir())
+    files = sorted(place.glob("*.vdb"))
     assert [file.name for file in files] == [f"smoke_{n:06d}.vdb" for n in (1, 2, 3)]
+    assert {*place.iterdir()} - {*files} == {bake.marker(file) for file in files}
     assert told[-1] == (3, 3)
     files[1].unlink()
     stamps = [files[i].stat().st_mtime_ns for i in (0, 2)]
@@ -128,7 +130,7 @@ def test_what_a_killed_process_left_is_cleared(shot):
 
 def test_frames_that_the_shot_does_not_have_are_no_error(shot):
     place = bake.bake(shot, frames=[-3, 0, 2, 4, 99])
-    assert [file.name for file in place.iterdir()] == ["smoke_000002.vdb"]
+    assert sorted(file.name for file in place.iterdir()) == ["smoke_000002.txt", "smoke_000002.vdb"]
 
 
 def test_smoke_of_the_model_is_used_where_the_run_has_it(smoky, run, run_folder, tmp_path):
@@ -278,7 +280,7 @@ def test_a_file_moved_together_with_its_smoke_keeps_it(smoky, run, stage, tmp_pa
     shot = Shot(replace(smoky, cache=here / "cache"), run)
     bake.bake(shot)
     smoke.build(shot, stage)
-    smoke.make_paths_relative(blend)
+    volume_files.make_paths_relative(blend)
     bpy.ops.wm.save_as_mainfile(filepath=str(blend), relative_remap=False)
     bpy.ops.wm.read_factory_settings(use_empty=True)
     there.parent.mkdir()
@@ -301,10 +303,10 @@ def test_paths_that_are_not_ours_or_on_another_drive_stay(shot, stage, tmp_path,
         raise ValueError
 
     with monkeypatch.context() as patched:
-        patched.setattr(smoke.os.path, "relpath", no_way)
-        smoke.make_paths_relative(tmp_path / "scene.blend")
+        patched.setattr(volume_files.os.path, "relpath", no_way)
+        volume_files.make_paths_relative(tmp_path / "scene.blend")
     assert volume.filepath == absolute
-    smoke.make_paths_relative(tmp_path / "scene.blend")
+    volume_files.make_paths_relative(tmp_path / "scene.blend")
     assert volume.filepath == f"//cache/{bake.folder(shot).name}/smoke_000001.vdb"
     assert theirs.filepath == absolute
 
@@ -397,6 +399,6 @@ def test_nothing_is_made_ahead_without_smoke(settings, run):
 def test_room_is_estimated_from_what_is_there(shot):
     assert bake.estimate(shot, [1, 2, 3]) is None
     place = bake.bake(shot, frames=[2, 3])
-    sizes = [path.stat().st_size for path in place.iterdir()]
+    sizes = [path.stat().st_size for path in place.glob("*.vdb")]
     assert bake.estimate(shot, [1, 2, 3]) == round(3 * sum(sizes) / 2)
     assert bake.estimate(shot, range(-5, 100)) == bake.estimate(shot, [1, 2, 3])

@@ -13,7 +13,7 @@ from bpy_extras.io_utils import ExportHelper, ImportHelper
 from firetwin.farm import submission
 from firetwin.jobs import assets, convert, render, render_blend, sample
 from firetwin.jobs.tiles import bounding_boxes
-from firetwin.ui import navigation, queue, stations_panel, working
+from firetwin.ui import navigation, queue, smoke_volumes, stations_panel, working
 from mathutils import Euler, Matrix
 from panel_scene import state
 
@@ -117,6 +117,7 @@ KEEPS = {
     "preset": {"name": "Mine"},
     "view": {"whole": True},
     "jump": {"moment": "2014-09-17T21:30:00Z"},
+    "smoke_volumes": {"which": "range"},
     "go": {"text": "38.84 -120.55"},
     "render": {},
     "render_background": {},
@@ -152,6 +153,7 @@ def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path
     monkeypatch.setattr(render_blend, "run", lambda *_, **__: 1)
     monkeypatch.setattr(submission, "run_command", lambda *_, **__: None)
     monkeypatch.setattr(submission, "cancel_command", lambda out: [])
+    monkeypatch.setattr(smoke_volumes, "_state", lambda scene: smoke_volumes._State(3, {1}))
     monkeypatch.setattr(bpy.utils, "user_resource", lambda *_, path="", **__: str(tmp_path / path))
     (tmp_path / "presets" / "firetwin").mkdir(parents=True)
     bpy.ops.ed.undo_push(message="opened")

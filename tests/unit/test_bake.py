@@ -1,6 +1,7 @@
 """Smoke is baked in a separate process, which needs no Blender."""
 
 import os
+from pathlib import Path
 
 import pytest
 from firetwin.errors import Error
@@ -31,6 +32,31 @@ def test_baking_needs_no_blender(tmp_path, choice, monkeypatch):
     monkeypatch.setenv("PYTHONPATH", f"{tmp_path / 'without'}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
     (folder,) = bake.run(choice)
     assert any(folder.glob("**/*.vdb"))
+
+
+def test_volumes_are_written_for_the_chosen_frames_and_all_cameras(choice):
+    """A .blend file has all cameras; `render` uses the volumes of each camera alone."""
+    scene = Path(choice.scene)
+    scene.write_text(
+        scene.read_text() + DRONE.replace("drone", "other").replace("-120.56", "-120.57").format()
+    )
+    assert len(bake.run(choice)) == 2
+    (folder,) = bake.run(choice, volumes=True, frames=[2, 7])
+    assert sorted(path.name for path in folder.iterdir()) == ["smoke_000002.txt", "smoke_000002.vdb"]
+
+
+def test_smoke_that_is_integrated_along_rays_needs_no_volumes(choice, monkeypatch):
+    """Only the flow is solved, as a farm's stage bake does."""
+    scene = Path(choice.scene)
+    flow = "spin_up = 60.0\ncell_budget = 0.1"
+    scene.write_text(scene.read_text().replace('method = "puffs"', f'method = "flow"\n{flow}'))
+    (*folders,) = bake.run(choice)
+    assert folders
+    assert sorted(path.name for path in folders[0].glob("moment*")) == [
+        "moment_000001.npz",
+        "moment_000002.npz",
+    ]
+    assert not [*Path(folders[0]).parent.rglob("*.vdb")]
 
 
 def test_a_bake_that_is_ended_says_how_and_what_may_help(choice, monkeypatch):

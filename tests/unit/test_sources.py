@@ -121,7 +121,7 @@ def test_a_source_that_a_run_brings_is_added_by_one_file(shot, soot):
     made = shot(method="flow")
     assert sources.select(made).name == "soot"
     place = bake.bake(made)
-    assert [path.name for path in place.iterdir()] == ["smoke_000001.vdb"]
+    assert [path.name for path in place.glob("*.vdb")] == ["smoke_000001.vdb"]
     assert sources.select(made).cost() is None
     assert not sources.is_integrated(made)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import bpy
@@ -61,24 +60,6 @@ def _add_volume(
     shift = compat.volume_shift(stage.scene.cycles, layer.voxel)
     obj.location = (shift, shift, shift)
     return obj
-
-
-def make_paths_relative(blend: Path) -> None:
-    """Make paths of Firetwin's volumes relative to the folder in which the .blend file will be saved.
-
-    Smoke then stays linked when both are moved together. Paths on another drive stay absolute. Blender must
-    not remap the paths again: save with ``relative_remap=False``.
-    """
-    for volume in bpy.data.volumes:
-        if owned.is_ours(volume):
-            volume.filepath = _relative_path(blend, bpy.path.abspath(volume.filepath))
-
-
-def _relative_path(blend: Path, path: str) -> str:
-    try:
-        return "//" + Path(os.path.relpath(path, blend.absolute().parent)).as_posix()
-    except ValueError:  # no relative path leads to another drive
-        return path
 
 
 def _set_cycles_steps(cycles: bpy.types.PropertyGroup) -> None:

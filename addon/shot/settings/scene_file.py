@@ -19,9 +19,9 @@ from ..schema.former import FORMER, FORMER_KEYS, FORMER_VALUES
 from ..schema.frame_list import FrameList
 from ..schema.scene_text import SceneText, load
 from . import Settings
-from .toml_writer import text
+from .toml_writer import absolute_location, portable, text
 
-__all__ = ["parse", "read", "text"]
+__all__ = ["absolute_location", "parse", "portable", "read", "text"]
 
 
 def read(path: str | Path) -> Settings:

@@ -6,6 +6,7 @@ import json
 import os
 import zoneinfo
 from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import replace
 from datetime import UTC, datetime, timedelta, tzinfo
 from pathlib import Path
 from typing import Any
@@ -30,6 +31,20 @@ def text(settings: Settings) -> str:
     """
     blocks = _Writer(settings).table(settings, (), [])
     return "\n".join(_aligned(block) for block in blocks)
+
+
+def portable(settings: Settings) -> str:
+    """Write a scene file that reads back as these settings in any folder: its paths are absolute."""
+    sources = tuple(absolute_location(settings.path, place) for place in settings.tiles.sources)
+    settings = replace(settings, tiles=replace(settings.tiles, sources=sources))
+    blocks = _Writer(settings, here=False).table(settings, (), [])
+    return "\n".join(_aligned(block) for block in blocks)
+
+
+def absolute_location(path: Path, place: str) -> str:
+    """Return a tileset's location; a path relative to the scene file `path` becomes absolute."""
+    near = path.absolute().parent / place
+    return str(near) if near.exists() else place
 
 
 def brief(settings: Settings, asked: Collection[str], remarks: Mapping[str, str]) -> str:
