@@ -6,6 +6,7 @@ from unittest.mock import MagicMock
 import bpy
 import firetwin
 import pytest
+import smoke_scene
 from firetwin.blender import owned
 from firetwin.jobs import bake as bake_job
 from firetwin.jobs import build as build_job
@@ -14,27 +15,14 @@ from firetwin.scene.smoke import volume_files
 from firetwin.shot.source import ShotSource
 from firetwin.smoke import bake
 from firetwin.ui import job, smoke_volumes, working
-from scene_text import DRONE, NO_PLANTS, PUFFS, THREE_FRAMES, TINY
-
-SCENE = THREE_FRAMES + PUFFS.format(smoke="true") + "max_age = 1800.0\n" + NO_PLANTS + TINY + DRONE
-SCENE = SCENE.replace("{{", "{").replace("}}", "}")
-
-
-def here(task, arguments, progress, stop=None, tell=lambda text: None, **_):
-    """Replacement of a worker process."""
-    module, _, function = task.partition(":")
-    return getattr(__import__(module, fromlist=["x"]), function)(progress=progress, tell=tell, **arguments)
+from smoke_scene import here
 
 
 @pytest.fixture(scope="module")
 def folder(run_folder, tmp_path_factory):
     """A folder with a scene file and its .blend file, of which no smoke volume is written."""
     place = tmp_path_factory.mktemp("volumes")
-    (place / "scene.toml").write_text(SCENE.replace("{run}", str(run_folder)))
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(worker, "run", here)
-        said = []
-        build_job.run(ShotSource(scene=str(place / "scene.toml")), place / "scene.blend", tell=said.append)
+    said = smoke_scene.write(place, run_folder)
     told = next(text for text in said if "no smoke volume yet" in text)
     assert told.startswith("3 frames of scene.blend")
     assert told.endswith(f"firetwin bake --volumes {place}/scene.toml")
