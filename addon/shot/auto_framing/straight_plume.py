@@ -46,6 +46,21 @@ class StraightPlume:
     least: float
     rise: float
 
+    def _density(self, point: Array, axis: Array) -> Array:
+        """Smoke (n,) at points (n, 3) per length of the plumes along their axis (3,), kg/(m s)."""
+        away = point[:, None] - self.source  # (n, sources, 3); one step at a time fits into the cache
+        along = away @ axis
+        away *= away
+        across = away[..., 0] + away[..., 1]
+        across += away[..., 2]
+        across -= along**2
+        np.sqrt(np.maximum(across, 0.0, out=across), out=across)
+        half = self.least + _WIDE * np.maximum(along, 0.0)
+        inside = (along > 0.0) & (across < half)
+        dense = np.zeros_like(half)
+        np.divide(np.broadcast_to(self.rate, half.shape), np.pi * half**2, out=dense, where=inside)
+        return dense.sum(axis=-1)
+
     def depth(self, eye: Array, place: Array) -> Array:
         """Optical depth (n,) of smoke between a camera and points (n, 3).
 
@@ -58,13 +73,7 @@ class StraightPlume:
         axis = np.array([*self.wind / speed, self.rise]) if speed > 0.0 else np.array([0.0, 0.0, 1.0])
         axis /= np.linalg.norm(axis)
         part = np.geomspace(_NEAR, 1.0, _STEPS)
-        line = place + part[:, None, None] * (eye - place)  # (steps, n, 3)
-        away = line[:, :, None] - self.source  # (steps, n, sources, 3)
-        along = away @ axis
-        across = np.sqrt(np.maximum(np.sum(away**2, axis=-1) - along**2, 0.0))
-        half = self.least + _WIDE * np.maximum(along, 0.0)
-        inside = (along > 0.0) & (across < half)
-        dense = np.where(inside, self.rate / (np.pi * half**2), 0.0).sum(axis=-1)  # kg/(m s)
+        dense = np.stack([self._density(place + step * (eye - place), axis) for step in part])
         pieces = np.gradient(part)[:, None] * np.linalg.norm(eye - place, axis=1)
         return emissions.EXTINCTION / max(speed, _WEAK) * (dense * pieces).sum(axis=0)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,8 @@ _AT_ONCE = 1.0  # s, cells that begin to burn within this time are one ignition
 _CELLS = 4.0  # fuel cells, lower bound of block size and front depth
 _HYSTERESIS = 4.0  # blocks; distance in which another head must be e times as strong to be followed
 
+_tracks: WeakKeyDictionary[Terrain, dict[tuple[str, bytes], tuple[Array, Array]]] = WeakKeyDictionary()
+
 
 def follow(target: str, ground: Terrain, times: Array, above: float) -> Array:
     """Look-at points (frames, 3) that follow the "head" or the centre of the "fire".
@@ -31,10 +34,18 @@ def follow(target: str, ground: Terrain, times: Array, above: float) -> Array:
     above
         Height above ground, m.
     """
-    east, north = (head if target == "head" else middle)(ground, times)
+    east, north = _track(target, ground, times)
     place = ground.point(*ground.geodetic(east, north), above)
     place[:, 2] = smoothed(place[:, 2])
     return place
+
+
+def _track(target: str, ground: Terrain, times: Array) -> tuple[Array, Array]:
+    """East and north (frames,) of a target, computed once: auto framing tries many cameras on one target."""
+    known, key = _tracks.setdefault(ground, {}), (target, np.asarray(times, np.float64).tobytes())
+    if key not in known:
+        known[key] = (head if target == "head" else middle)(ground, times)
+    return known[key]
 
 
 def head(ground: Terrain, times: Array) -> tuple[Array, Array]:
