@@ -1,5 +1,7 @@
 """Add-on user interface: operators, panels and properties; each file lists its classes."""
 
+import atexit
+
 import bpy
 
 from . import (
@@ -67,7 +69,11 @@ classes = (
 
 
 def register() -> None:
-    """Register every class, the scene's properties and the command `blender --command firetwin`."""
+    """Register every class, the scene's properties and the command `blender --command firetwin`.
+
+    Python with Blender as a module (`bpy`) crashes or hangs at its end while Blender refers to functions or
+    classes of Python. It then calls `unregister` at exit.
+    """
     for cls in classes:
         bpy.utils.register_class(cls)
     bpy.types.Scene.firetwin = bpy.props.PointerProperty(type=properties.FIRETWIN_PG_scene)
@@ -77,10 +83,15 @@ def register() -> None:
     smoke_volumes.register()
     stations_panel.register()
     tile_credits.register()
+    if bpy.app.module:
+        atexit.register(unregister)
 
 
 def unregister() -> None:
-    """Undo `register` in reverse order; running tasks are cancelled."""
+    """Undo `register` in reverse order; running tasks are cancelled. A second call has no effect."""
+    if not hasattr(bpy.types.Scene, "firetwin"):  # Blender also disables its add-ons at exit
+        return
+    atexit.unregister(unregister)
     working.cancel_task()
     queue.clear()
     feature_panels.unregister()
