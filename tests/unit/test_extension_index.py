@@ -5,7 +5,10 @@ import importlib.util
 import json
 import subprocess
 import sys
+import threading
 import zipfile
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import pytest
@@ -50,7 +53,7 @@ def write_zip(tmp_path, extension, present):
         path = tmp_path / f"firetwin-{version}-{platform}.zip"
         with zipfile.ZipFile(path, "w") as archive:
             archive.writestr("blender_manifest.toml", manifest.replace(present, version))
-            archive.writestr("__init__.py", "")
+            archive.writestr("__init__.py", f"version = {version!r}")
             for wheel in wheels:
                 archive.writestr(f"wheels/{wheel}", "")
         return path
@@ -58,8 +61,8 @@ def write_zip(tmp_path, extension, present):
     return write
 
 
-def make(out, zips):
-    command = [sys.executable, PORTABLE / "index.py", out, ADDRESS, *zips]
+def make(out, zips, address=ADDRESS):
+    command = [sys.executable, PORTABLE / "index.py", out, address, *zips]
     return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
@@ -93,3 +96,31 @@ def test_missing_platform_and_bad_zip_are_refused(tmp_path, write_zip, present):
     assert made.returncode == 1
     assert "Blender accepted 2 of 3 zips" in made.stderr
     assert not (tmp_path / "out").exists()
+
+
+@pytest.fixture
+def served(tmp_path):
+    """Serve the folder of the zips, and return its address."""
+    handler = partial(SimpleHTTPRequestHandler, directory=tmp_path)
+    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        yield f"http://127.0.0.1:{server.server_port}"
+        server.shutdown()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="installs the zip for Linux")
+def test_blender_installs_either_version(tmp_path, write_zip, present, served, extension):
+    zips = [write_zip(version, platform) for version in (present, "0.0.9") for platform in PLATFORMS]
+    assert make(tmp_path, zips, served).returncode == 0
+    for name, version in (("index.json", present), ("index-previous.json", "0.0.9")):
+        local = tmp_path / Path(name).stem
+        local.mkdir()
+        client = [sys.executable, extension.blender_ext()]
+        places = ["--local-dir", local, "--remote-url", f"{served}/{name}"]
+        versions = ["--blender-version", "4.5.0", "--python-version", "3.11.0"]
+        options = ["--local-cache", "0", "--temp-prefix-and-suffix", "/.tmp"]
+        subprocess.run([*client, "sync", *places], check=True, capture_output=True)
+        subprocess.run(
+            [*client, "install", *places, *versions, *options, "firetwin"], check=True, capture_output=True
+        )
+        assert (local / "firetwin/__init__.py").read_text() == f"version = {version!r}"
