@@ -18,7 +18,7 @@ def test_image_has_the_libraries_that_blender_loads():
 
 
 def test_both_recipes_agree():
-    containerfile, definition = (FOLDER / name).read_text(), (FOLDER / "firetwin.def").read_text()
+    containerfile, definition = (FOLDER / "Containerfile").read_text(), (FOLDER / "firetwin.def").read_text()
     for recipe in (containerfile, definition):
         assert re.findall(r"install\.sh (build|run)", recipe) == ["build", "run"]
         assert "NVIDIA_DRIVER_CAPABILITIES=compute,utility,graphics" in recipe
