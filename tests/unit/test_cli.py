@@ -1,10 +1,14 @@
 """The command line as a person uses it: output, streams, and exit status."""
 
+import contextlib
+import io
 import json
 import subprocess
 import sys
+import traceback
 from dataclasses import replace
 from datetime import datetime
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,10 +17,18 @@ from firetwin.shot.settings import scene_file
 from small_run import RUN_TOML, small_fields
 
 
-def firetwin(*arguments, **options):
-    """Run the command; its result has .returncode, .stdout and .stderr."""
-    command = [sys.executable, "-m", "firetwin", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, timeout=120, **options)
+def firetwin(*arguments, cwd="."):
+    """Run the command in this process; its result has .returncode, .stdout and .stderr."""
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err), contextlib.chdir(cwd):
+        try:
+            status = cli.main([*map(str, arguments)])
+        except SystemExit as end:
+            status = end.code or 0
+        except Exception:  # with --debug
+            traceback.print_exc()
+            status = 1
+    return SimpleNamespace(returncode=status, stdout=out.getvalue(), stderr=err.getvalue())
 
 
 def assert_one_line(result, status, *words):
@@ -29,7 +41,9 @@ def assert_one_line(result, status, *words):
 
 
 def test_help_names_every_command():
-    result = firetwin("--help")
+    """In a process, as a person runs it."""
+    command = [sys.executable, "-m", "firetwin", "--help"]
+    result = subprocess.run(command, capture_output=True, text=True)
     assert result.returncode == 0
     assert all(
         f"    {name}  " in result.stdout
@@ -125,6 +139,13 @@ def test_bad_usage_is_2(line):
     assert result.returncode == 2
     assert result.stdout == ""
     assert "usage: firetwin" in result.stderr
+
+
+def test_the_exit_status_is_that_of_the_command():
+    assert subprocess.run([sys.executable, "-m", "firetwin", "info"], capture_output=True).returncode == 2
+    command = [sys.executable, "-m", "firetwin", "info", "no such run"]
+    result = subprocess.run(command, capture_output=True, text=True)
+    assert_one_line(result, 1, "no such run")
 
 
 @pytest.mark.parametrize(
