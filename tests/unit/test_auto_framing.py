@@ -56,7 +56,7 @@ FIRES = {
 @pytest.fixture(scope="module")
 def fit_of(tmp_path_factory):
     """Settings fitted to one of FIRES, and its run."""
-    known = {}
+    known, runs = {}, {}
 
     def found(name):
         if name not in known:
@@ -64,7 +64,8 @@ def fit_of(tmp_path_factory):
             known[name] = auto_framing.fit_folder(
                 folder, folder.parent / "scene.toml", folder.parent / "cache"
             )
-        return known[name], readers.open(known[name].settings.run)
+            runs[name] = readers.open(folder)
+        return known[name], runs[name]
 
     return found
 
@@ -163,15 +164,12 @@ def test_a_plume_holds_the_smoke_that_its_fuel_gives():
     assert twice.depth(eye, lines) == pytest.approx(2.0 * one.depth(eye, lines))
 
 
-def test_a_grass_fires_smoke_hides_less_than_a_forests(tmp_path):
-    grass, forest = (
-        whole_run.write(tmp_path / name, **FIRES["grass"] | {"canopy": canopy})
-        for name, canopy in (("grass", 0.0), ("forest", 3.0))
-    )
+def test_a_grass_fires_smoke_hides_less_than_a_forests(fit_of, tmp_path):
+    found, grass = fit_of("grass")
+    forest = readers.open(whole_run.write(tmp_path / "forest", **FIRES["grass"] | {"canopy": 3.0}))
     depths = []
-    for folder in (grass, forest):
-        found = auto_framing.fit_folder(folder, tmp_path / "s.toml", tmp_path)
-        moving = front.find_front(Shot(found.settings, readers.open(folder)))
+    for run in (grass, forest):
+        moving = front.find_front(Shot(found.settings, run))
         eye = np.array([*(moving.high + moving.size * moving.wind), moving.size])
         depths.append(np.median(moving.plumes[1].depth(eye, moving.point[moving.moment == 1])))
     assert depths[1] > 1.5 * depths[0]
@@ -251,13 +249,17 @@ def test_a_window_is_where_the_fuel_burns_not_where_the_area_grows():
     assert window.length(29_000.0, 600.0) == 600.0
 
 
-@pytest.mark.parametrize("name", ["prescribed", "several", "line"])
-def test_the_file_reads_back_as_the_settings_and_is_what_a_run_alone_gets(fit_of, name, monkeypatch):
-    found, run = fit_of(name)
+@pytest.mark.parametrize("name", FIRES)
+def test_the_file_reads_back_as_the_settings(fit_of, name):
+    found, _ = fit_of(name)
     path = found.settings.path
     path.write_text(found.text, encoding="utf-8")
     assert scene_file.read(path) == found.settings
-    monkeypatch.chdir(path.parent)
+
+
+def test_a_run_alone_gets_the_same_settings(fit_of, monkeypatch):
+    found, run = fit_of("line")
+    monkeypatch.chdir(found.settings.path.parent)
     alone = ShotSource(run=run.path).settings()
     same = {"path": found.settings.path, "run": found.settings.run, "cache": found.settings.cache}
     assert dataclasses.replace(alone, **same) == found.settings

@@ -61,13 +61,15 @@ class Visible:
             Only the front within this distance of the camera's target counts, m.
         """
         front, shares, clear, heights = self.front, [], [], [np.empty(0)]
+        eye = view.position[front.frames]
+        above_terrain = eye[:, 2] > front.ground.up(eye[:, 0], eye[:, 1])
         for number, frame in enumerate(front.frames):
             here = np.flatnonzero(front.moment == number)
             away = front.point[here, :2] - view.target[frame, :2]
             here = some(here[np.hypot(*away.T) <= near], _PLACES)
             if len(here):
                 place = front.point[here]
-                shown = self.over_ground(view, int(frame), place)
+                shown = self.over_ground(view, int(frame), place, bool(above_terrain[number]))
                 depth = front.plumes[number].depth(view.position[frame], place[shown])
                 shares.append(float(np.mean(shown)))
                 clear.append(float(np.exp(-depth).sum()) / len(place))
@@ -80,15 +82,14 @@ class Visible:
             _horizon(view),
         )
 
-    def over_ground(self, view: Path, frame: int, place: Array) -> NDArray[np.bool_]:
+    def over_ground(self, view: Path, frame: int, place: Array, above_terrain: bool) -> NDArray[np.bool_]:
         """Return whether points (n, 3) are in the picture of a frame (from 0) and not occluded by terrain."""
-        ground, eye = self.front.ground, view.position[frame]
         views = lod.ViewSet(
-            eye[None],
+            view.position[frame][None],
             view.rotation[frame][None],
             _INSIDE * view.halves[frame][None],
             orthographic=not view.perspective,
-            above_terrain=bool(eye[2] > ground.up(eye[0], eye[1])[0]),
+            above_terrain=above_terrain,
             occluder=self._ground,
         )
         return lod.visible_mask(place, np.full(len(place), _RADIUS), views)

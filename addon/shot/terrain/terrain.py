@@ -212,6 +212,8 @@ class Terrain:
 
     def height(self, row: ArrayLike, column: ArrayLike, detail: ArrayLike = 0.0) -> Array:
         """Height above the datum (m) at fractional rows and columns, with the weight of detail there."""
+        if isinstance(detail, float) and detail == 0.0:
+            return bilinear(self.fields.elevation, *np.broadcast_arrays(row, column))
         row, column, detail = np.broadcast_arrays(row, column, np.asarray(detail, np.float64))
         height = bilinear(self.fields.elevation, row, column)
         near = np.flatnonzero(detail.ravel() > 0.0)
