@@ -75,7 +75,7 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings):
     bake_smoke: bpy.props.BoolProperty(
         name="Smoke of every frame",
         description="Bake the smoke of all frames during the build, which can take minutes. "
-        "Off: the build is faster, and Render bakes the smoke that it needs",
+        "Off: the build is faster, and frames get their smoke when you ask for it (Smoke of frame)",
         default=True,
     )
     first_time: bpy.props.StringProperty(options={"HIDDEN"})

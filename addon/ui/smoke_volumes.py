@@ -172,11 +172,11 @@ def _show(uid: int, place: Path | None = None) -> None:
 def draw(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
     """Draw the number of missing volumes and the buttons that write them; nothing if none is missing."""
     scene, operator = context.scene, FIRETWIN_OT_smoke_volumes
-    state, running = _state(scene), job.Job.current is not None
+    state, current = _state(scene), job.Job.current
     if not state.frames:
         return
     column = layout.column(align=True)
-    if running and job.Job.current.name == operator.bl_label:
+    if current is not None and current.name == operator.bl_label:
         working.draw_button(column.row(align=True), operator, "OUTLINER_OB_VOLUME")
     elif state.missing:
         frame, shown = scene.frame_current, _range(scene)
