@@ -49,6 +49,6 @@ class Inflow:
             return np.zeros(flux.shape), np.zeros(flux.shape)
         spectrum = np.fft.rfft2(convection * MODEL_CELL_SIZE, s=(self.size, self.size))
         cut = slice(0, MODEL_CELLS)
-        east = np.fft.irfft2(spectrum * self.east, s=(self.size, self.size))[cut, cut]
-        north = np.fft.irfft2(spectrum * self.north, s=(self.size, self.size))[cut, cut]
+        rows = [np.fft.ifft(spectrum * each, axis=0)[cut] for each in (self.east, self.north)]
+        east, north = (np.fft.irfft(each, self.size)[:, cut] for each in rows)
         return east, north

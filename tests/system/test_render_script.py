@@ -49,8 +49,8 @@ def test_what_it_does_not_know_ends_in_its_usage(script, tmp_path, arguments):
 def test_a_still_is_the_first_picture_of_the_drone_and_no_more(script, tmp_path):
     result = script("--still")
     assert result.returncode == 0, result.stderr
-    assert _calls(tmp_path) == ["render king_fire.toml --out out/film --frames 2 --camera drone --resume"]
-    assert result.stdout == f"{tmp_path}/examples/out/film/drone/rgb/drone_rgb_000002.png\n"
+    assert _calls(tmp_path) == ["render king_fire.toml --out out/film --frames 1 --camera drone --resume"]
+    assert result.stdout == f"{tmp_path}/examples/out/film/drone/rgb/drone_rgb_000001.png\n"
 
 
 def test_the_film_is_told_before_its_scene_is_written(script, tmp_path):
@@ -59,7 +59,8 @@ def test_the_film_is_told_before_its_scene_is_written(script, tmp_path):
     calls = _calls(tmp_path)
     assert sorted(calls[:2]) == ["info out/sample", "maps out/sample --out out/maps"]  # at the same time
     assert calls[2:] == [
-        "render king_fire.toml --out out/film --frames 2-48:2 --resume",
+        "render king_fire.toml --out out/film --camera drone --frames 1-24 --resume",
+        "render king_fire.toml --out out/film --camera satellite --resume",
         "build king_fire.toml -o out/king_fire.blend",
     ]
     assert f"the film is finished: {tmp_path}/examples/out/film/drone/drone_rgb.mp4" in result.stderr
@@ -69,7 +70,7 @@ def test_the_film_is_told_before_its_scene_is_written(script, tmp_path):
 
 def test_all_frames_are_rendered_on_request(script, tmp_path):
     assert script("--all").returncode == 0
-    assert "render king_fire.toml --out out/film --frames 1-48 --resume" in _calls(tmp_path)
+    assert "render king_fire.toml --out out/film --camera drone --frames 1-48 --resume" in _calls(tmp_path)
 
 
 def test_maps_that_fail_are_reported(script, tmp_path):
@@ -86,5 +87,5 @@ def test_nothing_is_announced_that_is_there_already(script, tmp_path):
         path.parent.mkdir(exist_ok=True)
         path.touch()
     result = script()
-    assert [call.split()[0] for call in _calls(tmp_path)] == ["info", "render"]
+    assert [call.split()[0] for call in _calls(tmp_path)] == ["info", "render", "render"]
     assert "the film is finished" not in result.stderr
