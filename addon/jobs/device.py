@@ -33,8 +33,8 @@ def select(settings: Settings, frames: int, tell: MessageCallback) -> Gpus | Non
         raise _no_gpu(settings)
     waiting = find_waiting(gpus)
     width, height = settings.render.resolution
-    needed = choice.estimate_seconds(frames, width * height, settings.render.samples)
-    chosen = choice.choose(wanted, str(gpus or ""), waiting, needed, bpy.app.version_string)
+    saved = choice.estimate_saving(frames, width * height, settings.render.samples)
+    chosen = choice.choose(wanted, str(gpus or ""), waiting, saved, bpy.app.version_string)
     tell(f"Cycles renders on {chosen.text}")
     if not chosen.gpu:
         return None

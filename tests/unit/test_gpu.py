@@ -18,7 +18,7 @@ WHY = "as Blender 4.5.15 has no ready kernels for sm_90"
 
 
 @pytest.mark.parametrize(
-    ("wanted", "gpus", "waiting", "processor_s", "gpu", "text"),
+    ("wanted", "gpus", "waiting", "saved_s", "gpu", "text"),
     [
         ("cpu", "", [], 60.0, False, "the processor"),
         ("auto", "", [], 60.0, False, "the processor (no GPU found)"),
@@ -30,8 +30,8 @@ WHY = "as Blender 4.5.15 has no ready kernels for sm_90"
             [H100],
             40.0,
             False,
-            f"the processor: {GPU} would first compile its kernels for 6 to 10 minutes, {WHY}, and the "
-            "processor needs about 40 s; `firetwin gpu --warm` compiles them once",
+            f"the processor: {GPU} would first compile its kernels for 6 to 10 minutes, {WHY}, to "
+            "save about 40 s; `firetwin gpu --warm` compiles them once",
         ),
         (
             "auto",
@@ -39,7 +39,7 @@ WHY = "as Blender 4.5.15 has no ready kernels for sm_90"
             [H100],
             7200.0,
             True,
-            f"{GPU}, which {COMPILES}, once, {WHY}; the processor needs about 2 h 0 min",
+            f"{GPU}, which {COMPILES}, once, {WHY}; it then saves about 2 h 0 min",
         ),
         (
             "gpu",
@@ -51,15 +51,15 @@ WHY = "as Blender 4.5.15 has no ready kernels for sm_90"
         ),
     ],
 )
-def test_the_choice_is_the_quicker_device_and_is_explained(wanted, gpus, waiting, processor_s, gpu, text):
-    assert choice.choose(wanted, gpus, waiting, processor_s, "4.5.15") == choice.Choice(gpu, text)
+def test_the_choice_is_the_quicker_device_and_is_explained(wanted, gpus, waiting, saved_s, gpu, text):
+    assert choice.choose(wanted, gpus, waiting, saved_s, "4.5.15") == choice.Choice(gpu, text)
 
 
 def test_the_estimate_grows_with_the_work_and_falls_with_the_cores():
-    one = choice.estimate_seconds(1, 640 * 360, 6, cores=1)
-    assert choice.estimate_seconds(8, 640 * 360, 6, cores=16) == pytest.approx(one * 8 / 16)
-    assert one < choice.estimate_seconds(1, 1920 * 1080, 6, cores=1) < 9 * one
-    assert choice.estimate_seconds(1, 640 * 360, 6) <= one
+    one = choice.estimate_saving(1, 640 * 360, 6, cores=1)
+    assert choice.estimate_saving(8, 640 * 360, 6, cores=16) == pytest.approx(one * 8 / 16)
+    assert one < choice.estimate_saving(1, 1920 * 1080, 6, cores=1) < 9 * one
+    assert choice.estimate_saving(1, 640 * 360, 6) <= one
 
 
 @pytest.mark.parametrize(
