@@ -79,7 +79,10 @@ def load_rooms(path: Path = BUDGET) -> list[Room]:
     for folder, table in tomllib.loads(path.read_text(encoding="utf-8")).items():
         for name, group in table.items():
             if name != "rest":
-                files = tuple(f"{folder}/test_{pattern}.py" for pattern in group["files"])
+                files = tuple(
+                    f"{folder}/{each}" if "/" in each else f"{folder}/test_{each}.py"
+                    for each in group["files"]
+                )
                 rooms.append(Room(f"{folder}/{name}", group["seconds"], files))
         rooms.append(Room(folder, table["rest"], (f"{folder}/*",)))
     return rooms

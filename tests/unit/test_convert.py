@@ -18,6 +18,8 @@ from firetwin.run import readers
 from firetwin.run.models import heartbeat, netcdf, write
 from firetwin_core import run as runs
 
+COUNT = len(damage.CUTS) + len(damage.WAYS)  # each once; tests/system/fuzz/convert.py tries 200 of each kind
+
 
 def in_process(paths, out, **options):
     asked = [options.get(name, "") for name in ("start", "at", "projection")] + [0.0]
@@ -28,8 +30,8 @@ def in_process(paths, out, **options):
 @pytest.mark.skipif(sys.platform != "linux", reason="forks")
 def test_damaged_files_are_a_run_or_one_line(tmp_path, kind):
     """A signal (a crash inside HDF5) does not fail the test: that is not the user's process, see below."""
-    ends = list(damage.tried(kind, tmp_path, count=24, seed=5))
-    assert len(ends) == 24
+    ends = list(damage.tried(kind, tmp_path, count=COUNT, seed=5))
+    assert len(ends) == COUNT
     assert not [end for end in ends if end.wrong]
     assert any(end.said for end in ends)
 

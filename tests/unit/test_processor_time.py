@@ -1,0 +1,50 @@
+"""Budgets of rooms of tests: each test counts for one room, and a room far above its budget fails a run."""
+
+import processor_time
+from processor_time import Account, Room, Speed, find_room, load_rooms
+
+
+def test_the_first_room_that_matches_pays():
+    rooms = load_rooms()
+    assert find_room(rooms, "tests/unit/test_tiles_http.py::test_a[b::c]").name == "unit/tiles"
+    assert find_room(rooms, "tests/unit/test_new_feature.py::test_a").name == "unit"
+    assert {room.name for room in rooms} >= {"unit", "blender", "render", "system"}
+
+
+def test_a_group_has_files_and_a_budget():
+    files = [path.relative_to(processor_time.TESTS) for path in processor_time.TESTS.rglob("test_*.py")]
+    for room in load_rooms():
+        assert room.budget_s > 0
+        for pattern in room.files:
+            assert any(path.match(pattern) for path in files), (
+                f"tests/budget.toml: {pattern} matches no test file"
+            )
+
+
+def test_a_room_above_its_budget_is_named_and_fails_beyond_the_factor():
+    account, room = Account(), Room("unit", 10.0, ("unit/*",))
+    account.add("tests/unit/test_a.py::test_b", 24.0, 0.5)  # a machine of half the speed
+    account.compare(1.5, [room])
+    assert account.failures == []
+    assert account.table[1].split() == ["unit", "24.0", "12.0", "10", "over", "budget"]
+    account.add("tests/unit/test_a.py::test_c", 8.0, 0.5)
+    account.compare(1.5, [room])
+    assert account.failures == [
+        "unit takes 16.0 reference seconds, and its budget is 10; "
+        "make its tests cheaper, or raise the budget in tests/budget.toml"
+    ]
+    assert account.files() == {"tests/unit/test_a.py": 32.0}
+
+
+def test_the_speed_is_measured_again_after_some_seconds_of_work(monkeypatch):
+    clock, loops = [100.0], [0.014, 0.014, 0.014, 0.007, 0.007, 0.007]
+    monkeypatch.setattr(processor_time, "processor_s", lambda: clock[0])
+    monkeypatch.setattr(processor_time, "loop_s", lambda: loops.pop(0))
+    monkeypatch.setattr(processor_time, "LOOP_S", 0.007)
+    speed = Speed()
+    factors = []
+    for passed in (0.0, 1.0, 10.0):
+        clock[0] += passed
+        speed.measure()
+        factors.append(speed.factor)
+    assert factors == [0.5, 0.5, 1.0]
