@@ -14,8 +14,8 @@ COMPILE_MINUTES = 6, 10
 H200, "10 mins" on servers (TRELLIS, issue 204)."""
 FRAME, MEGASAMPLE = 5.0, 9.0
 """Processor seconds that a GPU saves per frame, and per million samples of it: a fit to
-examples/king_fire.toml with all its passes. A frame of 1920 x 1080 took about 130 processor seconds on the host
-of an H100, and 65 with the H100, which leaves all work but ray tracing to the processor; 28 and 16 with
+examples/king_fire.toml with all its passes. A frame of 1920 x 1080 took about 130 processor seconds on the
+host of an H100, and 65 with the H100, which leaves all work but ray tracing to the processor; 28 and 16 with
 640 x 360."""
 
 
