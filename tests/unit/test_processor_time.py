@@ -48,3 +48,16 @@ def test_the_speed_is_measured_again_after_some_seconds_of_work(monkeypatch):
         speed.measure()
         factors.append(speed.factor)
     assert factors == [0.5, 0.5, 1.0]
+
+
+def test_the_contributing_page_lists_each_room_with_its_budget():
+    page = (processor_time.TESTS.parent / "CONTRIBUTING.md").read_text()
+    table = page.partition("## What the tests prove")[2].partition("\n## ")[0]
+    rows = [
+        [cell.strip() for cell in line.strip("|").split("|")]
+        for line in table.splitlines()
+        if line[:1] == "|"
+    ]
+    assert {(name, seconds) for name, _, seconds in rows[2:]} == {
+        (room.name, f"{room.budget_s:g}") for room in load_rooms()
+    }
