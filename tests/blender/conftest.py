@@ -6,7 +6,9 @@ import sys
 
 import bpy
 import pytest
+from firetwin.shot.auto_framing import chase, flank, overview
 from near_fire import *  # noqa: F403
+from panel_scene import panel_blend  # noqa: F401
 from small_scene import *  # noqa: F403
 
 
@@ -14,6 +16,16 @@ from small_scene import *  # noqa: F403
 def no_waiting_for_the_disk(monkeypatch):
     """No test cuts the power, so files need not be on the disk."""
     monkeypatch.setattr(os, "fsync", lambda descriptor: None)
+
+
+@pytest.fixture(autouse=True)
+def few_candidates(monkeypatch):
+    """Auto framing tries few cameras: tests/unit proves that it finds good ones."""
+    monkeypatch.setattr(overview, "_BEARINGS", overview._BEARINGS[::4])
+    monkeypatch.setattr(overview, "_HEIGHTS", overview._HEIGHTS[:2])
+    monkeypatch.setattr(chase, "_SIDES", chase._SIDES[:2])
+    monkeypatch.setattr(chase, "_HEIGHTS", chase._HEIGHTS[:2])
+    monkeypatch.setattr(flank, "_PLACES", 2)
 
 
 @pytest.fixture(autouse=True)

@@ -15,9 +15,9 @@ from firetwin.ui import farm, farm_watch, job, working
 
 
 @pytest.fixture(scope="module")
-def blend(run_folder, tmp_path_factory):
+def blend(panel_blend, tmp_path_factory):
     """A scene that the panel built, as a file."""
-    return panel_scene.build(run_folder, tmp_path_factory.mktemp("farm"))
+    return panel_scene.copied(panel_blend, tmp_path_factory.mktemp("farm"))
 
 
 @pytest.fixture

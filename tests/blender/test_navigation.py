@@ -3,7 +3,6 @@
 import bpy
 import firetwin
 import numpy as np
-import panel_scene
 import pytest
 import small_stations
 from firetwin.blender import owned
@@ -32,17 +31,11 @@ from mathutils import Euler, Matrix, Vector
 EYE = Matrix.Translation((-500.0, -2500.0, 2400.0)) @ Euler((1.2, 0.0, -0.2)).to_matrix().to_4x4()
 
 
-@pytest.fixture(scope="module")
-def blend(run_folder, tmp_path_factory):
-    """A scene that the panel built, as a file: opening it takes less than building it for each test."""
-    return panel_scene.build(run_folder, tmp_path_factory.mktemp("flying"))
-
-
 @pytest.fixture
-def panel(blend, tmp_path, monkeypatch):
+def panel(panel_blend, plain_looks, tmp_path, monkeypatch):
     """A built scene of the panel, and a view that looks from EYE."""
     firetwin.register()
-    bpy.ops.wm.open_mainfile(filepath=str(blend))
+    bpy.ops.wm.open_mainfile(filepath=str(panel_blend))
     settings = bpy.context.scene.firetwin
     settings.output = str(tmp_path / "out")
     monkeypatch.setattr(navigation, "camera_from_view", lambda context: (EYE.copy(), 30.0, 36.0))

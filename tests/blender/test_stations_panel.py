@@ -21,10 +21,10 @@ from firetwin.ui import (
 
 
 @pytest.fixture(scope="module")
-def blend(run_folder, tmp_path_factory):
+def blend(panel_blend, tmp_path_factory):
     """A scene with stations that the panel built, as a file."""
     folder = tmp_path_factory.mktemp("stations")
-    path = panel_scene.build(run_folder, folder)
+    path = panel_scene.copied(panel_blend, folder)
     for panel in panel_scene.opened(path):
         panel.stations.file = str(exercise_stations.write(folder / "stations.gpkg"))
         panel.stations.enabled = True
@@ -34,7 +34,7 @@ def blend(run_folder, tmp_path_factory):
 
 
 @pytest.fixture
-def panel(blend):
+def panel(blend, plain_looks):
     """The panel of that scene, its list made."""
     for panel in panel_scene.opened(blend):
         stations_panel.sync()

@@ -12,12 +12,15 @@ from firetwin.jobs.worker import StoppedError
 from firetwin.shot.settings import scene_file as file
 from firetwin.ui import build, camera_list, job, queue, run, scene_file, working
 from panel_scene import state
+from small_scene import simplify_looks
 
 
 @pytest.fixture(scope="module")
 def blend(run_folder, tmp_path_factory):
     """A scene that the panel built, as a file, with a copy of the run that may vanish."""
-    return panel_scene.build_with_run(run_folder, tmp_path_factory.mktemp("failures"))
+    with pytest.MonkeyPatch.context() as patch:
+        simplify_looks(patch)
+        return panel_scene.build_with_run(run_folder, tmp_path_factory.mktemp("failures"))
 
 
 @pytest.fixture

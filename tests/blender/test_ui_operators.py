@@ -26,15 +26,15 @@ HELPERS = ImportHelper, ExportHelper, AddPresetBase, working.Working, object
 
 
 @pytest.fixture(scope="module")
-def blend(run_folder, tmp_path_factory):
+def blend(panel_blend, run_folder, tmp_path_factory):
     """A scene that the panel built, as a file, next to a copy of its run."""
     folder = tmp_path_factory.mktemp("operators")
     shutil.copytree(run_folder, folder / "other")
-    return panel_scene.build(run_folder, folder)
+    return panel_scene.copied(panel_blend, folder)
 
 
 @pytest.fixture
-def panel(blend, monkeypatch):
+def panel(blend, plain_looks, monkeypatch):
     """A built scene of the panel, and a view that looks from EYE."""
     firetwin.register()
     bpy.ops.wm.open_mainfile(filepath=str(blend))

@@ -4,11 +4,14 @@ import shutil
 
 import bpy
 import firetwin
+import pytest
 from firetwin.blender import compat
 from firetwin.errors import Error
 from firetwin.shot.settings import scene_file as file
 from firetwin.ui import queue, scene_file
+from made_once import made_once
 from scene_text import BARE, NO_SMOKE, THREE_FRAMES, TINY
+from small_scene import simplify_looks
 
 SCENE = (
     THREE_FRAMES
@@ -38,6 +41,28 @@ def build(run, folder):
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "scene.blend"))
     firetwin.unregister()
     return folder / "scene.blend"
+
+
+@pytest.fixture(scope="session")
+def panel_blend(factory, run_folder, tmp_path_factory):
+    """Such a scene with plain materials, for tests that open it or a copy of it."""
+
+    def make(folder):
+        with pytest.MonkeyPatch.context() as patch:
+            simplify_looks(patch)
+            build(run_folder, folder)
+
+    return made_once(tmp_path_factory, "panel_scene", make) / "scene.blend"
+
+
+def copied(blend, folder):
+    """Copy such a file into a folder, with its scene file and an output folder there; returns its path."""
+    for suffix in (".blend", ".toml"):
+        shutil.copy(blend.with_suffix(suffix), folder)
+    for panel in opened(folder / blend.name):
+        panel.scene_file, panel.output = str(folder / "scene.toml"), str(folder / "out")
+        bpy.ops.wm.save_mainfile()
+    return folder / blend.name
 
 
 def build_with_run(run, folder):

@@ -28,6 +28,7 @@ from firetwin.shot.shot import Shot  # noqa: E402
 from firetwin.smoke import domains  # noqa: E402
 from firetwin_core import run as runs  # noqa: E402
 from firetwin_core import sensor  # noqa: E402
+from made_once import made_once  # noqa: E402
 from scene_text import PANEL  # noqa: E402
 
 __all__ = [
@@ -65,8 +66,11 @@ def _axis(low: float, high: float, count: int) -> np.ndarray:
 
 @pytest.fixture(scope="session")
 def run_folder(tmp_path_factory):
-    """Write a run of 24 x 24 cells of 370 m with fuels on 120 x 120: hills, bare rock, a round fire."""
-    folder = tmp_path_factory.mktemp("run")
+    """A run of 24 x 24 cells of 370 m with fuels on 120 x 120: hills, bare rock, a round fire."""
+    return made_once(tmp_path_factory, "run", _write_run)
+
+
+def _write_run(folder):
     fy, fx = NY * FINE, NX * FINE
     y, x = np.meshgrid(np.linspace(-1, 1, fy), np.linspace(-1, 1, fx), indexing="ij")
     height = 1400 + 300 * np.sin(3 * x + 1) * np.cos(2 * y) + 60 * np.sin(11 * x) * np.sin(9 * y) + 250 * x
@@ -99,7 +103,6 @@ def run_folder(tmp_path_factory):
         'vertical = "orthometric"\n[units]\nelevation = "m"\nfuel_elevation = "m"\nfuel_arrival_time = "s"\n'
         'heat_flux = "W/m2"\nsurface_fuel = "kg/m2"\ncanopy_fuel = "kg/m2"\n'
     )
-    return folder
 
 
 @pytest.fixture(scope="session")
@@ -177,13 +180,15 @@ def stage(scene):
 @pytest.fixture(scope="session")
 def built_file(factory, run_folder, run, tmp_path_factory):
     """The small shot built into a scene of Firetwin, with its view layers, as a file."""
-    folder = tmp_path_factory.mktemp("built")
-    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    stage, settings = owned.adopt(bpy.context.scene), _settings(run_folder, folder)
-    build.build(Shot(settings, run), stage.scene)
-    layers.build(settings, stage)
-    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "built.blend"))
-    return folder / "built.blend"
+
+    def make(folder):
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+        stage, settings = owned.adopt(bpy.context.scene), _settings(run_folder, folder)
+        build.build(Shot(settings, run), stage.scene)
+        layers.build(settings, stage)
+        bpy.ops.wm.save_as_mainfile(filepath=str(folder / "built.blend"))
+
+    return made_once(tmp_path_factory, "built", make) / "built.blend"
 
 
 @pytest.fixture
@@ -205,16 +210,26 @@ def _plain(name, shot, stage, images=None, *_, **__):
 @pytest.fixture
 def plain_ground(monkeypatch):
     """Give the ground a plain material: its nodes take longest to build."""
-    monkeypatch.setattr(ground_material, "build", functools.partial(_plain, "Ground"))
+    _simplify_ground(monkeypatch)
 
 
 @pytest.fixture
-def plain_looks(plain_ground, monkeypatch):
+def plain_looks(monkeypatch):
     """Give ground, plants and fire plain materials."""
+    simplify_looks(monkeypatch)
+
+
+def _simplify_ground(patch):
+    patch.setattr(ground_material, "build", functools.partial(_plain, "Ground"))
+
+
+def simplify_looks(patch):
+    """Give ground, plants and fire plain materials, for as long as the patch lasts."""
+    _simplify_ground(patch)
     for name in ("foliage", "bark", "rock", "grass"):
-        monkeypatch.setattr(tree_material, name, functools.partial(_plain, name.title()))
-    monkeypatch.setattr(flame_material, "build", functools.partial(_plain, "Flames"))
-    monkeypatch.setattr(firebrand_material, "build", functools.partial(_plain, "Firebrands"))
+        patch.setattr(tree_material, name, functools.partial(_plain, name.title()))
+    patch.setattr(flame_material, "build", functools.partial(_plain, "Flames"))
+    patch.setattr(firebrand_material, "build", functools.partial(_plain, "Firebrands"))
 
 
 @pytest.fixture
