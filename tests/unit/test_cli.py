@@ -357,6 +357,11 @@ def test_options_that_do_not_fit_the_scene_are_bad_usage(scene, tmp_path, option
     assert_one_line(firetwin("render", scene(), "--out", tmp_path / "out", *option), 2, *words)
 
 
+def test_frames_of_a_bake_select_volumes(scene):
+    assert_one_line(firetwin("bake", scene(), "--frames", "1"), 2, "--frames", "add --volumes")
+    assert_one_line(firetwin("bake", scene(), "--volumes", "--frames", "0-3"), 2, "--frames", "1-48")
+
+
 def test_a_scene_must_fit_its_run(scene, tmp_path):
     late = scene("[time]\nend = 2015-01-01T00:00:00Z")
     assert_one_line(firetwin("bake", late), 1, "scene.toml:3:1", "outside of the run", "2014-09-17T04:47:00Z")
