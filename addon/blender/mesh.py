@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 _KEYS = {
     "FLOAT": "value",
     "INT": "value",
+    "BOOLEAN": "value",
     "FLOAT_VECTOR": "vector",
     "FLOAT_COLOR": "color",
     "BYTE_COLOR": "color",
@@ -83,5 +84,5 @@ def add_attribute(
     data: bpy.types.Mesh, name: str, kind: str, values: ArrayLike, domain: str = "POINT"
 ) -> None:
     """Add an attribute of a kind such as "FLOAT_VECTOR": one value or row per element of its domain."""
-    flat = np.asarray(values, np.int32 if kind == "INT" else np.float32).ravel()
+    flat = np.asarray(values, {"INT": np.int32, "BOOLEAN": np.bool_}.get(kind, np.float32)).ravel()
     data.attributes.new(name, kind, domain).data.foreach_set(_KEYS[kind], flat)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import itertools
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -315,9 +315,23 @@ def _camera(
                 most = load.bytes
                 tell(expected.describe(load))
             own = share(progress, done, frames, "rendering")
-            pictures.render(shot, stage, session, group, own, ready, tell)
+            prepared = _with_culling(shot, stage, ready) if drawn else ready
+            pictures.render(shot, stage, session, group, own, prepared, tell)
             done += count_frames(group)
     return most
+
+
+def _with_culling(shot: Shot, stage: Any, ready: Callable[..., Any]) -> Callable[..., Any]:
+    """Extend `ready` by culling the forest for its frame."""
+    from ..scene.forest.frame_culling import FrameCulling
+
+    culling = FrameCulling(shot, stage)
+
+    def ready_and_culled(frame: int, ahead: list[int]) -> Any:
+        culling.apply(frame)
+        return ready(frame, ahead)
+
+    return ready_and_culled
 
 
 @contextlib.contextmanager

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from .. import memory
 from ..blender import compat
 from . import engine, layers
+from .light_only import light_only
 
 Channels = dict[str, NDArray[np.float32]]
 """Channels of a view layer: (h, w, c) by the name of Cycles' pass, without alpha."""
@@ -45,6 +46,7 @@ def render(
             compat.raw_file(scene, file),
             engine.pixel_centres(scene, centres),
             layers.black_materials(scene, names),
+            light_only(names),
         ):
             bpy.ops.render.render(write_still=True, scene=scene.name)
         memory.release_freed()

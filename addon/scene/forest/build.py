@@ -3,7 +3,8 @@
 All are instances on points. Float attributes of a point are `scale` (height, m), `width` (ratio to the
 model's width), `rotation`, `pitch` and `roll` (radians), `arrival_time`, `elevation`, `canopy_fuel`, `tint`,
 `dead`, `scorch`, `torched`, and the indices of its models, `model` and `snag_model`; trees also have an
-instance number `number` (see `shot.passes.masks`). Plants outside of all views are culled.
+instance number `number` (see `shot.passes.masks`). Plants outside of all views are culled; in
+renders `frame_culling` also hides trees outside of the frame's views.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from ...shot.terrain.terrain import NEVER
 from ...shot.tiles import tile_vegetation
 from .. import clock
 from . import fire_effects, models, preview, stand_structure, understorey, visibility, visible_cells
+from .frame_culling import IN_VIEW
 from .library import drawn, grass_models, levelled, tree_models
 from .material import TORCHING
 from .stand import Stand
@@ -166,8 +168,10 @@ def _instances(
     library: bpy.types.Collection,
 ) -> bpy.types.Object:
     """Create an object of plant instances, and its proxies for the viewport."""
-    group = node_group(shot, f"Firetwin {name}", library)
-    full = _object(collection, name, points, group)
+    culled = name == "Trees"
+    full = _object(collection, name, points, node_group(shot, f"Firetwin {name}", library, culled=culled))
+    if culled:
+        add_attribute(full.data, IN_VIEW, "BOOLEAN", np.ones(len(points["position"])))
     shown = []
     for part, some, follows in preview.parts(shot, points, name != "Grass"):
         title = f"{part} {name} in Viewport".strip()
@@ -206,9 +210,12 @@ def _drawn(tree: nodes.Tree, shot: Shot) -> nodes.Value | bool:
 
 
 def node_group(
-    shot: Shot, name: str, library: bpy.types.Collection, *, burns: bool = True
+    shot: Shot, name: str, library: bpy.types.Collection, *, burns: bool = True, culled: bool = False
 ) -> bpy.types.NodeTree:
-    """Geometry nodes that instance a model on each point; with `burns` it then becomes a snag."""
+    """Geometry nodes that instance a model on each point; with `burns` it then becomes a snag.
+
+    If `culled`, points outside of a frame's views have no instance (see `frame_culling`).
+    """
     tree, given = nodes.geometry(name)
     collection = tree.node("GeometryNodeCollectionInfo", transform_space="ORIGINAL")
     compat.find_socket(collection.inputs, "Collection").default_value = library
@@ -225,6 +232,10 @@ def node_group(
         burned = tree.output("FunctionNodeCompare", [age, after], data_type="FLOAT", operation="GREATER_THAN")
         choice = {"Switch": burned, "False": model, "True": attribute("snag_model", "INT")}
         model = tree.output("GeometryNodeSwitch", choice, input_type="INT")
+    drawn = _drawn(tree, shot) if burns else True
+    if culled:
+        seen = attribute(IN_VIEW, "BOOLEAN")
+        drawn = seen if drawn is True else tree.output("FunctionNodeBooleanMath", [seen, drawn])
     taller = tree.input("Height", 1.0, "Factor on the size of all plants", "Size")
     wider = tree.input("Width", 1.0, "Factor on how wide plants are for their height", "Size")
     up = attribute("scale", "FLOAT") * taller
@@ -233,7 +244,7 @@ def node_group(
         "GeometryNodeInstanceOnPoints",
         {
             "Points": tree.pick(given, "Geometry"),
-            "Selection": _drawn(tree, shot) if burns else True,
+            "Selection": drawn,
             "Instance": collection,
             "Pick Instance": True,
             "Instance Index": model,

@@ -10,7 +10,7 @@ from ...shot.terrain.terrain import Terrain
 from . import models
 
 PIXEL = 25.0  # m; a satellite with larger pixels resolves no tree
-_AROUND = 30.0  # m; ambient occlusion of a view by trees outside of it ends here, or at their height
+AROUND = 30.0  # m; ambient occlusion of a view by trees outside of it ends here, or at their height
 
 
 def visible(
@@ -23,17 +23,21 @@ def visible(
 ) -> NDArray[np.bool_]:
     """Find plants (n,) `height` m tall with bases at (n, 3) that are visible or shade visible ground.
 
-    Plants within `_AROUND` of a view are retained too, as they occlude the sky's light. Plants beyond
+    Plants within `AROUND` of a view are retained too, as they occlude the sky's light. Plants beyond
     `reach`, or too small for a satellite, are culled. `wider` scales the bounding spheres; `offset` is the
     largest offset of bases, m. Shadow lengths follow the sun's elevation in each frame (`lod.visible_mask`),
     so no margin is assumed.
     """
-    height = np.broadcast_to(height, len(foot))
-    middle = np.column_stack([foot[:, :2], foot[:, 2] + 0.5 * height])
-    radius = models.REACH * height * np.maximum(wider, 1.0) + offset
+    middle, radius = bounds(foot, np.broadcast_to(height, len(foot)), wider)
     return shot.visibility.visible_mask(
-        middle, radius, reach=reach, margin=_AROUND, shadows=True, pixel=PIXEL
+        middle, radius + offset, reach=reach, margin=AROUND, shadows=True, pixel=PIXEL
     )
+
+
+def bounds(foot: NDArray, height: NDArray, wider: NDArray | float) -> tuple[NDArray, NDArray]:
+    """Return bounding spheres of plants (n,), as `visible` takes them: centres (n, 3) and radii (n,), m."""
+    middle = np.column_stack([foot[:, :2], foot[:, 2] + 0.5 * height])
+    return middle, models.REACH * height * np.maximum(wider, 1.0)
 
 
 def too_far(shot: Shot) -> bool:
