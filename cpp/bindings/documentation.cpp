@@ -1,5 +1,8 @@
 #include "documentation.hpp"
 
+#include "documentation_table.hpp"
+
+#include <algorithm>
 #include <stdexcept>
 
 namespace firetwin::bindings {
@@ -20,10 +23,10 @@ bool is_special(const std::string& name) {
 } // namespace
 
 const char* documentation(const std::string& name) {
-  const auto& table = documentation_table();
-  const auto found = table.find(name);
-  if (found != table.end()) {
-    return found->second;
+  const auto table = documentation_table();
+  const auto found = std::ranges::lower_bound(table, name, {}, &Docstring::name);
+  if (found != table.end() && found->name == name) {
+    return found->text;
   }
   if (is_special(name)) {
     return "";

@@ -2,7 +2,6 @@
 
 #include <pybind11/pybind11.h>
 
-#include <map>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -10,9 +9,6 @@
 /// Docstrings at run time: the stubs are their only source (documentation.py). Module and Class
 /// bind like pybind11's, and look up the docstring by the bound name.
 namespace firetwin::bindings {
-
-/// Docstrings by name within the module, such as "flux.Emitters.cell".
-const std::map<std::string, const char*>& documentation_table();
 
 /// Returns the docstring of a name; special methods may have none.
 /// @throws std::logic_error if the stubs do not have the name, so that the module cannot be

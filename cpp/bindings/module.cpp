@@ -1,8 +1,8 @@
 #include "bindings.hpp"
+#include "volume/archive.hpp"
 
 #include <OpenImageIO/imageio.h>
 #include <oneapi/tbb/global_control.h>
-#include <openvdb/openvdb.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -30,7 +30,7 @@ void set_threads(int threads) {
 
 std::map<std::string, std::string> build_info() {
   return {{"compiler", FIRETWIN_COMPILER},
-          {"openvdb", openvdb::getLibraryAbiVersionString()},
+          {"openvdb", firetwin::volume::openvdb_version()},
           {"openimageio", OIIO_VERSION_STRING},
           {"tbb", TBB_runtime_version()}};
 }

@@ -67,7 +67,7 @@ Array<float> new_levels(const Run& run, const run::LevelSeries& series) {
 }
 
 /// A field on levels at times[index].
-template <Levels field> Array<float> levels(const Run& run, py::ssize_t index) {
+template <Levels field> Array<float> level_values(const Run& run, py::ssize_t index) {
   if (index < 0) {
     throw std::out_of_range("time index " + std::to_string(index) + " is negative");
   }
@@ -335,9 +335,9 @@ void init_run(Module module) {
           py::arg("index"))
       .def("wind", &wind, py::arg("index"))
       .def("has", &Run::has, py::arg("field"))
-      .def("smoke_3d", &levels<&Run::smoke_3d>, py::arg("index"))
-      .def("height_3d", &levels<&Run::height_3d>, py::arg("index"))
-      .def("temperature_3d", &levels<&Run::temperature_3d>, py::arg("index"))
+      .def("smoke_3d", &level_values<&Run::smoke_3d>, py::arg("index"))
+      .def("height_3d", &level_values<&Run::height_3d>, py::arg("index"))
+      .def("temperature_3d", &level_values<&Run::temperature_3d>, py::arg("index"))
       .def("smoke_3d_at", &levels_at<&Run::smoke_3d>, py::arg("time"))
       .def("height_3d_at", &levels_at<&Run::height_3d>, py::arg("time"))
       .def("temperature_3d_at", &levels_at<&Run::temperature_3d>, py::arg("time"))

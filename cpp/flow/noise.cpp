@@ -11,7 +11,7 @@
 namespace firetwin::flow {
 namespace {
 
-constexpr std::uint32_t along_x = 0x9E3779B1U, along_y = 0x85EBCA77U, along_z = 0xC2B2AE3DU,
+constexpr std::uint32_t prime_x = 0x9E3779B1U, prime_y = 0x85EBCA77U, prime_z = 0xC2B2AE3DU,
                         of_seed = 0x27D4EB2FU;
 
 inline float share(std::uint32_t h, std::uint32_t shift) {
@@ -24,9 +24,9 @@ inline float perlin_at(float x, float y, float z, std::uint32_t seed) {
   const auto lattice = [](float at, std::uint32_t along) {
     return static_cast<std::uint32_t>(static_cast<std::int32_t>(at)) * along;
   };
-  const std::array<std::uint32_t, 2> i{lattice(x0, along_x), lattice(x0, along_x) + along_x},
-      j{lattice(y0, along_y), lattice(y0, along_y) + along_y},
-      k{lattice(z0, along_z) ^ seed * of_seed, (lattice(z0, along_z) + along_z) ^ seed * of_seed};
+  const std::array<std::uint32_t, 2> i{lattice(x0, prime_x), lattice(x0, prime_x) + prime_x},
+      j{lattice(y0, prime_y), lattice(y0, prime_y) + prime_y},
+      k{lattice(z0, prime_z) ^ seed * of_seed, (lattice(z0, prime_z) + prime_z) ^ seed * of_seed};
   const std::array<float, 2> u{a, a - 1.0F}, v{b, b - 1.0F}, w{c, c - 1.0F};
   const auto rise = [&](std::size_t up, std::size_t north, std::size_t east) {
     return cube_rise(murmur_finalizer(i[east] ^ j[north] ^ k[up]), u[east], v[north], w[up]);
@@ -57,9 +57,9 @@ void strew(const std::array<std::int32_t, 3>& cell, std::uint32_t seed, Worley::
   static constexpr NeighbourCubes around;
   for (std::size_t n = 0; n < Worley::points; ++n) {
     const std::uint32_t h = murmur_finalizer(
-        static_cast<std::uint32_t>(cell[0] + around.x[n]) * along_x ^
-        static_cast<std::uint32_t>(cell[1] + around.y[n]) * along_y ^
-        static_cast<std::uint32_t>(cell[2] + around.z[n]) * along_z ^ seed * of_seed);
+        static_cast<std::uint32_t>(cell[0] + around.x[n]) * prime_x ^
+        static_cast<std::uint32_t>(cell[1] + around.y[n]) * prime_y ^
+        static_cast<std::uint32_t>(cell[2] + around.z[n]) * prime_z ^ seed * of_seed);
     points.x[n] = static_cast<float>(around.x[n]) + share(h, 0);
     points.y[n] = static_cast<float>(around.y[n]) + share(h, 10);
     points.z[n] = static_cast<float>(around.z[n]) + share(h, 20);

@@ -18,8 +18,6 @@
 namespace firetwin::flux {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 bool has_own(const run::Run& run) {
   return run.has("fuel_arrival_time");
 }

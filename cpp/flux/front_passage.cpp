@@ -16,7 +16,6 @@
 namespace firetwin::flux {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// A cell has burned out if its remaining heat is less than this fraction of its total.
 constexpr double left_over = 0.05;
 /// Minimum number of burned-out cells inside the fire for statistics.

@@ -12,7 +12,6 @@
 namespace firetwin::flux {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Cells; a front that moves farther in an interval gives no information about the cells in
 /// between.

@@ -2,9 +2,13 @@
 
 #include "run/run.hpp"
 
+#include <limits>
 #include <vector>
 
 namespace firetwin::flux {
+
+/// Time of a cell that does not burn.
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Ignition time of each cell [ny nx], s, from the heat flux alone: when the front reaches the
 /// cell, with a resolution finer than the model times. NaN if the cell never burns; the first model

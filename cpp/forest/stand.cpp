@@ -287,7 +287,7 @@ private:
 };
 
 /// Trees of a row of cells, and the end of each cell's trees.
-struct RowOf {
+struct StemRow {
   std::vector<Stem> stems;
   std::vector<std::size_t> last;
 };
@@ -302,7 +302,7 @@ struct Worker {
 /// A block of cells. Points are gathered for as many cells as fit into the processor's cache.
 class Block {
 public:
-  Block(const Grower& grower, Worker& worker, std::span<RowOf> rows, std::size_t y, std::size_t x,
+  Block(const Grower& grower, Worker& worker, std::span<StemRow> rows, std::size_t y, std::size_t x,
         std::size_t height, std::size_t width)
       : grower_(grower), worker_(worker), rows_(rows), y_(y), x_(x), height_(height),
         width_(width) {
@@ -347,7 +347,7 @@ private:
       worker_.points.gather(all, latest);
     }
     for (std::size_t j = low; j < high; ++j) {
-      RowOf& row = rows_[y_ + j];
+      StemRow& row = rows_[y_ + j];
       for (std::size_t i = left; i < right; ++i) {
         if (const auto& cell = at(j, i)) {
           grower_.grow(*cell, y_ + j, x_ + i, worker_.points, worker_.judged, row.stems);
@@ -367,7 +367,7 @@ private:
 
   const Grower& grower_;
   Worker& worker_;
-  std::span<RowOf> rows_;
+  std::span<StemRow> rows_;
   std::size_t y_, x_, height_, width_;
   std::vector<std::optional<Cell>> cells_;
 };
@@ -402,7 +402,7 @@ Stems stand(std::span<const float> canopy_fuel, const PlantingSite& site,
     return make_stems(0);
   }
   const Grower grower(canopy_fuel, site, retained);
-  std::vector<RowOf> grown(rows);
+  std::vector<StemRow> grown(rows);
   tbb::enumerable_thread_specific<Worker> workers(site.seed);
   tbb::parallel_for(Range(0, (rows + block - 1) / block), [&](const Range& range) {
     Worker& mine = workers.local();
@@ -423,7 +423,7 @@ Stems stand(std::span<const float> canopy_fuel, const PlantingSite& site,
   Stems out = make_stems(offset.back());
   tbb::parallel_for(Range(0, rows), [&](const Range& range) {
     for (std::size_t y = range.begin(); y < range.end(); ++y) {
-      const RowOf row = std::move(grown[y]);
+      const StemRow row = std::move(grown[y]);
       for (std::size_t x = 0, i = 0; x < columns; ++x) {
         for (; i < row.last[x]; ++i) {
           write(out, offset[y] + i, y * columns + x, row.stems[i]);

@@ -8,6 +8,8 @@ namespace {
 
 using Spellings = std::array<std::string_view, 5>;
 
+namespace units {
+
 constexpr Spellings degrees_north = {"degrees_north", "degrees", "degree", "deg", "deg N"};
 constexpr Spellings degrees_east = {"degrees_east", "degrees", "degree", "deg", "deg E"};
 constexpr Spellings metres = {"m", "metre", "metres", "meter", "meters"};
@@ -20,29 +22,31 @@ constexpr Spellings density = {"kg/m3", "kg/m^3", "kg/m³", "kg m-3", "kg m^-3"}
 constexpr Spellings share = {"1", "fraction", "share", "0..1", "dimensionless"};
 constexpr Spellings number = {"1", "number", "category", "class", "dimensionless"};
 
-constexpr std::array<FieldUnit, 23> fields = {{{"latitude", degrees_north},
-                                               {"longitude", degrees_east},
-                                               {"elevation", metres},
-                                               {"fuel_latitude", degrees_north},
-                                               {"fuel_longitude", degrees_east},
-                                               {"fuel_elevation", metres},
-                                               {"fuel_arrival_time", seconds},
-                                               {"fuel_category", number},
-                                               {"burned_fraction", share},
-                                               {"air_latitude", degrees_north},
-                                               {"air_longitude", degrees_east},
-                                               {"surface_fuel", load},
-                                               {"canopy_fuel", load},
-                                               {"heat_flux", flux},
-                                               {"temperature", kelvin},
-                                               {"wind_east", speed},
-                                               {"wind_north", speed},
-                                               {"temperature_3d", kelvin},
-                                               {"smoke_3d", density},
-                                               {"height_3d", metres},
-                                               {"wind_east_3d", speed},
-                                               {"wind_north_3d", speed},
-                                               {"wind_up_3d", speed}}};
+} // namespace units
+
+constexpr std::array<FieldUnit, 23> fields = {{{"latitude", units::degrees_north},
+                                               {"longitude", units::degrees_east},
+                                               {"elevation", units::metres},
+                                               {"fuel_latitude", units::degrees_north},
+                                               {"fuel_longitude", units::degrees_east},
+                                               {"fuel_elevation", units::metres},
+                                               {"fuel_arrival_time", units::seconds},
+                                               {"fuel_category", units::number},
+                                               {"burned_fraction", units::share},
+                                               {"air_latitude", units::degrees_north},
+                                               {"air_longitude", units::degrees_east},
+                                               {"surface_fuel", units::load},
+                                               {"canopy_fuel", units::load},
+                                               {"heat_flux", units::flux},
+                                               {"temperature", units::kelvin},
+                                               {"wind_east", units::speed},
+                                               {"wind_north", units::speed},
+                                               {"temperature_3d", units::kelvin},
+                                               {"smoke_3d", units::density},
+                                               {"height_3d", units::metres},
+                                               {"wind_east_3d", units::speed},
+                                               {"wind_north_3d", units::speed},
+                                               {"wind_up_3d", units::speed}}};
 
 } // namespace
 

@@ -142,14 +142,14 @@ private:
   std::vector<std::uint8_t> state_;
 };
 
-bool within(std::int64_t number, std::int64_t most) {
+bool is_within(std::int64_t number, std::int64_t most) {
   return most < 0 || number <= most;
 }
 
 Cut choose(const Tree& tree, double error, const Budget& budget) {
   Cut cut = Traversal(tree, error).cut(error);
-  cut.fits = within(static_cast<std::int64_t>(cut.tiles.size()), budget.tiles) &&
-             within(cut.bytes, budget.bytes) && within(cut.triangles, budget.triangles);
+  cut.fits = is_within(static_cast<std::int64_t>(cut.tiles.size()), budget.tiles) &&
+             is_within(cut.bytes, budget.bytes) && is_within(cut.triangles, budget.triangles);
   return cut;
 }
 

@@ -4,20 +4,50 @@
 #include "volume/leaf_writer.hpp"
 
 #include <oneapi/tbb/parallel_pipeline.h>
+#include <openvdb/io/Archive.h>
 #include <openvdb/io/Compression.h>
 #include <openvdb/io/GridDescriptor.h>
 #include <openvdb/io/io.h>
+#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
+#include <mutex>
 #include <optional>
+#include <ostream>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
 
 namespace firetwin::volume {
+
+using Leaf = openvdb::FloatTree::LeafNodeType;
+
+struct Topology::Tree {
+  openvdb::FloatTree::Ptr tree = std::make_shared<openvdb::FloatTree>();
+};
+
+Topology::Topology(const Leaves& leaves, const std::vector<Tile>& tiles) {
+  const auto made = std::make_shared<Tree>();
+  const auto coord = [](const Coord& at) { return openvdb::Coord(at.x(), at.y(), at.z()); };
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    auto leaf = std::make_unique<Leaf>(openvdb::PartialCreate(), coord(leaves.origins[i]));
+    Leaf::NodeMaskType mask;
+    for (std::size_t word = 0; word < leaves.masks[i].words.size(); ++word) {
+      mask.getWord<std::uint64_t>(static_cast<openvdb::Index>(word)) = leaves.masks[i].words[word];
+    }
+    leaf->setValueMask(mask);
+    leaf->setTransientData(static_cast<openvdb::Index32>(i));
+    made->tree->addLeaf(leaf.release()); // the tree takes ownership
+  }
+  for (const Tile& tile : tiles) {
+    made->tree->addTile(1, coord(tile.origin), tile.value, true);
+  }
+  tree_ = made;
+}
+
 namespace {
 
 constexpr std::size_t leaves_per_piece = 32;
@@ -27,11 +57,32 @@ constexpr std::size_t max_pieces = 256; // in memory at once, 32 to 64 kB each
 /// the same grids identical.
 constexpr std::string_view fixed_uuid = "00000000-0000-0000-0000-000000000000";
 
-} // namespace
+/// Makes the grid without leaf values.
+openvdb::FloatGrid::Ptr fog_volume(const FogGrid& fog, const openvdb::FloatTree::Ptr& tree) {
+  static std::once_flag once;
+  std::call_once(once, [] { openvdb::initialize(); });
+  const openvdb::FloatGrid::Ptr grid = openvdb::FloatGrid::create(0.0F);
+  const openvdb::math::Transform::Ptr transform =
+      openvdb::math::Transform::createLinearTransform(fog.voxel_size);
+  transform->postTranslate(openvdb::Vec3d(fog.origin[0], fog.origin[1], fog.origin[2]));
+  grid->setTransform(transform);
+  grid->setName(fog.name);
+  grid->setGridClass(openvdb::GRID_FOG_VOLUME);
+  grid->insertMeta("units", openvdb::StringMetadata(fog.units));
+  grid->setSaveFloatAsHalf(fog.half);
+  grid->setTree(tree);
+  return grid;
+}
+
+/// A grid with the function that computes its values.
+struct LeafGrid {
+  openvdb::FloatGrid::Ptr grid;
+  const FillLeaf* fill;
+};
 
 /// A chunk of a grid's data: first the header (everything but the values), then the values of some
 /// leaves.
-struct VdbArchive::Piece {
+struct Piece {
   std::size_t grid = 0;
   bool head = true;
   std::size_t first = 0; ///< index of a leaf, in file order
@@ -40,7 +91,7 @@ struct VdbArchive::Piece {
 };
 
 /// Iterates over the pieces of all grids in file order.
-class VdbArchive::Pieces {
+class Pieces {
 public:
   explicit Pieces(const std::vector<LeafGrid>& grids) : leaves_(grids.size()) {
     for (std::size_t i = 0; i < grids.size(); ++i) {
@@ -66,23 +117,33 @@ public:
 
   /// Serialises the values of a piece's leaves.
   std::string values(const LeafGrid& from, const Piece& piece) const {
-    LeafWriter writer(from.grid->saveFloatAsHalf());
+    LeafWriter writer(from.grid->saveFloatAsHalf(), &openvdb::io::bloscToStream);
     LeafValues values;
     for (std::size_t i = piece.first; i < piece.last; ++i) {
       const Leaf& leaf = *leaves_[piece.grid][i];
-      from.fill(leaf, values);
-      writer.write(leaf.getValueMask(), values);
+      const openvdb::Coord origin = leaf.origin();
+      (*from.fill)({origin.x(), origin.y(), origin.z()}, leaf.transientData(), values);
+      writer.write(mask_of(leaf), values);
     }
     return writer.take();
   }
 
 private:
+  static LeafMask mask_of(const Leaf& leaf) {
+    LeafMask mask;
+    for (std::size_t word = 0; word < mask.words.size(); ++word) {
+      mask.words[word] =
+          leaf.getValueMask().getWord<std::uint64_t>(static_cast<openvdb::Index>(word));
+    }
+    return mask;
+  }
+
   std::vector<std::vector<const Leaf*>> leaves_; ///< by grid
   Piece next_;
 };
 
 /// Writes pieces one after the other, and fills in each grid's offsets in its header.
-class VdbArchive::GridFile {
+class GridFile {
 public:
   explicit GridFile(std::ostream& file) : file_(file) {}
 
@@ -113,11 +174,28 @@ private:
   std::streampos offsets_;
 };
 
-VdbArchive::VdbArchive() {
-  setCompression(openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK);
-}
+} // namespace
 
-void VdbArchive::describe(const openvdb::GridBase& grid, std::ostream& stream) const {
+class VdbFile : private openvdb::io::Archive {
+public:
+  explicit VdbFile(const std::vector<FogGrid>& grids) {
+    setCompression(openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK);
+    for (const FogGrid& fog : grids) {
+      grids_.push_back({fog_volume(fog, fog.topology.tree_->tree), &fog.fill});
+    }
+  }
+
+  VdbSummary summary() const;
+  void write(std::ostream& file, const io::Metadata& metadata) const;
+
+private:
+  /// Writes a grid's compression, metadata, transform and topology.
+  void describe(const openvdb::GridBase& grid, std::ostream& stream) const;
+
+  std::vector<LeafGrid> grids_;
+};
+
+void VdbFile::describe(const openvdb::GridBase& grid, std::ostream& stream) const {
   openvdb::io::setDataCompression(stream, compression());
   setGridCompression(stream, grid);
   const auto copy = openvdb::ConstPtrCast<openvdb::GridBase>(grid.copyGrid()); // shares the tree
@@ -130,28 +208,24 @@ void VdbArchive::describe(const openvdb::GridBase& grid, std::ostream& stream) c
   copy->writeTopology(stream);
 }
 
-void VdbArchive::add(LeafGrid grid) {
-  const std::uint64_t voxels = grid.grid->activeVoxelCount();
-  frame_.voxels += voxels;
-  if (voxels > frame_.active_voxels) {
-    frame_.active_voxels = voxels;
-    const openvdb::CoordBBox box = grid.grid->evalActiveVoxelBoundingBox();
-    const openvdb::Vec3d half(0.5);
-    const openvdb::Vec3d low = grid.grid->indexToWorld(box.min().asVec3d() - half);
-    const openvdb::Vec3d high = grid.grid->indexToWorld(box.max().asVec3d() + half);
-    frame_.bounds = {low[0], low[1], low[2], high[0], high[1], high[2]};
+VdbSummary VdbFile::summary() const {
+  VdbSummary summary;
+  for (const auto& [grid, fill] : grids_) {
+    const std::uint64_t voxels = grid->activeVoxelCount();
+    summary.voxels += voxels;
+    if (voxels > summary.active_voxels) {
+      summary.active_voxels = voxels;
+      const openvdb::CoordBBox box = grid->evalActiveVoxelBoundingBox();
+      const openvdb::Vec3d half(0.5);
+      const openvdb::Vec3d low = grid->indexToWorld(box.min().asVec3d() - half);
+      const openvdb::Vec3d high = grid->indexToWorld(box.max().asVec3d() + half);
+      summary.bounds = {low[0], low[1], low[2], high[0], high[1], high[2]};
+    }
   }
-  grids_.push_back(std::move(grid));
+  return summary;
 }
 
-VdbSummary VdbArchive::write(const std::filesystem::path& path,
-                             const io::Metadata& metadata) const {
-  VdbSummary frame = frame_;
-  frame.bytes = io::write_file(path, [&](std::ostream& file) { write(file, metadata); });
-  return frame;
-}
-
-void VdbArchive::write(std::ostream& file, const io::Metadata& metadata) const {
+void VdbFile::write(std::ostream& file, const io::Metadata& metadata) const {
   writeHeader(file, true);
   file.seekp(-static_cast<std::streamoff>(fixed_uuid.size()), std::ios_base::cur);
   file << fixed_uuid;
@@ -201,6 +275,18 @@ void VdbArchive::write(std::ostream& file, const io::Metadata& metadata) const {
     errno = reason;
     throw;
   }
+}
+
+VdbSummary write_vdb(const std::filesystem::path& path, const std::vector<FogGrid>& grids,
+                     const io::Metadata& metadata) {
+  const VdbFile made(grids);
+  VdbSummary summary = made.summary();
+  summary.bytes = io::write_file(path, [&](std::ostream& file) { made.write(file, metadata); });
+  return summary;
+}
+
+std::string openvdb_version() {
+  return openvdb::getLibraryAbiVersionString();
 }
 
 } // namespace firetwin::volume

@@ -3,16 +3,16 @@
 #include "base/check.hpp"
 #include "volume/archive.hpp"
 #include "volume/dense_leaves.hpp"
-#include "volume/fog.hpp"
 
+#include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 namespace firetwin::volume {
 namespace {
 
-[[noreturn]] void refuse(const std::string& name, const DenseField& field,
-                         const openvdb::Coord& at) {
+[[noreturn]] void refuse(const std::string& name, const DenseField& field, const Coord& at) {
   LeafValues values;
   copy_leaf(field, at, values);
   std::ostringstream text;
@@ -33,36 +33,42 @@ VdbSummary write_dense(const std::filesystem::path& path,
     throw std::invalid_argument("within must name one of the grids, not \"" + settings.within +
                                 '"');
   }
-  VdbArchive archive;
+  std::vector<FogGrid> grids;
   double mass = 0.0;
   double culled_mass = 0.0;
   const double volume = settings.voxel_size * settings.voxel_size * settings.voxel_size;
-  const auto add = [&](const std::string& name, const openvdb::FloatTree* within) {
+  const auto add = [&](const std::string& name, const DenseLeaves* within) {
     const DenseField& field = fields.at(name);
-    const openvdb::FloatGrid::Ptr grid = fog_grid(name, settings.voxel_size, settings.origin, "");
-    grid->setSaveFloatAsHalf(settings.half);
     const bool is_density = name == "density";
-    const DenseLeaves leaves = find_leaves(field, settings, is_density, within, grid->tree());
-    if (leaves.bad) {
-      refuse(name, field, *leaves.bad);
+    DenseLeaves found = find_leaves(field, settings, is_density, within);
+    if (found.bad) {
+      refuse(name, field, *found.bad);
     }
     if (is_density) {
-      mass = leaves.sum * volume;
-      culled_mass = leaves.culled_sum * volume;
+      mass = found.sum * volume;
+      culled_mass = found.culled_sum * volume;
     }
-    archive.add({grid, [&field](const Leaf& leaf, LeafValues& values) {
-                   copy_leaf(field, leaf.origin(), values);
-                 }});
-    return grid;
+    grids.push_back({.name = name,
+                     .units = "",
+                     .voxel_size = settings.voxel_size,
+                     .origin = settings.origin,
+                     .half = settings.half,
+                     .topology = Topology(found.leaves, found.tiles),
+                     .fill = [&field](const Coord& origin, std::size_t, LeafValues& values) {
+                       copy_leaf(field, origin, values);
+                     }});
+    return found;
   };
-  const openvdb::FloatGrid::ConstPtr outer =
-      settings.within.empty() ? nullptr : add(settings.within, nullptr);
+  std::optional<DenseLeaves> outer;
+  if (!settings.within.empty()) {
+    outer = add(settings.within, nullptr);
+  }
   for (const auto& [name, field] : fields) {
     if (name != settings.within) {
-      add(name, outer ? &outer->constTree() : nullptr);
+      add(name, outer ? &*outer : nullptr);
     }
   }
-  VdbSummary frame = archive.write(path, metadata);
+  VdbSummary frame = write_vdb(path, grids, metadata);
   frame.mass = mass;
   frame.culled_mass = culled_mass;
   return frame;

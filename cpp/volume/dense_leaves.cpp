@@ -10,8 +10,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <memory>
-#include <utility>
 #include <vector>
 
 namespace firetwin::volume {
@@ -60,12 +58,12 @@ LeafMask active(const LeafValues& values, float tolerance) {
   std::array<std::uint8_t, leaf_voxels> marks;
   mark(values, tolerance, marks);
   LeafMask mask;
-  for (openvdb::Index i = 0; i < leaf_voxels / 8; ++i) {
+  for (std::size_t i = 0; i < leaf_voxels / 8; ++i) {
     std::uint64_t eight = 0;
     std::memcpy(&eight, &marks[8 * i], sizeof eight);
     // In the product's highest byte, bit n is set if byte n of the factor is 1.
     const std::uint64_t bits = eight * 0x0102040810204080U >> 56;
-    mask.getWord<LeafMask::Word>(i / 8) |= bits << i % 8 * 8;
+    mask.words[i / 8] |= bits << i % 8 * 8;
   }
   return mask;
 }
@@ -74,11 +72,22 @@ bool is_constant(const LeafValues& values) {
   return std::all_of(values.begin(), values.end(), [&](float v) { return v == values[0]; });
 }
 
-/// Leaves of one column (x, y).
-struct Column {
-  DenseLeaves found;
-  std::vector<std::unique_ptr<Leaf>> leaves;
-  std::vector<std::pair<openvdb::Coord, float>> tiles;
+/// Origins of a field's leaves and tiles.
+class OriginSet {
+public:
+  explicit OriginSet(const DenseLeaves& of) : origins_(of.leaves.origins) {
+    for (const Tile& tile : of.tiles) {
+      origins_.push_back(tile.origin);
+    }
+    std::sort(origins_.begin(), origins_.end());
+  }
+
+  bool contains(const Coord& origin) const {
+    return std::binary_search(origins_.begin(), origins_.end(), origin);
+  }
+
+private:
+  std::vector<Coord> origins_;
 };
 
 /// Visibility of blocks of 128^3 voxels. A block that contains a visible bounding sphere is visible
@@ -97,12 +106,12 @@ public:
       const auto z = static_cast<std::int32_t>(number % count_[2]);
       const auto y = static_cast<std::int32_t>(number / count_[2] % count_[1]);
       const auto x = static_cast<std::int32_t>(number / count_[2] / count_[1]);
-      const openvdb::Coord lowest(x * block_side, y * block_side, z * block_side);
+      const Coord lowest(x * block_side, y * block_side, z * block_side);
       seen_[i] = seen.is_visible(lowest, block_side) ? 1 : 0;
     });
   }
 
-  bool is_visible(const openvdb::Coord& voxel) const {
+  bool is_visible(const Coord& voxel) const {
     const auto row =
         std::int64_t{voxel.x() / block_side} * count_[1] + std::int64_t{voxel.y() / block_side};
     return seen_[static_cast<std::size_t>(row * count_[2] + voxel.z() / block_side)] != 0;
@@ -117,14 +126,19 @@ private:
 class LeafScan {
 public:
   LeafScan(const DenseField& field, const DenseSettings& settings, bool sum_culled,
-           const openvdb::FloatTree* within)
-      : field_(field), settings_(settings), sum_culled_(sum_culled), within_(within),
-        seen_(settings.view_set, settings.voxel_size, settings.origin), blocks_(field, seen_) {}
+           const DenseLeaves* within)
+      : field_(field), settings_(settings), sum_culled_(sum_culled),
+        seen_(settings.view_set, settings.voxel_size, settings.origin), blocks_(field, seen_) {
+    if (within != nullptr) {
+      within_.emplace(*within);
+    }
+  }
 
-  void column(std::int32_t x, std::int32_t y, Column& column) const {
+  /// Scans the leaves of one column.
+  void column(std::int32_t x, std::int32_t y, DenseLeaves& column) const {
     for (std::int32_t z = 0; z < field_.shape[2]; z += side) {
-      const openvdb::Coord origin(x, y, z);
-      if (within_ != nullptr && !has(*within_, origin)) {
+      const Coord origin(x, y, z);
+      if (within_ && !within_->contains(origin)) {
         continue;
       }
       const bool counts = blocks_.is_visible(origin) && seen_.is_visible(origin, side);
@@ -135,59 +149,52 @@ public:
   }
 
 private:
-  /// Returns whether a tree has a leaf or a tile at `origin`.
-  static bool has(const openvdb::FloatTree& tree, const openvdb::Coord& origin) {
-    return tree.probeConstLeaf(origin) != nullptr || tree.isValueOn(origin);
-  }
-
-  void leaf(const openvdb::Coord& origin, bool counts, Column& column) const {
+  void leaf(const Coord& origin, bool counts, DenseLeaves& column) const {
     LeafValues values;
     copy_leaf(field_, origin, values);
     const std::uint32_t largest = largest_bits(values);
     const float most = settings_.half ? largest_half : std::numeric_limits<float>::max();
     if (largest > std::bit_cast<std::uint32_t>(most)) {
-      if (!column.found.bad) {
-        column.found.bad = first_beyond(values, most, origin);
+      if (!column.bad) {
+        column.bad = first_beyond(values, most, origin);
       }
       return;
     }
     if (largest <= std::bit_cast<std::uint32_t>(std::abs(settings_.tolerance))) {
       return;
     }
-    (counts ? column.found.sum : column.found.culled_sum) += sum_of(values, settings_.tolerance);
+    (counts ? column.sum : column.culled_sum) += sum_of(values, settings_.tolerance);
     if (!counts) {
       return;
     }
     const LeafMask mask = active(values, settings_.tolerance);
-    if (mask.isOn() && is_constant(values)) {
-      column.tiles.emplace_back(origin, values[0]);
+    if (mask.is_full() && is_constant(values)) {
+      column.tiles.push_back({origin, values[0]});
     } else {
-      column.leaves.push_back(std::make_unique<Leaf>(openvdb::PartialCreate(), origin));
-      column.leaves.back()->setValueMask(mask);
+      column.leaves.add(origin, mask);
     }
   }
 
-  static openvdb::Coord first_beyond(const LeafValues& values, float most,
-                                     const openvdb::Coord& origin) {
+  static Coord first_beyond(const LeafValues& values, float most, const Coord& origin) {
     const auto at = std::find_if_not(values.begin(), values.end(),
                                      [most](float value) { return std::abs(value) <= most; });
     const auto number = static_cast<std::int32_t>(at - values.begin());
-    return origin.offsetBy(number / side / side, number / side % side, number % side);
+    return origin.offset(number / side / side, number / side % side, number % side);
   }
 
   const DenseField& field_;
   const DenseSettings& settings_;
   bool sum_culled_;
-  const openvdb::FloatTree* within_;
+  std::optional<OriginSet> within_;
   LeafCulling seen_;
   VisibleBlocks blocks_;
 };
 
 } // namespace
 
-void copy_leaf(const DenseField& field, const openvdb::Coord& origin, LeafValues& values) {
-  const auto rest = [&](int axis) {
-    return std::min(side, field.shape[static_cast<std::size_t>(axis)] - origin[axis]);
+void copy_leaf(const DenseField& field, const Coord& origin, LeafValues& values) {
+  const auto rest = [&](std::size_t axis) {
+    return std::min(side, field.shape[axis] - origin[axis]);
   };
   const std::int32_t nx = rest(0);
   const std::int32_t ny = rest(1);
@@ -210,25 +217,24 @@ void copy_leaf(const DenseField& field, const openvdb::Coord& origin, LeafValues
 }
 
 DenseLeaves find_leaves(const DenseField& field, const DenseSettings& settings, bool sum_culled,
-                        const openvdb::FloatTree* within, openvdb::FloatTree& tree) {
+                        const DenseLeaves* within) {
   const LeafScan scan(field, settings, sum_culled, within);
   const auto rows = static_cast<std::size_t>((field.shape[1] - 1) / side + 1);
-  std::vector<Column> columns(static_cast<std::size_t>((field.shape[0] - 1) / side + 1) * rows);
+  std::vector<DenseLeaves> columns(static_cast<std::size_t>((field.shape[0] - 1) / side + 1) *
+                                   rows);
   tbb::parallel_for(std::size_t{0}, columns.size(), [&](std::size_t i) {
     scan.column(static_cast<std::int32_t>(i / rows) * side,
                 static_cast<std::int32_t>(i % rows) * side, columns[i]);
   });
   DenseLeaves all;
-  for (Column& column : columns) {
-    all.sum += column.found.sum;
-    all.culled_sum += column.found.culled_sum;
-    all.bad = all.bad ? all.bad : column.found.bad;
-    for (std::unique_ptr<Leaf>& leaf : column.leaves) {
-      tree.addLeaf(leaf.release()); // the tree takes ownership
+  for (const DenseLeaves& column : columns) {
+    all.sum += column.sum;
+    all.culled_sum += column.culled_sum;
+    all.bad = all.bad ? all.bad : column.bad;
+    for (std::size_t i = 0; i < column.leaves.size(); ++i) {
+      all.leaves.add(column.leaves.origins[i], column.leaves.masks[i]);
     }
-    for (const auto& [origin, value] : column.tiles) {
-      tree.addTile(1, origin, value, true);
-    }
+    all.tiles.insert(all.tiles.end(), column.tiles.begin(), column.tiles.end());
   }
   return all;
 }

@@ -3,25 +3,26 @@
 #include "volume/dense.hpp"
 #include "volume/leaf.hpp"
 
-#include <openvdb/openvdb.h>
-
 #include <optional>
+#include <vector>
 
 namespace firetwin::volume {
 
-/// Sums and validity of a dense field that was converted to a grid.
+/// Leaves of a dense field, sorted by origin, their sums and their validity.
 struct DenseLeaves {
-  double sum = 0.0;                  ///< of all active values
-  double culled_sum = 0.0;           ///< of the values in culled leaves, if requested
-  std::optional<openvdb::Coord> bad; ///< first voxel with an invalid value
+  Leaves leaves;
+  std::vector<Tile> tiles;
+  double sum = 0.0;         ///< of all active values
+  double culled_sum = 0.0;  ///< of the values in culled leaves, if requested
+  std::optional<Coord> bad; ///< first voxel with an invalid value
 };
 
 /// Copies the values of the leaf at `origin`; 0 beyond the field.
-void copy_leaf(const DenseField& field, const openvdb::Coord& origin, LeafValues& values);
+void copy_leaf(const DenseField& field, const Coord& origin, LeafValues& values);
 
-/// Adds the leaves of a field to a tree, without values, and its tiles. Culled leaves are skipped
-/// unless `sum_culled` is set. Leaves that `within` does not have are always skipped (null: none).
+/// Finds the leaves and tiles of a field. Culled leaves are skipped unless `sum_culled` is set.
+/// Leaves that `within` does not have are always skipped (null: none).
 DenseLeaves find_leaves(const DenseField& field, const DenseSettings& settings, bool sum_culled,
-                        const openvdb::FloatTree* within, openvdb::FloatTree& tree);
+                        const DenseLeaves* within);
 
 } // namespace firetwin::volume

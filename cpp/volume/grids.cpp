@@ -1,14 +1,15 @@
 #include "volume/grids.hpp"
 
 #include "volume/archive.hpp"
-#include "volume/fog.hpp"
 #include "volume/leaf_culling.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
-#include <memory>
+#include <cmath>
+#include <cstdint>
+#include <map>
 #include <numeric>
 #include <stdexcept>
 
@@ -38,46 +39,67 @@ bool is_wanted(const GridRequest& wanted, SmokeGrid grid) {
          std::find(wanted.grids.begin(), wanted.grids.end(), grid) != wanted.grids.end();
 }
 
-/// Makes the grid of flame power within 1.5 voxels, GW, at most 1.
-openvdb::FloatGrid::Ptr flame_grid(const Flames& flames, double voxel_size) {
-  openvdb::FloatGrid::Ptr grid = fog_grid("flame", voxel_size, {0.0, 0.0, 0.0}, "1");
-  auto accessor = grid->getAccessor();
-  for (std::size_t i = 0; i < flames.power.size(); ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      leaf_number(flames.position[3 * i + axis], voxel_size); // throws if the index overflows
-    }
-    const openvdb::Vec3d at(flames.position[3 * i] / voxel_size,
-                            flames.position[3 * i + 1] / voxel_size,
-                            flames.position[3 * i + 2] / voxel_size);
-    const openvdb::Coord low = openvdb::Coord::round(at - openvdb::Vec3d(1.5));
-    const openvdb::Coord high = openvdb::Coord::round(at + openvdb::Vec3d(1.5));
-    for (auto voxel = openvdb::CoordBBox(low, high).begin(); voxel; ++voxel) {
-      const double rest = 1.0 - ((*voxel).asVec3d() - at).length() / 1.5;
-      if (rest > 0.0 && flames.power[i] > 0.0) {
-        const float value =
-            accessor.getValue(*voxel) + static_cast<float>(rest * flames.power[i] / 1.0e9);
-        accessor.setValue(*voxel, std::min(value, 1.0F));
+struct FlameLeaf {
+  LeafMask mask;
+  LeafValues values{};
+};
+using FlameLeaves = std::map<Coord, FlameLeaf>; // by first voxel
+
+/// Adds the power of a flame to the voxels within 1.5 voxels, GW; a voxel has at most 1.
+void add_flame(const double* position, double power, double voxel_size, FlameLeaves& leaves) {
+  Vector at{};
+  Coord low;
+  Coord high;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    leaf_number(position[axis], voxel_size); // throws if the index overflows
+    at[axis] = position[axis] / voxel_size;
+    low[axis] = static_cast<std::int32_t>(std::floor(at[axis] - 1.5 + 0.5));
+    high[axis] = static_cast<std::int32_t>(std::floor(at[axis] + 1.5 + 0.5));
+  }
+  constexpr auto last = static_cast<std::int32_t>(leaf_side - 1);
+  for (std::int32_t x = low.x(); x <= high.x(); ++x) {
+    for (std::int32_t y = low.y(); y <= high.y(); ++y) {
+      for (std::int32_t z = low.z(); z <= high.z(); ++z) {
+        const Vector offset{x - at[0], y - at[1], z - at[2]};
+        const double rest = 1.0 - std::sqrt(dot(offset, offset)) / 1.5;
+        if (rest > 0.0 && power > 0.0) {
+          FlameLeaf& leaf = leaves[{x & ~last, y & ~last, z & ~last}];
+          const auto voxel =
+              static_cast<std::size_t>(((x & last) * 8 + (y & last)) * 8 + (z & last));
+          leaf.mask.set(voxel);
+          const float value = leaf.values[voxel] + static_cast<float>(rest * power / 1.0e9);
+          leaf.values[voxel] = std::min(value, 1.0F);
+        }
       }
     }
   }
-  grid->setSaveFloatAsHalf(true);
-  return grid;
 }
 
-/// Wraps a grid that has its own leaf values.
-LeafGrid as_leaf_grid(const openvdb::FloatGrid::Ptr& grid) {
-  return {grid, [](const Leaf& leaf, LeafValues& values) {
-            std::copy_n(leaf.buffer().data(), leaf_voxels, values.begin());
-          }};
+FogGrid flame_grid(const Flames& flames, double voxel_size) {
+  FlameLeaves all;
+  for (std::size_t i = 0; i < flames.power.size(); ++i) {
+    add_flame(&flames.position[3 * i], flames.power[i], voxel_size, all);
+  }
+  Leaves leaves;
+  std::vector<LeafValues> by_leaf;
+  for (const auto& [origin, leaf] : all) {
+    leaves.add(origin, leaf.mask);
+    by_leaf.push_back(leaf.values);
+  }
+  return {.name = "flame",
+          .units = "1",
+          .voxel_size = voxel_size,
+          .topology = Topology(leaves),
+          .fill = [by_leaf = std::move(by_leaf)](const Coord&, std::size_t leaf,
+                                                 LeafValues& values) { values = by_leaf[leaf]; }};
 }
 
 /// Visible leaves of a source, and their masses.
 class VisibleLeaves {
 public:
   VisibleLeaves(const LeafSource& source, double voxel_size, const lod::ViewSet* view_set)
-      : source_(source), voxel_size_(voxel_size), tree_(std::make_shared<openvdb::FloatTree>()),
-        mass_(source.leaves.size()) {
-    const SharedLeaves& all = source.leaves;
+      : source_(source), voxel_size_(voxel_size) {
+    const Leaves& all = source.leaves;
     const LeafCulling culling(view_set, voxel_size, {0.0, 0.0, 0.0});
     std::vector<char> visible(all.size());
     std::vector<double> culled(all.size());
@@ -90,36 +112,39 @@ public:
       }
     });
     culled_ = std::accumulate(culled.begin(), culled.end(), 0.0);
+    Leaves leaves;
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (visible[i] != 0) {
-        auto leaf = std::make_unique<Leaf>(openvdb::PartialCreate(), all.origins[i]);
-        leaf->setValueMask(all.masks[i]);
-        leaf->setTransientData(static_cast<openvdb::Index32>(i));
-        tree_->addLeaf(leaf.release()); // the tree takes ownership
+        numbers_.push_back(i);
+        leaves.add(all.origins[i], all.masks[i]);
       }
     }
+    topology_ = Topology(leaves);
+    mass_.resize(leaves.size());
   }
 
-  LeafGrid grid(const NamedGrid& named, const Flames& flames) {
+  FogGrid grid(const NamedGrid& named, const Flames& flames) {
     const bool is_density = named.grid == SmokeGrid::density;
-    const openvdb::FloatGrid::Ptr grid =
-        fog_grid(named.name, voxel_size_, {0.0, 0.0, 0.0},
-                 is_density ? source_.density_units : std::string(named.units));
-    grid->setSaveFloatAsHalf(true);
-    grid->setTree(tree_);
+    FogGrid grid{.name = named.name,
+                 .units = is_density ? source_.density_units : named.units,
+                 .voxel_size = voxel_size_,
+                 .topology = topology_,
+                 .fill = {}};
     if (named.grid == SmokeGrid::glow) {
-      return {grid, [this, &flames](const Leaf& leaf, LeafValues& values) {
-                const auto voxel = static_cast<float>(voxel_size_);
-                interpolate(glow_at_nodes(corner_of(leaf.origin(), voxel), voxel, flames), values);
-              }};
+      grid.fill = [this, &flames](const Coord& origin, std::size_t, LeafValues& values) {
+        const auto voxel = static_cast<float>(voxel_size_);
+        interpolate(glow_at_nodes(corner_of(origin, voxel), voxel, flames), values);
+      };
+    } else {
+      grid.fill = [this, wanted = named.grid](const Coord&, std::size_t leaf, LeafValues& values) {
+        const std::size_t i = numbers_[leaf];
+        source_.values(i, wanted, values);
+        if (wanted == SmokeGrid::dilution) {
+          mass_[leaf] = mass_of(source_.leaves.masks[i], values, voxel_size_) * fresh_smoke;
+        }
+      };
     }
-    return {grid, [this, wanted = named.grid](const Leaf& leaf, LeafValues& values) {
-              const std::size_t i = leaf.transientData();
-              source_.values(i, wanted, values);
-              if (wanted == SmokeGrid::dilution) {
-                mass_[i] = mass_of(leaf.getValueMask(), values, voxel_size_) * fresh_smoke;
-              }
-            }};
+    return grid;
   }
 
   /// Returns the mass of the written dilution, kg.
@@ -130,8 +155,9 @@ public:
 private:
   const LeafSource& source_;
   double voxel_size_;
-  openvdb::FloatTree::Ptr tree_;
-  std::vector<double> mass_;
+  std::vector<std::size_t> numbers_; ///< of the visible leaves in the source
+  Topology topology_;
+  std::vector<double> mass_; ///< by visible leaf
   double culled_ = 0.0;
 };
 
@@ -151,15 +177,14 @@ SmokeGrid smoke_grid(const std::string& name) {
 VdbSummary write_leaves(const std::filesystem::path& path, const LeafSource& source,
                         double voxel_size, const GridRequest& wanted) {
   VisibleLeaves chosen(source, voxel_size, wanted.view_set);
-  VdbArchive archive;
+  std::vector<FogGrid> grids;
   for (const NamedGrid& named : all_grids) {
     if (is_wanted(wanted, named.grid)) {
-      archive.add(named.grid == SmokeGrid::flame
-                      ? as_leaf_grid(flame_grid(wanted.flames, voxel_size))
-                      : chosen.grid(named, wanted.flames));
+      grids.push_back(named.grid == SmokeGrid::flame ? flame_grid(wanted.flames, voxel_size)
+                                                     : chosen.grid(named, wanted.flames));
     }
   }
-  VdbSummary frame = archive.write(path, wanted.metadata);
+  VdbSummary frame = write_vdb(path, grids, wanted.metadata);
   frame.mass = chosen.mass();
   frame.culled_mass = chosen.culled_mass();
   return frame;

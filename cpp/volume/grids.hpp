@@ -43,17 +43,9 @@ struct GridRequest {
   io::Metadata metadata;
 };
 
-/// Origins and active masks of leaves that several grids share.
-struct SharedLeaves {
-  std::vector<openvdb::Coord> origins;
-  std::vector<LeafMask> masks;
-
-  std::size_t size() const { return origins.size(); }
-};
-
 /// Smoke data by leaf.
 struct LeafSource {
-  SharedLeaves leaves;
+  Leaves leaves;
   std::string density_units;
   /// Computes a leaf's values in one grid, except glow and flame.
   std::function<void(std::size_t leaf, SmokeGrid grid, LeafValues& out)> values;

@@ -25,21 +25,19 @@ constexpr double farthest_leaf =
 
 } // namespace
 
-openvdb::Coord first_voxel(const openvdb::Coord& place) {
-  constexpr auto side = static_cast<openvdb::Int32>(leaf_side);
+Coord first_voxel(const Coord& place) {
+  constexpr auto side = static_cast<std::int32_t>(leaf_side);
   return {place.x() * side, place.y() * side, place.z() * side};
 }
 
-std::array<float, 3> corner_of(const openvdb::Coord& origin, float voxel_size) {
+std::array<float, 3> corner_of(const Coord& origin, float voxel_size) {
   return {static_cast<float>(origin.x()) * voxel_size, static_cast<float>(origin.y()) * voxel_size,
           static_cast<float>(origin.z()) * voxel_size};
 }
 
 double mass_of(const LeafMask& mask, const LeafValues& values, double voxel_size) {
   double sum = 0.0;
-  for (auto voxel = mask.beginOn(); voxel; ++voxel) {
-    sum += static_cast<double>(values[voxel.pos()]);
-  }
+  mask.each([&](std::size_t voxel) { sum += static_cast<double>(values[voxel]); });
   return sum * voxel_size * voxel_size * voxel_size;
 }
 

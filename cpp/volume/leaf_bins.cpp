@@ -24,25 +24,24 @@ void make_lists(std::size_t count, const Visit& visit, std::vector<std::size_t>&
 
 } // namespace
 
-LeafBox::LeafBox(const Puffs& puffs, std::span<const float> reach, double voxel_size)
-    : low(0), count(0) {
-  openvdb::CoordBBox box;
+LeafBox::LeafBox(const Puffs& puffs, std::span<const float> reach, double voxel_size) {
+  CoordBox box;
   for (std::size_t i = 0; i < reach.size(); ++i) {
     for (int way = -1; way <= 1 && reach[i] > 0.0F; way += 2) {
-      openvdb::Coord end;
+      Coord end;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        end[static_cast<int>(axis)] = leaf_number(
-            static_cast<double>(puffs.position[3 * i + axis]) + way * static_cast<double>(reach[i]),
-            voxel_size);
+        end[axis] = leaf_number(static_cast<double>(puffs.position[3 * i + axis]) +
+                                    way * static_cast<double>(reach[i]),
+                                voxel_size);
       }
       box.expand(end);
     }
   }
-  if (box.empty()) {
+  if (box.is_empty()) {
     return;
   }
-  low = box.min();
-  count = box.dim();
+  low = box.low;
+  count = {box.size(0), box.size(1), box.size(2)};
   check_leaf_count(static_cast<double>(count.x()) * static_cast<double>(count.y()) *
                        static_cast<double>(count.z()),
                    voxel_size);
@@ -52,10 +51,10 @@ std::size_t LeafBox::leaves_in_plane() const {
   return static_cast<std::size_t>(count.y()) * static_cast<std::size_t>(count.z());
 }
 
-openvdb::Coord LeafBox::origin(std::size_t plane, std::size_t leaf) const {
+Coord LeafBox::origin(std::size_t plane, std::size_t leaf) const {
   const auto x = static_cast<int>(plane);
   const auto number = static_cast<int>(leaf);
-  return first_voxel(low.offsetBy(x, number / count.z(), number % count.z()));
+  return first_voxel(low.offset(x, number / count.z(), number % count.z()));
 }
 
 LeafBins::LeafBins(const LeafBox& box, const Puffs& puffs, std::span<const float> reach,
@@ -66,8 +65,8 @@ LeafBins::LeafBins(const LeafBox& box, const Puffs& puffs, std::span<const float
       for (std::size_t axis = 0; axis < 3 && reach[i] > 0.0F; ++axis) {
         const double centre = static_cast<double>(puffs.position[3 * i + axis]);
         const auto far = static_cast<double>(reach[i]);
-        const int first = box.low[static_cast<int>(axis)];
-        const int last = first + box.count[static_cast<int>(axis)] - 1;
+        const int first = box.low[axis];
+        const int last = first + box.count[axis] - 1;
         ranges_[i].low[axis] = std::max(leaf_number(centre - far, voxel_size), first) - first;
         ranges_[i].high[axis] = std::min(leaf_number(centre + far, voxel_size), last) - first;
       }

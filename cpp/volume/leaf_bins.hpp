@@ -3,8 +3,6 @@
 #include "volume/leaf.hpp"
 #include "volume/puffs.hpp"
 
-#include <openvdb/openvdb.h>
-
 #include <array>
 #include <cstdint>
 #include <span>
@@ -15,8 +13,8 @@ namespace firetwin::volume {
 /// Bounding box, in leaves (8^3 voxels), of the balls' range, as planes across x. It stores nothing
 /// per leaf, as most may be empty.
 struct LeafBox {
-  openvdb::Coord low;
-  openvdb::Coord count;
+  Coord low;
+  Coord count;
 
   /// @param reach range of influence of each ball, m; 0 ignores the ball
   LeafBox(const Puffs& puffs, std::span<const float> reach, double voxel_size);
@@ -24,7 +22,7 @@ struct LeafBox {
   std::size_t planes() const { return static_cast<std::size_t>(count.x()); }
   std::size_t leaves_in_plane() const;
   /// Returns the first voxel of a leaf in a plane.
-  openvdb::Coord origin(std::size_t plane, std::size_t leaf) const;
+  Coord origin(std::size_t plane, std::size_t leaf) const;
 };
 
 /// Spatial binning of balls to leaves, plane by plane. Balls may extend beyond the box.

@@ -9,7 +9,7 @@ constexpr double margin = 300.0; // m
 
 } // namespace
 
-bool LeafCulling::is_visible(const openvdb::Coord& lowest, int side) const {
+bool LeafCulling::is_visible(const Coord& lowest, int side) const {
   if (view_set_ == nullptr) {
     return true;
   }

@@ -3,8 +3,6 @@
 #include "base/vector.hpp"
 #include "lod/view_set.hpp"
 
-#include <openvdb/openvdb.h>
-
 namespace firetwin::volume {
 
 /// Frustum and occlusion culling of blocks of voxels.
@@ -17,7 +15,7 @@ public:
 
   /// Returns whether a cube of `side` voxels may be visible, or cast a visible shadow. The cube's
   /// bounding sphere is enlarged by 300 m, for noise and for light that smoke scatters.
-  bool is_visible(const openvdb::Coord& lowest, int side) const;
+  bool is_visible(const Coord& lowest, int side) const;
 
 private:
   const lod::ViewSet* view_set_;

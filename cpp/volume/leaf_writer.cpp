@@ -2,10 +2,6 @@
 
 #include "base/clones.hpp"
 
-#include <openvdb/io/Compression.h>
-#include <openvdb/io/io.h>
-
-#include <bit>
 #include <cstring>
 #include <string_view>
 
@@ -40,15 +36,11 @@ void to_half(const LeafValues& values, HalfValues& halves) {
 
 /// Moves the active values to the front. @return their number
 template <class T> std::size_t gather(const LeafMask& mask, std::array<T, leaf_voxels>& values) {
-  if (mask.isOn()) {
+  if (mask.is_full()) {
     return leaf_voxels;
   }
   std::size_t count = 0;
-  for (openvdb::Index word = 0; word < LeafMask::WORD_COUNT; ++word) {
-    for (auto bits = mask.getWord<std::uint64_t>(word); bits != 0; bits &= bits - 1) {
-      values[count++] = values[word * 64 + static_cast<std::size_t>(std::countr_zero(bits))];
-    }
-  }
+  mask.each([&](std::size_t voxel) { values[count++] = values[voxel]; });
   return count;
 }
 
@@ -68,15 +60,15 @@ void LeafWriter::write(const LeafMask& mask, const LeafValues& values) {
 
 void LeafWriter::put(const LeafMask& mask, const char* values, std::size_t value_size,
                      std::size_t count) {
-  mask.save(stream_);
-  stream_.put(openvdb::io::NO_MASK_OR_INACTIVE_VALS);
+  stream_.write(reinterpret_cast<const char*>(mask.words.data()), sizeof mask.words);
+  stream_.put(0); // openvdb::io::NO_MASK_OR_INACTIVE_VALS
   const std::string_view bytes(values, count * value_size);
   if (bytes == known_) {
     stream_ << known_bytes_; // neighbouring leaves deep in smoke are often identical
     return;
   }
   const auto before = static_cast<std::size_t>(stream_.tellp());
-  openvdb::io::bloscToStream(stream_, values, value_size, count);
+  compress_(stream_, values, value_size, count);
   known_bytes_ = stream_.view().substr(before);
   known_ = bytes;
 }

@@ -15,8 +15,12 @@ using HalfValues = std::array<std::uint16_t, leaf_voxels>;
 /// inactive values are the background.
 class LeafWriter {
 public:
+  /// Compresses and writes `count` values of `value_size` bytes each.
+  using Compress = void (*)(std::ostream& out, const char* values, std::size_t value_size,
+                            std::size_t count);
+
   /// @param is_half round values to half precision
-  explicit LeafWriter(bool is_half) : half_(is_half) {}
+  LeafWriter(bool is_half, Compress compress) : half_(is_half), compress_(compress) {}
 
   void write(const LeafMask& mask, const LeafValues& values);
 
@@ -24,10 +28,11 @@ public:
   std::string take() { return std::move(stream_).str(); }
 
 private:
-  /// Compresses and writes `count` active values of `value_size` bytes each.
+  /// Writes the mask and `count` active values of `value_size` bytes each.
   void put(const LeafMask& mask, const char* values, std::size_t value_size, std::size_t count);
 
   bool half_;
+  Compress compress_;
   std::ostringstream stream_{std::ios_base::binary};
   HalfValues halves_;
   LeafValues values_;

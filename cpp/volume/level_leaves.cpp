@@ -1,5 +1,6 @@
 #include "volume/level_leaves.hpp"
 
+#include "base/vector.hpp"
 #include "volume/grids.hpp"
 #include "volume/leaf.hpp"
 
@@ -8,7 +9,10 @@
 #include <oneapi/tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <span>
 
 namespace firetwin::volume {
@@ -16,19 +20,19 @@ namespace {
 
 constexpr std::size_t rows_in_band = 16;
 
-/// Set of leaves, in leaf coordinates.
+/// Set of leaves, in leaf coordinates: a mask for each block of 8^3 leaves.
 class LeafSet {
 public:
   explicit LeafSet(double voxel_size) : voxel_size_(voxel_size) {}
 
-  void add(const openvdb::CoordBBox& box) {
-    if (last_.isInside(box)) {
+  void add(const CoordBox& box) {
+    if (last_.contains(box)) {
       return; // for cells smaller than leaves
     }
-    const openvdb::Vec3d size = box.extents().asVec3d();
-    const double added = size[0] * size[1] * size[2];
+    const double added =
+        static_cast<double>(box.size(0)) * static_cast<double>(box.size(1)) * box.size(2);
     check_leaf_count(added, voxel_size_);
-    leaves_.fill(box, true);
+    fill(box);
     last_ = box;
     unchecked_ += added;
     if (unchecked_ > 1.0e7) {
@@ -38,33 +42,78 @@ public:
   }
 
   void take(LeafSet& other) {
-    leaves_.topologyUnion(other.leaves_);
-    other.leaves_.clear();
+    for (const auto& [block, mask] : other.blocks_) {
+      LeafMask& all = blocks_[block];
+      for (std::size_t i = 0; i < all.words.size(); ++i) {
+        all.words[i] |= mask.words[i];
+      }
+    }
+    other.blocks_.clear();
     check();
   }
 
-  std::vector<openvdb::Coord> first_voxels() const {
-    std::vector<openvdb::Coord> result;
-    result.reserve(leaves_.activeVoxelCount());
-    for (auto part = leaves_.cbeginValueOn(); part; ++part) { // single leaves, or tiles of many
-      const openvdb::CoordBBox box = part.getBoundingBox();
-      for (auto leaf = box.begin(); leaf; ++leaf) {
-        result.push_back(first_voxel(*leaf));
-      }
+  std::vector<Coord> first_voxels() const {
+    std::vector<Coord> result;
+    result.reserve(count());
+    for (const auto& [block, mask] : blocks_) {
+      const Coord first = first_voxel(block);
+      mask.each([&](std::size_t i) {
+        const auto leaf = static_cast<std::int32_t>(i);
+        result.push_back(
+            first_voxel(first.offset(leaf / side / side, leaf / side % side, leaf % side)));
+      });
     }
     tbb::parallel_sort(result.begin(), result.end());
     return result;
   }
 
 private:
-  void check() const {
-    check_leaf_count(static_cast<double>(leaves_.activeVoxelCount()), voxel_size_);
+  static constexpr auto side = static_cast<std::int32_t>(leaf_side);
+
+  void fill(const CoordBox& box) {
+    constexpr int shift = std::countr_zero(leaf_side); // rounds down, unlike a division
+    for (std::int32_t x = box.low.x() >> shift; x <= box.high.x() >> shift; ++x) {
+      for (std::int32_t y = box.low.y() >> shift; y <= box.high.y() >> shift; ++y) {
+        for (std::int32_t z = box.low.z() >> shift; z <= box.high.z() >> shift; ++z) {
+          const Coord block(x, y, z);
+          fill(box, first_voxel(block), blocks_[block]);
+        }
+      }
+    }
   }
 
+  /// Adds the leaves in the box to the mask of the block whose first leaf is `first`.
+  static void fill(const CoordBox& box, const Coord& first, LeafMask& mask) {
+    Coord low;
+    Coord high;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::max(box.low[axis] - first[axis], 0);
+      high[axis] = std::min(box.high[axis] - first[axis], side - 1);
+    }
+    const std::uint64_t row = (0xffU >> (side - 1 - high.z() + low.z())) << low.z();
+    for (std::int32_t x = low.x(); x <= high.x(); ++x) {
+      for (std::int32_t y = low.y(); y <= high.y(); ++y) {
+        mask.words[static_cast<std::size_t>(x)] |= row << (side * y);
+      }
+    }
+  }
+
+  std::size_t count() const {
+    std::size_t leaves = 0;
+    for (const auto& [block, mask] : blocks_) {
+      for (const std::uint64_t word : mask.words) {
+        leaves += static_cast<std::size_t>(std::popcount(word));
+      }
+    }
+    return leaves;
+  }
+
+  void check() const { check_leaf_count(static_cast<double>(count()), voxel_size_); }
+
   double voxel_size_;
-  openvdb::MaskTree leaves_;
-  openvdb::CoordBBox last_; ///< last box added
-  double unchecked_ = 0.0;  ///< leaves added since the last check, with duplicates
+  std::map<Coord, LeafMask> blocks_;
+  CoordBox last_;          ///< last box added
+  double unchecked_ = 0.0; ///< leaves added since the last check, with duplicates
 };
 
 /// Some rows of cells between two consecutive levels, or between the ground and the lowest level,
@@ -87,18 +136,32 @@ public:
     for (std::size_t y = 0; y + 1 < rows_; ++y) {
       for (std::size_t x = 0; x + 1 < columns_; ++x) {
         if (is_smoke(y, x)) {
-          openvdb::BBoxd box;
+          Bounds box;
           for (const std::size_t i : corners(y, x)) {
-            box.expand(openvdb::Vec3d(&low[3 * i]));
-            box.expand(openvdb::Vec3d(&high[3 * i]));
+            box.expand(&low[3 * i]);
+            box.expand(&high[3 * i]);
           }
-          leaves.add(leaves_round(box, voxel_size));
+          leaves.add(leaves_around(box, voxel_size));
         }
       }
     }
   }
 
 private:
+  /// Bounding box of points, m.
+  struct Bounds {
+    static constexpr double largest = std::numeric_limits<double>::max();
+    Vector low{largest, largest, largest};
+    Vector high{-largest, -largest, -largest};
+
+    void expand(const double* point) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], point[axis]);
+        high[axis] = std::max(high[axis], point[axis]);
+      }
+    }
+  };
+
   std::array<std::size_t, 4> corners(std::size_t y, std::size_t x) const {
     const std::size_t i = y * columns_ + x;
     return {i, i + 1, i + columns_, i + columns_ + 1};
@@ -146,14 +209,15 @@ private:
     return places;
   }
 
-  static openvdb::CoordBBox leaves_round(const openvdb::BBoxd& box, double voxel_size) {
+  static CoordBox leaves_around(const Bounds& box, double voxel_size) {
     // The sides of a cell are curved: parallels at 85 degrees by d^2 / (8 * 560 km), meridians
     // less.
-    const double bulge = 1.0 + box.extents().lengthSqr() / 4.0e6; // m
-    openvdb::CoordBBox leaves;
-    for (int axis = 0; axis < 3; ++axis) {
-      leaves.min()[axis] = leaf_number(box.min()[axis] - bulge, voxel_size);
-      leaves.max()[axis] = leaf_number(box.max()[axis] + bulge, voxel_size);
+    const Vector extent = minus(box.high, box.low);
+    const double bulge = 1.0 + dot(extent, extent) / 4.0e6; // m
+    CoordBox leaves;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      leaves.low[axis] = leaf_number(box.low[axis] - bulge, voxel_size);
+      leaves.high[axis] = leaf_number(box.high[axis] + bulge, voxel_size);
     }
     return leaves;
   }
@@ -168,8 +232,8 @@ private:
 
 } // namespace
 
-std::vector<openvdb::Coord> reached_leaves(const geo::LocalFrame& frame, const Levels& levels,
-                                           double voxel_size) {
+std::vector<Coord> reached_leaves(const geo::LocalFrame& frame, const Levels& levels,
+                                  double voxel_size) {
   const std::size_t cells = levels.latitude.size() - 1; // rows of cells
   const std::size_t bands = (cells + rows_in_band - 1) / rows_in_band;
   tbb::enumerable_thread_specific<LeafSet> sets{LeafSet(voxel_size)};

@@ -19,8 +19,8 @@ namespace {
 
 constexpr double thick_dilution = 0.1;
 
-struct SmokeLeaf {
-  openvdb::Coord origin;
+struct SampledLeaf {
+  Coord origin;
   LeafMask mask;
   LeafValues concentration{};
   LeafValues temperature{};
@@ -53,13 +53,12 @@ void check_heights(const Levels& levels) {
 class LeafPlaces {
 public:
   /// Longitudes are unwrapped to within 180 degrees of `middle`.
-  LeafPlaces(const geo::LocalFrame& frame, const openvdb::Coord& origin, double voxel_size,
-             double middle) {
+  LeafPlaces(const geo::LocalFrame& frame, const Coord& origin, double voxel_size, double middle) {
     std::array<double, 24> enu{};
     for (std::size_t corner = 0; corner < 8; ++corner) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto step = static_cast<double>((corner >> (2 - axis) & 1) * (leaf_side - 1));
-        enu[3 * corner + axis] = (origin[static_cast<int>(axis)] + step) * voxel_size;
+        enu[3 * corner + axis] = (origin[axis] + step) * voxel_size;
       }
     }
     std::array<std::array<double, 8>, 3> found{};
@@ -90,16 +89,16 @@ private:
   std::array<LevelSampler::Place, 8> corners_{};
 };
 
-std::unique_ptr<SmokeLeaf> sample(const geo::LocalFrame& frame, const Levels& levels,
-                                  const openvdb::Coord& origin, double voxel_size) {
-  auto leaf = std::make_unique<SmokeLeaf>();
+std::unique_ptr<SampledLeaf> sample(const geo::LocalFrame& frame, const Levels& levels,
+                                    const Coord& origin, double voxel_size) {
+  auto leaf = std::make_unique<SampledLeaf>();
   leaf->origin = origin;
   const double middle = 0.5 * (levels.longitude.front() + levels.longitude.back());
   const LeafPlaces places(frame, origin, voxel_size, middle);
   LevelSampler sampler(levels);
-  for (openvdb::Index i = 0; i < leaf_voxels; i += leaf_side) {
+  for (std::size_t i = 0; i < leaf_voxels; i += leaf_side) {
     const auto [low, high] = places.row(i / 64, i / 8 % 8);
-    for (openvdb::Index z = 0; z < leaf_side; ++z) {
+    for (std::size_t z = 0; z < leaf_side; ++z) {
       LevelSampler::Place place{};
       for (std::size_t axis = 0; axis < 3; ++axis) {
         place[axis] = low[axis] + static_cast<double>(z) / 7.0 * (high[axis] - low[axis]);
@@ -114,16 +113,16 @@ std::unique_ptr<SmokeLeaf> sample(const geo::LocalFrame& frame, const Levels& le
       const double kelvin = levels.temperature.empty()
                                 ? static_cast<double>(air_kelvin(static_cast<float>(place[2])))
                                 : sampler.temperature();
-      leaf->mask.setOn(i + z);
+      leaf->mask.set(i + z);
       leaf->concentration[i + z] = static_cast<float>(found);
       leaf->temperature[i + z] = std::clamp(
           std::isfinite(kelvin) ? static_cast<float>(kelvin) : 0.0F, 0.0F, max_temperature);
     }
   }
-  return leaf->mask.isOff() ? nullptr : std::move(leaf);
+  return leaf->mask.is_empty() ? nullptr : std::move(leaf);
 }
 
-void fill(const SmokeLeaf& leaf, SmokeGrid grid, float size, LeafValues& out) {
+void fill(const SampledLeaf& leaf, SmokeGrid grid, float size, LeafValues& out) {
   if (grid == SmokeGrid::size || grid == SmokeGrid::temperature) {
     out = leaf.temperature;
     if (grid == SmokeGrid::size) {
@@ -158,16 +157,15 @@ VdbSummary write_levels(const std::filesystem::path& path, const geo::LocalFrame
                         const Levels& levels, double voxel_size, const GridRequest& wanted) {
   check_voxel_size(voxel_size);
   check_heights(levels);
-  const std::vector<openvdb::Coord> origins = reached_leaves(frame, levels, voxel_size);
-  std::vector<std::unique_ptr<SmokeLeaf>> all(origins.size());
+  const std::vector<Coord> origins = reached_leaves(frame, levels, voxel_size);
+  std::vector<std::unique_ptr<SampledLeaf>> all(origins.size());
   tbb::parallel_for(std::size_t{0}, origins.size(),
                     [&](std::size_t i) { all[i] = sample(frame, levels, origins[i], voxel_size); });
   std::erase(all, nullptr);
   LeafSource source;
   source.density_units = "smoothstep of dilution";
   for (const auto& leaf : all) {
-    source.leaves.origins.push_back(leaf->origin);
-    source.leaves.masks.push_back(leaf->mask);
+    source.leaves.add(leaf->origin, leaf->mask);
   }
   const float size = std::min(spacing(frame, levels), 1.0F);
   source.values = [&](std::size_t leaf, SmokeGrid grid, LeafValues& out) {

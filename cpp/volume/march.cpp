@@ -52,8 +52,8 @@ struct Steps {
   float haze, haze_slope; ///< share of haze in the radiance at `from`, and its increase per m
 };
 
-__attribute__((always_inline)) inline void mix(const Lanes& a, const Lanes& b, float part,
-                                               Lanes& out) {
+__attribute__((always_inline)) inline void blend(const Lanes& a, const Lanes& b, float part,
+                                                 Lanes& out) {
   out = a + (b - a) * part;
 }
 
@@ -80,11 +80,11 @@ sample(const LayerCrossing& crossing, const Segment& segment, float distance, La
       Lanes a, b;
       from_halves(at, a);
       from_halves(at + z, b);
-      mix(a, b, part[2], rows[j]);
+      blend(a, b, part[2], rows[j]);
     }
-    mix(rows[0], rows[1], part[1], planes[i]);
+    blend(rows[0], rows[1], part[1], planes[i]);
   }
-  mix(planes[0], planes[1], part[0], out);
+  blend(planes[0], planes[1], part[0], out);
 }
 
 /// Returns the radiance of smoke towards the eye per unit of optical depth.

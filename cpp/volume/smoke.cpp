@@ -21,7 +21,7 @@ constexpr float heat_of_air = 1206.0F;                                          
 
 /// Data of a leaf with smoke, before the total mass is known.
 struct SmokeLeaf {
-  openvdb::Coord origin;
+  Coord origin;
   LeafMask mask;
   LeafValues depth, radius, concentration;
   double mass = 0.0; // kg, summed over active voxels
@@ -38,10 +38,10 @@ std::uint64_t thick_blocks(const LeafValues& concentration) {
   return blocks;
 }
 
-using Leaves = std::vector<std::unique_ptr<SmokeLeaf>>;
+using SmokeLeaves = std::vector<std::unique_ptr<SmokeLeaf>>;
 
 /// Computes the leaves with smoke.
-Leaves fill(const Puffs& puffs, double voxel_size) {
+SmokeLeaves fill(const Puffs& puffs, double voxel_size) {
   const auto voxel = static_cast<float>(voxel_size);
   std::vector<float> reach(puffs.size());
   std::vector<float> edge(puffs.size());
@@ -53,7 +53,7 @@ Leaves fill(const Puffs& puffs, double voxel_size) {
   const LeafBins with_mass(box, puffs, reach, voxel_size);
   const LeafBins near(box, puffs, edge, voxel_size);
   const SpreadMass smoke(puffs, voxel);
-  std::vector<Leaves> planes(box.planes());
+  std::vector<SmokeLeaves> planes(box.planes());
   tbb::enumerable_thread_specific<DepthMeter> meters;
   tbb::parallel_for(std::size_t{0}, planes.size(), [&](std::size_t plane) {
     const LeafBins::Plane masses(with_mass, plane);
@@ -62,7 +62,7 @@ Leaves fill(const Puffs& puffs, double voxel_size) {
       if (masses.balls(i).empty() || edges.balls(i).empty()) {
         continue;
       }
-      const openvdb::Coord origin = box.origin(plane, i);
+      const Coord origin = box.origin(plane, i);
       const std::array<float, 3> corner = corner_of(origin, voxel);
       const Nodes nodes = smoke.at_nodes(corner, voxel, masses.balls(i));
       if (largest(nodes) <= static_cast<double>(thinnest_smoke)) {
@@ -72,20 +72,20 @@ Leaves fill(const Puffs& puffs, double voxel_size) {
       interpolate(nodes, leaf->concentration);
       meters.local().measure(puffs, edges.balls(i), corner, voxel,
                              thick_blocks(leaf->concentration), leaf->depth, leaf->radius);
-      for (openvdb::Index at = 0; at < leaf_voxels; ++at) {
+      for (std::size_t at = 0; at < leaf_voxels; ++at) {
         if (leaf->depth[at] > -depth_outside && leaf->concentration[at] > thinnest_smoke) {
-          leaf->mask.setOn(at);
+          leaf->mask.set(at);
         }
       }
-      if (!leaf->mask.isOff()) {
+      if (!leaf->mask.is_empty()) {
         leaf->origin = origin;
         leaf->mass = mass_of(leaf->mask, leaf->concentration, voxel_size);
         planes[plane].push_back(std::move(leaf));
       }
     }
   });
-  Leaves leaves;
-  for (Leaves& plane : planes) {
+  SmokeLeaves leaves;
+  for (SmokeLeaves& plane : planes) {
     std::move(plane.begin(), plane.end(), std::back_inserter(leaves));
   }
   return leaves;
@@ -155,13 +155,12 @@ private:
 VdbSummary write_smoke(const std::filesystem::path& path, const Puffs& puffs, double voxel_size,
                        const GridRequest& wanted) {
   check_voxel_size(voxel_size);
-  const Leaves all = fill(puffs, voxel_size);
+  const SmokeLeaves all = fill(puffs, voxel_size);
   LeafSource source;
   source.density_units = "(m + 300) / 600";
   double mass = 0.0;
   for (const auto& leaf : all) {
-    source.leaves.origins.push_back(leaf->origin);
-    source.leaves.masks.push_back(leaf->mask);
+    source.leaves.add(leaf->origin, leaf->mask);
     mass += leaf->mass;
   }
   const double total = std::accumulate(puffs.mass.begin(), puffs.mass.end(), 0.0);

@@ -18,7 +18,6 @@ using Index = std::int64_t;
 /// Largest ratio of a depth to the threshold: rays end there, and larger depths are clamped, so
 /// that interpolation does not hide smoke next to a gap.
 constexpr double max_ratio = 1.1;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A line of sight from a point in smoke.
 struct LineOfSight {
@@ -80,7 +79,7 @@ double least_depth(const Vector& place, const Viewpoints& eyes, const VoxelGrid&
     look({place, direction, length});
   }
   for (std::size_t n = 0; n < eyes.directions.size() / 3; ++n) {
-    look({place, row(eyes.directions, n), infinity});
+    look({place, row(eyes.directions, n), std::numeric_limits<double>::infinity()});
   }
   return least;
 }
