@@ -54,7 +54,7 @@ struct FogGrid {
 VdbSummary write_vdb(const std::filesystem::path& path, const std::vector<FogGrid>& grids,
                      const io::Metadata& metadata);
 
-/// Returns the version of the OpenVDB library, such as "10.0.1 abi10".
+/// Returns the version of the OpenVDB library, such as "10.0.1abi10".
 std::string openvdb_version();
 
 } // namespace firetwin::volume
