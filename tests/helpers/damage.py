@@ -1,7 +1,7 @@
 """Fuzzing of fire models' files: damaged files, each converted in a separate process to a run or an error.
 
-``python damage.py KIND FOLDER COUNT SEED`` writes a line of JSON for each. An error must be one readable
-line.
+``python damage.py KIND[,KIND...] FOLDER COUNT SEED`` writes a line of JSON for each. An error must be one
+readable line.
 """
 
 import contextlib
@@ -94,12 +94,18 @@ def _run(folder):
 
 def tried(kind, folder, count, seed):
     """Results of `count` damaged files of a kind, created and converted in other processes."""
-    command = [sys.executable, __file__, kind, str(folder), str(count), str(seed)]
+    return (end for _, end in tried_all([kind], folder, count, seed))
+
+
+def tried_all(kinds, folder, count, seed):
+    """Kinds and results of `count` damaged files of each kind; one process imports the readers for all."""
+    command = [sys.executable, __file__, ",".join(kinds), str(folder), str(count), str(seed)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         for line in process.stdout:
-            yield End(*json.loads(line))
+            kind, *end = json.loads(line)
+            yield kind, End(*end)
     if process.returncode:
-        raise RuntimeError(f"{kind}: the process that damages files ended with {process.returncode}")
+        raise RuntimeError(f"{kinds}: the process that damages files ended with {process.returncode}")
 
 
 def _damaged(whole, count, rng, cuts):
@@ -207,16 +213,24 @@ def _hangs(kind, used):
     return "" if kind != "folder" and silent > SILENT else "hangs"
 
 
-def _main(kind, folder, count, seed):
-    """Damage one of the files at a time, convert them in a fork, and restore the file."""
-    import polite
+def _main(kinds, folder, count, seed):
+    """Try the kinds, each in its own folder, after importing all readers once for all forks."""
     from firetwin.run.readers import MODELS
 
     warnings.simplefilter("ignore")
     for name in ("netCDF4", "rasterio", "pyproj", "firetwin.run.models.write", "firetwin.run.info"):
-        importlib.import_module(name)  # once, for all forks
+        importlib.import_module(name)
     for name in MODELS:
         importlib.import_module(f"firetwin.run.readers.{name}")
+    for kind in kinds:
+        (folder / kind).mkdir()
+        _try_kind(kind, folder / kind, count, seed)
+
+
+def _try_kind(kind, folder, count, seed):
+    """Damage one of the files at a time, convert them in a fork, and restore the file."""
+    import polite
+
     paths, options = files_of(kind, folder)
     asked = None if kind == "folder" else [options.get("start", ""), "", "", 0.0]
     rng = np.random.default_rng(seed)
@@ -236,7 +250,7 @@ def _main(kind, folder, count, seed):
                 kept = Path("build/fuzz/findings") / f"{kind}-{seed}-{path.name}"
                 kept.parent.mkdir(parents=True, exist_ok=True)
                 kept.write_bytes(data)
-            print(json.dumps([f"{path.name}: {way}", said, ended, wrong]), flush=True)
+            print(json.dumps([kind, f"{path.name}: {way}", said, ended, wrong]), flush=True)
             shutil.rmtree(folder / "out", ignore_errors=True)
         path.write_bytes(whole)
 
@@ -261,4 +275,4 @@ def _forked(paths, options, folder):
 
 
 if __name__ == "__main__":
-    _main(sys.argv[1], Path(sys.argv[2]), int(sys.argv[3]), int(sys.argv[4]))
+    _main(sys.argv[1].split(","), Path(sys.argv[2]), int(sys.argv[3]), int(sys.argv[4]))
