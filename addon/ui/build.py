@@ -215,6 +215,7 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
         tile_facts.forget(scene.firetwin)
         changed_settings.clear(scene.firetwin)
         target_scene.remove(scene)
+        smoke_volumes.refresh()
         self.report({"INFO"}, "Removed what Firetwin built")
         return {"FINISHED"}
 

@@ -188,7 +188,7 @@ def draw(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
         row = column.row(align=True)
         pressed = row.operator(operator.bl_idname, text=f"Smoke of frame {frame}", icon="OUTLINER_OB_VOLUME")
         pressed.which = _FRAME
-        text = f"Of {shown.start} to {shown.stop - 1}"
+        text = f"Of frames {shown.start} to {shown.stop - 1}"
         row.operator(operator.bl_idname, text=text).which = _RANGE
     working.draw_messages(context, layout, operator)
 

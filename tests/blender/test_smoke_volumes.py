@@ -120,7 +120,7 @@ def test_a_button_writes_the_shown_frame_or_the_playback_range(opened, folder):
         "Frame 1 has no smoke volume yet: Blender shows it without smoke",
         "0 of 3 frames have their smoke",
     ]
-    assert buttons == ["Smoke of frame 1", "Of 1 to 3"]
+    assert buttons == ["Smoke of frame 1", "Of frames 1 to 3"]
     assert bpy.ops.firetwin.smoke_volumes(which="frame") == {"FINISHED"}
     assert volume_files.missing(opened) == [2, 3]
     assert has_grids(opened)
@@ -129,7 +129,7 @@ def test_a_button_writes_the_shown_frame_or_the_playback_range(opened, folder):
     assert texts == ["1 of 3 frames have their smoke"]
     scene.use_preview_range = True
     scene.frame_preview_start, scene.frame_preview_end = 1, 2
-    assert drawn()[1] == ["Smoke of frame 1", "Of 1 to 2"]
+    assert drawn()[1] == ["Smoke of frame 1", "Of frames 1 to 2"]
     assert bpy.ops.firetwin.smoke_volumes(which="range") == {"FINISHED"}
     assert volume_files.missing(opened) == [3]
     assert "Wrote the smoke of 1 frame" in [each.text for each in job.Job.last.messages]
@@ -154,6 +154,12 @@ def test_without_smoke_there_is_no_button(panel):
     assert drawn() == ([], [])
     with pytest.raises(RuntimeError, match="Build a scene with smoke first"):
         bpy.ops.firetwin.smoke_volumes()
+
+
+def test_a_removed_scene_has_no_button(opened):
+    assert drawn()[1]
+    bpy.ops.firetwin.remove()
+    assert drawn() == ([], [])
 
 
 def test_a_stop_keeps_what_is_written_and_shows_it(opened, monkeypatch):
