@@ -12,8 +12,9 @@ A material is one group node with named inputs and tooltips. The nodes in the gr
 
 from __future__ import annotations
 
+import functools
 import itertools
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -22,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import compat, layout, owned
+from .node_updates import DeferredUpdates
 
 Inputs = Mapping[str, Any] | Mapping[int, Any] | Mapping[str | int, Any] | Sequence[Any]
 
@@ -35,6 +37,11 @@ WARMTH = "Firetwin Warmth"
 a solid surface add up, without mutual attenuation (Cycles 4.5)."""
 FIRE = "Firetwin Fire"
 """Light group of all objects that write the flames' AOVs."""
+_SAME_SOCKETS = frozenset(
+    f"ShaderNode{name}"
+    for name in ("AddShader", "Attribute", "CombineXYZ", "Emission", "Math", "MixShader", "SeparateXYZ")
+)
+"""Kinds of nodes whose properties affect only the third and later inputs."""
 
 
 class Value:
@@ -108,17 +115,18 @@ class Value:
 class Tree:
     """A node tree under construction; inputs may be sockets, nodes, `Value`s or numbers.
 
-    The tree of a material is the group that `material` uses.
+    The tree of a material is the group that `material` uses; Blender updates it when `finish` is called.
     """
 
     def __init__(self, node_tree: bpy.types.NodeTree, material: bpy.types.Material | None = None) -> None:
         self.node_tree, self.material = node_tree, material
         self._frame: bpy.types.Node | None = None
+        self._deferred = DeferredUpdates() if material is not None else None
 
     @contextmanager
     def frame(self, label: str) -> Iterator[None]:
         """Put nodes added during a `with` block into a frame with this label; frames can be nested."""
-        before, self._frame = self._frame, self.node_tree.nodes.new("NodeFrame")
+        before, self._frame = self._frame, self._new("NodeFrame")
         self._frame.label = label
         try:
             yield
@@ -149,30 +157,46 @@ class Tree:
         if not any(_is_input(item, name) for item in interface.items_tree):
             parent = next((item for item in interface.items_tree if _is_panel(item, panel)), None)
             if panel and parent is None:
-                parent = interface.new_panel(panel)
+                parent = self._change(interface.new_panel, panel)
             shade = (*default, 1.0)[:4] if isinstance(default, Sequence) else None
-            kind = "Color" if shade else "Int" if isinstance(default, int) else "Float"
-            made = interface.new_socket(
-                name, description=help, in_out="INPUT", socket_type=f"NodeSocket{kind}", parent=parent
-            )
-            made.default_value = shade or default
+            kind = f"NodeSocket{'Color' if shade else 'Int' if isinstance(default, int) else 'Float'}"
+            about = {"description": help, "in_out": "INPUT", "socket_type": kind, "parent": parent}
+            made = self._change(functools.partial(interface.new_socket, name, **about))
+            self._change(setattr, made, "default_value", shade or default)
             for bound, value in (("min_value", least), ("max_value", most)):
                 if value is not None and not shade:
-                    setattr(made, bound, value)
+                    self._change(setattr, made, bound, value)
         return self.output("NodeGroupInput", name=name)
 
     def node(self, kind: str, inputs: Inputs = (), **properties: Any) -> bpy.types.Node:
         """Add a node: first its properties, then its inputs by name (or in order)."""
-        node = self.node_tree.nodes.new(kind)
-        if self._frame is not None:
-            node.parent = self._frame
+        node, changed = self._new(kind), False
         for name, value in properties.items():
             if getattr(node, name) != value:  # Blender updates the complete tree after every change
-                setattr(node, name, value)
+                self._change(setattr, node, name, value)
+                changed = True
+        if changed and self._deferred and (kind not in _SAME_SOCKETS or len(inputs) > 2):
+            self.node_tree.interface_update(bpy.context)  # the properties decide which sockets there are
         pairs = inputs.items() if isinstance(inputs, Mapping) else enumerate(inputs)
         for socket, value in pairs:
             self.connect(value, compat.find_socket(node.inputs, socket))
         return node
+
+    def _new(self, kind: str) -> bpy.types.Node:
+        """Add a node to the current frame.
+
+        Blender numbers nodes of one name one by one, in a time that grows with the square of their number.
+        """
+        node = self._change(self.node_tree.nodes.new, kind)
+        if node.name[-4:-3] == ".":
+            node.name = f"{node.name[:-4]} {len(self.node_tree.nodes)}"
+        if self._frame is not None and kind != "NodeFrame":
+            node.parent = self._frame
+        return node
+
+    def _change(self, function: Callable[..., Any], *arguments: Any) -> Any:
+        """Call a function that changes the tree; the tree of a material is not updated yet."""
+        return self._deferred.change(function, *arguments) if self._deferred else function(*arguments)
 
     def output(
         self,
@@ -195,14 +219,14 @@ class Tree:
         elif isinstance(value, bpy.types.Node):
             value = compat.find_socket(value.outputs, 0)
         if isinstance(value, bpy.types.NodeSocket):
-            self.node_tree.links.new(value, socket)
+            self._change(self.node_tree.links.new, value, socket)
             return
         if socket.type == "RGBA" and isinstance(value, Sequence):
             value = (*value[:3], 1.0)
         known = socket.default_value
         same = tuple(known) == tuple(value) if hasattr(value, "__len__") else known == value
         if not same:
-            socket.default_value = value
+            self._change(setattr, socket, "default_value", value)
 
     def math(self, operation: str, *operands: Any, clamp: bool = False) -> Value:
         """Add a Math node."""
@@ -309,6 +333,9 @@ class Tree:
     def finish(self, outputs: Mapping[str, Any]) -> None:
         """Connect the outputs of a group, by name, and lay out its nodes."""
         self.node("NodeGroupOutput", outputs)
+        if self._deferred:
+            self._deferred.end(self.node_tree)
+            self._deferred = None
         for node in self.node_tree.nodes:
             if node.bl_idname == "NodeGroupInput":
                 for socket in node.outputs:
