@@ -55,7 +55,12 @@ def missing(stage: Stage, frames: Iterable[int] | None = None) -> list[int]:
     if place is None:
         return []
     wanted = range(1, last + 1) if frames is None else [frame for frame in frames if 1 <= frame <= last]
-    return [frame for frame in wanted if not bake.volume_path(place, frame).exists()]
+    paths = {frame: bake.volume_path(place, frame) for frame in wanted}
+    if len(paths) == 1:
+        there = {path.name for path in paths.values() if path.exists()}
+    else:  # one request for all frames of a long film, on a network share too
+        there = set(os.listdir(place)) if place.is_dir() else set()
+    return [frame for frame, path in paths.items() if path.name not in there]
 
 
 def set_folder(stage: Stage, place: Path) -> None:
