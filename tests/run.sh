@@ -18,7 +18,7 @@ case ${1:-} in
     ;;
 esac
 
-# One worker for each processor core. Without workers (-n), Blender can hang when Python ends.
+# One worker for each processor core. One process alone also ends: tests/system/test_handlers.py tells why.
 pytest() {
   .venv/bin/python -m pytest -q -n "$(nproc)" --dist worksteal --max-worker-restart 0 "$@"
 }

@@ -5,8 +5,10 @@ import subprocess
 import sys
 
 import bpy
+import numpy as np
 import pytest
 from firetwin.shot.auto_framing import chase, flank, overview
+from firetwin.shot.terrain import apron
 from near_fire import *  # noqa: F403
 from panel_scene import panel_blend  # noqa: F401
 from small_scene import *  # noqa: F403
@@ -16,6 +18,26 @@ from small_scene import *  # noqa: F403
 def no_waiting_for_the_disk(monkeypatch):
     """No test cuts the power, so files need not be on the disk."""
     monkeypatch.setattr(os, "fsync", lambda descriptor: None)
+
+
+_aprons = {}
+
+
+@pytest.fixture(autouse=True)
+def shared_aprons(monkeypatch):
+    """Shots of the same land share its apron, unless an elevation model has heights there."""
+    extend = apron.extend
+
+    def known_or_extended(fields, cell, half_width, seed, known=None):
+        arrays = (np.ascontiguousarray(array).tobytes() for array in list(vars(fields).values())[:5])
+        key = (*arrays, fields.elevation.shape, cell, half_width, seed)
+        if known is not None:
+            return extend(fields, cell, half_width, seed, known)
+        if key not in _aprons:
+            _aprons[key] = extend(fields, cell, half_width, seed)
+        return _aprons[key]
+
+    monkeypatch.setattr(apron, "extend", known_or_extended)
 
 
 @pytest.fixture(autouse=True)

@@ -36,13 +36,12 @@ def test_what_could_not_be_built_as_it_should_be_is_told(shot, stage, scene, mon
     assert told == ["no sun today"]
 
 
-def test_a_scene_of_the_artist_is_as_before_when_ours_is_removed(near_shot, scene, request):
+def test_a_scene_of_the_artist_is_as_before_when_ours_is_removed(near_shot, scene, plain_looks):
     scene.world = bpy.data.worlds.new("mine")
     scene.camera = bpy.data.objects.new("mine", bpy.data.cameras.new("mine"))
     scene.collection.objects.link(scene.camera)
     before = _names(), scene.frame_end, scene.view_settings.view_transform
     build.build(near_shot, scene)
-    request.getfixturevalue("plain_looks")
     build.build(near_shot, scene)
     assert bpy.data.objects["Firetwin Ground"].users_scene == (scene,)
     build.remove(scene)

@@ -68,7 +68,7 @@ def test_the_ground_goes_over_into_the_globe_between_run_and_border(space):
 
 
 @pytest.mark.slow  # three builds of the terrain
-def test_it_is_built_for_cameras_in_space_alone(space, shot, stage, scene):
+def test_it_is_built_for_cameras_in_space_alone(space, shot, stage, scene, request):
     build.build(space, scene, parts=("terrain", "cameras"))
     names = {obj.name for obj in stage.root.all_objects}
     assert "Firetwin Globe" in names
@@ -79,6 +79,7 @@ def test_it_is_built_for_cameras_in_space_alone(space, shot, stage, scene):
         scene.frame_set(frame)
         wanted = space.paths[0].clips[frame - 1]
         assert (data.clip_start, data.clip_end) == pytest.approx(tuple(wanted), rel=0.02)
+    request.getfixturevalue("plain_ground")
     build.build(shot, scene, parts=("terrain", "cameras"))
     assert "Firetwin Globe" not in {obj.name for obj in stage.root.all_objects}
     ground = next(obj for obj in stage.root.all_objects if obj.name == "Firetwin Ground")

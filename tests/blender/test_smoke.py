@@ -312,8 +312,9 @@ def test_paths_that_are_not_ours_or_on_another_drive_stay(shot, stage, tmp_path,
     assert theirs.filepath == absolute
 
 
-def test_several_may_write_one_volume_at_once(shot, tmp_path):
+def test_several_may_write_one_volume_at_once(smoky, run, tmp_path):
     """All of them finish, and nothing but the complete file is left."""
+    shot = Shot(replace(smoky, smoke=replace(smoky.smoke, voxel_size=400.0)), run)
     path = tmp_path / "smoke_000003.vdb"
     maker = sources.select(shot)
     maker.write(path, 3)

@@ -152,30 +152,29 @@ def test_a_broken_checkpoint_is_left_and_made_anew(flowing, run, tmp_path, monke
             assert one.snapshot_path(2).read_bytes() == two.snapshot_path(2).read_bytes()
 
 
-@pytest.mark.parametrize("spoil", ["cut", "nothing", "shapes", "place", "middle", "missing"])
-def test_a_broken_moment_is_solved_again(flowing, run, tmp_path, spoil):
+def test_a_broken_moment_is_solved_again(flowing, run, tmp_path):
+    """Cut off, empty, of other shapes, of another box, damaged in the middle, or without a field."""
     shot = Shot(replace(flowing, cache=tmp_path / "broken"), run)
-    solved = flow.Flow(shot)
-    solved.ready(1)
-    path = solved.domains[0].snapshot_path(1)
-    whole = path.read_bytes()
-    kept = snapshots.read(path)
-    if spoil == "cut":
-        path.write_bytes(whole[: len(whole) // 2])
-    elif spoil == "nothing":
-        path.write_bytes(b"")
-    elif spoil == "shapes":
-        snapshots.write(path, kept | {"smoke": kept["smoke"][1:]})
-    elif spoil == "place":  # of another box
-        snapshots.write(path, kept | {"low": np.array([9999, 0])})
-    elif spoil == "middle":  # its list of contents is whole
-        middle = len(whole) // 3
-        path.write_bytes(whole[:middle] + bytes(2000) + whole[middle + 2000 :])
-    else:
-        snapshots.write(path, {name: kept[name] for name in kept if name != "drift"})
     place = bake.bake(shot, frames=[1])
-    assert path.read_bytes() == whole
-    assert (place / "far_000001.vdb").exists()
+    path = flow.Flow(shot).domains[0].snapshot_path(1)
+    whole, kept = path.read_bytes(), snapshots.read(path)
+    middle = len(whole) // 3
+    breaks = {
+        "cut": lambda: path.write_bytes(whole[: len(whole) // 2]),
+        "nothing": lambda: path.write_bytes(b""),
+        "shapes": lambda: snapshots.write(path, kept | {"smoke": kept["smoke"][1:]}),
+        "place": lambda: snapshots.write(path, kept | {"low": np.array([9999, 0])}),
+        "middle": lambda: path.write_bytes(whole[:middle] + bytes(2000) + whole[middle + 2000 :]),
+        "missing": lambda: snapshots.write(path, {name: kept[name] for name in kept if name != "drift"}),
+    }
+    for name, spoil in breaks.items():
+        for volume in place.iterdir():
+            volume.unlink()
+        spoil()
+        assert path.read_bytes() != whole, name
+        assert bake.bake(shot, frames=[1]) == place
+        assert path.read_bytes() == whole, name
+        assert (place / "far_000001.vdb").exists(), name
 
 
 def test_an_earlier_frame_than_the_checkpoint_is_solved(flowing, run, tmp_path, monkeypatch):

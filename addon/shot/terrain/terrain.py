@@ -88,7 +88,7 @@ class Terrain:
             self.cell,
             settings.terrain.apron,
             settings.seed,
-            lambda *grid: self._relief.mixed(*grid)[0],
+            (lambda *grid: self._relief.mixed(*grid)[0]) if self._relief.model else None,
         )
         self._share = np.pad(_oriented(self._relief.share, latitude, longitude), self.fields.margin)
         self.seed, self.near_radius = settings.seed, settings.terrain.near_radius
