@@ -2,6 +2,7 @@
 
 #include "base/vector.hpp"
 #include "lod/view_set.hpp"
+#include "volume/coord.hpp"
 
 namespace firetwin::volume {
 
