@@ -47,6 +47,17 @@ check_weak() {
   [[ -z $weak ]] || fail "undefined weak symbols, which another library could define: ${weak//$'\n'/ }"
 }
 
+# The list of libraries is in the wheel and in its RECORD, and names every library that has a licence there.
+check_sbom() {
+  local info named licensed
+  info=$(echo "$unpacked"/firetwin_core-*.dist-info)
+  grep -q "sboms/libraries.cdx.json,sha256=" "$info/RECORD" || fail "RECORD does not contain the list of libraries"
+  named=$(python3 -c 'import json, sys; print(*(item["name"] for item in json.load(sys.stdin)["components"]), sep="\n")' \
+    <"$info/sboms/libraries.cdx.json" | grep -Ev '^(libstdc\+\+|pybind11)$' | sort)
+  licensed=$(ls "$info/licenses/libraries")
+  [[ $named == "$licensed" ]] || fail "the list of libraries differs from the licences: $(diff <(echo "$named") <(echo "$licensed"))"
+}
+
 for wheel in "$portable"/wheels/firetwin_core-*.whl; do
   echo "== $(basename "$wheel"), $(stat --format=%s "$wheel") bytes"
   show=$("$portable/tools/bin/auditwheel" show "$wheel")
@@ -62,5 +73,6 @@ for wheel in "$portable"/wheels/firetwin_core-*.whl; do
   check_exports
   check_open
   check_weak
+  check_sbom
   rm -rf "$unpacked"
 done

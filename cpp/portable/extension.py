@@ -1,7 +1,8 @@
 """Make the Blender extension from addon/, data/ and wheels: ``extension.py OUT WHEELS...``.
 
 Blender's `blender_ext.py` builds and validates the zip; it is part of the running Python's `bpy` package.
-WHEELS are folders: the zip contains all their wheels, which determine its platforms.
+WHEELS are folders: the zip contains all their wheels, which determine its platforms, except the wheel of the
+add-on.
 """
 
 from __future__ import annotations
@@ -69,7 +70,8 @@ def stage(folder: Path, wheels: list[Path], text: str) -> None:
 def main(out: Path, folders: list[Path]) -> None:
     """Stage, build and validate the extension; print the file's name last."""
     version = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
-    wheels = sorted(wheel for folder in folders for wheel in folder.glob("*.whl"))
+    found = sorted(wheel for folder in folders for wheel in folder.glob("*.whl"))
+    wheels = [wheel for wheel in found if not wheel.name.startswith("firetwin-")]
     platforms = sorted({name for name in map(platform_of, wheels) if name})
     if len(platforms) != 1:
         sys.exit(f"extension: wheels of the core for one system are needed, not for: {platforms or 'none'}")

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds the portable wheels of the core and tries each with Blender: imported before it, after it, and with Blender's
-# libraries loaded first. Prints the speed of the core inside and outside of Blender.
+# libraries loaded first. Prints the speed of the core inside and outside of Blender. Installs the wheels with pip in an empty
+# environment, and renders a frame there.
 #
 #   tests/system/wheels.sh                    build, check, try with the Blender of .venv and of build/versions/bpy-5.0
 #   tests/system/wheels.sh --try FOLDER       only try the wheels in this folder
@@ -38,4 +39,7 @@ try() { # python
 }
 
 for_each_blender try
+if [[ -z ${FIRETWIN_INSIDE:-} ]] && compgen -G "$wheels/firetwin-*.whl" >/dev/null; then
+  tests/system/package/pip.sh "$wheels"
+fi
 in_other_python tests/system/wheels.sh --try "$wheels"
