@@ -1,7 +1,7 @@
-# Quick builds on this machine: third-party headers are precompiled, the files of a folder are compiled together (unity build),
+# Quick builds, of wheels too: third-party headers are precompiled, the files of a folder are compiled together (unity build),
 # and code that does not compute (bindings, the topology of VDB files) is compiled with -O1.
-# Wheels are built without this, which reveals missing #includes. Anonymous namespaces of a folder share their names in a
-# unity build.
+# The presets dev and asan build without this, which reveals missing #includes. Anonymous namespaces of a folder share their
+# names in a unity build.
 option(FIRETWIN_QUICK_BUILD "Build quickly: precompiled headers, unity builds, bindings with -O1" OFF)
 
 function(firetwin_quick_build target name)
@@ -21,6 +21,7 @@ function(firetwin_quick_build target name)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
   if(name STREQUAL "base")
     target_precompile_headers(${target} PRIVATE ${headers})
+    target_link_libraries(${target} PRIVATE TBB::tbb) # only for its headers
   elseif(name STREQUAL "bindings")
     target_precompile_headers(${target} PRIVATE ${headers} <pybind11/numpy.h> <pybind11/stl.h> <pybind11/stl/filesystem.h>)
     set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 7)

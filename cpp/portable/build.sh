@@ -1,7 +1,11 @@
 #!/usr/bin/env bash
 # Builds and checks wheels of firetwin_core for any x86-64 Linux with glibc 2.28 or newer, for the Pythons of Blender 4.5 and
-# 5.0 (3.11), and of 5.1 and later (3.13). The wheels go to build/portable/wheels.
-# The first run downloads (220 MB) and builds the libraries; later runs build only Firetwin.
+# 5.0 (3.11), and of 5.1 and later (3.13), and the wheel of firetwin, which requires them. They go to build/portable/wheels.
+# The first run downloads (220 MB) and builds the libraries; later runs use the archives in build/portable/archives.
+#
+#   cpp/portable/build.sh                 build everything
+#   cpp/portable/build.sh --libraries     build only the libraries
+#
 # Needs g++-12, cmake, ninja, make, dpkg-deb, curl, and Python 3 with venv. FIRETWIN_PORTABLE replaces the
 # folder build/portable; FIRETWIN_JOBS is the number of parallel compilers.
 set -euo pipefail
@@ -48,7 +52,7 @@ compile() {
   # --fresh: the folder may be from another checkout.
   cmake --fresh -S . -B "$build" -G Ninja --toolchain "$here/toolchain.cmake" -DCMAKE_BUILD_TYPE=Release \
     -DFIRETWIN_LIBRARIES=portable -DFIRETWIN_VERSION="$version" -DFIRETWIN_PYTHONS="${pythons// /;}" \
-    -DFIRETWIN_PYTHON_HEADERS="$portable" -Dpybind11_DIR="$("$portable/tools/bin/python" -m pybind11 --cmakedir)"
+    -DFIRETWIN_QUICK_BUILD=ON -DFIRETWIN_PYTHON_HEADERS="$portable" -Dpybind11_DIR="$("$portable/tools/bin/python" -m pybind11 --cmakedir)"
   cmake --build "$build" -j "${FIRETWIN_JOBS:-$(nproc)}"
   for python in $pythons; do
     rm -rf "$build/stage-$python"
@@ -58,19 +62,23 @@ compile() {
 }
 
 start=$SECONDS
-once sources "$(sha256sum <"$here/sources.txt")" "$here/fetch.sh" "$portable/sources"
+mapfile -t missing < <("$here/libraries.sh" "$portable" --missing)
+"$here/fetch.sh" "$portable/sources" "${missing[@]}"
 once sysroot "$(cat "$here/sources.txt" "$here/sysroot.sh" | sha256sum)" "$here/sysroot.sh" "$portable/sources" "$portable"
 once tools "$(sha256sum <"$here/tools.txt")" make_tools
 "$here/libraries.sh" "$portable"
 say "libraries ready after $((SECONDS - start)) s"
+if [[ ${1:-} == --libraries ]]; then
+  exit
+fi
 
 version=$("$portable/tools/bin/python" -c 'import tomllib; print(tomllib.load(open("pyproject.toml", "rb"))["project"]["version"])')
 code=$(find cpp CMakeLists.txt pyproject.toml -type f ! -name '*.pyc' -print0 | sort -z | xargs -0 sha256sum | sha256sum)
 once module "$code" logged firetwin_core "$portable/logs/module.log" compile
 rm -rf "$portable/wheels"
 for python in $pythons; do
-  "$portable/tools/bin/python" "$here/pack.py" "$portable/module/stage-$python" "$python" "$version" "$portable/licenses" \
-    "$portable/wheels"
+  "$portable/tools/bin/python" "$here/pack.py" core "$portable/module/stage-$python" "$python" "$portable"
 done
+"$portable/tools/bin/python" "$here/pack.py" addon "$portable"
 "$here/check.sh" "$portable"
 say "done after $((SECONDS - start)) s"

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Downloads the files of sources.txt into a folder, and checks their SHA-256.
+# Downloads the files of sources.txt into a folder, and checks their SHA-256: all, or those with the names given.
 # They come from the Debian mirrors that apt is set up to use; FIRETWIN_MIRRORS lists others (URLs separated by blanks).
-# Exit status 77: a file is not available.
+# pip downloads source packages of PyPI. Exit status 77: a file is not available.
 set -euo pipefail
-folder=${1:?usage: fetch.sh FOLDER}
+folder=${1:?usage: fetch.sh FOLDER [NAME...]}
+shift
 here=$(dirname "${BASH_SOURCE[0]}")
 mkdir -p "$folder"
 
@@ -32,15 +33,33 @@ download() { # pool-path file sha256
   return 1
 }
 
+# pip itself checks the hash.
+download_sdist() { # name version sha256
+  python3 -m venv "$folder/venv" && "$folder/venv/bin/pip" download --quiet --disable-pip-version-check --no-deps --no-binary "$1" \
+    --require-hashes --requirement <(echo "$1==$2 --hash=sha256:$3") --dest "$folder" >&2
+  rm -rf "$folder/venv"
+}
+
 mapfile -t urls < <(mirrors)
 missing=0
 while read -r name version path sha256; do
   if [[ -z $name || $name == \#* ]]; then
     continue
   fi
-  file=$folder/$(basename "$path")
-  if ! matches "$file" "$sha256" && ! download "$path" "$file" "$sha256"; then
-    echo "fetch: $name $version: none of the mirrors has $path with SHA-256 $sha256." >&2
+  if (($#)) && [[ " $* " != *" $name "* ]]; then
+    continue
+  fi
+  file=$folder/$(basename "${path#pypi:}")
+  if matches "$file" "$sha256"; then
+    continue
+  fi
+  if [[ $path == pypi:* ]]; then
+    download_sdist "$name" "$version" "$sha256" || true
+  else
+    download "$path" "$file" "$sha256" || true
+  fi
+  if ! matches "$file" "$sha256"; then
+    echo "fetch: $name $version: $path with SHA-256 $sha256 is not available." >&2
     missing=1
   fi
 done <"$here/sources.txt"
