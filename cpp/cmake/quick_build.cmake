@@ -1,7 +1,7 @@
 # Quick builds, of wheels too: third-party headers are precompiled, the files of a folder are compiled together (unity build),
 # and code that does not compute (bindings, the topology of VDB files) is compiled with -O1.
-# The presets dev and asan build without this, which reveals missing #includes. Anonymous namespaces of a folder share their
-# names in a unity build.
+# The presets `release` and `asan` build without this, which reveals missing #includes. In a unity build, the names in the
+# anonymous namespaces of a folder must be unique.
 option(FIRETWIN_QUICK_BUILD "Build quickly: precompiled headers, unity builds, bindings with -O1" OFF)
 
 function(firetwin_quick_build target name)
