@@ -4,7 +4,7 @@
 # On 2 cores it takes about 5 minutes on a fresh machine and 3 afterwards.
 #
 #   tests/run.sh          these checks
-#   tests/run.sh --all    these, then all others (tests/slow.sh), within 40 minutes in total
+#   tests/run.sh --all    these, then all others (tests/slow.sh), within 30 minutes in total
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -37,5 +37,5 @@ pytest tests/blender
 echo "== render: a frame of each pass"
 pytest tests/render/test_passes.py tests/render/test_passes_normal.py tests/render/test_layers.py tests/render/test_comparison.py
 if $all; then
-  tests/slow.sh $((40 * 60 - SECONDS))
+  tests/slow.sh $((30 * 60 - SECONDS))
 fi
