@@ -39,9 +39,9 @@ FIRE = "Firetwin Fire"
 """Light group of all objects that write the flames' AOVs."""
 _SAME_SOCKETS = frozenset(
     f"ShaderNode{name}"
-    for name in ("AddShader", "Attribute", "CombineXYZ", "Emission", "Math", "MixShader", "SeparateXYZ")
-)
-"""Kinds of nodes whose properties affect only the third and later inputs."""
+    for name in ("AddShader", "Attribute", "CombineXYZ", "Emission", "MixShader", "SeparateXYZ", "TexNoise")
+) | {"NodeGroupInput"}
+"""Kinds of nodes whose sockets can be looked up by name before an update."""
 
 
 class Value:
@@ -170,13 +170,12 @@ class Tree:
 
     def node(self, kind: str, inputs: Inputs = (), **properties: Any) -> bpy.types.Node:
         """Add a node: first its properties, then its inputs by name (or in order)."""
-        node, changed = self._new(kind), False
+        node = self._new(kind)
         for name, value in properties.items():
             if getattr(node, name) != value:  # Blender updates the complete tree after every change
                 self._change(setattr, node, name, value)
-                changed = True
-        if changed and self._deferred and (kind not in _SAME_SOCKETS or len(inputs) > 2):
-            self.node_tree.interface_update(bpy.context)  # the properties decide which sockets there are
+        if self._deferred and _shows_sockets_late(kind, inputs, properties):
+            self.node_tree.interface_update(bpy.context)
         pairs = inputs.items() if isinstance(inputs, Mapping) else enumerate(inputs)
         for socket, value in pairs:
             self.connect(value, compat.find_socket(node.inputs, socket))
@@ -189,9 +188,9 @@ class Tree:
         """
         node = self._change(self.node_tree.nodes.new, kind)
         if node.name[-4:-3] == ".":
-            node.name = f"{node.name[:-4]} {len(self.node_tree.nodes)}"
+            self._change(setattr, node, "name", f"{node.name[:-4]} {len(self.node_tree.nodes)}")
         if self._frame is not None and kind != "NodeFrame":
-            node.parent = self._frame
+            self._change(setattr, node, "parent", self._frame)
         return node
 
     def _change(self, function: Callable[..., Any], *arguments: Any) -> Any:
@@ -341,6 +340,15 @@ class Tree:
                 for socket in node.outputs:
                     socket.hide = not socket.is_linked
         layout.arrange(self.node_tree)
+
+
+def _shows_sockets_late(kind: str, inputs: Inputs, properties: Mapping[str, Any]) -> bool:
+    """Return True if an update must enable and disable sockets of a new node before they are looked up."""
+    if kind == "ShaderNodeMath":
+        return len(inputs) > 2
+    if kind == "ShaderNodeMapRange":
+        return "data_type" in properties
+    return kind not in _SAME_SOCKETS
 
 
 def _is_input(item: bpy.types.NodeTreeInterfaceItem, name: str) -> bool:

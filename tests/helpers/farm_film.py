@@ -92,7 +92,7 @@ def until(there: Callable[[], object], seconds: float = 300.0) -> None:
     end = time.monotonic() + seconds
     while not there():
         assert time.monotonic() < end, "waited too long"
-        time.sleep(0.2)
+        time.sleep(0.05)
 
 
 def pictures(out: Path) -> dict[str, str]:

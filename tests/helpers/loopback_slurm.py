@@ -218,7 +218,7 @@ class Slurm:
                     return
             if time.monotonic() > end:
                 raise TimeoutError(f"Slurm: waited for {what}; {self._logs()}")
-            time.sleep(0.5)
+            time.sleep(0.2)
 
     def _logs(self) -> str:
         return " | ".join(path.read_text(errors="replace")[-800:] for path in self.folder.glob("*.log"))

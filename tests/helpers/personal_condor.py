@@ -199,4 +199,4 @@ class Condor:
                 logs = [*self.folder.glob("master.out"), *self.folder.glob("log/*Log")]
                 said = " | ".join(each.read_text(errors="replace")[-800:] for each in logs)
                 raise TimeoutError(f"HTCondor: waited for {what}; {said}")
-            time.sleep(1)
+            time.sleep(0.3)
