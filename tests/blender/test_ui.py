@@ -370,6 +370,7 @@ def test_parts_one_by_one_make_the_whole(settings, scene_file):
     assert sorted(scene.objects.keys()) == one_by_one
     assert left_out(scene) == without
     assert "Firetwin Fire" in without
+    assert "Firetwin Terrain" not in without
 
 
 def test_remove_takes_away_all_of_ours(settings, scene_file):
