@@ -75,7 +75,7 @@ def test_a_long_film_with_a_task_whose_time_runs_out_is_that_of_one_process(slur
     until(lambda: rendered(out))
     task = running(slurm)[0]
     minutes = int(slurm.call("squeue", "-h", "-j", task, "-o", "%M").split(":")[-2])
-    slurm.call("scontrol", "update", f"JobId={task}", f"TimeLimit={minutes + 2}")
+    slurm.call("scontrol", "update", f"JobId={task}", f"TimeLimit={minutes + 1}")
     until(lambda: 143 in ended(out))
     slurm.call("scontrol", "update", f"JobId={task}", "TimeLimit=30")
     slurm.wait()
