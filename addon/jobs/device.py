@@ -10,7 +10,7 @@ import bpy
 from .. import leases
 from ..blender import devices
 from ..blender.devices import Gpus
-from ..errors import TryAgainError, UnavailableError, input_error
+from ..errors import Error, TryAgainError, UnavailableError, input_error
 from ..gpu import caches, cards, choice, kernels
 from ..gpu.cards import Card
 from ..progress import MessageCallback
@@ -43,7 +43,7 @@ def select(settings: Settings, frames: int, tell: MessageCallback) -> Gpus | Non
     return gpus
 
 
-def _no_gpu(settings: Settings) -> TryAgainError:
+def _no_gpu(settings: Settings) -> Error:
     """Return the error for a missing GPU, at its line of the scene file if there is one."""
     tried = ", ".join(devices.NAMES.values())
     reason = f'device = "gpu", but Cycles finds no GPU here (tried {tried}); set it to "auto" or "cpu"'
