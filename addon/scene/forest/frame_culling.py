@@ -1,8 +1,8 @@
 """Frame culling: a render instances only the trees that its frame shows.
 
 A forest is planted for all frames of a build chunk. In the example a frame shows two thirds of its trees, and
-Cycles spends about 20 us of CPU time on each instance. Trees outside of a frame's views remain in the mesh; they
-are not instanced where the attribute `IN_VIEW` is false. It is true in .blend files.
+Cycles spends about 20 us of CPU time on each instance. Trees outside of a frame's views remain in the mesh;
+they are not instanced where the attribute `IN_VIEW` is false. It is true in .blend files.
 """
 
 from __future__ import annotations
