@@ -105,6 +105,7 @@ for name in sys.argv[1:]:
 
 ABOUT_ALL = {
     "floors",
+    "handlers",
     "processor_time",
     "prose",
     "touched",
