@@ -36,7 +36,12 @@ NEVER_BPY = (
 )
 """Packages and modules that load without Blender; `run` to `smoke` never import it at all."""
 
-WITH_BPY = {"firetwin.jobs.worker_scene", "firetwin.data.spread", "firetwin.data.simulate"}
+WITH_BPY = {
+    "firetwin.jobs.device",
+    "firetwin.jobs.worker_scene",
+    "firetwin.data.spread",
+    "firetwin.data.simulate",
+}
 """Exceptions: modules of the worker process, and modules that need packages to make the sample."""
 
 
