@@ -70,6 +70,12 @@ class DeferredUpdates:
         tree.interface_update(bpy.context)
 
 
+def end_all() -> None:
+    """End deferred updates that an error interrupted, so that nothing of them remains in the file."""
+    DeferredUpdates._open = 0
+    _unregister()
+
+
 def _unregister() -> None:
     """Remove the type and its trees: Blender as a module hangs at exit if a script leaves one."""
     atexit.unregister(_unregister)

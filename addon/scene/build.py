@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 import bpy
 import numpy as np
 
-from ..blender import owned
+from ..blender import node_updates, owned
 from ..progress import MessageCallback
 from ..shot.light import exposure
 from ..shot.shot import Shot
@@ -74,6 +74,15 @@ def steps(
     tell
         Receives each warning for the user, such as a part that could not be built as requested.
     """
+    try:
+        yield from _steps(shot, scene, parts, tell)
+    finally:
+        node_updates.end_all()
+
+
+def _steps(
+    shot: Shot, scene: bpy.types.Scene, parts: Sequence[str], tell: Callable[[str], None]
+) -> Iterator[str]:
     uid, grown, shape = scene.session_uid, None, None
 
     def stage() -> owned.Stage:

@@ -1,9 +1,12 @@
 """Node trees that Blender updates once, at their end: the same trees, and nothing is left."""
 
+from types import SimpleNamespace
+
 import bpy
 import pytest
 from firetwin.blender import nodes
 from firetwin.blender.node_updates import DeferredUpdates
+from firetwin.scene import build
 
 
 def _draw(tree):
@@ -66,3 +69,15 @@ def test_an_error_of_a_change_is_raised(scene):
     with pytest.raises(RuntimeError, match="NoSuchNode"):
         changes.change(tree.nodes.new, "NoSuchNode")
     changes.end(tree)
+
+
+def test_a_build_that_fails_within_a_material_leaves_nothing(scene, monkeypatch):
+    def fail(*_):
+        nodes.material("unfinished")[1].math("ADD", 1.0, 2.0)
+        raise ValueError("in a material")
+
+    monkeypatch.setattr(build.clock, "build", fail)
+    with pytest.raises(ValueError, match="in a material"):
+        list(build.steps(SimpleNamespace(paths=(), beyond=False), scene))
+    assert {tree.bl_idname for tree in bpy.data.node_groups} <= {"ShaderNodeTree", "GeometryNodeTree"}
+    assert not hasattr(bpy.types, "FiretwinNodeUpdates")
