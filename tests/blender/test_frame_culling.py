@@ -3,6 +3,7 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
+from firetwin.blender import mesh
 from firetwin.scene.forest import build as forest
 from firetwin.scene.forest import stand
 from firetwin.scene.forest.frame_culling import IN_VIEW, FrameCulling
@@ -41,3 +42,12 @@ def test_without_culling_no_frame_hides_a_tree(settings, run, stage):
     forest.build(shot, stage, stand.grow(shot))
     FrameCulling(shot, stage).apply(1)
     assert _in_view(bpy.data.objects["Firetwin Trees"]).all()
+
+
+def test_a_view_without_trees_hides_none(shot, stage):
+    forest.build(shot, stage, stand.grow(shot))
+    trees = bpy.data.objects["Firetwin Trees"]
+    trees.data.clear_geometry()  # as in a satellite's view: its trees belong to the ground's colour
+    mesh.add_attribute(trees.data, IN_VIEW, "BOOLEAN", np.ones(0))
+    FrameCulling(shot, stage).apply(1)
+    assert not trees.data.vertices

@@ -25,8 +25,9 @@ class FrameCulling:
 
     def __init__(self, shot: Shot, stage: Stage) -> None:
         self.shot = shot
-        forest = [obj.data for obj in stage.objects_of("Forest") if isinstance(obj.data, bpy.types.Mesh)]
-        self.plants = [(data, *_bounds(data)) for data in forest if IN_VIEW in data.attributes]
+        meshes = [obj.data for obj in stage.objects_of("Forest") if isinstance(obj.data, bpy.types.Mesh)]
+        planted = [data for data in meshes if len(data.vertices) and IN_VIEW in data.attributes]
+        self.plants = [(data, *_bounds(data)) for data in planted]
 
     def apply(self, frame: int) -> None:
         """Set `IN_VIEW` for a frame; without culling (`render.cull`), no tree is hidden.
