@@ -32,6 +32,7 @@ from firetwin.ui import (
     view,
     working,
 )
+from firetwin.ui import auto_framing as framing
 from firetwin.ui import scene_file as scene_settings
 from firetwin.ui import time as model_time
 
@@ -146,6 +147,7 @@ def test_cameras_that_nobody_chose_follow_the_run(settings, run_folder, tmp_path
 
 
 def test_the_window_that_nobody_chose_follows_the_run(settings, run_folder, tmp_path):
+    framing._frame_folder.cache_clear()  # of a shared scene, which was framed with all candidates
     settings.run = str(run_folder)
     fits = file.read(_new(run_folder, tmp_path / "scene.toml"))
     shown = scene_settings.read_settings(bpy.context.scene)
