@@ -17,6 +17,7 @@ from firetwin.shot import auto_framing, passes
 from firetwin.shot.schema import fields
 from firetwin.shot.settings import scene_file as file
 from firetwin.smoke import sources
+from firetwin.ui import auto_framing as framing
 from firetwin.ui import (
     build,
     camera_list,
@@ -32,7 +33,6 @@ from firetwin.ui import (
     view,
     working,
 )
-from firetwin.ui import auto_framing as framing
 from firetwin.ui import scene_file as scene_settings
 from firetwin.ui import time as model_time
 
