@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Sets up, then runs the checks that every change must pass: format and lint, the documentation, tests/unit,
 # tests/blender, and a frame of each pass.
-# On 2 cores it takes about 5 minutes on a fresh machine and 3 afterwards.
+# On 2 cores it takes about 11 minutes on a fresh machine and 9 afterwards.
 #
 #   tests/run.sh          these checks
 #   tests/run.sh --all    these, then all others (tests/slow.sh), within 30 minutes in total

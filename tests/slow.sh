@@ -22,14 +22,14 @@ mkdir -p "$cache"
 result=0 summary=()
 
 # Runs a command that needs about this many minutes, if that much time is left. 0: always, for at
-# least 10 minutes, and it must end.
+# least 15 minutes, and it must end.
 slow() { # minutes command...
   local needs=$(($1 * 60)) left=$((limit - SECONDS)) from=$SECONDS status=0
   shift
   local name="$*"
   name=${name#.venv/bin/python -m }
-  if ((needs == 0 && left < 600)); then
-    left=600
+  if ((needs == 0 && left < 900)); then
+    left=900
   fi
   if ((left < needs)); then
     summary+=("left out: $name needs about $((needs / 60)) min; $((left > 0 ? left / 60 : 0)) are left")
