@@ -59,8 +59,12 @@ class PrivateFolder:
             content = made["bytes"], made["sha256"], key
             entries.append(Entry(path, *content, made["camera"], made["pass"], made["frame"], made["time"]))
         if entries:
-            self.log.write(*entries)
-            self.published = rows[-1][0]
+            before, self.published = self.published, rows[-1][0]
+            try:
+                self.log.write(*entries)
+            except Exception:  # not by SIGTERM (SystemExit), after which the lines are in the log
+                self.published = before
+                raise
 
 
 def verified_entries(found: Iterable[Entry], out: Path, made_with: Fingerprints) -> list[Entry]:
