@@ -94,6 +94,7 @@ def sky_at(shot, stage, shoot, height, elevation):
     """Luminance of the sky from a height (m) at an angle (degrees) over the horizontal, to the north."""
     if stage.scene.world is None:
         light.build(shot, stage)
+        stage.scene.world.cycles.sampling_method = "NONE"  # nothing is lit; its map takes seconds
     up = math.radians(elevation)
     eye = np.array([0.0, 0.0, height])
     camera_at(stage.scene, eye, eye + np.array([0.0, math.cos(up), math.sin(up)]))
