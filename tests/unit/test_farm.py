@@ -418,3 +418,24 @@ def test_the_command_line_takes_a_scene_or_a_verb():
     assert arguments.split_options(["farm", "status", "out"]) == (["farm", "status", "out"], [])
     assert set(arguments._engines()) == set(known())
     assert all(engine.name == name for name, engine in known().items())
+
+
+def test_entries_logged_when_a_task_is_told_to_end_are_not_logged_again(tmp_path):
+    class Log(list):
+        def write(self, *lines):
+            self.extend(lines)
+            if len(self) == 1:
+                raise SystemExit(143)  # SIGTERM arrives while the log is flushed to the disk
+
+    log, place = Log(), tmp_path / "private"
+    place.mkdir()
+    (place / "a.png").write_bytes(b"a")
+    entry = {"bytes": 1, "sha256": "0", "camera": "drone", "pass": "rgb", "frame": 1, "time": "2014"}
+    with Store(place, create=True) as store:
+        store.add({"samples": 1}, {"a.png": entry})
+    folder = PrivateFolder(place, tmp_path / "out", log)
+    with pytest.raises(SystemExit):
+        folder.publish()
+    folder.publish()  # as a task does at its end
+    assert [each.path for each in log] == ["a.png"]
+    assert (tmp_path / "out/a.png").read_bytes() == b"a"
