@@ -1,6 +1,6 @@
 """Developers' benchmarks: tools compute equal results, errors are errors, and all are listed."""
 
-import importlib.util
+import importlib
 import subprocess
 import sys
 from pathlib import Path
@@ -16,6 +16,7 @@ import pytest
 from firetwin.bench.harness import ORIGIN, Bench
 from firetwin.bench.timing import Times
 from firetwin_core.geo import LocalFrame
+from module_file import load_module
 
 FOLDER = Path(__file__).parents[1] / "benchmarks"
 
@@ -36,9 +37,7 @@ def test_every_benchmark_is_listed_by_what_it_compares():
 
 
 def test_a_subject_is_measured_and_printed(monkeypatch, capsys):
-    spec = importlib.util.spec_from_file_location("benchmarks", FOLDER / "__main__.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    module = load_module(FOLDER / "__main__.py", "benchmarks")
     monkeypatch.setattr(particles, "run", lambda bench: bench.row("60 steps/s", "firetwin", None, 1, "s"))
     monkeypatch.setattr(sys, "path", [*sys.path])
     monkeypatch.setenv("PYTHONPATH", "")

@@ -1,6 +1,5 @@
 """The pages agree with the code, the start page is short, and links and pictures exist."""
 
-import importlib.util
 import re
 from pathlib import Path
 
@@ -9,20 +8,14 @@ from firetwin.shot import passes
 from firetwin.shot.cameras import rigs
 from firetwin.shot.schema import walk
 from firetwin.shot.settings import Settings
+from module_file import load_module
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 PAGES = [ROOT / "README.md", *sorted(DOCS.rglob("*.md"))]
 
 
-def generator():
-    spec = importlib.util.spec_from_file_location("generate", DOCS / "generate.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-MADE = generator().pages()
+MADE = load_module(DOCS / "generate.py").pages()
 
 
 @pytest.mark.parametrize("name", MADE)

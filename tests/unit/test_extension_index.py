@@ -12,6 +12,7 @@ from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import pytest
+from module_file import load_module
 
 PORTABLE = Path(__file__).resolve().parents[2] / "cpp/portable"
 ADDRESS = "https://example.org/download/v{version}"
@@ -28,10 +29,7 @@ pytestmark = pytest.mark.skipif(
 
 @pytest.fixture(scope="module")
 def extension():
-    spec = importlib.util.spec_from_file_location("extension", PORTABLE / "extension.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return load_module(PORTABLE / "extension.py")
 
 
 @pytest.fixture(scope="module")

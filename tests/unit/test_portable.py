@@ -1,6 +1,5 @@
 """The scripts that build wheels: keys of prebuilt libraries, and the bill of materials."""
 
-import importlib.util
 import json
 import re
 import shutil
@@ -9,6 +8,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from module_file import load_module
 
 ROOT = Path(__file__).resolve().parents[2]
 PORTABLE = ROOT / "cpp/portable"
@@ -16,10 +16,7 @@ PORTABLE = ROOT / "cpp/portable"
 
 @pytest.fixture(scope="module")
 def sbom():
-    spec = importlib.util.spec_from_file_location("sbom", PORTABLE / "sbom.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return load_module(PORTABLE / "sbom.py")
 
 
 def keys(scripts):

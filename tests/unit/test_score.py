@@ -25,6 +25,7 @@ from hypothesis import strategies as st
 from hypothesis_profiles import examples
 from matplotlib import image
 from matplotlib.colors import to_rgb
+from module_file import load_module
 
 shapely = pytest.importorskip("shapely")
 SPEED = 0.5  # m/s
@@ -386,10 +387,7 @@ def _firebench(part):
     if found is None:
         pytest.skip("firebench is not installed")
     path = Path(found.submodule_search_locations[0]) / part
-    spec = importlib.util.spec_from_file_location(path.stem, path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return load_module(path)
 
 
 def test_masks_and_arrival_times_by_firebench():
