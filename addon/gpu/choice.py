@@ -46,7 +46,7 @@ def _count_cores() -> int:
     return os.cpu_count() or 1
 
 
-def choose(wanted: str, gpus: str, waiting: Sequence[Card], saved_s: float, blender: str) -> Choice:
+def choose(wanted: str, gpus: str, uncompiled: Sequence[Card], saved_s: float, blender: str) -> Choice:
     """Choose the device of a render.
 
     Parameters
@@ -55,7 +55,7 @@ def choose(wanted: str, gpus: str, waiting: Sequence[Card], saved_s: float, blen
         "auto", "cpu" or "gpu".
     gpus
         Names of the GPUs with the interface, such as "NVIDIA L4 by OptiX"; empty without a GPU.
-    waiting
+    uncompiled
         Cards among them whose kernels would be compiled first.
     saved_s
         Estimated time that the GPU saves, without compilation, s.
@@ -66,9 +66,9 @@ def choose(wanted: str, gpus: str, waiting: Sequence[Card], saved_s: float, blen
         return Choice(False, "the processor")
     if not gpus:
         return Choice(False, "the processor (no GPU found)")
-    if not waiting:
+    if not uncompiled:
         return Choice(True, gpus)
-    names = " and ".join(dict.fromkeys(card.architecture for card in waiting))
+    names = " and ".join(dict.fromkeys(card.architecture for card in uncompiled))
     wait = f"{COMPILE_MINUTES[0]} to {COMPILE_MINUTES[1]} minutes"
     why = f"as Blender {blender} has no ready kernels for {names}"
     saved = duration(saved_s)

@@ -51,7 +51,7 @@ def find(card: Card, kernels: Path, blender: tuple[int, ...]) -> Path | None:
 
 
 def make(architecture: str, kernels: Path) -> Path:
-    """Translate Cycles' intermediate code to machine code, and put it where Cycles looks for it.
+    """Assemble Cycles' PTX into machine code (cubin), and put it where Cycles looks for it.
 
     It needs no GPU. The kernels of Blender 4.5 for sm_90 took 12.6 processor minutes and 5.4 GB of memory;
     the file has 4.2 MB.
@@ -72,23 +72,27 @@ def make(architecture: str, kernels: Path) -> Path:
     Error
         The kernels exist already, `ptxas` or the intermediate code is missing, or the translation failed.
     """
+    import zstandard  # of bpy and Blender
+
     path = kernels / f"kernel_{architecture}.cubin.zst"
     if path.exists():
         raise Error(f"{path} exists already; remove it to make it again")
     number = int(architecture.removeprefix("sm_"))
-    texts = {int(re.sub(r"\D", "", each.name)): each for each in kernels.glob("kernel_compute_*.ptx.zst")}
-    if not (older := [each for each in texts if each <= number]):
+    ptx_files = {int(re.sub(r"\D", "", each.name)): each for each in kernels.glob("kernel_compute_*.ptx.zst")}
+    if not (not_newer := [each for each in ptx_files if each <= number]):
         raise Error(f"{kernels} has no intermediate code (kernel_compute_*.ptx.zst) for {architecture}")
+    newest = ptx_files[max(not_newer)]
     command = [_find_ptxas(), f"-arch={architecture}", "-O3", "--split-compile=0", "-o"]
     with tempfile.TemporaryDirectory(prefix="firetwin-kernels-") as place:
         text, code = Path(place, "kernel.ptx"), Path(place, "kernel.cubin")
-        text.write_bytes(_decompress(texts[max(older)].read_bytes()))
+        text.write_bytes(zstandard.ZstdDecompressor().decompressobj().decompress(newest.read_bytes()))
         done = subprocess.run([*command, str(code), str(text)], capture_output=True, text=True, check=False)
         if done.returncode != 0:
             reason = (done.stderr.strip().splitlines() or [f"exit status {done.returncode}"])[-1]
-            raise Error(f"ptxas could not translate {texts[max(older)].name} for {architecture}: {reason}")
+            raise Error(f"ptxas could not translate {newest.name} for {architecture}: {reason}")
+        packed = zstandard.ZstdCompressor(level=19).compress(code.read_bytes())
         with writing(path):
-            files.write(path, lambda part: part.write_bytes(_compress(code.read_bytes())))
+            files.write(path, lambda part: part.write_bytes(packed))
     return path
 
 
@@ -110,15 +114,3 @@ def _find_ptxas() -> str:
     if on_path := shutil.which("ptxas"):
         return on_path
     raise Error(f"ptxas is missing; install it with: {sys.executable} -m pip install {PACKAGE}")
-
-
-def _decompress(data: bytes) -> bytes:
-    import zstandard  # bpy and Blender bring it along
-
-    return zstandard.ZstdDecompressor().decompressobj().decompress(data)
-
-
-def _compress(data: bytes) -> bytes:
-    import zstandard
-
-    return zstandard.ZstdCompressor(level=19).compress(data)

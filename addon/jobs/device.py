@@ -31,15 +31,15 @@ def select(settings: Settings, frames: int, tell: MessageCallback) -> Gpus | Non
     gpus = None if wanted == "cpu" else devices.find_gpus()
     if wanted == "gpu" and gpus is None:
         raise _no_gpu(settings)
-    waiting = find_waiting(gpus)
+    uncompiled = find_uncompiled(gpus)
     width, height = settings.render.resolution
     saved = choice.estimate_saving(frames, width * height, settings.render.samples)
-    chosen = choice.choose(wanted, str(gpus or ""), waiting, saved, bpy.app.version_string)
+    chosen = choice.choose(wanted, str(gpus or ""), uncompiled, saved, bpy.app.version_string)
     tell(f"Cycles renders on {chosen.text}")
     if not chosen.gpu:
         return None
-    if gpus is not None and waiting:
-        compile_kernels(gpus, waiting, tell)
+    if gpus is not None and uncompiled:
+        compile_kernels(gpus, uncompiled, tell)
     return gpus
 
 
@@ -53,7 +53,7 @@ def _no_gpu(settings: Settings) -> Error:
     return input_error(at.path, at.reason, line=at.line, column=at.column, kind=UnavailableError)
 
 
-def find_waiting(gpus: Gpus | None) -> list[Card]:
+def find_uncompiled(gpus: Gpus | None) -> list[Card]:
     """List the NVIDIA cards whose kernels the driver would compile at their first use.
 
     Other vendors' cards are not listed: Blender ships kernels for HIP and oneAPI, and Metal compiles while
@@ -71,7 +71,7 @@ def blender_build() -> str:
     return f"{bpy.app.version_string} {bpy.app.build_hash.decode(errors='replace')}"
 
 
-def compile_kernels(gpus: Gpus, waiting: Sequence[Card], tell: MessageCallback) -> None:
+def compile_kernels(gpus: Gpus, uncompiled: Sequence[Card], tell: MessageCallback) -> None:
     """Compile the kernels of these cards into the driver's cache, by a picture of one sample.
 
     One process of a machine compiles; others wait for it.
@@ -81,12 +81,12 @@ def compile_kernels(gpus: Gpus, waiting: Sequence[Card], tell: MessageCallback) 
     build = blender_build()
 
     def is_done() -> bool:
-        return all(caches.is_compiled(card, build, os.environ) for card in waiting)
+        return all(caches.is_compiled(card, build, os.environ) for card in uncompiled)
 
     with leases.lock(place / "firetwin.lock", is_done, lambda: None) as mine:
         if mine and not is_done():
             draw_sample(gpus, tell)
-            caches.record_compiled(list(waiting), build, os.environ)
+            caches.record_compiled(list(uncompiled), build, os.environ)
 
 
 def draw_sample(gpus: Gpus | None, tell: MessageCallback) -> None:

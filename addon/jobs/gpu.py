@@ -38,12 +38,12 @@ def describe_in_blender(progress: Progress = silent, tell: MessageCallback = no_
     gpus = devices.find_gpus()
     if gpus is None:
         return [NONE]
-    waiting, lines = device.find_waiting(gpus), []
+    uncompiled, lines = device.find_uncompiled(gpus), []
     nvidia = cards.list_cards() if gpus.kind in ("OPTIX", "CUDA") else []
     for card in nvidia:
         ready = kernels.find(card, kernels.folder(), bpy.app.version)
         state = "ready"
-        if card in waiting:
+        if card in uncompiled:
             state = f"not ready: Blender {bpy.app.version_string} has none, so the driver compiles them once"
         elif ready is None:
             state = "compiled, in the cache"
@@ -73,8 +73,8 @@ def warm_in_blender(progress: Progress = silent, tell: MessageCallback = no_mess
     if gpus is None:
         raise TryAgainError(f"{NONE}; nothing to compile")
     tell(f"loading the kernels of Cycles on {gpus}")
-    if waiting := device.find_waiting(gpus):
-        device.compile_kernels(gpus, waiting, tell)
+    if uncompiled := device.find_uncompiled(gpus):
+        device.compile_kernels(gpus, uncompiled, tell)
     else:
         device.draw_sample(gpus, tell)
     return describe_in_blender()

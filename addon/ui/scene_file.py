@@ -43,8 +43,7 @@ def read_settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Se
 def fill(scene: bpy.types.Scene, whole: Settings) -> None:
     """Set the panel of a scene to these settings, and inspect the run."""
     panel = scene.firetwin
-    near = tuple(scene_file.absolute_location(whole.path, place) for place in whole.tiles.sources)
-    whole = replace(whole, tiles=replace(whole.tiles, sources=near))
+    whole = scene_file.with_absolute_tilesets(whole)
     sections.put(panel, sections.top_level_keys() + sections.sections(), whole)
     camera_list.fill(panel, whole.cameras)
     other_runs.fill(panel, whole.runs)

@@ -18,7 +18,7 @@ WHY = "as Blender 4.5.15 has no ready kernels for sm_90"
 
 
 @pytest.mark.parametrize(
-    ("wanted", "gpus", "waiting", "saved_s", "gpu", "text"),
+    ("wanted", "gpus", "uncompiled", "saved_s", "gpu", "text"),
     [
         ("cpu", "", [], 60.0, False, "the processor"),
         ("auto", "", [], 60.0, False, "the processor (no GPU found)"),
@@ -51,8 +51,8 @@ WHY = "as Blender 4.5.15 has no ready kernels for sm_90"
         ),
     ],
 )
-def test_the_choice_is_the_quicker_device_and_is_explained(wanted, gpus, waiting, saved_s, gpu, text):
-    assert choice.choose(wanted, gpus, waiting, saved_s, "4.5.15") == choice.Choice(gpu, text)
+def test_the_choice_is_the_quicker_device_and_is_explained(wanted, gpus, uncompiled, saved_s, gpu, text):
+    assert choice.choose(wanted, gpus, uncompiled, saved_s, "4.5.15") == choice.Choice(gpu, text)
 
 
 def test_the_estimate_grows_with_the_work_and_falls_with_the_cores():

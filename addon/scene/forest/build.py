@@ -232,10 +232,10 @@ def node_group(
         burned = tree.output("FunctionNodeCompare", [age, after], data_type="FLOAT", operation="GREATER_THAN")
         choice = {"Switch": burned, "False": model, "True": attribute("snag_model", "INT")}
         model = tree.output("GeometryNodeSwitch", choice, input_type="INT")
-    drawn = _drawn(tree, shot) if burns else True
+    selection = _drawn(tree, shot) if burns else True
     if culled:
         seen = attribute(IN_VIEW, "BOOLEAN")
-        drawn = seen if drawn is True else tree.output("FunctionNodeBooleanMath", [seen, drawn])
+        selection = seen if selection is True else tree.output("FunctionNodeBooleanMath", [seen, selection])
     taller = tree.input("Height", 1.0, "Factor on the size of all plants", "Size")
     wider = tree.input("Width", 1.0, "Factor on how wide plants are for their height", "Size")
     up = attribute("scale", "FLOAT") * taller
@@ -244,7 +244,7 @@ def node_group(
         "GeometryNodeInstanceOnPoints",
         {
             "Points": tree.pick(given, "Geometry"),
-            "Selection": drawn,
+            "Selection": selection,
             "Instance": collection,
             "Pick Instance": True,
             "Instance Index": model,

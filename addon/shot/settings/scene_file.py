@@ -19,9 +19,9 @@ from ..schema.former import FORMER, FORMER_KEYS, FORMER_VALUES
 from ..schema.frame_list import FrameList
 from ..schema.scene_text import SceneText, load
 from . import Settings
-from .toml_writer import absolute_location, portable, text
+from .toml_writer import portable, text, with_absolute_tilesets
 
-__all__ = ["absolute_location", "parse", "portable", "read", "text"]
+__all__ = ["parse", "portable", "read", "text", "with_absolute_tilesets"]
 
 
 def read(path: str | Path) -> Settings:

@@ -29,22 +29,19 @@ def text(settings: Settings) -> str:
 
     Times are in the zone of `settings.time`, paths relative to the folder of the settings if they are in it.
     """
-    blocks = _Writer(settings).table(settings, (), [])
-    return "\n".join(_aligned(block) for block in blocks)
+    return _write(settings)
 
 
 def portable(settings: Settings) -> str:
     """Write a scene file that reads back as these settings in any folder: its paths are absolute."""
-    sources = tuple(absolute_location(settings.path, place) for place in settings.tiles.sources)
-    settings = replace(settings, tiles=replace(settings.tiles, sources=sources))
-    blocks = _Writer(settings, here=False).table(settings, (), [])
-    return "\n".join(_aligned(block) for block in blocks)
+    return _write(with_absolute_tilesets(settings), here=False)
 
 
-def absolute_location(path: Path, place: str) -> str:
-    """Return a tileset's location; a path relative to the scene file `path` becomes absolute."""
-    near = path.absolute().parent / place
-    return str(near) if near.exists() else place
+def with_absolute_tilesets(settings: Settings) -> Settings:
+    """Return settings whose tilesets are absolute paths, if they are paths relative to the scene file."""
+    near = [(place, settings.path.absolute().parent / place) for place in settings.tiles.sources]
+    sources = tuple(str(path) if path.exists() else place for place, path in near)
+    return replace(settings, tiles=replace(settings.tiles, sources=sources))
 
 
 def brief(settings: Settings, asked: Collection[str], remarks: Mapping[str, str]) -> str:
@@ -57,8 +54,7 @@ def brief(settings: Settings, asked: Collection[str], remarks: Mapping[str, str]
     remarks
         Comments above cameras, by name; above the file, by "run".
     """
-    writer = _Writer(settings, asked=frozenset(asked), remarks=remarks)
-    return "\n".join(_aligned(block) for block in writer.table(settings, (), []))
+    return _write(settings, asked=frozenset(asked), remarks=remarks)
 
 
 def tables(name: str, tables: Iterable[Any]) -> str:
@@ -74,6 +70,12 @@ def _aligned(block: list[Line]) -> str:
     return "".join(
         (f"{written.ljust(width)}  # {comment}" if comment else written) + "\n" for written, comment in block
     )
+
+
+def _write(settings: Settings, **options: Any) -> str:
+    """Write settings with the `options` of a `_Writer`."""
+    blocks = _Writer(settings, **options).table(settings, (), [])
+    return "\n".join(_aligned(block) for block in blocks)
 
 
 class _Writer:
