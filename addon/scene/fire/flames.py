@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 
 from ...run import burning
 from ...shot.cameras.path import Path
+from ...shot.fire.flame_size import CROWNS, SIGHT, flame_length, flame_temperature, flame_tilt
 from ...shot.shot import Shot
 from ...shot.terrain import noise
 from ..forest import fire_effects
 from ..forest.stand import Stand
 
-SIGHT = 12_000.0  # m; more distant fronts are drawn only as the ground's glowing edge
 _SPACING = ((2500.0, 8.0), (5000.0, 12.0), (SIGHT, 24.0))
 """Spacing (m) between points of a front with flames of at least `_TALL`, by distance (m) from the camera."""
 _TALL = 12.0  # m
@@ -36,8 +36,6 @@ _EVEN = (5.0, 12.0)  # m, flame lengths between which lengths become uniform
 _GAP = 25.0  # m, size of gaps and distance between them, in a crown fire
 _SIZES = 0.45  # standard deviation of the logarithm of flame lengths
 _LENGTHS = (0.3, 75.0)  # m
-_CROWNS = 0.1  # kg/m2, minimum canopy fuel of a crown fire (assumed)
-_KELVIN = (1000.0, 1500.0)  # flames (Frankman et al. 2008)
 _TORCH_SIGHT = 2500.0  # m
 _TORCHES = 0.8  # fraction of the burning crowns that torch in a dense canopy
 _AROUND = 250.0  # m around a cell that its flames and firebrands reach
@@ -88,30 +86,6 @@ class Points:
         return np.flatnonzero((age >= 0.0) & (age < self.residence))
 
 
-def flame_length(intensity: Array, formula: str = "thomas", crowns: NDArray[np.bool_] | bool = True) -> Array:
-    """Return flame length (m) from fireline intensity (kW/m).
-
-    "thomas": 0.0266 I^(2/3) (Thomas 1963); "byram": 0.0775 I^0.46 (Byram 1959), too short for crown fire;
-    "auto": Thomas for `crowns`, Byram elsewhere.
-    """
-    intensity = np.maximum(np.asarray(intensity, np.float64), 0.0)
-    tall, low = 0.0266 * intensity ** (2.0 / 3.0), 0.0775 * intensity**0.46
-    return np.where(crowns, tall, low) if formula == "auto" else tall if formula == "thomas" else low
-
-
-def flame_tilt(wind: float, length: Array) -> Array:
-    """Return flame tilt from the vertical (radians): tan A = 1.22 U / sqrt(g L), at most 60 (Albini 1981)."""
-    return np.minimum(
-        np.arctan(1.22 * wind / np.sqrt(constants.GRAVITY * np.maximum(length, 0.1))), np.pi / 3.0
-    )
-
-
-def flame_temperature(intensity: Array) -> Array:
-    """Return flame temperature: 1000 K at 1 MW/m to 1500 K at 100 MW/m, linear in the logarithm (assumed)."""
-    place = np.log10(np.maximum(intensity, 1.0) / 1.0e3) / 2.0
-    return _KELVIN[0] + (_KELVIN[1] - _KELVIN[0]) * np.clip(place, 0.0, 1.0)
-
-
 def front_flames(shot: Shot, grown: Stand | None = None) -> Points:
     """Create the flames along the front at every time of the shot, at most `fire.budget` lit at once.
 
@@ -140,7 +114,7 @@ def front_flames(shot: Shot, grown: Stand | None = None) -> Points:
     place = ground.point(*ground.places(row, column)) if len(row) else np.empty((0, 3))
     intensity = constants.HEAT_OF_COMBUSTION / 1000.0 * fuel * speed
     uneven = np.exp(_SIZES * noise.normal(random[0], random[1]))
-    crowns = bilinear(ground.fields.canopy_fuel, row, column) > _CROWNS
+    crowns = bilinear(ground.fields.canopy_fuel, row, column) > CROWNS
     even = flame_length(intensity, settings.fire.flame_length, crowns)
     length = np.clip(even * uneven * _flare_factor(place, even, shot), *_LENGTHS)
     thin = lod.LevelTable().multiplier(distance) if len(distance) else np.ones(0)
@@ -180,7 +154,7 @@ def _relative_spacing(shot: Shot) -> float:
         return 1.0
     fuel, canopy = ground.fields.surface_fuel[passed], ground.fields.canopy_fuel[passed]
     intensity = constants.HEAT_OF_COMBUSTION / 1000.0 * (fuel + canopy) * front.speed[passed]
-    length = flame_length(intensity, shot.settings.fire.flame_length, canopy > _CROWNS)
+    length = flame_length(intensity, shot.settings.fire.flame_length, canopy > CROWNS)
     return float(np.clip(np.percentile(length, 90.0) / _TALL, _FINEST, 1.0))
 
 
