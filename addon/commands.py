@@ -483,10 +483,10 @@ def _fit_scene(
     run: Path, path: Path, cache: Path, asked: tuple[datetime | None, datetime | None] = (None, None)
 ) -> str:
     """Write the text of a scene file `path` that fits a run in the requested times; prints its choices."""
+    from . import auto_framing
     from .errors import UsageError
     from .progress import READING, notify_if_slow
     from .run import times
-    from .shot import auto_framing
     from .shot.sections import Time
 
     opened, window = _open_run(run), Time(*asked)

@@ -1,4 +1,4 @@
-"""Shot source: a scene file or a run folder, with command line overrides."""
+"""Shot source: a scene file with command line overrides."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class ShotSource:
     Attributes
     ----------
     scene
-        Scene file. Without one, settings are fitted to the run (see `auto_framing`).
+        Scene file.
     run, cache
         Folders that override the scene file's.
     engine, device
@@ -43,13 +43,8 @@ class ShotSource:
         return asdict(self)
 
     def settings(self) -> Settings:
-        """Read the settings of the scene file, or fit them to the run, and apply the overrides."""
-        from . import auto_framing
-
-        if self.scene:
-            settings = scene_file.read(self.scene)
-        else:
-            settings = auto_framing.fit_folder(Path(self.run), Path(self.run), Path("cache")).settings
+        """Read the settings of the scene file and apply the overrides."""
+        settings = scene_file.read(self.scene)
         return replace(
             settings,
             run=Path(self.run) if self.run else settings.run,

@@ -42,8 +42,8 @@ def frame_run(run: Run, start: datetime | None = None, end: datetime | None = No
 @functools.lru_cache(maxsize=8)
 def _frame_folder(folder: str, stamps: str, start: datetime | None, end: datetime | None) -> dict[str, Any]:
     """Return the framing of the run in a folder, in its current state."""
+    from .. import auto_framing
     from ..run import readers
-    from ..shot import auto_framing
 
     run = readers.open(folder)
     fits = auto_framing.fit(run, Settings(run=Path(folder), time=Time(start, end)))

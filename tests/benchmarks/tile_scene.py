@@ -27,12 +27,12 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 
 import tile_grid
+from firetwin import auto_framing
 from firetwin.blender import owned
 from firetwin.data import sample
 from firetwin.jobs.tiles import selection
 from firetwin.run import readers
 from firetwin.scene.tiles import build, material, mesh
-from firetwin.shot import auto_framing
 from firetwin.shot.shot import Shot
 from firetwin.shot.tiles import tile_cut
 

@@ -7,7 +7,7 @@ import sys
 import bpy
 import numpy as np
 import pytest
-from firetwin.shot.auto_framing import chase, flank, overview
+from firetwin.auto_framing import chase, flank, overview
 from firetwin.shot.terrain import apron
 from near_fire import *  # noqa: F403
 from panel_scene import panel_blend  # noqa: F401

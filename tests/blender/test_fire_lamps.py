@@ -5,13 +5,13 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
+from firetwin import auto_framing
 from firetwin.blender import compat, owned
 from firetwin.render import layers
 from firetwin.scene import build
 from firetwin.scene.fire import build as fire
 from firetwin.scene.fire import lamp_objects, lamps
 from firetwin.scene.smoke import build as smoke
-from firetwin.shot import auto_framing
 from firetwin.shot.fire.fire import Fire
 from firetwin.shot.sections import Light, SmokeSettings
 from firetwin.shot.shot import Shot

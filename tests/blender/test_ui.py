@@ -10,10 +10,11 @@ import bpy
 import firetwin
 import numpy as np
 import pytest
+from firetwin import auto_framing
 from firetwin.blender import owned, viewport
 from firetwin.errors import InputError, input_error
 from firetwin.jobs import assets
-from firetwin.shot import auto_framing, passes
+from firetwin.shot import passes
 from firetwin.shot.schema import fields
 from firetwin.shot.settings import scene_file as file
 from firetwin.smoke import sources

@@ -1,6 +1,5 @@
 """Settings that fit a run: the most active part of it, and cameras that show most of the front."""
 
-import dataclasses
 import zoneinfo
 from datetime import timedelta
 from pathlib import Path
@@ -8,14 +7,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 import whole_run
+from firetwin import auto_framing
+from firetwin.auto_framing import candidates, front, overview, straight_plume, visible_share, window
 from firetwin.run import readers, sun, zone
-from firetwin.shot import auto_framing, run_checks
-from firetwin.shot.auto_framing import candidates, front, overview, straight_plume, visible_share, window
+from firetwin.shot import run_checks
 from firetwin.shot.fire import emissions
 from firetwin.shot.sections import Time
 from firetwin.shot.settings import scene_file
 from firetwin.shot.shot import Shot
-from firetwin.shot.source import ShotSource
 from small_run import small_fields
 
 HOURS = tuple(3600.0 * np.arange(0.0, 25.0, 6.0))
@@ -253,15 +252,6 @@ def test_the_file_reads_back_as_the_settings(fit_of, name):
     path = found.settings.path
     path.write_text(found.text, encoding="utf-8")
     assert scene_file.read(path) == found.settings
-
-
-def test_a_run_alone_gets_the_same_settings(fit_of, monkeypatch):
-    found, run = fit_of("line windless")
-    monkeypatch.chdir(found.settings.path.parent)
-    alone = ShotSource(run=run.path).settings()
-    same = {"path": found.settings.path, "run": found.settings.run, "cache": found.settings.cache}
-    assert dataclasses.replace(alone, **same) == found.settings
-    assert (alone.run, alone.cache.absolute()) == (Path(run.path), found.settings.cache)
 
 
 def test_the_file_is_short_and_every_key_in_it_is_explained(fit_of):

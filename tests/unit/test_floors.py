@@ -22,7 +22,7 @@ NEVER_BPY = (
     ),
     *("firetwin.cli", "firetwin.commands", "firetwin.data"),
     *("firetwin.run", "firetwin.stations", "firetwin.tiles"),
-    *("firetwin.imaging", "firetwin.shot", "firetwin.smoke"),
+    *("firetwin.imaging", "firetwin.shot", "firetwin.smoke", "firetwin.auto_framing"),
     *("firetwin.jobs", "firetwin.farm", "firetwin.bench", "firetwin.brief", "firetwin.allocation"),
     *(
         f"firetwin.render.{name}"

@@ -1,8 +1,7 @@
-"""Shot sources: a scene file with overrides, or a run folder; messages on ridges."""
+"""Shot sources: a scene file with overrides; messages on ridges."""
 
 import numpy as np
 import pytest
-from firetwin.shot import run_checks
 from firetwin.shot.source import ShotSource
 from firetwin_core import InputError
 from small_run import FX, FY, small_fields
@@ -20,15 +19,9 @@ def test_a_choice_is_a_scene_file_with_other_things_in_its_place(make_run, tmp_p
         ShotSource(str(tmp_path / "scene.toml")).shot()
 
 
-def test_a_run_alone_has_cameras_that_fit_it(make_run):
-    shot = ShotSource(run=str(make_run())).shot()
-    run_checks.check(shot.settings, shot.run)
-    assert [camera.name for camera in shot.settings.cameras] == ["overview", "chase", "flank", "satellite"]
-    assert shot.settings.smoke.method == "flow"
-    assert ShotSource(run=str(shot.settings.run), smoke="puffs").shot().settings.smoke.method == "puffs"
-    assert ShotSource(**ShotSource(run="here", engine="eevee").plain()) == ShotSource(
-        run="here", engine="eevee"
-    )
+def test_a_source_survives_its_plain_form():
+    source = ShotSource(scene="here.toml", engine="eevee")
+    assert ShotSource(**source.plain()) == source
 
 
 def test_a_camera_that_ridges_hide_is_told_and_stays(make_run, tmp_path):

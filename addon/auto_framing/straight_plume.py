@@ -8,8 +8,8 @@ import numpy as np
 from firetwin_core import constants
 from numpy.typing import NDArray
 
-from ..fire import emissions
-from ..terrain.terrain import NEVER, Terrain
+from ..shot.fire import emissions
+from ..shot.terrain.terrain import NEVER, Terrain
 
 _LONG = 3.0  # burn-out times after which a cell counts as cold
 _WIDE = 0.4  # half-width of a plume over its drift distance (by eye)

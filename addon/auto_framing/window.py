@@ -9,8 +9,8 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
-from ...run import areas, extent, times, zone
-from ..sections import Time
+from ..run import areas, extent, times, zone
+from ..shot.sections import Time
 
 FRAMES, FPS = 48, 12  # four seconds, as in the example
 _PACE = 20.0  # m of the fire's size per second of the window: 24 minutes for 29 km, as in the example

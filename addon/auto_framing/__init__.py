@@ -11,9 +11,9 @@ from pathlib import Path
 
 from firetwin_core.run import Run
 
-from ..sections import Time
-from ..settings import Settings
-from ..shot import Shot
+from ..shot.sections import Time
+from ..shot.settings import Settings
+from ..shot.shot import Shot
 from . import chase, flank, front, overview, satellite, text, window
 from .candidates import PlacedCamera
 from .visible_share import Visible
@@ -82,7 +82,7 @@ def fit_folder(folder: Path, path: Path, cache: Path, time: Time | None = None) 
     InputError
         There is something wrong with the run.
     """
-    from ...run import readers
+    from ..run import readers
 
     return fit(readers.open(folder), Settings(path=path, run=folder, cache=cache, time=time or Time()))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Mapping
 
-from ..settings import Settings, toml_writer
+from ..shot.settings import Settings, toml_writer
 
 _WIDTH = 108  # characters of a comment line
 _ASKED = (

@@ -9,7 +9,7 @@ import numpy as np
 from firetwin_core import lod
 from numpy.typing import NDArray
 
-from ..cameras.path import Path
+from ..shot.cameras.path import Path
 from .front import Front, some
 
 _INSIDE = 0.97  # of the half width and half height; points nearer to the edge do not count

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..cameras.path import UP, look
-from ..cameras.rigs._key import CameraKey
-from ..cameras.rigs.drone import Drone
-from ..settings import Camera
+from ..shot.cameras.path import UP, look
+from ..shot.cameras.rigs._key import CameraKey
+from ..shot.cameras.rigs.drone import Drone
+from ..shot.settings import Camera
 from . import candidates
 from .candidates import Array, PlacedCamera, Tried
 from .front import Front, some

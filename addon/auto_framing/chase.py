@@ -6,15 +6,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..cameras.rigs.chase import Chase
-from ..settings import Camera
+from ..shot.cameras.rigs.chase import Chase
+from ..shot.settings import Camera
 from . import candidates
 from .candidates import PlacedCamera, Tried
 from .front import Front
 from .visible_share import Visible
 
 if TYPE_CHECKING:
-    from ..cameras.path import Path
+    from ..shot.cameras.path import Path
 
 _PART = 1.0 / 12.0  # of the fire's size: 2.4 km at 29 km, as the example's drone (by eye)
 _DISTANCES = (80.0, 3000.0)  # m

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...run import sun
+from ..run import sun
 from .front import Front
 from .visible_share import VisibleShare
 
 if TYPE_CHECKING:
-    from ..cameras.path import Path
-    from ..settings import Camera
+    from ..shot.cameras.path import Path
+    from ..shot.settings import Camera
 
 LEAST = 0.5  # visible fraction of the front that a camera must reach
 ENOUGH = 0.55  # visible fraction at which the search ends

@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ...run import burning, extent
-from ..shot import Shot
-from ..terrain.terrain import NEVER, UNKNOWN, Terrain, box
+from ..run import burning, extent
+from ..shot.shot import Shot
+from ..shot.terrain.terrain import NEVER, UNKNOWN, Terrain, box
 from . import straight_plume
 from .straight_plume import StraightPlume
 

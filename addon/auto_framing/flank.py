@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..cameras.rigs._key import CameraKey
-from ..cameras.rigs.drone import Drone
-from ..settings import Camera
+from ..shot.cameras.rigs._key import CameraKey
+from ..shot.cameras.rigs.drone import Drone
+from ..shot.settings import Camera
 from . import candidates
 from .candidates import PlacedCamera, Tried
 from .front import Front, some

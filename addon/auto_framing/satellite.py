@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..cameras.rigs._key import CameraKey
-from ..cameras.rigs.satellite import Satellite
-from ..settings import Camera
+from ..shot.cameras.rigs._key import CameraKey
+from ..shot.cameras.rigs.satellite import Satellite
+from ..shot.settings import Camera
 from . import candidates
 from .candidates import PlacedCamera
 from .front import Front
