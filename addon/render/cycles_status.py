@@ -1,4 +1,4 @@
-"""Status of Cycles, for steps that take long without a picture, such as the compilation of kernels."""
+"""Status of Cycles while it renders a picture for long: its samples, or the compilation of kernels."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _EVERY = 15.0  # s
 
 
 class _Status:
-    """Last status line of Cycles while it renders, and when it changed."""
+    """Last status line of Cycles in this render, and when the render began."""
 
     def __init__(self) -> None:
         self.text, self.since = "", 0.0
@@ -23,8 +23,9 @@ class _Status:
     def note(self, line: object, *_: object) -> None:
         """Take up a line such as ``Fra:1 Mem:30M | Time:00:01.20 | Scene, rgb | Sample 3/6``."""
         text = line.rsplit("|", 1)[-1].strip() if isinstance(line, str) else ""
-        if text != self.text:
-            self.text, self.since = text, time.monotonic()
+        if not self.text:
+            self.since = time.monotonic()
+        self.text = text or self.text
 
     def clear(self, *_: object) -> None:
         """Forget the status: the render has ended."""
@@ -33,7 +34,7 @@ class _Status:
 
 @contextmanager
 def reported(tell: MessageCallback, every: float = _EVERY) -> Iterator[None]:
-    """Report the status of Cycles with its seconds, each time that it has not changed for `every` seconds.
+    """Report the status of Cycles and the time so far, every `every` seconds of a render that takes longer.
 
     The handlers are removed at the end: the module `bpy` can hang at exit with handlers left in its lists.
     """

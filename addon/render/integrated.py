@@ -21,7 +21,7 @@ from ..scene.smoke import shadow
 from ..shot import passes
 from ..shot.shot import Shot
 from ..smoke import sources
-from . import layers, surfaces
+from . import frame_cost, layers, surfaces
 from .eye import Eye
 from .picture import Picture
 
@@ -38,8 +38,8 @@ Array = NDArray[np.float32]
 class IntegratedRenderer:
     """Integrated renderer of a scene; it changes the scene's setup until its Blender process ends."""
 
-    def __init__(self, shot: Shot, stage: Stage) -> None:
-        self.shot, self.stage, self.scene = shot, stage, stage.scene
+    def __init__(self, shot: Shot, stage: Stage, cost: frame_cost.FrameCost) -> None:
+        self.shot, self.stage, self.scene, self.cost = shot, stage, stage.scene, cost
         self.in_smoke: list[int] = []
         """Frames in which smoke close to the camera hides more than half of the picture."""
         self.image = _image_node(self.scene)
@@ -67,15 +67,17 @@ class IntegratedRenderer:
         self, pictures: dict[str, Picture], smoke: Sequence[volume.Bricks], part: Path
     ) -> None:
         first = next(iter(pictures))
-        eyes = [
-            Eye(self.shot, self.stage, found[first], number, smoke)
-            for number, found in surfaces.render(self.scene, [first], part)
-        ]
+        with self.cost.part(frame_cost.SURFACES):
+            rendered = surfaces.render(self.scene, [first], part)
+        eyes = [Eye(self.shot, self.stage, found[first], number, smoke) for number, found in rendered]
         if "rgb" in pictures:
-            self._write_visible([eye.picture() for eye in eyes], pictures["rgb"], part)
+            with self.cost.part(frame_cost.MARCH):
+                light = [eye.picture() for eye in eyes]
+            self._write_visible(light, pictures["rgb"], part)
             self._check_view(eyes[0], pictures["rgb"].frame)
         if "thermal" in pictures:
-            heat = [eye.radiance(pictures["thermal"].frame) for eye in eyes]
+            with self.cost.part(frame_cost.MARCH):
+                heat = [eye.radiance(pictures["thermal"].frame) for eye in eyes]
             _write(part, pictures["thermal"], np.concatenate(heat))
         if "depth" in pictures:
             depth = [eye.channels["Depth"][..., 0] for eye in eyes]
@@ -104,7 +106,8 @@ class IntegratedRenderer:
         self, pictures: list[Picture], smoke: Sequence[volume.Bricks], part: Path
     ) -> None:
         """Render passes whose rays all go through pixel centres."""
-        eyes = surfaces.render(self.scene, [each.name for each in pictures], part, centres=True)
+        with self.cost.part(frame_cost.SURFACES):
+            eyes = surfaces.render(self.scene, [each.name for each in pictures], part, centres=True)
         for picture in pictures:
             known, halves = layers.rendered(picture.name), []
             for number, found in eyes:

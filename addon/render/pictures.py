@@ -20,7 +20,19 @@ from ..shot.cameras.path import compass
 from ..shot.settings import mount
 from ..shot.shot import Shot
 from ..smoke.prefetch import Smoke
-from . import credits, cycles_status, engine, integrated, layers, manifest, plan, png, spherical, verify
+from . import (
+    credits,
+    cycles_status,
+    engine,
+    frame_cost,
+    integrated,
+    layers,
+    manifest,
+    plan,
+    png,
+    spherical,
+    verify,
+)
 from .finish import finisher
 from .picture import Picture
 from .sharing import FrameQueue, RenderSession
@@ -58,7 +70,8 @@ def render(
     engine.set_metadata(shot.run, stage.scene)
     made, note = 0, ""
     marched = integrated.applies(shot, stage.scene) and bool(plan.rendered(shot, wanted))
-    renderer = integrated.IntegratedRenderer(shot, stage) if marched else None
+    cost = frame_cost.FrameCost()
+    renderer = integrated.IntegratedRenderer(shot, stage, cost) if marched else None
     with (
         session.leases.part_folder() as part,
         session.queue(wanted, tell) as queue,
@@ -66,12 +79,18 @@ def render(
     ):
         while queue.step():
             progress(queue.done, queue.total, "rendering", note)
-            if finished := _frame(shot, stage, session, part, queue, ready, renderer):
+            with cost.part(frame_cost.FRAME):
+                finished = _frame(shot, stage, session, part, queue, ready, renderer, cost)
+            if finished:
                 made, note = made + 1, _preview(finished)
+                if made == 1:
+                    tell(cost.sentence())
             memory.release_freed()
         progress(queue.done, queue.total, "rendering", note)
     for text in renderer.warnings() if renderer else ():
         tell(text)
+    if made > 1:
+        tell(cost.sentence())
     return made
 
 
@@ -83,12 +102,14 @@ def _frame(
     queue: FrameQueue,
     ready: Ready,
     renderer: integrated.IntegratedRenderer | None,
+    cost: frame_cost.FrameCost,
 ) -> list[Picture]:
     """Render and publish the queue's current frame; empty if another render took over its lease.
 
     The memory of the frame is freed on return.
     """
-    smoke = ready(queue.frame, queue.ahead)
+    with cost.part(frame_cost.SMOKE):
+        smoke = ready(queue.frame, queue.ahead)
     memory.release_freed()
     try:
         frame = _Frame(shot, stage, session, part, queue.camera, queue.frame)

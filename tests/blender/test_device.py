@@ -126,7 +126,7 @@ def test_an_artists_renders_follow_the_preferences(scene):
     assert scene.cycles.device == "GPU"  # which is the processor if the preferences name no GPU
 
 
-def test_a_status_that_lasts_is_reported_with_its_seconds(monkeypatch):
+def test_a_long_render_reports_its_samples_and_its_time(monkeypatch):
     now, told, reports = [0.0], [], []
     monkeypatch.setattr(cycles_status.time, "monotonic", lambda: now[0])
 
@@ -145,16 +145,24 @@ def test_a_status_that_lasts_is_reported_with_its_seconds(monkeypatch):
     before = list(handlers.render_stats), list(handlers.render_complete), list(handlers.render_cancel)
     with cycles_status.reported(told.append):
         (note,) = set(handlers.render_stats) - set(before[0])
-        note("Fra:1 Mem:3M | Time:00:00.10 | Scene, rgb | Sample 1/6")
-        now[0] = 10.0
-        reports[0]()
-        note("Fra:1 Mem:3M | Time:00:10.00 | Scene, rgb | Loading render kernels (may take a few minutes)")
-        now[0] = 130.0
-        note("Fra:1 Mem:3M | Time:02:10.00 | Scene, rgb | Loading render kernels (may take a few minutes)")
-        reports[0]()
         (end,) = set(handlers.render_complete) - set(before[1])
-        end(None)
+        now[0] = 100.0
+        note("Fra:1 Mem:3M | Time:00:00.10 | Scene, rgb | Loading render kernels (may take a few minutes)")
+        now[0] = 110.0
+        reports[0]()  # too early
+        now[0] = 230.0
         reports[0]()
-    assert told == ["Cycles: Loading render kernels (may take a few minutes), 2 min 0 s so far"]
+        note("Fra:1 Mem:3M | Time:02:11.00 | Scene, rgb | Sample 7/24")
+        now[0] = 245.0
+        reports[0]()
+        end(None)
+        reports[0]()  # between two renders
+        now[0] = 300.0
+        note("Fra:2 Mem:3M | Time:00:01.00 | Scene, rgb | Sample 1/24")
+        reports[0]()  # the next render has just begun
+    assert told == [
+        "Cycles: Loading render kernels (may take a few minutes), 2 min 10 s so far",
+        "Cycles: Sample 7/24, 2 min 25 s so far",
+    ]
     after = list(handlers.render_stats), list(handlers.render_complete), list(handlers.render_cancel)
     assert after == before
