@@ -45,7 +45,7 @@ def looks(shot, stage, scene, tmp_path):
     found = {}
     for view, step in STEP.items():
         place = column[:, None] * [[16.0, 0.0, 0.0]] + row[:, None] * np.array([step])
-        forest._instances(shot, stage.part("Chart"), "Chart", {"position": place, **points}, made)
+        forest._instances(shot, stage, stage.part("Chart"), "Chart", {"position": place, **points}, made)
         tall = int(-min(step))
         camera.location = 8.0 * np.array([len(LIVING) - 1.0, 0.0, 0.0]) + 1.5 * np.array(step)
         camera.location += Vector((0.0, -300.0, 10.0) if view == "side" else (0.0, 0.0, 300.0))
@@ -116,7 +116,7 @@ def test_crowns_live_torch_char_or_are_scorched_from_below(shot, stage, scene, t
         "torched": np.array([1.0, 1.0, 1.0, 0.0, 0.0]),
         "arrival_time": scene.get(nodes.TIME, 0.0) - age,
     }
-    forest._instances(shot, stage.part("Chart"), "Chart", points, made)
+    forest._instances(shot, stage, stage.part("Chart"), "Chart", points, made)
     camera.location, camera.rotation_euler = (32.0, -300.0, 10.0), (0.5 * np.pi, 0.0, 0.0)
     camera.data.ortho_scale, scene.render.resolution_x, scene.render.resolution_y = 80, 160, 48
     pixels = _rendered(scene, tmp_path / "fire.exr").reshape(48, 5, 32, 4)
@@ -141,7 +141,7 @@ def test_far_crowns_bear_the_flames_between_them(shot, stage, scene, tmp_path):
     points |= dict.fromkeys(("tint", "dead", "elevation", "canopy_fuel"), half)
     points |= {"scorch": 0.0 * half, "torched": 0.0 * half}
     points["arrival_time"] = scene.get(nodes.TIME, 0.0) - age
-    forest._instances(shot, stage.part("Chart"), "Chart", points, made)
+    forest._instances(shot, stage, stage.part("Chart"), "Chart", points, made)
     camera.rotation_euler, camera.data.clip_end = (0.5 * np.pi, 0.0, 0.0), 1.0e5
     camera.data.ortho_scale, scene.render.resolution_x, scene.render.resolution_y = 48, 48, 24
     red = {}
@@ -169,7 +169,7 @@ def test_a_far_tree_has_a_sunlit_side_and_burns_as_a_near_one(shot, stage, scene
     points |= {"model": model, "snag_model": model, "tint": half, "dead": half, "elevation": half}
     points |= {"canopy_fuel": half, "scorch": 2.0 * half, "torched": np.array([0.0, 1.0, 0.0])[state]}
     points["arrival_time"] = scene.get(nodes.TIME, 0.0) - np.array([-1e6, 600.0, 600.0])[state]
-    forest._instances(shot, stage.part("Chart"), "Chart", points, made)
+    forest._instances(shot, stage, stage.part("Chart"), "Chart", points, made)
     camera.location, camera.rotation_euler = (40.0, -300.0, 10.0), (0.5 * np.pi, 0.0, 0.0)
     camera.data.ortho_scale, scene.render.resolution_x, scene.render.resolution_y = 96, 96, 24
     pixels = _rendered(scene, tmp_path / "far.exr").reshape(24, 6, 16, 4)

@@ -11,7 +11,7 @@ from ...blender import nodes, owned
 from ...blender.mesh import add_attribute, create_mesh
 from ...blender.owned import Stage
 from ...shot.shot import Shot
-from .. import clock
+from .. import clock, flame_field
 from ..forest.stand import Stand
 from . import firebrand_nodes, flames, fronts, lamp_objects, material, observed
 
@@ -37,7 +37,7 @@ def build(shot: Shot, stage: Stage, grown: Stand | None = None) -> bpy.types.Obj
     )
     obj = owned.add(collection, "Flames", _mesh(points))
     modifier = obj.modifiers.new("Firetwin Flames", "NODES")
-    modifier.node_group = node_group(shot, build_cards(shot, stage))
+    modifier.node_group = node_group(shot, stage, build_cards(shot, stage))
     obj.color = SHOWN
     _show_to_camera_only(obj)
     firebrand_nodes.build(shot, stage, points, collection)
@@ -101,8 +101,11 @@ def _card_geometry(index: int) -> tuple[list, list, list]:
     return vertices, faces, cards
 
 
-def node_group(shot: Shot, shapes: bpy.types.Collection) -> bpy.types.NodeTree:
-    """Build geometry nodes: flaming points -> billboards that face the camera, tilt, grow and decay."""
+def node_group(shot: Shot, stage: Stage, shapes: bpy.types.Collection) -> bpy.types.NodeTree:
+    """Build geometry nodes: flaming points -> billboards that face the camera, tilt, grow and decay.
+
+    Flames that are entirely within the field of flames have no billboard: it would be transparent.
+    """
     tree, entry = nodes.geometry("Firetwin Flames")
 
     def named(name: str) -> nodes.Value:
@@ -128,7 +131,9 @@ def node_group(shot: Shot, shapes: bpy.types.Collection) -> bpy.types.NodeTree:
     wider = tree.input("Width", 1.0, "Factor on how wide flames are", "Size")
     longer = tree.input("Length", 1.0, "Factor on how long flames are", "Size")
     width = named("flame_width") * life * wider
-    scale = tree.combine(width, width, named("flame_length") * life * longer)
+    length = named("flame_length") * life * longer
+    scale = tree.combine(width, width, length)
+    within = flame_field.distance_beyond(tree, stage) < -(length + width)
     several = tree.output(
         "GeometryNodeCollectionInfo",
         {"Collection": shapes, "Separate Children": True, "Reset Children": True},
@@ -138,7 +143,7 @@ def node_group(shot: Shot, shapes: bpy.types.Collection) -> bpy.types.NodeTree:
         "GeometryNodeInstanceOnPoints",
         {
             "Points": entry,
-            "Selection": outside < 0.5,
+            "Selection": tree.math("ADD", outside, within) < 0.5,
             "Instance": several,
             "Pick Instance": True,
             "Instance Index": shape,

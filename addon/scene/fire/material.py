@@ -8,7 +8,7 @@ from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.passes import masks
 from ...shot.shot import Shot
-from .. import glow, haze, infrared
+from .. import flame_field, glow, haze, infrared
 
 _RIM, _BODY, _CORE = (1.0, 0.12, 0.008), (1.0, 0.34, 0.04), (1.0, 0.55, 0.15)
 _DIMMED = 0.2  # factor on the emission at the shorter distance of `glow.CLOSE`
@@ -45,29 +45,30 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     body = 1.0 - tree.math("ABSOLUTE", centre) / tree.math("MAXIMUM", narrow, 0.02)
     torn = body + (tongue - 0.5) * ragged - up.power(1.5) * 0.75
     shape = torn.smoothstep(0.05, 0.75) * up.smoothstep(0.0, 0.06) * up.smoothstep(1.0, 0.85)
+    drawn = flame_field.share(tree, stage)
     hot = (torn - up * 0.4).smoothstep(0.5, 1.5)
     colour = tree.mix_colour(shape.smoothstep(0.15, 0.8), rim, middle)
     colour = tree.mix_colour(hot, colour, core)
-    strength = shape.power(1.3) * (0.35 + hot * 0.65) * bright
+    strength = shape.power(1.3) * (0.35 + hot * 0.65) * bright * drawn
     strength = strength * tree.output("ShaderNodeCameraData", name="View Distance").ramp(
         *glow.CLOSE, _DIMMED, 1.0
     )
     strength = strength * length.ramp(*_FULL[1], _FULL[0], 1.0)
     part, _air = haze.fraction(tree, stage)
-    behind = 1.0 - shape * 0.5
+    behind = 1.0 - shape * drawn * 0.5
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": tree.combine(behind, behind, behind)})
     light = strength * (1.0 - part)
     shader = tree.add_shader(tree.emission(colour, light), clear)
     flame = shape > 0.12
     gap = tree.output("ShaderNodeBsdfTransparent")  # does not hide the heat behind it
     depth = tree.attribute("flame_width", "INSTANCER")
-    emissivity = flame * (1.0 - (depth * -infrared.FLAME).exp())
+    emissivity = flame * drawn * (1.0 - (depth * -infrared.FLAME).exp())
     warmth = infrared.surface_radiance(tree, shot, stage, tree.attribute("kelvin", "INSTANCER"))
     warmth = infrared.radiance_at_camera(tree, shot, stage, warmth)
     hot = tree.mix_shader(emissivity, gap, tree.emission(warmth, 1.0))
     nodes.flames(tree, tree.separate(colour)[0] * light * flame, emissivity, warmth)
     shader = nodes.switch(tree, nodes.THERMAL, tree.mix_shader(flame, clear, shader), hot)
-    whole = tree.mix_shader(flame, gap, tree.emission((0.0, 1.0, masks.FIRE), 1.0))
+    whole = tree.mix_shader(flame * (drawn > 0.5), gap, tree.emission((0.0, 1.0, masks.FIRE), 1.0))
     tree.surface(nodes.switch(tree, nodes.MASKS, shader, whole))
     material.cycles.emission_sampling = "NONE"
     return material

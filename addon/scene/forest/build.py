@@ -24,11 +24,11 @@ from ...shot.shot import Shot
 from ...shot.terrain import noise
 from ...shot.terrain.terrain import NEVER
 from ...shot.tiles import tile_vegetation
-from .. import clock
+from .. import clock, flame_field
 from . import fire_effects, models, preview, stand_structure, understorey, visibility, visible_cells
 from .frame_culling import IN_VIEW
 from .library import drawn, grass_models, levelled, tree_models
-from .material import TORCHING
+from .material import BARE_AFTER, TORCHING
 from .stand import Stand
 
 GRASS_DISTANCE = 400.0  # m
@@ -49,10 +49,10 @@ def build(shot: Shot, stage: Stage, grown: Stand | None) -> list[bpy.types.Objec
     if plants:
         library = tree_models(shot, stage, set().union(*map(drawn, plants.values())))
     for name, points in plants.items():
-        made.append(_instances(shot, collection, name, points, library))
+        made.append(_instances(shot, stage, collection, name, points, library))
     if shot.settings.forest.grass:
         library = grass_models(shot, stage)
-        made.append(_instances(shot, collection, "Grass", _grass(shot), library))
+        made.append(_instances(shot, stage, collection, "Grass", _grass(shot), library))
     return made
 
 
@@ -162,6 +162,7 @@ def _points(
 
 def _instances(
     shot: Shot,
+    stage: Stage,
     collection: bpy.types.Collection,
     name: str,
     points: dict[str, NDArray],
@@ -169,14 +170,16 @@ def _instances(
 ) -> bpy.types.Object:
     """Create an object of plant instances, and its proxies for the viewport."""
     culled = name == "Trees"
-    full = _object(collection, name, points, node_group(shot, f"Firetwin {name}", library, culled=culled))
+    full = _object(
+        collection, name, points, node_group(shot, stage, f"Firetwin {name}", library, culled=culled)
+    )
     if culled:
         add_attribute(full.data, IN_VIEW, "BOOLEAN", np.ones(len(points["position"])))
     shown = []
     for part, some, follows in preview.parts(shot, points, name != "Grass"):
         title = f"{part} {name} in Viewport".strip()
         few = preview.used(title, library, some)
-        group = node_group(shot, f"Firetwin {title}", few, burns=follows)
+        group = node_group(shot, stage, f"Firetwin {title}", few, burns=follows)
         shown.append(_object(collection, title, some, group))
     preview.show_proxies(full, shown)
     return full
@@ -210,9 +213,17 @@ def _drawn(tree: nodes.Tree, shot: Shot) -> nodes.Value | bool:
 
 
 def node_group(
-    shot: Shot, name: str, library: bpy.types.Collection, *, burns: bool = True, culled: bool = False
+    shot: Shot,
+    stage: Stage,
+    name: str,
+    library: bpy.types.Collection,
+    *,
+    burns: bool = True,
+    culled: bool = False,
 ) -> bpy.types.NodeTree:
     """Geometry nodes that instance a model on each point; with `burns` it then becomes a snag.
+
+    It becomes a snag as its flames end: within the field of flames, which shows them, sooner than far away.
 
     If `culled`, points outside of a frame's views have no instance (see `frame_culling`).
     """
@@ -229,6 +240,9 @@ def node_group(
     if burns:
         age = clock.geometry_time(tree, shot) - attribute("arrival_time", "FLOAT")
         after = tree.input("Bare After", TORCHING, "Time (s) from the fire to a bare plant", "Fire")
+        soon = attribute("tint", "FLOAT").ramp(0.0, 1.0, *BARE_AFTER)
+        near = flame_field.distance_beyond(tree, stage) < 0.0
+        after = tree.mix(near, after, tree.math("MINIMUM", after, soon))
         burned = tree.output("FunctionNodeCompare", [age, after], data_type="FLOAT", operation="GREATER_THAN")
         choice = {"Switch": burned, "False": model, "True": attribute("snag_model", "INT")}
         model = tree.output("GeometryNodeSwitch", choice, input_type="INT")

@@ -14,7 +14,7 @@ from ...blender.owned import Stage
 from ...shot.fire import heat_release
 from ...shot.passes import masks
 from ...shot.shot import Shot
-from .. import granite, haze, infrared, temperature
+from .. import flame_field, granite, haze, infrared, temperature
 from ..glow import CLOSE, EMBER, FAR, FLAME, FLAMING_TIME, brightness
 from . import biomes
 
@@ -24,6 +24,10 @@ _TORCH = 0.1, 0.9  # factor of the flames' radiance at the distances CLOSE: crow
 _BETWEEN = 0.0, 0.9  # factor for flames between crowns: gaps are not resolved far away; by eye
 _TONGUES = 0.3  # ratio of width to height of flames in crowns
 _DEAD = 0.03  # fraction of trees that died before the fire
+_HEATED, _CHARRED, _KILLED = (-10.0, 4.0), (2.0, 20.0), (5.0, 60.0)
+"""s after the front's arrival between which needles of a burning crown turn brown, then black, and needles
+that heat kills turn brown (assumed)."""
+BARE_AFTER = 50.0, 90.0  # s from the fire to a bare plant within the field of flames (assumed)
 _SINGED = 0.7  # browning of the green tops of partly scorched trees by hot air and soot; by eye
 _BROWN = ((0.060, 0.041, 0.026), (0.118, 0.080, 0.046))  # needles killed by drought, beetles or heat
 _BLACK = ((0.010, 0.008, 0.007), (0.030, 0.024, 0.020))  # charred needles
@@ -49,7 +53,7 @@ def foliage(shot: Shot, stage: Stage) -> bpy.types.Material:
     living = tree.mix_colour(tree.attribute("dead", "INSTANCER") < lost, green, brown)
     place = _place(tree)
     torched, age = tree.attribute("torched", "INSTANCER"), _age(tree)
-    killed = age.smoothstep(20.0, 200.0)
+    killed = age.smoothstep(*_KILLED)
     reach = tree.attribute("scorch", "INSTANCER") * 1.16 - 0.08  # over the whole crown where scorch is 1
     scorched = tree.separate(place)[2].smoothstep(reach + 0.08, reach - 0.08)
     # Scorch varies: some crowns stay green next to brown ones.
@@ -60,8 +64,8 @@ def foliage(shot: Shot, stage: Stage) -> bpy.types.Material:
     spared = tree.mix_colour(tree.math("MAXIMUM", scorched, singed) * killed, living, brown)
     charred = _shades(tree, "Charred", _BLACK, "needles that burned")
     black = tree.mix_colour(tree.attribute("dead", "INSTANCER"), *charred)
-    browned = tree.mix_colour(age.smoothstep(0.0, 60.0), living, brown)
-    burned = tree.mix_colour(age.smoothstep(40.0, 240.0), browned, black)
+    browned = tree.mix_colour(age.smoothstep(*_HEATED), living, brown)
+    burned = tree.mix_colour(age.smoothstep(*_CHARRED), browned, black)
     colour = tree.mix_colour(torched, spared, burned)
     _leaves(tree, shot, stage, colour, _rounded(tree, place), torched)
     material.cycles.emission_sampling = "NONE"
@@ -86,7 +90,8 @@ def bark(shot: Shot, stage: Stage, *, charred: bool) -> bpy.types.Material:
         )
         low = tree.separate(_place(tree))[2].smoothstep(0.5, 0.3)  # flames of a surface fire char the base
         whole = tree.attribute("torched", "INSTANCER")
-        colour = tree.mix_colour((age > 60.0) * tree.math("MAXIMUM", low, whole), brown, black)
+        burned = age.smoothstep(*_CHARRED) * tree.math("MAXIMUM", low, whole)
+        colour = tree.mix_colour(burned, brown, black)
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
     normal = tree.output("ShaderNodeNewGeometry", name="Normal")
     warmth = _warmth(tree, shot, stage, normal, age, age > 0.0)
@@ -127,7 +132,7 @@ def grass(shot: Shot, stage: Stage) -> bpy.types.Material:
         tint = (tint + 2.0 * here.green - 1.0).clamp()
     dry = tree.mix_colour(tint, straw, green)
     black = tree.mix_colour(tint, *_shades(tree, "Charred", _BLACK, "grass that burned"))
-    colour = tree.mix_colour(_age(tree).smoothstep(20.0, 200.0), dry, black)
+    colour = tree.mix_colour(_age(tree).smoothstep(*_CHARRED), dry, black)
     normal = tree.output("ShaderNodeNewGeometry", name="Normal")
     _leaves(tree, shot, stage, colour, normal, 1.0)
     material.cycles.emission_sampling = "NONE"
@@ -205,7 +210,7 @@ def _leaves(
     lasts = distance.ramp(1500.0, FAR, *(short * time for time in FLAMING_TIME))
     below = age.smoothstep(0.0, 20.0 * short) * (age / lasts).smoothstep(1.0, 0.3) * (1.0 - torched)
     below = below * distance.ramp(*CLOSE, 0.0, 1.0)
-    alight = crown + below
+    alight = (crown + below) * flame_field.share(tree, stage)
     flaming = alight * flicker.smoothstep(0.47, 0.69)
     afar = tree.mix(torched, distance.ramp(*CLOSE, *_BETWEEN), distance.ramp(*CLOSE, *_TORCH))
     ember = tree.input("Ember Colour", EMBER, "Light of a crown that glows", "Fire")

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from ...blender import nodes
+from ...blender.owned import Stage
 from ...shot.shot import Shot
+from .. import flame_field
 from ..glow import CLOSE, EMBER, FAR, FLAME, FLAMING_TIME
 from .shading_inputs import Place
 
@@ -17,6 +19,11 @@ _WIDE = 0.8  # minimum width of the flaming front, pixels; its coverage is reduc
 _PALE = 0.55  # factor on the emission of grass flames, which are low and thin
 _FLAME_LIGHT, _EMBER_LIGHT = 10.0, 1.8  # radiance at exposure 0
 _DIMMED = 0.3  # factor on the emission of the flaming front close by
+_BENEATH = 0.12  # factor on it below flames that are drawn as a field (by eye)
+_COALS = 0.04, 0.5  # m, pixel sizes between which coals of a few cm blend into patches
+_COAL_LIGHT = 0.12  # factor on the emission of coals, which fill pixels close by (by eye)
+_COAL = (1.0, 0.055, 0.004)
+_SPARSE = 0.25  # coverage of coals between patches, relative to within them (by eye)
 
 
 def scar_colour(tree: nodes.Tree, place: Place) -> nodes.Value:
@@ -50,8 +57,11 @@ def _burned_grass_colour(tree: nodes.Tree, place: Place, tone: nodes.Value, ash:
     return tree.mix_colour(tufts * 0.6, char, (0.135, 0.108, 0.068))
 
 
-def front_coverage(tree: nodes.Tree, place: Place) -> tuple[nodes.Value, nodes.Value]:
-    """Return the coverage 0..1 of the flaming front, and of embers behind it, on ground with burned fuel."""
+def front_coverage(tree: nodes.Tree, stage: Stage, place: Place) -> tuple[nodes.Value, nodes.Value]:
+    """Return the coverage 0..1 of the flaming front, and of embers behind it, on ground with burned fuel.
+
+    Within the field of flames the ground has only the light below them, and its embers are single coals.
+    """
     part, size = place.residence / _TIMBER, place.scale
     clusters = place.grain.noise(420.0 * size, 2.0).smoothstep(0.42, 0.66)
     weak = place.speed.ramp(0.03, 0.4, 0.09, 0.0) + (1.0 - clusters) * 0.08  # gaps of low flames
@@ -65,13 +75,16 @@ def front_coverage(tree: nodes.Tree, place: Place) -> tuple[nodes.Value, nodes.V
     )
     speckles = place.grain.noise(28.0 * size, 4.0, 0.7).smoothstep(0.60, 0.72)
     fading = (-(tree.math("MAXIMUM", place.age, 0.0) / (part.power(_BENT) * EMBER_TIME))).exp()
-    sparks = tree.math("MAXIMUM", place.duff * 4.0 + 1.0, 0.0) * place.woody.ramp(0.0, 1.0, 0.3, 1.0)
-    return body * tongues, speckles * clusters * fading * sparks
+    patches = speckles * clusters * tree.math("MAXIMUM", place.duff * 4.0 + 1.0, 0.0)
+    coals = place.duff.smoothstep(0.10, 0.26) * tree.math("MAXIMUM", speckles, _SPARSE)
+    embers = tree.mix(place.pixel.ramp(*_COALS), coals, patches) * place.woody.ramp(0.0, 1.0, 0.3, 1.0)
+    beyond = flame_field.share(tree, stage).ramp(0.0, 1.0, _BENEATH, 1.0)
+    return body * tongues * beyond, embers * fading
 
 
-def fire_emission(tree: nodes.Tree, shot: Shot, place: Place, fuel: nodes.Value) -> nodes.Value:
+def fire_emission(tree: nodes.Tree, shot: Shot, stage: Stage, place: Place, fuel: nodes.Value) -> nodes.Value:
     """Return the emission of flames and embers to the camera, scaled by the burned `fuel` (0..1)."""
-    flaming, embers = front_coverage(tree, place)
+    flaming, embers = front_coverage(tree, stage, place)
     flame = tree.input("Flame Colour", FLAME, "Light of the burning edge", "Fire")
     ember = tree.input("Ember Colour", EMBER, "Light of the spots that glow in the ash", "Fire")
     bright = tree.input("Flame Brightness", _FLAME_LIGHT, "Radiance of the edge at exposure 0", "Fire")
@@ -81,6 +94,9 @@ def fire_emission(tree: nodes.Tree, shot: Shot, place: Place, fuel: nodes.Value)
         "Radiance of the spots that glow in the ash, at exposure 0",
         "Fire",
     )
+    coarse = place.pixel.ramp(*_COALS)
+    ember = tree.mix_colour(coarse, _COAL, ember)
+    glowing = glowing * tree.mix(coarse, _COAL_LIGHT, 1.0)
     colour = tree.mix_colour(flaming / (flaming + embers + 1.0e-4), ember, flame)
     bright = bright * place.woody.ramp(0.0, 1.0, _PALE, 1.0)
     power = flaming * bright * place.distance.ramp(*CLOSE, _DIMMED, 1.0) + embers * glowing

@@ -104,7 +104,7 @@ def _visible_shader(
             ground = tree.mix_shader(1.0 - here.burned, ground, _matte_shader(tree, colour, None))
     with tree.frame("Flames and embers"):
         ground = tree.add_shader(
-            ground, burn_scar.fire_emission(tree, shot, here, here.burned * (1.0 - bare))
+            ground, burn_scar.fire_emission(tree, shot, stage, here, here.burned * (1.0 - bare))
         )
     if shot.beyond and not skin:
         with tree.frame("Globe"):
@@ -125,7 +125,7 @@ def _data_outputs(
         here = shading_inputs.gather(tree, known, shot, whole=True)
         bare = shading_inputs.bare_rock(tree, here, outcrops)
         fuel = here.burned * (1.0 - bare)
-        flaming, embers = (fuel * part for part in burn_scar.front_coverage(tree, here))
+        flaming, embers = (fuel * part for part in burn_scar.front_coverage(tree, stage, here))
     with tree.frame("Infrared"):
         facing = tree.output("ShaderNodeNewGeometry", name="Normal")
         warmth = infrared_radiance.radiance(tree, shot, stage, here, bare, lake, facing, (flaming, embers))
