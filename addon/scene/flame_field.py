@@ -1,6 +1,6 @@
-"""Where the renderer draws flames as a field, other flames fade out: a share by distance from the camera.
+"""Share of flames that surfaces and billboards show at a distance where the renderer draws flames as a field.
 
-The integrated renderer marches the field up to its camera's reach. Within it crowns, ground and billboards
+The integrated renderer marches the field up to its camera's reach. Within the reach crowns, ground and billboards
 emit no flames; from 0.8 to 1.2 of the reach they fade in as the field fades out. The reach is 0 (no field) in
 EEVEE, in Blender's own renders, and in scenes that an artist opens.
 """
