@@ -1,8 +1,8 @@
-"""Share of flames that surfaces and billboards show at a distance where the renderer draws flames as a field.
+"""Share of flames that surfaces and billboards show at a distance, next to flames drawn as a field.
 
-The integrated renderer marches the field up to its camera's reach. Within the reach crowns, ground and billboards
-emit no flames; from 0.8 to 1.2 of the reach they fade in as the field fades out. The reach is 0 (no field) in
-EEVEE, in Blender's own renders, and in scenes that an artist opens.
+The integrated renderer marches the field up to its camera's reach. Within the reach crowns, ground and
+billboards emit no flames; from 0.8 to 1.2 of the reach they fade in as the field fades out. The reach is 0
+(no field) in EEVEE, in Blender's own renders, and in scenes that an artist opens.
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@ from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import clock, flame_field
 from ..forest.stand import Stand
-from . import firebrand_nodes, flames, fronts, lamp_objects, material, observed
+from . import firebrand_nodes, flame_light, flames, fronts, lamp_objects, material, observed
 
 CARDS = 4
 SHOWN = 1.0, 0.25, 0.02, 1.0  # red, green, blue and alpha in the solid view
@@ -21,7 +21,7 @@ _NAMES = {"length": "flame_length", "width": "flame_width"}
 
 
 def build(shot: Shot, stage: Stage, grown: Stand | None = None) -> bpy.types.Object | None:
-    """Build "Firetwin Flames", "Firetwin Firebrands" and the lamps (if flames are on), and front lines.
+    """Build "Firetwin Flames", "Firetwin Firebrands" and their lights (if flames are on), and front lines.
 
     The points carry the attributes of `flames.Points` (`length` as `flame_length`, `width` as `flame_width`).
     """
@@ -41,14 +41,16 @@ def build(shot: Shot, stage: Stage, grown: Stand | None = None) -> bpy.types.Obj
     obj.color = SHOWN
     _show_to_camera_only(obj)
     firebrand_nodes.build(shot, stage, points, collection)
-    lamp_objects.build(shot, collection)
+    lit = owned.child(collection, "Lamps")
+    lamp_objects.build(shot, lit)
+    flame_light.build(shot, points, lit)
     return obj
 
 
 def _mesh(points: flames.Points) -> bpy.types.Mesh:
     data = create_mesh("Firetwin Flames", points.position)
     for field in fields(points):
-        if field.name != "position":
+        if field.name not in ("position", "heat"):
             name = _NAMES.get(field.name, field.name)
             add_attribute(data, name, "FLOAT", getattr(points, field.name))
     return data

@@ -39,6 +39,9 @@ _LENGTHS = (0.3, 75.0)  # m
 _TORCH_SIGHT = 2500.0  # m
 _TORCHES = 0.8  # fraction of the burning crowns that torch in a dense canopy
 _AROUND = 250.0  # m around a cell that its flames and firebrands reach
+_CROWN = 0.07  # area of a torching crown over the square of its height (assumed: 0.3 heights wide)
+_LIFE = (0.0, 0.2, 0.6, 1.0), (0.25, 1.0, 1.0, 0.2)  # size of a flame by its age in residence times
+_MEAN_LIFE = 0.765  # mean of that
 _CELL_FLAME = 40.0  # m; flame of a cell's emitter at scale 100
 
 Array = NDArray[np.float64]
@@ -64,6 +67,8 @@ class Points:
         (n,) flame temperature.
     seed
         (n,) 0..1.
+    heat
+        (n,) W, heat release rate at full size. The sum over lit flames, times their `life`, is the front's.
     """
 
     position: Array
@@ -75,6 +80,7 @@ class Points:
     tilt: Array
     kelvin: Array
     seed: Array
+    heat: Array
 
     def take(self, chosen: NDArray) -> Points:
         """Return a subset of the points."""
@@ -84,6 +90,11 @@ class Points:
         """Return the indices of flames that are lit at `time`."""
         age = time - self.arrival_time
         return np.flatnonzero((age >= 0.0) & (age < self.residence))
+
+
+def life(age: Array) -> Array:
+    """Return the part of its full size that a flame has at an age in residence times; 0 outside 0..1."""
+    return np.where((age >= 0.0) & (age < 1.0), np.interp(age, *_LIFE), 0.0)
 
 
 def front_flames(shot: Shot, grown: Stand | None = None) -> Points:
@@ -131,6 +142,7 @@ def front_flames(shot: Shot, grown: Stand | None = None) -> Points:
         flame_tilt(wind, length),
         flame_temperature(intensity),
         random[2],
+        1000.0 * intensity * spacing**2 / (speed * residence * _MEAN_LIFE * thin),
     )
     points = points.take(np.flatnonzero((random[0] * 0.999 < thin) & _outside_gaps(place, even, shot)))
     if grown is not None and settings.fire.torches:
@@ -207,6 +219,7 @@ def torching_crowns(shot: Shot, grown: Stand) -> Points:
         flame_tilt(float(np.hypot(*shot.wind)), 2.0 * length),
         flame_temperature(intensity),
         seed[chosen],
+        constants.HEAT_OF_COMBUSTION * canopy[chosen] * _CROWN * height**2 / (residence[chosen] * _MEAN_LIFE),
     )
 
 
@@ -238,6 +251,7 @@ def cell_flames(shot: Shot) -> Points:
                 np.zeros(count),
                 flame_temperature(intensity),
                 seed,
+                1000.0 * intensity * width,
             )
         )
     return _limit_to_budget(_concatenate(parts), shot, shot.paths)

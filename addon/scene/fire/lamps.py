@@ -15,6 +15,7 @@ from ...shot.cameras.path import Path
 from ...shot.fire import heat_release
 from ...shot.light import exposure
 from ...shot.shot import Shot
+from ...shot.terrain import noise
 
 LIGHT = 6.0e-4  # W of light per luminous W of heat at night; chosen by eye
 _REACH = 9000.0  # m from a camera; light on ground farther away is not visible
@@ -56,12 +57,12 @@ def darkness(shot: Shot, times: Array) -> Array:
     return exposure.darkness(shot, times) ** 2
 
 
-def place_lamps(shot: Shot) -> Lamps:
+def place_lamps(shot: Shot, nearest: tuple[float, float] = (0.0, 0.0)) -> Lamps:
     """Cluster the luminous heat of all times near the cameras by weighted k-means (Lloyd 1982).
 
     Heat is weighted by its distance from a camera, so lamps are dense where their positions are visible. Heat
     is shared between nearby lamps, so that a passing front fades from one to the next. Without heat near a
-    camera the result is empty.
+    camera the result is empty. Heat fades out between the distances `nearest` (m) towards a camera.
     """
     times, near = keyframe_times(shot), shot.perspective_paths
     none = Lamps(times, np.empty((0, 3)), np.empty(0), np.empty((len(times), 0)))
@@ -76,6 +77,8 @@ def place_lamps(shot: Shot) -> Lamps:
     distance = shot.visibility.distance(position)
     size = shot.scale.length
     power = power * np.clip((_REACH - distance) / (0.3 * _REACH), 0.0, 1.0)
+    if nearest[1] > 0.0:
+        power = power * noise.smoothstep(*nearest, distance)
     lit = np.flatnonzero(power > 0.0)
     if len(lit) == 0:
         return none

@@ -1,0 +1,130 @@
+"""Light of the flames near the cameras, by day and night: emissive cards that only lighting rays see.
+
+A pair of crossed cards is placed at each flame that burns now, and emits the light of the heat that this part
+of the front releases (`flames.Points.heat`). It flickers at the puffing frequency of a flame of its size, f =
+0.5 sqrt(g / D) (B. M. Cetegen and T. A. Ahmed 1993, Combustion and Flame 93, 157-184), as a function of time
+and place alone. Lamps represent the flames farther away (see `lamps`).
+"""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from firetwin_core import constants
+
+from ...blender import nodes, owned
+from ...blender.mesh import add_attribute, create_mesh
+from ...shot.shot import Shot
+from ...shot.terrain import noise
+from .. import clock
+from . import flames, lamps
+
+REACH = 250.0, 400.0  # m from a camera, distances between which these lights give way to lamps
+RADIATED = 0.15
+"""Radiated share of the heat (0.12 +- 0.03 of the heat of combustion: Freeborn et al. 2008)."""
+LIGHT = 2.4e-5
+"""W of the scene's light per radiated W: flames of 15,000 cd/m2 half cover a front with a radiosity of
+61 kW/m2, and a radiance of 1 is 16,000 cd/m2 (assumed)."""
+COLOUR = (1.0, 0.36, 0.06)
+_TALL = 0.5  # height of the bright part of a flame, in flame lengths (assumed)
+_FLICKER = 1.2  # factor on noise around its mean of 0.5: about 15 % (standard deviation; assumed)
+_SIZE = 0.5, 0.3  # m, smallest diameter for the frequency, and smallest side of a card
+_NAME = "Firetwin Flame Light"
+
+
+def applies(shot: Shot) -> bool:
+    """Return whether near flames have lights: flames of a front, in Cycles, unless `light.lamps` is 0."""
+    settings = shot.settings
+    near = settings.fire.flames and settings.fire.emitters == "front"
+    return near and settings.render.engine == "cycles" and settings.light.lamps > 0
+
+
+def share(distance: lamps.Array) -> lamps.Array:
+    """Return the share 0..1 of flames at these distances (m) whose light is of cards, not of lamps."""
+    return 1.0 - noise.smoothstep(*REACH, distance)
+
+
+def build(shot: Shot, points: flames.Points, collection: bpy.types.Collection) -> bpy.types.Object | None:
+    """Build "Firetwin Flame Light" in the collection of the lamps; None without flames near a camera."""
+    if not applies(shot) or len(points.seed) == 0:
+        return None
+    part = share(shot.visibility.distance(points.position))
+    near = np.flatnonzero(part > 0.0)
+    if len(near) == 0:
+        return None
+    points, part = points.take(near), part[near]
+    data = create_mesh(_NAME, points.position)
+    for name in ("arrival_time", "residence", "length", "width", "tilt", "seed"):
+        add_attribute(data, name, "FLOAT", getattr(points, name))
+    add_attribute(data, "power", "FLOAT", RADIATED * LIGHT * points.heat * part)
+    obj = owned.add(collection, "Flame Light", data)
+    modifier = obj.modifiers.new(_NAME, "NODES")
+    modifier.node_group = _node_group(shot, _card())
+    _show_to_lighting_only(obj)
+    obj.hide_viewport = True
+    return obj
+
+
+def _show_to_lighting_only(obj: bpy.types.Object) -> None:
+    obj.visible_camera = obj.visible_glossy = obj.visible_shadow = obj.visible_volume_scatter = False
+
+
+def _card() -> bpy.types.Object:
+    """Create two crossed cards one metre high and wide on z = 0, linked to no scene."""
+    corners = [(-0.5, 0.0), (0.5, 0.0), (0.0, -0.5), (0.0, 0.5)]
+    vertices = [(x, y, z) for z in (0.0, 1.0) for x, y in corners]
+    faces = [(0, 1, 5, 4), (2, 3, 7, 6)]
+    data = create_mesh(f"{_NAME} Card", vertices, faces, flat=True)
+    data.materials.append(_material())
+    obj = owned.mark(bpy.data.objects.new(f"{_NAME} Card", owned.mark(data)))
+    _show_to_lighting_only(obj)
+    return obj
+
+
+def _material() -> bpy.types.Material:
+    material, tree = nodes.material(_NAME)
+    colour = tree.input("Colour", COLOUR, "Colour of the light of flames", "Light")
+    factor = tree.input("Brightness", 1.0, "Factor on the light of flames", "Light")
+    tree.surface(tree.emission(colour, tree.attribute("radiance", "INSTANCER") * factor))
+    material.cycles.emission_sampling = "FRONT_BACK"
+    return material
+
+
+def _node_group(shot: Shot, card: bpy.types.Object) -> bpy.types.NodeTree:
+    """Build geometry nodes: burning points -> cards with a `radiance`, as large as the flames."""
+    tree, entry = nodes.geometry(_NAME)
+
+    def named(name: str) -> nodes.Value:
+        return tree.output("GeometryNodeInputNamedAttribute", {"Name": name}, data_type="FLOAT")
+
+    part = (clock.geometry_time(tree, shot) - named("arrival_time")) / named("residence")
+    outside = tree.math("ADD", part < 0.0, 1.0 - (part < 1.0), clamp=True)
+    size = part.ramp(0.0, 0.2, 0.25, 1.0) * part.ramp(0.6, 1.0, 1.0, 0.2)
+    # Relative to the first frame: seconds since the start of the run would exceed float precision.
+    since = (tree.output("GeometryNodeInputSceneTime", name="Frame") - 1.0) * shot.frames.step
+    frequency = 0.5 * tree.math("SQRT", constants.GRAVITY / tree.math("MAXIMUM", named("length"), _SIZE[0]))
+    phase = since * frequency * 2.0 + named("seed") * 4096.0
+    wave = tree.output("ShaderNodeTexNoise", {"W": phase, "Scale": 1.0, "Detail": 1.0}, noise_dimensions="1D")
+    flicker = 1.0 + (wave - 0.5) * _FLICKER
+    width, height = (
+        tree.math("MAXIMUM", value * size, _SIZE[1]) for value in (named("width"), named("length") * _TALL)
+    )
+    power = named("power") * size * flicker
+    radiance = power / (width * height * (4.0 * np.pi))
+    east, north = shot.wind
+    axis = (-north, east, 0.0) if np.hypot(east, north) > 0.0 else (1.0, 0.0, 0.0)
+    lean = tree.output("FunctionNodeAxisAngleToRotation", {"Axis": axis, "Angle": named("tilt")})
+    placed = tree.output(
+        "GeometryNodeInstanceOnPoints",
+        {
+            "Points": entry,
+            "Selection": outside < 0.5,
+            "Instance": tree.output("GeometryNodeObjectInfo", {"Object": card}, "Geometry"),
+            "Rotation": lean,
+            "Scale": tree.combine(width, width, height),
+        },
+    )
+    stored = {"Geometry": placed, "Name": "radiance", "Value": radiance}
+    kept = tree.output("GeometryNodeStoreNamedAttribute", stored, data_type="FLOAT", domain="INSTANCE")
+    tree.geometry(kept)
+    return tree.node_tree
