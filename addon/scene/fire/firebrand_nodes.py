@@ -11,7 +11,7 @@ from ...blender.owned import Stage
 from ...shot.shot import Shot
 from . import firebrand_material, firebrands, flames
 
-_SHUTTER = 0.1  # s, exposure time of a streak
+_SHUTTER = 0.04  # s, exposure time of a streak, as of a film camera (24 frames a second)
 _PIXELS = 0.8  # minimum width of a streak in pixels; narrower streaks are dimmed instead
 _FAR = 2.0 * firebrands.REACH
 """m from the camera beyond which no streak is drawn: a firebrand there adds less than 0.1 K to a pixel. In a

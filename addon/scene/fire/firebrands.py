@@ -21,10 +21,10 @@ from ...shot.terrain.terrain import Terrain
 from . import flames
 
 REACH = 1800.0  # m from a camera; firebrands farther away are too faint for a picture
-PER_MEGAJOULE = 0.02  # large pieces per MJ of heat released; chosen by eye
+PER_MEGAJOULE = 0.01  # large pieces per MJ of heat released; chosen by eye
 _LIFE = (2.0, 16.0)  # s, life of a glowing piece
 _MEAN_LIFE = 7.0  # s
-_SIZE, _SIZES, _SIZE_RANGE = 0.04, 0.5, (0.01, 0.12)  # m, deviation of the logarithm, m (bark and twigs)
+_SIZE, _SIZES, _SIZE_RANGE = 0.012, 0.7, (0.003, 0.06)  # m, deviation of the logarithm, m (bark and twigs)
 _FALL = (1.0, 4.0)  # m/s, terminal velocity of the smallest and largest (assumed)
 _STEP = 0.5  # s between points of a trajectory
 _MOMENT = 0.4  # s; part of a trajectory that is stored if frames are further apart than lifetimes

@@ -21,7 +21,7 @@ class Light:
     )
     lamps: int = key(
         48,
-        "limit on point lights that replace the flames on terrain and trees at low sun; 0: none",
+        "limit on point lights of far flames at low sun; 0: flames light no terrain or trees, near or far",
         at_least=0,
         at_most=500,
     )
