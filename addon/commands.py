@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from .jobs.cache import Cached
     from .jobs.render import RenderResult
     from .jobs.tiles.access import TileAccess
+    from .shot.shot import Shot
     from .shot.source import ShotSource
     from .stations.command import Fire
 
@@ -36,9 +37,12 @@ def sample(arguments: argparse.Namespace) -> None:
 def info(arguments: argparse.Namespace) -> None:
     """Show the contents of a run, or of all runs of a scene file."""
     from .run import info, zone
+    from .shot.source import ShotSource
 
     if arguments.run.suffix == ".toml" and arguments.run.is_file():
-        runs = _open_runs(arguments.run)
+        shot = ShotSource(scene=str(arguments.run)).shot()
+        runs = _runs(shot)
+        say(shot.describe_film())
         facts = {name: info.gather(run, zone.time_zone(run)) for name, run in runs.items()}
         page = "\n\n".join(f"{name}: {runs[name].path}\n{info.page(each)}" for name, each in facts.items())
     else:
@@ -439,7 +443,11 @@ def _open_runs(scene: Path) -> dict[str, Run]:
     """Open all runs of a scene file, by name and in order."""
     from .shot.source import ShotSource
 
-    shot = ShotSource(scene=str(scene)).shot()
+    return _runs(ShotSource(scene=str(scene)).shot())
+
+
+def _runs(shot: Shot) -> dict[str, Run]:
+    """Return all runs of a shot, by name and in order."""
     return {shot.label: shot.run, **shot.others}
 
 

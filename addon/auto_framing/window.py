@@ -1,4 +1,4 @@
-"""Time window of a film: the most active part of a run."""
+"""Time window of a film: the most active part of a run, at a speed at which smoke flows."""
 
 from __future__ import annotations
 
@@ -9,13 +9,15 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
+from ..progress import duration
 from ..run import areas, extent, times, zone
 from ..shot.sections import Time
 
 FRAMES, FPS = 48, 12  # four seconds, as in the example
-_PACE = 20.0  # m of the fire's size per second of the window: 24 minutes for 29 km, as in the example
-_SHORTEST, _LONGEST = 300.0, 7200.0  # s (by eye: smoke must change smoothly from frame to frame)
-_STEP = 60.0  # s; windows begin and end at whole minutes of the run
+# Times real time, least and most, and the fire's size (m) from which the most applies: from frame to frame
+# the smoke of a drone's picture then moves by a few pixels (by eye, and by the subject "motion" of the bench)
+_SPEED, _LARGE = (1.0, 15.0), 15_000.0
+_STEP = 60.0  # s; most time between the starts of candidate windows
 
 Array = NDArray[np.float64]
 
@@ -28,7 +30,7 @@ def choose(run: Run, asked: Time) -> tuple[Time, str]:
     if asked.start or asked.end:
         chosen = replace(whole, start=asked.start, end=asked.end)
         start, end = asked.start or times.utc(run, first), asked.end or times.utc(run, last)
-        return chosen, f"{_words(start, end, there)}, as asked"
+        return chosen, f"{_words(start, end, there)}, as asked; {_pace((end - start).total_seconds())}"
     if last <= first:
         return replace(whole, frames=1), "the one moment of the run"
     arrival = run.fuel_arrival_time()
@@ -40,23 +42,26 @@ def choose(run: Run, asked: Time) -> tuple[Time, str]:
     start, end = (times.utc(run, time) for time in (begin, begin + seconds))
     part = float(fuel[(came >= begin) & (came <= begin + seconds)].sum() / fuel.sum())
     words = (
-        f"{_words(start, end, there)}, the most active {seconds / 60.0:.0f} minutes: "
-        f"{100.0 * part:.0f} % of the fuel that burns in the run"
+        f"{_words(start, end, there)}, the most active {duration(seconds)}: "
+        f"{100.0 * part:.2g} % of the fuel that burns in the run; {_pace(seconds)}"
     )
     return replace(whole, start=start, end=end), words
 
 
 def length(size: float, whole: float) -> float:
-    """Length of the window (s) for a fire of `size` m in a run of `whole` s."""
-    wanted = np.round(np.clip(size / _PACE, _SHORTEST, _LONGEST) / _STEP) * _STEP
-    return float(min(wanted, whole))
+    """Length of the window (s) for a fire of `size` m in a run of `whole` s.
+
+    Speed scales as the times of eddies, with the power 2/3 of the size (see `smoke_scale`).
+    """
+    speed = float(np.clip(_SPEED[1] * (size / _LARGE) ** (2.0 / 3.0), *_SPEED))
+    return min(speed * (FRAMES - 1) / FPS, whole)
 
 
 def most_active(arrival: ArrayLike, fuel: ArrayLike, first: float, last: float, length: float) -> float:
     """Start (s) of the window of `length` s in which the front reaches the most fuel.
 
-    Candidates are windows within the run that begin at whole minutes after `first`, and the last one. The
-    earliest of equal ones is chosen.
+    Candidates are windows within the run that begin every minute after `first`, or every `length` if that is
+    shorter, and the last one. The earliest of equal ones is chosen.
 
     Parameters
     ----------
@@ -68,7 +73,7 @@ def most_active(arrival: ArrayLike, fuel: ArrayLike, first: float, last: float, 
     arrival, fuel = np.asarray(arrival, np.float64), np.asarray(fuel, np.float64)
     order = np.argsort(arrival)
     total = np.concatenate([[0.0], np.cumsum(fuel[order])])
-    begin = np.append(np.arange(first, last - length, _STEP), max(last - length, first))
+    begin = np.append(np.arange(first, last - length, min(_STEP, length)), max(last - length, first))
     before = np.searchsorted(arrival[order], begin, "left")
     by = np.searchsorted(arrival[order], begin + length, "right")
     return float(begin[np.argmax(total[by] - total[before])])
@@ -97,6 +102,12 @@ def _size(run: Run, burned: NDArray[np.bool_]) -> float:
 
 
 def _words(start: datetime, end: datetime, zone: str) -> str:
-    """Format a time span: ``12 Aug 2022 14:00 to 14:05 -07``; with two dates if they differ."""
-    first, last = (times.text(moment, zone).split(" ") for moment in (start, end))
+    """Format a time span: ``12 Aug 2022 14:00:00 to 14:00:59 -07``; with two dates if they differ."""
+    first, last = (times.text(moment, zone, seconds=True).split(" ") for moment in (start, end))
     return f"{' '.join(first[:4])} to {' '.join(last[3:] if first[:3] == last[:3] else last)}"
+
+
+def _pace(seconds: float) -> str:
+    """Format the speed of a film of a window: ``48 frames, 15 times real time``."""
+    speed = float(f"{seconds * FPS / (FRAMES - 1):.3g}")
+    return f"{FRAMES} frames, {speed:,g} times real time"

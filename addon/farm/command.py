@@ -43,7 +43,9 @@ def run(arguments: argparse.Namespace, choice: Callable[[argparse.Namespace], Sh
 def run_plan(arguments: argparse.Namespace, choice: ShotSource) -> None:
     """Plan a film; print the command that submits it, or run that command."""
     scene, out = Path(choice.scene).absolute(), arguments.out.absolute()
-    job = plan.make_job(choice.shot(), scene, arguments.chunk or plan.CHUNK)
+    shot = choice.shot()
+    job = plan.make_job(shot, scene, arguments.chunk or plan.CHUNK)
+    say(shot.describe_film())
     plan.write(job, out)
     for line in submission.describe(job, out):
         say(line)

@@ -111,6 +111,7 @@ def run(
     if undone:
         views = list(dict.fromkeys(picture.camera for picture in undone))
         tell(f"rendering {count(len(undone), 'picture')} of {' and '.join(views)}")
+        tell(shot.describe_film())
         imagery.prepare(choice, views, progress, tell, stop, asked.access)
     task = {
         "choice": choice.plain(),

@@ -24,10 +24,11 @@ def iso(when: datetime) -> str:
     return when.strftime("%Y-%m-%dT%H:%M:%SZ")
 
 
-def text(when: datetime, zone: str) -> str:
-    """Format a time for people, in a time zone: ``17 Sep 2014 15:42 PDT``."""
+def text(when: datetime, zone: str, seconds: bool = False) -> str:
+    """Format a time for people, in a time zone: ``17 Sep 2014 15:42 PDT``; with `seconds`, ``15:42:08``."""
     local = when.astimezone(ZoneInfo(zone))
-    return f"{local.day} {local:%b %Y %H:%M} {local.tzname()}"
+    clock = f"{local:%H:%M:%S}" if seconds else f"{local:%H:%M}"
+    return f"{local.day} {local:%b %Y} {clock} {local.tzname()}"
 
 
 def _start(run: Run) -> datetime:

@@ -52,6 +52,7 @@ class Frames:
 
 def resolve(time: Time, run: Run) -> Frames:
     """Frame times from the scene file's [time] in a run; a still has one time, its start."""
+    time = time.resolved()
     first = float(run.times[0]) if time.start is None else times.seconds(run, time.start)
     if time.frames == 1:
         return Frames(first, first, 1)

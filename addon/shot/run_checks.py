@@ -41,11 +41,17 @@ def check(settings: Settings, run: Run) -> None:
 
 def _window(settings: Settings, run: Run) -> None:
     first, last = float(run.times[0]), float(run.times[-1])
+    time = settings.time.resolved()
     for name in ("start", "end"):
-        moment = getattr(settings.time, name)
+        moment = getattr(time, name)
         if moment is not None and not first <= times.seconds(run, moment) <= last:
             span = " to ".join(f"{times.utc(run, t):%Y-%m-%dT%H:%M:%SZ}" for t in (first, last))
             reason = f"time.{name} lies outside of the run, which has {span}"
+            if getattr(settings.time, name) is None:
+                name = "speed"
+                reason = (
+                    f"time.speed leads to {moment:%Y-%m-%dT%H:%M:%SZ}, outside of the run, which has {span}"
+                )
             raise scene_text.error_at(settings.path, ("time", name), reason)
 
 

@@ -15,7 +15,7 @@ from firetwin_core.run import Run
 from numpy.typing import NDArray
 
 from ..errors import UsageError
-from ..progress import Progress, silent
+from ..progress import Progress, count, duration, silent
 from ..run import burning, content, times, zone
 from ..run.frame import local_frame
 from . import frames
@@ -67,7 +67,8 @@ class Shot:
     Attributes
     ----------
     settings
-        The scene file. A missing time zone is filled in from the run.
+        The scene file. A missing time zone is filled in from the run, and `time.speed` is replaced by the
+        start or end that it determines.
     run
         The model run.
     frames
@@ -83,8 +84,8 @@ class Shot:
     """
 
     def __init__(self, settings: Settings, run: Run) -> None:
-        if not settings.time.zone:
-            settings = replace(settings, time=replace(settings.time, zone=zone.time_zone(run)))
+        time = settings.time.resolved()
+        settings = replace(settings, time=replace(time, zone=time.zone or zone.time_zone(run)))
         self.settings, self.run, self.cameras, self.full = settings, run, settings.cameras, self
         self.frames: Frames = frames.resolve(settings.time, run)
         self.cached: dict[Callable[[Shot], Any], Any] = {}
@@ -111,6 +112,20 @@ class Shot:
     def arrival(self) -> NDArray[np.float64]:
         """Fire arrival time (fy, fx), s, at the centre of each fuel cell; NaN where it never burns."""
         return self.run.fuel_arrival_time()
+
+    @property
+    def speed(self) -> float:
+        """Speed of the films, times real time; 0 for a still."""
+        return self.frames.step * self.settings.time.fps
+
+    def describe_film(self) -> str:
+        """Describe the film: ``5 frames at 12 frames per second show 5 s of the fire, 15 times real time``."""
+        shown, fps = self.frames, self.settings.time.fps
+        if shown.count == 1:
+            return "1 frame, a still"
+        film = f"{shown.count} frames at {count(fps, 'frame')} per second"
+        speed = float(f"{self.speed:.3g}")
+        return f"{film} show {duration(shown.last - shown.first)} of the fire, {speed:,g} times real time"
 
     @cached_property
     def scale(self) -> Scale:

@@ -205,11 +205,21 @@ class FIRETWIN_PT_time(bpy.types.Panel):
         for part in fields(Time):
             if part.name not in ("start", "end"):
                 rows.draw_key(layout, settings.time, part, "time")
-        first, last = ends
-        if first and last and settings.time.frames > 1:
-            step = (last - first).total_seconds() / (settings.time.frames - 1)
-            speed = step * settings.time.fps
-            layout.label(text=f"{step:,.7g} s per frame, {speed:,.0f} times real time")
+        _draw_speed(layout, settings.time, *ends)
+
+
+def _draw_speed(
+    layout: bpy.types.UILayout, time: bpy.types.PropertyGroup, first: datetime | None, last: datetime | None
+) -> None:
+    """Draw the speed of the films: as given, else by start and end."""
+    given = next(keys.take(time, part) for part in fields(Time) if part.name == "speed")
+    if given is not None:
+        step = given / time.fps
+    elif first and last and time.frames > 1:
+        step = (last - first).total_seconds() / (time.frames - 1)
+    else:
+        return
+    layout.label(text=f"{step:,.7g} s per frame, {step * time.fps:,.4g} times real time")
 
 
 def _draw_clock(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:

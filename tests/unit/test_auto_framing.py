@@ -241,9 +241,18 @@ def test_a_window_is_where_the_fuel_burns_not_where_the_area_grows():
     begin = window.most_active(arrival, fuel, 0.0, 7200.0, 600.0)
     assert begin <= 5000.0 <= begin + 600.0
     assert window.most_active(arrival, np.ones(60), 0.0, 7200.0, 600.0) == 0.0
-    assert window.length(400.0, 1e5) == 300.0
-    assert window.length(29_000.0, 1e5) == pytest.approx(24 * 60.0, abs=60.0)
-    assert window.length(29_000.0, 600.0) == 600.0
+
+
+def test_a_film_is_at_most_15_times_real_time_and_slower_of_a_small_fire(fit_of):
+    film = (window.FRAMES - 1) / window.FPS
+    assert window.length(29_000.0, 1e5) == pytest.approx(15.0 * film)
+    assert window.length(1500.0, 1e5) == pytest.approx(15.0 * 0.1 ** (2 / 3) * film)
+    assert window.length(10.0, 1e5) == pytest.approx(film)
+    assert window.length(29_000.0, 20.0) == 20.0
+    found, run = fit_of("mega")
+    assert Shot(found.settings, run).speed == pytest.approx(15.0)
+    assert "the most active 59 s" in found.window
+    assert found.window.endswith("48 frames, 15 times real time")
 
 
 @pytest.mark.parametrize("name", FIRES)

@@ -81,9 +81,8 @@ def facts(shot: Shot, camera: str, frame: int) -> list[tuple[str, list[str]]]:
         ("HEADING", [f"{heading:03.0f}° {_POINTS[round(heading / 45.0) % 8]}", pitch]),
         ("BURNED", [f"{acres:,.0f} acres"]),
     ]
-    pace = shot.frames.step * shot.settings.time.fps
-    if pace > 0.0:
-        rows.append(("FILM", [f"{float(f'{pace:.3g}'):,g}× as fast"]))  # ",.3g" would print 1.12e+04
+    if shot.speed > 0.0:
+        rows.append(("FILM", [f"{float(f'{shot.speed:.3g}'):,g}× as fast"]))  # ",.3g" would print 1.12e+04
     if view.perspective:
         across = 2.0 * np.degrees(np.arctan(view.halves[frame - 1, 0]))
         rows.insert(4, ("VIEW", [f"{across:.0f}° wide"]))

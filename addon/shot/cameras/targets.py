@@ -20,6 +20,8 @@ _KNOTS = 24  # times at which the target is computed; it is interpolated between
 _BLOCK = 1500.0  # m, blocks of a large fire's front that are compared
 _LARGE = 20_000.0  # m, fire size from which block and time apply; they shrink with smaller fires
 _AT_ONCE = 1.0  # s, cells that begin to burn within this time are one ignition
+_SHORT = 300.0  # s; in a shorter shot the head moves evenly (assumed)
+_FASTEST = 5.0  # m/s, upper limit of the rate of spread
 _CELLS = 4.0  # fuel cells, lower bound of block size and front depth
 _HYSTERESIS = 4.0  # blocks; distance in which another head must be e times as strong to be followed
 
@@ -49,9 +51,18 @@ def _track(target: str, ground: Terrain, times: Array) -> tuple[Array, Array]:
 
 
 def head(ground: Terrain, times: Array) -> tuple[Array, Array]:
-    """East and north (frames,) of the head: the block of the front with the highest rate of spread."""
+    """East and north (frames,) of the head: the block of the front with the highest rate of spread.
+
+    In a shot that is shorter than the time in which the front crosses a block the head moves evenly, by the
+    front's mean velocity around it. Otherwise it would jump as single cells begin to burn.
+    """
     east, north, arrival, speed = _burned(ground)
     block, recent = _scale(ground, speed, times[-1])
+    if 0.0 < times[-1] - times[0] < min(recent, _SHORT):
+        place = _head_at(times[-1], None, east, north, arrival, speed, block, recent)
+        velocity = _velocity(ground, place, block)
+        track = place + (times - times[-1])[:, None] * velocity
+        return track[:, 0], track[:, 1]
     return _follow(times, lambda t, last: _head_at(t, last, east, north, arrival, speed, block, recent))
 
 
@@ -91,7 +102,29 @@ def _burned(ground: Terrain) -> tuple[Array, Array, Array, Array]:
     latitude, longitude = ground.places(row, column)
     point = ground.frame.forward(latitude, longitude, ground.fields.elevation[row, column])
     speed = 1.0 / np.clip(np.nan_to_num(slope[burned], nan=10.0), 0.1, 100.0)
-    return point[:, 0], point[:, 1], arrival[burned], np.minimum(speed, 5.0)
+    return point[:, 0], point[:, 1], arrival[burned], np.minimum(speed, _FASTEST)
+
+
+def _velocity(ground: Terrain, place: Array, size: float) -> Array:
+    """Return the mean velocity (2,) of the front around a place, m/s, weighted within about `size` m."""
+    near = box(ground.arrival < NEVER, more=1)
+    if near is None:
+        return np.zeros(2)
+    time = ground.burn_time[near]
+    with np.errstate(invalid="ignore"):
+        slope = np.stack(np.gradient(np.where(time < UNKNOWN, time, np.nan), *ground.cell)[::-1], axis=-1)
+    row, column = (
+        at + part.start for at, part in zip(np.nonzero(ground.arrival[near] < NEVER), near, strict=True)
+    )
+    slope = slope[row - near[0].start, column - near[1].start]
+    point = ground.frame.forward(*ground.places(row, column), ground.fields.elevation[row, column])
+    steep = np.hypot(*slope.T)
+    weight = np.exp(-np.sum((point[:, :2] - place) ** 2, axis=1) / (2.0 * size**2))
+    known = np.isfinite(steep) & (steep > 0.0)
+    if not np.any(weight[known] > 0.0):
+        return np.zeros(2)
+    speed = np.minimum(1.0 / steep[known], _FASTEST)
+    return np.average(slope[known] / steep[known, None] * speed[:, None], axis=0, weights=weight[known])
 
 
 def _follow(times: Array, place: Callable[[float, Any], Any]) -> tuple[Array, Array]:

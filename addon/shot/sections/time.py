@@ -5,8 +5,9 @@
 from __future__ import annotations
 
 import zoneinfo
-from dataclasses import dataclass
-from datetime import datetime
+from collections.abc import Collection
+from dataclasses import dataclass, replace
+from datetime import datetime, timedelta
 
 from ..schema import Where, key
 from ..schema.did_you_mean import suggestion
@@ -31,15 +32,64 @@ class Time:
     start: datetime | None = key(
         None, "model time of the first frame, with its zone; default: the first time of the run"
     )
-    end: datetime | None = key(None, "model time of the last frame; default: the last time of the run")
+    end: datetime | None = key(
+        None, "model time of the last frame; default: by speed, or the last time of the run"
+    )
     frames: int = key(48, "number of frames, spread evenly from start to end", at_least=1, at_most=100_000)
+    speed: float | None = key(
+        None,
+        "speed of the films, times real time; up to 15 smoke flows; default: by start and end",
+        at_least=0.001,
+        at_most=1_000_000,
+        affects=(),
+    )
     fps: int = key(24, "frames per second of the films", at_least=1, at_most=240, affects=("film",))
     zone: str = key(
         "", "time zone of the clock in the films; empty: the run's zone", check=_zone, affects=("film",)
     )
 
     def validate(self) -> tuple[Where, str] | None:
-        """Check that the end is after the start."""
+        """Check that the end is after the start, and that the speed agrees with them."""
         if self.start and self.end and self.end <= self.start:
             return ("end",), "time.end must be later than time.start"
+        if self.speed is None:
+            return None
+        if not self.start and not self.end:
+            return ("speed",), "time.speed needs time.start or time.end; set one of them"
+        if self.start and self.end and self.frames != (needed := self._frames_between()):
+            seconds = (self.end - self.start).total_seconds()
+            return ("speed",), (
+                f"time.speed contradicts time.start, time.end and time.frames: {self.frames} frames show "
+                f"{seconds:,.7g} s at {seconds * self.fps / max(self.frames - 1, 1):,.4g} times real time; "
+                f"leave one of the four out, or set time.frames = {needed}"
+            )
+        try:
+            self.resolved()
+        except OverflowError:
+            return ("speed",), "time.speed leads beyond the years 1 to 9999; use a smaller one"
         return None
+
+    def with_frames(self, given: Collection[str]) -> Time:
+        """Set the number of frames by start, end and speed, if a file gives these and not the frames."""
+        if "frames" in given or self.speed is None or not (self.start and self.end) or self.speed <= 0.0:
+            return self
+        return replace(self, frames=self._frames_between())
+
+    def resolved(self) -> Time:
+        """Replace the speed by the start or end that it determines."""
+        if self.speed is None:
+            return self
+        span = timedelta(seconds=self.speed * (self.frames - 1) / self.fps)
+        start, end = self.start, self.end
+        if start and not end and self.frames > 1:
+            end = start + span
+        elif end and not start:
+            start = end - span
+        return replace(self, start=start, end=end, speed=None)
+
+    def _frames_between(self) -> int:
+        """Return the number of frames from start to end at the speed."""
+        assert self.start
+        assert self.end
+        assert self.speed
+        return 1 + round((self.end - self.start).total_seconds() * self.fps / self.speed)

@@ -18,6 +18,7 @@ from ..schema.did_you_mean import suggestion
 from ..schema.former import FORMER, FORMER_KEYS, FORMER_VALUES
 from ..schema.frame_list import FrameList
 from ..schema.scene_text import SceneText, load
+from ..sections import Time
 from . import Settings
 from .toml_writer import portable, text, with_absolute_tilesets
 
@@ -122,6 +123,8 @@ class _Reader(SceneText):
             )
         if kind is Settings:
             known |= {"path": self.path, "notes": tuple(self.former)}
+        if kind is Time:
+            return Time(**known).with_frames(values)
         return kind(**known)
 
     def kind(self, key: Key, values: dict[str, Any], where: Where) -> tuple[type, tuple[str]]:
