@@ -10,6 +10,7 @@ from firetwin.scene.fire import build as fire
 from firetwin.scene.fire import flame_light, flames, lamps
 from firetwin.shot.sections import Light
 from firetwin.shot.shot import Shot
+from firetwin.shot.terrain import noise
 from near_fire import FRAMES, moved
 
 
@@ -49,12 +50,16 @@ def lit(amid, run, stage, scene):
     scene.frame_end = FRAMES
     shot = Shot(amid, run)
     fire.build(shot, stage)
+    scene.camera = bpy.data.objects.new("eye", bpy.data.cameras.new("eye"))
+    scene.collection.objects.link(scene.camera)
+    scene.camera.location = shot.paths[0].position[0]
     return shot
 
 
 def test_cards_stand_at_burning_flames_and_emit_their_share_of_heat(lit, scene):
     shot, points = lit, flames.front_flames(lit)
-    share = flame_light.share(shot.visibility.distance(points.position))
+    away = np.linalg.norm(points.position - shot.paths[0].position[0], axis=1)
+    share = 1.0 - noise.smoothstep(*flame_light.REACH, away)
     total = []
     for frame in (1, 12, 24):
         time = shot.frames.time(frame)
@@ -93,7 +98,7 @@ def test_lamps_leave_out_the_heat_of_flames_with_their_own_light(amid, run):
     every, far = (lamps.place_lamps(shot, near).heat.sum() for near in ((0.0, 0.0), flame_light.REACH))
     assert far < every
     sources = shot.fire.sources(float(shot.frames.first)).luminous()
-    assert flame_light.share(shot.visibility.distance(sources.position)).max() > 0.0
+    assert shot.visibility.distance(sources.position).min() < flame_light.REACH[1]
 
 
 @pytest.mark.parametrize("change", ["lamps", "engine", "flames"])

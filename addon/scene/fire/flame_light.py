@@ -15,11 +15,10 @@ from firetwin_core import constants
 from ...blender import nodes, owned
 from ...blender.mesh import add_attribute, create_mesh
 from ...shot.shot import Shot
-from ...shot.terrain import noise
 from .. import clock
-from . import flames, lamps
+from . import flames
 
-REACH = 250.0, 400.0  # m from a camera, distances between which these lights give way to lamps
+REACH = 250.0, 400.0  # m from the camera of a frame, distances between which these lights give way to lamps
 RADIATED = 0.15
 """Radiated share of the heat (0.12 +- 0.03 of the heat of combustion: Freeborn et al. 2008)."""
 LIGHT = 2.4e-5
@@ -39,24 +38,18 @@ def applies(shot: Shot) -> bool:
     return near and settings.render.engine == "cycles" and settings.light.lamps > 0
 
 
-def share(distance: lamps.Array) -> lamps.Array:
-    """Return the share 0..1 of flames at these distances (m) whose light is of cards, not of lamps."""
-    return 1.0 - noise.smoothstep(*REACH, distance)
-
-
 def build(shot: Shot, points: flames.Points, collection: bpy.types.Collection) -> bpy.types.Object | None:
     """Build "Firetwin Flame Light" in the collection of the lamps; None without flames near a camera."""
     if not applies(shot) or len(points.seed) == 0:
         return None
-    part = share(shot.visibility.distance(points.position))
-    near = np.flatnonzero(part > 0.0)
+    near = np.flatnonzero(shot.visibility.distance(points.position) < REACH[1])
     if len(near) == 0:
         return None
-    points, part = points.take(near), part[near]
+    points = points.take(near)
     data = create_mesh(_NAME, points.position)
     for name in ("arrival_time", "residence", "length", "width", "tilt", "seed"):
         add_attribute(data, name, "FLOAT", getattr(points, name))
-    add_attribute(data, "power", "FLOAT", RADIATED * LIGHT * points.heat * part)
+    add_attribute(data, "power", "FLOAT", RADIATED * LIGHT * points.heat)
     obj = owned.add(collection, "Flame Light", data)
     modifier = obj.modifiers.new(_NAME, "NODES")
     modifier.node_group = _node_group(shot, _card())
@@ -109,7 +102,10 @@ def _node_group(shot: Shot, card: bpy.types.Object) -> bpy.types.NodeTree:
     width, height = (
         tree.math("MAXIMUM", value * size, _SIZE[1]) for value in (named("width"), named("length") * _TALL)
     )
-    power = named("power") * size * flicker
+    camera = tree.output("GeometryNodeInputActiveCamera")
+    eye = tree.output("GeometryNodeObjectInfo", {"Object": camera}, "Location", transform_space="ORIGINAL")
+    distance = tree.vector("DISTANCE", eye, tree.output("GeometryNodeInputPosition"), name="Value")
+    power = named("power") * size * flicker * distance.smoothstep(REACH[1], REACH[0])
     radiance = power / (width * height * (4.0 * np.pi))
     east, north = shot.wind
     axis = (-north, east, 0.0) if np.hypot(east, north) > 0.0 else (1.0, 0.0, 0.0)
@@ -118,7 +114,7 @@ def _node_group(shot: Shot, card: bpy.types.Object) -> bpy.types.NodeTree:
         "GeometryNodeInstanceOnPoints",
         {
             "Points": entry,
-            "Selection": outside < 0.5,
+            "Selection": tree.math("ADD", outside, distance > REACH[1]) < 0.5,
             "Instance": tree.output("GeometryNodeObjectInfo", {"Object": card}, "Geometry"),
             "Rotation": lean,
             "Scale": tree.combine(width, width, height),
