@@ -4,10 +4,10 @@ import bpy
 import numpy as np
 import pytest
 from firetwin.blender import owned
-from firetwin.scene import build
+from firetwin.scene import build, flame_field
 from firetwin.scene.forest import build as forest
 from firetwin.scene.forest import models, plot, stand, visibility
-from firetwin.scene.forest.material import TORCHING
+from firetwin.scene.forest.material import BARE_AFTER, TORCHING
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
@@ -110,6 +110,26 @@ def test_the_paper_mode_has_no_stand(settings, run, stage):
     grown = stand.grow(shot)
     assert len(grown.height) == 0
     assert grown.coverage(np.array([0.0, 100.0])).tolist() == [0.0, 0.0]
+
+
+def test_burned_crowns_are_bare_sooner_where_flames_are_drawn_as_a_field(shot, stage, scene):
+    made = _planted(shot, stage)[0]
+    arrival, torched = np.empty((2, len(made.data.vertices)), np.float32)
+    made.data.attributes["arrival_time"].data.foreach_get("value", arrival)
+    made.data.attributes["torched"].data.foreach_get("value", torched)
+    late = np.sort(arrival[(torched == 1.0) & (arrival < NEVER)])
+    scene.frame_set(1)
+    frame = 1.0 + (late[len(late) // 2] + 1.2 * BARE_AFTER[1] - shot.frames.first) / shot.frames.step
+    scene.frame_set(int(frame), subframe=frame % 1.0)
+    age = shot.frames.time(frame) - arrival
+    for reach in (0.0, 1.0e6):
+        flame_field.set_reach(stage, reach)
+        model = np.array([_number(name) for name in _instances("Firetwin Trees")[2]])
+        snag = np.isin(model, models.SNAGS)
+        sooner = (age > BARE_AFTER[1]) & (age < TORCHING) & (torched == 1.0)
+        assert sooner.any()
+        assert np.all(snag[sooner] == (reach > 0.0))
+        assert not snag[age < BARE_AFTER[0]].any()
 
 
 def test_trees_whose_crowns_burn_become_snags_as_their_flames_end(shot, stage, scene):

@@ -27,7 +27,7 @@ _DEAD = 0.03  # fraction of trees that died before the fire
 _HEATED, _CHARRED, _KILLED = (-10.0, 4.0), (2.0, 20.0), (5.0, 60.0)
 """s after the front's arrival between which needles of a burning crown turn brown, then black, and needles
 that heat kills turn brown (assumed)."""
-BARE_AFTER = 50.0, 90.0  # s from the fire to a bare plant within the field of flames (assumed)
+BARE_AFTER = 60.0, 180.0  # s from the fire to a bare plant within the field of flames (assumed)
 _SINGED = 0.7  # browning of the green tops of partly scorched trees by hot air and soot; by eye
 _BROWN = ((0.060, 0.041, 0.026), (0.118, 0.080, 0.046))  # needles killed by drought, beetles or heat
 _BLACK = ((0.010, 0.008, 0.007), (0.030, 0.024, 0.020))  # charred needles

@@ -21,8 +21,8 @@ _FLAME_LIGHT, _EMBER_LIGHT = 10.0, 1.8  # radiance at exposure 0
 _DIMMED = 0.3  # factor on the emission of the flaming front close by
 _BENEATH = 0.12  # factor on it below flames that are drawn as a field (by eye)
 _COALS = 0.04, 0.5  # m, pixel sizes between which coals of a few cm blend into patches
-_COAL_LIGHT = 0.12  # factor on the emission of coals, which fill pixels close by (by eye)
-_COAL = (1.0, 0.055, 0.004)
+_COAL_LIGHT = 0.12, 0.05  # factors on the emission of coals and of patches below the field of flames (by eye)
+_COAL = (1.0, 0.055, 0.004)  # colour of embers there
 _SPARSE = 0.25  # coverage of coals between patches, relative to within them (by eye)
 
 
@@ -94,9 +94,9 @@ def fire_emission(tree: nodes.Tree, shot: Shot, stage: Stage, place: Place, fuel
         "Radiance of the spots that glow in the ash, at exposure 0",
         "Fire",
     )
-    coarse = place.pixel.ramp(*_COALS)
-    ember = tree.mix_colour(coarse, _COAL, ember)
-    glowing = glowing * tree.mix(coarse, _COAL_LIGHT, 1.0)
+    beyond = flame_field.share(tree, stage)
+    ember = tree.mix_colour(beyond, _COAL, ember)
+    glowing = glowing * tree.mix(beyond, place.pixel.ramp(*_COALS, *_COAL_LIGHT), 1.0)
     colour = tree.mix_colour(flaming / (flaming + embers + 1.0e-4), ember, flame)
     bright = bright * place.woody.ramp(0.0, 1.0, _PALE, 1.0)
     power = flaming * bright * place.distance.ramp(*CLOSE, _DIMMED, 1.0) + embers * glowing
