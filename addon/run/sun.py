@@ -16,7 +16,7 @@ from . import times
 
 NIGHT = -1.0  # degrees, solar elevation below which the moon shines
 _STARS = (150.0, 40.0)  # degrees, bearing and elevation of the residual light on a night without moon
-_MONTH = 28.0  # days, cycle of astral's moon phase
+_PARALLAX = 0.951  # degrees, mean horizontal parallax of the moon
 _HAZE = 0.2  # optical depth of the atmosphere for moonlight, at the zenith (assumed)
 
 
@@ -69,20 +69,42 @@ def moon(run: Run, time: float) -> Moon:
 
     Its light goes with the angle a (degrees) between sun and earth seen from it as 10^(-0.4 (0.026 a +
     4e-9 a^4)) (K. Krisciunas and B. E. Schaefer 1991, "A model of the brightness of moonlight", PASP 103).
+    a is 180 degrees less the elongation, since the sun is far behind the moon.
     """
-    moment, observer = times.utc(run, time), Observer(*_middle(run), 0.0)
-    height = lunar.elevation(observer, moment)
+    moment, place = times.utc(run, time), middle(run)
+    bearing, height = moon_angles(*place, moment)
     if height <= 0.0:
         return NO_MOON
-    angle = abs(180.0 - 360.0 * lunar.phase(moment) / _MONTH)
+    angle = 180.0 - elongation(*place, moment)
     bright = 10.0 ** (-0.4 * (0.026 * angle + 4.0e-9 * angle**4))
     through = np.exp(-_HAZE / max(np.sin(np.radians(height)), 0.02))
-    return Moon(lunar.azimuth(observer, moment), height, float(bright * through))
+    return Moon(bearing, height, float(bright * through))
+
+
+def moon_angles(latitude: float, longitude: float, moment: datetime) -> tuple[float, float]:
+    """Compute the moon's bearing, clockwise from north, and elevation, degrees, within 0.1.
+
+    The elevation is lower by the parallax at a place on the ground than from the Earth's centre.
+    """
+    observer = Observer(latitude, longitude, 0.0)
+    height = lunar.elevation(observer, moment)
+    return lunar.azimuth(observer, moment), float(height - _PARALLAX * np.cos(np.radians(height)))
+
+
+def elongation(latitude: float, longitude: float, moment: datetime) -> float:
+    """Compute the angle between moon and sun, degrees."""
+    toward = [direction(*each(latitude, longitude, moment)) for each in (angles, moon_angles)]
+    return float(np.degrees(np.arccos(np.clip(toward[0] @ toward[1], -1.0, 1.0))))
+
+
+def toward_moon(run: Run, time: float) -> NDArray[np.float64]:
+    """Compute the unit vector towards the moon over the run at a model time (s), also below the horizon."""
+    return direction(*moon_angles(*middle(run), times.utc(run, time)))
 
 
 def position(run: Run, time: float) -> tuple[float, float]:
     """Compute the solar bearing and elevation (degrees) at the grid's centre at a model time (s)."""
-    return angles(*_middle(run), times.utc(run, time))
+    return angles(*middle(run), times.utc(run, time))
 
 
 def toward_light(run: Run, time: float) -> NDArray[np.float64]:
@@ -90,7 +112,7 @@ def toward_light(run: Run, time: float) -> NDArray[np.float64]:
     return shadow_direction(*position(run, time), moon(run, time))
 
 
-def _middle(run: Run) -> tuple[float, float]:
+def middle(run: Run) -> tuple[float, float]:
     """Return latitude and longitude of the centre of the run's grid, degrees."""
     latitude, longitude = (float(axis[0] + axis[-1]) / 2.0 for axis in (run.latitude, run.longitude))
     return latitude, longitude

@@ -22,7 +22,7 @@ def of(settings, run, name, **more):
 def test_the_sierra_has_the_images_and_plants_that_it_had(near_settings, run, stage):
     chosen, auto = (of(near_settings, run, name) for name in ("sierra_conifer", "auto"))
     made = fields.create_images(auto, None)
-    assert set(made) == {"Firetwin Ground Fuel", "Firetwin Ground Fire", "Firetwin Ground Front"}
+    assert set(made) == {f"Firetwin Ground {name}" for name in ("Fuel", "Fire", "Front", "Scar")}
     first, second = stand.grow(chosen), stand.grow(auto)
     assert np.array_equal(first.model, second.model)
     assert np.array_equal(first.position, second.position)

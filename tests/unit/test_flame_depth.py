@@ -15,6 +15,13 @@ def test_flames_are_as_deep_as_the_front_is_fast_whatever_the_cells(make_run, ce
     assert flame_depth.head(shot.front, *shot.frames.span) == pytest.approx(PACE * stands, rel=0.02)
 
 
+def test_intensity_is_byrams_where_it_burns(make_run):
+    shot = shot_of(make_run, 20.0, 0.3)
+    burned = shot.ground.burned > 0.5
+    assert np.median(shot.front.intensity[burned]) == pytest.approx(17_400.0 * 0.3 * PACE, rel=0.05)
+    assert (shot.front.intensity[shot.ground.burned <= 0.0] == 0.0).all()
+
+
 def test_flanks_are_thinner_than_the_head(make_run):
     shot = shot_of(make_run, 20.0, 0.3, flank=0.1)
     front, margin = shot.front, shot.bare_ground.fields.margin

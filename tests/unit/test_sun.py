@@ -48,3 +48,17 @@ def test_nights_have_no_sun():
     assert sun.direct(-5.0) == 0.0
     assert 850.0 < sun.direct(60.0) < 950.0  # W/m2 on a clear day
     assert sun.direct(5.0) < 0.4 * sun.direct(60.0)
+
+
+@pytest.mark.parametrize(
+    ("moment", "latitude", "longitude", "bearing", "height", "elongation"),
+    [
+        (datetime(2014, 9, 17, 10, 30, tzinfo=UTC), 38.88, -120.6, 89.596, 28.076, 74.149),
+        (datetime(2014, 9, 9, 8, tzinfo=UTC), 38.88, -120.6, 176.299, 48.899, 176.003),
+        (datetime(2020, 1, 5, 11, tzinfo=UTC), -34.0, 150.0, 332.088, 40.690, 114.861),
+    ],
+)
+def test_the_moon_is_where_an_ephemeris_has_it(moment, latitude, longitude, bearing, height, elongation):
+    # PyEphem 4.2.1, topocentric, without refraction
+    assert sun.moon_angles(latitude, longitude, moment) == pytest.approx((bearing, height), abs=0.15)
+    assert sun.elongation(latitude, longitude, moment) == pytest.approx(elongation, abs=0.2)

@@ -9,12 +9,13 @@ from numpy.typing import NDArray
 
 from ...blender import compat, nodes, owned
 from ...blender.owned import Stage
-from ...ellipsoid import MEAN_RADIUS
 from ...shot.light import exposure
 from ...shot.light.sky import NIGHT_SKY, State, state
 from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import curved_air, haze, infrared, space_sky
+from . import night_sky
+from .keyframes import add_keyframes
 
 _KEYS = 25  # number of keyframes of the sky
 _SKY = 0.12  # strength of the sky texture; more hides the sunlit side of smoke
@@ -45,7 +46,7 @@ def build(shot: Shot, stage: Stage) -> list[str]:
     if not stage.is_own:
         return []
     if stage.scene.world is None:
-        _build_world(stage, frames, states)
+        _build_world(shot, stage, frames, states)
     _set_thermal_sky(stage.scene.world, infrared.sky_radiance(shot))
     _animate_exposure(stage.scene, frames, exposure.at(shot, frames))
     return _set_view_transform(stage.scene.view_settings)
@@ -60,11 +61,11 @@ def light_keyframes(shot: Shot) -> tuple[NDArray[np.float64], list[State]]:
 
 def _build_sun(collection: bpy.types.Collection, frames: NDArray[np.float64], states: list[State]) -> None:
     lamp = bpy.data.lights.new("Firetwin Sun", "SUN")
-    lamp.angle = np.radians(0.53)
     obj = owned.add(collection, "Sun", lamp)
     obj.rotation_mode = "QUATERNION"
     add_keyframes(obj, "rotation_quaternion", frames, np.array([_lamp_rotation(s.direction) for s in states]))
     add_keyframes(lamp, "energy", frames, np.array([s.power for s in states]))
+    add_keyframes(lamp, "angle", frames, np.radians([s.width for s in states]))
     add_keyframes(lamp, "color", frames, np.array([s.colour for s in states]))
 
 
@@ -82,18 +83,8 @@ def animate_sun(tree: bpy.types.NodeTree, frames: NDArray[np.float64], states: l
         add_keyframes(tree, f'nodes["{space_sky.SUN}"].inputs[{axis}].default_value', frames, values)
 
 
-def _airglow(tree: nodes.Tree, up: nodes.Value) -> nodes.Value:
-    """Return airglow relative to the zenith, for rays of slope sine `up`: a layer 100 km high.
-
-    Van Rhijn (1921, "On the brightness of the sky at night", Publ. Astr. Lab. Groningen 31), with a mean of
-    1.
-    """
-    across = (1.0 - up * up) * (MEAN_RADIUS / (MEAN_RADIUS + 100_000.0)) ** 2
-    return tree.math("POWER", 1.0 - across, -0.5) * 0.3
-
-
-def _build_world(stage: Stage, frames: NDArray[np.float64], states: list[State]) -> None:
-    """Build the world: sky texture and airglow; a uniform cold sky in thermal view layers."""
+def _build_world(shot: Shot, stage: Stage, frames: NDArray[np.float64], states: list[State]) -> None:
+    """Build the world: sky texture and night sky; a uniform cold sky in thermal view layers."""
     world = stage.scene.world = owned.mark(bpy.data.worlds.new("Firetwin Sky"))
     tree = nodes.Tree(compat.node_tree(world))
     sky = tree.node("ShaderNodeTexSky")
@@ -102,7 +93,7 @@ def _build_world(stage: Stage, frames: NDArray[np.float64], states: list[State])
     compat.find_socket(light.socket.node.inputs, "Scale").default_value = _SKY
     up = tree.separate(tree.output("ShaderNodeTexCoord", name="Generated"))[2]
     night = any(state.sky[0] < 0.0 for state in states)
-    dark = tree.vector("SCALE", tuple(NIGHT_SKY), _airglow(tree, up)) if night else tuple(NIGHT_SKY)
+    dark = night_sky.radiance(tree, shot, frames, states) if night else tuple(NIGHT_SKY)
     light = tree.vector("ADD", light, dark)
     light = haze.before_sky(tree, stage, light, up)
     earth = curved_air.earth(stage)
@@ -175,21 +166,3 @@ def _set_choice(obj: bpy.types.bpy_struct, name: str, choice: str) -> bool:
     except TypeError:
         return False
     return True
-
-
-def add_keyframes(obj: bpy.types.ID, data_path: str, frames: NDArray[np.float64], values: NDArray) -> None:
-    """Keyframe a property (or set it, for a single keyframe): values (n,) or (n, channels)."""
-    columns = values.reshape(len(frames), -1)
-    owner, _, name = data_path.rpartition(".")
-    target = obj.path_resolve(owner) if owner else obj
-    setattr(target, name, columns[0] if values.ndim > 1 else float(columns[0, 0]))
-    animated = any(curve.data_path == data_path for curve in compat.fcurves(obj))
-    if len(frames) == 1 and not animated:
-        return
-    for index in range(columns.shape[1]):
-        curve = compat.new_fcurve(obj, data_path, index)
-        curve.keyframe_points.add(len(frames))
-        for point, frame, value in zip(curve.keyframe_points, frames, columns[:, index], strict=True):
-            point.co = (frame, value)
-            point.interpolation = "LINEAR"
-        curve.update()

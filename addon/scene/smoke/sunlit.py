@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from ...blender import nodes
 from ...shot.light.sky import State
 from ...shot.shot import Shot
-from ..light.build import add_keyframes, light_keyframes
+from ..light.build import light_keyframes
+from ..light.keyframes import add_keyframes
 
 OFTENER = 0.5, 0.3  # weights relative to single scattering, from a ball and a plume against 24 and 32 bounces
 _GROUND = 0.07  # albedo of forest and ash, which reflect light onto smoke from below (assumed)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.shot import Shot
@@ -15,6 +17,15 @@ _BENT = 1.75
 650 s in shrubs (assumed).
 """
 _TIMBER = 120.0  # s, residence time in timber
+_LIGHTENING = 600.0, 14_400.0  # s since the fire in timber, in which wind and dew bare the pale ash (assumed)
+_SEVERE = 500.0, 8000.0  # kW/m, intensities of a surface fire and of a crown fire, which consumes all litter
+_SCORCHED = 90.0, 220.0, 600.0, 1400.0
+"""kW/m, intensities between which far crowns turn brown, and between which they burn. By Van Wagner (1973),
+crowns of trees of 18 m are scorched to a third at 240 kW/m; by Van Wagner (1977), they torch from 400 kW/m.
+"""
+_GREEN = 260.0, 80.0  # kW/m, intensities from which no crown and below which all crowns stay green
+_LOGS = 0.55  # fraction of the cells with a log that burned out (by eye)
+_STUBS = (0.135, 0.110, 0.066)  # straw below the flames
 _WIDE = 0.8  # minimum width of the flaming front, pixels; its coverage is reduced in proportion
 _PALE = 0.55  # factor on the emission of grass flames, which are low and thin
 _FLAME_LIGHT, _EMBER_LIGHT = 10.0, 1.8  # radiance at exposure 0
@@ -26,35 +37,78 @@ _COAL = (1.0, 0.055, 0.004)  # colour of embers there
 _SPARSE = 0.25  # coverage of coals between patches, relative to within them (by eye)
 
 
-def scar_colour(tree: nodes.Tree, place: Place) -> nodes.Value:
-    """Return the colour of the scar: char, white ash in streaks, brown scorched crowns if severity is low."""
+def scar_colour(tree: nodes.Tree, place: Place, *, logs: bool = False) -> nodes.Value:
+    """Return the colour of the scar by intensity, fuel and age: char, grey ash, white ash, scorched crowns.
+
+    Char has a reflectance of 0.02 to 0.06. Ash is pale where much fuel burned, and more so after some hours.
+    With `logs`, white ash has the shape of burned-out logs close by.
+    """
     tone = place.grain.noise(90.0 * place.scale, 4.0, 0.62)
-    dark = tree.input("Char Dark", (0.009, 0.008, 0.008), "Blackest char", "Scar")
-    pale = tree.input("Char Light", (0.052, 0.046, 0.041), "Char mixed with soil", "Scar")
-    white = tree.input("Ash Colour", (0.150, 0.142, 0.135), "White ash, some hours after the fire", "Scar")
-    much = tree.input("Ash Amount", 0.6, "How white streaks of old ash become", "Scar", most=1.0)
+    dark = tree.input("Char Dark", (0.020, 0.020, 0.021), "Blackest char", "Scar")
+    pale = tree.input("Char Light", (0.046, 0.045, 0.043), "Char mixed with soil", "Scar")
+    grey = tree.input("Ash Colour", (0.125, 0.123, 0.120), "Grey ash, some hours after the fire", "Scar")
+    white = tree.input("White Ash", (0.320, 0.317, 0.312), "Ash of wood that burned out", "Scar")
+    much = tree.input("Ash Amount", 0.6, "How much of the scar ash covers", "Scar", most=1.0)
     kept = tree.input("Scorch Amount", 0.75, "How brown the scar is at low fire severity", "Scar", most=1.0)
     char = tree.mix_colour(tone.smoothstep(0.3, 0.72), dark, pale)
-    ash = place.grain.noise(33.0 * place.scale, 4.0, 0.6).smoothstep(0.58, 0.70)
-    old = (place.age * (_TIMBER / place.residence)).smoothstep(900.0, 14_400.0)
-    char = tree.mix_colour(ash * old * much * (place.ash / 0.6), char, white)
+    heavy = place.load.smoothstep(0.3, 3.0)
+    hours = (place.age * (_TIMBER / place.residence)).smoothstep(*_LIGHTENING)
+    flakes = place.grain.noise(33.0 * place.scale, 4.0, 0.6)
+    film = flakes + heavy * 0.07 + place.heat.smoothstep(*np.log(_SEVERE)) * 0.06
+    film = film.smoothstep(0.57, 0.80) * hours.ramp(0.0, 1.0, 0.3, 1.0) * much * (place.ash / 0.6)
+    char = tree.mix_colour(film, char, grey)
+    burned_out = (place.grain.noise(13.0, 4.0, 0.66) + (flakes - 0.5) * 0.5).smoothstep(0.66, 0.74)
+    if logs:
+        burned_out = tree.math("MAXIMUM", burned_out, _log_ash(tree, place))
+    burned_out = burned_out * heavy * hours.ramp(0.0, 1.0, 0.35, 1.0) * much * place.woody
+    char = tree.mix_colour(burned_out, char, white)
     if place.mixed:
-        char = tree.mix_colour(place.woody, _burned_grass_colour(tree, place, tone, ash * old), char)
-    mild = place.grain.noise(540.0, 4.0, 0.6).smoothstep(0.54, 0.64) * place.canopy.smoothstep(0.1, 0.6)
-    scorched = tree.mix_colour(tone, (0.035, 0.022, 0.012), (0.085, 0.052, 0.026))
-    return tree.mix_colour(mild * kept, char, scorched)
+        char = tree.mix_colour(place.woody, _burned_grass_colour(tree, place, tone, film), char)
+    low, full, gone, none = np.log(_SCORCHED)
+    varied = _uneven_heat(place)
+    brown = varied.smoothstep(low, full) * varied.smoothstep(none, gone) * place.canopy.smoothstep(0.1, 0.6)
+    scorched = tree.mix_colour(tone, (0.044, 0.031, 0.018), (0.088, 0.060, 0.034))
+    return tree.mix_colour(brown * kept, char, scorched)
+
+
+def surviving_crowns(place: Place) -> nodes.Value:
+    """Return the fraction 0..1 of crowns that stay green over a surface fire."""
+    return _uneven_heat(place).smoothstep(*np.log(_GREEN)) * place.canopy.smoothstep(0.1, 0.6)
+
+
+def _uneven_heat(place: Place) -> nodes.Value:
+    """Return ln(kW/m) with patches of stands and groups of trees: winds, slopes and fuel vary (by eye)."""
+    patches = (place.grain.noise(540.0, 4.0, 0.6) - 0.5) * 2.4
+    return place.heat + patches + (place.grain.noise(70.0, 2.0, 0.6) - 0.5) * 1.2
+
+
+def _log_ash(tree: nodes.Tree, place: Place) -> nodes.Value:
+    """Return white streaks 0..1 of logs that burned out, in cells of 11 m, seen close by only."""
+    x, y, _ = tree.separate(place.position)
+    cells = tree.node("ShaderNodeTexVoronoi", {"Vector": tree.combine(x, y, 0.0), "Scale": 1.0 / 11.0})
+    turn, size, chance = tree.separate(tree.pick(cells, "Color"))
+    left, below, _ = tree.separate(tree.pick(cells, "Position"))
+    east, north, turn = x - left, y - below, turn * (2.0 * np.pi)
+    sine, cosine = tree.math("SINE", turn), tree.math("COSINE", turn)
+    along = tree.math("ABSOLUTE", east * cosine + north * sine)
+    bend = (place.grain.noise(2.5, 3.0, 0.7) - 0.5) * 1.6
+    across = tree.math("ABSOLUTE", north * cosine - east * sine + bend)
+    length, width = size.ramp(0.0, 1.0, 2.0, 5.5), size.ramp(0.0, 1.0, 0.35, 0.8)
+    shape = across.smoothstep(width, width * 0.4) * along.smoothstep(length, length * 0.7)
+    return shape * (chance < _LOGS) * place.pixel.ramp(0.3, 2.0, 1.0, 0.0)
 
 
 def _burned_grass_colour(tree: nodes.Tree, place: Place, tone: nodes.Value, ash: nodes.Value) -> nodes.Value:
-    """Return the colour of burned grass: black, then brown as its thin ash blows off, with unburned tufts."""
+    """Return the colour of burned grass: thin black, soil where ash blew off, stubs and tufts of straw."""
     broad = place.grain.noise(420.0 * place.scale, 3.0, 0.6)
-    worn = place.age.smoothstep(120.0, 3600.0)
-    pale = (tone * 0.7 + broad * 0.6 + worn * 0.08).smoothstep(0.52, 0.86)
-    dark = tree.mix_colour(worn, (0.012, 0.010, 0.008), (0.024, 0.019, 0.014))
-    char = tree.mix_colour(pale, dark, (0.075, 0.059, 0.042))
-    char = tree.mix_colour(ash * 0.3, char, (0.120, 0.112, 0.103))
+    worn = place.age.smoothstep(120.0, 7200.0)
+    pale = (tone * 0.7 + broad * 0.6 + worn * 0.08).smoothstep(0.60, 0.96)
+    dark = tree.mix_colour(worn, (0.019, 0.019, 0.018), (0.031, 0.030, 0.028))
+    char = tree.mix_colour(pale, dark, (0.071, 0.066, 0.059))
+    char = tree.mix_colour(ash * 0.4, char, (0.125, 0.124, 0.122))
+    char = tree.mix_colour(place.duff.smoothstep(0.10, 0.42) * 0.35, char, _STUBS)
     tufts = place.grain.noise(12.0, 4.0, 0.7).smoothstep(0.60, 0.68) * broad.smoothstep(0.40, 0.60)
-    return tree.mix_colour(tufts * 0.6, char, (0.135, 0.108, 0.068))
+    return tree.mix_colour(tufts * 0.5, char, (0.120, 0.100, 0.066))
 
 
 def front_coverage(tree: nodes.Tree, stage: Stage, place: Place) -> tuple[nodes.Value, nodes.Value]:

@@ -22,7 +22,10 @@ _OUT = 40.0  # rows beyond the run at which the apron's cells reach their full s
 _SOFT = 12.0  # rows beyond the run over which the apron's forest edges are softened
 _EDGE = 0.35  # kg/m2 of canopy fuel at which the shader has half forest and half open land
 _LARGEST = 2048  # pixels along an image's side; larger grids are averaged to this size
-_FUEL, _FIRE, _FRONT, _COVER = (f"Firetwin Ground {name}" for name in ("Fuel", "Fire", "Front", "Cover"))
+_FUEL, _FIRE, _FRONT, _COVER, _SCAR = (
+    f"Firetwin Ground {name}" for name in ("Fuel", "Fire", "Front", "Cover", "Scar")
+)
+_FAINTEST = 30.0  # kW/m, least intensity of a fire that spreads (assumed)
 NAMES = {
     "canopy_fuel": (_FUEL, 0),
     "bare": (_FUEL, 1),
@@ -33,6 +36,8 @@ NAMES = {
     "speed": (_FRONT, 0),
     "residence": (_FRONT, 1),
     "ash": (_FRONT, 2),
+    "heat": (_SCAR, 0),
+    "load": (_SCAR, 1),
     "shrub": (_COVER, 0),
     "hollow": (_COVER, 1),
     "mapped": (_COVER, 2),
@@ -46,6 +51,8 @@ def create_images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]
     Other fields are `burn_time` (arrival time in s, extrapolated a little past the last perimeter), `burned`
     (1 inside it), `stand` (fraction of the forest that is instanced trees), the front's rate of spread
     `speed` (m/s), the `residence` time of flames at a point (s), and the brightness of the residue (`ash`).
+    The scar has `heat`, the natural logarithm of the fireline intensity in kW/m, and `load`, the surface fuel
+    that burned (kg/m2).
     If the biome's open land uses them, `shrub` (shrub cover), `hollow` (-1 on crests, 1 in hollows) and
     `mapped` (1 where a map has data, so that nothing is procedural) are added.
     """
@@ -60,6 +67,8 @@ def create_images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]
         "speed": shot.front.speed,
         "residence": shot.front.residence,
         "ash": shot.front.ash,
+        "heat": np.log(np.maximum(shot.front.intensity, _FAINTEST)),
+        "load": ground.fields.surface_fuel,
     }
     thin = {name: _downsample(field, size) for name, field in known.items()}
     thin["stand"] = _stand_cover(shot, grown, size)

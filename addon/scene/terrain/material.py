@@ -154,9 +154,11 @@ def _soil_shader(tree: nodes.Tree, here: Place, biome: Here) -> nodes.Value:
     ):
         colour, height = grown(tree, there, biome)
         normal = _bump_normal(tree, height)
-        char = _grain_floor(tree, there, burn_scar.scar_colour(tree, there))
+        afar = grown is vegetation_cover.distant_canopy
+        char = _grain_floor(tree, there, burn_scar.scar_colour(tree, there, logs=not afar))
         green = _matte_shader(tree, _grain_floor(tree, there, colour), normal)
-        made.append(tree.mix_shader(here.burned, green, _matte_shader(tree, char, normal)))
+        burned = here.burned * (1.0 - burn_scar.surviving_crowns(there)) if afar else here.burned
+        made.append(tree.mix_shader(burned, green, _matte_shader(tree, char, normal)))
     return tree.mix_shader(here.near, *made)
 
 
@@ -199,7 +201,7 @@ def _simple_ground(tree: nodes.Tree, known: fields.Fields, biome: Here) -> nodes
     green = tree.mix_colour(canopy, grass, (0.030, 0.040, 0.018))
     green = tree.mix_colour(known["bare"], green, (0.120, 0.110, 0.100))
     burned = (nodes.model_time(tree) > known["burn_time"]) * (known["burned"] > 0.5)
-    colour = tree.mix_colour(burned, green, (0.035, 0.030, 0.027))
+    colour = tree.mix_colour(burned, green, (0.036, 0.035, 0.034))
     return tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
 
 

@@ -20,6 +20,10 @@ _JITTER = 130.0  # s, maximum; breaks up the straight edges of the mesh's triang
 _STRAY = 0.7  # cells of the fuel grid, maximum displacement of the front by noise
 _RAGGED = 74.0  # m, cell size at which noise displaces the front in full
 _SOME = 0.02  # seed offsets, so that grass and shrubs have separate patterns
+_PATCHY = (
+    60.0,
+    900.0,
+)  # kW/m, intensities below which half of a wood and above which none stays unburned (by eye)
 _TIMBER = 120.0  # s, residence time of flames over a spot of timber
 
 
@@ -42,6 +46,8 @@ class Place:
     residence: nodes.Value  # s, residence time of flames
     woody: nodes.Value  # 0 grass .. 1 timber
     ash: nodes.Value  # 0..1, brightness of the residue
+    heat: nodes.Value  # ln(kW/m), fireline intensity
+    load: nodes.Value  # kg/m2, surface fuel
     scale: float  # of the front's and the scar's patterns, 1 in a crown fire
     mixed: bool  # True if grass or shrubs burn, and not only timber
     beyond: nodes.Value  # 0 within the run, 1 where the apron's cells have their full size
@@ -81,6 +87,7 @@ def gather(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -
     edge = known["burned"] + (grain.noise(120.0 * fine, 3.0 - round(math.log2(fine))) - 0.5) * 0.8
     woody = residence.ramp(15.0, _TIMBER, 0.0, 1.0)
     mixed = shot.fire.smoke.shares[[emissions.GRASS, emissions.SHRUB]].sum() > _SOME
+    edge = edge - _unburned_patches(grain, known["heat"], woody)
     if mixed:
         edge = edge - _unburned_islands(grain, speed, woody, shot.front_scale)
     return Place(
@@ -99,6 +106,8 @@ def gather(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -
         residence,
         woody,
         known["ash"],
+        known["heat"],
+        known["load"],
         shot.front_scale,
         mixed,
         known.beyond,
@@ -108,6 +117,12 @@ def gather(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -
         1.0 - known["mapped"],
         granite.filtered_noise(tree, position, 0.6, 5.0, pixel, 0.72),
     )
+
+
+def _unburned_patches(grain: Grain, heat: nodes.Value, woody: nodes.Value) -> nodes.Value:
+    """Return unburned fingers and islands of woods: above 0 where the intensity is low, most at the edges."""
+    weak = heat.ramp(*np.log(_PATCHY), 1.0, 0.0) * woody.smoothstep(0.5, 1.0)
+    return (grain.noise(260.0, 5.0, 0.64) + weak * 0.16).smoothstep(0.64, 0.71) * weak
 
 
 def _unburned_islands(grain: Grain, speed: nodes.Value, woody: nodes.Value, scale: float) -> nodes.Value:

@@ -10,6 +10,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+from firetwin_core import constants
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
@@ -63,6 +64,12 @@ class FrontFields:
     def residence(self) -> Array:
         """Residence time of flames (ny, nx), s."""
         return emissions.column("residence")[self.kind]
+
+    @cached_property
+    def intensity(self) -> Array:
+        """Fireline intensity of the surface fire (ny, nx), kW/m: H w R (Byram 1959); 0 if nothing burns."""
+        burned = np.where(self.ground.burned > 0.0, self.ground.fields.surface_fuel, 0.0)
+        return constants.HEAT_OF_COMBUSTION / 1000.0 * burned * self.speed
 
     @cached_property
     def ash(self) -> Array:

@@ -15,9 +15,11 @@ from ..terrain import noise
 _SUN = 11.1  # W/m2 above the atmosphere
 _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
 # W/m2 of a full moon, and of a moonless sky: brighter than real, as in films of nights; by eye
-_MOON, _STARS = 0.2, 0.08
+_MOON, _STARS = 1.0, 0.26
+_DISC, _SOFT = 0.53, 60.0  # degrees, width of sun and moon, and of the light of a moonless sky (by eye)
+_TWILIGHT = 18.0  # degrees below the horizon at which the sun's last light has gone (astronomical twilight)
 _MOON_COLOUR = (0.65, 0.78, 1.0)
-NIGHT_SKY = np.array([0.010, 0.014, 0.024]) * 0.05  # radiance
+NIGHT_SKY = np.array([0.010, 0.014, 0.024]) * 0.09  # radiance
 _DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.45, 0.75]) * 0.01
 _FULL_DAY = 1.8  # air masses; beyond, the sun and haze in its light are redder
 HAZE = 1.2e-5  # extinction at z = 0 on a dry September day, 1/m: clear mountain air
@@ -51,6 +53,8 @@ class State:
         Unit vector (east, north, up) towards the light.
     power, colour
         Irradiance (W/m2) and colour of the sun, or of the moon at night.
+    width
+        Angle over which the light's source spreads, degrees: light of a sky without sun and moon is soft.
     sky
         Solar elevation and bearing for the sky texture, radians.
     sky_mean
@@ -59,6 +63,12 @@ class State:
         Unweighted mean radiance of the clear sky.
     haze
         Radiance of haze (airlight).
+    night
+        Radiance of the dark sky at its mean, with the moon's light in it.
+    stars
+        0..1, visibility of the stars in twilight (by eye).
+    twilight
+        Radiance of the arch of twilight above the sun, where the sky texture has already ended.
     """
 
     def __init__(self, bearing: float, height: float, moon: sun.Moon = sun.NO_MOON) -> None:
@@ -71,9 +81,23 @@ class State:
         shining = sunlight if by_sun and day > 0.0 else moonlight
         self.power = float(shining.max())
         self.colour = shining / shining.max()
+        self.width = _DISC if by_sun or moon.light > 0.0 else _SOFT
         self.haze = tuple(_haze(height, moon.light))
-        self.around = np.array([np.interp(height, MEAN[0], each) for each in _AROUND]) + NIGHT_SKY
-        self.sky_mean = float(np.interp(height, *MEAN)) + NIGHT_SKY.mean()
+        self.night = NIGHT_SKY * (1.0 + moon.light * _MOON / _STARS)
+        self.around = np.array([np.interp(height, MEAN[0], each) for each in _AROUND]) + self.night
+        self.sky_mean = float(np.interp(height, *MEAN)) + self.night.mean()
+        self.stars = 1.0 - float(noise.smoothstep(-13.0, -5.0, height))
+        self.twilight = _twilight(height)
+
+
+def _twilight(height: float) -> float:
+    """Radiance of the arch of twilight under a sun at elevation `height` (degrees).
+
+    It halves with every 2.3 degrees to 18 degrees below the horizon, about as fast as films follow; daylight
+    falls ten times as fast (by eye). The sky texture shows twilight until 8 degrees.
+    """
+    fallen = max(height + _TWILIGHT, 0.0)
+    return float(NIGHT_SKY.mean() * np.expm1(0.3 * fallen) * (1.0 - noise.smoothstep(-8.0, -3.0, height)))
 
 
 def _haze(height: float, moonlight: float) -> NDArray[np.float64]:
