@@ -48,10 +48,10 @@ def run(bench: Bench) -> None:
 
 
 def _march(bench: Bench) -> None:
-    smoke, rays, light = _smoke(), _rays(), _light()
+    smoke, rays, lit = _smoke(), _rays(), light()
 
     def marched(length: float) -> NDArray[np.float32]:
-        return volume.march([smoke], *rays, light, step=length)
+        return volume.march([smoke], *rays, lit, step=length)
 
     exact = marched(STEPS[EXACT])
     errors = {
@@ -85,7 +85,8 @@ def _rays() -> tuple[NDArray, NDArray, NDArray]:
     return np.array([middle, -middle, middle]), toward, np.full((len(toward), 1), 1.0e9, np.float32)
 
 
-def _light() -> volume.Illumination:
+def light() -> volume.Illumination:
+    """Return the light of a summer afternoon."""
     return volume.Illumination(
         density=1.0,
         fresh=(0.44, 0.36, 0.29),

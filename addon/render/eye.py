@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from firetwin_core import volume
@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from ..blender import nodes
 from ..blender.owned import Stage
 from ..scene import infrared
-from ..scene.labels.material import COVER
 from ..scene.smoke import illumination
 from ..shot.shot import Shot
+from ..smoke import shutter
 from . import composite, rays
 from .surfaces import Channels
 
@@ -40,41 +40,24 @@ class Eye:
         self, shot: Shot, stage: Stage, channels: Channels, number: int, smoke: Sequence[volume.Bricks]
     ) -> None:
         self.shot, self.stage, self.channels, self.smoke = shot, stage, channels, smoke
-        self.number = number
         height, width = self.shape = next(iter(channels.values())).shape[:2]
         self._through = functools.partial(
             rays.pixel_rays, stage.evaluated(stage.scene.camera), stage.scene, height, width, number
         )
         self.rays = self._through()
 
-    def picture(self, text: Channels | None = None) -> Array:
-        """Compute the radiance (h, w, 3) of surfaces, smoke and `text`, which was rendered alone."""
+    def picture(self) -> Array:
+        """Compute the radiance (h, w, 3) of surfaces and smoke."""
         rendered = self._surfaces()
         at = composite.taps(rendered)
         marched = np.zeros((*at.shape, 4), np.float32)
         marched[..., 3] = not self.smoke
         if self.smoke:
             light, ends = illumination.visible_light(self.stage), at.reshape(-1, 3)
-            for place in _PLACES:
-                found = volume.march(self.smoke, *_lines(self._through(at=place)), ends, light, _STEP)
-                marched += found.reshape(marched.shape) / np.float32(len(_PLACES))
-        composed = composite.compose(rendered, at, marched)
-        return composed if text is None else self._place_text(composed, rendered, at, text)
-
-    def _place_text(self, picture: Array, rendered: composite.Surfaces, at: Array, text: Channels) -> Array:
-        """Place text over a picture, with the smoke in front of it."""
-        cover = np.clip(text[COVER][..., 0], 0.0, 1.0)
-        light, way, _ = np.moveaxis(text[nodes.FLAMES], -1, 0)
-        distance = self.rays.from_distance(np.where(light > 0.0, way / np.maximum(light, 1e-9), 0.0))
-        front = np.zeros((*cover.shape, 4), np.float32)
-        front[..., 3] = 1.0
-        written = np.nonzero((cover > 0.0) & (light > 0.0))
-        if self.smoke and len(written[0]):
-            origins = self.rays.origins if self.rays.origins.ndim == 1 else self.rays.origins[written]
-            lines, ends = self.rays.directions[written], distance[written][:, None]
-            seen = illumination.visible_light(self.stage)
-            front[written] = volume.march(self.smoke, origins, lines, ends, seen, _STEP).reshape(-1, 4)
-        return composite.place_text(picture, rendered, at, (text["Combined"], cover, distance), front)
+            for weight, smoke, place in _marches(shutter.moments(self.smoke)):
+                found = volume.march(smoke, *_lines(self._through(at=place)), ends, light, _STEP)
+                marched += np.float32(weight) * found.reshape(marched.shape)
+        return composite.compose(rendered, at, marched)
 
     def radiance(self, frame: int) -> Array:
         """Compute the infrared radiance (h, w) of surfaces, air and smoke, W m-2 sr-1."""
@@ -130,6 +113,15 @@ class Eye:
             fire_distance=self.rays.from_distance(far),
             rays=self.stage.scene.cycles.samples,
         )
+
+
+def _marches(
+    moments: Sequence[tuple[float, Sequence[volume.Bricks]]],
+) -> Iterator[tuple[float, Sequence[volume.Bricks], tuple[float, float]]]:
+    """Yield weight, smoke and position in the pixel of each march: several in a pixel, and of an exposure."""
+    for number, (weight, smoke) in enumerate(moments):
+        places = _PLACES if len(moments) == 1 else (_PLACES[number % len(_PLACES)],)
+        yield from ((weight / len(places), smoke, place) for place in places)
 
 
 def _lines(lines: rays.Rays) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

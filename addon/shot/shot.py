@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import functools
 from collections.abc import Callable, Collection
 from dataclasses import replace
@@ -118,8 +119,19 @@ class Shot:
         """Speed of the films, times real time; 0 for a still."""
         return self.frames.step * self.settings.time.fps
 
+    def with_sub_frames(self, parts: int) -> Shot:
+        """Return the shot with each frame interval divided into `parts`, for the flow of its smoke alone."""
+        if parts == 1:
+            return self
+        _ = self.scale, self.fire, self.bare_ground, self.paths  # computed once for both
+        finer, shown = copy.copy(self), self.frames
+        finer.frames = Frames(shown.first, shown.last, (shown.count - 1) * parts + 1)
+        time = replace(self.settings.time, frames=finer.frames.count)
+        finer.settings, finer.cached = replace(self.settings, time=time), {}
+        return finer
+
     def describe_film(self) -> str:
-        """Describe the film: ``5 frames at 12 frames per second show 5 s of the fire, 15 times real time``."""
+        """Describe a film: ``5 frames at 12 frames per second show 5 s of the fire, 15 times real time``."""
         shown, fps = self.frames, self.settings.time.fps
         if shown.count == 1:
             return "1 frame, a still"

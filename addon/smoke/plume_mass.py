@@ -55,9 +55,10 @@ def measure(shot: Shot) -> PlumeMass:
     looks = np.unique(
         np.linspace(1, frames.count, min(_MAX_SNAPSHOTS, frames.count)).round().astype(int)
     ).tolist()
+    source = sources.select(shot)
+    numbers = [source.snapshot(frame) for frame in looks]
     depths_of = [
-        [_depths(domain, frame) for frame in looks if domain.has(frame)]
-        for domain in sources.select(shot).domains
+        [_depths(domain, number) for number in numbers if domain.has(number)] for domain in source.domains
     ]  # domains, outermost first; a nest does not contain all of the plume
     if not depths_of or not depths_of[0]:
         return PlumeMass(made)
@@ -83,9 +84,9 @@ def describe(shot: Shot) -> str:
     )
 
 
-def _depths(domain: Domain, frame: int) -> tuple[float, float, float]:
+def _depths(domain: Domain, number: int) -> tuple[float, float, float]:
     """Compute optical depths of a snapshot: maximum of a column, over `_AVERAGING`, and the plume's mean."""
-    depth = columns(domain, *snapshots.load_smoke(domain.snapshot_path(frame)))
+    depth = columns(domain, *snapshots.load_smoke(domain.snapshot_path(number)))
     side = max(1, round(_AVERAGING / domain.box.spacing))
     padded = np.pad(depth, [(0, -count % side) for count in depth.shape])
     blocks = padded.reshape(padded.shape[0] // side, side, padded.shape[1] // side, side)

@@ -44,6 +44,13 @@ class Time:
         affects=(),
     )
     fps: int = key(24, "frames per second of the films", at_least=1, at_most=240, affects=("film",))
+    shutter: float | None = key(
+        None,
+        "exposure of smoke, frame intervals; 0: none, default: 2 in films of over 30 times real time",
+        at_least=0,
+        at_most=4,
+        affects=("grain",),
+    )
     zone: str = key(
         "", "time zone of the clock in the films; empty: the run's zone", check=_zone, affects=("film",)
     )

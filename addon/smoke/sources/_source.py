@@ -159,6 +159,10 @@ class Source(ABC):
         """Return the bricks of a frame for ray marching; empty if the source is not `marched`."""
         return []
 
+    def snapshot(self, frame: int) -> int:
+        """Return the number of a frame's snapshot in the source's `domains`."""
+        return frame
+
     def painted_voxels(self) -> int:
         """Return the number of voxels of the largest box that `bricks` paints."""
         return 0

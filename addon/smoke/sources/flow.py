@@ -18,13 +18,14 @@ from ...errors import writing
 from ...progress import Progress, silent
 from ...shot.light import exposure
 from ...shot.shot import Shot
-from .. import cache, close_up, cost_estimate, flow_frames, snapshots, view
+from .. import cache, close_up, cost_estimate, flow_frames, shutter, snapshots, view
 from ..domains import Domain
 from ..flow import Flow
 from ._source import Lights, Source, VolumeLayer
 
 Made = TypeVar("Made")
 _EMPTY = 100.0  # m, voxel of the volume without fire
+_COARSER = 2.0  # voxel size of sub-frames relative to that of frames
 
 
 class FlowSource(Source):
@@ -37,7 +38,9 @@ class FlowSource(Source):
 
     def __init__(self, shot: Shot) -> None:
         super().__init__(shot)
-        self.flow = Flow(shot, lambda *done: self.progress(*done))
+        self.exposure = shutter.exposure(shot) if self.marched and _is_marched(shot) else 0.0
+        self.parts = shutter.parts(self.exposure)
+        self.flow = Flow(shot.with_sub_frames(self.parts), lambda *done: self.progress(*done))
         self.flow.elsewhere, self.flow.stop = lambda: self.elsewhere(), self.stop
         self._cached_close_up: flow_frames.Painter | None = None
 
@@ -60,7 +63,7 @@ class FlowSource(Source):
 
     def is_prepared(self, frame: int) -> bool:
         """Return whether the frame's snapshots exist."""
-        return self.flow.has(frame)
+        return all(self.flow.has(number) for _, number in self._sub_frames(frame))
 
     def solutions(self) -> frozenset[str]:
         """Return the folders of its snapshots."""
@@ -69,7 +72,8 @@ class FlowSource(Source):
     def prepare(self, frames: Iterable[int], progress: Progress = silent) -> None:
         """Solve the flow up to the last of these frames."""
         super().prepare(frames, progress)
-        self.flow.solve(frames, progress)
+        numbers = {number for frame in frames for _, number in self._sub_frames(frame)}
+        self.flow.solve(numbers, progress)
 
     def in_use(self) -> AbstractContextManager[None]:
         """Protect the snapshots from eviction while in use."""
@@ -96,7 +100,7 @@ class FlowSource(Source):
 
     def write(self, path: Path, frame: int) -> volume.VdbSummary:
         """Write the volumes of a solved frame; `path` is written last."""
-        self.flow.ready(frame)
+        self.flow.ready(self.snapshot(frame))
         time = float(self.times[frame - 1])
         metadata = self.metadata(time, "a flow of the air, solved from the model's heat")
         eyes = self.visibility.eyes(frame) if self.visibility else None
@@ -104,10 +108,18 @@ class FlowSource(Source):
         for painter in self.painters:
             place = painter.layer.file(path.parent, frame)
             mine = files.temporary_path(place)
-            inputs = mine, frame, self._glow(time), self.view_set(frame), metadata, eyes, beyond
+            inputs = (
+                mine,
+                self.snapshot(frame),
+                self._glow(time),
+                self.view_set(frame),
+                metadata,
+                eyes,
+                beyond,
+            )
             paint = functools.partial(painter.write, *inputs)
             with writing(place):
-                written, beyond = self._with_intact_snapshots(frame, paint)
+                written, beyond = self._with_intact_snapshots(self.snapshot(frame), paint)
             cache.publish(mine, place, written.bytes)
         if not self.painters:
             mine = files.temporary_path(path)
@@ -118,19 +130,43 @@ class FlowSource(Source):
         return written
 
     def bricks(self, frame: int) -> list[volume.Bricks]:
-        """Return the bricks of a frame for ray marching, without a file."""
-        self.flow.ready(frame)
-        inputs = (frame, self._glow(float(self.times[frame - 1])), self.view_set(frame))
+        """Return the bricks of a frame for ray marching, without a file; with those of its exposure, if any.
+
+        Voxels of sub-frames are wider: their average shows no detail that is finer.
+        """
+        own, middle = self._bricks(frame, self.snapshot(frame), list(self.painters)), self.snapshot(frame)
+        moments = self._sub_frames(frame)
+        if len(moments) == 1:
+            return own
+        exposed = [
+            (weight, own if number == middle else self._bricks(frame, number, self._coarse_painters))
+            for weight, number in moments
+        ]
+        return shutter.ExposedSmoke(own, exposed)
+
+    def snapshot(self, frame: int) -> int:
+        """Return the number of a frame's snapshot."""
+        return (frame - 1) * self.parts + 1
+
+    def _sub_frames(self, frame: int) -> list[tuple[float, int]]:
+        """List weights and snapshots of a frame's exposure."""
+        return shutter.sub_frames(frame, self.exposure, self.shot.frames.count)
+
+    def _bricks(self, frame: int, number: int, painters: list[flow_frames.Painter]) -> list[volume.Bricks]:
+        """Return the bricks of a snapshot, culled for a frame."""
+        self.flow.ready(number)
+        time = float(self.flow.shot.frames.times[number - 1])
+        inputs = (number, self._glow(time), self.view_set(frame))
         result: list[volume.Bricks] = []
         beyond: flow_frames.OuterLayer | None = None
-        painters = list(self.painters)
-        window = close_up.window(self.shot, frame, painters[-1].layer.voxel) if painters else None
+        close = painters and painters[-1].layer.voxel == self._layers[-1].voxel
+        window = close_up.window(self.shot, frame, painters[-1].layer.voxel) if close else None
         if window is not None and painters[-1].layer.fine:
             painters.append(self._close_up_painter(painters[-1].layer, window))
         for painter in painters:
             fine = window if painter.layer.fine else None
             paint = functools.partial(painter.bricks, *inputs, beyond, fine)
-            made, beyond = self._with_intact_snapshots(frame, paint)
+            made, beyond = self._with_intact_snapshots(number, paint)
             result.append(made)
         return result
 
@@ -141,28 +177,41 @@ class FlowSource(Source):
     @functools.cached_property
     def painters(self) -> list[flow_frames.Painter]:
         """Return a painter for each layer."""
-        layers = self._layers
+        return self._painters(self._layers)
+
+    @functools.cached_property
+    def _coarse_painters(self) -> list[flow_frames.Painter]:
+        """Return the painters of sub-frames."""
+        return self._painters([replace(layer, voxel=_COARSER * layer.voxel) for layer in self._layers])
+
+    def _painters(self, layers: list[flow_frames.Layer]) -> list[flow_frames.Painter]:
         inner = layers[-1].domain.box if len(layers) > 1 else None
-        return [flow_frames.Painter(self.shot, layer, None if layer.fine else inner) for layer in layers]
+        shot = self.flow.shot
+        return [flow_frames.Painter(shot, layer, None if layer.fine else inner) for layer in layers]
 
     def _close_up_painter(self, layer: flow_frames.Layer, window: close_up.Window) -> flow_frames.Painter:
         """Return the painter of a layer's part within a close-up window."""
         if self._cached_close_up is None:
             close = replace(layer, voxel=window.voxel, close=True)
-            self._cached_close_up = flow_frames.Painter(self.shot, close, None)
+            self._cached_close_up = flow_frames.Painter(self.flow.shot, close, None)
         return self._cached_close_up
 
     def _glow(self, time: float) -> Lights | None:
         """Return the lights of flames in smoke; None at a model time (s) of daylight that outshines them."""
         return self.lights(time) if exposure.darkness(self.shot, time) > 0.0 else None
 
-    def _with_intact_snapshots(self, frame: int, paint: Callable[[], Made]) -> Made:
-        """Return the result of `paint` on a frame's snapshots. Broken snapshots are solved again."""
+    def _with_intact_snapshots(self, number: int, paint: Callable[[], Made]) -> Made:
+        """Return the result of `paint` on a snapshot. A broken one is solved again."""
         try:
             return paint()
         except snapshots.BrokenError:
-            self.flow.renew(frame)
+            self.flow.renew(number)
             return paint()
+
+
+def _is_marched(shot: Shot) -> bool:
+    """Return whether pictures are drawn by a ray march, which can average sub-frames."""
+    return shot.settings.smoke.draw == "integrated" and shot.settings.render.engine == "cycles"
 
 
 def _voxels(layer: flow_frames.Layer) -> int:

@@ -100,9 +100,11 @@ def _opened(words: Page) -> Iterator[object]:
     path = str(Path(settings().run) / "run.toml")
     yield from timed("Open run, once it is there", lambda: call(again, filepath=path))
     page_picture("2-run")
-    words.next("Time", "Start", "2014-09-17 16:00-07:00", "End", "2014-09-17 16:20-07:00", "Frames", "24")
+    words.next(
+        "Time", "Start", "2014-09-17 16:11:15-07:00", "End", "2014-09-17 16:11:45-07:00", "Frames", "24"
+    )
     settings().time.frames = 24
-    settings().time.start, settings().time.end = "2014-09-17 16:00-07:00", "2014-09-17 16:20-07:00"
+    settings().time.start, settings().time.end = "2014-09-17 16:11:15-07:00", "2014-09-17 16:11:45-07:00"
     yield 1
 
 
