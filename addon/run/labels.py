@@ -23,11 +23,12 @@ _LONGEST = 60  # characters of a name
 
 
 class Label(NamedTuple):
-    """A place: its name, and degrees north and east."""
+    """A place: its name, degrees north and east, and its kind, if known."""
 
     name: str
     latitude: float
     longitude: float
+    kind: str = ""
 
 
 def known(run: Run) -> list[Label]:
@@ -36,7 +37,7 @@ def known(run: Run) -> list[Label]:
         return []
     places = history.load(run.event).places
     return [
-        Label(place.name, place.latitude, place.longitude)
+        Label(place.name, place.latitude, place.longitude, place.kind)
         for place in places
         if place.kind in _SHOWN and not place.approximate
     ]

@@ -2,13 +2,14 @@
 
 import json
 from dataclasses import replace
+from datetime import UTC, datetime
 
 import bpy
 import numpy as np
 import pytest
-from firetwin.run.buildings import ASSUMED, placement
+from firetwin.run.buildings import ASSUMED, Building, Footprint, placement
 from firetwin.scene import build
-from firetwin.scene.terrain import buildings
+from firetwin.scene.terrain import buildings, windows
 from firetwin.shot.shot import Shot
 from firetwin.shot.surface import footprints
 
@@ -137,3 +138,45 @@ def test_the_material_is_charred_with_the_images_of_the_ground(shot, stage):
 
     assert {"Firetwin Ground Fire", "Firetwin Ground Front"} <= images(charred)
     assert "Firetwin Ground Fire" not in images(plain)
+
+
+def at(settings, hour):
+    """Settings of a still at an hour of 18 September 2014 (UTC)."""
+    moment = datetime(2014, 9, 18, hour, tzinfo=UTC)
+    return replace(settings, time=replace(settings.time, start=moment, end=None, frames=1))
+
+
+def test_windows_are_lit_by_night_alone_and_where_the_building_has_walls(near_settings, run):
+    day, night = (Shot(at(near_settings, hour), run) for hour in (21, 5))
+    assert not windows.shines(day)
+    assert windows.shines(night)
+    assert windows.share(night) == pytest.approx(0.45)
+    assert windows.share(Shot(at(near_settings, 10), run)) < 0.15  # 2 a.m.
+    outline = np.array([(0.0, 0.0), (40.0, 0.0), (40.0, 20.0), (0.0, 20.0)])
+    house = Building(Footprint(outline, (), 9.6), -2.0, 9.6, (20.0, 10.0))
+    lit = [windows.lit_windows(house, number, 0.4, 1) for number in range(200)]
+    some = [len(faces) for faces, _ in lit]
+    assert 0.2 < np.mean(np.array(some) == 0) < 0.4  # some houses are dark
+    assert np.mean(some) == pytest.approx(0.4 * 3 * (12 + 5 + 12 + 5), rel=0.15)  # three storeys
+    faces, colours = next(each for each in lit if len(each[0]))
+    normal = np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0])
+    outward = faces.mean(axis=1)[:, :2] - (20.0, 10.0)
+    assert (np.einsum("ij,ij->i", normal[:, :2], outward) > 0.0).all()
+    assert faces[..., 2].min() > 0.0
+    assert faces[..., 2].max() < 9.6
+    assert (colours[:, 0] > colours[:, 2]).any()
+    assert (colours[:, 0] < colours[:, 2]).any()
+
+
+def test_lit_windows_are_faces_of_their_building(near_settings, run, scene, tmp_path, plain_looks):
+    path = write(
+        tmp_path / "footprints.geojson", *([[ring(0, 60 * k, 20, 40)], {"height": 12}] for k in range(9))
+    )
+    for hour, lit in ((5, True), (21, False)):
+        settings = at(near_settings, hour)
+        shot = Shot(replace(settings, terrain=replace(settings.terrain, buildings=path)), run)
+        for _ in build.steps(shot, scene, ("terrain",), lambda _: None):
+            pass
+        data = bpy.data.objects["Firetwin Roofs"].data
+        assert ("lit" in data.attributes) == lit
+    assert set(values(data, "number", 1, len(data.polygons), "value")[:, 0]) == set(range(1, 10))

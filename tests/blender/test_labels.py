@@ -1,10 +1,12 @@
 """Labels face the camera, are as large in every picture, fade, and are in the visible picture alone."""
 
 from dataclasses import replace
+from datetime import UTC, datetime
 
 import bpy
 import numpy as np
 import pytest
+from firetwin.run import labels as run_labels
 from firetwin.scene import build
 from firetwin.shot.sections import LabelSettings
 from firetwin.shot.shot import Shot
@@ -55,3 +57,23 @@ def test_labels_beyond_their_distance_are_gone(labelled, run, scene):
 def test_off_by_default(settings, run, scene):
     build.build(Shot(settings, run), scene, ("cameras", "labels"))
     assert "Firetwin Labels" not in {thing.name for thing in bpy.data.objects}
+
+
+@pytest.mark.parametrize(("hour", "lit"), [(5, True), (21, False)])
+def test_labelled_towns_have_lights_by_night(settings, run, scene, monkeypatch, hour, lit):
+    places = [
+        run_labels.Label("Near", 38.840, -120.555, "town"),
+        run_labels.Label("Top", 38.842, -120.55, "summit"),
+    ]
+    monkeypatch.setattr(run_labels, "known", lambda _: places)
+    time = replace(settings.time, start=datetime(2014, 9, 18, hour, tzinfo=UTC), end=None, frames=1)
+    shot = Shot(replace(settings, time=time, labels=LabelSettings(enabled=True)), run)
+    build.build(shot, scene, ("cameras", "labels"))
+    made = bpy.data.objects.get("Firetwin Town Lights")
+    assert (made is not None) == lit
+    if made is not None:
+        corners = np.array([vertex.co[:2] for vertex in made.data.vertices])
+        assert corners.mean(axis=0) == pytest.approx(
+            shot.ground.point([38.840], [-120.555])[0, :2], abs=150.0
+        )
+        assert not made.visible_shadow

@@ -7,12 +7,13 @@ instance on a point of the ground, so objects in front of the place occlude it.
 from __future__ import annotations
 
 import bpy
+import numpy as np
 
 from ...blender import owned
 from ...blender.owned import Stage
 from ...shot.shot import Shot
 from ...shot.stations import labels
-from . import facing, lettering, material
+from . import facing, lettering, material, town_lights
 from .lettering import RIM, Part
 
 # height of letters above the ground, and distance of rows, in letter heights
@@ -25,6 +26,8 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
     places = labels.find(shot)
     if not places.names:
         return None
+    towns = [place for place, kind in zip(places.position, places.kinds, strict=True) if kind == "town"]
+    town_lights.build(shot, collection, np.reshape(towns, (-1, 3)))
     looks = [material.build(shot, name, colour) for name, colour in material.COLOURS.items()]
     library = owned.library("Place Names")
     rows = facing.tiers(shot, places.position)

@@ -14,10 +14,11 @@ from ...run import areas
 from ...run.buildings import Footprint, place_on_ground
 from ...shot.shot import Shot
 from ...shot.stations.station_signs import Sign
-from ..terrain import buildings
+from ..terrain import buildings, windows
 from ..terrain.buildings import Blocks
 
 _LONG, _WIDE, _HIGH = 24.0, 15.0, 6.0  # m, a plain hall for three engines (assumed); height of all walls
+_ON_DUTY = 0.6  # share of a station's windows that are lit at any hour of the night (assumed)
 _GATE, _GATE_HIGH, _OUT = 4.3, 4.3, 0.06  # m, width and height of a gate, and its offset from the wall
 _WALL, _ROOF, _DOOR = (0.17, 0.13, 0.10), (0.105, 0.105, 0.110), (0.14, 0.014, 0.010)  # by eye
 
@@ -30,11 +31,13 @@ def build(
     """Build "Firetwin Halls" at the stations; None without stations."""
     rings = [hall(shot, each) if each.footprint is None else _metres(shot, each.footprint) for each in shown]
     outlines = [Footprint(ring, (), _HIGH) for ring in rings]
-    made = Blocks()
+    made, night = Blocks(), windows.shines(shot)
     for sign, block in zip(
         shown, place_on_ground(outlines, lambda place: shot.ground.up(*place.T)), strict=True
     ):
         made.add(block, _ROOF, _WALL)
+        if night:
+            made.light(block, shot, _ON_DUTY)
         if sign.footprint is None:
             _gates(made, block.footprint.outer, block.roof - _HIGH)
     if not made.corners:

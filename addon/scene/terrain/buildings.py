@@ -21,7 +21,7 @@ from ...shot.shot import Shot
 from ...shot.surface import footprints
 from ...shot.terrain import noise
 from .. import haze, infrared, temperature
-from . import burn_scar, fields, shading_inputs
+from . import burn_scar, fields, shading_inputs, windows
 
 WALL = (0.24, 0.22, 0.19)  # linear reflectances; by eye
 _ROOFS = ((0.125, 0.048, 0.030), (0.150, 0.068, 0.043), (0.075, 0.072, 0.070), (0.110, 0.100, 0.088))
@@ -41,6 +41,7 @@ class Blocks:
     corners: list[Array] = field(default_factory=list)
     colours: list[Array] = field(default_factory=list)
     numbers: list[NDArray[np.int64]] = field(default_factory=list)
+    lit: list[Array] = field(default_factory=list)  # (t, 3) colours of lit windows, black elsewhere
 
     def add(self, building: Building, roof: Colour, wall: Colour = WALL, number: int = 0) -> None:
         """Append a building with its outline in the scene, m."""
@@ -48,23 +49,39 @@ class Blocks:
         self.corners.append(corners)
         self.colours.append(np.where(is_roof[:, None], roof, wall))
         self.numbers.append(np.full(len(corners), number))
+        self.lit.append(np.zeros((len(corners), 3)))
+
+    def light(self, building: Building, shot: Shot, share: float, number: int = 0) -> None:
+        """Append the lit windows of a building, if a `share` of all windows is lit."""
+        corners, colour = windows.lit_windows(building, number, share, shot.settings.seed)
+        if len(corners):
+            self.corners.append(corners[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3, 3))
+            self.colours.append(np.tile(WALL, (2 * len(corners), 1)))
+            self.numbers.append(np.full(2 * len(corners), number))
+            self.lit.append(np.repeat(colour, 2, axis=0))
 
     def face(self, corners: Array, colour: Colour, number: int = 0) -> None:
         """Append a face (4, 3), anticlockwise as seen from outside."""
         self.corners.append(corners[[[0, 1, 2], [0, 2, 3]]])
         self.colours.append(np.tile(colour, (2, 1)))
         self.numbers.append(np.full(2, number))
+        self.lit.append(np.zeros((2, 3)))
 
     def mesh(self, name: str, shot: Shot, look: bpy.types.Material) -> bpy.types.Mesh:
         """Return all faces as a single mesh.
 
-        Its attributes: `shade`, the colours, and `number`, on faces; `elevation` and `grid` on points, as on
-        the ground.
+        Its attributes: on faces `shade`, the colours, `number`, and `lit`, the light of windows, if any is
+        lit; on points `elevation` and `grid`, as on the ground.
         """
         corners = np.concatenate(self.corners).reshape(-1, 3)
         data = create_mesh(name, corners, np.arange(len(corners)).reshape(-1, 3), flat=True)
         shade = np.pad(np.concatenate(self.colours), [(0, 0), (0, 1)], constant_values=1.0)
         add_attribute(data, "shade", "FLOAT_COLOR", shade, "FACE")
+        lit = np.concatenate(self.lit)
+        if lit.any():
+            add_attribute(
+                data, windows.LIT, "FLOAT_COLOR", np.pad(lit, [(0, 0), (0, 1)], constant_values=1.0), "FACE"
+            )
         add_attribute(data, "number", "FLOAT", np.concatenate(self.numbers), "FACE")
         latitude, longitude, height = shot.ground.frame.reverse(corners)
         row, column = shot.ground.indices(latitude, longitude)
@@ -84,11 +101,14 @@ def triangulate(outline: Rings) -> Array:
 
 def build(shot: Shot, stage: Stage, images: Mapping[str, bpy.types.Image]) -> bpy.types.Object | None:
     """Build "Firetwin Roofs" from the images of the ground's fields; None without footprints."""
-    made = Blocks()
+    made, night = Blocks(), windows.shines(shot)
+    share = windows.share(shot) if night else 0.0
     for building in footprints.place_buildings(shot):
         number = building.footprint.number
         lot = float(noise.uniform([number], 20, shot.settings.seed)[0])
         made.add(building, _ROOFS[int(lot * len(_ROOFS))], number=number + 1)
+        if night:
+            made.light(building, shot, share, number + 1)
     if not made.corners:
         return None
     data = made.mesh("Firetwin Roofs", shot, material(shot, stage, "Firetwin Roofs", images))
@@ -117,6 +137,13 @@ def material(
             colour = tree.mix_colour(charred, colour, burn_scar.scar_colour(tree, here))
             kelvin = temperature.burned_temperature(tree, kelvin, here.age, charred, here.residence)
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
+    if windows.shines(shot):
+        with tree.frame("Windows"):
+            bright = windows.strength(tree, shot)
+            if images:  # burned houses are dark
+                bright = bright * (1.0 - here.burned)
+            matt = tree.add_shader(matt, tree.emission(tree.attribute(windows.LIT, output="Color"), bright))
+        look.cycles.emission_sampling = "NONE"
     warmth = infrared.radiance_at_camera(
         tree, shot, stage, infrared.surface_radiance(tree, shot, stage, kelvin, emissivity)
     )
