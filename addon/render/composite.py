@@ -19,6 +19,9 @@ Array = NDArray[np.float32]
 
 _EDGE = 0.02  # smallest difference of transmittance across a silhouette
 _REACH, _SAME_DEPTH = 2, 0.1  # pixels round an edge; relative depth tolerance of one surface
+_TOUCHES = (
+    2.0e-3  # relative depth by which text may be behind a surface, such as the ground that it stands on
+)
 _SURE = 15.0  # rays at which a pixel's coverage has the same weight as its neighbours'; estimated
 
 
@@ -33,7 +36,7 @@ class Surfaces:
     noisy
         (h, w, 3) radiance before denoising.
     fire
-        (h, w, 3) share of `noisy` from flames, firebrands and labels.
+        (h, w, 3) share of `noisy` from flames and firebrands.
     distance
         (h, w) m along the ray through the pixel's centre; over `SKY` where the ray meets no surface.
     nearness
@@ -89,6 +92,31 @@ def compose(surfaces: Surfaces, distances: Array, marched: Array) -> Array:
     behind = np.where(edge[..., None], split, behind)
     light = share * smoke[:, :, 0] + (1.0 - share) * smoke[:, :, 1]
     return (np.maximum(behind + fire * flames, 0.0) + light).astype(np.float32)
+
+
+def place_text(
+    picture: Array, surfaces: Surfaces, distances: Array, text: tuple[Array, Array, Array], front: Array
+) -> Array:
+    """Place text over a picture (h, w, 3), behind the surfaces that are nearer.
+
+    Parameters
+    ----------
+    distances
+        (h, w, 3) m, as `taps` returns them.
+    text
+        Radiance (h, w, 3) times coverage, coverage (h, w), 0 to 1, and distance (h, w), m. None is denoised.
+    front
+        (h, w, 4) radiance of the smoke in front of the text, and its transmittance.
+    """
+    light, cover, distance = text
+    share = _coverage(surfaces, distances)
+    near, far = (distance <= distances[..., k] * (1.0 + _TOUCHES) for k in (0, 1))
+    seen = (share * near + (1.0 - share) * far)[..., None]
+    over = light * front[..., 3:] + cover[..., None] * front[..., :3]
+    written = cover[..., None] > 0.0
+    return np.where(written, picture * (1.0 - cover[..., None] * seen) + over * seen, picture).astype(
+        np.float32
+    )
 
 
 def infrared_radiance(surface: Array, flames: Array, warmth: Array, sky: float) -> Array:

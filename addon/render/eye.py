@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..blender import nodes
 from ..blender.owned import Stage
 from ..scene import infrared
+from ..scene.labels.material import COVER
 from ..scene.smoke import illumination
 from ..shot.shot import Shot
 from ..smoke import shutter
@@ -40,14 +41,15 @@ class Eye:
         self, shot: Shot, stage: Stage, channels: Channels, number: int, smoke: Sequence[volume.Bricks]
     ) -> None:
         self.shot, self.stage, self.channels, self.smoke = shot, stage, channels, smoke
+        self.number = number
         height, width = self.shape = next(iter(channels.values())).shape[:2]
         self._through = functools.partial(
             rays.pixel_rays, stage.evaluated(stage.scene.camera), stage.scene, height, width, number
         )
         self.rays = self._through()
 
-    def picture(self) -> Array:
-        """Compute the radiance (h, w, 3) of surfaces and smoke."""
+    def picture(self, text: Channels | None = None) -> Array:
+        """Compute the radiance (h, w, 3) of surfaces, smoke and `text`, which was rendered alone."""
         rendered = self._surfaces()
         at = composite.taps(rendered)
         marched = np.zeros((*at.shape, 4), np.float32)
@@ -57,7 +59,23 @@ class Eye:
             for weight, smoke, place in _marches(shutter.moments(self.smoke)):
                 found = volume.march(smoke, *_lines(self._through(at=place)), ends, light, _STEP)
                 marched += np.float32(weight) * found.reshape(marched.shape)
-        return composite.compose(rendered, at, marched)
+        composed = composite.compose(rendered, at, marched)
+        return composed if text is None else self._place_text(composed, rendered, at, text)
+
+    def _place_text(self, picture: Array, rendered: composite.Surfaces, at: Array, text: Channels) -> Array:
+        """Place text over a picture, with the smoke in front of it."""
+        cover = np.clip(text[COVER][..., 0], 0.0, 1.0)
+        light, way, _ = np.moveaxis(text[nodes.FLAMES], -1, 0)
+        distance = self.rays.from_distance(np.where(light > 0.0, way / np.maximum(light, 1e-9), 0.0))
+        front = np.zeros((*cover.shape, 4), np.float32)
+        front[..., 3] = 1.0
+        written = np.nonzero((cover > 0.0) & (light > 0.0))
+        if self.smoke and len(written[0]):
+            origins = self.rays.origins if self.rays.origins.ndim == 1 else self.rays.origins[written]
+            lines, ends = self.rays.directions[written], distance[written][:, None]
+            seen = illumination.visible_light(self.stage)
+            front[written] = volume.march(self.smoke, origins, lines, ends, seen, _STEP).reshape(-1, 4)
+        return composite.place_text(picture, rendered, at, (text["Combined"], cover, distance), front)
 
     def radiance(self, frame: int) -> Array:
         """Compute the infrared radiance (h, w) of surfaces, air and smoke, W m-2 sr-1."""

@@ -21,7 +21,7 @@ from ..scene.smoke import shadow
 from ..shot import passes
 from ..shot.shot import Shot
 from ..smoke import sources
-from . import frame_cost, layers, surfaces
+from . import frame_cost, layers, surfaces, text_layer
 from .eye import Eye
 from .picture import Picture
 
@@ -48,6 +48,7 @@ class IntegratedRenderer:
         for volume_object in stage.objects_of("Smoke"):
             volume_object.hide_render = True
         layers.exclude(self.scene, shadow.NAME.lower(), but="rgb")
+        self.has_text = text_layer.build(stage)
 
     def frame_renderer(self, smoke: Sequence[volume.Bricks], part: Path) -> Callable[[list[Picture]], None]:
         """Return a function that renders a frame's pictures with its smoke into a folder, before `finish`."""
@@ -69,10 +70,12 @@ class IntegratedRenderer:
         first = next(iter(pictures))
         with self.cost.part(frame_cost.SURFACES):
             rendered = surfaces.render(self.scene, [first], part)
+            wanted = self.has_text and "rgb" in pictures
+            text = text_layer.render(self.scene, part) if wanted else {}
         eyes = [Eye(self.shot, self.stage, found[first], number, smoke) for number, found in rendered]
         if "rgb" in pictures:
             with self.cost.part(frame_cost.MARCH):
-                light = [eye.picture() for eye in eyes]
+                light = [eye.picture(text.get(eye.number)) for eye in eyes]
             self._write_visible(light, pictures["rgb"], part)
             self._check_view(eyes[0], pictures["rgb"].frame)
         if "thermal" in pictures:

@@ -38,16 +38,19 @@ def render(
     For each eye: its number (-1 left, 1 right, or 0 for mono), and its channels by pass.
     """
     layers.select(scene, names)
+    with engine.pixel_centres(scene, centres), layers.black_materials(scene, names), light_only(names):
+        return render_selected(scene, names, folder)
+
+
+def render_selected(
+    scene: bpy.types.Scene, names: Collection[str], folder: Path
+) -> list[tuple[int, dict[str, Channels]]]:
+    """Render the view layers in use, which have these names; see `render`."""
     file, cycles = folder / "surfaces.exr", scene.cycles
     chance = cycles.min_transparent_bounces
     cycles.min_transparent_bounces = engine.TRANSPARENT  # AOVs are not corrected for Russian roulette
     try:
-        with (
-            compat.raw_file(scene, file),
-            engine.pixel_centres(scene, centres),
-            layers.black_materials(scene, names),
-            light_only(names),
-        ):
+        with compat.raw_file(scene, file):
             bpy.ops.render.render(write_still=True, scene=scene.name)
         memory.release_freed()
     finally:

@@ -4,6 +4,9 @@ Radiance from distance d is mixed with the airlight by 1 - exp(-tau) (Koschmiede
 ray). Extinction falls with height as exp(-z / H), so a ray from z0 to z1 has the optical depth tau = k d
 exp(-z0 / H) (1 - exp(-u)) / u with u = (z1 - z0) / H. Haze affects camera rays only and does not scatter
 light onto other surfaces.
+
+Near the ground haze is grey. A camera above the atmosphere also sees the molecules' blue: the difference of
+the Rayleigh optical depths of green and blue from red (`space_sky`) is added, in proportion to the same path.
 """
 
 from __future__ import annotations
@@ -14,8 +17,9 @@ import bpy
 
 from ..blender import nodes, owned
 from ..blender.owned import Stage
+from ..ellipsoid import MEAN_RADIUS
 from ..shot.light import sky
-from . import curved_air
+from . import curved_air, space_sky
 
 _GROUP = "haze"
 _WHITE = (1.0, 1.0, 1.0, 1.0)
@@ -32,6 +36,7 @@ def _group(stage: Stage) -> bpy.types.NodeTree:
     stage.root[_GROUP] = group
     group.interface.new_socket("Fraction", in_out="OUTPUT", socket_type="NodeSocketFloat")
     group.interface.new_socket("Colour", in_out="OUTPUT", socket_type="NodeSocketColor")
+    group.interface.new_socket("Airlight", in_out="OUTPUT", socket_type="NodeSocketColor")
     tree = nodes.Tree(group)
     extinction = tree.node("ShaderNodeValue")
     extinction.name = "Extinction"
@@ -40,11 +45,38 @@ def _group(stage: Stage) -> bpy.types.NodeTree:
     colour.name = "Colour"
     density = tree.input("Density", 1.0, "Factor on the haze of the scene; 0: none", "Haze")
     tint = tree.input("Tint", _WHITE, "Factor on the colour of the scene's haze", "Haze")
-    depth = weighted_path_length(tree, stage, sky.HAZE_HEIGHT) * (extinction * density)
+    path = weighted_path_length(tree, stage, sky.HAZE_HEIGHT)
+    depth = path * (extinction * density)
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     fraction = (1.0 - (-depth).exp()) * camera
-    tree.finish({"Fraction": fraction, "Colour": tree.vector("MULTIPLY", colour, tint)})
+    light = tree.vector("MULTIPLY", colour, tint)
+    shown = light
+    if (earth := curved_air.earth(stage)) is not None:
+        shares = _rayleigh_shares(tree, earth, depth, path * density)
+        fraction = shares[1] * camera
+        ratios = [tree.math("DIVIDE", each, tree.math("MAXIMUM", shares[1], 1e-6)) for each in shares]
+        shown = tree.vector("MULTIPLY", light, tree.combine(*ratios))
+    tree.finish({"Fraction": fraction, "Colour": shown, "Airlight": colour})
     return group
+
+
+def _rayleigh_shares(
+    tree: nodes.Tree, earth: curved_air.Earth, depth: nodes.Value, path: nodes.Value
+) -> list[nodes.Value]:
+    """Return the fractions of airlight in red, green and blue; all equal for a camera near the ground.
+
+    Parameters
+    ----------
+    depth
+        Optical depth of grey haze.
+    path
+        Path length (m) weighted by the density of haze.
+    """
+    away = tree.vector("LENGTH", earth.scaled(tree, curved_air.camera_position(tree)), name="Value")
+    high = ((away - 1.0) * MEAN_RADIUS).smoothstep(space_sky.LOW, space_sky.HIGH)
+    zeniths = path * high * (1.0 / sky.HAZE_HEIGHT)
+    red = space_sky.DEPTH[0]
+    return [1.0 - (zeniths * (red - each) - depth).exp() for each in space_sky.DEPTH]
 
 
 def weighted_path_length(tree: nodes.Tree, stage: Stage, height: float) -> nodes.Value:
@@ -93,7 +125,7 @@ def fraction(tree: nodes.Tree, stage: Stage) -> tuple[nodes.Value, nodes.Value]:
 
 def airlight(tree: nodes.Tree, stage: Stage) -> nodes.Value:
     """Return the radiance of the airlight."""
-    return tree.pick(tree.node("ShaderNodeGroup", node_tree=_group(stage)), "Colour")
+    return tree.pick(tree.node("ShaderNodeGroup", node_tree=_group(stage)), "Airlight")
 
 
 def before_sky(tree: nodes.Tree, stage: Stage, light: nodes.Value, up: nodes.Value) -> nodes.Value:

@@ -27,12 +27,14 @@ from . import curved_air
 from .curved_air import Earth
 
 _HEIGHT = 8000.0  # m, scale height of air
-_DEPTH = (0.043, 0.097, 0.242)
+DEPTH = (0.043, 0.097, 0.242)
+"""Rayleigh optical depth at the zenith in red, green and blue."""
 _GRAZING = float(
     np.sqrt(0.5 * np.pi * MEAN_RADIUS / _HEIGHT)
 )  # air mass (zeniths) along a horizontal ray to space
 _HIGH = 50_000.0  # m; cameras below have the daylight at the fire
-_LOW, _ABOVE = 3_000.0, 15_000.0  # m, camera heights between which both skies are mixed
+LOW, HIGH = 3_000.0, 15_000.0
+"""Camera heights, m, between which both skies are mixed."""
 SUN = "Toward Sun"
 
 
@@ -50,7 +52,7 @@ def attenuate_sky(tree: Tree, here: Earth, light: Value, airlight: Value) -> Val
     below = tree.vector("MULTIPLY", light, tree.vector("DIVIDE", _scattered_share(tree, own), usual))
     whole = tree.mix(sine < 0.0, own, _grazing_air(tree, away, sine, own))
     above = tree.vector("MULTIPLY", airlight, _scattered_share(tree, whole))
-    shown = _mix(tree, height.smoothstep(_LOW, _ABOVE), below, above)
+    shown = _mix(tree, height.smoothstep(LOW, HIGH), below, above)
     day = _daylight(tree, here, _lowest_point(tree, place, ray, across), height)
     shown = tree.vector("MULTIPLY", shown, tree.combine(day, day, day))
     return _mix(tree, tree.output("ShaderNodeLightPath", name="Is Camera Ray"), light, shown)
@@ -71,7 +73,7 @@ def _grazing_air(tree: Tree, away: Value, sine: Value, own: Value) -> Value:
 
 def _scattered_share(tree: Tree, air: Value) -> Value:
     """Return the share of uniform light that an air mass (zeniths) scatters: red, green and blue."""
-    return tree.combine(*(1.0 - (air * -depth).exp() for depth in _DEPTH))
+    return tree.combine(*(1.0 - (air * -depth).exp() for depth in DEPTH))
 
 
 def _lowest_point(tree: Tree, place: Value, ray: Value, across: Value) -> Value:

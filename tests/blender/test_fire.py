@@ -117,6 +117,21 @@ def test_a_front_of_fewer_flames_is_as_bright(shot, monkeypatch):
     assert few[1] == pytest.approx(many[1], rel=0.15)
 
 
+def test_flames_release_the_heat_of_the_front_at_any_spacing(shot, monkeypatch):
+    """Their heat is also that of the account from which smoke rises, within the difference of the methods."""
+
+    def heat(points):
+        time = shot.frames.times[2]
+        return float((points.heat * flames.life((time - points.arrival_time) / points.residence)).sum())
+
+    fine = heat(flames.front_flames(shot))
+    monkeypatch.setattr(flames, "_SPACING", tuple((far, 2.0 * apart) for far, apart in flames._SPACING))
+    coarse = heat(flames.front_flames(shot))
+    assert coarse == pytest.approx(fine, rel=0.15)
+    released = shot.fire.sources(float(shot.frames.times[2])).luminous().power.sum()
+    assert 0.4 < fine / released < 2.5
+
+
 def test_scrubbing_moves_the_flames(shot, stage, scene, plain_looks):
     scene.frame_end = shot.frames.count
     thing = fire.build(shot, stage)

@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 import pytest
 from firetwin.blender import nodes
-from firetwin.scene import flame_field
+from firetwin.scene import build, flame_field
 from firetwin.scene.fire import build as fire
 from firetwin.shot.fire import flame_map
 from firetwin.shot.shot import Shot
@@ -65,3 +65,22 @@ def test_billboards_within_the_field_are_left_out_and_others_stay(close, run, st
     assert away.min() > 0.8 * reach - 150.0
     outside = before[np.linalg.norm(before - camera.location, axis=1) > 0.8 * reach]
     assert {tuple(place) for place in outside} <= {tuple(place) for place in after}
+
+
+def test_crowns_grass_ground_and_billboards_leave_out_the_same_share(close, run, stage, scene):
+    """One group serves all, and its share reaches their emission."""
+    build.build(Shot(close, run), scene, ("terrain", "forest", "fire"))
+    for name in ("Foliage", "Ground", "Flame"):
+        tree = bpy.data.node_groups[f"Firetwin {name} Shader"]
+        field = [node for node in tree.nodes if node.bl_idname == "ShaderNodeGroup"]
+        field = [node for node in field if node.node_tree.name == "Firetwin Flame Field"]
+        assert field, name
+        reached, pending = set(), [link.to_node for node in field for link in node.outputs["Share"].links]
+        while pending:
+            node = pending.pop()
+            if node.name not in reached:
+                reached.add(node.name)
+                pending += [link.to_node for socket in node.outputs for link in socket.links]
+        kinds = {tree.nodes[name].bl_idname for name in reached}
+        assert {"ShaderNodeEmission", "NodeGroupOutput"} <= kinds
+        assert "ShaderNodeOutputAOV" in kinds, "the infrared has it too"

@@ -95,7 +95,7 @@ def test_only_lighting_rays_see_them(lit):
 
 def test_lamps_leave_out_the_heat_of_flames_with_their_own_light(amid, run):
     shot = Shot(amid, run)
-    every, far = (lamps.place_lamps(shot, near).heat.sum() for near in ((0.0, 0.0), flame_light.REACH))
+    every, far = (lamps.place_lamps(shot, near).heat.sum() for near in ((0.0, 0.0), flame_light.FAR_LAMPS))
     assert far < every
     sources = shot.fire.sources(float(shot.frames.first)).luminous()
     assert shot.visibility.distance(sources.position).min() < flame_light.REACH[1]

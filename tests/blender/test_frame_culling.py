@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from firetwin.blender import mesh
 from firetwin.scene.forest import build as forest
-from firetwin.scene.forest import stand
+from firetwin.scene.forest import stand, visibility
 from firetwin.scene.forest.frame_culling import IN_VIEW, FrameCulling
 from firetwin.shot.shot import Shot
 
@@ -42,6 +42,16 @@ def test_without_culling_no_frame_hides_a_tree(settings, run, stage):
     forest.build(shot, stage, stand.grow(shot))
     FrameCulling(shot, stage).apply(1)
     assert _in_view(bpy.data.objects["Firetwin Trees"]).all()
+
+
+def test_from_far_above_the_colour_of_the_ground_replaces_trees():
+    far = np.column_stack([np.linspace(0.0, 30_000.0, 301), np.zeros((301, 2))])
+    drawn = visibility.is_drawn(far, [np.zeros(3)], 12_000.0)
+    assert drawn[far[:, 0] < 12_000.0].all()
+    assert not drawn[far[:, 0] > 12_000.0 * visibility.TREES_END].any()
+    between = (far[:, 0] > 12_500.0) & (far[:, 0] < 14_500.0)
+    assert 0.2 < drawn[between].mean() < 0.8, "one by one"
+    assert visibility.is_drawn(far, [], 12_000.0).all(), "a satellite resolves trees at any distance, or none"
 
 
 def test_a_view_without_trees_hides_none(shot, stage):

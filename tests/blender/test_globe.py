@@ -115,3 +115,19 @@ def test_its_picture_and_credit_are_told(space, stage, tmp_path, plain_looks):
     shot = Shot(replace(space.settings, terrain=settings), space.run)
     assert picture_credits.of_shot(shot) == Credits(("NASA",))
     assert globe.load_picture(shot).size[:] == (8, 4)
+
+
+def test_the_default_picture_has_land_and_sea_where_they_are(space):
+    image = globe.load_picture(space)
+    assert image.packed_file.size < 2_000_000
+    width, height = image.size
+    pixels = np.array(image.pixels[:], np.float32).reshape(height, width, -1)
+
+    def at(latitude, longitude):
+        return pixels[int((latitude + 90) / 180 * height), int((longitude + 180) / 360 * width), :3]
+
+    for wet in ((30.0, -140.0), (-40.0, 80.0), (47.7, -87.5)):
+        assert at(*wet)[2] > 2.0 * at(*wet)[0]
+    for dry in ((38.8, -120.5), (23.0, 10.0), (-5.0, -62.0), (-25.0, 135.0)):
+        assert at(*dry)[2] < at(*dry)[1]
+    assert at(72.0, -40.0).min() > 0.8, "ice"

@@ -21,7 +21,7 @@ from ...tiles.make.tileset import Maker, Summary
 
 Array = NDArray[np.float64]
 _FINEST = 4097  # points along an axis of an elevation model
-_BARE, _GREEN = (150.0, 132.0, 104.0), (58.0, 76.0, 44.0)
+_BARE, _GREEN = (146.0, 136.0, 120.0), (58.0, 76.0, 44.0)
 """sRGB of ground without fuel, and with the run's largest load, without a photo (assumed)."""
 
 

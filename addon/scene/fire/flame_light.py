@@ -19,11 +19,11 @@ from .. import clock
 from . import flames
 
 REACH = 250.0, 400.0  # m from the camera of a frame, distances between which these lights give way to lamps
-RADIATED = 0.15
-"""Radiated share of the heat (0.12 +- 0.03 of the heat of combustion: Freeborn et al. 2008)."""
-LIGHT = 2.4e-5
-"""W of the scene's light per radiated W: flames of 15,000 cd/m2 half cover a front with a radiosity of
-61 kW/m2, and a radiance of 1 is 16,000 cd/m2 (assumed)."""
+FAR_LAMPS = 300.0, 2500.0  # m from a camera, distances between which the light of lamps fades in
+RADIATED = 0.12  # of the heat of combustion (Freeborn et al. 2008: 0.12 +- 0.03)
+LIGHT = 2.0e-4
+"""W of the scene's light per radiated W; by eye. It is 2.4e-5 for flames of 18 m with 15,000 cd/m2, half of
+them gaps, and a radiosity of 61 kW/m2, if a radiance of 1 is 16,000 cd/m2; 7e-5 for flames of 2 m."""
 COLOUR = (1.0, 0.36, 0.06)
 _TALL = 0.5  # height of the bright part of a flame, in flame lengths (assumed)
 _FLICKER = 1.2  # factor on noise around its mean of 0.5: about 15 % (standard deviation; assumed)

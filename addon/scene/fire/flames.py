@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ...run import burning
 from ...shot.cameras.path import Path
+from ...shot.fire import emissions
 from ...shot.fire.flame_size import CROWNS, SIGHT, flame_length, flame_temperature, flame_tilt
 from ...shot.shot import Shot
 from ...shot.terrain import noise
@@ -68,7 +69,8 @@ class Points:
     seed
         (n,) 0..1.
     heat
-        (n,) W, heat release rate at full size. The sum over lit flames, times their `life`, is the front's.
+        (n,) W, heat release rate of flaming fuel at full size. The front's is the sum over lit flames, times
+        their `life`; smouldering fuel is left out.
     """
 
     position: Array
@@ -116,16 +118,20 @@ def front_flames(shot: Shot, grown: Stand | None = None) -> Points:
     stands = shot.front.residence[np.rint(row).astype(np.int64), np.rint(column).astype(np.int64)]
     residence = _point_residence(spacing, speed, stands)
     random = np.array([noise.uniform(key[:, 0], key[:, 1], settings.seed + 500 + use) for use in range(3)])
-    fuel = bilinear(ground.fields.canopy_fuel + ground.fields.surface_fuel, row, column)
+    canopy, surface = (
+        bilinear(f, row, column) for f in (ground.fields.canopy_fuel, ground.fields.surface_fuel)
+    )
+    fuel = canopy + surface
     lit = (arrival + residence > first) & (fuel > 0.05)
-    row, column, arrival, speed, residence, stands, fuel, spacing, distance = (
-        value[lit] for value in (row, column, arrival, speed, residence, stands, fuel, spacing, distance)
+    row, column, arrival, speed, residence, stands, canopy, surface, spacing, distance = (
+        value[lit]
+        for value in (row, column, arrival, speed, residence, stands, canopy, surface, spacing, distance)
     )
     random = random[:, lit]
     place = ground.point(*ground.places(row, column)) if len(row) else np.empty((0, 3))
-    intensity = constants.HEAT_OF_COMBUSTION / 1000.0 * fuel * speed
+    intensity = constants.HEAT_OF_COMBUSTION / 1000.0 * (canopy + surface) * speed
     uneven = np.exp(_SIZES * noise.normal(random[0], random[1]))
-    crowns = bilinear(ground.fields.canopy_fuel, row, column) > CROWNS
+    crowns = canopy > CROWNS
     even = flame_length(intensity, settings.fire.flame_length, crowns)
     length = np.clip(even * uneven * _flare_factor(place, even, shot), *_LENGTHS)
     thin = lod.LevelTable().multiplier(distance) if len(distance) else np.ones(0)
@@ -142,7 +148,9 @@ def front_flames(shot: Shot, grown: Stand | None = None) -> Points:
         flame_tilt(wind, length),
         flame_temperature(intensity),
         random[2],
-        1000.0 * intensity * spacing**2 / (speed * residence * _MEAN_LIFE * thin),
+        _flaming_heat(canopy, surface, stands)
+        * spacing**2
+        / (residence * _MEAN_LIFE * thin * (1.0 - _gap_fraction(even))),
     )
     points = points.take(np.flatnonzero((random[0] * 0.999 < thin) & _outside_gaps(place, even, shot)))
     if grown is not None and settings.fire.torches:
@@ -181,8 +189,24 @@ def _outside_gaps(place: Array, length: Array, shot: Shot) -> NDArray[np.bool_]:
     """Return a mask (n,) of points (n, 3) that are not in gaps: fronts with low flames (m) have gaps."""
     size = _GAP * max(shot.front_scale, 0.3)
     broken = noise.fractal(place[:, 0], place[:, 1], size, 2, shot.settings.seed + 520)  # 0.4 deviate
-    gaps = _GAPS * (1.0 - noise.smoothstep(*_BROKEN, length))
+    gaps = _gap_fraction(length)
     return (gaps <= 0.0) | (0.5 + 0.8 * broken > gaps)
+
+
+def _gap_fraction(length: Array) -> Array:
+    """Return the fraction of gaps in a front with flames of this length (m)."""
+    return _GAPS * (1.0 - noise.smoothstep(*_BROKEN, length))
+
+
+def _flaming_heat(canopy: Array, surface: Array, residence: Array) -> Array:
+    """Return the heat (J/m2) of the fuel (kg/m2) that burns with flames, within the `residence` time (s).
+
+    As in `heat_release.consumed`, fuel burns out exponentially, and smoulders after the flames.
+    """
+    floor = emissions.burn_out(surface, emissions.kind(surface, canopy))
+    crowns = emissions.burn_out(canopy, emissions.CROWN)
+    flaming = canopy * -np.expm1(-residence / crowns) + surface * -np.expm1(-residence / floor)
+    return constants.HEAT_OF_COMBUSTION * flaming
 
 
 def torching_crowns(shot: Shot, grown: Stand) -> Points:

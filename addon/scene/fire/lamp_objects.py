@@ -20,7 +20,7 @@ def build(shot: Shot, collection: bpy.types.Collection) -> list[bpy.types.Object
     first, last = shot.frames.first, shot.frames.last
     if shot.settings.light.lamps == 0 or np.all(lamps.darkness(shot, np.linspace(first, last, 9)) == 0.0):
         return []
-    placed = lamps.place_lamps(shot, flame_light.REACH if flame_light.applies(shot) else (0.0, 0.0))
+    placed = lamps.place_lamps(shot, flame_light.FAR_LAMPS if flame_light.applies(shot) else (0.0, 0.0))
     strength = lamps.LIGHT * lamps.darkness(shot, placed.time)
     frames = 1.0 + (placed.time - first) / (shot.frames.step or 1.0)
     made = []

@@ -33,13 +33,18 @@ class FrameCulling:
         """Set `IN_VIEW` for a frame; without culling (`render.cull`), no tree is hidden.
 
         Trees that shade visible ground, or are near the view, are retained (see `visibility.visible`). Trees
-        are planted up to the draw distance of the nearest frame, so distance hides none.
+        are planted up to the draw distance of the nearest frame; a frame from far above hides them one by one
+        where the ground's colour takes their place.
         """
         views = self.shot.visibility.view_set(frame)
         if views is None:
             return
+        eyes = [view.position[frame - 1] for view in self.shot.paths if view.perspective]
+        reach = self.shot.settings.forest.draw_distance
+        eyes = eyes if len(eyes) == len(self.shot.paths) else []
         for data, middle, radius in self.plants:
             seen = lod.visible_mask(middle, radius, views, margin=visibility.AROUND, shadows=True)
+            seen = np.asarray(seen, bool) & visibility.is_drawn(middle, eyes, reach)
             data.attributes[IN_VIEW].data.foreach_set("value", seen)
             data.update()
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,6 +13,9 @@ from . import models
 
 PIXEL = 25.0  # m; a satellite with larger pixels resolves no tree
 AROUND = 30.0  # m; ambient occlusion of a view by trees outside of it ends here, or at their height
+TREES_END = 1.25
+"""Factor on the draw distance of trees; beyond it the ground's material alone shows the canopy."""
+_GOLDEN = 0.6180339887  # golden ratio - 1; its multiples are evenly spread
 
 
 def visible(
@@ -32,6 +37,20 @@ def visible(
     return shot.visibility.visible_mask(
         middle, radius + offset, reach=reach, margin=AROUND, shadows=True, pixel=PIXEL
     )
+
+
+def is_drawn(
+    place: NDArray[np.float64], eyes: Sequence[NDArray[np.float64]], reach: float
+) -> NDArray[np.bool_]:
+    """Test whether trees at places (n, 3) are within the draw distance (m) of an eye; all without eyes.
+
+    Their number falls to 0 between one and `TREES_END` draw distances: the ground's colour replaces them.
+    """
+    if not eyes:
+        return np.ones(len(place), bool)
+    away = np.min([np.linalg.norm(place - eye, axis=1) for eye in eyes], axis=0)
+    chance = np.arange(len(place)) * _GOLDEN % 1.0
+    return away <= reach * (1.0 + (TREES_END - 1.0) * chance)
 
 
 def bounds(foot: NDArray, height: NDArray, wider: NDArray | float) -> tuple[NDArray, NDArray]:

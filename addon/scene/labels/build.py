@@ -14,7 +14,7 @@ from ...blender.owned import Stage
 from ...shot.shot import Shot
 from ...shot.stations import labels
 from . import facing, lettering, material, town_lights
-from .lettering import RIM, Part
+from .lettering import Part
 
 # height of letters above the ground, and distance of rows, in letter heights
 _STEM, _TIER = 2.2, 1.3
@@ -31,19 +31,21 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
     looks = [material.build(shot, name, colour) for name, colour in material.COLOURS.items()]
     library = owned.library("Place Names")
     rows = facing.tiers(shot, places.position)
+    size = lettering.legible_size(shot, settings.size)
+    rim = lettering.rim(shot, size)
     with lettering.typeface() as font:
         for k, (name, row) in enumerate(zip(places.names, rows, strict=True)):
-            parts = _label(name, _STEM + _TIER * int(row), font)
+            parts = _label(name, _STEM + _TIER * int(row), rim, font)
             mesh = lettering.mesh(f"Firetwin Place {k:05d}", parts, looks)
             lettering.camera_rays_only(owned.add(library, f"Place {k:05d}", mesh))
-    group = facing.node_group(shot, "Labels", library, settings.size, settings.distance)
+    group = facing.node_group(shot, "Labels", library, size, settings.distance)
     return facing.points(collection, "Places", places.position, group)
 
 
-def _label(text: str, stem: float, font: bpy.types.VectorFont | None) -> list[Part]:
+def _label(text: str, stem: float, rim: float, font: bpy.types.VectorFont | None) -> list[Part]:
     """Make letters and stem (material 0) and their outline (1), one unit high, in the xy plane."""
     return [
         lettering.letters(text, stem, 0.0, 0.02, font, 0),
-        lettering.letters(text, stem, RIM, 0.0, font, 1),
+        lettering.letters(text, stem, rim, 0.0, font, 1),
         lettering.stem(stem - 0.3, 0),
     ]

@@ -9,9 +9,12 @@ from typing import NamedTuple
 import bpy
 
 from ...blender import compat, owned
+from ...shot.shot import Shot
 
-RIM = 0.035
-"""Width of the outline of letters, in letter heights."""
+_RIM, _RIM_PIXELS = 0.035, 1.3  # least width of the outline of letters: in letter heights, and in pixels
+CAPITAL = 0.51
+"""Height of capitals of Blender's typeface, in letter heights (measured)."""
+_LEGIBLE, _MOST = 9.0, 0.1  # pixels, least height of capitals; most picture heights that letters get for it
 
 _THIN = 0.045  # half-width of a stem
 
@@ -22,6 +25,16 @@ class Part(NamedTuple):
     points: list[tuple[float, float, float]]
     faces: list[list[int]]
     material: int
+
+
+def legible_size(shot: Shot, size: float) -> float:
+    """Return a letter height (picture heights) at which capitals are at least 9 pixels high."""
+    return max(size, min(_LEGIBLE / CAPITAL / shot.settings.render.resolution[1], _MOST))
+
+
+def rim(shot: Shot, size: float) -> float:
+    """Return the width of the outline of letters of this size, in letter heights."""
+    return max(_RIM, _RIM_PIXELS / (size * shot.settings.render.resolution[1]))
 
 
 @contextmanager

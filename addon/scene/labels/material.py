@@ -11,8 +11,10 @@ from ...shot.shot import Shot
 
 FADE = "fade"
 RIM = "Rim"
+COVER = "Firetwin Text"
+"""AOV of the coverage of a pixel by labels and signs; layers of text, such as letters on a plate, add up."""
 COLOURS = {"Letters": (0.95, 0.95, 0.92), RIM: (0.004, 0.004, 0.005)}
-_LIGHT = 4.0  # radiance at exposure 0 that AgX shows nearly white
+_LIGHT = 2.0  # radiance at exposure 0 that AgX shows nearly white, and that does not bloom
 _SOLID = 0.999  # opacity of letters; at 1 they would count as a surface in depth
 _CLEAR = 0.15  # transparency of the outline
 
@@ -39,7 +41,8 @@ def build(
     )
     solid = 1.0 - _CLEAR if name == RIM else _SOLID
     part = tree.attribute(FADE, whose) * solid
-    nodes.flames(tree, tree.separate(shown)[0] * bright * part, 0.0, 0.0)  # smoke is in front or behind
+    nodes.flames(tree, tree.separate(shown)[0] * bright * part, 0.0, 0.0)  # distance
+    tree.aov(COVER, part, colour=False)
     left = 1.0 - part  # a sum, as rays would sample one shader of a mix, which is noisy
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": tree.combine(left, left, left)})
     tree.surface(tree.add_shader(tree.emission(shown, bright * part), clear))

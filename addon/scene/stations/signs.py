@@ -1,7 +1,8 @@
 """Signs of stations: a plate with text on a stem, facing the camera at a constant size in the picture.
 
 Near the camera a sign has all lines; farther away it has only the name. Both forms are labelled if the sign
-shows data of an exercise.
+shows data of an exercise. In small pictures letters are larger, to be legible, and signs have fewer
+lines: the last ones of `stations.show` are left out first.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ _SMALL = 0.62  # letter height of the lines below the name, relative to the name
 _GAP = 0.42  # between two lines, in letter heights
 _EDGE = 0.35  # margin between text and the edge of the plate
 _STEM, _TIER = 3.0, (4.5, 2.9)  # height of the plate above the ground; distance of rows, for both forms
+_HIGH = 0.25  # picture heights, highest plate; lines that do not fit are left out
 _SHORT = "Exercise"  # on the short form
 
 _LETTERS, _PLATE = 0, 1
@@ -33,15 +35,18 @@ def build(shot: Shot, collection: bpy.types.Collection, shown: Sequence[Sign]) -
     library = owned.library("Station Signs")
     position = shot.ground.point([each.latitude for each in shown], [each.longitude for each in shown])
     rows = facing.tiers(shot, position)
+    size = lettering.legible_size(shot, settings.size)
+    small = max(_SMALL, lettering.legible_size(shot, 0.0) / size)
     with lettering.typeface() as font:
         for k, (sign, row) in enumerate(zip(shown, rows, strict=True)):
-            for form, lines in enumerate((full(sign), short(sign))):
-                parts = plate(lines, _STEM + _TIER[form] * int(row), material.accent(sign.origin), font)
+            for form, lines in enumerate((fitting(full(sign), small, _HIGH / size), short(sign))):
+                low = _STEM + _TIER[form] * int(row)
+                parts = plate(lines, low, material.accent(sign.origin), font, small)
                 number = k + form * len(shown)
                 mesh = lettering.mesh(f"Firetwin Sign {number:05d}", parts, looks)
                 lettering.camera_rays_only(owned.add(library, f"Sign {number:05d}", mesh))
     detail = settings.detail, len(shown)
-    group = facing.node_group(shot, material.TITLE, library, settings.size, settings.distance, detail)
+    group = facing.node_group(shot, material.TITLE, library, size, settings.distance, detail)
     return facing.points(collection, "Signs", position, group)
 
 
@@ -55,20 +60,35 @@ def short(sign: Sign) -> list[tuple[str, bool]]:
     return [(sign.name, False), *([(_SHORT, True)] if sign.exercise else [])]
 
 
+def fitting(lines: list[tuple[str, bool]], small: float, high: float) -> list[tuple[str, bool]]:
+    """Leave out lines, the last first, that make a plate higher than `high`; name and coloured lines stay."""
+    shown = list(lines)
+    while 2.0 * _EDGE + 1.0 + (len(shown) - 1) * small * (1.0 + _GAP) > high:
+        plain = [k for k, (_, coloured) in enumerate(shown) if k and not coloured]
+        if not plain:
+            break
+        del shown[plain[-1]]
+    return shown
+
+
 def plate(
-    lines: Sequence[tuple[str, bool]], low: float, accent: int, font: bpy.types.VectorFont | None
+    lines: Sequence[tuple[str, bool]],
+    low: float,
+    accent: int,
+    font: bpy.types.VectorFont | None,
+    small: float = _SMALL,
 ) -> list[Part]:
     """Make a plate with text, and a bar and a stem in the accent colour; `low` is its lower edge.
 
-    The name is one unit high.
+    The name is one unit high, the other lines `small`.
     """
     parts, y = [], low + _EDGE
     for k, (text, coloured) in reversed(list(enumerate(lines))):
-        size = _SMALL if k else 1.0
+        size = small if k else 1.0
         parts.append(
             lettering.letters(text, y + 0.2 * size, 0.0, 0.03, font, accent if coloured else _LETTERS, size)
         )
-        y += size + _GAP * (_SMALL if k > 1 else 1.0)
+        y += size + _GAP * (small if k > 1 else 1.0)
     wide = max((abs(x) for part in parts for x, _, _ in part.points), default=0.0) + _EDGE
     top = y - _GAP + _EDGE
     parts.append(lettering.rectangle(-wide, wide, low, top, 0.0, _PLATE))

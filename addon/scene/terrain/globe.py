@@ -6,6 +6,8 @@ hundred kilometres, since no terrain data are available there.
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import bpy
 import numpy as np
 from firetwin_core.terrain import bilinear
@@ -20,6 +22,7 @@ from ...shot.shot import Shot
 from ...shot.terrain.terrain import Terrain
 from . import globe_material
 
+_EARTH = Path(__file__).with_name("earth.jpg")  # drawn by data/earth.py
 _SIDE = 96  # points along a side of the border
 _FIRST, _GROWTH, _STEP = 3000.0, 1.09, 100_000.0  # m: first step between rings, its growth, largest step
 _HILLS, _LAND = 8_000.0, 300_000.0  # m beyond the border over which hills and mean height fade
@@ -32,7 +35,7 @@ Array = NDArray[np.float64]
 
 
 def build(
-    shot: Shot, stage: Stage, collection: bpy.types.Collection, image: bpy.types.Image | None
+    shot: Shot, stage: Stage, collection: bpy.types.Collection, image: bpy.types.Image
 ) -> bpy.types.Object:
     """Build "Firetwin Globe" in a Firetwin collection."""
     position, triangles = create_shell(shot.ground)
@@ -44,13 +47,13 @@ def build(
     return obj
 
 
-def load_picture(shot: Shot) -> bpy.types.Image | None:
-    """Load the user's picture of the Earth; None without one."""
+def load_picture(shot: Shot) -> bpy.types.Image:
+    """Load the user's picture of the Earth, else the default, which is packed into the file."""
     path = shot.settings.terrain.globe
-    if path is None:
-        return None
-    image = owned.mark(bpy.data.images.load(str(path.absolute())))
+    image = owned.mark(bpy.data.images.load(str((path or _EARTH).absolute())))
     image.name = "Firetwin Globe"
+    if path is None:
+        image.pack()
     return image
 
 

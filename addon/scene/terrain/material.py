@@ -37,6 +37,7 @@ TILE_COLOUR = "Tile Colour"
 GLOBE = "globe"
 """Point attribute of the ground: 0 within the run, 1 at the border, where the ground looks like the globe."""
 
+_PHOTO, _SHOULDER = 0.5, 0.8  # reflectance x / (1 + s x) of a photograph's linear value: its factor x, and s
 _BLUR = 0.12  # roughness that represents unresolved waves (by eye)
 
 
@@ -51,7 +52,7 @@ def build(
 ) -> bpy.types.Material:
     """Build "Firetwin Ground" from the images of fields, coloured by these orthophotos.
 
-    `globe` is the user's picture of the Earth, which the ground shows at its border for cameras in space.
+    `globe` is the picture of the Earth, which the ground shows at its border for cameras in space.
     `maps` are images of the user's land use, by `shot.terrain.land_use.LAYERS`. With a `skin`, its name, it
     becomes the material of 3D Tiles: the same ground, but with the input `TILE_COLOUR` as the colour of
     unburned ground.
@@ -101,14 +102,15 @@ def _visible_shader(
     if skin:
         with tree.frame("Tiles"):
             colour = tree.input(TILE_COLOUR, (1.0, 1.0, 1.0), "Colour of the tile", "Tiles")
-            ground = tree.mix_shader(1.0 - here.burned, ground, _matte_shader(tree, colour, None))
+            shown = _matte_shader(tree, photo_reflectance(tree, colour), None)
+            ground = tree.mix_shader(1.0 - here.burned, ground, shown)
     with tree.frame("Flames and embers"):
         ground = tree.add_shader(
             ground, burn_scar.fire_emission(tree, shot, stage, here, here.burned * (1.0 - bare))
         )
-    if shot.beyond and not skin:
+    if globe is not None:
         with tree.frame("Globe"):
-            ground = globe_material.blend_with_globe(tree, stage, globe, GLOBE, ground)
+            ground = globe_material.blend_with_globe(tree, shot, stage, globe, GLOBE, ground, here.burned)
     with tree.frame("Air"):
         ground = haze.apply(tree, ground, stage)
     with tree.frame("Light of other ground"):
@@ -215,7 +217,22 @@ def _apply_orthophoto(
     """Apply the orthophoto's colour in unburned areas with data. It needs no bump map."""
     shown = _picture_node(tree, here, picture, image)
     counts = tree.pick(shown, "Alpha") * (1.0 - here.burned)
-    return tree.mix_shader(counts, ground, _matte_shader(tree, tree.pick(shown, "Color"), None))
+    colour = photo_reflectance(tree, tree.pick(shown, "Color"))
+    return tree.mix_shader(counts, ground, _matte_shader(tree, colour, None))
+
+
+def photo_reflectance(tree: nodes.Tree, colour: nodes.Value) -> nodes.Value:
+    """Return reflectances of a photograph's linear colours.
+
+    A photograph is exposed for sunlit ground: pale rock has values of 0.3 to 0.5. Taken as reflectances and
+    lit again, it would look like snow. The factors are chosen so that pale rock and forest of photographs
+    meet the colours of this material (by eye).
+    """
+    parts = []
+    for value in tree.separate(colour):
+        dimmed = value * _PHOTO
+        parts.append(tree.math("DIVIDE", dimmed, dimmed * _SHOULDER + 1.0))
+    return tree.combine(*parts)
 
 
 def _apply_land_use(

@@ -12,9 +12,9 @@ from ...shot.fire import emissions
 from ...shot.shot import Shot
 from .. import granite
 from ..band_limited_noise import Grain
+from ..forest.visibility import TREES_END
 from . import fields
 
-_OWN = 1.25  # factor on the tree drawing distance; beyond it the ground's material shows the canopy
 _HILLS = 0.5  # factor on the deviation of the run's terrain: hills finer than the apron's mesh (by eye)
 _JITTER = 130.0  # s, maximum; breaks up the straight edges of the mesh's triangles
 _STRAY = 0.7  # cells of the fuel grid, maximum displacement of the front by noise
@@ -98,7 +98,7 @@ def gather(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -
         known["bare"],
         tree.attribute("elevation"),
         distance,
-        known["stand"] * distance.ramp(max(radius, 1.0), _OWN * max(radius, 1.0), 1.0, 0.0),
+        known["stand"] * distance.ramp(max(radius, 1.0), TREES_END * max(radius, 1.0), 1.0, 0.0),
         age,
         (age > 0.0) * (edge > 0.5),
         pixel,

@@ -84,7 +84,7 @@ class TerrainSettings:
     )
     globe: Path | None = key(
         None,
-        "picture of the Earth for cameras in space, equirectangular; default: one colour",
+        "picture of the Earth for cameras in space, equirectangular; default: NASA's Blue Marble",
         affects=(),
     )
     globe_credit: str = key("", "credit of that picture, which pictures show", affects=())

@@ -30,8 +30,7 @@ if TYPE_CHECKING:
 _WEST = 15.0  # degrees of longitude from the run to the beginning, by default
 _LEAST = 1.0  # m of height over the place at both ends
 _NEARLY_OPPOSITE = 19_000_000.0  # m; beyond, the shortest way is not certain
-_LOOKS_UP = 0.0, 0.5  # parts of the flight over which the view leaves the nadir for the place
-_TURNS = 0.25, 0.75  # the same over which its heading turns to the last one
+_TURNS = 0.25, 0.75  # parts of the flight over which its heading turns to the last one
 _TERRAIN = 300_000.0  # m from the run within which there may be terrain
 
 
@@ -229,16 +228,16 @@ def _axes(ground: Terrain, latitude: Array, longitude: Array) -> Array:
 
 
 def _views(ground: Terrain, position: Array, end: Path, part: Array, course: Array) -> Array:
-    """Rotations (frames, 3, 3): from the nadir to the place, with a level horizon all the way.
+    """Rotations (frames, 3, 3): towards the place, with a level horizon all the way.
 
-    Heading and angle below the horizon refer to the vertical of the place at each point. The heading turns
-    the shorter way from the great circle to its last value while the place is almost below the camera.
+    From 2,000 km and 15 degrees away the Earth's limb is above the place in the picture. Heading and angle
+    below the horizon refer to the vertical of the place at each point. The heading turns the shorter way from
+    the great circle to its last value while the place is almost below the camera.
     """
     latitude, longitude, _ = ground.frame.reverse(position)
     axes = _axes(ground, latitude, longitude)
     east, north, above = np.einsum("nij,nj->in", axes, end.target - position)
-    down = np.arctan2(-above, np.hypot(east, north))
-    tilt = 0.5 * np.pi + (down - 0.5 * np.pi) * _share(part, *_LOOKS_UP)
+    tilt = np.arctan2(-above, np.hypot(east, north))
     there = ground.frame.reverse(end.position)
     last = np.einsum("nij,nj->in", _axes(ground, *there[:2]), end.target - end.position)
     turn = np.arctan2(last[0], last[1]) - np.radians(course)

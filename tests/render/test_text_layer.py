@@ -1,0 +1,52 @@
+"""Labels in pictures of few samples and a denoiser."""
+
+from dataclasses import replace
+
+import bpy
+import numpy as np
+import pytest
+from firetwin.blender import owned
+from firetwin.render import engine, layers, pictures
+from firetwin.render.picture import Picture
+from firetwin.render.sharing import open_session
+from firetwin.scene import build
+from firetwin.scene.labels import material
+from firetwin.shot import passes
+from firetwin.shot.sections import LabelSettings
+from firetwin.shot.shot import Shot
+from firetwin_core import sensor
+
+LETTERS = 0.1  # picture heights
+
+
+@pytest.fixture
+def film(settings, run, tmp_path):
+    """Render the visible picture of two samples, denoised, with or without labels."""
+    path = tmp_path / "places.csv"
+    path.write_text("name,latitude,longitude\nNear,38.840,-120.555\n")
+
+    def make(seed=0, enabled=True):
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+        stage = owned.adopt(bpy.context.scene)
+        picture = replace(settings.render, resolution=(192, 108), samples=2, seed=seed, denoise=True)
+        words = LabelSettings(enabled=enabled, file=path, size=LETTERS)
+        shot = Shot(replace(settings, render=picture, labels=words), run)
+        build.build(shot, stage.scene)
+        layers.build(shot.settings, stage)
+        engine.apply(shot.settings, stage.scene)
+        out = tmp_path / f"{seed}_{enabled}"
+        out.mkdir()
+        camera = shot.settings.cameras[0].name
+        with open_session(out, {(camera, name): {"pass": name} for name in passes.known()}) as here:
+            pictures.render(shot, stage, here, [Picture(camera, 1, "rgb")], ready=lambda frame, ahead: None)
+        return sensor.read_image(out / Picture(camera, 1, "rgb").file("exr"))[..., :3]
+
+    return make
+
+
+def test_letters_are_sharp_in_few_samples(film):
+    first, second, none = film(), film(seed=1), film(enabled=False)
+    written = np.abs(first - none).max(axis=-1) > 0.2
+    assert 50 < written.sum() < 400
+    assert np.abs(first - second)[written].mean() < 0.06, "no grain, which a denoiser would smear"
+    assert first[written].max() == pytest.approx(0.95 * material._LIGHT, rel=0.1), "the colour of the stem"
