@@ -74,7 +74,11 @@ class Eye:
             origins = self.rays.origins if self.rays.origins.ndim == 1 else self.rays.origins[written]
             lines, ends = self.rays.directions[written], distance[written][:, None]
             seen = illumination.visible_light(self.stage)
-            front[written] = volume.march(self.smoke, origins, lines, ends, seen, _STEP).reshape(-1, 4)
+            marched = np.zeros((len(lines), 4), np.float32)
+            for weight, smoke in shutter.moments(self.smoke):
+                found = volume.march(smoke, origins, lines, ends, seen, _STEP)
+                marched += np.float32(weight) * found.reshape(-1, 4)
+            front[written] = marched
         return composite.place_text(picture, rendered, at, (text["Combined"], cover, distance), front)
 
     def radiance(self, frame: int) -> Array:

@@ -38,8 +38,18 @@ LOW, HIGH = 3_000.0, 15_000.0
 SUN = "Toward Sun"
 
 
-def attenuate_sky(tree: Tree, here: Earth, light: Value, airlight: Value) -> Value:
-    """Return the sky's light as a camera at any height sees it; `light` is the sky from sea level."""
+def attenuate_sky(
+    tree: Tree, here: Earth, light: Value, airlight: Value, stars: Value | None = None
+) -> Value:
+    """Return the sky's light as a camera at any height sees it.
+
+    Parameters
+    ----------
+    light
+        The sky from sea level.
+    stars
+        Radiance of stars and moon without air; None by day, when no film records them.
+    """
     along = tree.output("ShaderNodeTexCoord", name="Generated")
     place = here.scaled(tree, curved_air.camera_position(tree))
     away = tree.vector("LENGTH", place, name="Value")
@@ -51,10 +61,17 @@ def attenuate_sky(tree: Tree, here: Earth, light: Value, airlight: Value) -> Val
     usual = _scattered_share(tree, _air_to_space(tree.math("MAXIMUM", sine, 0.0)))
     below = tree.vector("MULTIPLY", light, tree.vector("DIVIDE", _scattered_share(tree, own), usual))
     whole = tree.mix(sine < 0.0, own, _grazing_air(tree, away, sine, own))
-    above = tree.vector("MULTIPLY", airlight, _scattered_share(tree, whole))
+    scattered = _scattered_share(tree, whole)
+    above = tree.vector("MULTIPLY", airlight, scattered)
     shown = _mix(tree, height.smoothstep(LOW, HIGH), below, above)
     day = _daylight(tree, here, _lowest_point(tree, place, ray, across), height)
     shown = tree.vector("MULTIPLY", shown, tree.combine(day, day, day))
+    if stars is not None:
+        left = tree.vector("SUBTRACT", (1.0, 1.0, 1.0), scattered)
+        behind = _mix(
+            tree, height.smoothstep(LOW, HIGH), (0.0, 0.0, 0.0), tree.vector("MULTIPLY", stars, left)
+        )
+        shown = tree.vector("ADD", shown, behind)
     return _mix(tree, tree.output("ShaderNodeLightPath", name="Is Camera Ray"), light, shown)
 
 

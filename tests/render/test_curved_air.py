@@ -2,12 +2,13 @@
 
 import math
 from dataclasses import replace
+from datetime import UTC, datetime
 
 import bpy
 import numpy as np
 import pytest
 from firetwin.blender import nodes
-from firetwin.scene import curved_air, haze
+from firetwin.scene import curved_air, haze, space_sky
 from firetwin.scene.light import build as light
 from firetwin.shot.light import sky
 from firetwin.shot.shot import Shot
@@ -68,7 +69,7 @@ def camera_at(scene, eye, toward):
 def test_haze_is_that_of_the_true_ray(stage, shoot, height, bearing, distance, eye):
     curved_air.set_frame(stage, FRAME)
     group, _ = haze.set_amount(stage, 1.0)
-    group.nodes["Colour"].outputs[0].default_value = (2.0, 0.0, 0.0, 1.0)
+    group.nodes["Colour"].outputs[0].default_value = (2.0, 2.0, 2.0, 1.0)
     angle = distance / 6.371e6
     sine = math.sin(math.radians(38.8)) * math.cos(angle)
     sine += math.cos(math.radians(38.8)) * math.sin(angle) * math.cos(math.radians(bearing))
@@ -86,8 +87,14 @@ def test_haze_is_that_of_the_true_ray(stage, shoot, height, bearing, distance, e
     mesh.materials.append(material)
     stage.scene.collection.objects.link(bpy.data.objects.new("wall", mesh))
     camera_at(stage.scene, start, place)
-    depth = sky.HAZE * integral(place, start)
-    assert shoot(stage.scene)[2, 2, 0] == pytest.approx(2.0 * (1.0 - math.exp(-depth)), rel=0.015)
+    path = integral(place, start)
+    red, _, blue = shoot(stage.scene)[2, 2]
+    assert red == pytest.approx(2.0 * (1.0 - math.exp(-sky.HAZE * path)), rel=0.015)
+    molecules = (space_sky.DEPTH[2] - space_sky.DEPTH[0]) * path / sky.HAZE_HEIGHT if eye > 15_000.0 else 0.0
+    depth = sky.HAZE * path + molecules
+    assert blue == pytest.approx(2.0 * (1.0 - math.exp(-depth)), rel=0.015), (
+        "blue from above the atmosphere alone"
+    )
 
 
 def sky_at(shot, stage, shoot, height, elevation):
@@ -129,3 +136,13 @@ def test_the_limb_is_thin_and_blue_at_its_upper_end(noon, stage, shoot):
     assert low.mean() > 0.1
     assert middle[2] > 2.0 * middle[0]
     assert high.mean() < 1e-3
+
+
+def test_from_space_stars_are_in_the_night_sky_below_the_horizontal_too(noon, stage, shoot):
+    curved_air.set_frame(stage, FRAME)
+    time = replace(noon.settings.time, start=datetime(2014, 9, 24, 8, tzinfo=UTC), end=None, frames=1)
+    night = Shot(replace(noon.settings, time=time), noon.run)
+    for elevation in (30.0, -8.0):  # the Earth's limb is 14.2 degrees down
+        assert sky_at(night, stage, shoot, 200_000.0, elevation).max() > 5e-8
+    stage.scene.world = None
+    assert sky_at(noon, stage, shoot, 200_000.0, 30.0).max() < 1e-8, "a film by day records none"

@@ -93,12 +93,12 @@ def _build_world(shot: Shot, stage: Stage, frames: NDArray[np.float64], states: 
     compat.find_socket(light.socket.node.inputs, "Scale").default_value = _SKY
     up = tree.separate(tree.output("ShaderNodeTexCoord", name="Generated"))[2]
     night = any(state.sky[0] < 0.0 for state in states)
-    dark = night_sky.radiance(tree, shot, frames, states) if night else tuple(NIGHT_SKY)
+    dark, stars = night_sky.radiance(tree, shot, frames, states) if night else (tuple(NIGHT_SKY), None)
     light = tree.vector("ADD", light, dark)
     light = haze.before_sky(tree, stage, light, up)
     earth = curved_air.earth(stage)
     if earth is not None:
-        light = space_sky.attenuate_sky(tree, earth, light, haze.airlight(tree, stage))
+        light = space_sky.attenuate_sky(tree, earth, light, haze.airlight(tree, stage), stars)
     background = tree.output("ShaderNodeBackground", {"Color": light, "Strength": 1.0})
     cold = tree.output("ShaderNodeBackground", {"Color": (1.0, 1.0, 1.0), "Strength": 0.0})
     cold.socket.node.name = "Thermal Sky"

@@ -35,8 +35,15 @@ _TWILIGHT = ((1.25, 0.62, 0.22), (0.95, 0.62, 0.40), (0.50, 0.58, 0.75), (0.28, 
 _ARCH = 0.13  # sine of elevation over which twilight falls to 1/e (by eye)
 
 
-def radiance(tree: nodes.Tree, shot: Shot, frames: NDArray[np.float64], states: list[State]) -> nodes.Value:
-    """Return the radiance of the night sky along a ray of the world's shader, with keyframes."""
+def radiance(
+    tree: nodes.Tree, shot: Shot, frames: NDArray[np.float64], states: list[State]
+) -> tuple[nodes.Value, nodes.Value]:
+    """Return the radiance of the night sky along a ray of the world's shader, with keyframes.
+
+    Returns
+    -------
+    The night sky from the ground, and stars and moon from space.
+    """
     ray = tree.output("ShaderNodeTexCoord", name="Generated")
     up = tree.separate(ray)[2]
     above = tree.math("MAXIMUM", up, 0.03)
@@ -51,8 +58,8 @@ def radiance(tree: nodes.Tree, shot: Shot, frames: NDArray[np.float64], states: 
     toward = np.array([sun.toward_moon(shot.run, time) for time in times_])
     if (toward[:, 2] > -0.01).any():
         far = tree.vector("ADD", far, _moon(tree, ray, toward, frames, states))
-    far = tree.vector("MULTIPLY", far, through)
-    return tree.vector("ADD", light, tree.vector("SCALE", far, seen))
+    dimmed = tree.vector("MULTIPLY", far, through)
+    return tree.vector("ADD", light, tree.vector("SCALE", dimmed, seen)), far
 
 
 def _airglow(tree: nodes.Tree, up: nodes.Value) -> nodes.Value:

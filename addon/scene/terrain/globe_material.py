@@ -26,9 +26,7 @@ _FINE = 200_000.0, 900_000.0  # m from the camera over which this noise, finer t
 _NEAR = 400_000.0  # m from the fire within which the sky has the time of day of the fire
 _FAR = 30_000.0, 150_000.0  # m from the camera between which the apron's procedural land fades
 _RIM, _TIGHT = (0.25, 1.0), (0.0, 0.25)  # shares at which the globe begins and is complete: near and far
-_WASH = (
-    0.45  # share of the globe within the run, from afar: it has the colours of the land around (by eye)
-)
+_WASH = 0.7  # share of the globe within the run, from afar: it has the colours of the land around (by eye)
 _BARE = 0.5  # between crowns and bare ground, for the temperature
 
 
