@@ -67,9 +67,10 @@ def test_every_biome_has_its_own_trees_and_ground(name, near_settings, run, stag
 def test_trees_of_a_biome_are_drawn(near_settings, run, stage, plain_looks):
     shot = of(near_settings, run, "boreal")
     trees = forest.build(shot, stage, stand.grow(shot))[0]
+    kinds = (*models.SPRUCES, *models.PINES, *models.BIRCHES, *models.LARCHES)
     drawn = np.empty(len(trees.data.vertices), np.int32)
     trees.data.attributes["model"].data.foreach_get("value", drawn)
-    assert set((drawn // levels.LEVELS).tolist()) <= {*models.SPRUCES, *models.PINES, *models.BIRCHES}
+    assert set((drawn // levels.LEVELS).tolist()) <= {*kinds}
 
 
 def test_roofs_stand_on_their_outlines_as_high_as_they_say(near_settings, run, stage, tmp_path, plain_ground):

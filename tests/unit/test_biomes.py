@@ -1,11 +1,21 @@
 """Biomes: choice by land, changes by settings, and completeness."""
 
+from dataclasses import replace
 from datetime import date
 
 import numpy as np
 import pytest
 from firetwin.run import fuel_category as categories
-from firetwin.scene.forest import biomes, cover, field_lines, models, patterns, stand_structure, understorey
+from firetwin.scene.forest import (
+    biomes,
+    cover,
+    field_lines,
+    models,
+    patterns,
+    planted_rows,
+    stand_structure,
+    understorey,
+)
 from firetwin.scene.forest.biomes import Land, Season
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.sections import Forest, TerrainSettings
@@ -13,7 +23,7 @@ from firetwin.shot.sections import biome_names as named
 from firetwin.shot.settings import Camera, Settings
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
-from small_run import FX, FY
+from small_run import FX, FY, NT, NX, NY
 
 EVERY = sorted(named.names())
 
@@ -51,10 +61,41 @@ def filled(value):
         (Land(57.6, -111.9, 0.1, 0.15, 0.75), "boreal"),  # Alberta
         (Land(61.0, 15.0, 0.0, 0.2, 0.8), "boreal"),
         (Land(38.9, -120.5, 0.0, 0.0, 0.0), "sierra_conifer"),  # nothing is known
+        (Land(49.9, -119.6, 0.0, 0.1, 0.9), "sierra_conifer"),  # Kelowna
+        (Land(-33.9, 150.3, 0.1, 0.1, 0.8), "eucalypt"),  # Blue Mountains
+        (Land(-37.5, 145.3, 0.2, 0.0, 0.8), "eucalypt"),  # Victoria
+        (Land(-34.0, 18.4, 0.1, 0.8, 0.1), "maquis"),  # fynbos of the Cape
+        (Land(-12.8, 132.5, 0.9, 0.0, 0.1), "savanna"),  # Arnhem Land
+        (Land(39.9, -8.2, 0.1, 0.2, 0.7), "mediterranean_oak"),  # central Portugal
+        (Land(38.9, 23.3, 0.1, 0.1, 0.8), "mediterranean_oak"),  # Euboea
+        (Land(-35.6, -71.5, 0.1, 0.2, 0.7), "mediterranean_oak"),  # Maule
+        (Land(50.8, 14.3, 0.0, 0.1, 0.9), "broadleaf"),  # Bohemia
+        (Land(35.7, -83.5, 0.0, 0.1, 0.9), "broadleaf"),  # Gatlinburg
+        (Land(44.4, -0.9, 0.0, 0.2, 0.8), "broadleaf"),  # Landes: planted, which only the user knows
+        (Land(37.5, 140.5, 0.0, 0.1, 0.9), "broadleaf"),  # Honshu
+        (Land(-9.0, -55.0, 0.1, 0.0, 0.9), "rainforest"),  # Amazon
+        (Land(-15.8, -47.9, 0.8, 0.1, 0.1), "savanna"),  # Cerrado
+        (Land(62.0, 130.0, 0.0, 0.1, 0.9), "boreal"),  # Yakutia
+        (Land(46.4, 9.8, 0.1, 0.1, 0.8), "boreal"),  # Engadin
+        (Land(48.5, -81.3, 0.0, 0.1, 0.9), "broadleaf"),  # Timmins: mixed forest
+        (Land(50.5, -90.0, 0.0, 0.1, 0.9), "boreal"),  # Ontario
+        (Land(-29.5, 30.0, 1.0, 0.0, 0.0), "grassland"),  # KwaZulu-Natal
     ],
 )
 def test_place_and_fuel_choose_the_biome(land, name):
     assert biomes.chosen(land) == name
+
+
+def test_conifers_of_the_sierra_grow_in_western_north_america_alone():
+    for latitude in range(-55, 75, 3):
+        for longitude in range(-180, 180, 4):
+            land = Land(latitude + 0.5, longitude + 0.5, 0.1, 0.1, 0.8)
+            name = biomes.chosen(land)
+            assert name != "plantation"
+            if name == "sierra_conifer":
+                assert land.within(16.0, 60.0, -142.0, -95.0)
+            assert (name == "eucalypt") == land.within(-45.0, -10.5, 112.0, 155.0)
+            assert biomes.known()[name].suits(land) > 0.3
 
 
 def test_every_file_is_a_biome_and_a_choice():
@@ -98,6 +139,58 @@ def test_settings_outweigh_place_date_and_fuel(shot):
     assert (here.biome.shrub_cover, here.biome.tree_cover) == (0.9, 0.2)
 
 
+def april(make_run, **fields):
+    """Greenness of a shot in April of a run of grassland with these fields."""
+    fields = {"canopy_fuel": filled(0.0), "surface_fuel": filled(0.4)} | fields
+    folder = make_run(**fields)
+    text = (folder / "run.toml").read_text().replace("2014-09-16", "2014-05-20")
+    (folder / "run.toml").write_text(text)
+    settings = Settings(terrain=TerrainSettings(apron=0.0), forest=Forest(biome="grassland"))
+    return Shot(settings, runs.open(folder))
+
+
+def test_grass_that_burns_is_cured(make_run):
+    assert biomes.choose(april(make_run)).green == pytest.approx(0.12)
+
+
+def test_grass_without_a_fire_is_as_green_as_the_date(make_run):
+    shot = april(make_run, heat_flux=np.zeros((NT, NY, NX), np.float32))
+    assert biomes.choose(shot).green > 0.8
+
+
+def test_grass_beside_a_forest_fire_is_half_dry(make_run):
+    shot = april(make_run, canopy_fuel=filled(1.0))
+    assert biomes.choose(shot).green == pytest.approx(0.4)
+
+
+def test_greenness_in_the_scene_file_outweighs_the_fire(make_run):
+    shot = april(make_run)
+    green = Shot(replace(shot.settings, forest=Forest(biome="grassland", greenness=0.9)), shot.run)
+    assert biomes.choose(green).green == 0.9
+
+
+def test_planted_trees_stand_in_rows_and_are_of_one_height_in_a_compartment(shot):
+    made = shot({"canopy_fuel": filled(1.0)}, biome="plantation")
+    rng = np.random.default_rng(2)
+    place = np.column_stack([rng.uniform(-300.0, 300.0, (4000, 2)), np.zeros(4000)])
+    there = planted_rows.planted(made, place)
+    assert there.all()
+    moved = planted_rows.align(made, place, there)
+    assert np.hypot(*(moved - place)[:, :2].T).max() <= 0.5 * planted_rows.ROW + 1e-9
+    _, row, number = field_lines.fields(field_lines.NUMPY, *place[:, :2].T, planted_rows._COMPARTMENT)
+    for one in np.unique(row + 1j * number)[:4]:
+        inside = row + 1j * number == one
+        x, y = place[inside, :2].T
+        turn = np.pi * planted_rows._lot(made, x, y, 0)[0]
+        across = moved[inside, 1] * np.cos(turn) - moved[inside, 0] * np.sin(turn)
+        off = across / planted_rows.ROW
+        assert np.abs(off - np.round(off)).max() < 1e-9
+        key = np.stack([np.arange(inside.sum()), np.zeros(inside.sum(), int)], axis=-1)
+        tall = planted_rows.heights(made, place[inside], key)
+        assert tall.std() < 0.12 * tall.mean()
+        assert 5.0 < tall.mean() < 30.0
+
+
 @pytest.mark.parametrize("name", EVERY)
 def test_every_biome_names_models_that_live_and_colours_of_land(name):
     biome, every = biomes.known()[name], models.every()
@@ -106,7 +199,7 @@ def test_every_biome_names_models_that_live_and_colours_of_land(name):
     for living, burned in biome.plants.models.values():
         assert len(living) == len(burned)
         assert all(every[k].state == "living" for k in living)
-        assert all(every[k].state == "snag" for k in burned)
+        assert all(every[k].state == "snag" or every[k].kind == "twigs" for k in burned)
     assert set(biome.plants.density) | set(biome.plants.height) <= set(understorey.KINDS)
     if (land := biome.open_land) is not None:
         colours = [land.bleached, land.straw, land.stale, land.green, land.lush, *land.soil, *land.shrub]

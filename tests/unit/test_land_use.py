@@ -8,7 +8,7 @@ import pytest
 from firetwin.errors import InputError
 from firetwin.run.observations import features
 from firetwin.shot.source import ShotSource
-from firetwin.shot.surface import land_use
+from firetwin.shot.surface import land_drawing, land_kinds, land_use
 from firetwin_core import run as runs
 from scene_text import GROUND_ALONE
 
@@ -58,6 +58,9 @@ def _feature(kind, coordinates, properties):
         ({"natural": "water"}, "water"),
         ({"natural": "peak"}, None),
         ({"landuse": "vineyard"}, "field"),
+        ({"landuse": "forest", "plantation": "yes"}, "plantation"),
+        ({"barrier": "hedge"}, "hedge"),
+        ({"barrier": "wall"}, None),
         ({"landuse": "residential"}, None),
         ({"LANDUSE": "Quarry"}, "bare"),
         ({"kind": "castle", "name": None}, None),
@@ -65,7 +68,7 @@ def _feature(kind, coordinates, properties):
     ],
 )
 def test_what_a_feature_is(properties, kind):
-    assert land_use.kind_of(properties) == kind
+    assert land_kinds.kind_of(properties) == kind
 
 
 def at(shot, layer, longitude, latitude):
@@ -91,7 +94,7 @@ def test_each_place_has_what_the_map_says_is_there(make):
     assert at(shot, "hard", -120.592, 38.906)[3] == 1.0  # half-way along the road
     assert at(shot, "hard", -120.592, 38.9052)[3] == 0.0
     road = at(shot, "hard", -120.592, 38.906)[:3]
-    assert road == pytest.approx(land_use.KINDS["road"].colours[0], abs=0.05)
+    assert road == pytest.approx(land_kinds.KINDS["road"].colours[0], abs=0.05)
 
 
 def test_roads_are_as_wide_as_they_say(make):
@@ -100,6 +103,61 @@ def test_roads_are_as_wide_as_they_say(make):
     pixel = (picture.high - picture.low)[0] / picture.pixels.shape[1]
     row = picture.pixels[picture.pixels.shape[0] // 2, :, 3] / 255.0
     assert row.sum() * pixel == pytest.approx(12.0, abs=0.5)
+
+
+def drawn(draw, *arguments):
+    """Picture (200 m square, pixels of 0.5 m) of one feature."""
+    picture = land_drawing.Picture(np.zeros(2), np.full(2, 200.0), np.array([400, 400]))
+    draw(picture, *arguments)
+    return picture.pixels / 255.0
+
+
+def test_a_narrow_track_has_two_ruts_and_grass_between():
+    line, soil = np.array([[100.0, -10.0], [100.0, 210.0]]), (0.44, 0.38, 0.30)
+    row = drawn(land_drawing.draw_track, line, 3.0, soil)[200]
+    ruts = np.flatnonzero(np.abs(row[:, :3] - soil).max(axis=1) < 0.02)
+    assert ruts.min() < 199 < 200 < ruts.max()
+    assert not {199, 200} & set(ruts.tolist())
+    assert row[200, 1] >= row[200, 0] - 0.02  # grass; the soil is redder
+    assert 0.5 < row[200, 3] < 0.8  # no plant stands there
+    assert (row[:, 3] > 0.5).sum() * 0.5 == pytest.approx(3.0, abs=1.0)
+
+
+def test_a_road_has_shoulders_and_water_a_bank():
+    line = np.array([[100.0, -10.0], [100.0, 210.0]])
+    road = drawn(land_drawing.draw_road, line, 7.0, (0.27, 0.27, 0.28))[200]
+    assert road[200, :3] == pytest.approx((0.27, 0.27, 0.28), abs=0.01)
+    assert road[208, 0] > 0.4  # 4 m from the middle
+    assert road[214, 3] == 0.0
+    bank = drawn(land_drawing.draw_bank, line, 4.0)[200, :, 3]
+    assert (bank > 0.0).sum() * 0.5 == pytest.approx(14.0, abs=1.5)
+
+
+@pytest.mark.parametrize("pattern", ["crop", "ploughed", "stubble", "mown"])
+def test_rows_of_a_field_run_along_its_longest_side(pattern):
+    ring = np.array([[20.0, 40.0], [180.0, 40.0], [180.0, 160.0], [20.0, 160.0]])
+    colour = (0.4, 0.35, 0.2)
+    shown = drawn(land_drawing.draw_field, [ring], colour, 1.0, pattern)
+    inner = shown[110:290, 70:330, 1]
+    assert inner.std(axis=1).max() < 0.01  # along the rows
+    assert inner.mean(axis=1).std() > 0.008  # across them
+    assert inner.mean() == pytest.approx(colour[1], abs=0.03)
+    assert shown[200, 41, :3] == pytest.approx(land_drawing._GRASS, abs=0.08)  # its edge
+    assert (shown[..., 3] == 0.0).mean() == pytest.approx(1.0 - 160 * 120 / 40_000, abs=0.01)
+
+
+def test_hedges_and_plantations_are_known_by_place(make):
+    shot = make(
+        line((WEST, 38.905), (EAST, 38.905), barrier="hedge", width="4"),
+        box(-120.592, SOUTH, -120.590, NORTH, landuse="forest", plantation="yes"),
+    ).shot()
+    longitude, north = np.full(3, -120.591), shot.ground.point(38.905, -120.591)[0, 1]
+    place = shot.ground.point(np.full(3, 38.905), longitude)
+    place[:, 1] = north + np.array([0.0, 1.9, 2.1])
+    assert land_use.hedges(shot, place).tolist() == [True, True, False]
+    assert land_use.planted(shot, place).all()
+    assert not land_use.planted(shot, place + np.array([400.0, 0.0, 0.0])).any()
+    assert not land_use.keeps_out(shot, place).any()
 
 
 def test_no_plant_stands_on_water_roads_fields_and_buildings(make):
@@ -158,5 +216,5 @@ CREATE TABLE roads (geom, highway);"""
         )
         base.execute("INSERT INTO roads VALUES (?, 'primary')", (blob,))
     (found,) = features(path)
-    assert land_use.kind_of(found.properties) == "road"
+    assert land_kinds.kind_of(found.properties) == "road"
     assert np.array_equal(found.lines[0], points)

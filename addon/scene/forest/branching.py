@@ -94,7 +94,9 @@ def _leaves(habit: Habit, limbs: Limbs, random: np.random.Generator) -> Leaves:
     aside = random.normal(0.0, habit.spread[0], (b, k, m, 1))
     upward = random.normal(0.0, habit.spread[1], (b, k, m, 1))
     lie = np.cross(spray, over)
-    along = _unit(spray[:, :, None] + aside * lie[:, :, None] + upward * over[:, :, None])
+    along = _unit(
+        spray[:, :, None] + aside * lie[:, :, None] + upward * over[:, :, None] - [0.0, 0.0, habit.hang]
+    )
     size = habit.size[0] * random.uniform(0.7, 1.3, (b, k, m, 1))
     middle = foot[:, :, None] + spray[:, :, None] * (reach[..., None] * t)[..., None] + 0.5 * size * along
     flat = np.cross(along, over[:, :, None] + random.normal(0.0, habit.spread[1], (b, k, m, 3)))

@@ -2,8 +2,8 @@
 
 All are instances on points. Float attributes of a point are `scale` (height, m), `width` (ratio to the
 model's width), `rotation`, `pitch` and `roll` (radians), `arrival_time`, `elevation`, `canopy_fuel`, `tint`,
-`dead`, `scorch`, `torched`, and the indices of its models, `model` and `snag_model`; trees also have an
-instance number `number` (see `shot.passes.masks`). Plants outside of all views are culled; in
+`hue`, `dead`, `scorch`, `torched`, and the indices of its models, `model` and `snag_model`; trees also have
+an instance number `number` (see `shot.passes.masks`). Plants outside of all views are culled; in
 renders `frame_culling` also hides trees outside of the frame's views.
 """
 
@@ -32,7 +32,11 @@ from .material import BARE_AFTER, TORCHING
 from .stand import Stand
 
 GRASS_DISTANCE = 400.0  # m
-_ALIKE = 110.0, 70.0  # m, patches of trees of one hue, and of trees that died earlier; by eye
+_ALIKE = (
+    110.0,
+    70.0,
+    240.0,
+)  # m, patches: trees of one shade, dead before, of one hue; by eye
 _TALLEST, _GRASS = 31.0, 10.0  # m; as tall as any tree of Algorithm 2, and as a tree that would hold a clump
 _WIDER = 12.0  # lower relative to trees: bushes and logs; by FLIP from among them (culling.py)
 
@@ -135,7 +139,7 @@ def _points(
     """All attributes of n trees; random ones are hashes of two integers per tree."""
     ground, seed = shot.ground, shot.settings.seed
     row, column = ground.under(position)
-    tint, dead = (
+    tint, dead, hue = (
         stand_structure.clustered_uniform(
             position, size, noise.uniform(key, second, seed + 300 + k), seed + 330 + 10 * k
         )
@@ -157,6 +161,7 @@ def _points(
         "canopy_fuel": bilinear(ground.fields.canopy_fuel, row, column),
         "tint": tint,
         "dead": dead,
+        "hue": hue,
     }
 
 

@@ -14,6 +14,7 @@ from .habit import Habit
 from .shape import BARK, FOLIAGE, Array, Shape
 
 _DEAD_WOOD = (0.085, 0.068, 0.052)  # weathered
+_OLD_BARK, _FRESH_BARK = (0.120, 0.075, 0.048), (0.300, 0.225, 0.155)
 _STRAW = (0.150, 0.118, 0.058)
 _STONE = (0.16, 0.155, 0.145)
 _TURNS = (4, 3, 2, 1)  # by level of detail 0 to 3: subdivisions of a rock's faces
@@ -105,6 +106,24 @@ def twigs(seed: int, level: int) -> Shape:
     way[..., 2] = np.maximum(way[..., 2], 0.0)
     thick = random.uniform(0.05, 0.14, (n, 1)) * (26.0 / n) ** 0.5 * np.array([1.0, 0.8, 0.5])
     shape.limbs(way, thick, 3, _DEAD_WOOD)
+    return shape.scaled(float(way[..., 2].max() + 0.05))
+
+
+def bark_strips(seed: int, level: int) -> Shape:
+    """Model strips of bark that eucalypts shed: long and curled, some pale, wider than tall."""
+    random, shape, n = np.random.default_rng(seed), Shape(), (22, 16, 10, 5)[level]
+    angle = random.uniform(0.0, 2.0 * np.pi, n)
+    middle = np.column_stack([random.normal(0.0, 1.7, (n, 2)), random.uniform(0.02, 0.25, n)])
+    half = np.stack([np.cos(angle), np.sin(angle), random.uniform(0.0, 0.15, n)], axis=-1)
+    half = half * random.lognormal(0.2, 0.5, (n, 1))
+    bend = random.normal(0.0, 0.30, (n, 3)) * [1.0, 1.0, 0.5]
+    way = np.stack([middle - half, middle - 0.3 * half + bend, middle + 0.4 * half, middle + half], axis=1)
+    way[..., 2] = np.maximum(way[..., 2], 0.0)
+    thick = random.uniform(0.08, 0.22, (n, 1)) * (22.0 / n) ** 0.5 * np.array([0.5, 1.0, 0.9, 0.3])
+    dark = random.uniform(0.0, 1.0, n) < 0.5
+    for chosen, colour in ((dark, _OLD_BARK), (~dark, _FRESH_BARK)):
+        if chosen.any():
+            shape.limbs(way[chosen], thick[chosen], 2, colour)
     return shape.scaled(float(way[..., 2].max() + 0.05))
 
 

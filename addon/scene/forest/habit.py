@@ -49,6 +49,10 @@ class Habit:
         Number of dead branches below the living ones.
     colour, wood
         Linear reflectances of leaves and bark.
+    autumn
+        Reflectance of leaves that have turned; None: the tree is evergreen.
+    hang
+        Weight with which leaves hang down, against the direction of their spray.
     fit
         Levels of detail 1, 2 and 3: factors of the triangles' width and height and of the colour's
         brightness that give them the cover and the brightness of level 0, from the side and from above
@@ -74,6 +78,8 @@ class Habit:
     dead: int
     colour: Colour
     wood: Colour
+    autumn: Colour | None = None
+    hang: float = 0.0
     fit: tuple[Fit, Fit, Fit] = ((1.0, 1.0, 1.0), (1.0, 1.0, 1.0), (1.0, 1.0, 1.0))
 
 
@@ -217,6 +223,7 @@ BLACK_OAK = Habit(
     dead=6,
     colour=(0.064, 0.080, 0.026),
     wood=(0.060, 0.052, 0.046),
+    autumn=(0.190, 0.120, 0.034),
     fit=((0.81, 0.77, 0.77), (1.27, 1.71, 0.97), (1.17, 2.39, 0.63)),
 )
 MANZANITA = Habit(

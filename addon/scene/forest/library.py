@@ -33,7 +33,7 @@ from ...blender.mesh import add_attribute, create_mesh
 from ...blender.owned import Stage
 from ...errors import Error
 from ...shot.shot import Shot
-from . import levels, material, models, preview
+from . import biomes, levels, material, models, preview
 from .levels import LEVELS
 from .shape import Shape
 
@@ -54,7 +54,7 @@ def tree_models(shot: Shot, stage: Stage, drawn: set[int] | None = None) -> bpy.
     looks = _looks(shot, stage)
     swapped = _artists()
     count: dict[Kind, int] = defaultdict(int)
-    library = owned.library("Tree Models")
+    library, leaves = owned.library("Tree Models"), biomes.choose(shot).leaves
     nothing: bpy.types.Mesh | None = None
     for k, model in enumerate(models.every()):
         theirs, turn = swapped.get((model.kind, model.state)), count[model.kind, model.state]
@@ -64,7 +64,7 @@ def tree_models(shot: Shot, stage: Stage, drawn: set[int] | None = None) -> bpy.
             if theirs:
                 data = _of_level(theirs, level, turn)
             elif drawn is None or int(models.instance(np.array(k), np.array(level))) in drawn:
-                data = _mesh(name, model.make(level), looks(model))
+                data = _mesh(name, model.in_season(level, leaves), looks(model))
             else:
                 data = nothing = nothing or bpy.data.meshes.new("Firetwin No Tree")
             owned.add(library, name, data)

@@ -1,8 +1,8 @@
 """Materials of trees: leaves that live, torch, scorch and char, bark, rock, and grass.
 
-Variation between trees comes from attributes of the instancer: `arrival_time` (s), `tint`, `dead`, `scorch`
-(scorch height over tree height, 0..1), `torched` (1: the crown burns), `elevation` (m). Variation within a
-tree is in the mesh's colour attribute `leaf`.
+Variation between trees comes from attributes of the instancer: `arrival_time` (s), `tint`, `hue`, `dead`,
+`scorch` (scorch height over tree height, 0..1), `torched` (1: the crown burns), `elevation` (m). Variation
+within a tree is in the mesh's colour attribute `leaf`.
 """
 
 from __future__ import annotations
@@ -28,6 +28,9 @@ _HEATED, _CHARRED, _KILLED = (-10.0, 4.0), (2.0, 20.0), (5.0, 60.0)
 """s after the front's arrival between which needles of a burning crown turn brown, then black, and needles
 that heat kills turn brown (assumed)."""
 BARE_AFTER = 60.0, 180.0  # s from the fire to a bare plant within the field of flames (assumed)
+_STRESSED = 0.06  # fraction of trees whose tops are yellow and brown from drought or insects; by eye
+_YELLOWED = (0.110, 0.098, 0.036)
+_HUES = (0.84, 0.95, 1.10), (1.22, 1.06, 0.84)  # factors on the bluest and yellowest stands; by eye
 _SINGED = 0.7  # browning of the green tops of partly scorched trees by hot air and soot; by eye
 _BROWN = ((0.060, 0.041, 0.026), (0.118, 0.080, 0.046))  # needles killed by drought, beetles or heat
 _BLACK = ((0.010, 0.008, 0.007), (0.030, 0.024, 0.020))  # charred needles
@@ -41,17 +44,16 @@ def foliage(shot: Shot, stage: Stage) -> bpy.types.Material:
     cool = tree.input("Cool Tint", (0.68, 0.76, 0.82), "Factor on the bluest trees' colour", "Variety")
     warm = tree.input("Warm Tint", (1.36, 1.22, 1.05), "Factor on the yellowest trees' colour", "Variety")
     lost = tree.input("Dead Share", _DEAD, "Part of the trees that was brown before", "Variety", most=1.0)
-    varied = tree.mix_colour(tint, cool, warm)
-    here = biomes.choose(shot)
-    if here.biome.deciduous * (1.0 - here.green) > 0.0:
-        fallen = tree.mix_colour(
-            here.biome.deciduous * (1.0 - here.green), (1.0, 1.0, 1.0), here.biome.withered
-        )
-        varied = tree.mix_colour(1.0, varied, fallen, "MULTIPLY")
+    hue = tree.mix_colour(tree.attribute("hue", "INSTANCER"), *_HUES)
+    varied = tree.mix_colour(1.0, tree.mix_colour(tint, cool, warm), hue, "MULTIPLY")
     green = tree.mix_colour(1.0, leaf, varied, "MULTIPLY")
     brown = tree.mix_colour(tint, *_shades(tree, "Scorched", _BROWN, "needles killed by drought or heat"))
-    living = tree.mix_colour(tree.attribute("dead", "INSTANCER") < lost, green, brown)
     place = _place(tree)
+    ill = tree.input("Stressed Share", _STRESSED, "Part of the trees with brown tops", "Variety", most=1.0)
+    ill = tree.attribute("dead", "INSTANCER") < lost + ill
+    top = tree.separate(place)[2].smoothstep(0.35, 0.95) * ill
+    pale = tree.mix_colour(top * 0.8, green, tree.mix_colour(0.35, _YELLOWED, brown))
+    living = tree.mix_colour(tree.attribute("dead", "INSTANCER") < lost, pale, brown)
     torched, age = tree.attribute("torched", "INSTANCER"), _age(tree)
     killed = age.smoothstep(*_KILLED)
     reach = tree.attribute("scorch", "INSTANCER") * 1.16 - 0.08  # over the whole crown where scorch is 1

@@ -13,10 +13,11 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from . import forest_floor, levels, species
+from . import forest_floor, leaf_season, levels, species
 from . import habit as habits
 from .branching import dead, grown, wood
 from .habit import Habit
+from .phenology import LeafState
 from .shape import FOLIAGE, Shape
 
 FIRST_MODEL = {2: 0, 1: 2, 0: 6}  # size class of Algorithm 2 (LARGE 2, MEDIUM 1, SMALL 0) -> its first model
@@ -42,6 +43,15 @@ HOLM_OAKS, LIVE_OAKS, STONE_PINES, SPRUCES, PINES, BIRCHES, MAQUIS, BURNED_MAQUI
     (45, 46, 47),
     (48, 49),
 )
+EUCALYPTS, LARCHES, BEECHES, MAPLES, CROP_PINES, RAINFOREST_TREES, BARK_STRIPS = (
+    (50, 51, 52),
+    (53, 54),
+    (55, 56),
+    (57, 58),
+    (59, 60),
+    (61, 62, 63),
+    (64, 65),
+)
 KINDS = (
     "large",
     "medium",
@@ -63,11 +73,22 @@ _LEAVES = 1500  # of level 1
 
 @dataclass(frozen=True)
 class TreeModel:
-    """A model: its class, one of `KINDS`, its state ("living" or "snag"), and its generator of levels."""
+    """A model: its class, one of `KINDS`, its state ("living" or "snag"), and its generator of levels.
+
+    `habit` is the habit of a deciduous tree; None for other models.
+    """
 
     kind: str
     state: str
     make: Callable[[int], Shape]
+    habit: Habit | None = None
+
+    def in_season(self, level: int, state: LeafState) -> Shape:
+        """Model a level of detail with the leaves of the season."""
+        shape = self.make(level)
+        if self.habit is None or self.habit.autumn is None:
+            return shape
+        return leaf_season.dressed(shape, self.habit.colour, self.habit.autumn, state)
 
 
 def tree(habit: Habit, seed: int, level: int) -> Shape:
@@ -140,7 +161,7 @@ def trees() -> list[TreeModel]:
     snags = [(habits.SUGAR_PINE, 34, 1.0), (habits.WHITE_FIR, 26, 0.85), (habits.INCENSE_CEDAR, 20, 0.95)]
     brush = [habits.MANZANITA, habits.CEANOTHUS]
     return [
-        *(TreeModel(kind, "living", partial(tree, habit, 100 + k)) for k, (kind, habit) in enumerate(living)),
+        *(_living(kind, habit, 100 + k) for k, (kind, habit) in enumerate(living)),
         *(
             TreeModel(kind, "snag", partial(snag, habit, 130 + k, stubs, top))
             for k, (kind, (habit, stubs, top)) in enumerate(zip(KINDS, snags, strict=False))
@@ -173,15 +194,29 @@ def elsewhere() -> list[TreeModel]:
     )
     brush = (species.LENTISK, species.CISTUS, species.TREE_HEATH)
     high = [each for each in kinds for _ in range(2)]
+    more = [
+        *(("oak", species.EUCALYPT), ("oak", species.EUCALYPT), ("oak", species.STRINGYBARK)),
+        *[("spruce", species.LARCH)] * 2,
+        *[("oak", species.BEECH)] * 2,
+        *[("oak", species.MAPLE)] * 2,
+        *[("pine", species.CROP_PINE)] * 2,
+        *(("oak", species.LAUREL), ("oak", species.LAUREL), ("oak", species.KAPOK)),
+    ]
     return [
-        *(TreeModel(kind, "living", partial(tree, habit, 200 + k)) for k, (kind, habit) in enumerate(high)),
+        *(_living(kind, habit, 200 + k) for k, (kind, habit) in enumerate(high)),
         *(TreeModel("brush", "living", partial(tree, habit, 220 + k)) for k, habit in enumerate(brush)),
         *(
             TreeModel("brush", "snag", partial(forest_floor.burned_brush, habit, 220 + k))
             for k, habit in enumerate(brush)
         ),
-        *(TreeModel("oak", "living", partial(tree, species.ACACIA, 230 + k)) for k in range(len(ACACIAS))),
+        *(_living("oak", species.ACACIA, 230 + k) for k in range(len(ACACIAS))),
+        *(_living(kind, habit, 240 + k) for k, (kind, habit) in enumerate(more)),
+        *(TreeModel("twigs", "living", partial(forest_floor.bark_strips, 260 + k)) for k in range(2)),
     ]
+
+
+def _living(kind: str, habit: Habit, seed: int) -> TreeModel:
+    return TreeModel(kind, "living", partial(tree, habit, seed), habit if habit.autumn else None)
 
 
 def every() -> list[TreeModel]:

@@ -17,12 +17,13 @@ from numpy.typing import NDArray
 from ...shot.shot import Shot
 from ...shot.terrain import noise
 from ...shot.terrain.dilation import dilate
-from . import biomes, models, plot, stand_structure, visibility
+from . import biomes, models, planted_rows, plot, stand_structure, visibility
 from .plot import Plot
 
 TALLEST = 42.0  # m; the core's largest tree
 CLEARING = 25.0  # m round the cameras without trees, for light and a free view
 _PATCH = 90.0  # m, of trees of one species (by eye)
+_GROUP = 150.0  # m, of conifers of one species in the Sierra (by eye)
 _CROWN = 5.0  # m, width of a medium tree; where a pixel is wider, fewer trees give the same cover
 
 
@@ -68,22 +69,27 @@ def grow(shot: Shot) -> Stand:
     reach = settings.forest.draw_distance
     plots = plot.plots(shot, TALLEST, reach) if settings.forest.density == "stand" else []
     stems = _planted(shot, plots)
-    position = visibility.settled(shot.ground, stems.position)
+    planted = planted_rows.planted(shot, stems.position)
+    position = visibility.settled(shot.ground, planted_rows.align(shot, stems.position, planted))
     key = np.stack([stems.key >> 32, stems.key & 0xFFFFFFFF], axis=-1)
     distance = shot.visibility.distance(position)
     fade = _fade(distance, reach) if shot.pixel[1] > visibility.PIXEL else 1.0
     there = (noise.uniform(key[:, 0], key[:, 1], settings.seed + 202) < fade) & (distance > CLEARING)
     stands = noise.uniform(key[there, 0], key[there, 1], settings.seed + 203)
-    there[there] = stands < stand_structure.retained(shot, position[there])
+    there[there] = stands < stand_structure.retained(shot, position[there], planted[there])
     there[there] = visibility.visible(shot, position[there], stems.scale[there], reach, stems.width[there])
     chosen = np.flatnonzero(there)
-    model = np.array([models.FIRST_MODEL[k] for k in (0, 1, 2)])[stems.size_class[chosen]]
     height = stems.scale[chosen].astype(float)
     width: NDArray[np.floating] = stems.width[chosen]
     if sorts := biomes.choose(shot).biome.species:
         model, height, width = _of_species(shot, sorts, position[chosen], height, width, key[chosen])
     else:
-        model, height = _with_oaks(shot, position[chosen], model + stems.model[chosen], height, key[chosen])
+        model = _in_groups(shot, position[chosen], stems.size_class[chosen], key[chosen])
+        model, height = _with_oaks(shot, position[chosen], model, height, key[chosen])
+    rows = planted[chosen]
+    if rows.any():
+        height[rows] = planted_rows.heights(shot, position[chosen][rows], key[chosen][rows])
+        model[rows] = np.array(models.CROP_PINES)[key[chosen][rows, 1] % len(models.CROP_PINES)]
     return Stand(
         position[chosen],
         height,
@@ -203,6 +209,17 @@ def _share(sort: biomes.Species, elevation: NDArray) -> NDArray[np.float64]:
     if sort.low is None or sort.high is None:
         return np.full(elevation.shape, sort.share)
     return sort.share * noise.smoothstep(sort.low, sort.high, elevation)
+
+
+def _in_groups(
+    shot: Shot, position: NDArray, size_class: NDArray[np.uint8], key: NDArray[np.int64]
+) -> NDArray[np.int64]:
+    """Models of conifers by size class (`core.Stems`); species form groups, so that stands differ in hue."""
+    first = np.array([models.FIRST_MODEL[k] for k in (0, 1, 2)])[size_class]
+    count = np.array([4, 4, 2])[size_class]
+    own = noise.uniform(key[:, 0], key[:, 1], shot.settings.seed + 224)
+    lot = stand_structure.clustered_uniform(position, _GROUP, own, shot.settings.seed + 350)
+    return first + np.minimum((lot * count).astype(np.int64), count - 1)
 
 
 def _with_oaks(

@@ -17,7 +17,7 @@ from ...shot.terrain import noise
 from ...shot.terrain.dilation import dilate
 from ...shot.terrain.terrain import box
 from ...shot.tiles import tile_vegetation
-from . import biomes, cover, field_lines
+from . import biomes, cover, field_lines, planted_rows
 
 LONE_FUEL = 0.02  # kg/m2; canopy fuel assumed for trees of cells without any: 57 stems a hectare, up to 15 m
 _FULL = 0.06  # ground cover of all of these (half-grown oaks; assumed)
@@ -57,8 +57,10 @@ def with_lone(
     return fuel
 
 
-def retained(shot: Shot, position: Array) -> Array:
-    """Probability (n,) 0..1 that stems at points (n, 3) are retained."""
+def retained(shot: Shot, position: Array, planted: NDArray[np.bool_] | None = None) -> Array:
+    """Probability (n,) 0..1 that stems at points (n, 3) are retained; `planted` ones have rides, not gaps."""
+    if planted is None:
+        planted = np.zeros(len(position), bool)
     ground, seed = shot.ground, shot.settings.seed
     x, y = position[:, 0], position[:, 1]
     row, column = ground.under(position)
@@ -67,7 +69,8 @@ def retained(shot: Shot, position: Array) -> Array:
     bays = noise.fractal(x, y, _EDGE, 2, seed + 410)
     gaps = noise.fractal(x, y, _GAP, 2, seed + 420)
     stand = noise.smoothstep(0.70, 0.30, empty + _RAGGED * bays)
-    stand = stand * (1.0 - _OPEN * noise.smoothstep(0.38, 0.60, gaps))
+    stand = stand * (1.0 - _OPEN * noise.smoothstep(0.38, 0.60, gaps) * ~planted)
+    stand[planted] *= planted_rows.outside_rides(position[planted])
     lone = _LONE * noise.smoothstep(-0.1, 0.5, bays) * (empty > 0.0)
     if (biome := biomes.choose(shot).biome).species:
         lone = _scattered(shot, biome.tree_cover, position) * (empty > 0.0)

@@ -162,7 +162,7 @@ def _beside(shot: Shot, biome: biomes.Biome, name: str) -> Callable[[Array], Arr
         part = cover.at(shot, covered, place)
         if name == "tuft":
             return 1.0 - 0.8 * part
-        thick = 1.4 * cover.bushes(shot, land, part, place)
+        thick = 1.4 * cover.bushes(shot, land, part, place) + _HEDGE * land_use.hedges(shot, place)
         if land.hedge <= 0.0:
             return thick
         off = field_lines.fields(field_lines.NUMPY, place[:, 0], place[:, 1], land.field)[0]

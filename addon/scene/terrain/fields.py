@@ -199,7 +199,7 @@ def orthophoto_images(shot: Shot) -> list[tuple[orthophoto.OrthophotoImage, bpy.
 
 
 def land_use_images(shot: Shot) -> dict[str, list[tuple[orthophoto.OrthophotoImage, bpy.types.Image]]]:
-    """Create images of the user's land use, by `land_use.LAYERS`; finer ones after coarser ones."""
+    """Create images of the user's land use, by `land_kinds.LAYERS`; finer ones after coarser ones."""
     return {
         layer: [
             (picture, _colour_image(f"Firetwin Land Use {layer.title()} {number}", picture))

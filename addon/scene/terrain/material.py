@@ -53,7 +53,7 @@ def build(
     """Build "Firetwin Ground" from the images of fields, coloured by these orthophotos.
 
     `globe` is the picture of the Earth, which the ground shows at its border for cameras in space.
-    `maps` are images of the user's land use, by `shot.terrain.land_use.LAYERS`. With a `skin`, its name, it
+    `maps` are images of the user's land use, by `shot.surface.land_kinds.LAYERS`. With a `skin`, its name, it
     becomes the material of 3D Tiles: the same ground, but with the input `TILE_COLOUR` as the colour of
     unburned ground.
     """

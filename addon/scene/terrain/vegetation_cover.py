@@ -8,13 +8,18 @@ import numpy as np
 
 from ...blender import nodes
 from ..band_limited_noise import Grain
-from ..forest.biomes import Biome, Colour, Here
+from ..forest.biomes import Colour, Here
 from . import open_land as lands
 from .shading_inputs import Place
 
 _CROWNS_SEEN = (5000.0, 15_000.0)  # m from the camera at which crowns have full contrast, and none
 _MEADOW = ((0.070, 0.070, 0.040), (0.110, 0.092, 0.052))  # high and low meadows in the dry season
 _SPRING = (0.062, 0.090, 0.030)  # all meadows when they are green
+_TWIGS = (0.066, 0.054, 0.045)  # crowns without leaves, by eye
+_TURNS = 0.5, 1.5  # deciduous crowns among the darkest and the lightest ones / the biome's share
+_HUES = (0.84, 0.95, 1.08), (1.20, 1.06, 0.86)  # factors on the bluest and yellowest stands; by eye
+_BROWN = (0.085, 0.060, 0.036)  # crowns that died before the fire
+_LOST = 0.955  # tint from which a crown is brown
 _ON_ROCK = 0.5  # m between crowns on rock
 
 
@@ -50,7 +55,9 @@ def distant_canopy(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Va
         cover = tree.math("MAXIMUM", cover.smoothstep(0.0, 0.7), crown.alone * 0.85)
     else:  # lone trees are too sparse to be visible
         cover = cover.smoothstep(0.0, 0.7) * place.canopy.smoothstep(0.01, 0.1)
-    canopy = tree.mix_colour(crown.dark, _canopy_colour(tree, grain, crown.tint, here), here.biome.between)
+    hue = (patch * 0.45 + groups * 0.55).smoothstep(0.36, 0.64)
+    sunlit = _canopy_colour(tree, grain, crown.tint, hue, here)
+    canopy = tree.mix_colour(crown.dark, sunlit, here.biome.between)
     if here.biome.open_land is not None:
         open_ground, height = lands.look(tree, place, here)
         wooded = cover * (1.0 - crown.dark) * (0.7 * here.biome.crown)
@@ -104,7 +111,9 @@ def _patch_noise(grain: Grain) -> nodes.Value:
 
 def _crown_colour(tree: nodes.Tree, tint: nodes.Value, here: Here) -> nodes.Value:
     """Return the colour of sunlit crowns."""
-    dark, light = (seasonal_colour(here.biome, colour, here.green) for colour in here.biome.needles)
+    dark, light = (
+        seasonal_colour(here, colour, part) for colour, part in zip(here.biome.needles, _TURNS, strict=True)
+    )
     deep = tree.input("Forest Dark", dark, "Darkest crowns of the far forest", "Forest")
     pale = tree.input("Forest Light", light, "Lightest crowns of the far forest", "Forest")
     return tree.mix_colour(tint, deep, pale)
@@ -118,9 +127,12 @@ def _stand_noise(grain: Grain) -> nodes.Value:
     return grain.noise(1500.0, 5.0, 0.6)
 
 
-def _canopy_colour(tree: nodes.Tree, grain: Grain, tint: nodes.Value, here: Here) -> nodes.Value:
-    """Return the colour of sunlit crowns, varied by stand."""
-    dark = _crown_colour(tree, tint, here)
+def _canopy_colour(
+    tree: nodes.Tree, grain: Grain, tint: nodes.Value, hue: nodes.Value, here: Here
+) -> nodes.Value:
+    """Return the colour of sunlit crowns: varied by crown, by stand (`hue`, 0..1) and by hillside."""
+    dark = tree.mix_colour(tint > _LOST, _crown_colour(tree, tint, here), _BROWN)
+    dark = tree.mix_colour(1.0, dark, tree.mix_colour(hue, *_HUES), "MULTIPLY")
     stands = _stand_noise(grain)
     dark = tree.mix_colour(stands.smoothstep(0.40, 0.62), dark, tree.mix_colour(0.6, dark, here.biome.stands))
     clumps = grain.noise(70.0, 3.0, 0.65).smoothstep(0.36, 0.64)
@@ -146,7 +158,10 @@ def mix_colours(part: float, first: Colour, second: Colour) -> Colour:
     return tuple(np.add(first, part * np.subtract(second, first)).tolist())
 
 
-def seasonal_colour(biome: Biome, colour: Colour, green: float) -> Colour:
-    """Return the colour of crowns, with deciduous crowns by season."""
-    part = biome.deciduous * (1.0 - green)
-    return tuple(np.multiply(colour, 1.0 + part * (np.array(biome.withered) - 1.0)).tolist())
+def seasonal_colour(here: Here, colour: Colour, part: float = 1.0) -> Colour:
+    """Return the colour of crowns, with `part` times the biome's deciduous crowns by season."""
+    biome, leaves = here.biome, here.leaves
+    turned = np.multiply(colour, 1.0 + leaves.turned * (np.array(biome.withered) - 1.0))
+    bare = np.array(_TWIGS) * (sum(colour) / sum(np.add(*biome.needles) / 2.0))
+    seen = turned + leaves.fallen * (bare - turned)
+    return tuple(np.add(colour, min(part * biome.deciduous, 1.0) * (seen - colour)).tolist())

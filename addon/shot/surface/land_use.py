@@ -7,9 +7,8 @@ A second file has footprints alone: each of its polygons is a building.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from itertools import pairwise
 
 import numpy as np
 from firetwin_core.run import Run
@@ -23,88 +22,18 @@ from ...run.observations import Feature, feature, features
 from ..schema import scene_text
 from ..settings import Settings
 from ..shot import Shot, cached_on_shot
-from ..terrain import noise, rasterize
+from ..terrain import noise
 from ..terrain.raster import extent, format_bounds, overlap
+from . import land_drawing
+from .land_kinds import KINDS, LAYERS, SOLID, WIDTHS, LandUseKind, kind_of
 from .orthophoto import OrthophotoImage
-
-LAYERS = ("soft", "hard", "water")
-"""Layers from bottom to top: burnable land, unburnable land, water. Each becomes a picture."""
 
 _LARGEST = 3072  # pixels, largest side of a picture
 _FINEST = 0.5  # m, smallest pixel
-_SOLID = 0.8  # colour strength from which no plant grows there
 _BEYOND = 50.0  # m around the map that count as mapped
 
 Array = NDArray[np.float64]
 Rings = tuple[Array, ...]
-
-
-@dataclass(frozen=True)
-class LandUseKind:
-    """A kind of feature. Colours (sRGB, 0..1) and widths are by eye.
-
-    Attributes
-    ----------
-    layer
-        One of `LAYERS`.
-    colours
-        Palette; each feature takes one of them.
-    width
-        Width of a line, m.
-    strength
-        Opacity of the colour. Below `_SOLID` trees and bushes may stand there.
-    """
-
-    layer: str
-    colours: tuple[tuple[float, float, float], ...]
-    width: float = 3.0
-    strength: float = 1.0
-
-
-KINDS = {  # from bottom to top
-    "meadow": LandUseKind(
-        "soft", ((0.30, 0.34, 0.18), (0.35, 0.35, 0.20), (0.27, 0.33, 0.16)), strength=0.75
-    ),
-    "field": LandUseKind(
-        "soft",
-        ((0.45, 0.40, 0.26), (0.27, 0.32, 0.15), (0.34, 0.28, 0.20), (0.40, 0.37, 0.22), (0.24, 0.30, 0.14)),
-    ),
-    "bare": LandUseKind("hard", ((0.43, 0.39, 0.33), (0.39, 0.35, 0.30))),
-    "water": LandUseKind("water", ((0.10, 0.16, 0.17),), 4.0),
-    "track": LandUseKind("hard", ((0.44, 0.38, 0.30),), 3.0),
-    "road": LandUseKind("hard", ((0.27, 0.27, 0.28),), 7.0),
-    "building": LandUseKind("hard", ((0.33, 0.31, 0.29),), 6.0),
-}
-
-_TRACKS = ("track", "path", "footway", "bridleway", "cycleway", "steps", "pedestrian")
-_WORDS = {
-    "waterway": {"": "water"},
-    "natural": {
-        "water": "water",
-        "wetland": "meadow",
-        "sand": "bare",
-        "scree": "bare",
-        "grassland": "meadow",
-    },
-    "landuse": {
-        **dict.fromkeys(("farmland", "orchard", "vineyard", "allotments"), "field"),
-        **dict.fromkeys(("meadow", "grass", "pasture", "village_green", "recreation_ground"), "meadow"),
-        **dict.fromkeys(("reservoir", "basin"), "water"),
-        **dict.fromkeys(("quarry", "construction", "landfill", "brownfield"), "bare"),
-    },
-}
-_WIDTHS = {  # m, by highway or waterway
-    **{"motorway": 14.0, "trunk": 11.0, "primary": 9.0, "secondary": 8.0, "service": 4.0, "path": 1.5},
-    **{
-        "footway": 1.5,
-        "cycleway": 2.5,
-        "river": 14.0,
-        "canal": 8.0,
-        "stream": 2.5,
-        "ditch": 1.5,
-        "drain": 1.5,
-    },
-}
 
 
 @dataclass(frozen=True)
@@ -155,21 +84,6 @@ class Map:
     known: tuple[Array, Array] | None
 
 
-def kind_of(properties: Mapping[str, Any]) -> str | None:
-    """Kind of a feature (of `KINDS`) by its tags; None if it has none of them."""
-    words = {str(key).lower(): str(value).lower() for key, value in properties.items() if value is not None}
-    if (own := words.get("kind", "")) in KINDS:
-        return own
-    if words.get("building", "no") not in ("no", ""):
-        return "building"
-    if highway := words.get("highway"):
-        return "track" if highway in _TRACKS else "road"
-    for key, known in _WORDS.items():
-        if key in words:
-            return known.get(words[key], known.get(""))
-    return None
-
-
 def check(settings: Settings, run: Run) -> None:
     """Validate a land use map: file type and overlap with the run.
 
@@ -213,9 +127,8 @@ def pictures(shot: Shot) -> dict[str, list[OrthophotoImage]]:
     if known is None:
         return {}
     frames = _frames(shot, known)
-    layers = [
-        layer for layer in LAYERS if any(KINDS[feature.kind].layer == layer for feature in known.features)
-    ]
+    present = {KINDS[feature.kind].layer for feature in known.features}
+    layers = [layer for layer in LAYERS if layer in present or (layer == "soft" and "water" in present)]
     return {layer: [_drawn(shot, known, layer, *frame) for frame in frames] for layer in layers}
 
 
@@ -228,6 +141,59 @@ def mapped(shot: Shot, place: Array) -> NDArray[np.bool_]:
     return np.all((place[:, :2] > low - _BEYOND) & (place[:, :2] < high + _BEYOND), axis=1)
 
 
+def planted(shot: Shot, place: Array) -> NDArray[np.bool_]:
+    """Test if points (n, 2 or 3) in the scene, m, are in plantations of the map."""
+    inside = np.zeros(len(place), bool)
+    known = read_map(shot)
+    for each in known.features if known else ():
+        if each.kind == "plantation":
+            for polygon in each.polygons:
+                inside |= _within(polygon, place)
+    return inside
+
+
+def _within(polygon: Rings, place: Array) -> NDArray[np.bool_]:
+    """Test if points (n, 2 or 3) are in a polygon, by the even-odd rule."""
+    outer = polygon[0]
+    near = np.all((place[:, :2] >= outer.min(axis=0)) & (place[:, :2] <= outer.max(axis=0)), axis=1)
+    x, y = place[near, :2].T
+    odd = np.zeros(len(x), bool)
+    for ring in polygon:
+        for a, b in zip(ring, np.roll(ring, -1, axis=0), strict=True):
+            if a[1] != b[1]:
+                crosses = (a[1] <= y) != (b[1] <= y)
+                odd ^= crosses & (x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
+    near[near] = odd
+    return near
+
+
+def hedges(shot: Shot, place: Array) -> NDArray[np.bool_]:
+    """Test if points (n, 2 or 3) in the scene, m, are in hedges of the map."""
+    inside = np.zeros(len(place), bool)
+    known = read_map(shot)
+    for each in known.features if known else ():
+        if each.kind != "hedge":
+            continue
+        for polygon in each.polygons:
+            inside |= _within(polygon, place)
+        for line in each.lines:
+            inside |= _beside(line, 0.5 * each.width, place)
+    return inside
+
+
+def _beside(line: Array, reach: float, place: Array) -> NDArray[np.bool_]:
+    """Test if points (n, 2 or 3) are within `reach` of a line."""
+    low, high = line.min(axis=0) - reach, line.max(axis=0) + reach
+    near = np.all((place[:, :2] >= low) & (place[:, :2] <= high), axis=1)
+    off = np.full(int(near.sum()), np.inf)
+    for a, b in pairwise(line):
+        along, to = b - a, place[near, :2] - a
+        part = np.clip(to @ along / max(float(along @ along), 1.0e-12), 0.0, 1.0)
+        off = np.minimum(off, np.hypot(*(to - part[:, None] * along).T))
+    near[near] = off <= reach
+    return near
+
+
 def keeps_out(shot: Shot, place: Array) -> NDArray[np.bool_]:
     """Plant exclusion mask of points (n, 2 or 3) in the scene, m: water, roads, fields and buildings."""
     out = np.zeros(len(place), bool)
@@ -237,7 +203,7 @@ def keeps_out(shot: Shot, place: Array) -> NDArray[np.bool_]:
             at = np.floor((place[:, :2] - picture.low) / (picture.high - picture.low) * size).astype(int)
             inside = np.flatnonzero(np.all((at >= 0) & (at < size), axis=1))
             x, y = at[inside].T
-            out[inside] |= picture.pixels[y, x, 3] > 255.0 * (_SOLID if layer == "soft" else 0.5)
+            out[inside] |= picture.pixels[y, x, 3] > 255.0 * (SOLID if layer == "soft" else 0.5)
     return out
 
 
@@ -304,7 +270,7 @@ def _placed(shot: Shot, mapped: list[tuple[str, Feature]], footprints: list[tupl
     for number, (kind, each) in enumerate([*mapped, *footprints]):
         words = {key.lower(): str(value).lower() for key, value in each.properties.items()}
         width = feature.finite(words.get("width", "").removesuffix("m"))
-        usual = _WIDTHS.get(words.get("highway", words.get("waterway", "")), KINDS[kind].width)
+        usual = WIDTHS.get(words.get("highway", words.get("waterway", "")), KINDS[kind].width)
         features.append(
             MappedFeature(
                 kind,
@@ -346,31 +312,32 @@ def _frames(shot: Shot, known: Map) -> list[tuple[Array, Array]]:
 def _drawn(shot: Shot, known: Map, layer: str, low: Array, high: Array) -> OrthophotoImage:
     """Rasterize one layer of the map."""
     size = np.clip(np.ceil((high - low) / _FINEST), 2, _LARGEST).astype(int)
-    pixel = (high - low) / size
-    pixels = np.zeros((size[1], size[0], 4), np.uint8)
+    picture = land_drawing.Picture(low, high, size)
     for mapped in known.features:
         kind = KINDS[mapped.kind]
-        if kind.layer != layer:
-            continue
-        lot, bright = noise.uniform([mapped.number] * 2, [7, 8], shot.settings.seed)
-        colour = np.array(kind.colours[int(lot * len(kind.colours))])
-        tone = 0.92 + 0.16 * float(bright)
-        for window, cover in _covers(mapped, low, pixel, (pixels.shape[0], pixels.shape[1])):
-            part = pixels[window]
-            over = np.maximum(cover * kind.strength, part[..., 3] / 255.0)
-            part[..., :3] = np.where(
-                cover[..., None] > 0.0, 255.0 * np.clip(colour * tone, 0, 1), part[..., :3]
-            )
-            part[..., 3] = np.rint(255.0 * over)
-    return OrthophotoImage(low, high, pixels)
+        if kind.layer == layer:
+            _draw(picture, mapped, kind, shot.settings.seed)
+        elif layer == "soft" and kind.layer == "water":
+            for line in (*(ring for polygon in mapped.polygons for ring in polygon), *mapped.lines):
+                land_drawing.draw_bank(picture, line, 0.0 if mapped.polygons else mapped.width)
+    return OrthophotoImage(low, high, picture.pixels)
 
 
-def _covers(
-    feature: MappedFeature, low: Array, pixel: Array, shape: tuple[int, int]
-) -> list[rasterize.Covered]:
-    found = [
-        rasterize.filled([(ring - low) / pixel for ring in polygon], shape) for polygon in feature.polygons
-    ]
-    width = feature.width / float(np.mean(pixel))
-    found += [rasterize.stroked((line - low) / pixel, width, shape) for line in feature.lines]
-    return [each for each in found if each is not None]
+def _draw(picture: land_drawing.Picture, mapped: MappedFeature, kind: LandUseKind, seed: int) -> None:
+    """Draw a feature in one of its colours, a little lighter or darker than others."""
+    lot, bright = noise.uniform([mapped.number] * 2, [7, 8], seed)
+    choice = int(lot * len(kind.colours))
+    red, green, blue = (float(part * (0.92 + 0.16 * bright)) for part in kind.colours[choice])
+    colour = red, green, blue
+    for polygon in mapped.polygons:
+        if kind.patterns:
+            land_drawing.draw_field(picture, polygon, colour, kind.strength, kind.patterns[choice])
+        else:
+            land_drawing.draw_area(picture, polygon, colour, kind.strength)
+    for line in mapped.lines:
+        if mapped.kind == "track":
+            land_drawing.draw_track(picture, line, mapped.width, colour)
+        elif mapped.kind == "road":
+            land_drawing.draw_road(picture, line, mapped.width, colour)
+        else:
+            picture.blend(picture.stroked(line, mapped.width), colour, kind.strength)

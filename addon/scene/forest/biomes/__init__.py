@@ -15,8 +15,11 @@ import numpy as np
 from firetwin_core.run import Run
 
 from ....run import blocks, fuel_category, times
+from ....shot.fire import emissions
 from ....shot.sections import biome_names
-from ....shot.shot import Shot
+from ....shot.shot import Shot, cached_on_shot
+from .. import phenology
+from ..phenology import LeafState
 from ._biome import Biome, Colour, Land, OpenLand, Plants, Season, Species
 
 __all__ = [
@@ -24,6 +27,7 @@ __all__ = [
     "Colour",
     "Here",
     "Land",
+    "LeafState",
     "OpenLand",
     "Plants",
     "Season",
@@ -36,6 +40,9 @@ __all__ = [
 _ENOUGH = 160  # rows or columns of the grid that are sampled for the land
 _CANOPY, _NOTHING = 0.01, 0.02  # kg/m2: canopy at which ground is wooded, and load that counts as no fuel
 _SHRUB = 0.9  # kg/m2 of surface fuel without canopy at which it counts as shrub, without a category (assumed)
+_CURED = 0.12  # greenness at most of grass that carries a fire; about a tenth of it is alive (assumed)
+_DRY = 0.40  # greenness at most of grass where only litter, shrubs or crowns burn (assumed)
+_GRASS_BURNS = 0.02  # fraction of the burned land that is grass from which grass carries the fire (assumed)
 _CHOSEN: WeakKeyDictionary[Run, str] = WeakKeyDictionary()
 
 
@@ -48,12 +55,15 @@ class Here:
     name
         Name of the biome.
     green
-        Greenness of the season, 0: dry, 1: green.
+        Greenness of grass, 0: dry, 1: green.
+    leaves
+        State of deciduous leaves.
     """
 
     name: str
     biome: Biome
     green: float
+    leaves: LeafState
 
 
 @functools.cache
@@ -62,8 +72,12 @@ def known() -> dict[str, Biome]:
     return {name: importlib.import_module(f".{name}", __name__).BIOME for name in biome_names.names()}
 
 
+@cached_on_shot
 def choose(shot: Shot) -> Here:
-    """Select the biome of a shot: the one in the settings, or the best match for the run's land."""
+    """Select the biome of a shot: the one in the settings, or the best match for the run's land.
+
+    Grass that burns is cured: the date alone decides its greenness only in a run without fire.
+    """
     run, forest = shot.run, shot.settings.forest
     name = forest.biome if forest.biome != "auto" else _auto(run)
     biome = known()[name]
@@ -73,8 +87,20 @@ def choose(shot: Shot) -> Here:
         biome = replace(biome, shrub_cover=forest.shrub_cover)
     latitude = 0.5 * float(run.latitude[0] + run.latitude[-1])
     day = times.utc(run, float(shot.frames.first)).timetuple().tm_yday
-    green = biome.season.greenness(day, latitude) if forest.greenness is None else forest.greenness
-    return Here(name, biome, green)
+    season = biome.season.greenness(day, latitude)
+    leaves = phenology.of_kind(biome.leaf_fall, day, latitude, season)
+    green = season if forest.greenness is None else forest.greenness
+    if forest.greenness is None and season > _CURED:
+        green = min(season, _greenest(shot))
+    return Here(name, biome, green, leaves)
+
+
+def _greenest(shot: Shot) -> float:
+    """Greenness at most, by the fuel that burns in the run at any time, so that all shots of a run agree."""
+    burned = emissions.of_run(shot.run)[np.isfinite(shot.arrival)]
+    if not burned.size:
+        return 1.0
+    return _CURED if float(np.mean(burned == emissions.GRASS)) > _GRASS_BURNS else _DRY
 
 
 def _auto(run: Run) -> str:

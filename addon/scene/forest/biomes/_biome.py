@@ -12,6 +12,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ....shot.terrain import noise
+from . import _ecoregions
+from ._ecoregions import Ecoregion
 
 Colour = tuple[float, float, float]
 Pair = tuple[Colour, Colour]  # the darkest and the lightest colour
@@ -36,6 +38,11 @@ class Land:
     grass: float
     shrub: float
     wood: float
+
+    @property
+    def ecoregion(self) -> Ecoregion:
+        """Realm and zone of its centre."""
+        return _ecoregions.at(self.latitude, self.longitude)
 
     def within(self, south: float, north: float, west: float, east: float) -> bool:
         """Return True if its centre is in a box, degrees."""
@@ -180,7 +187,7 @@ class Biome:
     suits
         Score of its match with a run's land: the biome of the highest score is chosen.
     season
-        Phenology of grass and of deciduous leaves.
+        Phenology of grass.
     needles
         Sunlit crowns, as the ground shows distant forest.
     stands
@@ -189,16 +196,20 @@ class Biome:
         Colours of dense clumps, and between crowns.
     crown
         Width of crowns in the distant forest, m.
+    leaf_fall
+        Season in which deciduous trees lose their leaves: "winter", "drought", or "" if all are evergreen.
     deciduous
-        Fraction of the crowns' green that follows the season.
+        Fraction of the crowns that are deciduous, as the ground shows distant forest.
     withered
-        Factor on the colour of such crowns after their green is gone.
+        Factor on the colour of such crowns after their leaves have turned.
     litter, scrub
         Ground under trees: dead leaves from afar, and its green plants.
     grass
         Dry and green blades near cameras.
     species
         Trees of the stand; none: species of the core, with oaks in the foothills.
+    rows
+        Distance between the rows of a plantation, m; 0: no rows.
     tree_cover, shrub_cover
         Fractions of open land under lone trees, and under bushes where its fuel is grass.
     shrub_load
@@ -218,12 +229,14 @@ class Biome:
     shade: Colour
     between: Colour
     crown: float = 13.0
+    leaf_fall: str = ""
     deciduous: float = 0.0
     withered: Colour = (1.0, 1.0, 1.0)
     litter: Pair = ((0.019, 0.017, 0.010), (0.062, 0.050, 0.030))
     scrub: Colour = (0.024, 0.033, 0.014)
     grass: Pair = ((0.150, 0.115, 0.055), (0.060, 0.065, 0.028))
     species: tuple[Species, ...] = ()
+    rows: float = 0.0
     tree_cover: float = 0.0
     shrub_cover: float = 0.0
     shrub_load: tuple[float, float] = (0.7, 1.4)

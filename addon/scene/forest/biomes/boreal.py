@@ -1,11 +1,18 @@
-"""spruce, pine and birch of the north, moss, lichen and bogs."""
+"""spruce, pine, larch and birch of the north, moss, lichen and bogs."""
 
 from .. import models
 from ._biome import Biome, Land, OpenLand, Plants, Season, Species
+from ._ecoregions import BOREAL, CONIFER, NEARCTIC, STEPPE, TUNDRA
 
 
 def _suits(land: Land) -> float:
-    return (land.wood + 0.4 * (land.shrub + land.grass)) * (1.0 if abs(land.latitude) >= 50.0 else 0.3)
+    realm, zone = land.ecoregion
+    north = zone in (BOREAL, TUNDRA)
+    mountains = zone == CONIFER and realm != NEARCTIC
+    cold_steppe = zone == STEPPE and land.latitude > 48.0
+    return (0.05 + land.wood + 0.4 * (land.shrub + land.grass)) * north + 0.95 * land.wood * (
+        mountains or cold_steppe
+    )
 
 
 BIOME = Biome(
@@ -16,15 +23,17 @@ BIOME = Biome(
     shade=(0.007, 0.011, 0.007),
     between=(0.022, 0.024, 0.013),
     crown=6.0,
-    deciduous=0.15,
-    withered=(2.2, 1.5, 0.9),
+    leaf_fall="winter",
+    deciduous=0.30,
+    withered=(4.2, 2.2, 1.0),
     litter=((0.030, 0.032, 0.016), (0.092, 0.092, 0.058)),
     scrub=(0.034, 0.050, 0.018),
     grass=((0.150, 0.125, 0.065), (0.060, 0.080, 0.026)),
     species=(
-        Species(models.SPRUCES, 0.62, height=0.66, width=0.85),
-        Species(models.PINES, 0.20, height=0.70, width=0.85),
+        Species(models.SPRUCES, 0.50, height=0.66, width=0.85),
         Species(models.BIRCHES, 0.18, height=0.60, width=1.0),
+        Species(models.PINES, 0.18, height=0.70, width=0.85),
+        Species(models.LARCHES, 0.14, height=0.68, width=0.90),
     ),
     tree_cover=0.012,
     shrub_cover=0.22,

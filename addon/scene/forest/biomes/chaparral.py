@@ -19,6 +19,7 @@ BIOME = Biome(
     litter=((0.045, 0.035, 0.020), (0.115, 0.090, 0.052)),
     scrub=(0.032, 0.038, 0.018),
     grass=((0.230, 0.178, 0.086), (0.080, 0.096, 0.034)),
+    leaf_fall="winter",
     species=(
         Species(models.LIVE_OAKS, 0.65, height=0.48),
         Species(models.OAKS, 0.35, height=0.50),

@@ -2,10 +2,11 @@
 
 from .. import models
 from ._biome import Biome, Land, OpenLand, Plants, Season, Species
+from ._ecoregions import DESERT, STEPPE
 
 
 def _suits(land: Land) -> float:
-    return 0.9 * land.grass
+    return 0.9 * land.grass + 0.05 * (land.ecoregion.zone in (STEPPE, DESERT))
 
 
 BIOME = Biome(
@@ -19,6 +20,7 @@ BIOME = Biome(
     litter=((0.050, 0.042, 0.024), (0.120, 0.098, 0.056)),
     scrub=(0.036, 0.042, 0.020),
     grass=((0.215, 0.168, 0.086), (0.080, 0.096, 0.036)),
+    leaf_fall="winter",
     species=(
         Species(models.OAKS, 0.5, height=0.40),
         Species(models.LIVE_OAKS, 0.5, height=0.32),

@@ -2,11 +2,13 @@
 
 from .. import models
 from ._biome import Biome, Land, OpenLand, Plants, Season, Species
+from ._ecoregions import MEDITERRANEAN, NEARCTIC
 
 
 def _suits(land: Land) -> float:
-    basin = land.within(28.0, 47.0, -11.0, 42.0)
-    return (land.shrub + 0.25 * land.wood * basin) * (1.0 if basin else 0.7)
+    realm, zone = land.ecoregion
+    basin = zone == MEDITERRANEAN and realm != NEARCTIC
+    return 0.05 * basin + land.shrub * (1.0 if basin else 0.7)
 
 
 BIOME = Biome(

@@ -2,11 +2,13 @@
 
 from .. import models
 from ._biome import Biome, Land, OpenLand, Plants, Season, Species
+from ._ecoregions import DRY_FOREST, RAINFOREST, SAVANNA
 
 
 def _suits(land: Land) -> float:
-    tropics = abs(land.latitude) < 20.0
-    return tropics * (land.grass + 0.9 * land.shrub + 0.5 * land.wood)
+    zone = land.ecoregion.zone
+    tropics = zone in (SAVANNA, DRY_FOREST) or (zone == RAINFOREST and abs(land.latitude) < 20.0)
+    return tropics * (0.05 + land.grass + 0.9 * land.shrub + 0.75 * land.wood)
 
 
 BIOME = Biome(
@@ -17,6 +19,7 @@ BIOME = Biome(
     shade=(0.012, 0.016, 0.009),
     between=(0.034, 0.028, 0.015),
     crown=10.0,
+    leaf_fall="drought",
     deciduous=0.6,
     withered=(1.5, 1.1, 0.8),
     litter=((0.050, 0.036, 0.020), (0.125, 0.092, 0.052)),

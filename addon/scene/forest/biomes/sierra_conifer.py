@@ -1,10 +1,12 @@
-"""mixed conifers of the Sierra Nevada, oaks in the foothills."""
+"""mixed conifers of the Sierra Nevada and of western North America, oaks in the foothills."""
 
 from ._biome import Biome, Land, Season
+from ._ecoregions import CONIFER, DESERT, MEDITERRANEAN, NEARCTIC
 
 
 def _suits(land: Land) -> float:
-    return 0.05 + land.wood * (1.0 if abs(land.latitude) < 50.0 else 0.6)
+    realm, zone = land.ecoregion
+    return (realm == NEARCTIC and zone in (CONIFER, MEDITERRANEAN, DESERT)) * (0.05 + land.wood)
 
 
 BIOME = Biome(
@@ -14,4 +16,5 @@ BIOME = Biome(
     stands=(0.034, 0.072, 0.026),
     shade=(0.009, 0.014, 0.008),
     between=(0.010, 0.015, 0.008),
+    leaf_fall="winter",
 )
