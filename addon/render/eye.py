@@ -1,9 +1,10 @@
-"""One eye of a camera: surfaces rendered by Cycles, composited with ray-marched smoke."""
+"""One eye of a camera: surfaces rendered by Cycles, composited with ray-marched smoke and flames."""
 
 from __future__ import annotations
 
 import functools
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 from firetwin_core import volume
@@ -14,6 +15,7 @@ from ..blender.owned import Stage
 from ..scene import infrared
 from ..scene.labels.material import COVER
 from ..scene.smoke import illumination
+from ..shot.passes import masks
 from ..shot.shot import Shot
 from ..smoke import shutter
 from . import composite, rays
@@ -23,6 +25,7 @@ Array = NDArray[np.float32]
 
 _STEP = 0.5  # voxels, step of the ray march
 _SPARSE, _HIDES = 16, 3.0  # pixels between rays; optical depth that transmits 5 % of light
+_FARTHEST, _NEAREST, _TAPS = 2.0e4, 1.0e-3, 48  # m; nearest distance over the surface's; distances of masks
 _PLACES = ((0.25, 0.25), (0.75, 0.75))  # positions of the marched rays in a pixel, which are averaged
 
 
@@ -35,12 +38,22 @@ class Eye:
         -1 for the left and 1 for the right eye of a stereo camera, or 0.
     smoke
         Smoke volumes of the frame.
+    flames
+        Flames of the frame that are drawn as a volume; None if there are none.
     """
 
     def __init__(
-        self, shot: Shot, stage: Stage, channels: Channels, number: int, smoke: Sequence[volume.Bricks]
+        self,
+        shot: Shot,
+        stage: Stage,
+        channels: Channels,
+        number: int,
+        smoke: Sequence[volume.Bricks],
+        flames: volume.FlameVolume | None = None,
     ) -> None:
-        self.shot, self.stage, self.channels, self.smoke = shot, stage, channels, smoke
+        self.shot, self.stage, self.channels = shot, stage, channels
+        self.smoke, self.flames = smoke, flames
+        self._burning: dict[str, Any] = {} if flames is None else {"flames": flames}
         self.number = number
         height, width = self.shape = next(iter(channels.values())).shape[:2]
         self._through = functools.partial(
@@ -49,40 +62,40 @@ class Eye:
         self.rays = self._through()
 
     def picture(self, text: Channels | None = None) -> Array:
-        """Compute the radiance (h, w, 3) of surfaces, smoke and `text`, which was rendered alone."""
+        """Compute the radiance (h, w, 3) of surfaces, smoke, flames and `text`, which was rendered alone."""
         rendered = self._surfaces()
         at = composite.taps(rendered)
         marched = np.zeros((*at.shape, 4), np.float32)
-        marched[..., 3] = not self.smoke
-        if self.smoke:
-            light, ends = illumination.visible_light(self.stage), at.reshape(-1, 3)
+        marched[..., 3] = not (self.smoke or self.flames)
+        if self.smoke or self.flames:
+            ends = at.reshape(-1, 3)
             for weight, smoke, place in _marches(shutter.moments(self.smoke)):
-                found = volume.march(smoke, *_lines(self._through(at=place)), ends, light, _STEP)
+                lines = _lines(self._through(at=place))
+                found = volume.march(smoke, *lines, ends, self._light, _STEP, **self._burning)
                 marched += np.float32(weight) * found.reshape(marched.shape)
         composed = composite.compose(rendered, at, marched)
         return composed if text is None else self._place_text(composed, rendered, at, text)
 
     def _place_text(self, picture: Array, rendered: composite.Surfaces, at: Array, text: Channels) -> Array:
-        """Place text over a picture, with the smoke in front of it."""
+        """Place text over a picture, with the smoke and flames in front of it."""
         cover = np.clip(text[COVER][..., 0], 0.0, 1.0)
         light, way, _ = np.moveaxis(text[nodes.FLAMES], -1, 0)
         distance = self.rays.from_distance(np.where(light > 0.0, way / np.maximum(light, 1e-9), 0.0))
         front = np.zeros((*cover.shape, 4), np.float32)
         front[..., 3] = 1.0
         written = np.nonzero((cover > 0.0) & (light > 0.0))
-        if self.smoke and len(written[0]):
+        if (self.smoke or self.flames) and len(written[0]):
             origins = self.rays.origins if self.rays.origins.ndim == 1 else self.rays.origins[written]
             lines, ends = self.rays.directions[written], distance[written][:, None]
-            seen = illumination.visible_light(self.stage)
             marched = np.zeros((len(lines), 4), np.float32)
             for weight, smoke in shutter.moments(self.smoke):
-                found = volume.march(smoke, origins, lines, ends, seen, _STEP)
+                found = volume.march(smoke, origins, lines, ends, self._light, _STEP, **self._burning)
                 marched += np.float32(weight) * found.reshape(-1, 4)
             front[written] = marched
         return composite.place_text(picture, rendered, at, (text["Combined"], cover, distance), front)
 
     def radiance(self, frame: int) -> Array:
-        """Compute the infrared radiance (h, w) of surfaces, air and smoke, W m-2 sr-1."""
+        """Compute the infrared radiance (h, w) of surfaces, air, smoke and flames, W m-2 sr-1."""
         channels = self.channels
         bare = composite.infrared_radiance(
             channels[nodes.SURFACE],
@@ -90,19 +103,39 @@ class Eye:
             channels[nodes.WARMTH][..., 0],
             infrared.sky_radiance(self.shot),
         )
-        if not self.smoke:
+        if not (self.smoke or self.flames):
             return bare
         air = illumination.infrared_arguments(self.shot, self.stage, frame)
+        air |= self._burning
         marched = volume.march_infrared(self.smoke, *_lines(self.rays), self.distance.ravel(), **air)
         light, through = np.moveaxis(marched.reshape(*self.shape, 2), -1, 0)
         return bare * through + light
 
-    def transmittance(self) -> Array:
-        """Compute the transmittance (h, w) of smoke in green light, from the camera to the surfaces."""
+    def masks(self, pixels: Array) -> Array:
+        """Add flames and smoke to the mask pixels (h, w, 3) of the surfaces, see `blender.nodes.mask_switch`.
+
+        A pixel is fire if the flames before its surface transmit less than half of the light along its
+        central ray. Smoke dims it up to the place where they do.
+        """
+        ends = self.distance.copy()
+        pixels = pixels.copy()
+        if self.flames:
+            ends, burning = self._flames_before(ends)
+            pixels[burning] = 0.0, 1.0, masks.FIRE
         if not self.smoke:
-            return np.ones(self.shape, np.float32)
-        depth = volume.optical_depth(self.smoke, *_lines(self.rays), self.distance.ravel(), step=_STEP)
-        return np.exp(-depth * illumination.extinction_factor(self.stage)).reshape(self.shape)
+            return pixels
+        depth = volume.optical_depth(self.smoke, *_lines(self.rays), ends.ravel(), step=_STEP)
+        clear = np.exp(-depth * illumination.extinction_factor(self.stage)).reshape(self.shape)
+        return pixels * clear[..., None]
+
+    def _flames_before(self, ends: Array) -> tuple[Array, NDArray[np.bool_]]:
+        """Return the distances (h, w) up to opaque flames or `ends`, m, and a mask of the opaque flames."""
+        reached = np.minimum(ends, _FARTHEST).reshape(-1, 1)
+        at = reached * np.geomspace(_NEAREST, 1.0, _TAPS)
+        found = volume.march([], *_lines(self.rays), at, self._light, _STEP, flames=self.flames)
+        opaque = found[..., 3] < masks.HIDES
+        first = np.where(opaque.any(axis=1), at[np.arange(len(at)), opaque.argmax(axis=1)], ends.ravel())
+        return first.reshape(self.shape).astype(np.float32), opaque[:, -1].reshape(self.shape)
 
     def hidden_by_near_smoke(self, near: float) -> float:
         """Estimate the share of the picture, 0 to 1, that is hidden by smoke nearer than `near` m."""
@@ -113,6 +146,13 @@ class Eye:
         origins = rays.origins if rays.origins.ndim == 1 else rays.origins[every].reshape(-1, 3)
         depth = volume.optical_depth(self.smoke, origins, directions, np.full(len(directions), near), _STEP)
         return float((depth * illumination.extinction_factor(self.stage) > _HIDES).mean())
+
+    @functools.cached_property
+    def _light(self) -> volume.Illumination:
+        """Light in smoke and haze."""
+        if self.smoke:
+            return illumination.visible_light(self.stage)
+        return illumination.light_without_smoke(self.stage)
 
     @functools.cached_property
     def distance(self) -> Array:

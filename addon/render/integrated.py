@@ -1,4 +1,4 @@
-"""Integrated renderer: surfaces rendered by Cycles, composited with ray-marched smoke.
+"""Integrated renderer: surfaces rendered by Cycles, composited with ray-marched smoke and flames.
 
 Cycles renders only the shadow of smoke. The visible picture, infrared radiance and depth come from one
 render, in which AOVs record temperature and flames, and the first ray of a pixel goes through its centre to
@@ -17,8 +17,12 @@ from numpy.typing import NDArray
 
 from ..blender import compat, nodes, owned
 from ..blender.owned import Stage
+from ..scene import flame_field
+from ..scene.fire import build as fire
+from ..scene.fire import flame_volume
 from ..scene.smoke import shadow
 from ..shot import passes
+from ..shot.fire import flame_map
 from ..shot.shot import Shot
 from ..smoke import sources
 from . import frame_cost, layers, surfaces, text_layer
@@ -44,6 +48,9 @@ class IntegratedRenderer:
         """Frames in which smoke close to the camera hides more than half of the picture."""
         self.image = _image_node(self.scene)
         _prepare(self.scene)
+        (view,) = shot.paths
+        self.field = hasattr(volume, "FlameVolume")  # of a core that is built again
+        flame_field.set_reach(stage, flame_map.reach(shot, view) if self.field else 0.0)
         self.shadow = _shadow(shot, stage) if shot.settings.smoke.enabled else None
         for volume_object in stage.objects_of("Smoke"):
             volume_object.hide_render = True
@@ -72,7 +79,8 @@ class IntegratedRenderer:
             rendered = surfaces.render(self.scene, [first], part)
             wanted = self.has_text and "rgb" in pictures
             text = text_layer.render(self.scene, part) if wanted else {}
-        eyes = [Eye(self.shot, self.stage, found[first], number, smoke) for number, found in rendered]
+        flames = self._flames(pictures[first].frame)
+        eyes = [Eye(self.shot, self.stage, found[first], number, smoke, flames) for number, found in rendered]
         if "rgb" in pictures:
             with self.cost.part(frame_cost.MARCH):
                 light = [eye.picture(text.get(eye.number)) for eye in eyes]
@@ -85,6 +93,14 @@ class IntegratedRenderer:
         if "depth" in pictures:
             depth = [eye.channels["Depth"][..., 0] for eye in eyes]
             _write(part, pictures["depth"], np.concatenate(depth))
+
+    def _flames(self, frame: int) -> volume.FlameVolume | None:
+        """Return the flames of a frame that are drawn as a volume."""
+        (view,) = self.shot.paths
+        if not self.field:
+            return None
+        with self.cost.part(frame_cost.MARCH):
+            return flame_volume.build(self.shot, view, frame, fire.torching_crowns(self.stage))
 
     def _check_view(self, eye: Eye, frame: int) -> None:
         """Record a frame that is mostly hidden by smoke close to the camera."""
@@ -117,8 +133,8 @@ class IntegratedRenderer:
                 channels = found[picture.name]
                 pixels = channels["Combined" if known.socket == "Image" else known.socket]
                 if passes.records_masks(known):
-                    clear = Eye(self.shot, self.stage, channels, number, smoke).transmittance()
-                    pixels = pixels * clear[..., None]
+                    flames = self._flames(picture.frame)
+                    pixels = Eye(self.shot, self.stage, channels, number, smoke, flames).masks(pixels)
                 halves.append(pixels)
             _write(part, picture, np.concatenate(halves))
 

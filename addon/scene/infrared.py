@@ -91,6 +91,11 @@ def sky_radiance(shot: Shot) -> float:
     return float(sensor.radiance(SKY, BANDS[shot.settings.thermal.band]))
 
 
+def air_depth(shot: Shot, height: float) -> float:
+    """Return the optical depth of 1 km of air at a scene height (m)."""
+    return float(_DIM * shot.settings.thermal.vapour * np.exp(-height / _HALF) ** _BEND)
+
+
 def _group(shot: Shot, stage: Stage) -> bpy.types.NodeTree:
     """Create the node group once per scene: kelvin and emissivity -> radiance; and air transmittance."""
     if stage.root.get(_GROUP) is not None:

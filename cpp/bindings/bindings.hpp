@@ -21,6 +21,7 @@ void init_forest(Module module);
 void init_particles(Module module);
 void init_terrain(Module module);
 void init_march(Module module);
+void init_flames(Module module);
 void init_smoke(Module module);
 void init_volume(Module module);
 void init_sensor(Module module);

@@ -1,6 +1,7 @@
 #include "volume/march.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "volume/flames.hpp"
 #include "volume/infrared.hpp"
 #include "volume/optical_depth.hpp"
 
@@ -15,6 +16,7 @@ namespace {
 using volume::AirTemperature;
 using volume::Bricks;
 using volume::Colour;
+using volume::FlameVolume;
 using volume::Illumination;
 
 std::shared_ptr<Bricks> make_bricks(const py::object& density, const py::object& fresh,
@@ -61,14 +63,15 @@ using LayerList = std::vector<std::shared_ptr<Bricks>>;
 
 Array<float> march(const LayerList& layers, const py::object& origins, const py::object& directions,
                    const py::object& distances, const Illumination& light, double step,
-                   double min_transmittance) {
+                   double min_transmittance, const std::shared_ptr<FlameVolume>& flames) {
   const RayArrays given(layers, origins, directions);
   const auto taps = to_array<float>(distances, "distances", {given.size(), -1});
   auto found = new_array<float>({given.size(), taps.shape(1), 4});
   const std::span<float> out = writable(found);
   const py::gil_scoped_release release;
-  volume::march(given.layers(), given.rays(), {view(taps), static_cast<std::size_t>(taps.shape(1))},
-                light, {step, min_transmittance}, out);
+  volume::march(given.layers(), flames.get(), given.rays(),
+                {view(taps), static_cast<std::size_t>(taps.shape(1))}, light,
+                {step, min_transmittance}, out);
   return found;
 }
 
@@ -85,13 +88,12 @@ Array<float> optical_depth(const LayerList& layers, const py::object& origins,
   return found;
 }
 
-Array<float> march_infrared(const LayerList& layers, const py::object& origins,
-                            const py::object& directions, const py::object& distances,
-                            const py::object& kelvin, const py::object& elevation,
-                            const std::array<double, 2>& corner,
-                            const std::array<double, 2>& spacing, double lapse,
-                            const py::object& radiance, double coldest, double kelvin_step,
-                            double absorption, double step) {
+Array<float>
+march_infrared(const LayerList& layers, const py::object& origins, const py::object& directions,
+               const py::object& distances, const py::object& kelvin, const py::object& elevation,
+               const std::array<double, 2>& corner, const std::array<double, 2>& spacing,
+               double lapse, const py::object& radiance, double coldest, double kelvin_step,
+               double absorption, double step, const std::shared_ptr<FlameVolume>& flames) {
   const RayArrays given(layers, origins, directions);
   const auto ends = to_array<float>(distances, "distances", {given.size()});
   const auto warm = to_array<float>(kelvin, "kelvin", {-1, -1});
@@ -104,7 +106,7 @@ Array<float> march_infrared(const LayerList& layers, const py::object& origins,
   auto found = new_array<float>({given.size(), 2});
   const std::span<float> out = writable(found);
   const py::gil_scoped_release release;
-  volume::march_infrared(given.layers(), given.rays(), view(ends), air, step, out);
+  volume::march_infrared(given.layers(), flames.get(), given.rays(), view(ends), air, step, out);
   return found;
 }
 
@@ -133,10 +135,12 @@ void init_march(Module module) {
            "haze"_a, "haze_height"_a);
   const volume::MarchSettings defaults;
   module.def("march", &march, "layers"_a, "origins"_a, "directions"_a, "distances"_a, "light"_a,
-             "step"_a = defaults.step, "min_transmittance"_a = defaults.min_transmittance);
+             "step"_a = defaults.step, "min_transmittance"_a = defaults.min_transmittance,
+             "flames"_a = nullptr);
   module.def("march_infrared", &march_infrared, "layers"_a, "origins"_a, "directions"_a,
              "distances"_a, py::kw_only(), "kelvin"_a, "elevation"_a, "corner"_a, "spacing"_a,
-             "lapse"_a, "radiance"_a, "coldest"_a, "kelvin_step"_a, "absorption"_a, "step"_a = 4.0);
+             "lapse"_a, "radiance"_a, "coldest"_a, "kelvin_step"_a, "absorption"_a, "step"_a = 4.0,
+             "flames"_a = nullptr);
   module.def("optical_depth", &optical_depth, "layers"_a, "origins"_a, "directions"_a,
              "distances"_a, "step"_a = 2.0, "max_depth"_a = 20.0);
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 namespace firetwin::volume {
@@ -57,30 +58,41 @@ LayerCrossing* nearest(std::vector<LayerCrossing>& crossings) {
   return found;
 }
 
-/// Computes radiance and transmittance of the smoke on a ray.
-std::array<float, 2> along(RayTraversal& traversal, const Vector& origin, const Vector& direction,
-                           const AirTemperature& air, double step) {
+/// Computes radiance and transmittance of the smoke and flames on a ray of length `end`.
+std::array<float, 2> along(RayTraversal& traversal, FlameRay* flames, const Vector& origin,
+                           const Vector& direction, float end, const AirTemperature& air,
+                           double step) {
   float light = 0.0F, transmittance = 1.0F;
+  const auto burn = [&](float until) {
+    FlameSlab slab;
+    while (flames != nullptr && flames->next(until, slab)) {
+      light += transmittance * slab.infrared;
+      transmittance *= slab.infrared_transmittance;
+    }
+  };
   // Layers overlap where they blend: segments are processed in order of distance.
   while (LayerCrossing* crossing = nearest(traversal.crossings())) {
     const Segment& segment = crossing->segments[crossing->current++];
+    const double middle = traversal.entry() + 0.5 * static_cast<double>(segment.from + segment.to);
+    burn(static_cast<float>(middle));
     const double depth = depth_of(*crossing, segment, step);
     const auto step_transmittance = static_cast<float>(std::exp(-depth * air.absorption));
     if (step_transmittance < 1.0F) {
-      const double middle = traversal.entry() + 0.5 * (segment.from + segment.to);
       light += transmittance * (1.0F - step_transmittance) *
                radiance(air, {origin[0] + direction[0] * middle, origin[1] + direction[1] * middle,
                               origin[2] + direction[2] * middle});
       transmittance *= step_transmittance;
     }
   }
+  burn(end);
   return {light, transmittance};
 }
 
 } // namespace
 
-void march_infrared(Layers layers, const Rays& rays, std::span<const float> distances,
-                    const AirTemperature& air, double step, std::span<float> out) {
+void march_infrared(Layers layers, const FlameVolume* flames, const Rays& rays,
+                    std::span<const float> distances, const AirTemperature& air, double step,
+                    std::span<float> out) {
   check(rays, distances, 1);
   const auto cells = static_cast<std::size_t>(air.shape[0] * air.shape[1]);
   if (cells < 1 || air.kelvin.size() != cells || air.elevation.size() != cells ||
@@ -88,13 +100,23 @@ void march_infrared(Layers layers, const Rays& rays, std::span<const float> dist
     throw std::invalid_argument(
         "kelvin and elevation must have the same shape, and radiance at least 2 values");
   }
+  const BandRadiance band{air.radiance, air.coldest, air.kelvin_step};
   for_rays(
       rays.size(), [layers] { return RayTraversal(layers); },
       [&](RayTraversal& traversal, std::size_t ray) {
         const Vector origin = rays.origin(ray), direction = rays.direction(ray);
-        const bool smoky = traversal.follow(origin, direction, distances[ray]);
-        const auto [light, transmittance] = smoky ? along(traversal, origin, direction, air, step)
-                                                  : std::array<float, 2>{0.0F, 1.0F};
+        const float end = distances[ray];
+        if (!traversal.follow(origin, direction, static_cast<double>(end))) {
+          for (LayerCrossing& each : traversal.crossings()) {
+            each.segments.clear();
+          }
+        }
+        std::optional<FlameRay> burning;
+        if (flames != nullptr) {
+          burning.emplace(*flames, origin, direction, end, ray, &band);
+        }
+        const auto [light, transmittance] =
+            along(traversal, burning ? &*burning : nullptr, origin, direction, end, air, step);
         out[2 * ray] = light;
         out[2 * ray + 1] = transmittance;
       });

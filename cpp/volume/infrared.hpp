@@ -1,5 +1,6 @@
 #pragma once
 
+#include "volume/flames.hpp"
 #include "volume/ray.hpp"
 
 #include <array>
@@ -25,8 +26,10 @@ struct AirTemperature {
 /// radiance and transmittance up to each ray's distance (n). The temperature is constant within a
 /// block.
 ///
+/// @param flames may be null; their temperatures must be within the table of radiance
 /// @throws std::invalid_argument
-void march_infrared(Layers layers, const Rays& rays, std::span<const float> distances,
-                    const AirTemperature& air, double step, std::span<float> out);
+void march_infrared(Layers layers, const FlameVolume* flames, const Rays& rays,
+                    std::span<const float> distances, const AirTemperature& air, double step,
+                    std::span<float> out);
 
 } // namespace firetwin::volume

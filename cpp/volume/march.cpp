@@ -2,6 +2,7 @@
 
 #include "base/clones.hpp"
 #include "base/simd.hpp"
+#include "volume/flames.hpp"
 #include "volume/half.hpp"
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
 namespace firetwin::volume {
@@ -151,9 +153,10 @@ private:
 /// Marches rays one by one; use one object per thread.
 class Marcher {
 public:
-  Marcher(Layers layers, const Taps& taps, const Illumination& light, const MarchSettings& settings)
-      : traversal_(layers), taps_(taps), light_(light), settings_(settings), shading_(light),
-        order_(taps.count) {}
+  Marcher(Layers layers, const FlameVolume* flames, const Taps& taps, const Illumination& light,
+          const MarchSettings& settings)
+      : traversal_(layers), flames_(flames), taps_(taps), light_(light), settings_(settings),
+        shading_(light), order_(taps.count) {}
 
   void ray(const Vector& origin, const Vector& direction, std::size_t number, float* out);
 
@@ -161,9 +164,17 @@ private:
   void sort_taps(std::size_t number);
   float find_active_layers(float t);
   void step(float t, float until, const Haze& haze);
+  void pass(float t, float until, const Haze& haze);
+  void add(const FlameSlab& slab, float haze);
+  bool is_opaque() const {
+    return static_cast<double>(state_.transmittance) < settings_.min_transmittance;
+  }
   void record(float* out);
 
   RayTraversal traversal_;
+  const FlameVolume* flames_; ///< may be null
+  std::optional<FlameRay> burning_;
+  double entry_ = 0.0; ///< m, where distances of steps count from
   Taps taps_;
   const Illumination& light_;
   MarchSettings settings_;
@@ -213,11 +224,37 @@ void Marcher::step(float t, float until, const Haze& haze) {
   const float all = until - t;
   const int count =
       std::max(1, static_cast<int>(std::ceil(all / (static_cast<float>(settings_.step) * finest))));
-  const double entry = traversal_.entry();
-  const float near = haze.at(entry + static_cast<double>(t));
-  const float far = haze.at(entry + static_cast<double>(until));
+  const float near = haze.at(entry_ + static_cast<double>(t));
+  const float far = haze.at(entry_ + static_cast<double>(until));
   accumulate(active_, {t, all / static_cast<float>(count), count, near, (far - near) / all},
              shading_, static_cast<float>(settings_.min_transmittance), state_);
+}
+
+/// Adds flames to the end of the ray.
+void Marcher::add(const FlameSlab& slab, float haze) {
+  const Four light{slab.radiance[0], slab.radiance[1], slab.radiance[2], 0.0F};
+  const Four seen = light + (shading_.air * (1.0F - slab.transmittance) - light) * haze;
+  state_.radiance += seen * state_.transmittance;
+  state_.transmittance *= slab.transmittance;
+}
+
+/// Marches smoke and flames between t and `until`; smoke is cut at the middle of each slab of
+/// flames.
+void Marcher::pass(float t, float until, const Haze& haze) {
+  FlameSlab slab;
+  const auto end = static_cast<float>(entry_ + static_cast<double>(until));
+  while (burning_ && !is_opaque() && burning_->next(end, slab)) {
+    const double middle = 0.5 * static_cast<double>(slab.from + slab.to);
+    const float here = std::clamp(static_cast<float>(middle - entry_), t, until);
+    if (active_.count > 0 && here > t) {
+      step(t, here, haze);
+    }
+    add(slab, haze.at(middle));
+    t = here;
+  }
+  if (active_.count > 0 && until > t) {
+    step(t, until, haze);
+  }
 }
 
 void Marcher::record(float* out) {
@@ -233,25 +270,34 @@ void Marcher::ray(const Vector& origin, const Vector& direction, std::size_t num
   state_ = {};
   const float* distances = taps_.distances.data() + number * taps_.count;
   const double end = static_cast<double>(distances[order_.back()]);
-  if (traversal_.follow(origin, direction, end)) {
+  bool smoky = traversal_.follow(origin, direction, end);
+  entry_ = smoky ? traversal_.entry() : 0.0;
+  burning_.reset();
+  if (flames_ != nullptr) {
+    burning_.emplace(*flames_, origin, direction, static_cast<float>(end), number);
+  }
+  if (smoky || burning_) {
     ends_.clear();
     for (const std::size_t tap : order_) {
-      ends_.push_back(static_cast<float>(static_cast<double>(distances[tap]) - traversal_.entry()));
+      ends_.push_back(static_cast<float>(static_cast<double>(distances[tap]) - entry_));
     }
     const double g = light_.anisotropy,
                  base = 1.0 + g * g - 2.0 * g * dot(direction, light_.sun_direction);
     shading_.phase = static_cast<float>((1.0 - g * g) / (base * std::sqrt(base)));
     const Haze haze(light_, origin, direction);
-    float t = 0.0F;
+    float t = burning_ ? static_cast<float>(-entry_) : 0.0F;
     while (next_ < taps_.count && state_.transmittance > 0.0F) {
-      const float to = find_active_layers(t);
-      const float until = std::min(to, ends_[next_]);
-      if (active_.count > 0 && until > t) {
-        step(t, until, haze);
-      } else if (to == no_limit) {
+      active_.count = 0;
+      const float to = !smoky ? no_limit : t < 0.0F ? 0.0F : find_active_layers(t);
+      smoky = smoky && to < no_limit;
+      if (!smoky && !burning_) {
         break; // no smoke left
       }
-      if (static_cast<double>(state_.transmittance) < settings_.min_transmittance) {
+      const float until = std::min(to, ends_[next_]);
+      if (until > t) {
+        pass(t, until, haze);
+      }
+      if (is_opaque()) {
         state_.radiance *= 1.0F / (1.0F - state_.transmittance);
         state_.transmittance = 0.0F;
       }
@@ -268,14 +314,14 @@ void Marcher::ray(const Vector& origin, const Vector& direction, std::size_t num
 
 } // namespace
 
-void march(Layers layers, const Rays& rays, const Taps& taps, const Illumination& light,
-           const MarchSettings& settings, std::span<float> out) {
+void march(Layers layers, const FlameVolume* flames, const Rays& rays, const Taps& taps,
+           const Illumination& light, const MarchSettings& settings, std::span<float> out) {
   check(rays, taps.distances, taps.count);
   if (layers.size() > ActiveLayers{}.crossing.size() || taps.count < 1) {
     throw std::invalid_argument("march takes up to four layers, and at least one distance per ray");
   }
   for_rays(
-      rays.size(), [&] { return Marcher(layers, taps, light, settings); },
+      rays.size(), [&] { return Marcher(layers, flames, taps, light, settings); },
       [&](Marcher& marcher, std::size_t ray) {
         marcher.ray(rays.origin(ray), rays.direction(ray), ray, out.data() + 4 * taps.count * ray);
       });

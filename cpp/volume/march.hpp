@@ -1,5 +1,6 @@
 #pragma once
 
+#include "volume/flames.hpp"
 #include "volume/ray.hpp"
 
 #include <array>
@@ -40,16 +41,18 @@ struct MarchSettings {
   double min_transmittance = 1.0e-3;
 };
 
-/// Marches rays through sparse smoke: radiance and transmittance of each ray up to each tap, (n,
-/// count, 4) red, green, blue and transmittance.
+/// Marches rays through sparse smoke and flames: radiance and transmittance of each ray up to each
+/// tap, (n, count, 4) red, green, blue and transmittance.
 ///
 /// Steps end at block faces and taps. Within a step of length h, layers are composited one after
 /// the other; each transmits exp(-extinction h). Single scattering follows Henyey and Greenstein.
 /// Multiple scattering is approximated as by M. Wrenninge, C. Kulla and V. Lundqvist (2013, "Oz:
-/// The Great and Volumetric"), as in the smoke material.
+/// The Great and Volumetric"), as in the smoke material. Flames have shorter steps, in slabs
+/// of eight, each at its middle in the smoke.
 ///
+/// @param flames may be null
 /// @throws std::invalid_argument
-void march(Layers layers, const Rays& rays, const Taps& taps, const Illumination& light,
-           const MarchSettings& settings, std::span<float> out);
+void march(Layers layers, const FlameVolume* flames, const Rays& rays, const Taps& taps,
+           const Illumination& light, const MarchSettings& settings, std::span<float> out);
 
 } // namespace firetwin::volume

@@ -6,24 +6,9 @@ from firetwin_core import volume
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis_profiles import examples
+from march_light import NO_LIGHT
 
 FIELDS = ("density", "fresh", "sun", "sky", "glow")
-NO_LIGHT = {
-    "density": 1.0,
-    "fresh": (0.0, 0.0, 0.0),
-    "old": (0.0, 0.0, 0.0),
-    "sun": (0.0, 0.0, 0.0),
-    "sky": (0.0, 0.0, 0.0),
-    "sun_direction": (0.0, 0.0, 1.0),
-    "anisotropy": 0.0,
-    "multiple_scattering": (0.0, 0.0),
-    "glow": (0.0, 0.0, 0.0),
-    "thin": 1.0,
-    "thick": (1.0, 2.0),
-    "air": (0.0, 0.0, 0.0),
-    "haze": 0.0,
-    "haze_height": 5000.0,
-}
 FAR = np.float32(1e9)
 
 

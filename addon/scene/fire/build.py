@@ -6,6 +6,7 @@ from dataclasses import fields
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
 from ...blender import nodes, owned
 from ...blender.mesh import add_attribute, create_mesh
@@ -17,6 +18,7 @@ from . import firebrand_nodes, flame_light, flames, fronts, lamp_objects, materi
 
 CARDS = 4
 SHOWN = 1.0, 0.25, 0.02, 1.0  # red, green, blue and alpha in the solid view
+_FLAMES = "flames"
 _NAMES = {"length": "flame_length", "width": "flame_width"}
 
 
@@ -35,7 +37,7 @@ def build(shot: Shot, stage: Stage, grown: Stand | None = None) -> bpy.types.Obj
         if shot.settings.fire.emitters == "cells"
         else flames.front_flames(shot, grown)
     )
-    obj = owned.add(collection, "Flames", _mesh(points))
+    obj = owned.add(collection, "Flames", _mesh(points), _FLAMES)
     modifier = obj.modifiers.new("Firetwin Flames", "NODES")
     modifier.node_group = node_group(shot, stage, build_cards(shot, stage))
     obj.color = SHOWN
@@ -54,6 +56,27 @@ def _mesh(points: flames.Points) -> bpy.types.Mesh:
             name = _NAMES.get(field.name, field.name)
             add_attribute(data, name, "FLOAT", getattr(points, field.name))
     return data
+
+
+def torching_crowns(stage: Stage) -> flames.Points | None:
+    """Return the torching crowns of a built scene; None without flames."""
+    obj = next((each for each in stage.objects_of("Fire") if owned.is_ours(each, _FLAMES)), None)
+    if obj is None or "crown" not in obj.data.attributes:
+        return None
+    crowns = np.flatnonzero(_values(obj.data, "crown") > 0.0)
+    place = np.empty(3 * len(obj.data.vertices), np.float32)
+    obj.data.vertices.foreach_get("co", place)
+    rest = {field.name: _values(obj.data, field.name)[crowns] for field in fields(flames.Points)[1:]}
+    return flames.Points(position=place.reshape(-1, 3)[crowns].astype(np.float64), **rest)
+
+
+def _values(data: bpy.types.Mesh, name: str) -> NDArray[np.float64]:
+    """Return the values (n,) of an attribute of flames; 0 if the mesh does not have it."""
+    values = np.zeros(len(data.vertices), np.float32)
+    attribute = data.attributes.get(_NAMES.get(name, name))
+    if attribute is not None:
+        attribute.data.foreach_get("value", values)
+    return values.astype(np.float64)
 
 
 def _show_to_camera_only(obj: bpy.types.Object) -> None:

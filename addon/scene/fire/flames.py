@@ -71,6 +71,8 @@ class Points:
     heat
         (n,) W, heat release rate of flaming fuel at full size. The front's is the sum over lit flames, times
         their `life`; smouldering fuel is left out.
+    crown
+        (n,) height of the tree whose crown flames, m; 0 for flames of the front.
     """
 
     position: Array
@@ -83,6 +85,7 @@ class Points:
     kelvin: Array
     seed: Array
     heat: Array
+    crown: Array
 
     def take(self, chosen: NDArray) -> Points:
         """Return a subset of the points."""
@@ -151,6 +154,7 @@ def front_flames(shot: Shot, grown: Stand | None = None) -> Points:
         _flaming_heat(canopy, surface, stands)
         * spacing**2
         / (residence * _MEAN_LIFE * thin * (1.0 - _gap_fraction(even))),
+        np.zeros(len(length)),
     )
     points = points.take(np.flatnonzero((random[0] * 0.999 < thin) & _outside_gaps(place, even, shot)))
     if grown is not None and settings.fire.torches:
@@ -244,6 +248,7 @@ def torching_crowns(shot: Shot, grown: Stand) -> Points:
         flame_temperature(intensity),
         seed[chosen],
         constants.HEAT_OF_COMBUSTION * canopy[chosen] * _CROWN * height**2 / (residence[chosen] * _MEAN_LIFE),
+        height,
     )
 
 
@@ -276,6 +281,7 @@ def cell_flames(shot: Shot) -> Points:
                 flame_temperature(intensity),
                 seed,
                 1000.0 * intensity * width,
+                np.zeros(count),
             )
         )
     return _limit_to_budget(_concatenate(parts), shot, shot.paths)

@@ -17,7 +17,7 @@ from .. import haze, infrared
 from .. import temperature as airs
 from . import sunlit
 
-_TABLE = 180.0, 360.0, 0.5  # K, air temperatures of the radiance table, and their step
+_TABLE = 180.0, 1900.0, 0.5  # K, temperatures of air and flames in the radiance table, and their step
 
 
 def material(stage: Stage) -> bpy.types.Material | None:
@@ -58,6 +58,28 @@ def visible_light(stage: Stage) -> volume.Illumination:
     )
 
 
+def light_without_smoke(stage: Stage) -> volume.Illumination:
+    """Return the light of a scene without smoke: only its haze, in the scene's current frame."""
+    air, extinction = haze.current_state(stage)
+    black = 3 * [0.0]
+    return volume.Illumination(
+        density=0.0,
+        fresh=black,
+        old=black,
+        sun=black,
+        sky=black,
+        sun_direction=[0.0, 0.0, 1.0],
+        anisotropy=0.0,
+        multiple_scattering=sunlit.OFTENER,
+        glow=black,
+        thin=sky.THIN,
+        thick=sky.THICK,
+        air=air,
+        haze=extinction,
+        haze_height=sky.HAZE_HEIGHT,
+    )
+
+
 def sun_direction(stage: Stage) -> list[float]:
     """Return the unit vector towards the sun, in the scene's current frame."""
     return [socket.default_value for socket in _group(stage)[1].nodes[sunlit.NODES[2]].inputs]
@@ -80,6 +102,7 @@ def infrared_arguments(shot: Shot, stage: Stage, frame: int) -> dict[str, Any]:
     kelvin, elevation, corner, spacing = airs.field(shot, float(shot.frames.times[frame - 1]))
     first, last, step = _TABLE
     table = sensor.radiance(np.arange(first, last, step), (low, high))
+    extinction = extinction_factor(stage) if material(stage) else 0.0
     return {
         "kelvin": kelvin,
         "elevation": elevation,
@@ -89,7 +112,7 @@ def infrared_arguments(shot: Shot, stage: Stage, frame: int) -> dict[str, Any]:
         "radiance": table,
         "coldest": first,
         "kelvin_step": step,
-        "absorption": infrared.absorption((low, high)) * extinction_factor(stage),
+        "absorption": infrared.absorption((low, high)) * extinction,
     }
 
 

@@ -5,13 +5,17 @@ Needs no Blender.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from firetwin_core import constants
+from firetwin_core.terrain import bilinear
 from numpy.typing import ArrayLike, NDArray
 
 from ..terrain import noise
+from ..terrain.dilation import dilate
+from ..terrain.terrain import UNKNOWN
 from . import flame_size
 from .flame_depth import FrontFields
 
@@ -19,9 +23,34 @@ if TYPE_CHECKING:
     from firetwin_core.run import Run
 
 _PIXELS = 3.0  # height in pixels of the typical long flames at the reach (by eye)
-_FADE = (0.8, 1.2)  # distances over the reach between which the field fades out
+FADE = (0.8, 1.2)  # distances over the reach between which the field fades out
 _LONG = 90.0  # percentile of the flame lengths of the shown fronts
 _BEFORE = 900.0  # s before the first frame from which flames are still seen
+
+_FINEST, _COARSEST = 0.25, 128.0  # m, spacing of the finest and the coarsest square
+_CELLS, _TILE = 256, 8  # cells along a square, and cells along a tile of the march
+_GROUND = 4.0  # m, distance at which the ground is computed, or more; its finest waves are 26 m long
+_RAGGED = ((14.0, 3.5), (4.5, 1.2))  # m, sizes and shifts of the ragged edge of a crown fire's front (by eye)
+_WIDEST = 8.0  # m, more than these shifts add up to
+_OLDEST = 1200.0  # s, age at which everything is out
+_MARGIN = 60.0  # m that flames may lean or rise into a picture
+
+_TALL_PART = 1.0 / 3.0  # fraction of the residence time at full height
+_DEEP = 0.35  # least depth of the tall part over the flame length: thinner sheets are not seen (assumed)
+_LONGEST = 900.0  # s
+_RISING = 0.12  # fraction of the tall phase in which flames grow (by eye)
+_LOW = 0.22  # height behind the tall phase (by eye)
+_RESIDUAL = (0.25, 3.0)  # height of residual flames: fraction of the length, and at most, m (by eye)
+_PATCH = 7.0  # m, size of patches with residual flames
+_UNEVEN = (26.0, 0.9)  # m, size, and strength of the noise of the lengths' logarithm (deviation 0.36)
+_FLARE, _FLARES = 160.0, 1.6  # m, in a crown fire; log deviation of the lengths of low flames (by eye)
+_EVEN = (5.0, 12.0)  # m, flame lengths between which lengths become uniform
+_GAP, _GAPS = 25.0, 0.5  # m, size of gaps in a crown fire; fraction of gaps in a front with the lowest flames
+_BROKEN = (0.5, 6.0)  # m, flame lengths at which a front has most gaps, and none
+_LENGTHS = (0.15, 75.0)  # m
+_LEAST_FUEL = 0.05  # kg/m2
+_MIDFLAME = 0.4  # wind at the flames over the wind above (P. L. Andrews 2012, RMRS-GTR-266, open fuel)
+LAUNCH, LIFT = 1.5, 7.0  # m/s, m/s2: rise of flame gas (see `FlameShape`)
 
 Array = NDArray[np.float64]
 
@@ -51,7 +80,7 @@ def weight(distance: ArrayLike, limit: float) -> Array:
     """
     if limit <= 0.0:
         return np.zeros(np.shape(distance))
-    return 1.0 - noise.smoothstep(_FADE[0] * limit, _FADE[1] * limit, distance)
+    return 1.0 - noise.smoothstep(FADE[0] * limit, FADE[1] * limit, distance)
 
 
 def is_marched(settings: Any, run: Run) -> bool:
@@ -81,3 +110,189 @@ def cell_lengths(front: FrontFields, formula: str) -> Array:
     fuel = fields.surface_fuel + fields.canopy_fuel
     intensity = constants.HEAT_OF_COMBUSTION / 1000.0 * fuel * front.speed
     return flame_size.flame_length(intensity, formula, fields.canopy_fuel > flame_size.CROWNS)
+
+
+@dataclass(frozen=True)
+class Square:
+    """Flames on a square of the ground at one time.
+
+    Attributes
+    ----------
+    length, ground
+        (n, n) height of the flames, and scene z of the ground, m; rows to the north.
+    corner
+        Scene x and y of the first value, m.
+    spacing
+        Distance between values, m.
+    """
+
+    length: NDArray[np.float32]
+    ground: NDArray[np.float32]
+    corner: tuple[float, float]
+    spacing: float
+
+
+@dataclass(frozen=True)
+class Lens:
+    """View of a camera, for culling: its rotation (3, 3), and the tangents of half its angles of view."""
+
+    rotation: Array
+    half: tuple[float, float]
+
+    def sees(self, offset: Array, radius: float) -> NDArray[np.bool_]:
+        """Return a mask (n,) of spheres of a radius (m) at offsets (n, 3) from the camera that it may see."""
+        right, up, back = np.moveaxis(offset @ self.rotation, -1, 0)
+        slack = [radius * np.hypot(1.0, half) for half in self.half]
+        inside = (np.abs(right) < self.half[0] * -back + slack[0]) & (
+            np.abs(up) < self.half[1] * -back + slack[1]
+        )
+        return inside | (np.linalg.norm(offset, axis=-1) < 2.0 * radius)
+
+
+def squares(shot: Any, eye: Array, time: float, limit: float, lens: Lens | None = None) -> list[Square]:
+    """Return the flames around a camera: nested squares, the finest first.
+
+    Cells are about 1/128 of the distance, so the cost hardly grows with the limit. Values depend on place and
+    time alone: nodes lie on multiples of the spacing in the scene, whatever the camera.
+
+    Parameters
+    ----------
+    eye
+        (3,) position of the camera, m.
+    limit
+        Distance (m) to which flames are drawn; see `reach`.
+    lens
+        View of the camera; flames outside of it are left out.
+    """
+    found, spacing, inner = [], _FINEST, None
+    while True:
+        square, inner = _square(shot, eye, time, spacing, inner, lens)
+        found.append(square)
+        if 0.5 * _CELLS * spacing > FADE[1] * limit or spacing >= _COARSEST:
+            return found
+        spacing *= 2.0
+
+
+def carrying_wind(shot: Any) -> tuple[float, float]:
+    """Return the wind (m/s east and north) that carries the gas of flames."""
+    east, north = shot.full.wind
+    return _MIDFLAME * east, _MIDFLAME * north
+
+
+def _burning_cells(
+    shot: Any, row: Array, column: Array, every: int, spacing: float, time: float
+) -> NDArray[np.bool_]:
+    """Return a mask of the cells that may burn, from nodes at each `every` cells."""
+    came = bilinear(shot.ground.burn_time, row.ravel(), column.ravel()).reshape(row.shape)
+    far = max(1, int(np.ceil(_WIDEST / (every * spacing))))
+    soonest, latest = -dilate(-came, far), dilate(np.where(came < 0.5 * UNKNOWN, came, -np.inf), far)
+    active = (soonest <= time) & (latest >= time - _OLDEST)
+    cells = np.arange(_CELLS + 1) // every
+    return active[np.ix_(cells, cells)]
+
+
+def lengths(shot: Any, place: Array, row: Array, column: Array, time: float) -> Array:
+    """Return the height of flames (n,), m, at scene points (n, 2) with their row and column, at a time (s).
+
+    Age decides: flames grow, are tall for a third of the residence time of their fuel, decline, and leave
+    low residual flames in patches. Their length follows from the fireline intensity, as for `flames.Points`.
+    """
+    ground, front, full = shot.ground, shot.full.front, shot.full
+    seed, scale = full.settings.seed, max(full.front_scale, 0.3)
+    east, north = place.T
+    for index, (size, shift) in enumerate(_RAGGED):
+        for axis, (values, cell) in enumerate(zip((row, column), ground.cell, strict=True)):
+            wave = noise.fractal(east, north, size * scale, 1, seed + 540 + 4 * index + axis)
+            values += wave * shift * scale / cell
+    speed, residence = ground.spread(row, column), bilinear(front.residence, row, column)
+    canopy = bilinear(ground.fields.canopy_fuel, row, column)
+    fuel = canopy + bilinear(ground.fields.surface_fuel, row, column)
+    intensity = constants.HEAT_OF_COMBUSTION / 1000.0 * fuel * speed
+    formula = full.settings.fire.flame_length
+    even = flame_size.flame_length(intensity, formula, canopy > flame_size.CROWNS)
+    long = even * flare_factor(east, north, even, scale, seed)
+    long = long * np.exp(_UNEVEN[1] * noise.fractal(east, north, _UNEVEN[0] * scale, 2, seed + 550))
+    long = np.clip(long, 0.0, _LENGTHS[1]) * (fuel > _LEAST_FUEL)
+    height = long * upright(long, carrying_wind(shot))
+    age = time - ground.arrival_at(row, column)
+    patch = noise.fractal(east, north, _PATCH * scale, 2, seed + 560)
+    found = height * _phase(age, speed, residence, long, patch) * closed(east, north, even, scale, seed)
+    return np.where(found >= _LENGTHS[0], found, 0.0)
+
+
+def _phase(age: Array, speed: Array, residence: Array, length: Array, patch: Array) -> Array:
+    """Return the height of flames of an age (s) as a share of their full height."""
+    tall = np.clip(_DEEP * length / speed, _TALL_PART * residence, _LONGEST)
+    out = np.maximum(residence, 1.6 * tall)
+    up = np.clip(age / (_RISING * tall), 0.0, 1.0)
+    down = 1.0 - (1.0 - _LOW) * noise.smoothstep(0.0, 1.0, (age - tall) / (out - tall))
+    main = up * (2.0 - up) * down * (1.0 - noise.smoothstep(1.0, 1.3, age / out))
+    share = np.minimum(_RESIDUAL[0], _RESIDUAL[1] / np.maximum(length, 0.1))
+    late = (age - out) / residence
+    residual = share * np.exp(-np.clip(late, 0.0, 9.0)) * np.clip(0.2 + 1.6 * patch, 0.0, 1.0)
+    residual *= (late > -0.5) * (1.0 - noise.smoothstep(1.2, 1.8, late))
+    return np.where(age > 0.0, np.maximum(main, residual), 0.0)
+
+
+def flare_factor(east: Array, north: Array, length: Array, scale: float, seed: int) -> Array:
+    """Return a factor (n,) on low flames (m): patches flare up or creep."""
+    wave = noise.fractal(east, north, _FLARE * scale, 3, seed + 530)
+    return np.exp(_FLARES * wave * (1.0 - noise.smoothstep(*_EVEN, length)))
+
+
+def closed(east: Array, north: Array, length: Array, scale: float, seed: int) -> Array:
+    """Return a factor (n,), 0 in the gaps of fronts with low flames (m), 1 outside of them."""
+    broken = noise.fractal(east, north, _GAP * scale, 2, seed + 520)  # 0.4 deviate
+    gaps = _GAPS * (1.0 - noise.smoothstep(*_BROKEN, length))
+    return np.where(gaps > 0.0, noise.smoothstep(-0.06, 0.06, 0.5 + 0.8 * broken - gaps), 1.0)
+
+
+def upright(length: Array, wind: tuple[float, float]) -> Array:
+    """Return the height of flames over their length (m), which wind (m/s) leans."""
+    flight = (np.sqrt(LAUNCH**2 + 2.0 * LIFT * length) - LAUNCH) / LIFT
+    return length / np.maximum(np.hypot(length, np.hypot(*wind) * flight), 1.0e-6)
+
+
+def _square(
+    shot: Any, eye: Array, time: float, spacing: float, inner: Any, lens: Lens | None
+) -> tuple[Square, tuple[Array, Array]]:
+    """Return one square, and the corners of its inside; flames are left out within `inner` corners."""
+    ground, tile = shot.ground, _TILE * spacing
+    low = (np.floor(eye[:2] / tile) - _CELLS // (2 * _TILE)) * tile
+    count = _CELLS + 1
+    every = min(_TILE, max(2, int(_GROUND / spacing)))
+    axis = np.arange(0, count, every) * spacing
+    east, north = (low[0] + axis)[None, :], (low[1] + axis)[:, None]
+    east, north = (values.ravel() for values in np.broadcast_arrays(east, north))
+    latitude, longitude = ground.geodetic(east, north)
+    rough = ground.point(latitude, longitude)[:, 2].reshape(len(axis), -1)
+    row, column = (values.reshape(len(axis), -1) for values in ground.indices(latitude, longitude))
+    fine = np.arange(count) / every
+    up, right = (values.ravel() for values in np.meshgrid(fine, fine, indexing="ij"))
+    heights = bilinear(rough, up, right).reshape(count, count)
+    cells = np.arange(count) * spacing
+    length = np.zeros((count, count))
+    chosen = _burning_cells(shot, row, column, every, spacing, time)
+    place = low + np.stack(np.meshgrid(cells, cells), axis=-1)
+    if inner is not None:
+        chosen &= ~np.all((place > inner[0]) & (place < inner[1]), axis=-1)
+    if lens is not None and chosen.any():
+        at = np.argwhere(chosen)
+        points = np.concatenate([place[at[:, 0], at[:, 1]], heights[at[:, 0], at[:, 1], None]], axis=1)
+        chosen[at[:, 0], at[:, 1]] = lens.sees(points - eye, _MARGIN + 2.0 * spacing)
+    at = np.flatnonzero(chosen)
+    if len(at):
+        length.ravel()[at] = lengths(
+            shot,
+            place.reshape(-1, 2)[at],
+            bilinear(row, up[at], right[at]),
+            bilinear(column, up[at], right[at]),
+            time,
+        )
+    inside = low + 2.0 * tile, low + (_CELLS - 2 * _TILE) * spacing
+    return (
+        Square(
+            length.astype(np.float32), heights.astype(np.float32), (float(low[0]), float(low[1])), spacing
+        ),
+        inside,
+    )

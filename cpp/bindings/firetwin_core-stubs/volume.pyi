@@ -476,6 +476,114 @@ class Illumination:
             Radiance of the haze, its extinction (1/m) at height 0, and its e-folding height (m).
         """
 
+class FlameShape:
+    """Shape of flames; the numbers are chosen by eye."""
+
+    def __init__(
+        self,
+        *,
+        wind: Sequence[float],
+        fill: float = 0.9,
+        taper: float = 0.95,
+        ragged: float = 2.3,
+        edge: float = 0.22,
+        roll: float = 0.17,
+        broken: float = 0.6,
+    ) -> None:
+        """Set all parameters.
+
+        Parameters
+        ----------
+        wind
+            Speed at which rising gas is carried, m/s east and north.
+        fill, taper, ragged
+            Value at the foot of a flame (it burns above 0), its decrease over the flame's length, and the
+            strength of the noise.
+        edge
+            Values from 0 over which a flame becomes opaque.
+        roll
+            Displacement by eddies relative to their size.
+        broken
+            Strength of gaps at the foot, where fuel is gone.
+        """
+
+class FlameLight:
+    """Light and temperature of flames by heat: 0 in the coolest part, 1 in the hottest."""
+
+    def __init__(
+        self,
+        *,
+        visible: ArrayLike,
+        extinction: float,
+        soot: float,
+        soot_light: Sequence[float],
+        coolest: float,
+        hottest: float,
+        scales: Sequence[Sequence[float]],
+        infrared: float,
+        dim: float,
+    ) -> None:
+        """Set all parameters.
+
+        Parameters
+        ----------
+        visible
+            (n, 3) radiance at evenly spaced heats.
+        extinction, soot
+            Extinction of flames, and of the cooled soot over them, 1/m.
+        soot_light
+            (3,) radiance of soot per unit of optical depth.
+        coolest, hottest
+            Temperatures at heat 0 and 1, K.
+        scales
+            (k, 3) flame lengths, m, with factors on the visible and the infrared extinction of flames; linear
+            between, constant outside.
+        infrared
+            Infrared extinction of flames, 1/m.
+        dim
+            Optical depth of 1 km of air in the infrared; it grows with the distance to the power 0.75.
+        """
+
+class FlameVolume:
+    """Flames of one frame as a volume: a function of place and time, without stored voxels."""
+
+    def __init__(
+        self,
+        *,
+        squares: Sequence[tuple[ArrayLike, ArrayLike, Sequence[float], float]],
+        spindles: ArrayLike,
+        shape: FlameShape,
+        light: FlameLight,
+        pixel: float,
+        fade: Sequence[float],
+        origin: Sequence[float],
+        time: float,
+    ) -> None:
+        """Set the flames of one frame.
+
+        Parameters
+        ----------
+        squares
+            Nested squares, finest first: (rows, columns) flame length and height of the ground, m, x and y of
+            the first value, and the distance between values, m. Rows run north. A place takes the first
+            square that contains it; nothing burns outside.
+        spindles
+            (n, 6) crowns in flames: x, y and z of the foot, heights of their base and top, and radius, m.
+        pixel
+            Size of a pixel per distance, m/m.
+        fade
+            Distances (m) between which flames fade out.
+        origin
+            A point near the camera; it improves precision only.
+        time
+            Model time, s.
+
+        Raises
+        ------
+        ValueError
+            Shapes do not match.
+        """
+
 def march(
     layers: Sequence[Bricks],
     origins: ArrayLike,
@@ -484,8 +592,9 @@ def march(
     light: Illumination,
     step: float = 0.5,
     min_transmittance: float = 1.0e-3,
+    flames: FlameVolume | None = None,
 ) -> NDArray[np.float32]:
-    """March rays through smoke: radiance of the smoke, and transmittance of the background.
+    """March rays through smoke and flames: their radiance, and transmittance of the background.
 
     Parameters
     ----------
@@ -501,6 +610,8 @@ def march(
         Step length, in voxels of the finest layer at each point.
     min_transmittance
         Transmittance at which a ray ends. The remaining radiance is extrapolated from the same smoke.
+    flames
+        Flames of the frame.
 
     Returns
     -------
@@ -535,13 +646,14 @@ def march_infrared(
     kelvin_step: float,
     absorption: float,
     step: float = 4.0,
+    flames: FlameVolume | None = None,
 ) -> NDArray[np.float32]:
-    """March rays in the infrared: smoke absorbs and emits, and does not scatter.
+    """March rays in the infrared: smoke and flames absorb and emit, and do not scatter.
 
     Parameters
     ----------
-    layers, origins, directions, step
-        As in `march`.
+    layers, origins, directions, step, flames
+        As in `march`. Temperatures of flames must be within the table of radiance.
     distances
         (n,) m, length of each ray.
     kelvin, elevation
@@ -578,8 +690,8 @@ def optical_depth(
 
     Parameters
     ----------
-    layers, origins, directions, step
-        As in `march`.
+    layers, origins, directions, step, flames
+        As in `march`. Temperatures of flames must be within the table of radiance.
     distances
         (n,) m, length of each ray.
     max_depth

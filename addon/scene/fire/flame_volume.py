@@ -1,0 +1,117 @@
+"""Flames of one frame as a volume, for the integrated renderer.
+
+The hottest soot sets a flame's brightness in a picture, and saturates any camera. The core's
+luminance times 2^exposure is therefore constant, within bounds. Flames of 10,000 to 20,000 cd/m2 are 0.6 to
+1.3 units of the scene, if 1 unit is 16,000 cd/m2. Colours are chosen for the AgX view transform: a deep
+orange rim to a yellow-white core. Blue is slightly below 0, as colours of black bodies are outside of sRGB.
+
+The heat that sets the colour sets the temperature too: 900 K in the coolest part to 1400 K in the hottest.
+The infrared extinction by flame length (`SCALES`) makes the power that flames radiate `RADIATED` of the
+fireline intensity. The heat account of the smoke leaves 0.3 for radiation, which includes the glowing ground.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from firetwin_core import volume
+from numpy.typing import NDArray
+
+from ...shot.cameras.path import Path
+from ...shot.fire import flame_map
+from ...shot.light import exposure, sky
+from ...shot.shot import Shot
+from .. import infrared
+from . import flames
+
+RADIATED = 0.12  # of the heat of combustion is radiated by flames (Freeborn et al. 2008: 12 +- 3 %)
+KELVIN = (900.0, 1400.0)  # K at heat 0 and 1
+SCALES = (
+    (0.5, 3.6, 0.5),
+    (1.8, 2.3, 0.46),
+    (5.0, 1.6, 0.35),
+    (18.0, 1.04, 0.43),
+    (30.0, 1.0, 1.03),
+)
+"""Flame length, m, and factors on the extinction: visible (by eye), infrared (by power, see test_flames)."""
+_CORE = 6.0  # luminance of the core times 2^exposure (by eye)
+_LUMINANCE = (0.4, 1.3)  # its bounds, units of the scene
+_CORE_HEAT, _DECADES = 0.75, 2.0  # heat of the core; decades between the luminance of heat 0 and 1
+_ROWS = 33
+EXTINCTION = 0.8  # 1/m, visible
+_SOOT = 0.012  # of it, in the cooled soot
+INFRARED = infrared.FLAME
+_ALBEDO = 0.3  # of fresh soot (assumed)
+_CROWN = (0.22, 0.16)  # base over tree height; radius over the height of the flame (by eye)
+_SPINDLES = 350.0  # m; farther torching crowns are part of the map
+_GROWING = (0.15, 0.6)  # parts of a torching crown's time in which it flares up, and from which it declines
+
+Array = NDArray[np.float64]
+
+
+def build(shot: Shot, path: Path, frame: int, torches: flames.Points | None) -> volume.FlameVolume | None:
+    """Build the flames that a camera may see in a frame; None if there are none.
+
+    Parameters
+    ----------
+    torches
+        Torching crowns of the shot.
+    """
+    limit = flame_map.reach(shot, path)
+    if limit <= 0.0:
+        return None
+    time, eye = float(shot.frames.times[frame - 1]), path.position[frame - 1]
+    lens = None
+    if not path.around:
+        lens = flame_map.Lens(path.rotation[frame - 1], tuple(path.halves[frame - 1]))
+    squares = flame_map.squares(shot, eye, time, limit, lens)
+    crowns = spindles(torches, time, eye) if torches is not None else np.empty((0, 6))
+    if not len(crowns) and not any(square.length.any() for square in squares):
+        return None
+    return volume.FlameVolume(
+        squares=[(square.length, square.ground, square.corner, square.spacing) for square in squares],
+        spindles=crowns,
+        shape=volume.FlameShape(wind=flame_map.carrying_wind(shot)),
+        light=light(shot, frame, float(eye[2])),
+        pixel=2.0 * path.halves[frame - 1][0] / path.width,
+        fade=[part * limit for part in flame_map.FADE],
+        origin=eye,
+        time=time,
+    )
+
+
+def light(shot: Shot, frame: int, height: float) -> volume.FlameLight:
+    """Return the light of flames in a frame, for a camera at a scene height (m)."""
+    stops = float(exposure.at(shot, np.array([frame]))[0])
+    state = sky.state(shot, float(shot.frames.times[frame - 1]))
+    sun = state.power * np.array(state.colour) / (4.0 * np.pi)
+    return volume.FlameLight(
+        visible=visible(float(np.clip(_CORE * 2.0**-stops, *_LUMINANCE))),
+        extinction=EXTINCTION,
+        soot=_SOOT * EXTINCTION,
+        soot_light=_ALBEDO * (state.around + sun),
+        coolest=KELVIN[0],
+        hottest=KELVIN[1],
+        scales=SCALES,
+        infrared=INFRARED,
+        dim=infrared.air_depth(shot, height),
+    )
+
+
+def visible(core: float) -> Array:
+    """Return the radiance (n, 3) at evenly spaced heats, for a luminance of the core."""
+    heat = np.linspace(0.0, 1.0, _ROWS)
+    colour = np.stack([np.ones(_ROWS), 0.09 + 0.46 * heat**1.05, -0.08 * (1.0 - heat**3)], axis=-1)
+    return (core * 10.0 ** (_DECADES * (heat - _CORE_HEAT)))[:, None] * colour
+
+
+def spindles(torches: flames.Points, time: float, eye: Array) -> Array:
+    """Return the crowns (n, 6) in flames near the camera at a time (s): spindles of a `FlameVolume`."""
+    lit = torches.take(torches.lit(time))
+    near = lit.take(np.flatnonzero(np.linalg.norm(lit.position - eye, axis=-1) < _SPINDLES))
+    part = (time - near.arrival_time) / near.residence
+    up, down = np.clip(part / _GROWING[0], 0.0, 1.0), np.clip((1.0 - part) / (1.0 - _GROWING[1]), 0.0, 1.0)
+    base = _CROWN[0] * near.crown
+    tall = (near.length - base) * np.minimum(up * (2.0 - up), down)
+    kept = tall > 0.1 * near.length
+    rows = np.column_stack([near.position, base, base + tall, _CROWN[1] * tall])
+    return rows[kept]

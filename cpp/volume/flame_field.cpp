@@ -1,0 +1,295 @@
+#include "volume/flame_field.hpp"
+
+#include "base/clones.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace firetwin::volume {
+namespace {
+
+constexpr double largest_eddy = 10.0;  // m, size of the largest_eddy eddies
+constexpr double octave_ratio = 2.07;  // of sizes of octaves
+constexpr float octave_weight = 0.52F; // octave_ratio of their strengths
+constexpr float octave_warp = 0.35F;   // displacement of an octave by the previous one, cells
+constexpr float first_band =
+    0.25F; // m, height of the first band; each is twice as high as the last
+constexpr float below_ground = 2.0F; // m below the map's ground, where drawn ground may be lower
+constexpr double octave_turn = 2.4;  // radians between the lattices of octaves
+constexpr double drawn_out = 2.2;    // height over width of eddies
+constexpr std::array<double, FlameField::sways> sway_sizes{7.5, 2.4, 0.8}; // m
+constexpr std::array<double, 2> fuel_sizes{2.6, 0.8};                      // m, gaps of fuel
+
+__attribute__((always_inline)) inline void clamp_lanes(const Lanes& value, float low, float high,
+                                                       Lanes& out) {
+  const Lanes a = Lanes{} + low, b = Lanes{} + high;
+  out = value < a ? a : value;
+  out = out > b ? b : out;
+}
+
+/// 0 at `low`, 1 at `high`, smooth between.
+__attribute__((always_inline)) inline void smooth_lanes(const Lanes& value, float low, float high,
+                                                        Lanes& out) {
+  clamp_lanes((value - low) * (1.0F / (high - low)), 0.0F, 1.0F, out);
+  out = out * out * (3.0F - 2.0F * out);
+}
+
+__attribute__((always_inline)) inline void roots(const Lanes& value, Lanes& out) {
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    out[lane] = std::sqrt(value[lane]);
+  }
+}
+
+float greatest(const Lanes& value) {
+  float found = value[0];
+  for (std::size_t lane = 1; lane < lane_count; ++lane) {
+    found = std::max(found, value[lane]);
+  }
+  return found;
+}
+
+} // namespace
+
+FlameField::FlameField(const FlameTiles& tiles, const FlameShape& shape, const Vector& origin,
+                       double time)
+    : tiles_(tiles), shape_(shape) {
+  double size = largest_eddy;
+  for (std::size_t n = 0; n < octaves; ++n, size /= octave_ratio) {
+    const auto seed = static_cast<std::uint32_t>(n);
+    detail_[n] =
+        make_octave(size, octave_turn * static_cast<double>(n), seed, origin, time, drawn_out);
+  }
+  for (std::size_t n = 0; n < 2 * sways; ++n) {
+    const auto seed = static_cast<std::uint32_t>(100 + n);
+    sway_[n] = make_octave(sway_sizes[n / 2], octave_turn * static_cast<double>(n), seed, origin,
+                           time, 2.0);
+  }
+  for (std::size_t n = 0; n < fuel_.size(); ++n) {
+    fuel_[n] = make_octave(fuel_sizes[n], octave_turn * static_cast<double>(n),
+                           static_cast<std::uint32_t>(200 + n), origin, 0.0, 1.0);
+  }
+}
+
+float FlameField::rise_speed(double height) const {
+  return static_cast<float>(
+      std::sqrt(shape_.launch * shape_.launch + 2.0 * shape_.acceleration * height));
+}
+
+FlameField::Octave FlameField::make_octave(double size, double angle, std::uint32_t seed,
+                                           const Vector& origin, double time,
+                                           double stretch) const {
+  Octave made{};
+  made.size = static_cast<float>(size);
+  const double cosine = std::cos(angle) / size, sine = std::sin(angle) / size;
+  made.cosine = static_cast<float>(cosine);
+  made.sine = static_cast<float>(sine);
+  split_coordinate(cosine * origin[0] + sine * origin[1], made.origin.cell[0], made.origin.part[0]);
+  split_coordinate(cosine * origin[1] - sine * origin[0], made.origin.cell[1], made.origin.part[1]);
+  made.origin.cell[0] += seed * 0x9e3779b9U;
+  for (std::size_t band = 0; band < bands; ++band) {
+    const double height =
+        std::max(static_cast<double>(first_band) * static_cast<double>(1U << band), 0.4 * size);
+    const double rate = static_cast<double>(rise_speed(height)) / (size * stretch);
+    made.rate[band] = static_cast<float>(rate);
+    split_coordinate(-time * rate, made.cell[band], made.part[band]);
+    made.cell[band] += static_cast<std::uint32_t>(band) * 0x85ebca6bU;
+  }
+  return made;
+}
+
+FIRETWIN_CLONES("avx2")
+void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float fine,
+                          FlameSamples& out) const {
+  const auto launch = static_cast<float>(shape_.launch),
+             lift = static_cast<float>(shape_.acceleration);
+  const auto wind_x = static_cast<float>(shape_.wind[0]),
+             wind_y = static_cast<float>(shape_.wind[1]);
+  Lanes ground;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    ground[lane] = tiles_.ground(x[lane], y[lane]);
+  }
+  Lanes height = z - ground;
+  const auto buried = height < -below_ground;
+  height = height > 1.0e6F ? Lanes{} + 1.0e6F : height;
+  height = height < 0.0F ? Lanes{} : height;
+  Lanes speed, flight;
+  roots(launch * launch + 2.0F * lift * height, speed);
+  flight = (speed - launch) * (1.0F / lift);
+  Lanes foot_x = x - wind_x * flight, foot_y = y - wind_y * flight;
+
+  // Eddies: displacement by the curl of noise, so that edges roll up.
+  const auto noise_at = [&](const Octave& octave, const Lanes& px, const Lanes& py,
+                            const Lanes& upward, const LaneHash& cell, Lanes& value,
+                            Lanes* slope) __attribute__((always_inline)) {
+    lattice_noise(octave.cosine * px + octave.sine * py + octave.origin.part[0],
+                  octave.cosine * py - octave.sine * px + octave.origin.part[1], upward, cell,
+                  octave.origin.cell[0], octave.origin.cell[1], value, slope);
+  };
+  Lanes risen = height;
+  for (std::size_t n = 0; n < sways; ++n) {
+    const float size = sway_[2 * n].size;
+    if (size < 2.0F * fine) {
+      break;
+    }
+    Lanes strength;
+    clamp_lanes(height * (1.2F / size), 0.06F, 1.0F, strength);
+    strength *= shape_.roll * size;
+    std::array<std::array<Lanes, 3>, 2> slope;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Octave& octave = sway_[2 * n + k];
+      Lanes value, turned[3];
+      noise_at(octave, foot_x, foot_y, flight * octave.rate[0] + octave.part[0],
+               LaneHash{} + octave.cell[0], value, turned);
+      slope[k][0] = (octave.cosine * turned[0] - octave.sine * turned[1]) * size;
+      slope[k][1] = (octave.sine * turned[0] + octave.cosine * turned[1]) * size;
+      slope[k][2] = turned[2];
+    }
+    foot_x -= strength * slope[0][2];
+    foot_y -= strength * slope[1][2];
+    risen += strength * (slope[0][0] + slope[1][1]);
+  }
+  risen = risen < 0.0F ? Lanes{} : risen;
+  roots(launch * launch + 2.0F * lift * risen, speed);
+  flight = (speed - launch) * (1.0F / lift);
+
+  Lanes length;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    length[lane] = tiles_.length(foot_x[lane], foot_y[lane]);
+  }
+  Lanes share = length > 0.05F ? risen / length : Lanes{} + 9.0F;
+  if (!tiles_.spindles().empty()) {
+    const Lanes moved_x = foot_x - (x - wind_x * flight), moved_y = foot_y - (y - wind_y * flight);
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      for (const std::uint32_t number : tiles_.spindles_at(x[lane], y[lane])) {
+        const Spindle& crown = tiles_.spindles()[number];
+        const float tall = crown.top - crown.base;
+        const float free = std::max(0.0F, z[lane] - crown.z - crown.base - 0.35F * tall);
+        const float away = (std::sqrt(launch * launch + 2.0F * lift * free) - launch) / lift;
+        const float dx = x[lane] - wind_x * away + 0.6F * moved_x[lane] - crown.x,
+                    dy = y[lane] - wind_y * away + 0.6F * moved_y[lane] - crown.y;
+        const float square = dx * dx + dy * dy;
+        const float up = (z[lane] - crown.z - crown.base) / tall;
+        if (square > 6.0F * crown.radius * crown.radius || up < -0.6F || up > 2.2F) {
+          continue;
+        }
+        const float low = std::clamp((up + 0.35F) / 0.6F, 0.0F, 1.0F);
+        const float wide =
+            crown.radius * (up < 0.25F ? 0.3F + 0.7F * low * low * (3.0F - 2.0F * low)
+                                       : 1.0F - 0.45F * std::min((up - 0.25F) / 0.9F, 1.0F));
+        const float round = square / (wide * wide);
+        const float mine =
+            std::max(up, 0.0F) + 0.62F * round - 0.1F + (up < 0.0F ? -0.9F * up : 0.0F);
+        if (mine < share[lane]) {
+          share[lane] = std::max(mine, 0.0F);
+          length[lane] = std::max(length[lane], tall);
+        }
+      }
+    }
+  }
+  share = buried ? Lanes{} + 9.0F : share;
+  out.length = length;
+  bool any = false;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    any = any || share[lane] < FlameTiles::soot_top;
+  }
+  if (!any) {
+    out.flame = out.heat = out.soot = Lanes{};
+    return;
+  }
+
+  // Bands of height, so that detail keeps its proportions as the gas speeds up.
+  std::array<LaneIndex, 2> band;
+  std::array<Lanes, 2> part;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const float at = std::clamp(std::log2(std::max(risen[lane], first_band) / first_band), 0.0F,
+                                static_cast<float>(bands) - 1.001F);
+    const auto whole = static_cast<std::int32_t>(at);
+    const float rest = at - static_cast<float>(whole);
+    const float norm = 1.0F / std::sqrt(rest * rest + (1.0F - rest) * (1.0F - rest));
+    band[0][lane] = whole;
+    band[1][lane] = whole + 1;
+    part[0][lane] = (1.0F - rest) * norm;
+    part[1][lane] = rest * norm;
+  }
+  const float tallest = greatest(length), smallest = std::max(fine, 0.008F * tallest);
+  Lanes sum{}, total = Lanes{} + 1.0e-6F, last{}, grain{}, grains = Lanes{} + 1.0e-6F;
+  float amplitude = 1.0F;
+  for (std::size_t n = 0; n < octaves; ++n, amplitude *= octave_weight) {
+    const Octave& octave = detail_[n];
+    if (octave.size > 1.3F * tallest) {
+      continue;
+    }
+    if (octave.size < smallest) {
+      break;
+    }
+    Lanes weight; // eddies are smaller than the flame
+    clamp_lanes(1.6F - octave.size / (length + 1.0e-6F) * 1.6F, 0.0F, 1.0F, weight);
+    weight *= amplitude;
+    Lanes found{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      Lanes rate, present;
+      LaneHash cell;
+      for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        const auto number = static_cast<std::size_t>(band[k][lane]);
+        rate[lane] = octave.rate[number];
+        present[lane] = octave.part[number];
+        cell[lane] = octave.cell[number];
+      }
+      Lanes value;
+      noise_at(octave, foot_x + (octave_warp * octave.size) * last,
+               foot_y + (octave_warp * octave.size) * last, flight * rate + present, cell, value,
+               nullptr);
+      found += part[k] * value;
+    }
+    last = found;
+    sum += weight * found;
+    total += weight;
+    Lanes small;
+    clamp_lanes(1.5F - octave.size / (length + 1.0e-6F) * 6.0F, 0.0F, 1.0F, small);
+    grain += small * weight * found;
+    grains += small * weight;
+  }
+  const Lanes noise = sum / total * 1.7F;
+
+  Lanes gaps{};
+  if (shape_.broken > 0.0F) {
+    for (const Octave& octave : fuel_) {
+      Lanes value;
+      noise_at(octave, foot_x, foot_y, Lanes{}, LaneHash{} + octave.cell[0], value, nullptr);
+      gaps += value;
+    }
+  }
+  Lanes rooted, full, top, base;
+  clamp_lanes(1.0F - share * 2.5F, 0.0F, 1.0F, rooted);
+  clamp_lanes(share * 1.6F, 0.0F, 1.0F, full);
+  Lanes value = shape_.fill - shape_.taper * share * (0.45F + 0.5F * share) +
+                shape_.ragged * noise * (0.45F + 0.55F * full) + shape_.broken * gaps * rooted;
+  smooth_lanes(length, 0.5F, 0.0F, base);
+  value -= 0.5F * base;
+  smooth_lanes(value, 0.0F, shape_.edge, out.flame);
+  smooth_lanes(share, 1.75F, 1.2F, top);
+  out.flame *= top;
+  // A bright sheet just inside the edge, and a core.
+  Lanes sheet = value - 0.9F * shape_.edge, cool, core;
+  sheet = sheet < 0.0F ? -sheet : sheet;
+  clamp_lanes(1.0F - sheet * (1.0F / 0.35F), 0.0F, 1.0F, sheet);
+  clamp_lanes(share, 0.0F, 1.4F, cool);
+  clamp_lanes(value, 0.0F, 1.0F, core);
+  Lanes streak;
+  clamp_lanes(0.5F + 0.9F * grain / grains, 0.0F, 1.0F, streak);
+  clamp_lanes((0.45F * sheet + 0.75F * core) * (1.0F - 0.45F * cool) * (0.5F + 0.9F * streak), 0.0F,
+              1.0F, out.heat);
+  Lanes begin, end, thick;
+  smooth_lanes(share, 0.45F, 1.3F, begin);
+  smooth_lanes(share, FlameTiles::soot_top, 1.5F, end);
+  smooth_lanes(value, -0.75F, -0.05F, thick);
+  out.soot = begin * end * thick * (1.0F - out.flame);
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    if (!(share[lane] < FlameTiles::soot_top)) {
+      out.flame[lane] = out.heat[lane] = out.soot[lane] = 0.0F;
+    }
+  }
+}
+
+} // namespace firetwin::volume

@@ -1,0 +1,237 @@
+"""Flames marched as a volume: height, rise, power, temperature and bounds, on level ground."""
+
+import itertools
+
+import numpy as np
+import pytest
+from firetwin.scene.fire import flame_volume
+from firetwin_core import volume
+from march_light import NO_LIGHT
+
+PLANCK = dict(coldest=180.0, kelvin_step=2.0)
+KELVINS = np.arange(180.0, 1900.0, 2.0)
+EVERY = 5.670374e-8 * KELVINS**4 / np.pi  # W m-2 sr-1, of all wavelengths
+EMPTY = dict(
+    kelvin=np.full((1, 1), 300.0),
+    elevation=np.zeros((1, 1)),
+    corner=(0.0, 0.0),
+    spacing=(1.0, 1.0),
+    lapse=0.0,
+    absorption=0.0,
+)
+LIGHT = volume.Illumination(**NO_LIGHT)
+
+
+def front(length, depth, cells=12, half=4.0, shift=0.0):
+    """Square of a front along x, of a depth over its length, which falls off behind."""
+    cell = length / cells
+    lines = (np.arange(int(2 * half * cells)) - half * cells) * cell
+    behind = lines[:, None] - shift
+    full = np.clip((behind + depth / 2) / (depth * 0.15), 0, 1) * np.clip(
+        (depth / 2 - behind) / (depth * 0.6), 0, 1
+    )
+    lengths = np.broadcast_to(length * full, (len(lines), len(lines)))
+    return np.array(lengths, np.float32), np.zeros(lengths.shape, np.float32), (lines[0], lines[0]), cell
+
+
+def flames(squares, time=3.0, wind=(0.0, 0.0), pixel=0.0, spindles=None, origin=(0.0, 0.0, 0.0), **changes):
+    light = dict(
+        visible=flame_volume.visible(1.0),
+        extinction=flame_volume.EXTINCTION,
+        soot=0.0,
+        soot_light=(0.0, 0.0, 0.0),
+        coolest=flame_volume.KELVIN[0],
+        hottest=flame_volume.KELVIN[1],
+        scales=flame_volume.SCALES,
+        infrared=flame_volume.INFRARED,
+        dim=0.0,
+    )
+    return volume.FlameVolume(
+        squares=squares,
+        spindles=np.empty((0, 6)) if spindles is None else spindles,
+        shape=volume.FlameShape(wind=wind),
+        light=volume.FlameLight(**(light | changes)),
+        pixel=pixel,
+        fade=(1e6, 2e6),
+        origin=origin,
+        time=time,
+    )
+
+
+def look(length, away=4.0, wide=64, high=48, elevation=0.0):
+    """Parallel rays at a front: origins and directions, and the size of a pixel, m."""
+    pixel = 4.0 * length / wide
+    across, up = np.meshgrid((np.arange(wide) + 0.5 - wide / 2) * pixel, (np.arange(high) + 0.5) * pixel)
+    angle = np.radians(elevation)
+    ahead = np.array([0.0, np.cos(angle), -np.sin(angle)])
+    upward = np.array([0.0, np.sin(angle), np.cos(angle)])
+    origin = across[..., None] * np.array([1.0, 0.0, 0.0]) + up[..., None] * upward - away * length * ahead
+    return origin.reshape(-1, 3), np.broadcast_to(ahead, (wide * high, 3)), pixel, (high, wide)
+
+
+def opacity(burning, length, **view):
+    origins, directions, pixel, shape = look(length, **view)
+    ends = np.full((len(origins), 1), 8.0 * length)
+    found = volume.march([], origins, directions, ends, LIGHT, flames=burning)
+    return 1.0 - found[:, 0, 3].reshape(shape), pixel
+
+
+@pytest.mark.parametrize("length", [1.8, 5.0, 18.0, 30.0])
+def test_flames_are_as_high_as_asked(length):
+    tops = []
+    for time in (3.0, 7.7, 13.1):
+        seen, pixel = opacity(flames([front(length, 0.8 * length)], time), length)
+        tops += [np.flatnonzero(column > 0.5).max(initial=0) * pixel for column in seen.T]
+    assert np.mean(tops) == pytest.approx(length, rel=0.2)
+    assert np.max(tops) < 2.2 * length
+
+
+def radiated(length, times=(3.0, 7.7, 13.1), **changes):
+    """Power (W/m) that a metre of front radiates upwards, from views across it at three elevations."""
+    views, sums = np.radians([5.0, 35.0, 65.0]), []
+    for angle in views:
+        high = 2.2 * length * np.cos(angle) + 4.0 * length * np.sin(angle)
+        pixel = length / 12.0
+        low = -2.0 * length * np.sin(angle)
+        up, across = (np.arange(a, b, pixel) + 0.5 * pixel for a, b in ((low, low + high), (-length, length)))
+        across, up = np.meshgrid(across, up)
+        ahead = np.array([0.0, np.cos(angle), -np.sin(angle)])
+        upward = np.array([0.0, np.sin(angle), np.cos(angle)])
+        origins = (
+            across[..., None] * np.array([1.0, 0.0, 0.0]) + up[..., None] * upward - 6.0 * length * ahead
+        )
+        origins = origins.reshape(-1, 3)
+        ends = np.minimum(origins[:, 2] / np.sin(angle), 14.0 * length)
+        seen = ends > 0.0
+        total = 0.0
+        for time in times:
+            burning = flames([front(length, 0.8 * length)], time, **changes)
+            found = volume.march_infrared(
+                [],
+                origins[seen],
+                np.broadcast_to(ahead, (seen.sum(), 3)),
+                ends[seen],
+                radiance=EVERY,
+                flames=burning,
+                **PLANCK,
+                **EMPTY,
+            )
+            total += found[:, 0].sum() * pixel**2 / (2.0 * length) / len(times)
+        sums.append(total)
+    steps = np.radians(np.arange(0.5, 90.0))
+    # A wall that is seen from the side is foreshortened: the mean of |cos| over the azimuth is 2 / pi.
+    aside = np.minimum(2.0 / np.pi * np.cos(steps) + np.sin(steps), 1.0)
+    return float(
+        (2.0 * np.pi * np.interp(steps, views, sums) * aside * np.cos(steps)).sum() * np.radians(1.0)
+    )
+
+
+@pytest.mark.parametrize("length", [1.8, 5.0, 18.0, 30.0])
+def test_radiated_power_is_the_measured_share_of_the_fireline_intensity(length):
+    intensity = 1000.0 * (length / 0.0266) ** 1.5  # Thomas (1963)
+    assert radiated(length) == pytest.approx(flame_volume.RADIATED * intensity, rel=0.1)
+
+
+def test_temperatures_of_opaque_flames_are_between_the_coolest_and_the_hottest():
+    origins, directions, _, _ = look(18.0)
+    thick = flames([front(18.0, 14.0)], infrared=50.0)
+    found = volume.march_infrared(
+        [], origins, directions, np.full(len(origins), 150.0), radiance=EVERY, flames=thick, **PLANCK, **EMPTY
+    )
+    opaque = found[found[:, 1] < 1e-3, 0]
+    kelvin = (np.pi * opaque / 5.670374e-8) ** 0.25
+    low, high = flame_volume.KELVIN
+    assert len(kelvin) > 100
+    assert np.all((kelvin > low - 1.0) & (kelvin < high + 1.0))
+    assert np.ptp(kelvin) > 200.0
+
+
+def test_the_pattern_rises_as_fast_as_the_gas():
+    length, rate, frames = 25.0, 12.0, 4
+    origins, directions, pixel, shape = look(length, wide=200, high=80)
+    ends, seen = np.full((len(origins), 1), 200.0), []
+    for number in range(frames):
+        burning = flames([front(length, 0.8 * length)], 3.0 + number / rate, pixel=pixel / (4.0 * length))
+        found = volume.march([], origins, directions, ends, LIGHT, flames=burning)
+        seen.append(np.log(np.maximum(found[:, 0, :3], 0.0).sum(axis=-1).reshape(shape) + 3e-2))
+    for low, high in ((10.0, 18.0), (18.0, 28.0)):
+        rows = slice(int(low / pixel), int(high / pixel))
+        likeness = []
+        for shift in range(5):
+            later = slice(rows.start + shift, rows.stop + shift)
+            pairs = [(a[rows], b[later]) for a, b in itertools.pairwise(seen)]
+            likeness.append(np.mean([np.corrcoef(a.ravel(), b.ravel())[0, 1] for a, b in pairs]))
+        best = int(np.argmax(likeness))
+        asked = np.sqrt(1.5**2 + 2.0 * 7.0 * 0.5 * (low + high))
+        assert best * pixel * rate == pytest.approx(asked, abs=0.8 * pixel * rate)
+        assert likeness[best] > 0.85
+
+
+def test_a_still_front_does_not_slide():
+    length = 8.0
+    lengths, ground, corner, cell = front(length, 0.8 * length)
+    lines = corner[0] + cell * np.arange(len(lengths))
+    lengths = lengths * (np.abs(lines) < length)
+    centres = []
+    for time in np.arange(0.0, 40.0, 2.0):
+        seen, pixel = opacity(flames([(lengths, ground, corner, cell)], time), length, wide=48, high=6)
+        across = (np.arange(seen.shape[1]) + 0.5 - seen.shape[1] / 2) * pixel
+        centres.append((seen * across).sum() / seen.sum())
+    early, late = np.mean(centres[:10]), np.mean(centres[10:])
+    assert abs(early) < 0.1 * length
+    assert abs(late - early) < 0.1 * length
+
+
+def test_nothing_burns_outside_of_the_squares():
+    square = front(5.0, 1e6, half=2.0)
+    burning = flames([square], wind=(4.0, 0.0))
+    edge = -square[2][0]
+    heights = np.linspace(0.1, 12.0, 40)
+    for x, dark in ((edge + 0.1, True), (0.0, False)):
+        origins = np.column_stack([np.full(40, x), np.full(40, -100.0), heights])
+        found = volume.march(
+            [], origins, np.tile((0.0, 1.0, 0.0), (40, 1)), np.full((40, 1), 300.0), LIGHT, flames=burning
+        )
+        assert np.all(found[:, 0, 3] == 1.0) == dark
+    assert (
+        volume.march([], [0.0, 0.0, -5.0], [[0.0, 0.0, -1.0]], [[100.0]], LIGHT, flames=burning)[0, 0, 3]
+        == 1.0
+    )
+
+
+def test_surfaces_cut_flames_and_smoke_dims_them():
+    origins, directions = np.array([[0.0, -60.0, 2.0]]), np.array([[0.0, 1.0, 0.0]])
+    burning = flames([front(18.0, 14.0)])
+    alone = volume.march([], origins, directions, [[30.0, 60.0, 120.0]], LIGHT, flames=burning)[0]
+    assert alone[0, 3] == 1.0  # a surface before the flames
+    assert alone[0, 3] > alone[1, 3] > alone[2, 3]
+    fields = dict.fromkeys(("fresh", "sun", "sky", "glow"), np.zeros((9, 9, 9)))
+    smoke = volume.Bricks(np.full((9, 9, 9), 0.05), **fields, voxel_size=4.0, origin=(-16.0, -56.0, -16.0))
+    both = volume.march([smoke], origins, directions, [[30.0, 60.0, 120.0]], LIGHT, 0.5, 1e-7, burning)[0]
+    before = both[0, 3]
+    assert before == pytest.approx(np.exp(-0.05 * 26.0), rel=0.01)
+    assert both[1, 3] == pytest.approx(np.exp(-0.05 * 32.0) * alone[1, 3], rel=0.02)
+    assert both[1, :3] == pytest.approx(np.exp(-0.05 * 32.0) * alone[1, :3], rel=0.02)
+
+
+def test_frames_repeat_bit_for_bit_and_move_little_in_a_moment():
+    origins, directions, _, _ = look(5.0)
+    ends = np.full((len(origins), 1), 40.0)
+
+    def picture(time):
+        return volume.march([], origins, directions, ends, LIGHT, flames=flames([front(5.0, 4.0)], time))
+
+    first = picture(1.0e5)
+    assert np.array_equal(first, picture(1.0e5))
+    assert np.abs(picture(1.0e5 + 1e-3) - first).mean() < 0.02 * first[..., :3].mean() + 1e-3
+
+
+def test_a_crown_burns_upright_at_its_middle():
+    crown = np.array([[0.0, 0.0, 0.0, 4.0, 24.0, 3.2]])
+    empty = [(np.zeros((41, 41)), np.zeros((41, 41)), (-40.0, -40.0), 2.0)]
+    seen, pixel = opacity(flames(empty, spindles=crown, wind=(3.0, 0.0)), 18.0)
+    across = (np.arange(seen.shape[1]) + 0.5 - seen.shape[1] / 2) * pixel
+    rows = slice(int(6.0 / pixel), int(10.0 / pixel))
+    assert abs((seen[rows] * across).sum() / seen[rows].sum()) < 2.0
+    tops = np.flatnonzero(seen.max(axis=1) > 0.5)
+    assert 18.0 < tops.max() * pixel < 36.0
