@@ -57,7 +57,7 @@ def lit(amid, run, stage, scene):
 
 
 def test_cards_stand_at_burning_flames_and_emit_their_share_of_heat(lit, scene):
-    shot, points = lit, flames.front_flames(lit)
+    shot, points = lit, flames.front_flames(lit, None, flame_light.LAYOUT)
     away = np.linalg.norm(points.position - shot.paths[0].position[0], axis=1)
     share = 1.0 - noise.smoothstep(*flame_light.REACH, away)
     total = []

@@ -20,5 +20,5 @@ def test_they_glow_and_are_warm(close, run, stage, scene, shoot):
                 scene.world.node_tree.links.remove(link)
     rgb, kelvin = shoot(scene, "rgb"), shoot(scene, "thermal")
     assert np.all(rgb[..., 0] >= rgb[..., 2])
-    assert 1.0e-3 < np.max(rgb) < 100.0  # in pixels of 6 m
+    assert 1.0e-4 < np.max(rgb) < 100.0  # in pixels of 6 m
     assert 0.005 < kelvin.max() <= 1300.0  # times their share of such pixels

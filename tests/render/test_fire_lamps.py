@@ -50,12 +50,14 @@ def test_they_come_so_gradually_that_the_first_light_cannot_be_seen(near, run, s
     assert brightest[0] < 1.0 / 255.0 < brightest[1]
 
 
-def test_lamps_light_the_ground_and_leave_temperatures_alone(near, run, stage, scene, sun_at, shoot):
+def test_lamps_and_near_flames_light_the_ground_and_leave_temperatures_alone(
+    near, run, stage, scene, sun_at, shoot
+):
     sun_at(-20.0)
     built(near, run, stage)
     scene.frame_set(2)
     kelvin, light = shoot(scene, "thermal"), shoot(scene, "rgb")
-    for thing in lit():
+    for thing in (*lit(), bpy.data.objects["Firetwin Flame Light"]):
         thing.hide_render = True
     assert np.array_equal(kelvin, shoot(scene, "thermal"))
     assert np.mean(light - shoot(scene, "rgb")) > 1.0e-3

@@ -45,7 +45,7 @@ def build(shot: Shot, stage: Stage, grown: Stand | None = None) -> bpy.types.Obj
     firebrand_nodes.build(shot, stage, points, collection)
     lit = owned.child(collection, "Lamps")
     lamp_objects.build(shot, lit)
-    flame_light.build(shot, points, lit)
+    flame_light.build(shot, grown, lit)
     return obj
 
 

@@ -16,16 +16,19 @@ from ...blender import nodes, owned
 from ...blender.mesh import add_attribute, create_mesh
 from ...shot.shot import Shot
 from .. import clock
+from ..forest.stand import Stand
 from . import flames
 
 REACH = 250.0, 400.0  # m from the camera of a frame, distances between which these lights give way to lamps
 FAR_LAMPS = 300.0, 2500.0  # m from a camera, distances between which the light of lamps fades in
 RADIATED = 0.12  # of the heat of combustion (Freeborn et al. 2008: 0.12 +- 0.03)
-LIGHT = 2.0e-4
-"""W of the scene's light per radiated W; by eye. It is 2.4e-5 for flames of 18 m with 15,000 cd/m2, half of
-them gaps, and a radiosity of 61 kW/m2, if a radiance of 1 is 16,000 cd/m2; 7e-5 for flames of 2 m."""
+LIGHT = 4.0e-4
+"""W of the scene's light per radiated W; by eye. It is 5e-5 for flames of 18 m with 15,000 cd/m2, half of
+them gaps, and a radiosity of 61 kW/m2, if a luminance of 1 is 16,000 cd/m2; 4e-4 for flames of 2 m."""
 COLOUR = (1.0, 0.36, 0.06)
-_TALL = 0.5  # height of the bright part of a flame, in flame lengths (assumed)
+LAYOUT = flames.Layout(((REACH[1], 4.0),), gaps=False)
+"""Denser than billboards, without gaps: surfaces near the front are lit evenly along it."""
+_TALL = 0.7  # height of the bright part of a flame, in flame lengths (assumed)
 _FLICKER = 1.2  # factor on noise around its mean of 0.5: about 15 % (standard deviation; assumed)
 _SIZE = 0.5, 0.3  # m, smallest diameter for the frequency, and smallest side of a card
 _NAME = "Firetwin Flame Light"
@@ -38,10 +41,11 @@ def applies(shot: Shot) -> bool:
     return near and settings.render.engine == "cycles" and settings.light.lamps > 0
 
 
-def build(shot: Shot, points: flames.Points, collection: bpy.types.Collection) -> bpy.types.Object | None:
+def build(shot: Shot, grown: Stand | None, collection: bpy.types.Collection) -> bpy.types.Object | None:
     """Build "Firetwin Flame Light" in the collection of the lamps; None without flames near a camera."""
-    if not applies(shot) or len(points.seed) == 0:
+    if not applies(shot):
         return None
+    points = flames.front_flames(shot, grown, LAYOUT)
     near = np.flatnonzero(shot.visibility.distance(points.position) < REACH[1])
     if len(near) == 0:
         return None

@@ -102,16 +102,37 @@ def life(age: Array) -> Array:
     return np.where((age >= 0.0) & (age < 1.0), np.interp(age, *_LIFE), 0.0)
 
 
-def front_flames(shot: Shot, grown: Stand | None = None) -> Points:
+@dataclass(frozen=True)
+class Layout:
+    """Arrangement of the points along a front.
+
+    Attributes
+    ----------
+    spacing
+        Spacing (m) between points of a front with flames of at least `_TALL`, up to each distance (m) from
+        the camera.
+    nearest
+        Number of points in the nearest cells that have the closest spacing at any distance.
+    gaps
+        Whether fronts with low flames have gaps.
+    """
+
+    spacing: tuple[tuple[float, float], ...]
+    nearest: int = 0
+    gaps: bool = True
+
+
+def front_flames(shot: Shot, grown: Stand | None = None, layout: Layout | None = None) -> Points:
     """Create the flames along the front at every time of the shot, at most `fire.budget` lit at once.
 
     Fireline intensity is H w R (Byram 1959), with the cell's fuel w and the rate of spread R from the
     gradient of the arrival time. With a stand, its torching crowns are added. Flames are wider in proportion
-    to their spacing, so that the front's radiance stays the same.
+    to their spacing, so that the front's radiance stays the same. The default layout is for billboards.
     """
+    layout = layout or Layout(_SPACING, _FINE)
     settings, ground, near = shot.settings, shot.ground, shot.perspective_paths
     first, last = shot.built_times[[0, -1]]
-    row, column, spacing, distance, key = _candidates(shot)
+    row, column, spacing, distance, key = _candidates(shot, layout)
     arrival = ground.arrival_at(row, column)
     keep = (arrival <= last) & (arrival > first - _LONGEST)
     row, column, spacing, distance, arrival, key = (
@@ -139,7 +160,7 @@ def front_flames(shot: Shot, grown: Stand | None = None) -> Points:
     length = np.clip(even * uneven * _flare_factor(place, even, shot), *_LENGTHS)
     thin = lod.LevelTable().multiplier(distance) if len(distance) else np.ones(0)
     wind = float(np.hypot(*shot.wind))
-    finest = _point_spacing(ground.cell, _SPACING[0][1] * _relative_spacing(shot))[1]
+    finest = _point_spacing(ground.cell, layout.spacing[0][1] * _relative_spacing(shot))[1]
     fewer = (spacing / finest) ** 2 * _point_residence(finest, speed, stands) / (residence * thin)
     points = Points(
         place,
@@ -153,10 +174,13 @@ def front_flames(shot: Shot, grown: Stand | None = None) -> Points:
         random[2],
         _flaming_heat(canopy, surface, stands)
         * spacing**2
-        / (residence * _MEAN_LIFE * thin * (1.0 - _gap_fraction(even))),
+        / (residence * _MEAN_LIFE * thin * (1.0 - layout.gaps * _gap_fraction(even))),
         np.zeros(len(length)),
     )
-    points = points.take(np.flatnonzero((random[0] * 0.999 < thin) & _outside_gaps(place, even, shot)))
+    kept = random[0] * 0.999 < thin
+    if layout.gaps:
+        kept &= _outside_gaps(place, even, shot)
+    points = points.take(np.flatnonzero(kept))
     if grown is not None and settings.fire.torches:
         points = _concatenate([points, torching_crowns(shot, grown)])
     return _limit_to_budget(points, shot, near)
@@ -291,7 +315,7 @@ def _concatenate(parts: list[Points]) -> Points:
     return Points(*(np.concatenate([getattr(p, field.name) for p in parts]) for field in fields(Points)))
 
 
-def _candidates(shot: Shot) -> tuple[Array, Array, Array, Array, NDArray[np.int64]]:
+def _candidates(shot: Shot, layout: Layout) -> tuple[Array, Array, Array, Array, NDArray[np.int64]]:
     """Return rows, columns and spacing (m) of jittered points in cells that the front crosses in the shot.
 
     Also returns the distance (n,), m, from which their spacing follows, and integers (n, 2) that seed a
@@ -306,10 +330,10 @@ def _candidates(shot: Shot) -> tuple[Array, Array, Array, Array, NDArray[np.int6
         return empty, empty, empty, empty, np.empty((0, 2), np.int64)
     centre = ground.point(*ground.places(cells_lit[:, 0].astype(float), cells_lit[:, 1].astype(float)))
     visible = shot.visibility.visible_mask(centre, max(ground.cell) + _AROUND, reach=SIGHT)
-    cells_lit, distance = cells_lit[visible], _spacing_distance(shot, centre[visible])
+    cells_lit, distance = cells_lit[visible], _spacing_distance(shot, layout, centre[visible])
     parts = []
     before, close = 0.0, _relative_spacing(shot)
-    for limit, wanted in _SPACING:
+    for limit, wanted in layout.spacing:
         inside = (distance >= before) & (distance < limit)
         chosen = cells_lit[inside]
         before = limit
@@ -344,14 +368,14 @@ def _point_spacing(cell: tuple[float, float], wanted: float) -> tuple[int, float
     return count, max(cell) / count
 
 
-def _spacing_distance(shot: Shot, centre: Array) -> Array:
-    """Return the distance (n,), m, for the spacing in cells (n, 3): 0 in the nearest, up to `_FINE` points.
+def _spacing_distance(shot: Shot, layout: Layout, centre: Array) -> Array:
+    """Return the distance (n,), m, for the spacing in cells (n, 3): 0 in the nearest, up to some points.
 
     Visible flames are then mostly independent of the chunk of the film and of what else is built.
     """
     distance = shot.visibility.lod_distance(centre)
-    count, _ = _point_spacing(shot.ground.cell, _SPACING[0][1] * _relative_spacing(shot))
-    distance[np.argsort(distance, kind="stable")[: _FINE // count**2]] = 0.0
+    count, _ = _point_spacing(shot.ground.cell, layout.spacing[0][1] * _relative_spacing(shot))
+    distance[np.argsort(distance, kind="stable")[: layout.nearest // count**2]] = 0.0
     return distance
 
 
