@@ -1,7 +1,7 @@
 """Share of flames that surfaces and billboards show at a distance, next to flames drawn as a field.
 
 The integrated renderer marches the field up to its camera's reach. Within the reach crowns, ground and
-billboards emit no flames; from 0.8 to 1.2 of the reach they fade in as the field fades out. The reach is 0
+billboards emit no flames; at the reach (`flame_map.FADE`) they fade in as the field fades out. The reach is 0
 (no field) in EEVEE, in Blender's own renders, and in scenes that an artist opens.
 """
 
@@ -11,8 +11,8 @@ import bpy
 
 from ..blender import nodes, owned
 from ..blender.owned import Stage
+from ..shot.fire.flame_map import FADE
 
-BLEND = 0.8, 1.2  # fractions of the reach between which the field fades out
 _SHADER, _GEOMETRY = "flame field", "flame field of geometry"
 _REACH = "Reach"
 
@@ -41,7 +41,7 @@ def _shader_group(stage: Stage) -> bpy.types.NodeTree:
         return stage.root[_SHADER]
     tree, reach = _group(stage, _SHADER, "ShaderNodeTree", "Share")
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
-    low, high = (reach * part for part in BLEND)
+    low, high = (reach * part for part in FADE)
     beyond = distance.smoothstep(low, high)
     tree.finish({"Share": tree.math("MAXIMUM", beyond, reach < 1.0e-3)})
     return tree.node_tree
@@ -56,7 +56,7 @@ def _geometry_group(stage: Stage) -> bpy.types.NodeTree:
     eye = tree.output("GeometryNodeObjectInfo", {"Object": camera}, "Location", transform_space="ORIGINAL")
     position = tree.output("GeometryNodeInputPosition")
     distance = tree.vector("DISTANCE", eye, position, name="Value")
-    tree.finish({"Beyond": distance - reach * BLEND[0]})
+    tree.finish({"Beyond": distance - reach * FADE[0]})
     return tree.node_tree
 
 

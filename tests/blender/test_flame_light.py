@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from firetwin.blender import owned
 from firetwin.scene.fire import build as fire
-from firetwin.scene.fire import flame_light, flames, lamps
+from firetwin.scene.fire import flame_light, flame_volume, flames, lamps
 from firetwin.shot.sections import Light
 from firetwin.shot.shot import Shot
 from firetwin.shot.terrain import noise
@@ -69,7 +69,7 @@ def test_cards_stand_at_burning_flames_and_emit_their_share_of_heat(lit, scene):
         )
         assert len(place) == len(burning) > 10
         heat = (points.heat * share * flames.life((time - points.arrival_time) / points.residence)).sum()
-        total.append(light.sum() / (flame_light.RADIATED * flame_light.LIGHT * heat))
+        total.append(light.sum() / (flame_volume.RADIATED * flame_light.LIGHT * heat))
     assert np.array(total) == pytest.approx(1.0, abs=0.1)
 
 
