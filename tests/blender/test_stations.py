@@ -10,6 +10,7 @@ import small_stations
 from firetwin.blender import owned
 from firetwin.render import layers
 from firetwin.scene import build
+from firetwin.scene.labels import lettering
 from firetwin.scene.stations import buildings, routes, signs
 from firetwin.shot.sections import StationSettings
 from firetwin.shot.shot import Shot
@@ -67,6 +68,20 @@ def test_signs_face_the_camera_keep_their_size_and_have_two_forms(stationed, run
         Shot(replace(far, stations=replace(far.stations, distance=3000.0)), run), scene, ("stations",)
     )
     assert len(shown("Firetwin Signs")) == 1
+
+
+def test_a_plate_leaves_out_its_last_lines_but_not_the_exercise():
+    lines = [("Base", False), ("exercise base", False), ("3 engines", False), (EXERCISE, True)]
+    assert signs.fitting(lines, 0.62, 10.0) == lines
+    assert signs.fitting(lines, 0.62, 3.6) == [lines[0], lines[1], lines[3]]
+    assert signs.fitting(lines, 1.0, 1.0) == [lines[0], lines[3]]
+
+
+@pytest.mark.parametrize(("rows", "pixels"), [(2160, 64.8), (1080, 32.4), (360, 17.6), (54, 5.4)])
+def test_capitals_are_legible_in_pictures_of_any_size(stationed, run, rows, pixels):
+    picture = replace(stationed.render, resolution=(2 * rows, rows))
+    size = lettering.legible_size(Shot(replace(stationed, render=picture), run), 0.03)
+    assert size * rows == pytest.approx(pixels, abs=0.1)
 
 
 def test_every_form_of_an_exercise_says_so(stationed, run):

@@ -153,3 +153,23 @@ def test_infrared_radiance_of_the_sky_fills_what_is_not_solid():
     assert composite.infrared_radiance(surface, none, none[..., 0], 20.0) == pytest.approx(
         0.25 * 60.0 + 0.75 * 20.0
     )
+
+
+@pytest.mark.parametrize(("distance", "seen"), [(100.0, 1.0), (300.0, 0.0)])
+def test_text_is_in_front_of_what_is_farther_away(distance, seen):
+    found = surfaces(3.0, 200.0)
+    light = np.full((*SIZE, 3), 0.5 * 7.0, np.float32)  # half of each pixel
+    text = light, np.full(SIZE, 0.5, np.float32), np.full(SIZE, distance, np.float32)
+    front = np.zeros((*SIZE, 4), np.float32)
+    front[..., 3] = 1.0
+    shown = composite.place_text(found.colour, found, composite.taps(found), text, front)
+    assert shown == pytest.approx(seen * 5.0 + (1.0 - seen) * 3.0)
+
+
+def test_smoke_in_front_dims_text_as_it_does_surfaces():
+    found = surfaces(3.0, 200.0)
+    text = np.full((*SIZE, 3), 7.0, np.float32), np.ones(SIZE, np.float32), np.full(SIZE, 100.0, np.float32)
+    front = even_smoke(np.full(SIZE, 100.0))
+    through = np.exp(-0.1)
+    shown = composite.place_text(found.colour, found, composite.taps(found), text, front)
+    assert shown == pytest.approx(7.0 * through + 2.0 * (1.0 - through), rel=1e-5)

@@ -14,6 +14,7 @@ from ...progress import MessageCallback, Progress, no_message, silent
 from ...run import areas, buildings
 from ...shot.shot import Shot
 from ...shot.surface import orthophoto
+from ...shot.terrain import noise
 from ...shot.tiles import tile_terms
 from ...tiles import geoid, notices
 from ...tiles.make.lattice import Lattice, Surface
@@ -23,6 +24,9 @@ Array = NDArray[np.float64]
 _FINEST = 4097  # points along an axis of an elevation model
 _BARE, _GREEN = (146.0, 136.0, 120.0), (58.0, 76.0, 44.0)
 """sRGB of ground without fuel, and with the run's largest load, without a photo (assumed)."""
+
+_FINER = 4.0  # pixels of the mottled picture in a cell of the run
+_MOTTLE, _CONTRAST = 220.0, 0.22  # m, largest mottles; their contrast (by eye)
 
 
 @dataclass(frozen=True)
@@ -133,19 +137,30 @@ def _heights(surface: Surface, latitude: Array, longitude: Array) -> Array:
 
 
 class _FuelColours:
-    """Ground colours by fuel load: greener is denser."""
+    """Ground colours by fuel load, mottled: greener is denser."""
 
     def __init__(self, shot: Shot) -> None:
         fields = shot.ground.fields
         self._ground = shot.ground
         load = fields.canopy_fuel + fields.surface_fuel
         self._load = load / max(float(load.max()), 1.0e-9)
-        self.resolution = float(min(shot.ground.cell))
+        self.resolution = float(min(shot.ground.cell)) / _FINER
+        self._sizes = areas.metres_per_degree(shot.ground.frame.latitude)
 
     def __call__(self, latitude: Array, longitude: Array) -> NDArray[np.uint8]:
         rows, columns = self._ground.indices(latitude, longitude)
         load = bilinear(self._load, rows[:, None], columns)[..., None]
-        return np.rint(np.asarray(_BARE) * (1.0 - load) + np.asarray(_GREEN) * load).astype(np.uint8)
+        colour = np.asarray(_BARE) * (1.0 - load) + np.asarray(_GREEN) * load
+        return np.rint(np.clip(colour * self._mottles(latitude, longitude)[..., None], 0, 255)).astype(
+            np.uint8
+        )
+
+    def _mottles(self, latitude: Array, longitude: Array) -> Array:
+        """Return factors (h, w) about 1: soil, stains and shade, no finer than two pixels."""
+        y, x = latitude * self._sizes[0], longitude * self._sizes[1]
+        step = abs(y[-1] - y[0]) / max(len(y) - 1, 1)
+        octaves = int(np.clip(np.log2(_MOTTLE / max(2.0 * step, 1e-6)) + 1.0, 0, 5))
+        return np.clip(1.0 + _CONTRAST * noise.fractal(x, y[:, None], _MOTTLE, octaves, 71, 0.7), 0.4, 1.6)
 
 
 class _PhotoColours:

@@ -88,6 +88,7 @@ def extend(
             _reflected(rows, _positions(rows, steps))[row],
             _reflected(columns, _positions(columns, steps))[column],
         ),
+        max(cell),
     )
     inside = slice(count, -count)
     with ThreadPoolExecutor(1) as beside:
@@ -165,6 +166,8 @@ class _Points(NamedTuple):
         (n,) m from the grid's edge, and mesh spacing there.
     edge, across
         Rows and columns (n,) of the grid: the nearest point, and its mirror image within the edge.
+    cell
+        Cell size of the grid, m.
     """
 
     y: NDArray[np.float64]
@@ -173,6 +176,19 @@ class _Points(NamedTuple):
     spacing: NDArray[np.float64]
     edge: tuple[NDArray[np.int64], NDArray[np.int64]]
     across: tuple[NDArray[np.int64], NDArray[np.int64]]
+    cell: float
+
+    def mirrored(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Sample a field (ny, nx) at the mirror images, in square blocks as large as the mesh is coarse.
+
+        Rows and columns of the mesh have different spacings, so single cells would become streaks.
+        """
+        block = np.maximum(np.round(self.spacing / self.cell), 1.0).astype(int)
+        at = (
+            np.minimum(index // block * block + block // 2, size - 1)
+            for index, size in zip(self.across, field.shape, strict=True)
+        )
+        return field[tuple(at)]
 
 
 def _continue(axis: NDArray[np.float64], steps: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -277,7 +293,7 @@ def _fuel(
     at = ranks[0] * (len(parts) - 1)
     low = np.minimum(at.astype(int), len(parts) - 2)
     usual = quantiles[which, low] + (at - low) * (quantiles[which, low + 1] - quantiles[which, low])
-    return np.where(np.exp(-points.distance / _MIRROR_LENGTH) > ranks[2], known_fuel[points.across], usual)
+    return np.where(np.exp(-points.distance / _MIRROR_LENGTH) > ranks[2], points.mirrored(known_fuel), usual)
 
 
 def _rank(points: _Points, size: float, seed: int) -> NDArray[np.float64]:
@@ -292,6 +308,7 @@ def _rank(points: _Points, size: float, seed: int) -> NDArray[np.float64]:
         wave = size * 2.0**octave
         finer = np.log2(largest / wave)
         strength = np.where(finer < 0.0, 1.0 + finer, np.exp2(-finer)) * np.clip(3.0 - finer, 0.0, 1.0)
+        strength *= np.clip(wave / points.spacing - 1.0, 0.0, 1.0)  # two points of the mesh or more
         some = np.flatnonzero(strength > 0.0)
         total[some] += strength[some] * noise.perlin(x[some] / wave, y[some] / wave, seed + octave % 4)
         square[some] += strength[some] ** 2
