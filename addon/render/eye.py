@@ -60,6 +60,8 @@ class Eye:
             rays.pixel_rays, stage.evaluated(stage.scene.camera), stage.scene, height, width, number
         )
         self.rays = self._through()
+        self.clear = np.ones(self.shape, np.float32)
+        """Transmittance (h, w) of smoke, once `picture` has computed it."""
 
     def picture(self, text: Channels | None = None) -> Array:
         """Compute the radiance (h, w, 3) of surfaces, smoke, flames and `text`, which was rendered alone."""
@@ -73,6 +75,7 @@ class Eye:
                 lines = _lines(self._through(at=place))
                 found = volume.march(smoke, *lines, ends, self._light, _STEP, **self._burning)
                 marched += np.float32(weight) * found.reshape(marched.shape)
+        self.clear = marched[..., 3].mean(axis=-1)
         composed = composite.compose(rendered, at, marched)
         return composed if text is None else self._place_text(composed, rendered, at, text)
 
@@ -93,6 +96,11 @@ class Eye:
                 marched += np.float32(weight) * found.reshape(-1, 4)
             front[written] = marched
         return composite.place_text(picture, rendered, at, (text["Combined"], cover, distance), front)
+
+    def apparent_distance(self, smoke: float) -> Array:
+        """Return distances (h, w), m, of surfaces and of smoke at `smoke` m, weighted by transmittance."""
+        near = 1.0 / np.maximum(self.distance, 1.0)
+        return (1.0 / (self.clear * near + (1.0 - self.clear) / max(smoke, 1.0))).astype(np.float32)
 
     def radiance(self, frame: int) -> Array:
         """Compute the infrared radiance (h, w) of surfaces, air, smoke and flames, W m-2 sr-1."""

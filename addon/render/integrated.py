@@ -25,7 +25,7 @@ from ..shot import passes
 from ..shot.fire import flame_map
 from ..shot.shot import Shot
 from ..smoke import sources
-from . import frame_cost, layers, surfaces, text_layer
+from . import frame_cost, layers, motion_blur, surfaces, text_layer
 from .eye import Eye
 from .picture import Picture
 
@@ -83,7 +83,7 @@ class IntegratedRenderer:
         eyes = [Eye(self.shot, self.stage, found[first], number, smoke, flames) for number, found in rendered]
         if "rgb" in pictures:
             with self.cost.part(frame_cost.MARCH):
-                light = [eye.picture(text.get(eye.number)) for eye in eyes]
+                light = [self._blurred(eye, text.get(eye.number), pictures["rgb"].frame) for eye in eyes]
             self._write_visible(light, pictures["rgb"], part)
             self._check_view(eyes[0], pictures["rgb"].frame)
         if "thermal" in pictures:
@@ -101,6 +101,15 @@ class IntegratedRenderer:
             return None
         with self.cost.part(frame_cost.MARCH):
             return flame_volume.build(self.shot, view, frame, fire.torching_crowns(self.stage))
+
+    def _blurred(self, eye: Eye, text: surfaces.Channels | None, frame: int) -> Array:
+        """Compute the radiance (h, w, 3) of an eye, blurred by the camera's motion."""
+        light, exposure = eye.picture(text), self.shot.settings.render.motion_blur
+        if exposure == 0.0:
+            return light
+        (view,) = self.shot.paths
+        away = float(np.linalg.norm(view.target[frame - 1] - view.position[frame - 1]))
+        return motion_blur.blur(light, eye.apparent_distance(away), view, frame, exposure)
 
     def _check_view(self, eye: Eye, frame: int) -> None:
         """Record a frame that is mostly hidden by smoke close to the camera."""

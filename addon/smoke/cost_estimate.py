@@ -53,7 +53,8 @@ def estimate(flow: Flow) -> Cost | None:
         begin, step = flow.begin, shot.scale.step
         if domain is not flow.domains[0]:
             begin, step = max(begin, frames.first - shot.scale.time(domains.LEAD)), step / FINER
-        work += domain.cells * math.ceil((frames.last - begin) / step)
+        film = (frames.count - 1) * max(1, math.ceil(frames.step / step))  # a step in each frame at least
+        work += domain.cells * (math.ceil((frames.first - begin) / step) + film)
     room = _KEPT * frames.count * sum(domain_left.cells for domain_left in missing)
     folder = flow.domains[-1].folder.parent
     return Cost(frames.last - flow.begin, work / _SPEED, room, _widths(flow.domains), folder)

@@ -41,9 +41,10 @@ def moments(smoke: Sequence[volume.Bricks]) -> Sequence[tuple[float, Sequence[vo
 
 
 def exposure(shot: Shot) -> float:
-    """Return the exposure of a film's smoke, frame intervals; 0: none."""
-    given = shot.settings.time.shutter
-    if shot.frames.count == 1:
+    """Return the exposure of a film's smoke, frame intervals; 0: none, as in stills."""
+    given, cameras = shot.settings.time.shutter, shot.settings.cameras
+    filmed = max((len(shot.frames_of(camera)) for camera in cameras), default=shot.frames.count)
+    if filmed == 1:
         return 0.0
     if given is not None:
         return given

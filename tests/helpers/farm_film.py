@@ -20,6 +20,7 @@ run = "{run}"
 start = 2014-09-17T21:00:00Z
 end = 2014-09-17T22:00:00Z
 frames = {frames}
+shutter = 0.0
 """
     + NO_PLANTS
     + PUFFS

@@ -129,6 +129,7 @@ def _settings(run_folder, folder):
             start=datetime(2014, 9, 17, 21, 0, tzinfo=UTC),
             end=datetime(2014, 9, 17, 22, 0, tzinfo=UTC),
             frames=3,
+            shutter=0.0,
         ),
         terrain=sections.TerrainSettings(near_radius=0.0, apron=20_000.0),
         forest=sections.Forest(density="paper"),

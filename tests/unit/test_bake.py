@@ -13,6 +13,7 @@ SMOKY = """\
 run = "{run}"
 [time]
 frames = 2
+shutter = 0.0
 [smoke]
 method = "puffs"
 voxel_size = 400.0

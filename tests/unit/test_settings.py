@@ -95,7 +95,7 @@ def test_what_a_product_depends_on_is_chosen_by_aspect():
     assert schema.select(SETTINGS, {"time"}) == {"time": time}
     assert schema.select(SETTINGS, {"film"}) == {"time": {"fps": 24, "zone": ""}}
     assert schema.select(SETTINGS, {"picture"}) == {"render": {"engine": "cycles", "resolution": [640, 360]}}
-    grain = {"samples": 6, "denoise": True, "seed": 0}
+    grain = {"samples": 6, "denoise": True, "motion_blur": 0.0, "seed": 0}
     assert schema.select(SETTINGS, {"grain"}) == {"time": {"shutter": None}, "render": grain}
     found = schema.select(SETTINGS, {"thermal"})
     assert found["render"] == {"thermal_low": None, "thermal_high": 800.0}

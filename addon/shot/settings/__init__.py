@@ -106,6 +106,13 @@ class Render:
     denoise: bool = key(
         True, "denoise the picture; depth and temperatures are never denoised", affects=("grain",)
     )
+    motion_blur: float = key(
+        0.0,
+        "exposure of a moving camera, frame intervals; 0: sharp, 0.5: as film cameras; rgb only",
+        at_least=0,
+        at_most=2,
+        affects=("grain",),
+    )
     passes: tuple[str, ...] = key(
         ("rgb", "depth", "thermal"),
         "passes that cameras record",
