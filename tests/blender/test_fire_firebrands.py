@@ -95,6 +95,8 @@ def test_blender_draws_those_alive_where_their_path_is(close, run, stage, scene)
         gap = np.linalg.norm(place[:, None] - wanted[None], axis=-1).min(axis=1)
         assert np.percentile(gap, 98.0) < 0.05
         assert np.all(size[:, 2] >= size[:, 0])
+        speed = np.linalg.norm(np.diff(found.place[alive], axis=1), axis=-1).max() / found.step
+        assert (size[:, 2] - size[:, 0]).max() < 1.01 * speed / 25.0, "motion in the exposure time"
         assert np.linalg.norm(axis, axis=1) == pytest.approx(1.0, abs=1e-3)
 
 

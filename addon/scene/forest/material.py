@@ -80,7 +80,7 @@ def bark(shot: Shot, stage: Stage, *, charred: bool) -> bpy.types.Material:
     material, tree = nodes.material(f"Firetwin {name}", shown)
     material.cycles.emission_sampling = "NONE"
     tint = tree.attribute("tint", "INSTANCER")
-    char = ((0.010, 0.009, 0.009), (0.045, 0.040, 0.036))
+    char = ((0.009, 0.008, 0.008), (0.030, 0.027, 0.025))
     black = tree.mix_colour(tint, *_shades(tree, "Charred", char, "charred bark"))
     age = _age(tree)
     if charred:
