@@ -89,7 +89,7 @@ def light() -> volume.Illumination:
     """Return the light of a summer afternoon."""
     return volume.Illumination(
         density=1.0,
-        fresh=(0.44, 0.36, 0.29),
+        fresh=(0.36, 0.315, 0.275),
         old=(0.95, 0.945, 0.94),
         sun=(9.0, 8.0, 7.0),
         sky=(0.3, 0.35, 0.4),

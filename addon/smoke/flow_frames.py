@@ -21,7 +21,7 @@ from ..shot.cameras.path import SENSOR
 from ..shot.fire.smoke_scale import Scale
 from ..shot.shot import WIDE_LENS, Shot
 from ..shot.terrain import noise
-from . import flame_light, snapshots
+from . import flame_light, snapshots, tones
 from .close_up import Window
 from .domains import Box, Domain
 from .flow import Flow
@@ -221,10 +221,11 @@ class Painter:
         voxel = self.layer.voxel
         origin, surface, end, share, count = self._brick(snapshot, window)
         wanted = _visible_blocks(views, origin, (*surface.shape, count), voxel, self.scale.length(_ROUND))
-        smoke = self._detail(snapshot, lights).paint_sparse(
+        time = float(self.shot.frames.times[frame - 1])
+        smoke = self._detail(snapshot, lights, time).paint_sparse(
             origin, voxel, surface, end, count, wanted, self._thin
         )
-        toward = sun.toward_light(self.shot.run, float(self.shot.frames.times[frame - 1]))
+        toward = sun.toward_light(self.shot.run, time)
         lit = volume.LitSmoke(smoke, toward.tolist(), *LIGHT, beyond.depths if beyond else None)
         return _PaintedLayer(lit, share, origin, snapshot.mass)
 
@@ -296,7 +297,9 @@ class Painter:
         way = (depth - self.scale.length(_INSIDE)) / self.scale.length(fade)
         return np.clip(np.minimum(way + torn, _EDGE * way), 0.0, 1.0)
 
-    def _detail(self, snapshot: snapshots.Snapshot, lights: tuple[Array, Array] | None) -> flow.Detail:
+    def _detail(
+        self, snapshot: snapshots.Snapshot, lights: tuple[Array, Array] | None, time: float
+    ) -> flow.Detail:
         box, shot = self.layer.domain.box, self.shot
         nz, rows, columns = snapshot.fields["smoke"].shape
         west, south = snapshot.low
@@ -305,8 +308,12 @@ class Painter:
         size, blur = _NOISE[self.layer.fine]
         mix = shot.fire.smoke
         # Thresholds are for a crown fire's smoke; they are lower for thinner smoke of equal temperature.
-        fields = snapshot.fields | {"smoke": snapshot.fields["smoke"] / np.float32(mix.dilution)}
         scale = self.layer.domain.scale
+        ages = scale.time(_AGES[0]), scale.time(_AGES[1])
+        fields = snapshot.fields | {
+            "smoke": snapshot.fields["smoke"] / np.float32(mix.dilution),
+            "age": tones.apparent_age(shot, time, snapshot.fields["age"], corner, box.spacing, ages[1]),
+        }
         levels = np.array(box.levels)
         return flow.Detail(
             **fields,
@@ -326,7 +333,7 @@ class Painter:
             opacity=mix.opacity,
             condensation_height=shot.settings.smoke.cloud_base,
             max_extinction=shot.settings.smoke.extinction or max_extinction(scale),
-            ages=(scale.time(_AGES[0]), scale.time(_AGES[1])),
+            ages=ages,
             seed=shot.settings.seed,
         )
 

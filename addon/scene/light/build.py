@@ -22,7 +22,7 @@ _SKY = 0.12  # strength of the sky texture; more hides the sunlit side of smoke
 _DUST = 0.3  # parameter of the sky texture; 1 makes it pale and greenish
 _FILL = 0.44  # factor on the sky's mean radiance for ambient light in open places; by eye
 _NEAR = 15.0  # m, distance of ambient occlusion
-_NIGHT_FILL = 0.06  # minimum of that mean radiance: eyes and films adapt to the night; by eye
+_NIGHT_FILL = 0.1  # minimum of that mean radiance: eyes and films adapt to the night; by eye
 _TRANSFORM, _LOOK = "AgX", "AgX - Medium High Contrast"
 _INSTEAD = ("Filmic", "Standard")  # fallback view transforms if AgX is missing, best first
 

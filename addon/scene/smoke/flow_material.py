@@ -23,10 +23,10 @@ from .. import haze, infrared
 from . import material, sunlit
 
 _PALE, _FRESH = (
-    (0.80, 0.77, 0.73),
-    (0.44, 0.36, 0.29),
+    (0.80, 0.78, 0.755),
+    (0.36, 0.315, 0.275),
 )  # albedo of smoke from a grass fire, and from a crown fire's soot and char
-_OLD = np.array([1.005, 1.0, 0.995])  # albedo of aged haze and cloud, relative to green light
+_OLD = np.array([0.995, 1.0, 1.005])  # albedo of aged haze and cloud, relative to green light
 _MIDDLE = (0.86, 0.83, 0.79)  # factor on light that reaches smoke through other smoke
 FORWARD = 0.6  # anisotropy of smoke (Reid et al. 2005: 0.5 to 0.65 in green light)
 # anisotropy that remains after forward-scattered light is counted as unscattered

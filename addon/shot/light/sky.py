@@ -15,11 +15,11 @@ from ..terrain import noise
 _SUN = 11.1  # W/m2 above the atmosphere
 _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
 # W/m2 of a full moon, and of a moonless sky: brighter than real, as in films of nights; by eye
-_MOON, _STARS = 1.0, 0.26
+_MOON, _STARS = 0.9, 0.18
 _DISC, _SOFT = 0.53, 60.0  # degrees, width of sun and moon, and of the light of a moonless sky (by eye)
 _TWILIGHT = 18.0  # degrees below the horizon at which the sun's last light has gone (astronomical twilight)
 _MOON_COLOUR = (0.65, 0.78, 1.0)
-NIGHT_SKY = np.array([0.010, 0.014, 0.024]) * 0.09  # radiance
+NIGHT_SKY = np.array([0.010, 0.014, 0.024]) * 0.075  # radiance
 _DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.45, 0.75]) * 0.01
 _FULL_DAY = 1.8  # air masses; beyond, the sun and haze in its light are redder
 HAZE = 1.2e-5  # extinction at z = 0 on a dry September day, 1/m: clear mountain air
