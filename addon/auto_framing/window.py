@@ -60,8 +60,8 @@ def length(size: float, whole: float) -> float:
 def most_active(arrival: ArrayLike, fuel: ArrayLike, first: float, last: float, length: float) -> float:
     """Start (s) of the window of `length` s in which the front reaches the most fuel.
 
-    Candidates are windows within the run that begin every minute after `first`, or every `length` if that is
-    shorter, and the last one. The earliest of equal ones is chosen.
+    Candidates are windows within the run that begin every minute after `first`, or every `length` in whole
+    seconds if that is shorter, and the last one. The earliest of equal ones is chosen.
 
     Parameters
     ----------
@@ -73,7 +73,8 @@ def most_active(arrival: ArrayLike, fuel: ArrayLike, first: float, last: float, 
     arrival, fuel = np.asarray(arrival, np.float64), np.asarray(fuel, np.float64)
     order = np.argsort(arrival)
     total = np.concatenate([[0.0], np.cumsum(fuel[order])])
-    begin = np.append(np.arange(first, last - length, min(_STEP, length)), max(last - length, first))
+    step = min(_STEP, max(np.floor(length), 1.0))
+    begin = np.append(np.arange(first, last - length, step), max(np.floor(last - length), first))
     before = np.searchsorted(arrival[order], begin, "left")
     by = np.searchsorted(arrival[order], begin + length, "right")
     return float(begin[np.argmax(total[by] - total[before])])
