@@ -14,7 +14,8 @@ constexpr double octave_ratio = 2.07;  // of sizes of octaves
 constexpr float octave_weight = 0.52F; // octave_ratio of their strengths
 constexpr float octave_warp = 0.35F;   // displacement of an octave by the previous one, cells
 constexpr float first_band =
-    0.25F; // m, height of the first band; each is twice as high as the last
+    0.25F;                    // m, height of the first band; each is twice as high as the last
+constexpr float reach = 3.0F; // m by which eddies move flames up
 constexpr float below_ground = 2.0F; // m below the map's ground, where drawn ground may be lower
 constexpr double octave_turn = 2.4;  // radians between the lattices of octaves
 constexpr double drawn_out = 2.2;    // height over width of eddies
@@ -106,9 +107,7 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
   const auto wind_x = static_cast<float>(shape_.wind[0]),
              wind_y = static_cast<float>(shape_.wind[1]);
   Lanes ground;
-  for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    ground[lane] = tiles_.ground(x[lane], y[lane]);
-  }
+  tiles_.ground(x, y, ground);
   Lanes height = z - ground;
   const auto buried = height < -below_ground;
   height = height > 1.0e6F ? Lanes{} + 1.0e6F : height;
@@ -117,6 +116,17 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
   roots(launch * launch + 2.0F * lift * height, speed);
   flight = (speed - launch) * (1.0F / lift);
   Lanes foot_x = x - wind_x * flight, foot_y = y - wind_y * flight;
+
+  out.near = false;
+  for (std::size_t lane = 0; lane < lane_count && !out.near; ++lane) {
+    const float longest = tiles_.longest(foot_x[lane], foot_y[lane]);
+    out.near = (longest > 0.0F && height[lane] < FlameTiles::soot_top * longest + reach) ||
+               !tiles_.spindles_at(x[lane], y[lane]).empty();
+  }
+  if (!out.near) {
+    out.flame = out.heat = out.soot = out.length = Lanes{};
+    return;
+  }
 
   // Eddies: displacement by the curl of noise, so that edges roll up.
   const auto noise_at = [&](const Octave& octave, const Lanes& px, const Lanes& py,
@@ -154,9 +164,7 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
   flight = (speed - launch) * (1.0F / lift);
 
   Lanes length;
-  for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    length[lane] = tiles_.length(foot_x[lane], foot_y[lane]);
-  }
+  tiles_.length(foot_x, foot_y, length);
   Lanes share = length > 0.05F ? risen / length : Lanes{} + 9.0F;
   if (!tiles_.spindles().empty()) {
     const Lanes moved_x = foot_x - (x - wind_x * flight), moved_y = foot_y - (y - wind_y * flight);
@@ -199,18 +207,20 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
   }
 
   // Bands of height, so that detail keeps its proportions as the gas speeds up.
-  std::array<LaneIndex, 2> band;
+  // The exponent of a height and the rest of its bits are near its logarithm to base 2.
+  Lanes relative;
+  clamp_lanes(risen * (1.0F / first_band), 1.0F, static_cast<float>(1U << (bands - 2)), relative);
+  const LaneIndex bits = (LaneIndex)relative;
+  const LaneIndex band = (bits >> 23) - 127;
+  const Lanes rest = __builtin_convertvector(bits & 0x7fffff, Lanes) * (1.0F / 8388608.0F);
   std::array<Lanes, 2> part;
-  for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    const float at = std::clamp(std::log2(std::max(risen[lane], first_band) / first_band), 0.0F,
-                                static_cast<float>(bands) - 1.001F);
-    const auto whole = static_cast<std::int32_t>(at);
-    const float rest = at - static_cast<float>(whole);
-    const float norm = 1.0F / std::sqrt(rest * rest + (1.0F - rest) * (1.0F - rest));
-    band[0][lane] = whole;
-    band[1][lane] = whole + 1;
-    part[0][lane] = (1.0F - rest) * norm;
-    part[1][lane] = rest * norm;
+  Lanes norm;
+  roots(rest * rest + (1.0F - rest) * (1.0F - rest), norm);
+  part[0] = (1.0F - rest) / norm;
+  part[1] = rest / norm;
+  bool even = true;
+  for (std::size_t lane = 1; lane < lane_count; ++lane) {
+    even = even && band[lane] == band[0];
   }
   const float tallest = greatest(length), smallest = std::max(fine, 0.008F * tallest);
   Lanes sum{}, total = Lanes{} + 1.0e-6F, last{}, grain{}, grains = Lanes{} + 1.0e-6F;
@@ -230,11 +240,18 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
     for (std::size_t k = 0; k < 2; ++k) {
       Lanes rate, present;
       LaneHash cell;
-      for (std::size_t lane = 0; lane < lane_count; ++lane) {
-        const auto number = static_cast<std::size_t>(band[k][lane]);
-        rate[lane] = octave.rate[number];
-        present[lane] = octave.part[number];
-        cell[lane] = octave.cell[number];
+      if (even) {
+        const auto number = static_cast<std::size_t>(band[0]) + k;
+        rate = Lanes{} + octave.rate[number];
+        present = Lanes{} + octave.part[number];
+        cell = LaneHash{} + octave.cell[number];
+      } else {
+        for (std::size_t lane = 0; lane < lane_count; ++lane) {
+          const auto number = static_cast<std::size_t>(band[lane]) + k;
+          rate[lane] = octave.rate[number];
+          present[lane] = octave.part[number];
+          cell[lane] = octave.cell[number];
+        }
       }
       Lanes value;
       noise_at(octave, foot_x + (octave_warp * octave.size) * last,

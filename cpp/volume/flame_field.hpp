@@ -29,6 +29,7 @@ struct FlameSamples {
   Lanes heat;   ///< 0 at the coolest to 1 at the hottest part
   Lanes soot;   ///< share of the extinction of cooled soot over the flames, 0 to 1
   Lanes length; ///< flame length there, m
+  bool near;    ///< flames are rooted near a foot of these points
 };
 
 /// Flames as a function of place and time: a map of flame length, and noise that rises with

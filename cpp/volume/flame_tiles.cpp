@@ -71,48 +71,69 @@ void FlameTiles::add_square(const FlameSquare& square, const Vector& origin) {
              static_cast<float>(square.spacing),
              static_cast<float>(1.0 / square.spacing),
              {},
+             {},
+             {},
              {}};
   for (float& height : made.ground) {
     height -= static_cast<float>(origin[2]);
   }
+  constexpr float inside = 0.999F; // of the last cell: coordinates are rounded
+  made.end = {made.x + (static_cast<float>(columns - 2) + inside) * made.spacing,
+              made.y + (static_cast<float>(rows - 2) + inside) * made.spacing};
   const auto tiles = static_cast<std::size_t>(made.tile_rows * made.tile_columns);
   made.top.assign(tiles, none);
   made.longest.assign(tiles, 0.0F);
+  made.rooted.assign(tiles, 0.0F);
   levels_.push_back(std::move(made));
 }
 
 /// Returns the finest level around a place; null outside.
 const FlameTiles::Level* FlameTiles::level(float x, float y) const {
   for (const Level& each : levels_) {
-    const float column = (x - each.x) * each.inverse, row = (y - each.y) * each.inverse;
-    if (column >= 0.0F && row >= 0.0F && column < static_cast<float>(each.columns - 1) &&
-        row < static_cast<float>(each.rows - 1)) {
+    if (each.contains(x, y)) {
       return &each;
     }
   }
   return nullptr;
 }
 
-float FlameTiles::ground(float x, float y) const {
-  const Level* at = level(x, y);
-  if (at == nullptr) {
-    return none;
+/// Interpolates in the level of the first place, or in their own levels if it does not contain all.
+void FlameTiles::interpolate_lanes(std::vector<float> Level::* values, float outside,
+                                   const Lanes& x, const Lanes& y, Lanes& out) const {
+  const Level* first = level(x[0], y[0]);
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const Level* at = first;
+    if (at == nullptr || !at->contains(x[lane], y[lane])) {
+      at = level(x[lane], y[lane]);
+    }
+    if (at == nullptr) {
+      out[lane] = outside;
+      continue;
+    }
+    const float column = (x[lane] - at->x) * at->inverse, row = (y[lane] - at->y) * at->inverse;
+    const auto i = static_cast<std::int32_t>(row), j = static_cast<std::int32_t>(column);
+    out[lane] = interpolate_cell(at->*values, at->columns, i, j, row - static_cast<float>(i),
+                                 column - static_cast<float>(j));
   }
-  const float column = (x - at->x) * at->inverse, row = (y - at->y) * at->inverse;
-  const auto i = static_cast<std::int64_t>(row), j = static_cast<std::int64_t>(column);
-  return interpolate_cell(at->ground, at->columns, i, j, row - static_cast<float>(i),
-                          column - static_cast<float>(j));
 }
 
-float FlameTiles::length(float x, float y) const {
+void FlameTiles::ground(const Lanes& x, const Lanes& y, Lanes& out) const {
+  interpolate_lanes(&Level::ground, none, x, y, out);
+}
+
+void FlameTiles::length(const Lanes& x, const Lanes& y, Lanes& out) const {
+  interpolate_lanes(&Level::length, 0.0F, x, y, out);
+}
+
+float FlameTiles::longest(float x, float y) const {
   const Level* at = level(x, y);
   if (at == nullptr) {
     return 0.0F;
   }
-  const float column = (x - at->x) * at->inverse, row = (y - at->y) * at->inverse;
-  const auto i = static_cast<std::int64_t>(row), j = static_cast<std::int64_t>(column);
-  return interpolate_cell(at->length, at->columns, i, j, row - static_cast<float>(i),
-                          column - static_cast<float>(j));
+  const float scale = at->inverse / static_cast<float>(side);
+  const auto i = static_cast<std::int64_t>((y - at->y) * scale),
+             j = static_cast<std::int64_t>((x - at->x) * scale);
+  return at->rooted[static_cast<std::size_t>(i * at->tile_columns + j)];
 }
 
 bool FlameTiles::find(float x, float y, Tile& tile) const {
@@ -134,12 +155,9 @@ bool FlameTiles::find(float x, float y, Tile& tile) const {
   return true;
 }
 
-/// Raises the bounds of all tiles of all levels in a rectangle.
-void FlameTiles::raise(float x0, float x1, float y0, float y1, float top, float length) {
-  any_ = true;
-  bounds_ = {std::min(bounds_[0], x0), std::max(bounds_[1], x1), std::min(bounds_[2], y0),
-             std::max(bounds_[3], y1)};
-  heights_[1] = std::max(heights_[1], top);
+/// Calls a function with each tile of all levels in a rectangle.
+template <class Function>
+void FlameTiles::visit(float x0, float x1, float y0, float y1, const Function& function) {
   for (Level& each : levels_) {
     const float scale = each.inverse / static_cast<float>(side);
     const auto tile = [scale](float at, float from, std::int64_t count) {
@@ -150,12 +168,22 @@ void FlameTiles::raise(float x0, float x1, float y0, float y1, float top, float 
     const auto i0 = tile(y0, each.y, each.tile_rows), i1 = tile(y1, each.y, each.tile_rows);
     for (auto i = std::max(i0, std::int64_t{0}); i <= std::min(i1, each.tile_rows - 1); ++i) {
       for (auto j = std::max(j0, std::int64_t{0}); j <= std::min(j1, each.tile_columns - 1); ++j) {
-        const auto number = static_cast<std::size_t>(i * each.tile_columns + j);
-        each.top[number] = std::max(each.top[number], top);
-        each.longest[number] = std::max(each.longest[number], length);
+        function(each, static_cast<std::size_t>(i * each.tile_columns + j));
       }
     }
   }
+}
+
+/// Raises the bounds of all tiles of all levels in a rectangle.
+void FlameTiles::raise(float x0, float x1, float y0, float y1, float top, float length) {
+  any_ = true;
+  bounds_ = {std::min(bounds_[0], x0), std::max(bounds_[1], x1), std::min(bounds_[2], y0),
+             std::max(bounds_[3], y1)};
+  heights_[1] = std::max(heights_[1], top);
+  visit(x0, x1, y0, y1, [top, length](Level& level, std::size_t number) {
+    level.top[number] = std::max(level.top[number], top);
+    level.longest[number] = std::max(level.longest[number], length);
+  });
 }
 
 void FlameTiles::bound_tiles(const std::array<double, 2>& wind, double launch,
@@ -191,6 +219,10 @@ void FlameTiles::bound_tiles(const std::array<double, 2>& wind, double launch,
                     y = each.y + static_cast<float>(i0) * each.spacing;
         const float wide = static_cast<float>(j1 - j0) * each.spacing,
                     deep = static_cast<float>(i1 - i0) * each.spacing;
+        visit(x - sway, x + wide + sway, y - sway, y + deep + sway,
+              [longest](Level& level, std::size_t number) {
+                level.rooted[number] = std::max(level.rooted[number], longest);
+              });
         raise(x + std::min(dx, 0.0F) - sway, x + wide + std::max(dx, 0.0F) + sway,
               y + std::min(dy, 0.0F) - sway, y + deep + std::max(dy, 0.0F) + sway,
               ground + high + sway, longest);

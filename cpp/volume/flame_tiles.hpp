@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/vector.hpp"
+#include "volume/lanes.hpp"
 
 #include <array>
 #include <cstdint>
@@ -37,10 +38,13 @@ public:
              const std::array<double, 2>& wind, double launch, double acceleration,
              const Vector& origin);
 
-  /// Ground at a place, m; `none` outside of all squares.
-  float ground(float x, float y) const;
-  /// Flame length at a place, m; 0 outside.
-  float length(float x, float y) const;
+  /// Ground at eight places close together, m; `none` outside of all squares.
+  void ground(const Lanes& x, const Lanes& y, Lanes& out) const;
+  /// Flame length at eight places close together, m; 0 outside.
+  void length(const Lanes& x, const Lanes& y, Lanes& out) const;
+
+  /// Length of the longest flames around a place, within their swing, m.
+  float longest(float x, float y) const;
 
   /// Tile around a place.
   struct Tile {
@@ -63,10 +67,20 @@ private:
     std::vector<float> length, ground; // (rows, columns)
     std::int64_t rows, columns, tile_rows, tile_columns;
     float x, y, spacing, inverse;
-    std::vector<float> top, longest;
+    std::array<float, 2> end;        ///< of places inside, m
+    std::vector<float> top, longest; ///< of flames that reach a tile, leaning
+    std::vector<float> rooted; ///< length of the longest flames whose foot is in or near a tile
+
+    bool contains(float east, float north) const {
+      return east >= x && north >= y && east < end[0] && north < end[1];
+    }
   };
 
   const Level* level(float x, float y) const;
+  void interpolate_lanes(std::vector<float> Level::* values, float outside, const Lanes& x,
+                         const Lanes& y, Lanes& out) const;
+  template <class Function>
+  void visit(float x0, float x1, float y0, float y1, const Function& function);
   void raise(float x0, float x1, float y0, float y1, float top, float length);
   void add_square(const FlameSquare& square, const Vector& origin);
   void bound_tiles(const std::array<double, 2>& wind, double launch, double acceleration);

@@ -113,7 +113,11 @@ bool FlameRay::next(float limit, FlameSlab& slab) {
     float step = std::max(size, step_pixels * view.pixel * at_);
     const auto count = static_cast<float>(lane_count);
     step = std::min(step, (limit - at_) / count + 1.0e-6F);
-    fill(at_, step, slab);
+    if (!fill(at_, step, slab)) {
+      const float leap = 0.4F * (tile.bounds[1] - tile.bounds[0]);
+      at_ += std::min(std::max(step * count, leap), limit - at_ + past);
+      continue;
+    }
     at_ += step * count;
     if (slab.transmittance < 1.0F || slab.infrared_transmittance < 1.0F) {
       return true;
@@ -122,7 +126,7 @@ bool FlameRay::next(float limit, FlameSlab& slab) {
   return false;
 }
 
-void FlameRay::fill(float from, float step, FlameSlab& slab) const {
+bool FlameRay::fill(float from, float step, FlameSlab& slab) const {
   const FlameLight& light = flames_.light();
   const FlameView& view = flames_.view();
   slab = {from, from + step * static_cast<float>(lane_count), {}, 1.0F, 0.0F, 1.0F};
@@ -134,6 +138,9 @@ void FlameRay::fill(float from, float step, FlameSlab& slab) const {
   flames_.field().evaluate(start_[0] + direction_[0] * away, start_[1] + direction_[1] * away,
                            start_[2] + direction_[2] * away, view.pixel * away[lane_count / 2],
                            found);
+  if (!found.near) {
+    return false;
+  }
   const auto last = static_cast<float>(light.visible.size() - 1);
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     float part = (away[lane] - view.fade[0]) / (view.fade[1] - view.fade[0]);
@@ -169,6 +176,7 @@ void FlameRay::fill(float from, float step, FlameSlab& slab) const {
     const float far = 0.001F * away[lane_count / 2];
     slab.infrared *= std::exp(-light.dim * std::sqrt(far * std::sqrt(far)));
   }
+  return true;
 }
 
 } // namespace firetwin::volume

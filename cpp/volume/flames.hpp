@@ -80,7 +80,8 @@ public:
   bool next(float limit, FlameSlab& slab);
 
 private:
-  void fill(float from, float step, FlameSlab& slab) const;
+  /// Returns whether flames are near.
+  bool fill(float from, float step, FlameSlab& slab) const;
 
   const FlameVolume& flames_;
   const BandRadiance* band_;

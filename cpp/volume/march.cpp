@@ -16,6 +16,8 @@
 namespace firetwin::volume {
 namespace {
 
+/// Transmittance at which a ray ends in flames; the remaining radiance is extrapolated.
+constexpr float opaque_flames = 0.01F;
 constexpr float no_limit = std::numeric_limits<float>::max();
 
 using Four = Simd<float, 4>;
@@ -236,6 +238,10 @@ void Marcher::add(const FlameSlab& slab, float haze) {
   const Four seen = light + (shading_.air * (1.0F - slab.transmittance) - light) * haze;
   state_.radiance += seen * state_.transmittance;
   state_.transmittance *= slab.transmittance;
+  if (state_.transmittance < opaque_flames) {
+    state_.radiance *= 1.0F / (1.0F - state_.transmittance);
+    state_.transmittance = 0.0F;
+  }
 }
 
 /// Marches smoke and flames between t and `until`; smoke is cut at the middle of each slab of
