@@ -14,6 +14,7 @@ from firetwin_core import constants
 
 from ...blender import nodes, owned
 from ...blender.mesh import add_attribute, create_mesh
+from ...shot.fire.flame_size import flame_length
 from ...shot.shot import Shot
 from .. import clock
 from ..forest.stand import Stand
@@ -22,13 +23,12 @@ from .flame_volume import RADIATED
 
 REACH = 250.0, 400.0  # m from the camera of a frame, distances between which these lights give way to lamps
 FAR_LAMPS = 300.0, 2500.0  # m from a camera, distances between which the light of lamps fades in
-LIGHT = 4.0e-4
+LIGHT = 6.0e-4
 """W of the scene's light per radiated W; by eye. It is 5e-5 for flames of 18 m with 15,000 cd/m2, half of
-them gaps, and a radiosity of 61 kW/m2, if a luminance of 1 is 16,000 cd/m2; 4e-4 for flames of 2 m."""
+them gaps, and a radiosity of 61 kW/m2, if a luminance of 1 is 16,000 cd/m2; 4e-4 for flames of 2 to 5 m."""
 COLOUR = (1.0, 0.36, 0.06)
 LAYOUT = flames.Layout(((REACH[1], 4.0),), gaps=False)
 """Denser than billboards, without gaps: surfaces near the front are lit evenly along it."""
-_TALL = 0.7  # height of the bright part of a flame, in flame lengths (assumed)
 _FLICKER = 1.2  # factor on noise around its mean of 0.5: about 15 % (standard deviation; assumed)
 _SIZE = 0.5, 0.3  # m, smallest diameter for the frequency, and smallest side of a card
 _NAME = "Firetwin Flame Light"
@@ -51,8 +51,12 @@ def build(shot: Shot, grown: Stand | None, collection: bpy.types.Collection) -> 
         return None
     points = points.take(near)
     data = create_mesh(_NAME, points.position)
-    for name in ("arrival_time", "residence", "length", "width", "tilt", "seed"):
+    for name in ("arrival_time", "residence", "tilt", "seed"):
         add_attribute(data, name, "FLOAT", getattr(points, name))
+    # The ground gets light from flames as tall as the front's, not from the low parts of a ragged front.
+    usual = flame_length(points.intensity, shot.settings.fire.flame_length)
+    add_attribute(data, "length", "FLOAT", np.maximum(points.length, usual))
+    add_attribute(data, "width", "FLOAT", np.maximum(points.width, LAYOUT.spacing[0][1]))
     add_attribute(data, "power", "FLOAT", RADIATED * LIGHT * points.heat)
     obj = owned.add(collection, "Flame Light", data)
     modifier = obj.modifiers.new(_NAME, "NODES")
@@ -104,7 +108,7 @@ def _node_group(shot: Shot, card: bpy.types.Object) -> bpy.types.NodeTree:
     wave = tree.output("ShaderNodeTexNoise", {"W": phase, "Scale": 1.0, "Detail": 1.0}, noise_dimensions="1D")
     flicker = 1.0 + (wave - 0.5) * _FLICKER
     width, height = (
-        tree.math("MAXIMUM", value * size, _SIZE[1]) for value in (named("width"), named("length") * _TALL)
+        tree.math("MAXIMUM", value * size, _SIZE[1]) for value in (named("width"), named("length"))
     )
     camera = tree.output("GeometryNodeInputActiveCamera")
     eye = tree.output("GeometryNodeObjectInfo", {"Object": camera}, "Location", transform_space="ORIGINAL")
