@@ -37,7 +37,7 @@ TILE_COLOUR = "Tile Colour"
 GLOBE = "globe"
 """Point attribute of the ground: 0 within the run, 1 at the border, where the ground looks like the globe."""
 
-_PHOTO, _SHOULDER = 0.5, 0.8  # reflectance x / (1 + s x) of a photograph's linear value: its factor x, and s
+_PHOTO, _SHOULDER = 0.5, 0.8  # reflectance / linear value of a photograph is p / (1 + s p grey)
 _BLUR = 0.12  # roughness that represents unresolved waves (by eye)
 
 
@@ -228,11 +228,10 @@ def photo_reflectance(tree: nodes.Tree, colour: nodes.Value) -> nodes.Value:
     lit again, it would look like snow. The factors are chosen so that pale rock and forest of photographs
     meet the colours of this material (by eye).
     """
-    parts = []
-    for value in tree.separate(colour):
-        dimmed = value * _PHOTO
-        parts.append(tree.math("DIVIDE", dimmed, dimmed * _SHOULDER + 1.0))
-    return tree.combine(*parts)
+    red, green, blue = tree.separate(colour)
+    grey = (red + green + blue) * (_PHOTO / 3.0)
+    factor = tree.math("DIVIDE", _PHOTO, grey * _SHOULDER + 1.0)
+    return tree.vector("SCALE", colour, factor)
 
 
 def _apply_land_use(
