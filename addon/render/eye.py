@@ -97,11 +97,6 @@ class Eye:
             front[written] = marched
         return composite.place_text(picture, rendered, at, (text["Combined"], cover, distance), front)
 
-    def apparent_distance(self, smoke: float) -> Array:
-        """Return distances (h, w), m, of surfaces and of smoke at `smoke` m, weighted by transmittance."""
-        near = 1.0 / np.maximum(self.distance, 1.0)
-        return (1.0 / (self.clear * near + (1.0 - self.clear) / max(smoke, 1.0))).astype(np.float32)
-
     def radiance(self, frame: int) -> Array:
         """Compute the infrared radiance (h, w) of surfaces, air, smoke and flames, W m-2 sr-1."""
         channels = self.channels

@@ -109,7 +109,9 @@ class IntegratedRenderer:
             return light
         (view,) = self.shot.paths
         away = float(np.linalg.norm(view.target[frame - 1] - view.position[frame - 1]))
-        return motion_blur.blur(light, eye.apparent_distance(away), view, frame, exposure)
+        return motion_blur.blur(
+            light, motion_blur.apparent_distance(eye.distance, eye.clear, away), view, frame, exposure
+        )
 
     def _check_view(self, eye: Eye, frame: int) -> None:
         """Record a frame that is mostly hidden by smoke close to the camera."""

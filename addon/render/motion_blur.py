@@ -57,6 +57,22 @@ def blur(picture: Array, distance: Array, view: Path, frame: int, exposure: floa
     return (total / count).astype(np.float32)
 
 
+def apparent_distance(surface: Array, clear: Array, smoke: float) -> Array:
+    """Return distances (h, w), m, by which a picture moves: of surfaces, and of smoke that hides them.
+
+    Parameters
+    ----------
+    surface
+        (h, w) m.
+    clear
+        (h, w) transmittance of smoke; rounding may raise it above 1.
+    smoke
+        Distance of the smoke, m.
+    """
+    share = np.clip(clear, 0.0, 1.0)
+    return (1.0 / (share / np.maximum(surface, 1.0) + (1.0 - share) / max(smoke, 1.0))).astype(np.float32)
+
+
 def pose(view: Path, time: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return position (3,) and rotation (3, 3) of a camera at a frame, counted from 0, with a fraction."""
     last = len(view.position) - 1

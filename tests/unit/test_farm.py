@@ -49,7 +49,8 @@ def make_shot(make_run, tmp_path):
 
     def make(frames=10, cameras=None, chunk=480, smoke='method = "puffs"', more=""):
         path = tmp_path / "scene.toml"
-        text = f'run = "run"\n[time]\nframes = {frames}\nshutter = 0.0\n[smoke]\n{smoke}\n[render]\nchunk = {chunk}\n{more}\n'
+        text = f'run = "run"\n[time]\nframes = {frames}\nshutter = 0.0\n[smoke]\n{smoke}\n'
+        text += f"[render]\nchunk = {chunk}\n{more}\n"
         listed = cameras or {"drone": ""}
         path.write_text(text + "".join(CAMERA.format(name=n, frames=f) for n, f in listed.items()))
         return Shot(scene_file.read(path), runs.open(run))

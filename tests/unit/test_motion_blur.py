@@ -68,3 +68,9 @@ def test_the_pose_between_frames_is_between_their_poses():
     assert rotation @ rotation.T == pytest.approx(np.eye(3))
     for ends in (-0.5, FRAMES - 0.5):
         assert np.isfinite(motion_blur.pose(view, ends)[1]).all()
+
+
+def test_hidden_surfaces_move_with_the_smoke():
+    surface, clear = np.full((1, 3), 1e9, np.float32), np.array([[1.000001, 0.5, 0.0]], np.float32)
+    found = motion_blur.apparent_distance(surface, clear, 1000.0)
+    assert found == pytest.approx(np.array([[1e9, 2000.0, 1000.0]]), rel=0.01)
