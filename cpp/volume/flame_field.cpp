@@ -9,13 +9,14 @@
 namespace firetwin::volume {
 namespace {
 
-constexpr double largest_eddy = 10.0;  // m, size of the largest_eddy eddies
+constexpr double largest_eddy = 10.0;  // m, size of the largest eddies
 constexpr double octave_ratio = 2.07;  // of sizes of octaves
 constexpr float octave_weight = 0.52F; // octave_ratio of their strengths
 constexpr float octave_warp = 0.35F;   // displacement of an octave by the previous one, cells
 constexpr float first_band =
-    0.25F;                    // m, height of the first band; each is twice as high as the last
-constexpr float reach = 3.0F; // m by which eddies move flames up
+    0.25F; // m, height of the first band; each is twice as high as the last
+constexpr float crown_eddies = 2.2F; // radii of a crown that correspond to a flame's length
+constexpr float reach = 3.0F;        // m by which eddies move flames up
 constexpr float below_ground = 2.0F; // m below the map's ground, where drawn ground may be lower
 constexpr double octave_turn = 2.4;  // radians between the lattices of octaves
 constexpr double drawn_out = 2.2;    // height over width of eddies
@@ -166,6 +167,7 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
   Lanes length;
   tiles_.length(foot_x, foot_y, length);
   Lanes share = length > 0.05F ? risen / length : Lanes{} + 9.0F;
+  Lanes eddy = length; // eddies are smaller than this, m
   if (!tiles_.spindles().empty()) {
     const Lanes moved_x = foot_x - (x - wind_x * flight), moved_y = foot_y - (y - wind_y * flight);
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
@@ -181,16 +183,17 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
         if (square > 6.0F * crown.radius * crown.radius || up < -0.6F || up > 2.2F) {
           continue;
         }
-        const float low = std::clamp((up + 0.35F) / 0.6F, 0.0F, 1.0F);
+        const float low = std::clamp((up + 0.3F) / 0.45F, 0.0F, 1.0F);
         const float wide =
-            crown.radius * (up < 0.25F ? 0.3F + 0.7F * low * low * (3.0F - 2.0F * low)
+            crown.radius * (up < 0.25F ? 0.4F + 0.6F * low * low * (3.0F - 2.0F * low)
                                        : 1.0F - 0.45F * std::min((up - 0.25F) / 0.9F, 1.0F));
         const float round = square / (wide * wide);
         const float mine =
-            std::max(up, 0.0F) + 0.62F * round - 0.1F + (up < 0.0F ? -0.9F * up : 0.0F);
+            std::max(up, 0.0F) + 0.7F * round - 0.1F + (up < 0.0F ? -0.9F * up : 0.0F);
         if (mine < share[lane]) {
           share[lane] = std::max(mine, 0.0F);
           length[lane] = std::max(length[lane], tall);
+          eddy[lane] = crown_eddies * crown.radius;
         }
       }
     }
@@ -222,7 +225,7 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
   for (std::size_t lane = 1; lane < lane_count; ++lane) {
     even = even && band[lane] == band[0];
   }
-  const float tallest = greatest(length), smallest = std::max(fine, 0.008F * tallest);
+  const float tallest = greatest(eddy), smallest = std::max(fine, 0.008F * tallest);
   Lanes sum{}, total = Lanes{} + 1.0e-6F, last{}, grain{}, grains = Lanes{} + 1.0e-6F;
   float amplitude = 1.0F;
   for (std::size_t n = 0; n < octaves; ++n, amplitude *= octave_weight) {
@@ -234,7 +237,7 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
       break;
     }
     Lanes weight; // eddies are smaller than the flame
-    clamp_lanes(1.6F - octave.size / (length + 1.0e-6F) * 1.6F, 0.0F, 1.0F, weight);
+    clamp_lanes(1.6F - octave.size / (eddy + 1.0e-6F) * 1.6F, 0.0F, 1.0F, weight);
     weight *= amplitude;
     Lanes found{};
     for (std::size_t k = 0; k < 2; ++k) {
@@ -263,7 +266,7 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
     sum += weight * found;
     total += weight;
     Lanes small;
-    clamp_lanes(1.5F - octave.size / (length + 1.0e-6F) * 6.0F, 0.0F, 1.0F, small);
+    clamp_lanes(1.5F - octave.size / (eddy + 1.0e-6F) * 6.0F, 0.0F, 1.0F, small);
     grain += small * weight * found;
     grains += small * weight;
   }
