@@ -1,4 +1,4 @@
-"""Benchmarks of ``firetwin bench``: run time and error of the ten steps that users wait for.
+"""Benchmarks of ``firetwin bench``: run time and error of the eleven steps that users wait for.
 
 A subject is a module: the first line of its docstring describes the comparison, and ``run(bench)`` adds rows
 (`Bench.race` runs the tools in turns) and targets. Benchmarks for developers are in ``tests/benchmarks``.
@@ -25,6 +25,7 @@ SUBJECTS = (
     "smoke",
     "flow",
     "march",
+    "motion",
     "radiometry",
 )
 """Subjects in the order of the report."""
