@@ -11,6 +11,7 @@ from firetwin import auto_framing
 from firetwin.auto_framing import candidates, front, overview, straight_plume, visible_share, window
 from firetwin.run import readers, sun, zone
 from firetwin.shot import run_checks
+from firetwin.shot.cameras import targets
 from firetwin.shot.fire import emissions
 from firetwin.shot.sections import Time
 from firetwin.shot.settings import scene_file
@@ -253,6 +254,16 @@ def test_a_film_is_at_most_15_times_real_time_and_slower_of_a_small_fire(fit_of)
     assert Shot(found.settings, run).speed == pytest.approx(15.0)
     assert "the most active 59 s" in found.window
     assert found.window.endswith("48 frames, 15 times real time")
+
+
+def test_the_head_moves_evenly_with_the_wind_in_a_short_film(fit_of):
+    found, run = fit_of("grass")
+    shot = Shot(found.settings, run)
+    track = targets.follow("head", shot.bare_ground, shot.frames.times, 0.0)[:, :2]
+    steps = np.diff(track, axis=0) / shot.frames.step
+    assert np.abs(steps - steps[0]).max() < 1e-6
+    assert 0.3 < steps[0, 0] < 2.0, "0.9 m/s at its fastest, to the east"
+    assert abs(steps[0, 1]) < 0.3 * steps[0, 0]
 
 
 @pytest.mark.parametrize("name", FIRES)
