@@ -62,3 +62,9 @@ def test_the_sky_turns_with_sidereal_time(sky, scene):
     scene.frame_set(3)
     turned = np.degrees(nodes["Sidereal Angle"].outputs[0].default_value - before)
     assert turned == pytest.approx(15.041, abs=0.01)
+
+
+def test_building_again_leaves_one_chart(sky):
+    for _ in range(2):
+        sky(moment(18, 8))
+    assert len([image for image in bpy.data.images if image.name.startswith("Firetwin Stars")]) == 1

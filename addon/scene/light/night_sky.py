@@ -18,6 +18,7 @@ from ...shot.light.sky import NIGHT_SKY, State
 from ...shot.shot import Shot
 from .keyframes import add_keyframes
 
+_CHART = "Firetwin Stars"
 _POINT = 0.6  # pixels, standard deviation of a star's image
 _SHARPEST, _WIDEST = 1.0e-4, 1.5e-3  # rad, bounds of that; a wider image would leave the star's texel
 _FLUX = (
@@ -197,10 +198,15 @@ def _animated_number(
 
 
 def _chart_image(seed: int) -> bpy.types.Image:
-    """Create the chart of stars as a float image, packed into the .blend file."""
-    name = "Firetwin Stars"
-    image = bpy.data.images.new(name, stars.COLUMNS, stars.ROWS, alpha=True, float_buffer=True, is_data=True)
-    image.alpha_mode = "CHANNEL_PACKED"
+    """Create the chart of stars as a float image, packed into the .blend file, or repaint the existing one."""
+    image = bpy.data.images.get(_CHART)
+    if image is None or not owned.is_ours(image):
+        image = owned.mark(
+            bpy.data.images.new(
+                _CHART, stars.COLUMNS, stars.ROWS, alpha=True, float_buffer=True, is_data=True
+            )
+        )
+        image.alpha_mode = "CHANNEL_PACKED"
     image.pixels.foreach_set(stars.chart(seed).ravel())
     image.pack()
-    return owned.mark(image)
+    return image
