@@ -14,7 +14,7 @@ from ...ellipsoid import MEAN_RADIUS
 from ...run import areas, burning, fuel_category
 from ...run.frame import local_frame
 from ..sections import SceneSettings
-from . import apron, dem_patch, noise
+from . import apron, dem_patch, even_cells, noise
 from .dilation import dilate
 from .elevation import Elevation
 
@@ -357,7 +357,7 @@ def _bare(fields: apron.TerrainFields) -> Array:
     bare = _fuelless(fields).astype(np.float64)
     for _ in range(2):
         bare = (bare + _neighbours(bare)) / 9.0
-    return bare
+    return even_cells.average(bare, fields)
 
 
 def box(chosen: NDArray[np.bool_], more: int = 0) -> tuple[slice, slice] | None:
