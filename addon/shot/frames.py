@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     from .sections import Time
 
 
+# Times real time, above which smoke has a long exposure by default, and that exposure in frame intervals.
+TIME_LAPSE = 30.0, 2.0
+
+
 @dataclass(frozen=True)
 class Frames:
     """Frames 1 to `count` at even steps from model time `first` to `last` (s since the run began)."""

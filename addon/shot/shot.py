@@ -69,7 +69,7 @@ class Shot:
     ----------
     settings
         The scene file. A missing time zone is filled in from the run, and `time.speed` is replaced by the
-        start or end that it determines.
+        start or end that it determines, a missing `time.shutter` by its default.
     run
         The model run.
     frames
@@ -89,6 +89,10 @@ class Shot:
         settings = replace(settings, time=replace(time, zone=time.zone or zone.time_zone(run)))
         self.settings, self.run, self.cameras, self.full = settings, run, settings.cameras, self
         self.frames: Frames = frames.resolve(settings.time, run)
+        if settings.time.shutter is None:
+            quick, long = frames.TIME_LAPSE
+            time = replace(settings.time, shutter=long if self.speed > quick else 0.0)
+            self.settings = replace(settings, time=time)
         self.cached: dict[Callable[[Shot], Any], Any] = {}
         self._filmed: dict[str, NDArray[np.int64]] = {}
         on_tiles = settings.terrain.height_source == "tiles"

@@ -14,8 +14,6 @@ from firetwin_core import volume
 
 from ..shot.shot import Shot
 
-LAPSE = 30.0  # times real time, above which a film has a long exposure by default
-_LONG = 2.0  # frame intervals, that exposure
 _LEAST, _MOST = 6, 6  # sub-frames in an exposure, at least; in a frame interval, at most
 
 
@@ -42,13 +40,9 @@ def moments(smoke: Sequence[volume.Bricks]) -> Sequence[tuple[float, Sequence[vo
 
 def exposure(shot: Shot) -> float:
     """Return the exposure of a film's smoke, frame intervals; 0: none, as in stills."""
-    given, cameras = shot.settings.time.shutter, shot.settings.cameras
+    cameras = shot.settings.cameras
     filmed = max((len(shot.frames_of(camera)) for camera in cameras), default=shot.frames.count)
-    if filmed == 1:
-        return 0.0
-    if given is not None:
-        return given
-    return _LONG if shot.speed > LAPSE else 0.0
+    return 0.0 if filmed == 1 else shot.settings.time.shutter or 0.0
 
 
 def parts(length: float) -> int:

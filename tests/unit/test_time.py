@@ -65,7 +65,11 @@ def test_a_shot_has_the_times_of_the_speed(run):
     assert shot.speed == pytest.approx(15.0)
     assert shot.settings.time.speed is None
     assert shot.describe_film() == "5 frames at 12 frames per second show 5 s of the fire, 15 times real time"
-    same = Time(start=START, end=START + timedelta(seconds=5), frames=5, fps=12, zone=shot.settings.time.zone)
+    same = Time(start=START, end=START + timedelta(seconds=5), frames=5, fps=12, shutter=0.0)
+    same = replace(same, zone=shot.settings.time.zone)
     assert shot.settings.time == same
+    assert (
+        Shot(Settings(time=Time(start=START, frames=5, speed=31.0, fps=12)), run).settings.time.shutter == 2.0
+    )
     still = Shot(replace(shot.settings, time=Time(start=START, frames=1)), run)
     assert still.describe_film() == "1 frame, a still"

@@ -17,7 +17,7 @@ from firetwin_core import volume
 from numpy.typing import NDArray
 
 from ...shot.cameras.path import Path
-from ...shot.fire import flame_map
+from ...shot.fire import flame_clock, flame_map
 from ...shot.light import exposure, sky
 from ...shot.shot import Shot
 from .. import infrared
@@ -75,7 +75,7 @@ def build(shot: Shot, path: Path, frame: int, torches: flames.Points | None) -> 
         pixel=2.0 * path.halves[frame - 1][0] / path.width,
         fade=[part * limit for part in flame_map.FADE],
         origin=eye,
-        time=time,
+        time=flame_clock.time(shot.frames, time),
     )
 
 

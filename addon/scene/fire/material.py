@@ -6,6 +6,7 @@ import bpy
 
 from ...blender import nodes
 from ...blender.owned import Stage
+from ...shot.fire import flame_clock
 from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import flame_field, glow, haze, infrared
@@ -33,7 +34,8 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     across, up, _ = tree.separate(tree.attribute("card", output="Vector"))
     seed = tree.attribute("seed", "INSTANCER")
     length = tree.attribute("flame_length", "INSTANCER")
-    time = nodes.model_time(tree)
+    first = shot.frames.first
+    time = (nodes.model_time(tree) - first) * flame_clock.pace(shot.frames) + first
     rise = time * speed / tree.math("MAXIMUM", length, 4.0)
     slim = length / tree.math("MAXIMUM", tree.attribute("flame_width", "INSTANCER"), 0.5)
     slow = tree.combine(across * 0.8 + seed * 917.0, up * slim * 0.6 - rise * 0.7, seed * 211.0 + time * 0.11)
