@@ -20,13 +20,15 @@ if TYPE_CHECKING:
 LEAST = 0.5  # visible fraction of the front that a camera must reach
 ENOUGH = 0.55  # visible fraction at which the search ends
 LENS, SENSOR = 28.0, 36.0  # mm, default lens and sensor
-FARTHER = (1.0, 1.6, 2.5, 4.0)  # factors on the distance of a close camera that shows too little
+FARTHER = (1.0, 2.0, 4.0)  # factors on the distance of a close camera that shows too little
 # target height of the front's centre in the picture, and tolerance, in half heights
 _FRONT, _ROUND = -0.2, 0.3
 _HORIZON, _OFF = 0.75, 0.5  # highest position of the horizon, and penalty for half a height (by eye)
-# fraction of the front clear of smoke, by straight plumes, at which a close camera stays (by eye)
-_SOME = 0.65
-CLOSE_CLEAR = 3.0  # weight of a front clear of smoke, for close cameras, which could stand in it (by eye)
+CLEAR = 0.65  # fraction of the front clear of smoke from which the sun and the wind decide (by eye)
+VEILED = 0.25  # opacity of smoke near the camera up to which it stays (by eye)
+_HIDDEN = 0.2  # fraction of the front clear of smoke below which the description warns (by eye)
+_SMOKY = 3.0  # weight of smoke before the front and near the camera (by eye)
+_BY_NIGHT = 0.7  # of the distance by day of a close camera, as flames are the light (by eye)
 _CELLS = 3.0  # fuel cells, least distance of a close camera to its target
 OVER_CROWNS = 60.0  # m, least height above ground among trees
 _SIDES = ("north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west")
@@ -51,18 +53,21 @@ class Tried(NamedTuple):
     camera: Camera
 
 
-def best(tried: list[Tried], clear: float) -> Tried:
+def best(tried: list[Tried]) -> Tried:
     """Candidate with the best rating among those that show enough; else the one that shows most.
 
-    Parameters
-    ----------
-    clear
-        Weight of the fraction clear of smoke.
+    Clear views count first: the rating otherwise decides among those with `CLEAR` of the front, or more.
     """
     for least in (ENOUGH, LEAST):
         if good := [candidate for candidate in tried if candidate.seen.share >= least]:
-            return max(good, key=lambda candidate: clear * candidate.seen.clear + candidate.liking)
+            return max(good, key=_rate)
     return max(tried, key=lambda candidate: candidate.seen.share)
+
+
+def _rate(candidate: Tried) -> float:
+    """Rate a candidate: smoke beyond these limits counts more than wind and sun together."""
+    seen = candidate.seen
+    return candidate.liking - _SMOKY * (max(1.0 - seen.clear / CLEAR, 0.0) + max(seen.veil - VEILED, 0.0))
 
 
 def nearest_enough(near: float, tried: Callable[[float], list[Tried]]) -> Tried:
@@ -80,7 +85,7 @@ def nearest_enough(near: float, tried: Callable[[float], list[Tried]]) -> Tried:
         candidates += tried(rounded(farther * near))
         if any(enough(candidate.seen) for candidate in candidates):
             break
-    return best(candidates, CLOSE_CLEAR)
+    return best(candidates)
 
 
 def away(view: Path) -> float:
@@ -90,20 +95,22 @@ def away(view: Path) -> float:
 
 def enough(visible: VisibleShare) -> bool:
     """Return whether a close camera may stay: it shows enough and is not in smoke."""
-    return visible.share >= ENOUGH and visible.clear >= _SOME
+    return visible.share >= ENOUGH and visible.clear >= CLEAR and visible.veil <= VEILED
 
 
 def shows(visible: VisibleShare, what: str) -> str:
     """Describe visibility: ``87 % of the front shows, about 60 % clear of smoke``."""
-    return f"{percent(visible.share)} of {what} shows, about {percent(visible.clear)} clear of smoke"
+    text = f"{percent(visible.share)} of {what} shows, about {percent(visible.clear)} clear of smoke"
+    return text if visible.clear >= _HIDDEN else f"{text}: smoke hides most of it from every side"
 
 
 def near(front: Front, part: float, limits: tuple[float, float], over_crowns: float) -> float:
     """Distance (m) of a close camera: a fraction of one fire's size, within limits.
 
-    It is not below the model's resolution, and among trees not so close that they occlude the target.
+    By night it is less. It is not below the model's resolution, and among trees not so close that they
+    occlude the target.
     """
-    distance = min(max(part * front.fire, limits[0]), limits[1])
+    distance = min(max(part * front.fire, limits[0]), limits[1]) * (_BY_NIGHT if front.night else 1.0)
     distance = max(distance, _CELLS * max(front.ground.cell), over_crowns if front.crowns else 0.0)
     return rounded(distance)
 

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-import numpy as np
-
 from ..shot.cameras.rigs.chase import Chase
 from ..shot.settings import Camera
 from . import candidates
@@ -13,18 +9,14 @@ from .candidates import PlacedCamera, Tried
 from .front import Front
 from .visible_share import Visible
 
-if TYPE_CHECKING:
-    from ..shot.cameras.path import Path
-
 _PART = 1.0 / 12.0  # of the fire's size: 2.4 km at 29 km, as the example's drone (by eye)
 _DISTANCES = (80.0, 3000.0)  # m
 _OVER_CROWNS = 180.0  # m, among trees; a nearer camera looks only down on them
-_SIDES = (150.0, 210.0, 120.0, 240.0, 180.0, 90.0, 270.0)  # degrees from the head's course, best first
-_HEIGHTS = (0.3, 0.45, 0.7, 1.1)  # of the distance
+# degrees from the head's course, best first
+_SIDES = (150.0, 210.0, 120.0, 240.0, 180.0, 90.0, 270.0, 50.0, 310.0)
+_HEIGHTS = (0.3, 0.6, 1.1, 1.7)  # of the distance
 _AIM = 0.12  # of the distance, height of the aim above ground: flames below the centre, smoke above
 _LATER = 0.04  # penalty for each later side or height
-# fraction of the clear view lost above burned ground, where smoke of both flanks meets (by eye)
-_OVER_SCAR = 0.7
 
 
 def place(front: Front, visible: Visible) -> PlacedCamera:
@@ -50,17 +42,8 @@ def _tried(front: Front, visible: Visible, near: float, distance: float) -> list
         camera = Camera("chase", rig=rig)
         view = candidates.path(front, camera)
         share = visible.seen(view, near)
-        share = share._replace(clear=share.clear * (1.0 - _OVER_SCAR * _over_scar(front, view)))
         likes = (
             candidates.liking(front, candidates.bearing(view)) + candidates.framed(share) - _LATER * number
         )
         tried.append(Tried(share, likes, camera))
     return tried
-
-
-def _over_scar(front: Front, view: Path) -> float:
-    """Fraction of times at which a camera is above ground that has burned by then."""
-    ground, times = front.ground, front.shot.frames.times
-    latitude, longitude, _ = ground.frame.reverse(view.position[front.frames])
-    arrival = ground.arrival_at(*ground.indices(latitude, longitude))
-    return float(np.mean(arrival <= times[front.frames]))

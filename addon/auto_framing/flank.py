@@ -16,9 +16,9 @@ from .visible_share import Visible
 _PART = 1.0 / 40.0  # of the fire's size (by eye)
 _DISTANCES = (45.0, 700.0)  # m
 _OVER_CROWNS = 250.0  # m, among trees; nearer and lower they occlude the flames
-_PLACES = 8  # points of the flanks that are tried
+_PLACES = 6  # points of the flanks that are tried
 _TURNS = (0.0, 40.0, -40.0)  # degrees from the flank's normal
-_HEIGHTS = (0.25, 0.4, 0.6)  # of the distance
+_HEIGHTS = (0.25, 0.45, 0.9)  # of the distance
 _AIM = 0.08  # of the distance, height of the aim above ground: flames below the centre, smoke above
 _STEEP = 0.1  # penalty for each higher step
 

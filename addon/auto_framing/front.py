@@ -8,11 +8,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..run import burning, extent
+from ..run import burning, extent, sun
 from ..shot.shot import Shot
 from ..shot.terrain.terrain import NEVER, UNKNOWN, Terrain, box
-from . import straight_plume
-from .straight_plume import StraightPlume
+from .coarse_smoke import CoarseSmoke
 
 _QUANTILES = (
     0.1,
@@ -22,8 +21,6 @@ _QUANTILES = (
 _ABOVE = 2.0  # m above the ground, of the flames (assumed)
 _SPREAD = (0.001, 5.0)  # m/s
 _STILL = 0.5  # m/s; a weaker wind has no direction
-_ALOFT = 2.0  # ratio of the wind that moves smoke to that near the ground (assumed)
-_BREEZE = 3.0  # m/s, wind with the fire's course if the run has none (assumed)
 _ONE_WAY = 0.3  # length of the mean spread vector over mean speed, below which the fire has no head (assumed)
 
 Array = NDArray[np.float64]
@@ -77,27 +74,15 @@ class Front:
             return wind / speed
         return self.heading
 
-    @property
-    def drift(self) -> Array:
-        """Drift velocity (2,) of smoke, m/s: the wind, or an assumed breeze along the spread; or 0."""
-        wind = np.array(self.shot.wind)
-        return _ALOFT * (wind if float(np.hypot(*wind)) > _STILL else _BREEZE * self.heading)
+    @cached_property
+    def smoke(self) -> CoarseSmoke:
+        """Smoke of a coarse flow at these times."""
+        return CoarseSmoke(self.shot, self.frames)
 
     @cached_property
-    def plumes(self) -> list[StraightPlume]:
-        """Smoke plumes, one for each time."""
-        ground, frames = self.ground, self.shot.frames
-        near = box(ground.arrival < NEVER, more=2)
-        if near is None:
-            return []
-        crossing = np.zeros(ground.arrival[near].shape)
-        row, column = np.nonzero(ground.arrival[near] < NEVER)
-        known = np.where(ground.arrival[near] < NEVER, ground.arrival[near], np.nan)
-        crossing[row, column] = burning.crossing(known, row, column)
-        return [
-            straight_plume.trace(ground, near, crossing, frames.times[frame], self.drift)
-            for frame in self.frames
-        ]
+    def night(self) -> bool:
+        """Return whether the sun is below the horizon in the middle of the window."""
+        return sun.position(self.shot.run, self.shot.frames.middle)[1] < 0.0
 
     @cached_property
     def heading(self) -> Array:

@@ -28,7 +28,6 @@ _NEAREST = 0.7  # of the fire's size, least distance: burned ground surrounds th
 _LEAST = 0.1  # of the terrain's extent
 _CROWNS = 4.5  # times OVER_CROWNS, least distance among trees, for a side view of them
 _FARTHEST = 1.0e6  # m
-_CLEAR = 0.6  # weight of a front clear of smoke (by eye)
 _STEEP = 0.01  # penalty for each degree above the lowest
 
 
@@ -42,7 +41,7 @@ def place(front: Front, visible: Visible) -> PlacedCamera:
             share = visible.seen(candidates.path(front, camera))
             likes = candidates.liking(front, float(bearing)) + candidates.framed(share)
             tried.append(Tried(share, likes - _STEEP * (height - _HEIGHTS[0]), camera))
-    share, _, camera = candidates.best(tried, _CLEAR)
+    share, _, camera = candidates.best(tried)
     return PlacedCamera(camera, share.share, _words(front, camera, share))
 
 

@@ -12,18 +12,16 @@ from .candidates import PlacedCamera
 from .front import Front
 from .visible_share import Visible
 
-_MORE = 1.7  # swath relative to the burned area, with some margin
-_LEE = 0.12  # of its width and height, shift to leeward for smoke
+_MORE = 2.2  # swath relative to the fire, which is in the middle; the margin shows some of its smoke
 _LEAST = 400.0  # m
 
 
 def place(front: Front, visible: Visible) -> PlacedCamera:
-    """View of the area burned by the end of the window, and of some of its smoke."""
+    """View of the fire by the end of the window, in the middle of the picture."""
     width, height = front.high - front.low
     across, up = front.shot.settings.render.resolution
     swath = candidates.rounded(max(_MORE * width, _MORE * height * across / up, _LEAST))
-    lee = _LEE * swath * np.array([1.0, up / across]) * front.wind
-    middle = np.array([*0.5 * (front.low + front.high) + lee, 0.0])
+    middle = np.array([*0.5 * (front.low + front.high), 0.0])
     latitude, longitude, _ = candidates.geodetic(front, middle)
     rig = Satellite(swath=swath, keys=(CameraKey(0.0, latitude, longitude),))
     camera = Camera("satellite", rig=rig)

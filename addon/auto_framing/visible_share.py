@@ -15,6 +15,8 @@ from .front import Front, some
 _INSIDE = 0.97  # of the half width and half height; points nearer to the edge do not count
 _RADIUS = 1.0  # m, radius of a front point
 _PLACES = 160  # front points at most per time
+# Rays of a picture that are tested for smoke near the camera, and their share of the distance to the target.
+_RAYS, _NEAR = (7, 4), 0.5
 
 Array = NDArray[np.float64]
 
@@ -27,7 +29,9 @@ class VisibleShare(NamedTuple):
     share
         Fraction of the front in the picture and not occluded by terrain, 0..1; 0 without a front.
     clear
-        The same, weighted by the transmittance of straight plumes.
+        The same, weighted by the transmittance of the smoke.
+    veil
+        Mean opacity of smoke in the picture up to half of the distance to the target, 0..1.
     height
         Height of its centre above the picture's centre, in half heights: -1 at the lower edge.
     horizon
@@ -36,6 +40,7 @@ class VisibleShare(NamedTuple):
 
     share: float
     clear: float
+    veil: float
     height: float
     horizon: float
 
@@ -60,7 +65,7 @@ class Visible:
         near
             Only the front within this distance of the camera's target counts, m.
         """
-        front, shares, clear, heights = self.front, [], [], [np.empty(0)]
+        front, shares, clear, veils, heights = self.front, [], [], [], [np.empty(0)]
         eye = view.position[front.frames]
         above_terrain = eye[:, 2] > front.ground.up(eye[:, 0], eye[:, 1])
         for number, frame in enumerate(front.frames):
@@ -70,17 +75,33 @@ class Visible:
             if len(here):
                 place = front.point[here]
                 shown = self.over_ground(view, int(frame), place, bool(above_terrain[number]))
-                depth = front.plumes[number].depth(view.position[frame], place[shown])
+                depth = front.smoke.depth(number, view.position[frame], place[shown])
                 shares.append(float(np.mean(shown)))
                 clear.append(float(np.exp(-depth).sum()) / len(place))
+                veils.append(self._veil(view, number))
                 heights.append(_height(view, int(frame), place[shown]))
         height = np.concatenate(heights)
         return VisibleShare(
             float(np.mean(shares)) if shares else 0.0,
             float(np.mean(clear)) if clear else 0.0,
+            float(np.mean(veils)) if veils else 0.0,
             float(np.median(height)) if len(height) else 0.0,
             _horizon(view),
         )
+
+    def _veil(self, view: Path, moment: int) -> float:
+        """Mean opacity of the smoke near a perspective camera at a sampled time."""
+        if not view.perspective:
+            return 0.0
+        frame = self.front.frames[moment]
+        x, y = (part.ravel() for part in np.meshgrid(*(np.linspace(-0.9, 0.9, count) for count in _RAYS)))
+        wide, high = view.halves[frame]
+        rays = np.stack([x * wide, y * high, -np.ones_like(x)], axis=-1)
+        rays /= np.linalg.norm(rays, axis=-1, keepdims=True)
+        eye = view.position[frame]
+        reach = _NEAR * float(np.linalg.norm(view.target[frame] - eye))
+        depth = self.front.smoke.depth(moment, eye, eye + reach * rays @ view.rotation[frame].T)
+        return float(np.mean(1.0 - np.exp(-depth)))
 
     def over_ground(self, view: Path, frame: int, place: Array, above_terrain: bool) -> NDArray[np.bool_]:
         """Return whether points (n, 3) are in the picture of a frame (from 0) and not occluded by terrain."""

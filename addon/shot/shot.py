@@ -188,7 +188,7 @@ class Shot:
         """
         camera = self.camera(name)
         render = replace(self.settings.render, resolution=self.resolution(camera))
-        shot = self._with_settings(replace(self.settings, cameras=(camera,), render=render))
+        shot = self.with_settings(replace(self.settings, cameras=(camera,), render=render))
         shot.others = self.others
         return shot
 
@@ -199,11 +199,11 @@ class Shot:
         """
         (camera,) = self.settings.cameras
         camera = replace(camera, frames=FrameList(",".join(map(str, listed))))
-        shot = self._with_settings(replace(self.settings, cameras=(camera,)))
+        shot = self.with_settings(replace(self.settings, cameras=(camera,)))
         shot.full, shot.paths = self, [replace(self.paths[0], camera=camera)]
         return shot
 
-    def _with_settings(self, settings: Settings) -> Shot:
+    def with_settings(self, settings: Settings) -> Shot:
         """Return a shot with other settings that shares terrain, fire and scale with this one."""
         shot = Shot(settings, self.run)
         shot.relief, shot.fire, shot.bare_ground = self.relief, self.fire, self.bare_ground

@@ -142,7 +142,7 @@ def nest_box(shot: Shot, around: Box) -> Box | None:
         return None
     fine, snap = around.spacing / FINER, length(_SNAP)
     side = _NEST * fine
-    low, high = _burning(shot)
+    low, high = heat_bounds(shot)
     covered = bool(np.all(high - low < _MAX_COVERED * side))
     middle = 0.5 * (low + high) if covered else _heat_centre(shot, np.mean(near, axis=0)[:2])
     if middle is None:
@@ -170,7 +170,7 @@ def smooth_ground(shot: Shot, box: Box, smoothings: int) -> Array:
     return height
 
 
-def _burning(shot: Shot) -> tuple[Array, Array]:
+def heat_bounds(shot: Shot) -> tuple[Array, Array]:
     """Return bounds (x, y) of the shot's heat without outliers, lowest and highest, m; infinite if none."""
     bounds = [_bounds(shot.fire, time) for time in np.linspace(shot.frames.first, shot.frames.last, 5)]
     extents = np.array([each for each in bounds if each is not None])

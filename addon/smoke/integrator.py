@@ -84,7 +84,7 @@ class Integrator:
                 progress(int(self.work[self.step]), total, WORK)
                 if self.stop.is_set():
                     raise IntegratorStoppedError
-                self._advance(self.steps[self.step])
+                self.advance(self.steps[self.step])
                 self.step += 1
                 self._start_nest()
                 self._save_snapshots()
@@ -107,7 +107,8 @@ class Integrator:
             cost += np.where(left <= self.lead + 1e-6, each, 0.0)
         return np.round(np.concatenate([[0.0], np.cumsum(cost)])).astype(np.int64)
 
-    def _advance(self, dt: float) -> None:
+    def advance(self, dt: float) -> None:
+        """Advance all domains by `dt` s."""
         self._update_sources()
         for number, solver in enumerate(self.solvers):
             count = 1 if number == 0 else _count(dt, self.scale)
@@ -119,10 +120,14 @@ class Integrator:
         """Start the nest and the detail's drift when they are due."""
         left = self.shot.frames.first - self.now
         if len(self.domains) > len(self.solvers) and left <= self.lead + 1e-6:
-            self.solvers.append(self._inner(self.domains[1]))
-            self.slot = None
+            self.start_nest(self.domains[1])
         if left <= self.scale.time(_DRIFT) + 1e-6:
             self.drifts += [self._drift(solver) for solver in self.solvers[len(self.drifts) :]]
+
+    def start_nest(self, part: Domain) -> None:
+        """Start a nested domain from the present state of the outer one."""
+        self.solvers.append(self._inner(part))
+        self.slot = None
 
     def _update_sources(self) -> None:
         """Update heat and smoke sources and the ambient wind."""

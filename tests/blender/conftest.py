@@ -7,7 +7,7 @@ import sys
 import bpy
 import numpy as np
 import pytest
-from firetwin.auto_framing import chase, flank, overview
+from firetwin.auto_framing import chase, coarse_smoke, flank, overview
 from firetwin.shot.terrain import apron
 from near_fire import *  # noqa: F403
 from panel_scene import panel_blend  # noqa: F401
@@ -42,12 +42,13 @@ def shared_aprons(monkeypatch):
 
 @pytest.fixture(autouse=True)
 def few_candidates(monkeypatch):
-    """Auto framing tries few cameras: tests/unit proves that it finds good ones."""
+    """Auto framing tries few cameras, without smoke: tests/unit proves that it finds good ones."""
     monkeypatch.setattr(overview, "_BEARINGS", overview._BEARINGS[::4])
     monkeypatch.setattr(overview, "_HEIGHTS", overview._HEIGHTS[:2])
     monkeypatch.setattr(chase, "_SIDES", chase._SIDES[:2])
     monkeypatch.setattr(chase, "_HEIGHTS", chase._HEIGHTS[:2])
     monkeypatch.setattr(flank, "_PLACES", 2)
+    monkeypatch.setattr(coarse_smoke, "_draw", lambda shot, frames: {})
 
 
 @pytest.fixture(autouse=True)

@@ -95,18 +95,18 @@ def test_sidecars_name_credits_and_missing_tiles(tiled, tmp_path):
 def test_pictures_that_are_too_small_for_credits_are_refused(tiled):
     small = replace(tiled.settings, render=replace(tiled.settings.render, resolution=(16, 16)))
     with pytest.raises(InputError, match="do not fit into a picture of 16 x 16"):
-        selection.make(tiled._with_settings(small))
+        selection.make(tiled.with_settings(small))
 
 
 def test_tiles_that_were_not_prepared_are_an_error(tiled):
     moved = replace(tiled.settings.tiles, max_screen_space_error=3.0)
     with pytest.raises(InputError, match="were not prepared"):
-        tile_cut.of_shot(tiled._with_settings(replace(tiled.settings, tiles=moved)))
+        tile_cut.of_shot(tiled.with_settings(replace(tiled.settings, tiles=moved)))
 
 
 def test_a_wrong_geoid_is_told_with_the_right_one(tiled):
     wrong = replace(tiled.settings.tiles, geoid=-20.0)
-    told = selection.make(moved := tiled._with_settings(replace(tiled.settings, tiles=wrong)))
+    told = selection.make(moved := tiled.with_settings(replace(tiled.settings, tiles=wrong)))
     assert "is 4.9 m below the scene's own" in told[1]
     assert told[1].endswith("write tiles.geoid = -24.9")
     low, median, high = tile_cut.of_shot(moved).difference
@@ -115,7 +115,7 @@ def test_a_wrong_geoid_is_told_with_the_right_one(tiled):
 
 
 def test_a_geoid_that_is_left_out_is_found_or_an_error(tiled, monkeypatch):
-    left_out = tiled._with_settings(replace(tiled.settings, tiles=replace(tiled.settings.tiles, geoid=None)))
+    left_out = tiled.with_settings(replace(tiled.settings, tiles=replace(tiled.settings.tiles, geoid=None)))
     frame = tiled.ground.frame
 
     class Egm96:

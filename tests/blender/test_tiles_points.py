@@ -39,7 +39,7 @@ def cloud(shot, tmp_path):
     )
     (folder / "a.cmpt").write_bytes(both)
     known = replace(shot.settings.tiles, sources=(str(folder),), geoid=0.0)
-    found = shot._with_settings(replace(shot.settings, tiles=known, cache=tmp_path / "cache"))
+    found = shot.with_settings(replace(shot.settings, tiles=known, cache=tmp_path / "cache"))
     selection.make(found)
     return found
 

@@ -195,7 +195,7 @@ def test_another_image_setting_makes_the_image_again(tiled, stage):
 
 def test_other_settings_make_materials_again_but_no_mesh(tiled, stage):
     before = build(tiled, stage)
-    other = tiled._with_settings(replace(tiled.settings, light=replace(tiled.settings.light, haze=0.5)))
+    other = tiled.with_settings(replace(tiled.settings, light=replace(tiled.settings.light, haze=0.5)))
     after = build(other, stage)
     assert new(before, after, "materials")
     assert after["meshes"] == before["meshes"]

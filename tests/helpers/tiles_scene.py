@@ -42,7 +42,7 @@ def tiled(shot, tmp_path, decoded_here):
     known = replace(
         shot.settings.tiles, sources=(str(tmp_path / "set"),), max_screen_space_error=2.0, geoid=-24.9
     )
-    found = shot._with_settings(replace(shot.settings, tiles=known, cache=tmp_path / "cache"))
+    found = shot.with_settings(replace(shot.settings, tiles=known, cache=tmp_path / "cache"))
     told = selection.make(found)
     assert told[0] == "credits of tiles, which pictures show: Somebody"
     assert re.fullmatch(r"the tiles' ground is 0\.0 m above .* 90 % of places\)", told[1])

@@ -27,8 +27,10 @@ def write(
     speed=0.3,
     wind=(4.0, 0.0),
     height=None,
+    surface=0.6,
     canopy=0.0,
     arrival=True,
+    lasts=600.0,
 ):
     """Write a run of square cells (m) about a place (degrees); the fuel grid is the model's.
 
@@ -42,20 +44,22 @@ def write(
         Terrain elevation: a function of metres east and north; default: sea level.
     arrival
         Whether the run has arrival times; otherwise only heat flux.
+    lasts
+        Time that a cell gives off heat, s.
     """
     north, east = areas.metres_per_degree(at[0])
     metres = (np.arange(cells) - (cells - 1) / 2) * cell
     x, y = np.meshgrid(metres, metres)
     came = np.min([when + _travel(x - e, y - n, speed, wind) for e, n, when in fires], axis=0)
     came = np.where(came <= times[-1] + 1.0, came, np.nan)
-    flux = np.array([np.where((came <= t) & (came > t - 600.0), 30e3, 0.0) for t in times], np.float32)
+    flux = np.array([np.where((came <= t) & (came > t - lasts), 30e3, 0.0) for t in times], np.float32)
     fields = {
         "latitude": at[0] + metres / north,
         "longitude": at[1] + metres / east,
         "elevation": np.zeros_like(x) if height is None else height(x, y),
         "fuel_latitude": at[0] + metres / north,
         "fuel_longitude": at[1] + metres / east,
-        "surface_fuel": np.full_like(x, 0.6),
+        "surface_fuel": np.full_like(x, surface),
         "canopy_fuel": np.full_like(x, canopy),
         "heat_flux": flux,
         "fuel_arrival_time": came if arrival else None,

@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 import whole_run
 from firetwin import auto_framing
-from firetwin.auto_framing import candidates, front, overview, straight_plume, visible_share, window
+from firetwin.auto_framing import candidates, coarse_smoke, flank, front, overview, visible_share, window
 from firetwin.run import readers, sun, zone
 from firetwin.shot import run_checks
 from firetwin.shot.cameras import targets
-from firetwin.shot.fire import emissions
 from firetwin.shot.sections import Time
 from firetwin.shot.settings import scene_file
 from firetwin.shot.shot import Shot
@@ -49,6 +48,15 @@ FIRES = {
     "ended": {"cell": 10.0, "cells": 40, "fires": ((0.0, 0.0, 0.0),), "times": (0.0, 3600.0, 86_400.0)},
     "slow output": {"cell": 300.0, "cells": 80, "times": HOURS, "arrival": False, "speed": 0.1},
 }
+
+
+@pytest.fixture(autouse=True, scope="module")
+def wide_cells():
+    """Solve the coarse flow on wider cells, in a fraction of the time."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(coarse_smoke, "_COLUMNS", (600, 1200))
+        patch.setattr(flank, "_PLACES", 3)
+        yield
 
 
 @pytest.fixture(scope="module")
@@ -124,53 +132,71 @@ def test_a_wall_before_the_fire_moves_the_camera(fit_of):
     assert walled.shares["overview"] >= candidates.LEAST
 
 
-def test_smoke_drifts_with_the_wind_and_rises_from_a_strong_fire(fit_of):
+def test_coarse_smoke_drifts_with_the_wind(fit_of):
     found, run = fit_of("grass")  # wind from the west
     moving = front.find_front(Shot(found.settings, run))
-    smoke = moving.plumes[1]
-    assert smoke.rate.sum() > 0.0
-    head = np.array([[moving.high[0], 0.5 * (moving.low[1] + moving.high[1]), 2.0]])
-    way = moving.size * np.array([1.0, 0.0, smoke.rise])
-    assert smoke.depth(head[0] + way, head)[0] > 1.5, "from where its smoke goes"
-    back = head[0] - np.array([2.0 * moving.size, 0.0, 0.0])
-    tail = np.array([[moving.low[0], head[0, 1], 2.0]])
-    assert smoke.depth(back, tail)[0] < 0.1, "from windward"
-    weak = straight_plume.trace(moving.ground, *_burning(moving), moving.shot.frames.first, 4.0 * smoke.wind)
-    assert weak.rise < smoke.rise, "a strong wind bends it"
+    middle = 0.5 * (moving.low + moving.high)
+    head = np.array([[*middle, 20.0]])
+    above = 0.5 * moving.size * np.array([0.0, 0.0, 1.0])
+    lee, luv = (head[0] + above + side * moving.size * np.array([1.0, 0.0, 0.0]) for side in (1.0, -1.0))
+    assert moving.smoke.depth(1, lee, head)[0] > moving.smoke.depth(1, luv, head)[0] + 0.5
+    beside = middle + np.array([-2.0 * moving.size, 0.0])
+    points = np.array([[*beside, 20.0]])
+    assert moving.smoke.depth(1, points[0] + np.array([0.0, 50.0, 50.0]), points)[0] < 0.01, "upwind"
+    again = front.find_front(Shot(found.settings, run)).smoke
+    assert again.depth(1, lee, head) == moving.smoke.depth(1, lee, head)
 
 
-def _burning(moving):
-    near = moving.ground.arrival.shape
-    return (slice(0, near[0]), slice(0, near[1])), np.full(near, 60.0)
-
-
-def test_a_plume_holds_the_smoke_that_its_fuel_gives():
-    """Through a plume across the wind: smoke per metre of the way it drifts, over its width."""
-    one = straight_plume.StraightPlume(np.zeros((1, 3)), np.array([2.0]), np.array([4.0, 0.0]), 1.0, 0.5)
-    axis = np.array([1.0, 0.0, 0.5])
-    for along in (100.0, 1000.0):
-        place = along * axis / np.linalg.norm(axis) + np.array([0.0, 2000.0, 0.0])
-        eye = place - np.array([0.0, 4000.0, 0.0])
-        lines = place + np.array([[0.0, 0.0, 0.0]])
-        half = 1.0 + 0.4 * along
-        expected = emissions.EXTINCTION * 2.0 / 4.0 / (np.pi * half**2) * 2.0 * half
-        fine = [
-            one.depth(eye, lines + np.array([0.0, move, 0.0]))[0] for move in np.linspace(-1900.0, 0.0, 200)
-        ]
-        assert np.mean(fine) == pytest.approx(expected, rel=0.5)
-    twice = straight_plume.StraightPlume(np.zeros((1, 3)), np.array([4.0]), np.array([4.0, 0.0]), 1.0, 0.5)
-    assert twice.depth(eye, lines) == pytest.approx(2.0 * one.depth(eye, lines))
-
-
-def test_a_grass_fires_smoke_hides_less_than_a_forests(fit_of, tmp_path):
+def test_smoke_from_a_forest_hides_more_than_from_grass(fit_of, tmp_path):
     found, grass = fit_of("grass")
     forest = readers.open(whole_run.write(tmp_path / "forest", **FIRES["grass"] | {"canopy": 3.0}))
     depths = []
     for run in (grass, forest):
         moving = front.find_front(Shot(found.settings, run))
         eye = np.array([*(moving.high + moving.size * moving.wind), moving.size])
-        depths.append(np.median(moving.plumes[1].depth(eye, moving.point[moving.moment == 1])))
-    assert depths[1] > 1.5 * depths[0]
+        depths.append(np.median(moving.smoke.depth(1, eye, moving.point[moving.moment == 1])))
+    assert depths[1] > depths[0]
+
+
+def tried(share=1.0, clear=1.0, veil=0.0, liking=0.0):
+    return candidates.Tried(visible_share.VisibleShare(share, clear, veil, -0.2, 0.5), liking, None)
+
+
+def test_a_clear_view_is_preferred_to_one_with_the_sun_behind_it():
+    smoky, clear = tried(clear=0.01, liking=1.0), tried(clear=0.6, liking=-1.0)
+    assert candidates.best([smoky, clear]) is clear
+    veiled = tried(clear=0.9, veil=0.95, liking=1.0)
+    assert candidates.best([veiled, tried(clear=0.6)]) is not veiled
+    liked = tried(clear=0.7, liking=0.3)
+    assert candidates.best([liked, tried(clear=0.95)]) is liked, "both are clear enough"
+    occluded = tried(share=0.2, liking=1.0)
+    assert candidates.best([occluded, smoky]) is smoky
+
+
+def test_a_camera_in_smoke_goes_farther():
+    asked = []
+
+    def at(distance):
+        asked.append(distance)
+        return [tried(clear=0.8, veil=0.0 if distance > 150.0 else 0.6)]
+
+    assert candidates.nearest_enough(100.0, at).seen.veil == 0.0
+    assert asked == [100.0, 200.0]
+
+
+def test_smoke_on_all_sides_is_said_plainly():
+    assert "from every side" in candidates.shows(tried(clear=0.1).seen, "the front")
+    assert "from every side" not in candidates.shows(tried(clear=0.7).seen, "the front")
+
+
+def test_the_satellite_has_the_fire_in_its_middle(fit_of):
+    for name in ("grass", "several", "south"):
+        found, run = fit_of(name)
+        shot = Shot(found.settings, run)
+        moving, view = front.find_front(shot), shot.for_camera("satellite").paths[0]
+        off = np.abs(view.position[0, :2] - 0.5 * (moving.low + moving.high))
+        assert (off < 0.02 * moving.size).all()
+        assert (moving.high - moving.low < view.half).all(), "half of the picture at most"
 
 
 def test_cameras_are_as_large_as_the_fire(fit_of):

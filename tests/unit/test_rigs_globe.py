@@ -32,7 +32,7 @@ def shot_of(whole, frames=FRAMES, **globe):
         time=replace(whole.settings.time, frames=frames),
         cameras=(Camera("space", Globe(**globe)),),
     )
-    return whole._with_settings(settings)
+    return whole.with_settings(settings)
 
 
 def fixed(**more):
@@ -193,7 +193,7 @@ def test_chunks_of_a_film_fly_the_same_way(whole):
 def test_only_this_kind_of_camera_sees_the_earth_beyond(whole):
     assert shot_of(whole).beyond
     settings = replace(whole.settings, cameras=(Camera("drone"),))
-    assert not whole._with_settings(settings).beyond
+    assert not whole.with_settings(settings).beyond
 
 
 @given(st.floats(0, 1e7), st.floats(1, 1e8), st.floats(1, 1e8))

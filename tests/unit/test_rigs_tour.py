@@ -31,7 +31,7 @@ def shot_of(whole, frames=48, **tour):
         time=replace(whole.settings.time, frames=frames),
         cameras=(Camera("round", Tour(**({"stops": STOPS} | tour))),),
     )
-    return whole._with_settings(settings)
+    return whole.with_settings(settings)
 
 
 def at(latitude, longitude, **more):

@@ -109,7 +109,7 @@ class Chain:
             max_screen_space_error=1.0,
             geoid=-24.9,
         )
-        return self.shot._with_settings(replace(self.shot.settings, tiles=known, cache=self.folder / "cache"))
+        return self.shot.with_settings(replace(self.shot.settings, tiles=known, cache=self.folder / "cache"))
 
     def make(self, **access):
         """The cut and its messages."""
@@ -519,7 +519,7 @@ def test_a_policys_error_is_taken_where_the_scene_has_none_of_its_own(chain, mon
     assert "recommends" not in told
     shot = chain.shot_of()
     default = replace(shot.settings.tiles, max_screen_space_error=2.0)
-    shot = shot._with_settings(replace(shot.settings, tiles=default))
+    shot = shot.with_settings(replace(shot.settings, tiles=default))
     told = "\n".join(selection.make(shot))
     assert "an imitation recommends tiles to 20 pixels" in told
     assert "credits of tiles, which pictures show: Imitation Maps; Somebody" in told
