@@ -90,6 +90,7 @@ def _draw(shot: Shot, frames: list[int]) -> dict[int, list[volume.Bricks]]:
     box, drawn = _coarsen(around), {}
     with tempfile.TemporaryDirectory(prefix="firetwin-") as folder:
         outer, nest = (_domain(shot, box, each, Path(folder)) for each in (box, _nest_box(shot, box)))
+        painters = _painters(coarse, outer, nest)
         lead, integrator = shot.scale.time(_LEAD), Integrator(coarse, [outer], Event(), 1)
         for frame in frames:
             time = float(shot.frames.times[frame])
@@ -101,7 +102,7 @@ def _draw(shot: Shot, frames: list[int]) -> dict[int, list[volume.Bricks]]:
             _advance(integrator, time)
             for domain, solver in zip((outer, nest), integrator.solvers, strict=True):
                 snapshots.save(domain.snapshot_path(frame + 1), solver, flow.Drift(solver))
-            drawn[frame] = _paint(coarse, outer, nest, frame + 1)
+            drawn[frame] = _paint(painters, frame + 1)
     return drawn
 
 
@@ -113,13 +114,27 @@ def _advance(integrator: Integrator, time: float) -> None:
         integrator.advance(left / count)
 
 
-def _paint(shot: Shot, outer: Domain, nest: Domain, frame: int) -> list[volume.Bricks]:
-    """Draw the snapshots of a frame (from 1), all around."""
+class _CoarsePainter(flow_frames.Painter):
+    """Painter over ground that is sampled once for each cell."""
+
+    @property
+    def _surface_step(self) -> float:
+        return self.layer.domain.box.spacing
+
+
+def _painters(shot: Shot, outer: Domain, nest: Domain) -> list[_CoarsePainter]:
+    """Painters of both domains."""
     far, near = (part * domain.box.spacing for part, domain in zip(_VOXELS, (outer, nest), strict=True))
-    painter = flow_frames.Painter(shot, flow_frames.Layer("far", outer, far, fine=False), nest.box)
-    outside, beyond = painter.bricks(frame, None, None)
-    painter = flow_frames.Painter(shot, flow_frames.Layer("smoke", nest, near, fine=True), None)
-    return [outside, painter.bricks(frame, None, None, beyond)[0]]
+    return [
+        _CoarsePainter(shot, flow_frames.Layer("far", outer, far, fine=False), nest.box),
+        _CoarsePainter(shot, flow_frames.Layer("smoke", nest, near, fine=True), None),
+    ]
+
+
+def _paint(painters: list[_CoarsePainter], frame: int) -> list[volume.Bricks]:
+    """Draw the snapshots of a frame (from 1), all around."""
+    outside, beyond = painters[0].bricks(frame, None, None)
+    return [outside, painters[1].bricks(frame, None, None, beyond)[0]]
 
 
 def _domain(shot: Shot, outer: Box, box: Box, folder: Path) -> Domain:
