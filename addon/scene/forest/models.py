@@ -69,26 +69,30 @@ KINDS = (
 GRASS = (0, 1)
 REACH = 0.68  # in tree heights: radius of a model's bounding sphere
 _LEAVES = 1500  # of level 1
+_LATE = 0.5  # fraction of the season by which every second model of a species turns later (by eye)
 
 
 @dataclass(frozen=True)
 class TreeModel:
     """A model: its class, one of `KINDS`, its state ("living" or "snag"), and its generator of levels.
 
-    `habit` is the habit of a deciduous tree; None for other models.
+    `habit` is the habit of a deciduous tree; None for other models. Its leaves turn `late`, a fraction 0..1 of
+    the season.
     """
 
     kind: str
     state: str
     make: Callable[[int], Shape]
     habit: Habit | None = None
+    late: float = 0.0
 
     def in_season(self, level: int, state: LeafState) -> Shape:
         """Model a level of detail with the leaves of the season."""
         shape = self.make(level)
         if self.habit is None or self.habit.autumn is None:
             return shape
-        return leaf_season.dressed(shape, self.habit.colour, self.habit.autumn, state)
+        turned, fallen = (max((part - self.late) / (1.0 - self.late), 0.0) for part in state)
+        return leaf_season.dressed(shape, self.habit.colour, self.habit.autumn, LeafState(turned, fallen))
 
 
 def tree(habit: Habit, seed: int, level: int) -> Shape:
@@ -216,7 +220,9 @@ def elsewhere() -> list[TreeModel]:
 
 
 def _living(kind: str, habit: Habit, seed: int) -> TreeModel:
-    return TreeModel(kind, "living", partial(tree, habit, seed), habit if habit.autumn else None)
+    if habit.autumn is None:
+        return TreeModel(kind, "living", partial(tree, habit, seed))
+    return TreeModel(kind, "living", partial(tree, habit, seed), habit, _LATE * (seed % 2))
 
 
 def every() -> list[TreeModel]:

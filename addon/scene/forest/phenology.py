@@ -14,7 +14,7 @@ import numpy as np
 from ...shot.terrain import noise
 
 _AT = 42.5  # degrees, latitude of the dates
-_SPRING, _AUTUMN = 1.4, -1.0  # days later for each degree polewards (assumed)
+_SPRING, _AUTUMN = 1.4, -0.5  # days later for each degree polewards (assumed)
 _OPEN, _TURN, _FALL = (112.0, 138.0), (264.0, 290.0), (280.0, 312.0)  # day of the year: start and end
 _YEAR = 365.25  # days
 _DROUGHT = 0.45  # fraction of the leaves that trees of the dry tropics lose (assumed)

@@ -65,7 +65,7 @@ BIRCH = replace(  # Betula pendula: slender, of rising branches whose tips hang,
     stem=0.014,
     colour=(0.066, 0.094, 0.030),
     wood=(0.420, 0.400, 0.370),
-    autumn=(0.310, 0.205, 0.040),
+    autumn=(0.260, 0.185, 0.046),
 )
 ACACIA = replace(  # Vachellia tortilis: a flat top on a forked trunk
     BLACK_OAK,
@@ -127,7 +127,7 @@ LARCH = replace(  # Larix decidua, L. sibirica: an open spire of soft needles, b
     lift=0.14,
     colour=(0.074, 0.104, 0.032),
     wood=(0.100, 0.075, 0.056),
-    autumn=(0.330, 0.190, 0.034),
+    autumn=(0.260, 0.165, 0.042),
     fit=((0.75, 0.98, 0.77), (1.27, 2.6, 0.9), (1.47, 1.1, 0.68)),
 )
 BEECH = replace(  # Fagus, Tilia, Quercus robur: a round, full crown
@@ -145,7 +145,7 @@ BEECH = replace(  # Fagus, Tilia, Quercus robur: a round, full crown
     stem=0.019,
     colour=(0.052, 0.082, 0.022),
     wood=(0.110, 0.102, 0.092),
-    autumn=(0.250, 0.120, 0.032),
+    autumn=(0.185, 0.112, 0.038),
     fit=((0.81, 0.75, 0.77), (1.38, 1.97, 0.97), (1.39, 2.6, 0.63)),
 )
 MAPLE = replace(  # Acer, Liquidambar, Nyssa: an oval crown, red in autumn
@@ -156,7 +156,7 @@ MAPLE = replace(  # Acer, Liquidambar, Nyssa: an oval crown, red in autumn
     high=0.42,
     colour=(0.060, 0.092, 0.026),
     wood=(0.090, 0.080, 0.070),
-    autumn=(0.300, 0.070, 0.026),
+    autumn=(0.215, 0.074, 0.032),
     fit=((0.78, 0.69, 0.77), (1.44, 2.09, 0.97), (1.41, 2.6, 0.63)),
 )
 CROP_PINE = replace(  # Pinus radiata, P. pinaster, P. taeda in rows: straight, pruned, narrow

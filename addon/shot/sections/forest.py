@@ -20,7 +20,7 @@ class Forest:
     )
     greenness: float | None = key(
         None,
-        "greenness of grass; 0: cured, 1: green; default: by date and hemisphere",
+        "greenness of grass; 0: cured, 1: green; default: by date, hemisphere and fire",
         at_least=0,
         at_most=1,
         affects=("terrain", "forest"),

@@ -13,7 +13,7 @@ def _suits(land: Land) -> float:
 
 BIOME = Biome(
     suits=_suits,
-    season=Season(peak=110.0, lasts=95.0, low=0.05),
+    season=Season(peak=95.0, lasts=72.0, low=0.05),
     needles=((0.022, 0.030, 0.013), (0.056, 0.066, 0.032)),
     stands=(0.058, 0.064, 0.034),
     shade=(0.009, 0.012, 0.007),

@@ -29,7 +29,7 @@ BIOME = Biome(
         Species(models.ACACIAS, 0.7, height=0.62, width=1.0),
         Species(models.LIVE_OAKS, 0.3, height=0.55, width=0.9),
     ),
-    tree_cover=0.03,
+    tree_cover=0.05,
     shrub_cover=0.08,
     shrub_load=(0.6, 1.6),
     open_land=OpenLand(
