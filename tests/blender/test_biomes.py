@@ -94,3 +94,34 @@ def test_roofs_stand_on_their_outlines_as_high_as_they_say(near_settings, run, s
     middle = shot.ground.up(*points[roof, :2].mean(axis=0, keepdims=True).T.astype(float))[0]
     assert points[:, 2].max() == pytest.approx(max(middle + 9.0, under.max() + 1.0), abs=0.1)
     assert points[~roof, 2].max() < under.min()
+
+
+def test_mapped_lakes_share_the_shader_of_water(near_settings, run, stage, tmp_path):
+    """A second one fills the stack of Cycles' shaders, and the ground is black."""
+    ring = [[-120.556, 38.8395], [-120.555, 38.8395], [-120.555, 38.840], [-120.556, 38.8395]]
+    found = [
+        {
+            "type": "Feature",
+            "properties": {"kind": kind},
+            "geometry": {"type": "Polygon", "coordinates": [ring]},
+        }
+        for kind in ("field", "bare", "water")
+    ]
+    path = tmp_path / "land.geojson"
+    path.write_text(json.dumps({"type": "FeatureCollection", "features": found}))
+    terrain = replace(near_settings.terrain, land_use=path)
+    shot = Shot(replace(near_settings, terrain=terrain), run)
+    maps = fields.land_use_images(shot)
+    assert list(maps) == ["soft", "hard", "water"]
+    built = material.build(shot, stage, fields.create_images(shot, None), maps=maps)
+    trees = [
+        built.node_tree,
+        *(node.node_tree for node in built.node_tree.nodes if hasattr(node, "node_tree")),
+    ]
+    kinds = [node.bl_idname for tree in trees for node in tree.nodes]
+    assert kinds.count("ShaderNodeFresnel") == 1
+    assert sum("Land Use" in node.image.name for tree in trees for node in tree.nodes if images(node)) == 5
+
+
+def images(node):
+    return node.bl_idname == "ShaderNodeTexImage" and node.image is not None

@@ -10,7 +10,7 @@ from firetwin.scene.forest.shape import BARK, FOLIAGE, Shape
 def test_leaves_turn_and_fall_in_autumn_and_open_in_spring():
     summer, october, december, may = (phenology.in_winter(day, 42.5) for day in (200, 285, 340, 125))
     assert summer == LeafState(0.0, 0.0)
-    assert october.turned > 0.8 > 0.2 > october.fallen
+    assert october.turned > 0.5 > 0.2 > october.fallen
     assert december == LeafState(1.0, 1.0)
     assert 0.2 < may.fallen < 0.8
     assert phenology.in_winter(340 - 182.625, -42.5) == pytest.approx(december)

@@ -76,8 +76,8 @@ _LATE = 0.5  # fraction of the season by which every second model of a species t
 class TreeModel:
     """A model: its class, one of `KINDS`, its state ("living" or "snag"), and its generator of levels.
 
-    `habit` is the habit of a deciduous tree; None for other models. Its leaves turn `late`, a fraction 0..1 of
-    the season.
+    `habit` is the habit of a deciduous tree; None for other models. Its leaves turn `late`, by a fraction
+    0..1 of the season.
     """
 
     kind: str

@@ -1,7 +1,7 @@
 """Phenology of deciduous trees: autumn colour, fallen leaves and budburst by date and latitude.
 
 The dates were observed in Harvard Forest, 42.5 degrees north, to the week: buds open about day 125, half of
-the leaves have turned by day 280 and fallen by day 292 (O'Keefe 2000, Harvard Forest Data Archive HF003).
+the leaves have turned by day 282 and fallen by day 295 (O'Keefe 2000, Harvard Forest Data Archive HF003).
 Their change with latitude is assumed.
 """
 
@@ -15,7 +15,7 @@ from ...shot.terrain import noise
 
 _AT = 42.5  # degrees, latitude of the dates
 _SPRING, _AUTUMN = 1.4, -0.5  # days later for each degree polewards (assumed)
-_OPEN, _TURN, _FALL = (112.0, 138.0), (264.0, 290.0), (280.0, 312.0)  # day of the year: start and end
+_OPEN, _TURN, _FALL = (112.0, 138.0), (268.0, 297.0), (280.0, 312.0)  # day of the year: start and end
 _YEAR = 365.25  # days
 _DROUGHT = 0.45  # fraction of the leaves that trees of the dry tropics lose (assumed)
 

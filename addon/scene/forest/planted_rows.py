@@ -14,9 +14,9 @@ from ...shot.surface import land_use
 from ...shot.terrain import noise
 from . import biomes, field_lines
 
-ROW = 5.5  # m between rows of a plantation on a land use map
+ROW = 6.5  # m between rows of a plantation on a land use map
 _COMPARTMENT = (430.0, 310.0)  # m
-_RIDE = 4.5  # m, half the width of the open strip between compartments
+_RIDE = 6.0  # m, half the width of the open strip between compartments
 _AGES = (0.55, 1.10)  # height of the youngest and of the oldest compartment / height by fuel
 _UNEVEN = 0.05  # standard deviation of height within a compartment
 _SEED = 640

@@ -145,7 +145,7 @@ BEECH = replace(  # Fagus, Tilia, Quercus robur: a round, full crown
     stem=0.019,
     colour=(0.052, 0.082, 0.022),
     wood=(0.110, 0.102, 0.092),
-    autumn=(0.185, 0.112, 0.038),
+    autumn=(0.165, 0.112, 0.040),
     fit=((0.81, 0.75, 0.77), (1.38, 1.97, 0.97), (1.39, 2.6, 0.63)),
 )
 MAPLE = replace(  # Acer, Liquidambar, Nyssa: an oval crown, red in autumn
@@ -156,7 +156,7 @@ MAPLE = replace(  # Acer, Liquidambar, Nyssa: an oval crown, red in autumn
     high=0.42,
     colour=(0.060, 0.092, 0.026),
     wood=(0.090, 0.080, 0.070),
-    autumn=(0.215, 0.074, 0.032),
+    autumn=(0.185, 0.080, 0.034),
     fit=((0.78, 0.69, 0.77), (1.44, 2.09, 0.97), (1.41, 2.6, 0.63)),
 )
 CROP_PINE = replace(  # Pinus radiata, P. pinaster, P. taeda in rows: straight, pruned, narrow

@@ -96,7 +96,10 @@ def _visible_shader(
     for layer, drawn in maps.items():
         for picture, image in drawn:
             with tree.frame(f"Land use: {layer}"):
-                ground = _apply_land_use(tree, here, layer, picture, image, ground)
+                if layer == "water":  # one shader of water serves lakes and the map
+                    lake = tree.math("MAXIMUM", lake, _picture_alpha(tree, here, picture, image))
+                else:
+                    ground = _apply_land_use(tree, here, layer, picture, image, ground)
     with tree.frame("Water"):
         ground = tree.mix_shader(lake, ground, _water_shader(tree, here))
     if skin:
@@ -215,9 +218,8 @@ def _apply_orthophoto(
     ground: nodes.Value,
 ) -> nodes.Value:
     """Apply the orthophoto's colour in unburned areas with data. It needs no bump map."""
-    shown = _picture_node(tree, here, picture, image)
-    counts = tree.pick(shown, "Alpha") * (1.0 - here.burned)
-    colour = photo_reflectance(tree, tree.pick(shown, "Color"))
+    counts = _picture_alpha(tree, here, picture, image) * (1.0 - here.burned)
+    colour = photo_reflectance(tree, _picture_colour(tree, here, picture, image))
     return tree.mix_shader(counts, ground, _matte_shader(tree, colour, None))
 
 
@@ -243,27 +245,40 @@ def _apply_land_use(
     ground: nodes.Value,
 ) -> nodes.Value:
     """Apply a layer of the user's land use: its colour, with texture; layers with fuel burn."""
-    shown = _picture_node(tree, here, picture, image)
-    counts = tree.pick(shown, "Alpha")
-    if layer == "water":
-        return tree.mix_shader(counts, ground, _water_shader(tree, here))
-    grain = here.grain.noise(11.0, 5.0, 0.7).ramp(0.25, 0.75, 0.72, 1.28)
-    broad = here.grain.noise(140.0, 3.0, 0.6).ramp(0.3, 0.7, 0.86, 1.14)
-    tone = grain * broad if layer == "soft" else broad
-    colour = tree.mix_colour(1.0, tree.pick(shown, "Color"), tree.combine(tone, tone, tone), "MULTIPLY")
+    counts = _picture_alpha(tree, here, picture, image)
+    if layer == "soft":
+        grain = here.grain.noise(11.0, 5.0, 0.7).ramp(0.25, 0.75, 0.72, 1.28)
+        tone = grain * here.grain.noise(140.0, 3.0, 0.6).ramp(0.3, 0.7, 0.86, 1.14)
+    else:
+        tone = here.grain.noise(90.0, 3.0, 0.6).ramp(0.3, 0.7, 0.86, 1.14)
+    colour = _picture_colour(tree, here, picture, image)
+    colour = tree.mix_colour(1.0, colour, tree.combine(tone, tone, tone), "MULTIPLY")
     if layer == "soft":
         counts = counts * (1.0 - here.burned)
     return tree.mix_shader(counts, ground, _matte_shader(tree, colour, None))
 
 
-def _picture_node(
+def _picture_alpha(
     tree: nodes.Tree, here: Place, picture: orthophoto.OrthophotoImage, image: bpy.types.Image
-) -> bpy.types.Node:
-    """Create the image texture node of a picture draped on the ground."""
+) -> nodes.Value:
+    """Return the opacity of a picture draped on the ground, 0 outside of it."""
     scale = 1.0 / (picture.high - picture.low)
     across = tree.vector("SUBTRACT", here.position, (*picture.low, 0.0))
     at = tree.vector("MULTIPLY", across, (*scale, 0.0))
-    return tree.node("ShaderNodeTexImage", {"Vector": at}, image=image, extension="CLIP")
+    return tree.output("ShaderNodeTexImage", {"Vector": at}, "Alpha", image=image, extension="CLIP")
+
+
+def _picture_colour(
+    tree: nodes.Tree, here: Place, picture: orthophoto.OrthophotoImage, image: bpy.types.Image
+) -> nodes.Value:
+    """Return the colour of a picture draped on the ground.
+
+    It shares no node with its opacity: Cycles keeps the outputs of a shared node through all branches of the
+    shader, whose stack has 255 numbers. A shader that needs more is black.
+    """
+    scale = 1.0 / (picture.high - picture.low)
+    at = tree.vector("MULTIPLY_ADD", here.position, (*scale, 0.0), (*(-picture.low * scale), 0.0))
+    return tree.output("ShaderNodeTexImage", {"Vector": at}, "Color", image=image, extension="EXTEND")
 
 
 def _water_shader(tree: nodes.Tree, here: Place) -> nodes.Value:

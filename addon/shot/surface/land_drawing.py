@@ -73,11 +73,13 @@ class Picture:
         mixed = part[..., :3] / 255.0 * (1.0 - weight) + np.clip(colour, 0.0, 1.0) * weight
         part[..., :3], part[..., 3] = np.rint(255.0 * mixed), np.rint(255.0 * total)
 
-    def places(self, window: tuple[slice, slice]) -> tuple[Array, Array]:
-        """East and north of a window's pixels, m."""
-        rows, columns = window
-        north, east = np.mgrid[rows, columns] + 0.5
-        return self.low[0] + east * self.pixel[0], self.low[1] + north * self.pixel[1]
+    def fill(self, found: rasterize.Covered, channels: Sequence[Array], strength: float) -> None:
+        """Set the colour (red, green, blue: each (h, w)) and opacity of pixels that are covered."""
+        window, cover = found
+        part, mask = self.pixels[window], cover > 0.0
+        for channel, values in enumerate(channels):
+            np.copyto(part[..., channel], np.uint8(255.0 * np.clip(values, 0.0, 1.0) + 0.5), where=mask)
+        part[..., 3][mask] = round(255.0 * strength)
 
     @property
     def _shape(self) -> tuple[int, int]:
@@ -89,7 +91,8 @@ class Picture:
 
 def draw_area(picture: Picture, rings: Sequence[Array], colour: Colour, strength: float) -> None:
     """Draw a polygon in one colour."""
-    picture.blend(picture.filled(rings), colour, strength)
+    if (found := picture.filled(rings)) is not None:
+        picture.fill(found, [np.float64(part) for part in colour], strength)
 
 
 def draw_field(
@@ -99,27 +102,22 @@ def draw_field(
     found = picture.filled(rings)
     if found is None:
         return
-    window, cover = found
-    across = _across(picture, window, rings[0])
+    across = _across(picture, found[0], rings[0])
     distance, contrast = _ROWS[pattern]
-    seen = np.clip(0.5 * distance * picture.metre - 1.0, 0.0, 1.0)
-    tone = 1.0 + contrast * seen * np.sin(2.0 * np.pi * across / distance)
-    if pattern == STUBBLE:  # swaths of a combine: alternate, each with a row of straw
-        tone += 0.06 * np.sign(np.sin(np.pi * across / distance)) * seen
-    shade = np.asarray(colour) * tone[..., None]
-    inside = cover.copy()
-    for ring in rings:
-        near = picture.stroked(_closed(ring), 2.0 * _HEADLAND)
-        inside *= 1.0 - _within(near, window, cover.shape)
-    if pattern == CROP:
-        shade = shade + (_tramlines(across, picture) * inside)[..., None] * (np.array(_SOIL) - shade)
-    headland = (cover > 0.0) & (inside < 0.5)
-    shade = np.where(headland[..., None], 0.94 * np.asarray(colour), shade)
-    picture.blend(found, shade, strength)
-    for ring in rings:
-        edge = picture.stroked(_closed(ring), 2.0 * _MARGIN)
-        if edge is not None:
-            picture.blend((window, _within(edge, window, cover.shape) * cover), _GRASS, 0.8 * strength)
+    seen = float(np.clip(0.5 * distance * picture.metre - 1.0, 0.0, 1.0))
+    tone = 1.0 + np.float32(contrast * seen) * np.sin(np.float32(2.0 * np.pi / distance) * across)
+    if pattern == STUBBLE:  # swaths of a combine alternate, each with a row of straw
+        tone += np.float32(0.06 * seen) * np.sign(np.sin(np.float32(np.pi / distance) * across))
+    wheels = _tramlines(across, picture) if pattern == CROP else np.float32(0.0)
+    shade = [part * tone + wheels * (soil - part * tone) for part, soil in zip(colour, _SOIL, strict=True)]
+    picture.fill(found, shade, strength)
+    sides = [np.stack(side) for ring in rings for side in zip(ring, np.roll(ring, -1, axis=0), strict=True)]
+    red, green, blue = (0.94 * part for part in colour)
+    for width, over, part in ((_HEADLAND, (red, green, blue), strength), (_MARGIN, _GRASS, 0.8 * strength)):
+        for side in sides:
+            near = picture.stroked(side, 2.0 * width)
+            if near is not None:
+                picture.blend((near[0], near[1] * _within(found, near[0], near[1].shape)), over, part)
 
 
 def draw_track(picture: Picture, line: Array, width: float, colour: Colour) -> None:
@@ -145,10 +143,6 @@ def draw_bank(picture: Picture, line: Array, width: float) -> None:
     picture.blend(picture.stroked(line, width + 2.0 * _SHORE), _MUD, 0.75)
 
 
-def _closed(ring: Array) -> Array:
-    return np.concatenate([ring, ring[:1]])
-
-
 def _within(
     found: rasterize.Covered | None, window: tuple[slice, slice], shape: tuple[int, ...]
 ) -> NDArray[np.float64]:
@@ -168,20 +162,22 @@ def _within(
     return inner
 
 
-def _across(picture: Picture, window: tuple[slice, slice], ring: Array) -> Array:
+def _across(picture: Picture, window: tuple[slice, slice], ring: Array) -> NDArray[np.float32]:
     """Distance (m) of a window's pixels across the rows, which run along the longest side of the ring."""
-    sides = np.diff(_closed(ring), axis=0)
+    sides = np.roll(ring, -1, axis=0) - ring
     side = sides[np.argmax(np.hypot(*sides.T))]
     side = side / max(float(np.hypot(*side)), 1.0e-9)
-    east, north = picture.places(window)
-    return (north - ring[0, 1]) * side[0] - (east - ring[0, 0]) * side[1]
+    low, (rows, columns) = picture.low - ring[0], window
+    north = low[1] + (np.arange(rows.start, rows.stop) + 0.5) * picture.pixel[1]
+    east = low[0] + (np.arange(columns.start, columns.stop) + 0.5) * picture.pixel[0]
+    return (north * side[0]).astype(np.float32)[:, None] - (east * side[1]).astype(np.float32)
 
 
-def _tramlines(across: Array, picture: Picture) -> Array:
+def _tramlines(across: NDArray[np.float32], picture: Picture) -> NDArray[np.float32]:
     """Coverage of a sprayer's wheel tracks."""
-    off = np.abs(np.abs((across + 0.5 * _TRAMLINES) % _TRAMLINES - 0.5 * _TRAMLINES) - _GAUGE)
-    wide = max(0.5 * _TYRE, 0.5 / picture.metre)
-    return np.clip(1.5 - off / wide, 0.0, 1.0) * min(0.5 * _TYRE / wide, 1.0)
+    wide = np.float32(max(0.5 * _TYRE, 0.5 / picture.metre))
+    off = np.abs(np.abs(np.mod(across + 0.5 * _TRAMLINES, _TRAMLINES) - 0.5 * _TRAMLINES) - _GAUGE)
+    return np.clip(1.5 - off / wide, 0.0, 1.0) * np.float32(min(0.5 * _TYRE / wide, 1.0))
 
 
 def _beside(line: Array, off: float) -> Array:

@@ -49,7 +49,7 @@ KINDS = {  # from bottom to top
     "plantation": LandUseKind("soft", ((0.24, 0.20, 0.13),), strength=0.35),
     "field": LandUseKind(
         "soft",
-        ((0.52, 0.46, 0.30), (0.27, 0.32, 0.15), (0.34, 0.28, 0.20), (0.47, 0.42, 0.26), (0.24, 0.30, 0.14)),
+        ((0.52, 0.46, 0.30), (0.27, 0.30, 0.17), (0.34, 0.28, 0.20), (0.47, 0.42, 0.26), (0.25, 0.285, 0.16)),
         patterns=(STUBBLE, CROP, PLOUGHED, STUBBLE, CROP),
     ),
     "hedge": LandUseKind("soft", ((0.19, 0.23, 0.11), (0.17, 0.20, 0.11)), 3.5, 0.78),

@@ -18,8 +18,8 @@ BIOME = Biome(
     crown=5.0,
     litter=((0.046, 0.028, 0.016), (0.130, 0.078, 0.042)),
     scrub=(0.032, 0.042, 0.018),
-    species=(Species(models.CROP_PINES, 1.0),),
-    rows=5.5,
+    species=(Species(models.CROP_PINES, 1.0, width=0.8),),
+    rows=6.5,
     tree_cover=0.0,
     shrub_cover=0.10,
     open_land=OpenLand(
