@@ -73,7 +73,7 @@ def test_signs_face_the_camera_keep_their_size_and_have_two_forms(stationed, run
 def test_a_plate_leaves_out_its_last_lines_but_not_the_exercise():
     lines = [("Base", False), ("exercise base", False), ("3 engines", False), (EXERCISE, True)]
     assert signs.fitting(lines, 0.62, 10.0) == lines
-    assert signs.fitting(lines, 0.62, 3.6) == [lines[0], lines[1], lines[3]]
+    assert signs.fitting(lines, 0.62, 3.7) == [lines[0], lines[1], lines[3]]
     assert signs.fitting(lines, 1.0, 1.0) == [lines[0], lines[3]]
 
 

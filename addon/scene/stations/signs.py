@@ -22,8 +22,8 @@ from . import material
 _SMALL = 0.62  # letter height of the lines below the name, relative to the name
 _GAP = 0.42  # between two lines, in letter heights
 _EDGE = 0.35  # margin between text and the edge of the plate
-_STEM, _TIER = 3.0, (4.5, 2.9)  # height of the plate above the ground; distance of rows, for both forms
-_HIGH = 0.25  # picture heights, highest plate; lines that do not fit are left out
+_STEM, _HIGH = 0.09, 0.18  # picture heights: lowest plate above the ground; highest plate
+_APART = 0.3  # between plates of two rows, in letter heights
 _SHORT = "Exercise"  # on the short form
 
 _LETTERS, _PLATE = 0, 1
@@ -37,12 +37,13 @@ def build(shot: Shot, collection: bpy.types.Collection, shown: Sequence[Sign]) -
     rows = facing.tiers(shot, position)
     size = lettering.legible_size(shot, settings.size)
     small = max(_SMALL, lettering.legible_size(shot, 0.0) / size)
+    forms = [fitting(full(sign), small, _HIGH / size) for sign in shown], [short(sign) for sign in shown]
+    tiers = [max(plate_height(lines, small) for lines in form) + _APART for form in forms]
     with lettering.typeface() as font:
         for k, (sign, row) in enumerate(zip(shown, rows, strict=True)):
-            for form, lines in enumerate((fitting(full(sign), small, _HIGH / size), short(sign))):
-                low = _STEM + _TIER[form] * int(row)
-                parts = plate(lines, low, material.accent(sign.origin), font, small)
-                number = k + form * len(shown)
+            for number, form, tier in zip((k, k + len(shown)), forms, tiers, strict=True):
+                low = _STEM / size + tier * int(row)
+                parts = plate(form[k], low, material.accent(sign.origin), font, small)
                 mesh = lettering.mesh(f"Firetwin Sign {number:05d}", parts, looks)
                 lettering.camera_rays_only(owned.add(library, f"Sign {number:05d}", mesh))
     detail = settings.detail, len(shown)
@@ -63,12 +64,18 @@ def short(sign: Sign) -> list[tuple[str, bool]]:
 def fitting(lines: list[tuple[str, bool]], small: float, high: float) -> list[tuple[str, bool]]:
     """Leave out lines, the last first, that make a plate higher than `high`; name and coloured lines stay."""
     shown = list(lines)
-    while 2.0 * _EDGE + 1.0 + (len(shown) - 1) * small * (1.0 + _GAP) > high:
+    while plate_height(shown, small) > high:
         plain = [k for k, (_, coloured) in enumerate(shown) if k and not coloured]
         if not plain:
             break
         del shown[plain[-1]]
     return shown
+
+
+def plate_height(lines: Sequence[tuple[str, bool]], small: float) -> float:
+    """Return the height of a plate, in heights of the name's letters."""
+    more = len(lines) - 1
+    return 2.0 * _EDGE + 1.0 + more * small + _GAP * (small * (more - 1) + 1.0 if more else 0.0)
 
 
 def plate(
