@@ -28,9 +28,9 @@ _HEATED, _CHARRED, _KILLED = (-10.0, 4.0), (2.0, 20.0), (5.0, 60.0)
 """s after the front's arrival between which needles of a burning crown turn brown, then black, and needles
 that heat kills turn brown (assumed)."""
 BARE_AFTER = 60.0, 180.0  # s from the fire to a bare plant within the field of flames (assumed)
-_STRESSED = 0.06  # fraction of trees whose tops are yellow and brown from drought or insects; by eye
+_STRESSED = 0.07  # fraction of trees whose tops are yellow and brown from drought or insects; by eye
 _YELLOWED = (0.110, 0.098, 0.036)
-_HUES = (0.84, 0.95, 1.10), (1.22, 1.06, 0.84)  # factors on the bluest and yellowest stands; by eye
+_HUES = (0.64, 0.80, 0.98), (1.46, 1.24, 0.88)  # factors on the bluest and yellowest stands; by eye
 _SINGED = 0.7  # browning of the green tops of partly scorched trees by hot air and soot; by eye
 _BROWN = ((0.060, 0.041, 0.026), (0.118, 0.080, 0.046))  # needles killed by drought, beetles or heat
 _BLACK = ((0.010, 0.008, 0.007), (0.030, 0.024, 0.020))  # charred needles
