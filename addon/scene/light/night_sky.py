@@ -198,7 +198,7 @@ def _animated_number(
 
 
 def _chart_image(seed: int) -> bpy.types.Image:
-    """Create the chart of stars as a float image, packed into the .blend file, or repaint the existing one."""
+    """Create the chart of stars as a float image, packed into the .blend file, or repaint it."""
     image = bpy.data.images.get(_CHART)
     if image is None or not owned.is_ours(image):
         image = owned.mark(
