@@ -17,8 +17,8 @@ from . import lettering
 from .material import COVER
 
 _COUNT, _SPREAD, _HEIGHT = 90, 450.0, 8.0  # lamps of a town; m, standard deviation of their places; m
-_SIZE = 0.7  # m, half width of a lamp with its bright surroundings (assumed)
-_LIGHT = 5.0  # brightness relative to lit windows
+_SIZE = 0.35  # m, half width of a lamp with its bright surroundings (assumed)
+_LIGHT = 20.0  # brightness relative to lit windows
 _WARM, _COOL, _COLD = (1.0, 0.62, 0.30), (0.85, 0.92, 1.0), 0.25  # sodium and white lamps, and share of these
 _CORNERS = np.array([(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)], float)
 _FACES = np.array([(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)])

@@ -30,8 +30,8 @@ _BAND = np.radians(9.0)  # scale height of the Milky Way
 _BAND_LIGHT, _BULGE = 0.9, 1.2  # radiance over the dark sky's, of the Milky Way and of its centre (by eye)
 _RADIUS = np.radians(0.259)  # of the moon
 _MOON_LIGHT = 4.0  # radiance of the moon's disc: white in every exposure, real is 1,000 times as bright
-_EARTHSHINE = 0.002  # of that, on the dark side (by eye)
-_AUREOLE = 2.5, np.radians(5.0)  # radiance next to a full moon over the moonlit sky's, and its scale (by eye)
+_EARTHSHINE = 0.0006  # of that, on the dark side (by eye)
+_AUREOLE = 1.2, np.radians(5.0)  # radiance next to a full moon over the moonlit sky's, and its scale (by eye)
 _TWILIGHT = ((1.25, 0.62, 0.22), (0.95, 0.62, 0.40), (0.50, 0.58, 0.75), (0.28, 0.45, 0.80))
 _ARCH = 0.13  # sine of elevation over which twilight falls to 1/e (by eye)
 

@@ -19,7 +19,7 @@ _BENT = 1.75
 _TIMBER = 120.0  # s, residence time in timber
 _LIGHTENING = 600.0, 14_400.0  # s since the fire in timber, in which wind and dew bare the pale ash (assumed)
 _SEVERE = 500.0, 8000.0  # kW/m, intensities of a surface fire and of a crown fire, which consumes all litter
-_SCORCHED = 90.0, 220.0, 600.0, 1400.0
+_SCORCHED = 90.0, 220.0, 450.0, 1000.0
 """kW/m, intensities between which far crowns turn brown, and between which they burn. By Van Wagner (1973),
 crowns of trees of 18 m are scorched to a third at 240 kW/m; by Van Wagner (1977), they torch from 400 kW/m.
 """
@@ -45,7 +45,7 @@ def scar_colour(tree: nodes.Tree, place: Place, *, logs: bool = False) -> nodes.
     """
     tone = place.grain.noise(90.0 * place.scale, 4.0, 0.62)
     dark = tree.input("Char Dark", (0.020, 0.020, 0.021), "Blackest char", "Scar")
-    pale = tree.input("Char Light", (0.046, 0.045, 0.043), "Char mixed with soil", "Scar")
+    pale = tree.input("Char Light", (0.041, 0.040, 0.038), "Char mixed with soil", "Scar")
     grey = tree.input("Ash Colour", (0.125, 0.123, 0.120), "Grey ash, some hours after the fire", "Scar")
     white = tree.input("White Ash", (0.320, 0.317, 0.312), "Ash of wood that burned out", "Scar")
     much = tree.input("Ash Amount", 0.6, "How much of the scar ash covers", "Scar", most=1.0)
@@ -67,7 +67,7 @@ def scar_colour(tree: nodes.Tree, place: Place, *, logs: bool = False) -> nodes.
     low, full, gone, none = np.log(_SCORCHED)
     varied = _uneven_heat(place)
     brown = varied.smoothstep(low, full) * varied.smoothstep(none, gone) * place.canopy.smoothstep(0.1, 0.6)
-    scorched = tree.mix_colour(tone, (0.044, 0.031, 0.018), (0.088, 0.060, 0.034))
+    scorched = tree.mix_colour(tone, (0.041, 0.030, 0.019), (0.077, 0.055, 0.034))
     return tree.mix_colour(brown * kept, char, scorched)
 
 
