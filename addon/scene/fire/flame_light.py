@@ -23,7 +23,7 @@ from .flame_volume import RADIATED
 
 REACH = 250.0, 400.0  # m from the camera of a frame, distances between which these lights give way to lamps
 FAR_LAMPS = 300.0, 2500.0  # m from a camera, distances between which the light of lamps fades in
-LIGHT = 6.0e-4
+LIGHT = 1.8e-3
 """W of the scene's light per radiated W; by eye. It is 5e-5 for flames of 18 m with 15,000 cd/m2, half of
 them gaps, and a radiosity of 61 kW/m2, if a luminance of 1 is 16,000 cd/m2; 4e-4 for flames of 2 to 5 m."""
 COLOUR = (1.0, 0.36, 0.06)
