@@ -82,11 +82,12 @@ class Eye:
     def _place_text(self, picture: Array, rendered: composite.Surfaces, at: Array, text: Channels) -> Array:
         """Place text over a picture, with the smoke and flames in front of it."""
         cover = np.clip(text[COVER][..., 0], 0.0, 1.0)
-        light, way, _ = np.moveaxis(text[nodes.FLAMES], -1, 0)
-        distance = self.rays.from_distance(np.where(light > 0.0, way / np.maximum(light, 1e-9), 0.0))
+        weight, way, _ = np.moveaxis(text[nodes.FLAMES], -1, 0)
+        known = weight > 0.0
+        distance = self.rays.from_distance(np.divide(way, weight, out=np.zeros_like(way), where=known))
         front = np.zeros((*cover.shape, 4), np.float32)
         front[..., 3] = 1.0
-        written = np.nonzero((cover > 0.0) & (light > 0.0))
+        written = np.nonzero((cover > 0.0) & known)
         if (self.smoke or self.flames) and len(written[0]):
             origins = self.rays.origins if self.rays.origins.ndim == 1 else self.rays.origins[written]
             lines, ends = self.rays.directions[written], distance[written][:, None]

@@ -16,7 +16,7 @@ COVER = "Firetwin Text"
 COLOURS = {"Letters": (0.95, 0.95, 0.92), RIM: (0.004, 0.004, 0.005)}
 _LIGHT = 2.0  # radiance at exposure 0 that AgX shows nearly white, and that does not bloom
 _SOLID = 0.999  # opacity of letters; at 1 they would count as a surface in depth
-_CLEAR = 0.15  # transparency of the outline
+_CLEAR = 0.05  # transparency of the outline, and of plates, through which other text would be seen
 
 
 def build(
@@ -41,10 +41,19 @@ def build(
     )
     solid = 1.0 - _CLEAR if name == RIM else _SOLID
     part = tree.attribute(FADE, whose) * solid
-    nodes.flames(tree, tree.separate(shown)[0] * bright * part, 0.0, 0.0)  # distance
-    tree.aov(COVER, part, colour=False)
+    write_place(tree, part)
     left = 1.0 - part  # a sum, as rays would sample one shader of a mix, which is noisy
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": tree.combine(left, left, left)})
     tree.surface(tree.add_shader(tree.emission(shown, bright * part), clear))
     material.cycles.emission_sampling = "NONE"
     return material
+
+
+def write_place(tree: nodes.Tree, part: nodes.Value | float) -> None:
+    """Write coverage and distance of text to its AOVs.
+
+    Values of all text along a ray add up, so distances have weights by which the nearest counts most.
+    """
+    tree.aov(COVER, part, colour=False)
+    near = 1000.0 / tree.output("ShaderNodeCameraData", name="View Distance")
+    nodes.flames(tree, near.power(8.0) * part, 0.0, 0.0)

@@ -14,7 +14,7 @@ from ...blender.mesh import add_attribute, create_mesh
 from ...shot.shot import Shot
 from ..terrain import windows
 from . import lettering
-from .material import COVER
+from .material import write_place
 
 _COUNT, _SPREAD, _HEIGHT = 90, 450.0, 8.0  # lamps of a town; m, standard deviation of their places; m
 _SIZE = 0.35  # m, half width of a lamp with its bright surroundings (assumed)
@@ -51,8 +51,7 @@ def _material(shot: Shot) -> bpy.types.Material:
     """Build "Firetwin Town Lights": lamps that count as no surface in depth."""
     look, tree = nodes.material("Firetwin Town Lights", (0.9, 0.7, 0.4))
     colour, bright = tree.attribute(windows.LIT, output="Color"), windows.strength(tree, shot)
-    nodes.flames(tree, tree.separate(colour)[0] * bright, 0.0, 0.0)  # distance
-    tree.aov(COVER, 1.0, colour=False)
+    write_place(tree, 1.0)
     tree.surface(nodes.over(tree, tree.emission(colour, bright)))
     look.cycles.emission_sampling = "NONE"
     return look
