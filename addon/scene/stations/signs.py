@@ -23,7 +23,7 @@ _SMALL = 0.62  # letter height of the lines below the name, relative to the name
 _GAP = 0.42  # between two lines, in letter heights
 _EDGE = 0.35  # margin between text and the edge of the plate
 _STEM, _HIGH = 0.09, 0.18  # picture heights: lowest plate above the ground; highest plate
-_APART = 0.3  # between plates of two rows, in letter heights
+_APART, _MOST = 0.3, 0.135  # between plates of two rows, letter heights; most between rows, picture heights
 _SHORT = "Exercise"  # on the short form
 
 _LETTERS, _PLATE = 0, 1
@@ -38,7 +38,8 @@ def build(shot: Shot, collection: bpy.types.Collection, shown: Sequence[Sign]) -
     size = lettering.legible_size(shot, settings.size)
     small = max(_SMALL, lettering.legible_size(shot, 0.0) / size)
     forms = [fitting(full(sign), small, _HIGH / size) for sign in shown], [short(sign) for sign in shown]
-    tiers = [max(plate_height(lines, small) for lines in form) + _APART for form in forms]
+    highest = [max(plate_height(lines, small) for lines in form) for form in forms]
+    tiers = [min(each + _APART, _MOST / size) for each in highest]
     with lettering.typeface() as font:
         for k, (sign, row) in enumerate(zip(shown, rows, strict=True)):
             for number, form, tier in zip((k, k + len(shown)), forms, tiers, strict=True):
