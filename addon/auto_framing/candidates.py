@@ -26,7 +26,7 @@ _FRONT, _ROUND = -0.2, 0.3
 _HORIZON, _OFF = 0.75, 0.5  # highest position of the horizon, and penalty for half a height (by eye)
 CLEAR = 0.65  # fraction of the front clear of smoke from which the sun and the wind decide (by eye)
 VEILED = 0.25  # opacity of smoke near the camera up to which it stays (by eye)
-_HIDDEN = 0.2  # fraction of the front clear of smoke below which the description warns (by eye)
+HIDDEN = 0.2  # fraction of the front clear of smoke below which the description warns (by eye)
 _SMOKY = 3.0  # weight of smoke before the front and near the camera (by eye)
 _BY_NIGHT = 0.7  # of the distance by day of a close camera, as flames are the light (by eye)
 _CELLS = 3.0  # fuel cells, least distance of a close camera to its target
@@ -101,7 +101,7 @@ def enough(visible: VisibleShare) -> bool:
 def shows(visible: VisibleShare, what: str) -> str:
     """Describe visibility: ``87 % of the front shows, about 60 % clear of smoke``."""
     text = f"{percent(visible.share)} of {what} shows, about {percent(visible.clear)} clear of smoke"
-    return text if visible.clear >= _HIDDEN else f"{text}: smoke hides most of it from every side"
+    return text if visible.clear >= HIDDEN else f"{text}: smoke hides most of it from every side"
 
 
 def near(front: Front, part: float, limits: tuple[float, float], over_crowns: float) -> float:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ..shot.cameras.rigs.chase import Chase
 from ..shot.settings import Camera
-from . import candidates
+from . import candidates, flank
 from .candidates import PlacedCamera, Tried
 from .front import Front
 from .visible_share import Visible
@@ -20,20 +22,30 @@ _LATER = 0.04  # penalty for each later side or height
 
 
 def place(front: Front, visible: Visible) -> PlacedCamera:
-    """Best candidate over sides and heights; farther ones while no near one shows enough."""
+    """Best candidate over sides and heights; farther ones while no near one shows enough.
+
+    If smoke hides the head from every side, the camera stays and looks at a flank from twice the distance.
+    """
     near = candidates.near(front, _PART, _DISTANCES, _OVER_CROWNS)
-    best = candidates.nearest_enough(near, lambda distance: _tried(front, visible, near, distance))
-    way = candidates.bearing(candidates.path(front, best.camera))
+    best = candidates.nearest_enough(near, lambda distance: _tried(front, visible, distance))
+    text, of = "goes along with the head", "the head"
+    if best.seen.clear < candidates.HIDDEN:
+        aside = candidates.nearest_enough(2.0 * near, lambda distance: flank.tried(front, visible, distance))
+        if aside.seen.clear > best.seen.clear:
+            best, of = aside._replace(camera=replace(aside.camera, name="chase")), "its aim"
+            text = "looks at a flank, as smoke hides the head from every side"
+    view = candidates.path(front, best.camera)
+    away = candidates.distance(candidates.away(view))
+    above = float((view.position[0, 2] - front.ground.up(*view.position[:1, :2].T))[0])
     words = (
-        f"goes along with the head, {candidates.where(front, way)}: "
-        f"{candidates.distance(best.camera.rig.distance)} away, {best.camera.rig.height:,.0f} m up; "
-        + candidates.shows(best.seen, f"the front within {candidates.distance(near)} of the head")
+        f"{text}, {candidates.where(front, candidates.bearing(view))}: {away} away, {above:,.0f} m up; "
+        + candidates.shows(best.seen, f"the front within {away} of {of}")
     )
     return PlacedCamera(best.camera, best.seen.share, words)
 
 
-def _tried(front: Front, visible: Visible, near: float, distance: float) -> list[Tried]:
-    """Candidates at a distance from the head, with the visible share of the front within `near` m of it."""
+def _tried(front: Front, visible: Visible, distance: float) -> list[Tried]:
+    """Candidates at a distance from the head, with the visible share of the front that near to it."""
     tried = []
     for number, (height, side) in enumerate((height, side) for height in _HEIGHTS for side in _SIDES):
         above = candidates.rounded(max(height * distance, candidates.OVER_CROWNS if front.crowns else 0.0))
@@ -41,7 +53,7 @@ def _tried(front: Front, visible: Visible, near: float, distance: float) -> list
         rig = Chase(distance=distance, side=side, height=above, target_height=aim, clearance=clearance)
         camera = Camera("chase", rig=rig)
         view = candidates.path(front, camera)
-        share = visible.seen(view, near)
+        share = visible.seen(view, distance)
         likes = (
             candidates.liking(front, candidates.bearing(view)) + candidates.framed(share) - _LATER * number
         )

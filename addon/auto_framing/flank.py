@@ -26,27 +26,29 @@ _STEEP = 0.1  # penalty for each higher step
 def place(front: Front, visible: Visible) -> PlacedCamera:
     """Best candidate over points, directions and heights; farther ones while no near one shows enough."""
     near = candidates.near(front, _PART, _DISTANCES, _OVER_CROWNS)
-    best = candidates.nearest_enough(near, lambda distance: _tried(front, visible, near, distance))
+    best = candidates.nearest_enough(near, lambda distance: tried(front, visible, distance))
     view = candidates.path(front, best.camera)
     words = (
         f"close to a flank, {candidates.where(front, candidates.bearing(view))}: "
         f"{candidates.distance(candidates.away(view))} away, {best.camera.rig.keys[0].height:,.0f} m up; "
-        + candidates.shows(best.seen, f"the front within {candidates.distance(near)} of its aim")
+        + candidates.shows(
+            best.seen, f"the front within {candidates.distance(candidates.away(view))} of its aim"
+        )
     )
     return PlacedCamera(best.camera, best.seen.share, words)
 
 
-def _tried(front: Front, visible: Visible, near: float, distance: float) -> list[Tried]:
-    """Candidates at a distance from flanks, with the visible share of the front near (m) the aim."""
-    tried = []
+def tried(front: Front, visible: Visible, distance: float) -> list[Tried]:
+    """Candidates at a distance from flanks, with the visible share of the front that near to the aim."""
+    found = []
     for at in _flanks(front):
         for number, height in enumerate(_HEIGHTS):
             for turn in _TURNS:
                 camera, bearing = _camera(front, int(at), distance, height, turn)
-                share = visible.seen(candidates.path(front, camera), near)
+                share = visible.seen(candidates.path(front, camera), distance)
                 likes = candidates.liking(front, bearing) + candidates.framed(share) - _STEEP * number
-                tried.append(Tried(share, likes, camera))
-    return tried
+                found.append(Tried(share, likes, camera))
+    return found
 
 
 def _flanks(front: Front) -> NDArray[np.int64]:

@@ -1,6 +1,6 @@
 """Eight invented fires of several sizes, places and hours: cameras of `new`, and the smoke in their views.
 
-    python tests/benchmarks/invented_fires.py OUT [--fires grass maquis] [--measure]
+    python tests/benchmarks/invented_fires.py OUT [--fires grass maquis] [--shift 12] [--measure]
 
 Writes OUT/NAME/run and OUT/NAME/scene.toml, by `firetwin new`; an existing run stays. With --measure it
 solves the film's own flow (one to three minutes for a fire) and compares two shares of a camera's front that
@@ -14,6 +14,7 @@ from __future__ import annotations
 import argparse
 import re
 import sys
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +24,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 
 import whole_run
 from firetwin import cli
-from firetwin.auto_framing import candidates, chase, flank, front
+from firetwin.auto_framing import candidates, front
 from firetwin.auto_framing.visible_share import Visible, some
 from firetwin.run import readers
 from firetwin.shot.cameras.path import Path as CameraPath
@@ -73,11 +74,12 @@ FIRES = {
 """Arguments of `whole_run.write`; maquis, conifer and savanna burn in the dark."""
 
 
-def write_scene(out: Path, name: str) -> Path:
-    """Write a fire's run, unless it is there, and a scene file that fits it."""
+def write_scene(out: Path, name: str, shift: float = 0.0) -> Path:
+    """Write a fire's run, unless it exists, its clock moved by `shift` hours, and a fitted scene file."""
     folder, scene = out / name, out / name / "scene.toml"
     if not (folder / "run").exists():
-        whole_run.write(folder / "run", **FIRES[name])
+        start = datetime.fromisoformat(FIRES[name]["start"]) + timedelta(hours=shift)
+        whole_run.write(folder / "run", **FIRES[name] | {"start": f"{start:%Y-%m-%dT%H:%M:%SZ}"})
     scene.unlink(missing_ok=True)
     if cli.main(["new", str(folder / "run"), "-o", str(scene)]):
         raise SystemExit(f"{name}: firetwin new has failed")
@@ -90,14 +92,11 @@ def measure(scene: Path) -> list[tuple[str, float, float, float]]:
     run = readers.open(settings.run)
     shot, rows = Shot(settings, run), []
     moving = front.find_front(shot)
-    visible, reach = Visible(moving), {"overview": np.inf}
-    for kind in (chase, flank):
-        limits = kind._PART, kind._DISTANCES, kind._OVER_CROWNS
-        reach[kind.__name__.rpartition(".")[2]] = candidates.near(moving, *limits)
+    visible = Visible(moving)
     for camera in settings.cameras[:3]:
         shown = shot.for_camera(camera.name)
         view, source = shown.paths[0], sources.select(shown)
-        near = reach[camera.name]
+        near = np.inf if camera.name == "overview" else 1.005 * candidates.away(view)
         promised = visible.seen(view, near).clear
         number = len(moving.frames) // 2
         frame = int(moving.frames[number])
@@ -144,12 +143,15 @@ def main() -> None:
     )
     parser.add_argument("out", type=Path)
     parser.add_argument("--fires", nargs="+", choices=FIRES, default=[*FIRES], metavar="NAME")
+    parser.add_argument(
+        "--shift", type=float, default=0.0, metavar="HOURS", help="of the clock: 12 swaps day and night"
+    )
     parser.add_argument("--measure", action="store_true")
     given = parser.parse_args()
     for name in given.fires:
         scene = given.out / name / "scene.toml"
         if not (given.measure and scene.exists()):
-            write_scene(given.out, name)
+            write_scene(given.out, name, given.shift)
         if given.measure:
             for camera, *shares in measure(scene):
                 print(name, camera, *(f"{share:.2f}" for share in shares), flush=True)

@@ -8,7 +8,16 @@ import numpy as np
 import pytest
 import whole_run
 from firetwin import auto_framing
-from firetwin.auto_framing import candidates, coarse_smoke, flank, front, overview, visible_share, window
+from firetwin.auto_framing import (
+    candidates,
+    chase,
+    coarse_smoke,
+    flank,
+    front,
+    overview,
+    visible_share,
+    window,
+)
 from firetwin.run import readers, sun, zone
 from firetwin.shot import run_checks
 from firetwin.shot.cameras import targets
@@ -172,6 +181,20 @@ def test_a_camera_in_smoke_goes_farther():
 def test_smoke_on_all_sides_is_said_plainly():
     assert "from every side" in candidates.shows(tried(clear=0.1).seen, "the front")
     assert "from every side" not in candidates.shows(tried(clear=0.7).seen, "the front")
+
+
+def test_a_head_that_smoke_hides_is_left_for_a_flank(fit_of, monkeypatch):
+    found, run = fit_of("grass")
+    moving = front.find_front(Shot(found.settings, run))
+    share = visible_share.VisibleShare(0.9, 0.05, 0.0, -0.2, 0.5)
+    monkeypatch.setattr(visible_share.Visible, "seen", lambda *given: share)
+    assert chase.place(moving, visible_share.Visible(moving)).words.startswith("goes along with the head")
+    flanks = tried(clear=0.7)._replace(camera=found.settings.cameras[2])
+    monkeypatch.setattr(flank, "tried", lambda *given: [flanks])
+    placed = chase.place(moving, visible_share.Visible(moving))
+    assert "smoke hides the head" in placed.words
+    assert placed.camera.name == "chase"
+    assert placed.camera.rig == found.settings.cameras[2].rig
 
 
 def test_the_satellite_has_the_fire_in_its_middle(fit_of):
