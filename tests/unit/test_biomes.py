@@ -177,7 +177,8 @@ def test_planted_trees_stand_in_rows_and_are_of_one_height_in_a_compartment(shot
     assert there.all()
     moved = planted_rows.align(made, place, there)
     assert np.hypot(*(moved - place)[:, :2].T).max() <= 0.5 * planted_rows.ROW + 1e-9
-    _, row, number = field_lines.fields(field_lines.NUMPY, *place[:, :2].T, planted_rows._COMPARTMENT)
+    edge, row, number = field_lines.fields(field_lines.NUMPY, *place[:, :2].T, planted_rows._COMPARTMENT)
+    place, moved, row, number = (each[edge > planted_rows.ROW] for each in (place, moved, row, number))
     for one in np.unique(row + 1j * number)[:4]:
         inside = row + 1j * number == one
         x, y = place[inside, :2].T
@@ -185,6 +186,9 @@ def test_planted_trees_stand_in_rows_and_are_of_one_height_in_a_compartment(shot
         across = moved[inside, 1] * np.cos(turn) - moved[inside, 0] * np.sin(turn)
         off = across / planted_rows.ROW
         assert np.abs(off - np.round(off)).max() < 1e-9
+        felled = planted_rows.stocked(made, moved[inside]) == 0.0
+        assert felled[np.round(off) % 6 == 0].all()
+        assert felled.mean() < 0.4
         key = np.stack([np.arange(inside.sum()), np.zeros(inside.sum(), int)], axis=-1)
         tall = planted_rows.heights(made, place[inside], key)
         assert tall.std() < 0.12 * tall.mean()

@@ -17,6 +17,7 @@ from . import biomes, field_lines
 ROW = 6.5  # m between rows of a plantation on a land use map
 _COMPARTMENT = (430.0, 310.0)  # m
 _RIDE = 6.0  # m, half the width of the open strip between compartments
+_FELLED = 6  # every sixth row was felled, so that machines can pass
 _AGES = (0.55, 1.10)  # height of the youngest and of the oldest compartment / height by fuel
 _UNEVEN = 0.05  # standard deviation of height within a compartment
 _SEED = 640
@@ -36,10 +37,7 @@ def align(shot: Shot, position: Array, chosen: NDArray[np.bool_]) -> Array:
     if not chosen.any():
         return position
     moved = position.copy()
-    x, y = position[chosen, :2].T
-    row = biomes.choose(shot).biome.rows or ROW
-    turn = np.pi * _lot(shot, x, y, 0)
-    across = y * np.cos(turn) - x * np.sin(turn)
+    turn, row, across = _across(shot, position[chosen])
     off = np.round(across / row) * row - across
     moved[chosen, 0] -= off * np.sin(turn)
     moved[chosen, 1] += off * np.cos(turn)
@@ -57,10 +55,20 @@ def heights(shot: Shot, position: Array, key: NDArray[np.int64]) -> Array:
     return tall * age * np.exp(_UNEVEN * noise.normal(*lots))
 
 
-def outside_rides(position: Array) -> Array:
-    """Return 0 on the open strips between compartments, 1 elsewhere, at points (n, 3)."""
+def stocked(shot: Shot, position: Array) -> Array:
+    """Return 0 between compartments and in the rows that were felled for machines, 1 elsewhere (n,)."""
+    if not len(position):
+        return np.ones(0)
     off = field_lines.fields(field_lines.NUMPY, position[:, 0], position[:, 1], _COMPARTMENT)[0]
-    return (off > _RIDE).astype(np.float64)
+    _, row, across = _across(shot, position)
+    return ((off > _RIDE) & (np.round(across / row) % _FELLED != 0.0)).astype(np.float64)
+
+
+def _across(shot: Shot, position: Array) -> tuple[Array, float, Array]:
+    """Direction of the rows (radians), the distance between them, and distances (n,) across them, m."""
+    x, y = position[:, :2].T
+    turn = np.pi * _lot(shot, x, y, 0)
+    return turn, biomes.choose(shot).biome.rows or ROW, y * np.cos(turn) - x * np.sin(turn)
 
 
 def _lot(shot: Shot, x: Array, y: Array, use: int) -> Array:

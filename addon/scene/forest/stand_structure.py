@@ -58,7 +58,7 @@ def with_lone(
 
 
 def retained(shot: Shot, position: Array, planted: NDArray[np.bool_] | None = None) -> Array:
-    """Probability (n,) 0..1 that stems at points (n, 3) are retained; `planted` ones have rides, not gaps."""
+    """Probability (n,) 0..1 that stems at points (n, 3) are retained; `planted` ones have no gaps but strips."""
     if planted is None:
         planted = np.zeros(len(position), bool)
     ground, seed = shot.ground, shot.settings.seed
@@ -70,7 +70,7 @@ def retained(shot: Shot, position: Array, planted: NDArray[np.bool_] | None = No
     gaps = noise.fractal(x, y, _GAP, 2, seed + 420)
     stand = noise.smoothstep(0.70, 0.30, empty + _RAGGED * bays)
     stand = stand * (1.0 - _OPEN * noise.smoothstep(0.38, 0.60, gaps) * ~planted)
-    stand[planted] *= planted_rows.outside_rides(position[planted])
+    stand[planted] *= planted_rows.stocked(shot, position[planted])
     lone = _LONE * noise.smoothstep(-0.1, 0.5, bays) * (empty > 0.0)
     if (biome := biomes.choose(shot).biome).species:
         lone = _scattered(shot, biome.tree_cover, position) * (empty > 0.0)
