@@ -58,7 +58,7 @@ def with_lone(
 
 
 def retained(shot: Shot, position: Array, planted: NDArray[np.bool_] | None = None) -> Array:
-    """Probability (n,) 0..1 that stems at points (n, 3) are retained; `planted` ones have no gaps but strips."""
+    """Probability (n,) 0..1 that stems at points (n, 3) are retained; `planted` ones have strips."""
     if planted is None:
         planted = np.zeros(len(position), bool)
     ground, seed = shot.ground, shot.settings.seed
