@@ -40,21 +40,21 @@ _SPARSE = 0.25  # coverage of coals between patches, relative to within them (by
 def scar_colour(tree: nodes.Tree, place: Place, *, logs: bool = False) -> nodes.Value:
     """Return the colour of the scar by intensity, fuel and age: char, grey ash, white ash, scorched crowns.
 
-    Char has a reflectance of 0.02 to 0.06. Ash is pale where much fuel burned, and more so after some hours.
+    Char has a reflectance of 0.01 to 0.05. Ash is pale where much fuel burned, and more so after some hours.
     With `logs`, white ash has the shape of burned-out logs close by.
     """
     tone = place.grain.noise(90.0 * place.scale, 4.0, 0.62)
-    dark = tree.input("Char Dark", (0.020, 0.020, 0.021), "Blackest char", "Scar")
-    pale = tree.input("Char Light", (0.041, 0.040, 0.038), "Char mixed with soil", "Scar")
+    dark = tree.input("Char Dark", (0.012, 0.012, 0.0125), "Blackest char", "Scar")
+    pale = tree.input("Char Light", (0.048, 0.046, 0.043), "Char mixed with soil", "Scar")
     grey = tree.input("Ash Colour", (0.125, 0.123, 0.120), "Grey ash, some hours after the fire", "Scar")
     white = tree.input("White Ash", (0.320, 0.317, 0.312), "Ash of wood that burned out", "Scar")
     much = tree.input("Ash Amount", 0.6, "How much of the scar ash covers", "Scar", most=1.0)
     kept = tree.input("Scorch Amount", 0.75, "How brown the scar is at low fire severity", "Scar", most=1.0)
-    char = tree.mix_colour(tone.smoothstep(0.3, 0.72), dark, pale)
+    char = tree.mix_colour(tone.smoothstep(0.38, 0.70), dark, pale)
     heavy = place.load.smoothstep(0.3, 3.0)
     hours = (place.age * (_TIMBER / place.residence)).smoothstep(*_LIGHTENING)
     flakes = place.grain.noise(33.0 * place.scale, 4.0, 0.6)
-    film = flakes + heavy * 0.07 + place.heat.smoothstep(*np.log(_SEVERE)) * 0.06
+    film = flakes + heavy * 0.04 + place.heat.smoothstep(*np.log(_SEVERE)) * 0.06
     film = film.smoothstep(0.57, 0.80) * hours.ramp(0.0, 1.0, 0.3, 1.0) * much * (place.ash / 0.6)
     char = tree.mix_colour(film, char, grey)
     burned_out = (place.grain.noise(13.0, 4.0, 0.66) + (flakes - 0.5) * 0.5).smoothstep(0.66, 0.74)
