@@ -98,7 +98,6 @@ def light() -> volume.Illumination:
         multiple_scattering=(0.5, 0.3),
         glow=(0.0, 0.0, 0.0),
         thin=0.1,
-        thick=(0.004, 0.02),
         air=(0.25, 0.3, 0.38),
         haze=1.2e-5,
         haze_height=5000.0,

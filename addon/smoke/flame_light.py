@@ -28,7 +28,7 @@ def glow(
 ) -> NDArray[np.float32]:
     """Compute the glow in cells: sum of P / 1 GW exp(-r / 600 m) / (1 + (r / 250 m)^2).
 
-    It is computed in every third cell and interpolated linearly.
+    It is computed in every third cell. Catmull-Rom splines interpolate it without visible kinks.
     """
     places, power = lights
     reach, core = np.float32(scale.length(_REACH)), np.float32(scale.length(_CORE) ** 2)
@@ -53,9 +53,16 @@ def glow(
 
 
 def _interpolated(values: NDArray, at: NDArray[np.int64], count: int, axis: int) -> NDArray[np.float32]:
-    """Interpolate linearly along an axis from indices `at` to all of its `count` indices."""
+    """Interpolate by splines along an axis from indices `at` to all of its `count` indices."""
     place = np.interp(np.arange(count), at, np.arange(len(at)))
     low = np.minimum(place.astype(np.int64), max(len(at) - 2, 0))
-    part = (place - low).reshape([-1 if a == axis else 1 for a in range(values.ndim)])
-    high = np.minimum(low + 1, len(at) - 1)
-    return (values.take(low, axis) * (1 - part) + values.take(high, axis) * part).astype(np.float32)
+    t = (place - low).astype(np.float32).reshape([-1 if a == axis else 1 for a in range(values.ndim)])
+    weights = (  # E. Catmull and R. Rom (1974)
+        ((2.0 - t) * t - 1.0) * t,
+        (3.0 * t - 5.0) * t * t + 2.0,
+        ((4.0 - 3.0 * t) * t + 1.0) * t,
+        (t - 1.0) * t * t,
+    )
+    near = (np.clip(low + step, 0, len(at) - 1) for step in (-1, 0, 1, 2))
+    curve = sum(0.5 * w * values.take(n, axis) for w, n in zip(weights, near, strict=True))
+    return np.maximum(curve, 0.0)

@@ -31,7 +31,7 @@ struct ShadingConstants {
   Four fresh, old, sun, sky, glow, air;
   float phase = 0.0F; ///< phase function towards the eye; isotropic: 1
   float density, twice, thrice;
-  float thin, thick_from, thick_scale;
+  float thin;
   bool glows;
 
   explicit ShadingConstants(const Illumination& light)
@@ -39,7 +39,6 @@ struct ShadingConstants {
         sun(four(light.sun, 0.25F / std::numbers::pi_v<float>)), sky(four(light.sky)),
         glow(four(light.glow)), air(four(light.air)), density(light.density),
         twice(light.multiple_scattering[0]), thrice(light.multiple_scattering[1]), thin(light.thin),
-        thick_from(light.thick[0]), thick_scale(1.0F / (light.thick[1] - light.thick[0])),
         glows(std::max({light.glow[0], light.glow[1], light.glow[2]}) > 0.0F) {}
 };
 
@@ -100,8 +99,7 @@ __attribute__((always_inline)) inline Four radiance(const Lanes& v, const Shadin
   lit = albedo * lit + sun_root * sun_root * shading.phase;
   lit = albedo * (lit * shading.sun + shading.sky * v[3]);
   if (shading.glows) {
-    const float thick = std::clamp((v[0] - shading.thick_from) * shading.thick_scale, 0.0F, 1.0F);
-    lit += shading.glow * (v[4] * (shading.thin + (1.0F - shading.thin) * thick));
+    lit += shading.glow * (v[4] * (1.0F - (1.0F - shading.thin) * v[3]));
   }
   return lit + (shading.air - lit) * haze;
 }

@@ -21,11 +21,10 @@ struct Illumination {
   std::array<float, 2> multiple_scattering; ///< weights of light scattered two and three times,
                                             ///< relative to single scattering
   Colour glow;                              ///< radiance where `glow` is 1; black: no glow
-  float thin;                               ///< share of the glow that thin smoke scatters
-  std::array<float, 2> thick; ///< extinctions (1/m) between which this share rises to 1
-  Colour air;                 ///< radiance of haze
-  double haze;                ///< extinction of haze at height 0, 1/m
-  double haze_height;         ///< e-folding height of haze, m
+  float thin;         ///< share of the glow that smoke without other smoke around it scatters
+  Colour air;         ///< radiance of haze
+  double haze;        ///< extinction of haze at height 0, 1/m
+  double haze_height; ///< e-folding height of haze, m
 };
 
 /// Distances along rays at which the result is returned.

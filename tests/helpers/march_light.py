@@ -11,7 +11,6 @@ NO_LIGHT = {
     "multiple_scattering": (0.0, 0.0),
     "glow": (0.0, 0.0, 0.0),
     "thin": 1.0,
-    "thick": (1.0, 2.0),
     "air": (0.0, 0.0, 0.0),
     "haze": 0.0,
     "haze_height": 5000.0,

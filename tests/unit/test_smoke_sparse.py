@@ -22,7 +22,6 @@ LIGHT = volume.Illumination(
     multiple_scattering=(0.4, 0.2),
     glow=(1.0, 0.5, 0.2),
     thin=0.3,
-    thick=(0.001, 0.02),
     air=(0.0, 0.0, 0.0),
     haze=0.0,
     haze_height=2000.0,

@@ -16,7 +16,7 @@ import numpy as np
 
 from ...blender import nodes
 from ...blender.owned import Stage
-from ...shot.light import exposure
+from ...shot.light import exposure, sky
 from ...shot.shot import Shot
 from ...smoke import flow_frames
 from .. import haze, infrared
@@ -76,7 +76,7 @@ def _solved_light(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> 
     """Shade smoke as emission: radiance from the light in its grids."""
     part, air = haze.fraction(tree, stage)
     light = sunlit.source_function(tree, shot, smoke.albedo, smoke.even)
-    if glow := _glow(tree, shot, smoke.density):
+    if glow := _glow(tree, shot):
         light = tree.vector("ADD", light, tree.vector("SCALE", *glow))
     emission = tree.add_shader(
         _absorb(tree, smoke.density), tree.emission(tree.mix_colour(part, light, air), smoke.density)
@@ -94,7 +94,7 @@ def _traced_light(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> 
     )
     part, air = haze.fraction(tree, stage)
     light = tree.emission(air, part * smoke.density)
-    if glow := _glow(tree, shot, smoke.density):
+    if glow := _glow(tree, shot):
         shine, bright = glow
         light = tree.add_shader(light, tree.emission(shine, bright * (1.0 - part) * smoke.density))
     scattered = tree.mix_colour(part, smoke.albedo, (0.0, 0.0, 0.0))
@@ -117,9 +117,13 @@ def _absorb(tree: nodes.Tree, density: nodes.Value) -> nodes.Value:
     return tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": density})
 
 
-def _glow(tree: nodes.Tree, shot: Shot, density: nodes.Value) -> tuple[nodes.Value, nodes.Value] | None:
-    """Return colour and strength of the flames' light in smoke, if it is dark enough to be visible."""
+def _glow(tree: nodes.Tree, shot: Shot) -> tuple[nodes.Value, nodes.Value] | None:
+    """Return colour and strength of the flames' light in smoke, if it is dark enough to be visible.
+
+    Smoke with other smoke around it scatters more of it, as in `firetwin_core.volume.march`.
+    """
     if exposure.darkness(shot, shot.frames.middle) <= 0.0:
         return None
     shine, bright = material.glow_inputs(tree, shot)
-    return shine, tree.attribute("glow") * bright * material.scattered_flame_light(density)
+    share = 1.0 - tree.attribute("sky") * (1.0 - sky.THIN)
+    return shine, tree.attribute("glow") * bright * share

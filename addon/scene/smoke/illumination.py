@@ -51,7 +51,6 @@ def visible_light(stage: Stage) -> volume.Illumination:
         multiple_scattering=sunlit.OFTENER,
         glow=glow,
         thin=sky.THIN,
-        thick=sky.THICK,
         air=np.array(air) * np.array(_input_colour(group, "Haze Tint")),
         haze=extinction * _input_number(group, "Haze"),
         haze_height=sky.HAZE_HEIGHT,

@@ -444,7 +444,6 @@ class Illumination:
         multiple_scattering: Sequence[float],
         glow: Sequence[float],
         thin: float,
-        thick: Sequence[float],
         air: Sequence[float],
         haze: float,
         haze_height: float,
@@ -469,9 +468,9 @@ class Illumination:
             Weights of light scattered two and three times, relative to single scattering.
         glow
             Radiance where the field `glow` is 1; black: no glow.
-        thin, thick
-            Share of the glow that thin smoke scatters, and the extinctions (1/m) between which this share
-            rises to 1.
+        thin
+            Share of the glow that smoke without other smoke around it scatters. It rises to 1 inside thick
+            smoke, where no skylight arrives.
         air, haze, haze_height
             Radiance of the haze, its extinction (1/m) at height 0, and its e-folding height (m).
         """
