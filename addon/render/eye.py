@@ -73,11 +73,24 @@ class Eye:
             ends = at.reshape(-1, 3)
             for weight, smoke, place in _marches(shutter.moments(self.smoke)):
                 lines = _lines(self._through(at=place))
-                found = volume.march(smoke, *lines, ends, self._light, _STEP, **self._burning)
+                found = self._march(smoke, *lines, ends)
                 marched += np.float32(weight) * found.reshape(marched.shape)
         self.clear = marched[..., 3].mean(axis=-1)
         composed = composite.compose(rendered, at, marched)
         return composed if text is None else self._place_text(composed, rendered, at, text)
+
+    def _march(
+        self,
+        smoke: Sequence[volume.Bricks],
+        origins: NDArray[np.float64],
+        directions: NDArray[np.float64],
+        ends: Array,
+    ) -> Array:
+        """March rays through smoke and flames, with the detail that pixels resolve."""
+        pixel = self.rays.pixel
+        return volume.march(
+            smoke, origins, directions, ends, self._light, _STEP, pixel=pixel, **self._burning
+        )
 
     def _place_text(self, picture: Array, rendered: composite.Surfaces, at: Array, text: Channels) -> Array:
         """Place text over a picture, with the smoke and flames in front of it."""
@@ -93,7 +106,7 @@ class Eye:
             lines, ends = self.rays.directions[written], distance[written][:, None]
             marched = np.zeros((len(lines), 4), np.float32)
             for weight, smoke in shutter.moments(self.smoke):
-                found = volume.march(smoke, origins, lines, ends, self._light, _STEP, **self._burning)
+                found = self._march(smoke, origins, lines, ends)
                 marched += np.float32(weight) * found.reshape(-1, 4)
             front[written] = marched
         return composite.place_text(picture, rendered, at, (text["Combined"], cover, distance), front)

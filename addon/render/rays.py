@@ -28,12 +28,15 @@ class Rays:
     slant
         (h, w) ratio of the distance along the ray to Cycles' depth; None: depth is the distance from the
         camera.
+    pixel
+        Width of a pixel at distance 0, m, and its increase per m of distance.
     """
 
     origins: Array
     directions: Array
     aside: Array
     slant: Array | None
+    pixel: tuple[float, float] = (0.0, 0.0)
 
     def from_depth(self, depth: NDArray[np.float32]) -> NDArray[np.float32]:
         """Convert Cycles' depths, m, to distances (h, w) along the rays."""
@@ -76,10 +79,11 @@ def pixel_rays(
     if camera.data.type == "ORTHO":
         origins = place + np.stack([x, y, none], axis=-1) @ rotation.T
         directions = np.broadcast_to(-rotation[:, 2], origins.shape)
-        return Rays(origins, directions, np.hypot(x, y), none + 1.0)
+        return Rays(origins, directions, np.hypot(x, y), none + 1.0, (float(high[0] - low[0]) / width, 0.0))
     local = np.stack([x / axis, y / axis, none - 1.0], axis=-1)
     length = np.linalg.norm(local, axis=-1)
-    return Rays(place, (local / length[..., None]) @ rotation.T, none, length)
+    pixel = 0.0, float(high[0] - low[0]) / axis / width
+    return Rays(place, (local / length[..., None]) @ rotation.T, none, length, pixel)
 
 
 def _frame(camera: bpy.types.Object, scene: bpy.types.Scene) -> tuple[Array, Array, float]:
@@ -102,4 +106,5 @@ def _around(
     bearing, elevation = bearing[:height], elevation[:height]
     aside = 0.5 * eye * camera.data.stereo.interocular_distance * panorama.merged(elevation)
     origins = place + (aside[..., None] * panorama.right(bearing)) @ rotation.T
-    return Rays(origins, panorama.direction(bearing, elevation) @ rotation.T, np.abs(aside), None)
+    directions = panorama.direction(bearing, elevation) @ rotation.T
+    return Rays(origins, directions, np.abs(aside), None, (0.0, np.pi / height))

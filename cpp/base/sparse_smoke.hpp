@@ -8,9 +8,27 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace firetwin {
+
+/// Coordinates of the noise that continues below the voxel, which travel with the air: values at
+/// the corners of blocks, for two phases that are blended.
+struct NoiseFrame {
+  static constexpr std::size_t phases = 2, parts = 3 * phases;
+
+  float size = 0.0F;                   ///< wavelength of the largest octave not painted, m
+  float share = 0.0F;                  ///< its amplitude in the unit of `edge`
+  std::array<float, phases> weights{}; ///< their squares sum to 1
+  std::array<std::uint32_t, phases> seeds{};
+  std::array<std::int64_t, 3> corners{};        ///< number along x, y and z
+  std::vector<std::array<float, parts>> places; ///< m; z runs fastest
+
+  const std::array<float, parts>& at(std::int64_t i, std::int64_t j, std::int64_t k) const {
+    return places[static_cast<std::size_t>((i * corners[1] + j) * corners[2] + k)];
+  }
+};
 
 /// Sparse voxel grid of smoke: blocks of 8^3 voxels; clear blocks are not stored. Blocks and voxels
 /// are ordered with x slowest and z fastest.
@@ -21,6 +39,7 @@ public:
   enum Field : std::size_t {
     density, ///< extinction, 1/m
     fresh,   ///< freshness: 1 for young smoke, 0 for old or no smoke
+    edge,    ///< share of the voxel inside the outline of the smoke; 1 in smoke without an outline
     glow     ///< light of flames; optional
   };
   static constexpr Index side = 8;
@@ -35,6 +54,9 @@ public:
   const Place& blocks() const { return blocks_; }
   double voxel() const { return voxel_; }
   const Vector& origin() const { return origin_; }
+  /// Noise below the voxel; null: none.
+  const std::shared_ptr<const NoiseFrame>& noise() const { return noise_; }
+  void set_noise(std::shared_ptr<const NoiseFrame> noise) { noise_ = std::move(noise); }
   bool glows() const { return fields_ > glow; }
   /// Number of values of a block; fields are stored one after the other.
   std::size_t values() const { return fields_ * block_size; }
@@ -99,6 +121,7 @@ private:
   double voxel_;
   Vector origin_;
   std::size_t fields_;
+  std::shared_ptr<const NoiseFrame> noise_;
   std::vector<std::unique_ptr<float[]>> pool_; ///< values of each block; null: clear
 };
 

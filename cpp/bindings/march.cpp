@@ -21,8 +21,8 @@ using volume::Illumination;
 
 std::shared_ptr<Bricks> make_bricks(const py::object& density, const py::object& fresh,
                                     const py::object& sun, const py::object& sky,
-                                    const py::object& glow, double voxel_size,
-                                    const Vector& origin) {
+                                    const py::object& glow, double voxel_size, const Vector& origin,
+                                    const py::object& edge) {
   const auto thick = to_array<float>(density, "density", {-1, -1, -1});
   const std::vector<py::ssize_t> shape{thick.shape(0), thick.shape(1), thick.shape(2)};
   const auto field = [&](const py::object& object, const char* name) {
@@ -31,8 +31,9 @@ std::shared_ptr<Bricks> make_bricks(const py::object& density, const py::object&
   const auto young = field(fresh, "fresh"), sunlight = field(sun, "sun"),
              skylight = field(sky, "sky");
   const auto light = glow.is_none() ? Array<float>(py::ssize_t{0}) : field(glow, "glow");
-  const Bricks::Fields fields{view(thick), view(young), view(sunlight), view(skylight),
-                              view(light)};
+  const auto outline = edge.is_none() ? Array<float>(py::ssize_t{0}) : field(edge, "edge");
+  const Bricks::Fields fields{view(thick),    view(young), view(sunlight),
+                              view(skylight), view(light), view(outline)};
   const py::gil_scoped_release release;
   return std::make_shared<Bricks>(fields, std::array<std::int64_t, 3>{shape[0], shape[1], shape[2]},
                                   voxel_size, origin);
@@ -59,11 +60,36 @@ private:
   Array<double> origins_, directions_;
 };
 
+/// Hot gases that own their arrays.
+class HotGasArrays {
+public:
+  HotGasArrays(const py::object& excess, const py::object& heights,
+               const std::array<double, 2>& first, double spacing)
+      : excess_(to_array<float>(excess, "excess", {-1, -1, -1})),
+        heights_(to_array<float>(heights, "heights",
+                                 {excess_.shape(0), excess_.shape(1), excess_.shape(2)})),
+        first_(first), spacing_(spacing) {}
+
+  volume::HotGas view() const {
+    return {bindings::view(excess_),
+            bindings::view(heights_),
+            {excess_.shape(0), excess_.shape(1), excess_.shape(2)},
+            first_,
+            spacing_};
+  }
+
+private:
+  Array<float> excess_, heights_;
+  std::array<double, 2> first_;
+  double spacing_;
+};
+
 using LayerList = std::vector<std::shared_ptr<Bricks>>;
 
 Array<float> march(const LayerList& layers, const py::object& origins, const py::object& directions,
                    const py::object& distances, const Illumination& light, double step,
-                   double min_transmittance, const std::shared_ptr<FlameVolume>& flames) {
+                   double min_transmittance, const std::shared_ptr<FlameVolume>& flames,
+                   const std::array<double, 2>& pixel) {
   const RayArrays given(layers, origins, directions);
   const auto taps = to_array<float>(distances, "distances", {given.size(), -1});
   auto found = new_array<float>({given.size(), taps.shape(1), 4});
@@ -71,7 +97,7 @@ Array<float> march(const LayerList& layers, const py::object& origins, const py:
   const py::gil_scoped_release release;
   volume::march(given.layers(), flames.get(), given.rays(),
                 {view(taps), static_cast<std::size_t>(taps.shape(1))}, light,
-                {step, min_transmittance}, out);
+                {step, min_transmittance, pixel}, out);
   return found;
 }
 
@@ -93,7 +119,8 @@ march_infrared(const LayerList& layers, const py::object& origins, const py::obj
                const py::object& distances, const py::object& kelvin, const py::object& elevation,
                const std::array<double, 2>& corner, const std::array<double, 2>& spacing,
                double lapse, const py::object& radiance, double coldest, double kelvin_step,
-               double absorption, double step, const std::shared_ptr<FlameVolume>& flames) {
+               double absorption, double step, const std::shared_ptr<FlameVolume>& flames,
+               const std::vector<std::shared_ptr<HotGasArrays>>& hot, double gas) {
   const RayArrays given(layers, origins, directions);
   const auto ends = to_array<float>(distances, "distances", {given.size()});
   const auto warm = to_array<float>(kelvin, "kelvin", {-1, -1});
@@ -103,10 +130,15 @@ march_infrared(const LayerList& layers, const py::object& origins, const py::obj
                            corner,      spacing,    lapse,
                            view(table), coldest,    kelvin_step,
                            absorption};
+  std::vector<volume::HotGas> gases;
+  for (const auto& each : hot) {
+    gases.push_back(each->view());
+  }
   auto found = new_array<float>({given.size(), 2});
   const std::span<float> out = writable(found);
   const py::gil_scoped_release release;
-  volume::march_infrared(given.layers(), flames.get(), given.rays(), view(ends), air, step, out);
+  volume::march_infrared(given.layers(), flames.get(), given.rays(), view(ends), air, {gases, gas},
+                         step, out);
   return found;
 }
 
@@ -116,10 +148,13 @@ void init_march(Module module) {
   using namespace py::literals;
   Class<Bricks, std::shared_ptr<Bricks>>(module, "Bricks")
       .def(py::init(&make_bricks), "density"_a, "fresh"_a, "sun"_a, "sky"_a, "glow"_a,
-           "voxel_size"_a, "origin"_a)
+           "voxel_size"_a, "origin"_a, "edge"_a = py::none())
       .def_property_readonly("shape", &Bricks::shape)
       .def_property_readonly("used", &Bricks::used)
       .def_property_readonly("bytes", &Bricks::bytes);
+  Class<HotGasArrays, std::shared_ptr<HotGasArrays>>(module, "HotGas")
+      .def(py::init<const py::object&, const py::object&, const std::array<double, 2>&, double>(),
+           "excess"_a, "heights"_a, "first"_a, "spacing"_a);
   Class<Illumination>(module, "Illumination")
       .def(py::init([](float density, const Colour& fresh, const Colour& old, const Colour& sun,
                        const Colour& sky, const Vector& sun_direction, double anisotropy,
@@ -136,11 +171,12 @@ void init_march(Module module) {
   const volume::MarchSettings defaults;
   module.def("march", &march, "layers"_a, "origins"_a, "directions"_a, "distances"_a, "light"_a,
              "step"_a = defaults.step, "min_transmittance"_a = defaults.min_transmittance,
-             "flames"_a = nullptr);
+             "flames"_a = nullptr, "pixel"_a = defaults.pixel);
   module.def("march_infrared", &march_infrared, "layers"_a, "origins"_a, "directions"_a,
              "distances"_a, py::kw_only(), "kelvin"_a, "elevation"_a, "corner"_a, "spacing"_a,
              "lapse"_a, "radiance"_a, "coldest"_a, "kelvin_step"_a, "absorption"_a, "step"_a = 4.0,
-             "flames"_a = nullptr);
+             "flames"_a = nullptr, "hot"_a = std::vector<std::shared_ptr<HotGasArrays>>{},
+             "gas"_a = 0.0);
   module.def("optical_depth", &optical_depth, "layers"_a, "origins"_a, "directions"_a,
              "distances"_a, "step"_a = 2.0, "max_depth"_a = 20.0);
 }

@@ -3,11 +3,13 @@
 #include "base/sparse_smoke.hpp"
 #include "base/vector.hpp"
 #include "flow/columns.hpp"
+#include "flow/detail_noise.hpp"
 #include "flow/drift.hpp"
 #include "flow/filters.hpp"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -99,6 +101,9 @@ private:
   void find_reach(const SmokeSnapshot& snapshot, const Values& amount);
   void find_drift(const SmokeSnapshot& snapshot);
   float condensed_share(float height) const;
+  /// Coordinates of the noise below the voxel at the corners of blocks.
+  std::shared_ptr<const NoiseFrame> find_noise(const VoxelRegion& brick,
+                                               const std::array<Index, 3>& blocks) const;
   bool shows(std::size_t phase) const { return weights_[phase] > 0.02F; }
 
   Shape shape_;

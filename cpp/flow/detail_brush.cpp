@@ -18,13 +18,12 @@ constexpr float soft_reach = 1.5F; // amplitude of soft noise
 constexpr float max_noise = 1.2F;  // largest noise assumed when clear voxels are skipped
 constexpr float root = 0.12F;      // share of the extinction at the ground
 constexpr float root_heights[] = {10.0F, 130.0F};
-constexpr double finest = 1.7; // wavelength of the finest noise, voxels
 
 } // namespace
 
 Detail::Brush::Brush(const Detail& d, const VoxelRegion& b, DetailOutput& out)
     : detail_(d), brick_(b), out_(out), at_(0.0F, 0.0F, d.shape_),
-      noise_(d.settings_.size, finest * b.voxel, d.seeds_) {
+      noise_(d.settings_.size, b.voxel, d.seeds_), outline_(noise_.outline()) {
   const auto levels = static_cast<std::size_t>(d.shape_.nz + lanes);
   height_.resize(levels);
   level_.resize(levels + 2);
@@ -246,32 +245,44 @@ void Detail::Brush::finish() {
     }
   }
   for (std::size_t lane = 0; lane < w.count; ++lane) {
-    out_.set(SparseSmoke::density, w.place[lane], w.share[lane] * extinction(lane, raise[lane]));
+    const Painted painted = paint(lane, raise[lane]);
+    if (painted.extinction > 0.0F) {
+      out_.set(SparseSmoke::density, w.place[lane], w.share[lane] * painted.extinction);
+      out_.set(SparseSmoke::edge, w.place[lane], painted.edge);
+    }
   }
   w.count = 0;
 }
 
-float Detail::Brush::extinction(std::size_t n, float raise) const {
+Detail::Brush::Painted Detail::Brush::paint(std::size_t n, float raise) const {
   const float v = pending_.vigour[n], amount = pending_.amount[n], solid = pending_.solid[n];
   // Exponentials without effect are skipped: they would take a twelfth of the run time.
-  const auto dense = [](float low, float high, float raised, float held, float gain) {
-    const float left = gain * smoothstep(low, high, raised);
+  const auto dense = [](float held, float left) {
     return left > 0.0F ? std::exp(held) * left : 0.0F;
   };
   const float low = lerp(soft_cut[0], crisp_cut[0], v), high = lerp(soft_cut[1], crisp_cut[1], v);
   const float raised = amount + pending_.reach[n] * raise, veiled = amount + soft_reach * raise;
   const float held = lerp(raised, std::max(amount, lerp(core[0], core[1], solid)), v);
-  const float billows = dense(low, high, raised, held, lerp(soft_gain, crisp_gain, v));
+  // An outline has at least the width of some voxels, and is a line so that it can be sharpened.
+  const float middle = 0.5F * (low + high),
+              width = std::max(high - low, v * pending_.reach[n] * outline_);
+  const float inside = std::clamp((raised - middle) / width + 0.5F, 0.0F, 1.0F);
+  const float left = lerp(inside * inside * (3.0F - 2.0F * inside), inside, v);
+  const float billows = dense(held, lerp(soft_gain, crisp_gain, v) * left);
   const float veil =
-      dense(soft_cut[0], soft_cut[1], veiled, veiled, veil_gain * v * (1.0F - solid));
+      dense(veiled, veil_gain * v * (1.0F - solid) * smoothstep(soft_cut[0], soft_cut[1], veiled));
   const float rooted = lerp(
       root, 1.0F,
       smoothstep(root_heights[0], root_heights[1], pending_.above[n] / detail_.settings_.scale));
   const DetailSettings& settings = detail_.settings_;
-  const float full = (billows + veil) * detail_.unit_ * extinction_per_kg *
-                     static_cast<float>(settings.opacity) * rooted;
-  return full > 0.0F ? settings.max_extinction * (1.0F - std::exp(-full / settings.max_extinction))
-                     : 0.0F;
+  const float all = billows + veil;
+  if (all <= 0.0F) {
+    return {0.0F, 0.0F};
+  }
+  const float full =
+      all * detail_.unit_ * extinction_per_kg * static_cast<float>(settings.opacity) * rooted;
+  return {settings.max_extinction * (1.0F - std::exp(-full / settings.max_extinction)),
+          lerp(1.0F, inside, v * billows / all)};
 }
 
 SparseSmoke Detail::paint(const VoxelRegion& b, float min_extinction) const {
@@ -284,6 +295,7 @@ SparseSmoke Detail::paint(const VoxelRegion& b, float min_extinction) const {
         "surface, share and wanted must have the shape of the voxel region");
   }
   SparseSmoke smoke({b.shape[0], b.shape[1], b.shape[2]}, b.voxel, b.origin, glows());
+  smoke.set_noise(find_noise(b, smoke.blocks()));
   constexpr Index side = SparseSmoke::side;
   each(smoke.blocks()[0], [&](Index block_i) {
     DetailOutput out(smoke);

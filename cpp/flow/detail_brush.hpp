@@ -40,7 +40,11 @@ private:
   void paint_surface();
   void enqueue();
   void wait_for(std::size_t n);
-  float extinction(std::size_t n, float raise) const;
+  /// Extinction (1/m) of a voxel, and its share inside the outline.
+  struct Painted {
+    float extinction, edge;
+  };
+  Painted paint(std::size_t n, float raise) const;
 
   const Detail& detail_;
   const VoxelRegion& brick_;
@@ -64,6 +68,7 @@ private:
   std::vector<float> amount_, vigour_, cloud_, reach_, solid_, value_;
 
   DetailNoise noise_;
+  float outline_; ///< change of the noise across an outline
   PendingVoxels pending_;
 };
 

@@ -11,6 +11,9 @@ namespace {
 
 constexpr float roughness = 0.7F;
 constexpr double finer = 0.47;
+constexpr double finest_wave = 1.7;    // voxels, wavelength of the finest octave
+constexpr double outline_width = 2.0;  // voxels
+constexpr double billow_height = 1.25; // factor on the distance to the nearest point
 constexpr float veils_only = 0.02F, billows_only = 0.98F; // vigour
 
 FIRETWIN_CLONES("avx512f", "avx2")
@@ -30,7 +33,7 @@ void add_veils(float share, const Row& vigour, float most, const Row& perlin, Ro
 FIRETWIN_CLONES("avx512f", "avx2")
 void add_billows(float share, const Row& distance, Row& crisp) {
   for (std::size_t n = 0; n < crisp.size(); ++n) {
-    crisp[n] += share * (1.25F * (0.49F - distance[n]));
+    crisp[n] += share * (static_cast<float>(billow_height) * (0.49F - distance[n]));
   }
 }
 
@@ -50,9 +53,9 @@ void blend(const Row& soft, const Row& crisp, const Row& vigour, Row& noise) {
 
 } // namespace
 
-DetailNoise::DetailNoise(double size, double finest,
+DetailNoise::DetailNoise(double size, double voxel,
                          const std::array<std::uint32_t, Drift::phases>& seeds)
-    : size_(size), finest_(finest), seeds_(seeds) {}
+    : size_(size), voxel_(voxel), finest_(finest_wave * voxel), seeds_(seeds) {}
 
 void DetailNoise::at(const Origins& places, std::size_t phase, const Row& vigour, Row& noise) {
   const auto [least, most] = std::minmax_element(vigour.begin(), vigour.end());
@@ -80,6 +83,25 @@ void DetailNoise::at(const Origins& places, std::size_t phase, const Row& vigour
     size *= finer;
   }
   blend(soft, crisp, vigour, noise);
+}
+
+float DetailNoise::outline() const {
+  double square = 0.0, share = 1.0, size = size_;
+  for (int octave = 0; octave < max_octaves && size > finest_; ++octave) {
+    square += std::pow(billow_height * share / size, 2);
+    share *= static_cast<double>(roughness);
+    size *= finer;
+  }
+  return static_cast<float>(outline_width * voxel_ * std::sqrt(square));
+}
+
+std::array<double, 2> DetailNoise::finer_octave() const {
+  double share = 1.0, size = size_;
+  for (int octave = 0; octave < max_octaves && size > finest_; ++octave) {
+    share *= static_cast<double>(roughness);
+    size *= finer;
+  }
+  return {size, share};
 }
 
 } // namespace firetwin::flow

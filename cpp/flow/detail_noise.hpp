@@ -15,17 +15,24 @@ using Origins = std::array<std::array<double, static_cast<std::size_t>(lanes)>, 
 /// Perlin noise (veils) elsewhere.
 class DetailNoise {
 public:
-  /// @param size, finest wavelengths of the largest and the finest octave, m
+  /// @param size wavelength of the largest octave, m
+  /// @param voxel voxel size, m; octaves that it does not resolve are left out
   /// @param seeds of each phase's noise
-  DetailNoise(double size, double finest, const std::array<std::uint32_t, Drift::phases>& seeds);
+  DetailNoise(double size, double voxel, const std::array<std::uint32_t, Drift::phases>& seeds);
 
   /// Computes the noise of a phase; `vigour`, 0 to 1, blends from veils to billows.
   void at(const Origins& places, std::size_t phase, const Row& vigour, Row& noise);
 
+  /// Change of the noise of billows across an outline: smoke fades over some voxels, since a
+  /// sharper outline draws the lattice.
+  float outline() const;
+  /// Wavelength (m) and amplitude of the largest octave that is not painted.
+  std::array<double, 2> finer_octave() const;
+
 private:
   static constexpr int billow_octaves = 3, max_octaves = 7;
 
-  double size_, finest_;
+  double size_, voxel_, finest_;
   std::array<std::uint32_t, Drift::phases> seeds_;
   std::array<std::array<Worley, billow_octaves>, Drift::phases> worley_;
 };

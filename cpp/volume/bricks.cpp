@@ -72,6 +72,7 @@ private:
     lit_.light(block, around_, light_);
     const SparseSmoke& smoke = lit_.smoke();
     smoke.gather(SparseSmoke::fresh, block, 0, wide, fresh_.data());
+    smoke.gather(SparseSmoke::edge, block, 0, wide, edge_.data());
     if (smoke.glows()) {
       smoke.gather(SparseSmoke::glow, block, 0, wide, glow_.data());
     }
@@ -81,12 +82,14 @@ private:
     const float* density = around_.at(x, y);
     const Index row = x * wide + y;
     const Index own = row * row_size + SparseSmoke::side;
-    const float *fresh = fresh_.data() + own, *glow = glow_.data() + own;
+    const float *fresh = fresh_.data() + own, *glow = glow_.data() + own,
+                *edge = edge_.data() + own;
     const float *sun = light_.sun.data() + row * BlockLight::row,
                 *sky = light_.sky.data() + row * BlockLight::row;
     for (Index k = 0; k < wide; ++k, out += Bricks::channels) {
       const Index z = std::min(k, last);
-      Bricks::write({visible_.density(density[z], column), fresh[z], sun[z], sky[z], glow[z]}, out);
+      Bricks::write(
+          {visible_.density(density[z], column), fresh[z], sun[z], sky[z], glow[z], edge[z]}, out);
     }
   }
 
@@ -94,7 +97,7 @@ private:
   const VisibleShare& visible_;
   Neighbourhood around_;
   BlockLight light_;
-  Voxels fresh_{}, glow_{};
+  Voxels fresh_{}, glow_{}, edge_{};
 };
 
 void check_fields(const Bricks::Fields& fields) {
@@ -106,11 +109,14 @@ void check_fields(const Bricks::Fields& fields) {
   if (!fields.glow.empty() && fields.glow.size() != fields.density.size()) {
     throw std::invalid_argument("glow must have the shape of density");
   }
+  if (!fields.edge.empty() && fields.edge.size() != fields.density.size()) {
+    throw std::invalid_argument("edge must have the shape of density");
+  }
 }
 
 } // namespace
 
-void Bricks::write(const std::array<float, 5>& voxel, std::uint16_t* out) {
+void Bricks::write(const std::array<float, 6>& voxel, std::uint16_t* out) {
   std::transform(voxel.begin(), voxel.end(), out, to_half);
   std::fill(out + voxel.size(), out + channels, std::uint16_t{0});
 }
@@ -157,7 +163,8 @@ Bricks::Bricks(const Fields& fields, const std::array<Index, 3>& shape, double v
 }
 
 Bricks::Bricks(const LitSmoke& lit, const VisibleShare& visible)
-    : shape_(lit.smoke().shape()), voxel_(lit.smoke().voxel()), origin_(lit.smoke().origin()) {
+    : shape_(lit.smoke().shape()), voxel_(lit.smoke().voxel()), origin_(lit.smoke().origin()),
+      noise_(lit.smoke().noise()) {
   if (visible.share.size() != static_cast<std::size_t>(shape_[0] * shape_[1])) {
     throw std::invalid_argument("share must have the shape of the smoke along x and y");
   }
@@ -192,7 +199,9 @@ void Bricks::pack(const Fields& fields, const Place& block, std::uint16_t* out) 
         const Index z = std::min(block[2] * side + k, shape_[2] - 1);
         const auto at = static_cast<std::size_t>((x * shape_[1] + y) * shape_[2] + z);
         const float glow = fields.glow.empty() ? 0.0F : fields.glow[at];
-        write({fields.density[at], fields.fresh[at], fields.sun[at], fields.sky[at], glow}, out);
+        write({fields.density[at], fields.fresh[at], fields.sun[at], fields.sky[at], glow,
+               fields.edge.empty() ? 1.0F : fields.edge[at]},
+              out);
       }
     }
   }

@@ -31,7 +31,7 @@ class Bricks {
 public:
   static constexpr std::int64_t side = 8; ///< cells
   static constexpr std::int64_t wide = side + 1;
-  static constexpr std::size_t channels = 8; ///< three of them unused
+  static constexpr std::size_t channels = 8; ///< two of them unused
   static constexpr std::size_t block_size = wide * wide * wide * channels;
   static constexpr float min_extinction = 2.5e-5F; ///< 1/m; a block is stored if a voxel exceeds it
 
@@ -42,6 +42,7 @@ public:
     std::span<const float> sun;     ///< fourth root of the sunlight's transmittance
     std::span<const float> sky;     ///< transmittance of skylight
     std::span<const float> glow;    ///< light of flames; may be empty
+    std::span<const float> edge;    ///< share inside the outline; empty: 1
   };
 
   /// @param shape voxels along x, y and z; z runs fastest
@@ -68,8 +69,11 @@ public:
                           : pool_.get() + static_cast<std::size_t>(index_[at]) * block_size;
   }
 
-  /// Packs density, fresh, sun, sky and glow of a voxel.
-  static void write(const std::array<float, 5>& voxel, std::uint16_t* out);
+  /// Noise below the voxel; null: none.
+  const NoiseFrame* noise() const { return noise_.get(); }
+
+  /// Packs density, fresh, sun, sky, glow and edge of a voxel.
+  static void write(const std::array<float, 6>& voxel, std::uint16_t* out);
 
 private:
   using Place = std::array<std::int64_t, 3>;
@@ -86,6 +90,7 @@ private:
   Vector origin_;
   std::vector<std::int32_t> index_; ///< of each block in the pool; -1: clear
   std::size_t used_ = 0;
+  std::shared_ptr<const NoiseFrame> noise_;
   std::unique_ptr<std::uint16_t[]> pool_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "base/clones.hpp"
 #include "base/simd.hpp"
+#include "volume/fine_detail.hpp"
 #include "volume/flames.hpp"
 #include "volume/half.hpp"
 
@@ -19,6 +20,11 @@ namespace {
 /// Transmittance at which a ray ends in flames; the remaining radiance is extrapolated.
 constexpr float opaque_flames = 0.01F;
 constexpr float no_limit = std::numeric_limits<float>::max();
+constexpr float outline_pixels = 1.5F; // width of an outline, half as many voxels as it is painted
+constexpr float max_sharpness = 4.0F;
+constexpr float finest_noise = 4.0F;   // pixels, wavelength of the finest noise
+constexpr float noise_step = 0.4F;     // steps relative to that wavelength
+constexpr float shortest_step = 0.06F; // voxels
 
 using Four = Simd<float, 4>;
 
@@ -106,28 +112,81 @@ __attribute__((always_inline)) inline Four radiance(const Lanes& v, const Shadin
 
 /// Layers with smoke at the current position of the ray.
 struct ActiveLayers {
-  std::array<const LayerCrossing*, 4> crossing;
-  std::array<const Segment*, 4> segment;
+  static constexpr std::size_t most = 4;
+  std::array<const LayerCrossing*, most> crossing;
+  std::array<const Segment*, most> segment;
+  std::array<FineDetail, most> detail;
+  std::array<float, most> sharpness; ///< of outlines
   std::size_t count = 0;
+  float finest = no_limit; ///< m, wavelength of the finest noise
 };
 
+constexpr std::size_t row_size = SampleRow{}.size();
+
+/// Extinction and radiance of one layer at a row of samples.
+struct LayerRow {
+  std::array<float, row_size> extinction;
+  std::array<Four, row_size> light;
+};
+
+/// Samples a layer at a row of distances; `count` of them are used.
 FIRETWIN_CLONES("avx2")
+void sample_row(const ActiveLayers& active, std::size_t layer, const SampleRow& distances,
+                const SampleRow& haze, std::size_t count, const ShadingConstants& shading,
+                LayerRow& out) {
+  std::array<Lanes, row_size> values;
+  bool noisy = false;
+  for (std::size_t n = 0; n < count; ++n) {
+    sample(*active.crossing[layer], *active.segment[layer], distances[n], values[n]);
+    noisy = noisy || values[n][0] > Bricks::min_extinction;
+  }
+  SampleRow noise{};
+  const float sharpness = active.sharpness[layer];
+  const bool detailed = active.detail[layer].shows(active.finest);
+  if (noisy && detailed) {
+    active.detail[layer].at(distances, active.finest, noise);
+  }
+  for (std::size_t n = 0; n < count; ++n) {
+    Lanes& v = values[n];
+    out.extinction[n] = 0.0F;
+    if (v[0] <= Bricks::min_extinction) {
+      continue;
+    }
+    v[0] *= shading.density;
+    if (detailed || sharpness > 1.0F) {
+      v[0] *= outline_factor(v[5], noise[n], sharpness);
+    }
+    out.extinction[n] = v[0];
+    out.light[n] = radiance(v, shading, haze[n]);
+  }
+}
+
 void accumulate(const ActiveLayers& active, const Steps& steps, const ShadingConstants& shading,
                 float min_transmittance, RayState& state) {
-  for (int s = 0; s < steps.count && state.transmittance >= min_transmittance; ++s) {
-    const float offset = (static_cast<float>(s) + 0.5F) * steps.length;
-    const float haze = steps.haze + steps.haze_slope * offset;
+  std::array<LayerRow, ActiveLayers::most> layers;
+  const auto all = static_cast<std::size_t>(steps.count);
+  for (std::size_t first = 0; first < all && state.transmittance >= min_transmittance;
+       first += row_size) {
+    const std::size_t count = std::min(row_size, all - first);
+    SampleRow distances, haze;
+    for (std::size_t n = 0; n < row_size; ++n) {
+      const float offset = (static_cast<float>(first + n) + 0.5F) * steps.length;
+      distances[n] = steps.from + offset;
+      haze[n] = steps.haze + steps.haze_slope * offset;
+    }
     for (std::size_t k = 0; k < active.count; ++k) {
-      Lanes v;
-      sample(*active.crossing[k], *active.segment[k], steps.from + offset, v);
-      if (v[0] <= Bricks::min_extinction) {
-        continue;
+      sample_row(active, k, distances, haze, count, shading, layers[k]);
+    }
+    for (std::size_t n = 0; n < count && state.transmittance >= min_transmittance; ++n) {
+      for (std::size_t k = 0; k < active.count; ++k) {
+        const float extinction = layers[k].extinction[n];
+        if (extinction <= 0.0F) {
+          continue;
+        }
+        const float step_transmittance = std::exp(-extinction * steps.length);
+        state.radiance += layers[k].light[n] * (state.transmittance * (1.0F - step_transmittance));
+        state.transmittance *= step_transmittance;
       }
-      v[0] *= shading.density;
-      const float step_transmittance = std::exp(-v[0] * steps.length);
-      state.radiance +=
-          radiance(v, shading, haze) * (state.transmittance * (1.0F - step_transmittance));
-      state.transmittance *= step_transmittance;
     }
   }
 }
@@ -163,6 +222,7 @@ public:
 private:
   void sort_taps(std::size_t number);
   float find_active_layers(float t);
+  float prepare(float t, float until);
   void step(float t, float until, const Haze& haze);
   void pass(float t, float until, const Haze& haze);
   void add(const FlameSlab& slab, float haze);
@@ -216,14 +276,31 @@ float Marcher::find_active_layers(float t) {
   return to;
 }
 
-void Marcher::step(float t, float until, const Haze& haze) {
-  float finest = no_limit;
+/// Prepares the outlines and noise of the active layers; returns the length of steps, m.
+float Marcher::prepare(float t, float until) {
+  const double middle = entry_ + 0.5 * static_cast<double>(t + until);
+  const auto pixel = static_cast<float>(settings_.pixel[0] + settings_.pixel[1] * middle);
+  active_.finest = pixel > 0.0F ? finest_noise * pixel : no_limit;
+  float length = no_limit;
   for (std::size_t k = 0; k < active_.count; ++k) {
-    finest = std::min(finest, active_.crossing[k]->voxel);
+    const float voxel = active_.crossing[k]->voxel;
+    length = std::min(length, static_cast<float>(settings_.step) * voxel);
+    active_.sharpness[k] =
+        pixel > 0.0F ? std::clamp(voxel / (outline_pixels * pixel), 1.0F, max_sharpness) : 1.0F;
+    const NoiseFrame* noise = active_.crossing[k]->noise;
+    if (noise != nullptr && noise->size > active_.finest) {
+      active_.detail[k] = FineDetail(*active_.crossing[k], *active_.segment[k], t, until);
+      length = std::min(length, std::max(noise_step * active_.finest, shortest_step * voxel));
+    } else {
+      active_.detail[k] = FineDetail();
+    }
   }
+  return length;
+}
+
+void Marcher::step(float t, float until, const Haze& haze) {
   const float all = until - t;
-  const int count =
-      std::max(1, static_cast<int>(std::ceil(all / (static_cast<float>(settings_.step) * finest))));
+  const int count = std::max(1, static_cast<int>(std::ceil(all / prepare(t, until))));
   const float near = haze.at(entry_ + static_cast<double>(t));
   const float far = haze.at(entry_ + static_cast<double>(until));
   accumulate(active_, {t, all / static_cast<float>(count), count, near, (far - near) / all},
@@ -321,7 +398,7 @@ void Marcher::ray(const Vector& origin, const Vector& direction, std::size_t num
 void march(Layers layers, const FlameVolume* flames, const Rays& rays, const Taps& taps,
            const Illumination& light, const MarchSettings& settings, std::span<float> out) {
   check(rays, taps.distances, taps.count);
-  if (layers.size() > ActiveLayers{}.crossing.size() || taps.count < 1) {
+  if (layers.size() > ActiveLayers::most || taps.count < 1) {
     throw std::invalid_argument("march takes up to four layers, and at least one distance per ray");
   }
   for_rays(

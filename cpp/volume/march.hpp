@@ -38,6 +38,9 @@ struct MarchSettings {
   double step = 0.5; ///< voxels of the finest layer at each point
   /// Transmittance at which a ray ends; the remaining radiance is extrapolated.
   double min_transmittance = 1.0e-3;
+  /// Width of a pixel at distance 0 (m), and its increase per m of distance. Outlines of smoke are
+  /// as sharp as pixels show, and have noise below the voxel down to some pixels. Zeros: neither.
+  std::array<double, 2> pixel{};
 };
 
 /// Marches rays through sparse smoke and flames: radiance and transmittance of each ray up to each

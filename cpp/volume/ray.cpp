@@ -148,6 +148,7 @@ bool RayTraversal::follow(const Vector& origin, const Vector& direction, double 
     LayerCrossing& crossing = crossings_[n];
     const double voxel = layers_[n]->voxel();
     crossing.voxel = static_cast<float>(voxel);
+    crossing.noise = layers_[n]->noise();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double offset = origin[axis] + direction[axis] * enter - layers_[n]->origin()[axis];
       crossing.index_origin[axis] = static_cast<float>(offset / voxel);

@@ -41,7 +41,8 @@ struct Segment {
 struct LayerCrossing {
   /// Ray in the layer's index space: voxels, and voxels per m.
   std::array<float, 3> index_origin, index_direction;
-  float voxel = 0.0F;            ///< m
+  float voxel = 0.0F; ///< m
+  const NoiseFrame* noise = nullptr;
   std::vector<Segment> segments; ///< near to far
   std::size_t current = 0;       ///< index of the segment being marched
 

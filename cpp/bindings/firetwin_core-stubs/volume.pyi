@@ -394,6 +394,7 @@ class Bricks:
         glow: ArrayLike | None,
         voxel_size: float,
         origin: Sequence[float],
+        edge: ArrayLike | None = None,
     ) -> None:
         """Pack fields of one shape (nx, ny, nz).
 
@@ -411,6 +412,8 @@ class Bricks:
             m.
         origin
             m, the centre of voxel (0, 0, 0).
+        edge
+            Share of the voxel inside the outline of the smoke; None: 1.
 
         Raises
         ------
@@ -427,6 +430,24 @@ class Bricks:
     @property
     def bytes(self) -> int:
         """Memory of the stored blocks, bytes."""
+
+class HotGas:
+    """Excess temperature of the hot gases of a fire over the air, on cells that follow the terrain."""
+
+    def __init__(
+        self, excess: ArrayLike, heights: ArrayLike, first: Sequence[float], spacing: float
+    ) -> None:
+        """Set the cells.
+
+        Parameters
+        ----------
+        excess
+            (nz, ny, nx) K.
+        heights
+            (nz, ny, nx) elevation of the centres of cells, m.
+        first, spacing
+            x and y of the centre of the first cell, and the distance between cells, m.
+        """
 
 class Illumination:
     """Light sources of `march`: sun, sky, flames and haze, with the smoke's albedo. Colours are linear."""
@@ -592,6 +613,7 @@ def march(
     step: float = 0.5,
     min_transmittance: float = 1.0e-3,
     flames: FlameVolume | None = None,
+    pixel: Sequence[float] = (0.0, 0.0),
 ) -> NDArray[np.float32]:
     """March rays through smoke and flames: their radiance, and transmittance of the background.
 
@@ -611,6 +633,9 @@ def march(
         Transmittance at which a ray ends. The remaining radiance is extrapolated from the same smoke.
     flames
         Flames of the frame.
+    pixel
+        Width of a pixel at distance 0 (m), and its increase per m of distance. Outlines of smoke are as sharp
+        as pixels show, and have noise below the voxel down to four pixels. Zeros: neither.
 
     Returns
     -------
@@ -646,8 +671,10 @@ def march_infrared(
     absorption: float,
     step: float = 4.0,
     flames: FlameVolume | None = None,
+    hot: Sequence[HotGas] = (),
+    gas: float = 0.0,
 ) -> NDArray[np.float32]:
-    """March rays in the infrared: smoke and flames absorb and emit, and do not scatter.
+    """March rays in the infrared: smoke, hot gases and flames absorb and emit, and do not scatter.
 
     Parameters
     ----------
@@ -666,6 +693,10 @@ def march_infrared(
         (k,) black-body radiance at `coldest` K and at every `kelvin_step` K above it, W m-2 sr-1.
     absorption
         Infrared absorption / extinction in green light.
+    hot
+        Hot gases, the finest last: the last one that has an excess at a place counts.
+    gas
+        Absorption of hot gases where smoke is visible, 1/(m K).
 
     Returns
     -------
