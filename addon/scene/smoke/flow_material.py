@@ -16,7 +16,7 @@ import numpy as np
 
 from ...blender import nodes
 from ...blender.owned import Stage
-from ...shot.light import exposure, sky
+from ...shot.light import exposure, exposure_meter, sky
 from ...shot.shot import Shot
 from ...smoke import flow_frames
 from .. import haze, infrared
@@ -124,6 +124,6 @@ def _glow(tree: nodes.Tree, shot: Shot) -> tuple[nodes.Value, nodes.Value] | Non
     """
     if exposure.darkness(shot, shot.frames.middle) <= 0.0:
         return None
-    shine, bright = material.glow_inputs(tree, shot)
+    shine, bright = material.glow_inputs(tree, shot, exposure_meter.flame_light_share(shot))
     share = 1.0 - tree.attribute("sky") * (1.0 - sky.THIN)
     return shine, tree.attribute("glow") * bright * share

@@ -115,10 +115,11 @@ def _extinction(dilution: nodes.Value, opacity: nodes.Value, most: float) -> nod
     return (1.0 - (-thickness).exp()) * most
 
 
-def glow_inputs(tree: nodes.Tree, shot: Shot) -> tuple[nodes.Value, nodes.Value]:
-    """Add inputs for colour and strength of the flames' light on smoke."""
+def glow_inputs(tree: nodes.Tree, shot: Shot, share: float = 1.0) -> tuple[nodes.Value, nodes.Value]:
+    """Add inputs for colour and strength of the flames' light on smoke that scatters a share of it."""
     colour = tree.input("Glow Colour", tuple(sky.GLOW), "Colour of the flames' light on smoke", "Light")
-    return colour, tree.input("Glow", glow_light(shot), "Brightness of the flames' light on smoke", "Light")
+    light = share * glow_light(shot)
+    return colour, tree.input("Glow", light, "Brightness of the flames' light on smoke", "Light")
 
 
 def scattered_flame_light(density: nodes.Value) -> nodes.Value:

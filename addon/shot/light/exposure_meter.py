@@ -116,7 +116,7 @@ def measure(shot: Shot, view: Path, frame: int) -> tuple[Array, Array, Array]:
 
     facing = np.zeros(len(place))
     facing[ground] = _facing(shot, place[ground], light.direction)
-    shine = hidden * _shine(smoke, start, along, ends) * _glowing(shot)
+    shine = hidden * _shine(smoke, start, along, ends) * flame_light_share(shot)
     return seen(facing), seen(light.direction[2]), shine
 
 
@@ -258,8 +258,8 @@ def _lit_smoke(light: sky.State, along: Array) -> Array:
     return _CLOUD * (light.power * sphere / np.pi + light.sky_mean)
 
 
-def _glowing(shot: Shot) -> float:
-    """Fraction of flame light that thin smoke scatters, as in its material."""
+def flame_light_share(shot: Shot) -> float:
+    """Fraction of flame light that smoke scatters if the scene file limits its extinction."""
     thickest = shot.settings.smoke.extinction or np.inf
     return float(np.interp(thickest, sky.THICK, (sky.THIN, 1.0)))
 
