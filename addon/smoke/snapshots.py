@@ -116,7 +116,12 @@ def load(path: Path) -> Snapshot:
 
 
 def load_smoke(path: Path) -> tuple[tuple[int, int], NDArray[np.float32]]:
-    """Read only the smoke (nz, ny, nx), kg/m3, of a snapshot, with its block's first column and row.
+    """Read only the smoke (nz, ny, nx), kg/m3, of a snapshot, as `load_field`."""
+    return load_field(path, "smoke")
+
+
+def load_field(path: Path, name: str) -> tuple[tuple[int, int], NDArray[Any]]:
+    """Read one field (nz, ny, nx) of a snapshot, with its block's first column and row.
 
     Raises
     ------
@@ -126,7 +131,7 @@ def load_smoke(path: Path) -> tuple[tuple[int, int], NDArray[np.float32]]:
     try:
         with np.load(path, allow_pickle=False) as file:
             west, south = file["low"]
-            return (int(west), int(south)), file["smoke"]
+            return (int(west), int(south)), file[name]
     except _UNREADABLE as error:
         raise BrokenError(path) from error
 

@@ -13,6 +13,7 @@ from ...shot.fire import air_temperature
 from ...shot.light import sky
 from ...shot.sections.thermal import BANDS
 from ...shot.shot import Shot
+from ...smoke import hot_gas
 from .. import haze, infrared
 from .. import temperature as airs
 from . import sunlit
@@ -72,7 +73,6 @@ def light_without_smoke(stage: Stage) -> volume.Illumination:
         multiple_scattering=sunlit.OFTENER,
         glow=black,
         thin=sky.THIN,
-        thick=sky.THICK,
         air=air,
         haze=extinction,
         haze_height=sky.HAZE_HEIGHT,
@@ -112,6 +112,8 @@ def infrared_arguments(shot: Shot, stage: Stage, frame: int) -> dict[str, Any]:
         "coldest": first,
         "kelvin_step": step,
         "absorption": infrared.absorption((low, high)) * extinction,
+        "hot": hot_gas.layers(shot, frame) if extinction else [],
+        "gas": hot_gas.ABSORPTION,
     }
 
 
