@@ -72,7 +72,8 @@ def pictures(shot: Shot) -> Array:
         local = np.stack([x, y, -np.ones_like(x)], axis=-1).reshape(-1, 3)
         toward = (local / np.linalg.norm(local, axis=1, keepdims=True)) @ view.rotation[frame - 1].T
         ends = np.full((len(toward), 1), pixel_rays.SKY, np.float32)
-        marched = volume.march(source.bricks(frame), view.position[frame - 1], toward, ends, light, step=0.5)
+        lines = view.position[frame - 1], toward, ends
+        marched = volume.march(source.bricks(frame), *lines, light, step=0.5, pixel=(0.0, view.pixel))
         found.append(np.asarray(marched, np.float64).reshape(height, width, 4)[..., 1])
     return np.array(found)
 
