@@ -5,8 +5,8 @@
 Writes OUT/NAME/run and OUT/NAME/scene.toml, by `firetwin new`; an existing run stays. With --measure it
 solves the film's own flow (one to three minutes for a fire) and compares two shares of a camera's front that
 are clear of smoke in the middle of the film: the promised share, and the transmittance of the film's smoke
-along the rays to the front, which is channel `clear` of the pass `masks`. Files OUT/NAME/CAMERA/masks_*.exr,
-if rendered, are compared as well. All fires are invented.
+along the rays to the front, which is channel `clear` of the pass `masks`. If OUT/NAME/film has the masks of
+the frame that it prints, they are compared as well. All fires are invented.
 """
 
 from __future__ import annotations
@@ -106,8 +106,8 @@ def measure(scene: Path) -> list[tuple[str, float, float, float]]:
         place = moving.point[some(here[np.hypot(*away.T) <= near], 160)]
         shows = visible.over_ground(view, frame, place, True)
         smoke = _through(source.bricks(frame + 1), view, frame, place[shows]) / len(place)
-        masks = _masked(scene.parent / camera.name, view, frame, place[shows]) / len(place)
-        rows.append((camera.name, promised, smoke, masks))
+        masks = _masked(scene.parent / "film" / camera.name / "masks", view, frame, place[shows]) / len(place)
+        rows.append((f"{camera.name} {frame + 1}", promised, smoke, masks))
     return rows
 
 
@@ -121,9 +121,7 @@ def _through(bricks: list[volume.Bricks], view: CameraPath, frame: int, place: n
 
 def _masked(folder: Path, view: CameraPath, frame: int, place: np.ndarray) -> float:
     """Sum the channel `clear` of a rendered picture of masks at points (n, 3); NaN without one."""
-    files = [
-        file for file in folder.glob("masks*.exr") if int(re.findall(r"\d+", file.stem)[-1]) == frame + 1
-    ]
+    files = [file for file in folder.glob("*.exr") if int(re.findall(r"\d+", file.stem)[-1]) == frame + 1]
     if not files:
         return float("nan")
     clear = sensor.read_image(files[0])[..., 1]
