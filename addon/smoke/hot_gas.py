@@ -13,8 +13,8 @@ ABSORPTION = 8.0e-6
 """1/(m K), absorption of combustion gases per kelvin of their excess temperature, between 8 and 14 um.
 
 Gas that is 1200 K warmer than the air holds about 0.1 bar each of water vapour and of carbon dioxide, which
-absorb about 0.1 per bar and metre in this window (assumed). Mixing with air reduces its excess temperature and
-its absorption by one factor.
+absorb about 0.1 per bar and metre in this window (assumed). Mixing with air reduces its excess temperature
+and its absorption by one factor.
 """
 
 
