@@ -18,7 +18,7 @@ _OVER_CROWNS = 180.0  # m, among trees; a nearer camera looks only down on them
 _SIDES = (150.0, 210.0, 120.0, 240.0, 180.0, 90.0, 270.0, 50.0, 310.0)
 _HEIGHTS = (0.3, 0.6, 1.1, 1.7)  # of the distance
 _AIM = 0.12  # of the distance, height of the aim above ground: flames below the centre, smoke above
-_LATER = 0.04  # penalty for each later side or height
+_LATER = 0.01  # penalty for each later side or height
 
 
 def place(front: Front, visible: Visible) -> PlacedCamera:

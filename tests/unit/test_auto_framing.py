@@ -21,8 +21,9 @@ from firetwin.auto_framing import (
 from firetwin.run import readers, sun, zone
 from firetwin.shot import run_checks
 from firetwin.shot.cameras import targets
+from firetwin.shot.cameras.rigs.chase import Chase
 from firetwin.shot.sections import Time
-from firetwin.shot.settings import scene_file
+from firetwin.shot.settings import Camera, scene_file
 from firetwin.shot.shot import Shot
 from small_run import small_fields
 
@@ -195,6 +196,14 @@ def test_a_head_that_smoke_hides_is_left_for_a_flank(fit_of, monkeypatch):
     assert "smoke hides the head" in placed.words
     assert placed.camera.name == "chase"
     assert placed.camera.rig == found.settings.cameras[2].rig
+
+
+def test_a_chase_of_a_small_fire_stays_as_low_as_it_says(fit_of):
+    found, run = fit_of("prescribed")  # flat ground
+    moving = front.find_front(Shot(found.settings, run))
+    camera = Camera("chase", rig=Chase(distance=80.0, height=24.0, target_height=9.6, clearance=12.0))
+    view = candidates.path(moving, camera)
+    assert view.position[:, 2] == pytest.approx(24.0, abs=1.0)
 
 
 def test_the_satellite_has_the_fire_in_its_middle(fit_of):

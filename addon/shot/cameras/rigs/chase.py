@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from ..filming import Filming
     from ._view import View
 
+_RIDGE_MARGIN = 40.0  # m that the line of sight clears ridges by at most
+
 
 @dataclass(frozen=True)
 class Chase(Lens):
@@ -45,7 +47,8 @@ class Chase(Lens):
         position = target + self.distance * np.stack([np.sin(away), np.cos(away), 0.0 * away], axis=-1)
         position[:, 2] = targets.smoothed(ground.up(position[:, 0], position[:, 1])) + self.height
         short = flight.short(ground, position, np.full(len(away), self.clearance))
-        hidden = path.hidden(ground, position, target)
+        margin = min(_RIDGE_MARGIN, 0.5 * self.target_height)  # a low aim would raise it over flat ground
+        hidden = path.hidden(ground, position, target, margin)
         position[:, 2] += path.eased(np.maximum(short, hidden) if self.over_ridges else short)
         return Path(
             camera,
