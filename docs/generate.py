@@ -205,10 +205,11 @@ above the terrain.
 
 A `globe` flies from space to a place: along the geodesic, at constant speed on the screen from 2,000 km down
 (van Wijk and Nuij 2003). It looks at the place all along, with a level horizon, and ends like a stop of a
-`tour`; from its default start the picture has the Earth's limb. Positions are computed in double precision in the scene's axes and include the Earth's
-curvature. Clip planes follow the height, frame by frame. With such a camera the terrain continues into the
-WGS84 ellipsoid, in NASA's Blue Marble or in your picture `terrain.globe`, which needs a credit. Haze follows
-the curvature and is blue from above; the sky darkens with height and surrounds the limb.
+`tour`; from its default start the picture has the Earth's limb. Positions are computed in double precision in
+the scene's axes and include the Earth's curvature. Clip planes follow the height, frame by frame. With such a
+camera the terrain continues into the WGS84 ellipsoid, in NASA's Blue Marble or in your picture
+`terrain.globe`, which needs a credit. Haze follows the curvature and is blue from above; the sky darkens with
+height and surrounds the limb.
 
 `vr` needs Cycles. The left eye's equirectangular picture is above the right eye's. Stills have XMP metadata
 for this (GPano), films `st3d` and `sv3d`. A `satellite` is an orthographic nadir view from above all smoke
