@@ -95,7 +95,7 @@ def _label(path: Path, line: int, name: Any, latitude: Any, longitude: Any) -> L
     name = " ".join(str(name).split())
     if not 0 < len(name) <= _LONGEST:
         raise input_error(path, f"a name has 1 to {_LONGEST} letters, not {len(name)}", line=line)
-    degrees = []
+    degrees: list[float] = []
     for what, value, most in (("latitude", latitude, 90.0), ("longitude", longitude, 180.0)):
         try:
             degrees.append(float(value))
@@ -105,4 +105,4 @@ def _label(path: Path, line: int, name: Any, latitude: Any, longitude: Any) -> L
             raise input_error(
                 path, f"{what} is {degrees[-1]:g}; it goes from {-most:g} to {most:g}", line=line
             )
-    return Label(name, *degrees)
+    return Label(name, degrees[0], degrees[1])

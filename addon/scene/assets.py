@@ -59,8 +59,8 @@ def build(shot: Shot, identify: Identify, progress: Progress = silent) -> int:
     temperature.build(shot, stage)
     infrared.build(shot, stage)
     trees = library.tree_models(shot, stage)
-    forest.node_group(shot, "Firetwin Trees", trees)
-    fire.node_group(shot, fire.build_cards(shot, stage))
+    forest.node_group(shot, stage, "Firetwin Trees", trees)
+    fire.node_group(shot, stage, fire.build_cards(shot, stage))
     firebrand_material.build(shot, stage)
     for look, name in ((puff_material, "Puffs"), (flow_material, "Flow")):
         material = look.build(shot, stage)

@@ -42,7 +42,7 @@ def apparent_age(
     white
         Age at which smoke has turned white, s.
     """
-    soot = soot_share(shot, time, corner, spacing, age.shape[1:])
+    soot = soot_share(shot, time, corner, spacing, (age.shape[1], age.shape[2]))
     if soot.min() == 1.0:
         return age
     steps = np.minimum(age, white) * np.float32(_ALOFT / spacing)
@@ -69,7 +69,7 @@ def soot_share(
     flaming = noise.smoothstep(*_FLAMING, sources.flaming / sources.power)
     dark = _darkness(shot, sources.fuel_cell) / max(shot.fire.smoke.dark, 1.0e-3)
     made, sooty = (
-        _blurred(np.bincount(cell, weight, soot.size).reshape(shape))
+        _blurred(np.bincount(cell, weight, soot.size).astype(np.float64).reshape(shape))
         for weight in (sources.smoke, sources.smoke * np.minimum(flaming * dark, 1.0))
     )
     known = made > 0.0
@@ -86,9 +86,8 @@ def _darkness(shot: Shot, fuel_cell: NDArray[np.int64]) -> Array:
     category = run.fuel_rows(fuel_category.FIELD, first, last) if run.has(fuel_category.FIELD) else None
     fields = [run.fuel_rows(name, first, last) for name in ("surface_fuel", "canopy_fuel")]
     index = row - first, column
-    kind = emissions.kind(
-        *(np.nan_to_num(field[index]) for field in fields), None if category is None else category[index]
-    )
+    surface, canopy = (np.nan_to_num(field[index]) for field in fields)
+    kind = emissions.kind(surface, canopy, None if category is None else category[index])
     dark = emissions.column("dark")
     return np.where(fuel_cell >= 0, dark[kind], dark[emissions.CROWN])
 
@@ -99,5 +98,5 @@ def _blurred(field: Array) -> Array:
         for axis in (0, 1):
             padded = np.pad(field, [(1, 1) if k == axis else (0, 0) for k in (0, 1)])
             count = field.shape[axis]
-            field = sum(np.take(padded, np.arange(count) + shift, axis) for shift in range(3)) / 3.0
+            field = np.mean([np.take(padded, np.arange(count) + shift, axis) for shift in range(3)], axis=0)
     return field

@@ -39,7 +39,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
         parts = [
             lettering.letters(line, y, rim, front, font, look, size / _SIZES[0])
             for line, size, y in zip(_LINES, _SIZES, (0.2, -1.0), strict=True)
-            for rim, front, look in ((0.0, 0.02, 0), (lettering.RIM, 0.0, 1))
+            for rim, front, look in ((0.0, 0.02, 0), (lettering.rim(shot, size), 0.0, 1))
         ]
     lettering.camera_rays_only(owned.add(letters, NAME, lettering.mesh(f"Firetwin {NAME}", parts, looks)))
     obj = owned.add(collection, NAME, create_mesh(f"Firetwin {NAME}", np.zeros((1, 3))), NAME)

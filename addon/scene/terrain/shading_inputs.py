@@ -121,7 +121,8 @@ def gather(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -
 
 def _unburned_patches(grain: Grain, heat: nodes.Value, woody: nodes.Value) -> nodes.Value:
     """Return unburned fingers and islands of woods: above 0 where the intensity is low, most at the edges."""
-    weak = heat.ramp(*np.log(_PATCHY), 1.0, 0.0) * woody.smoothstep(0.5, 1.0)
+    low, high = np.log(_PATCHY)
+    weak = heat.ramp(low, high, 1.0, 0.0) * woody.smoothstep(0.5, 1.0)
     return (grain.noise(260.0, 5.0, 0.64) + weak * 0.16).smoothstep(0.64, 0.71) * weak
 
 

@@ -92,7 +92,7 @@ class Picture:
 def draw_area(picture: Picture, rings: Sequence[Array], colour: Colour, strength: float) -> None:
     """Draw a polygon in one colour."""
     if (found := picture.filled(rings)) is not None:
-        picture.fill(found, [np.float64(part) for part in colour], strength)
+        picture.fill(found, [np.asarray(part) for part in colour], strength)
 
 
 def draw_field(
@@ -175,7 +175,7 @@ def _across(picture: Picture, window: tuple[slice, slice], ring: Array) -> NDArr
 
 def _tramlines(across: NDArray[np.float32], picture: Picture) -> NDArray[np.float32]:
     """Coverage of a sprayer's wheel tracks."""
-    wide = np.float32(max(0.5 * _TYRE, 0.5 / picture.metre))
+    wide = np.float32(max(0.5 * _TYRE, float(0.5 / picture.metre)))
     off = np.abs(np.abs(np.mod(across + 0.5 * _TRAMLINES, _TRAMLINES) - 0.5 * _TRAMLINES) - _GAUGE)
     return np.clip(1.5 - off / wide, 0.0, 1.0) * np.float32(min(0.5 * _TYRE / wide, 1.0))
 
