@@ -177,7 +177,7 @@ def _tramlines(across: NDArray[np.float32], picture: Picture) -> NDArray[np.floa
     """Coverage of a sprayer's wheel tracks."""
     wide = np.float32(max(0.5 * _TYRE, float(0.5 / picture.metre)))
     off = np.abs(np.abs(np.mod(across + 0.5 * _TRAMLINES, _TRAMLINES) - 0.5 * _TRAMLINES) - _GAUGE)
-    return np.clip(1.5 - off / wide, 0.0, 1.0) * np.float32(min(0.5 * _TYRE / wide, 1.0))
+    return np.clip(1.5 - off / wide, 0.0, 1.0) * np.float32(min(float(0.5 * _TYRE / wide), 1.0))
 
 
 def _beside(line: Array, off: float) -> Array:
