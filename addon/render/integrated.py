@@ -49,8 +49,7 @@ class IntegratedRenderer:
         self.image = _image_node(self.scene)
         _prepare(self.scene)
         (view,) = shot.paths
-        self.field = hasattr(volume, "FlameVolume")  # of a core that is built again
-        flame_field.set_reach(stage, flame_map.reach(shot, view) if self.field else 0.0)
+        flame_field.set_reach(stage, flame_map.reach(shot, view))
         self.shadow = _shadow(shot, stage) if shot.settings.smoke.enabled else None
         for volume_object in stage.objects_of("Smoke"):
             volume_object.hide_render = True
@@ -97,8 +96,6 @@ class IntegratedRenderer:
     def _flames(self, frame: int) -> volume.FlameVolume | None:
         """Return the flames of a frame that are drawn as a volume."""
         (view,) = self.shot.paths
-        if not self.field:
-            return None
         with self.cost.part(frame_cost.MARCH):
             return flame_volume.build(self.shot, view, frame, fire.torching_crowns(self.stage))
 
