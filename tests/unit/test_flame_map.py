@@ -7,7 +7,6 @@ import pytest
 from firetwin.shot.cameras.path import Path
 from firetwin.shot.fire import flame_map, flame_size
 from firetwin.shot.settings import Settings
-from firetwin.smoke import sources
 from firetwin_core import constants
 from straight_front import PACE, shot_of
 
@@ -32,22 +31,12 @@ def test_weight_falls_to_zero_beyond_the_reach():
     assert flame_map.weight(5.0, 0.0) == 0.0
 
 
-@pytest.mark.parametrize("engine", ["cycles", "eevee"])
-@pytest.mark.parametrize("enabled", [True, False])
-@pytest.mark.parametrize(
-    "smoke", [{}, {"draw": "volume"}, {"lighting": "traced"}, {"method": "puffs"}, {"method": "flow"}]
-)
-def test_flames_are_marched_where_smoke_is(make_run, engine, enabled, smoke):
+def test_nothing_is_reached_without_flames_along_the_front(make_run):
     shot = shot_of(make_run, 20.0, 0.3)
-    settings = shot.settings
-    shot.settings = replace(
-        settings,
-        smoke=replace(settings.smoke, enabled=enabled, **smoke),
-        render=replace(settings.render, engine=engine),
-    )
-    assert flame_map.is_marched(shot.settings, shot.run) == sources.is_integrated(shot)
-    off = replace(shot.settings, fire=replace(Settings().fire, flames=False))
-    assert not flame_map.is_marched(off, shot.run)
+    assert flame_map.reach(shot, camera(640)) > 0.0
+    for fire in ({"flames": False}, {"emitters": "cells"}):
+        shot.settings = replace(shot.settings, fire=replace(Settings().fire, **fire))
+        assert flame_map.reach(shot, camera(640)) == 0.0
 
 
 def over_front(shot, time, eye=(0.0, 0.0, 3.0), limit=300.0):

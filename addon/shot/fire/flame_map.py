@@ -6,7 +6,7 @@ Needs no Blender.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from firetwin_core import constants
@@ -18,9 +18,6 @@ from ..terrain.dilation import dilate
 from ..terrain.terrain import UNKNOWN
 from . import flame_size
 from .flame_depth import FrontFields
-
-if TYPE_CHECKING:
-    from firetwin_core.run import Run
 
 _PIXELS = 3.0  # height in pixels of the typical long flames at the reach (by eye)
 FADE = (0.8, 1.2)  # distances over the reach between which the field fades out
@@ -62,7 +59,7 @@ def reach(shot: Any, path: Any) -> float:
     """Return the distance (m) up to which flames are drawn as a volume for a camera.
 
     There the typical long flames of the shown fronts are 3 pixels high. The distance is at most
-    `flame_size.SIGHT`, and 0 if another renderer draws the smoke, without flames, or in an orthographic view.
+    `flame_size.SIGHT`, and 0 without flames along the front, or in an orthographic view.
 
     Parameters
     ----------
@@ -71,7 +68,8 @@ def reach(shot: Any, path: Any) -> float:
     path
         A `cameras.path.Path` of the shot.
     """
-    if not path.perspective or not is_marched(shot.settings, shot.run):
+    fire = shot.settings.fire
+    if not path.perspective or not fire.flames or fire.emitters != "front":
         return 0.0
     return float(min(typical_length(shot) / (_PIXELS * path.pixel), flame_size.SIGHT))
 
@@ -84,17 +82,6 @@ def weight(distance: ArrayLike, limit: float) -> Array:
     if limit <= 0.0:
         return np.zeros(np.shape(distance))
     return 1.0 - noise.smoothstep(FADE[0] * limit, FADE[1] * limit, distance)
-
-
-def is_marched(settings: Any, run: Run) -> bool:
-    """Return whether flames are ray-marched: with smoke that is ray-marched, or without smoke, in Cycles."""
-    smoke, fire = settings.smoke, settings.fire
-    if settings.render.engine != "cycles" or smoke.draw != "integrated":
-        return False
-    if not fire.flames or fire.emitters != "front":
-        return False
-    solved = smoke.method == "flow" and smoke.lighting == "solved" and "smoke_3d" not in run.fields
-    return solved or not smoke.enabled
 
 
 def typical_length(shot: Any) -> float:
