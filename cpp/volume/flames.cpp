@@ -10,6 +10,7 @@ namespace {
 constexpr float least_step = 0.02F, most_step = 0.5F; // m
 constexpr float fine_step = 0.016F;                   // of the flame length
 constexpr float step_pixels = 0.8F;
+constexpr float finest_eddy = 1.2F;   // of the step: smaller ones would be noise
 constexpr float thin_flame = 1.0e-4F; // 1/m, extinction that is left out
 
 std::uint32_t scramble(std::uint32_t value) {
@@ -135,9 +136,9 @@ bool FlameRay::fill(float from, float step, FlameSlab& slab) const {
     away[lane] = from + step * (static_cast<float>(lane) + 0.25F + 0.5F * jitter_);
   }
   FlameSamples found;
+  const float fine = std::max(view.pixel * away[lane_count / 2], finest_eddy * step);
   flames_.field().evaluate(start_[0] + direction_[0] * away, start_[1] + direction_[1] * away,
-                           start_[2] + direction_[2] * away, view.pixel * away[lane_count / 2],
-                           found);
+                           start_[2] + direction_[2] * away, fine, found);
   if (!found.near) {
     return false;
   }
