@@ -86,7 +86,7 @@ def test_what_an_artist_changes_is_what_comes_out(panel):
     assert f"{found.time.start:%H:%M %Z}" == "23:10 UTC"
     assert found.terrain.photo_extent == (-121.0, 38.6, -120.2, 39.1)
     assert found.cameras[0] == replace(whole.cameras[0], name="mine")
-    panel.render.use_thermal_low, panel.time.start = False, ""
+    panel.render.use_thermal_low, panel.time.use_speed, panel.time.start = False, False, ""
     found = scene_file.read_settings(panel.id_data)
     assert (found.render.thermal_low, found.time.start) == (None, None)
 
@@ -126,7 +126,7 @@ def test_only_what_differs_from_the_default_is_marked(panel):
         for part in schema.fields(section.table)
         if getattr(getattr(whole, section.name), part.name) != part.default
     }
-    assert marked() >= {"start", "end", "fps", "samples"}
+    assert marked() >= {"start", "speed", "fps", "samples"}
     panel.light.use_exposure = True
     assert "exposure" in marked()
 

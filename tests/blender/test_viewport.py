@@ -113,7 +113,7 @@ def test_the_solid_view_shows_fuel_scar_and_water(settings, run_folder, scene, p
     assert during.sum() > 10
     assert found[before] == pytest.approx(np.broadcast_to(solid_view.BURNED, found[before].shape))
     assert found[during] == pytest.approx(np.broadcast_to(solid_view.BURNS, found[during].shape))
-    dense = (ground.fields.canopy_fuel > 2.0) & ~inside & (ground.bare < 0.01) & (ground.water < 0.5)
+    dense = (ground.fields.canopy_fuel > 2.0) & ~inside & (ground.bare < 0.001) & (ground.water < 0.5)
     assert found[dense] == pytest.approx(np.broadcast_to(solid_view.FOREST, found[dense].shape), rel=0.05)
     ground.__dict__["water"] = np.ones(ground.shape)
     assert np.all(solid_view.vertex_colours(shot, row, column) == np.float32(solid_view.WATER))
