@@ -16,7 +16,7 @@ from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.sections import Time
 from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
-from firetwin.smoke import bake, close_up, sources
+from firetwin.smoke import bake, close_up, hot_gas, sources
 from firetwin_core import sensor
 
 KEY = CameraKey(0.0, 38.815, -120.56, 500.0, "point", 38.842, -120.552, 300.0)
@@ -66,6 +66,7 @@ def film(near_settings, run, few_cells, cache, tmp_path):
 @pytest.fixture
 def both(film, monkeypatch):
     monkeypatch.setattr(close_up, "window", lambda *asked: None)  # which no volume has
+    monkeypatch.setattr(hot_gas, "layers", lambda *asked: [])  # nor has it hot gas
     names = "rgb", "thermal", "depth", "masks"
     return film(*names), film(*names, draw="volume")
 
