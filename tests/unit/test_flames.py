@@ -244,4 +244,4 @@ def test_a_crown_burns_upright_at_its_middle():
     rows = slice(int(6.0 / pixel), int(10.0 / pixel))
     assert abs((seen[rows] * across).sum() / seen[rows].sum()) < 2.0
     tops = np.flatnonzero(seen.max(axis=1) > 0.5)
-    assert 18.0 < tops.max() * pixel < 36.0
+    assert 18.0 < (tops.max() + 1) * pixel < 36.0  # the upper edge of the row
