@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from firetwin.scene.fire import build as fire
 from firetwin.scene.fire import flames
+from firetwin.shot.fire import flame_map
 from firetwin.shot.sections import FireSettings
 from firetwin.shot.shot import Shot
 from firetwin_core import flux
@@ -36,9 +37,14 @@ def test_flame_lengths_are_those_of_the_formulas():
 
 
 def test_low_flames_leave_gaps_and_tall_ones_none(shot):
-    place = np.stack([np.linspace(0.0, 4000.0, 4000), np.zeros(4000), np.zeros(4000)], axis=-1)
-    assert flames._outside_gaps(place, np.full(4000, 10.0), shot).all()
-    kept = [flames._outside_gaps(place, np.full(4000, length), shot).mean() for length in (0.4, 2.0, 4.0)]
+    east, north = np.linspace(0.0, 4000.0, 4000), np.zeros(4000)
+
+    def outside(length):
+        scale = max(shot.front_scale, 0.3)
+        return flame_map.gap_margin(east, north, np.full(4000, length), scale, shot.settings.seed) > 0.0
+
+    assert outside(10.0).all()
+    kept = [outside(length).mean() for length in (0.4, 2.0, 4.0)]
     assert 0.3 < kept[0] < kept[1] < kept[2] < 1.0
 
 

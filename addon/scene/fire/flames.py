@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ...run import burning
 from ...shot.cameras.path import Path
-from ...shot.fire import emissions
+from ...shot.fire import emissions, flame_map
 from ...shot.fire.flame_size import CROWNS, SIGHT, flame_length, flame_temperature, flame_tilt
 from ...shot.shot import Shot
 from ...shot.terrain import noise
@@ -30,11 +30,6 @@ _FINE = 400_000  # points in the nearest cells that have the closest spacing at 
 _LINE = 1.5  # rows of points: a point flames while the front moves on by this many spacings
 _LEADING = 1.0 / 3.0  # fraction of the residence time at full height, s
 _LONGEST = 900.0  # s
-_BROKEN = (0.5, 6.0)  # m, flame lengths at which a front has most gaps, and none
-_GAPS = 0.5  # fraction of gaps in a front with the lowest flames
-_BURST, _FLARES = 160.0, 1.6  # m, in a crown fire; log deviation of the lengths of low flames (by eye)
-_EVEN = (5.0, 12.0)  # m, flame lengths between which lengths become uniform
-_GAP = 25.0  # m, size of gaps and distance between them, in a crown fire
 _SIZES = 0.45  # standard deviation of the logarithm of flame lengths
 _LENGTHS = (0.3, 75.0)  # m
 _TORCH_SIGHT = 2500.0  # m
@@ -114,7 +109,7 @@ class Layout:
     nearest
         Number of points in the nearest cells that have the closest spacing at any distance.
     gaps
-        Whether fronts with low flames have gaps.
+        True if fronts with low flames have gaps.
     """
 
     spacing: tuple[tuple[float, float], ...]
@@ -157,7 +152,8 @@ def front_flames(shot: Shot, grown: Stand | None = None, layout: Layout | None =
     uneven = np.exp(_SIZES * noise.normal(random[0], random[1]))
     crowns = canopy > CROWNS
     even = flame_length(intensity, settings.fire.flame_length, crowns)
-    length = np.clip(even * uneven * _flare_factor(place, even, shot), *_LENGTHS)
+    unevenness = *place[:, :2].T, even, max(shot.front_scale, 0.3), settings.seed
+    length = np.clip(even * uneven * flame_map.flare_factor(*unevenness), *_LENGTHS)
     thin = lod.LevelTable().multiplier(distance) if len(distance) else np.ones(0)
     wind = float(np.hypot(*shot.wind))
     finest = _point_spacing(ground.cell, layout.spacing[0][1] * _relative_spacing(shot))[1]
@@ -174,12 +170,12 @@ def front_flames(shot: Shot, grown: Stand | None = None, layout: Layout | None =
         random[2],
         _flaming_heat(canopy, surface, stands)
         * spacing**2
-        / (residence * _MEAN_LIFE * thin * (1.0 - layout.gaps * _gap_fraction(even))),
+        / (residence * _MEAN_LIFE * thin * (1.0 - layout.gaps * flame_map.gap_fraction(even))),
         np.zeros(len(length)),
     )
     kept = random[0] * 0.999 < thin
     if layout.gaps:
-        kept &= _outside_gaps(place, even, shot)
+        kept &= flame_map.gap_margin(*unevenness) > 0.0
     points = points.take(np.flatnonzero(kept))
     if grown is not None and settings.fire.torches:
         points = _concatenate([points, torching_crowns(shot, grown)])
@@ -204,26 +200,6 @@ def _relative_spacing(shot: Shot) -> float:
     intensity = constants.HEAT_OF_COMBUSTION / 1000.0 * (fuel + canopy) * front.speed[passed]
     length = flame_length(intensity, shot.settings.fire.flame_length, canopy > CROWNS)
     return float(np.clip(np.percentile(length, 90.0) / _TALL, _FINEST, 1.0))
-
-
-def _flare_factor(place: Array, length: Array, shot: Shot) -> Array:
-    """Return a factor (n,) on low flames (m) at points (n, 3): patches flare up or creep."""
-    size = _BURST * max(shot.front_scale, 0.3)
-    wave = noise.fractal(place[:, 0], place[:, 1], size, 3, shot.settings.seed + 530)
-    return np.exp(_FLARES * wave * (1.0 - noise.smoothstep(*_EVEN, length)))
-
-
-def _outside_gaps(place: Array, length: Array, shot: Shot) -> NDArray[np.bool_]:
-    """Return a mask (n,) of points (n, 3) that are not in gaps: fronts with low flames (m) have gaps."""
-    size = _GAP * max(shot.front_scale, 0.3)
-    broken = noise.fractal(place[:, 0], place[:, 1], size, 2, shot.settings.seed + 520)  # 0.4 deviate
-    gaps = _gap_fraction(length)
-    return (gaps <= 0.0) | (0.5 + 0.8 * broken > gaps)
-
-
-def _gap_fraction(length: Array) -> Array:
-    """Return the fraction of gaps in a front with flames of this length (m)."""
-    return _GAPS * (1.0 - noise.smoothstep(*_BROKEN, length))
 
 
 def _flaming_heat(canopy: Array, surface: Array, residence: Array) -> Array:

@@ -211,7 +211,8 @@ def lengths(shot: Any, place: Array, row: Array, column: Array, time: float) -> 
     height = long * upright(long, carrying_wind(shot))
     age = time - ground.arrival_at(row, column)
     patch = noise.fractal(east, north, _PATCH * scale, 2, seed + 560)
-    found = height * _phase(age, speed, residence, long, patch) * closed(east, north, even, scale, seed)
+    outside = noise.smoothstep(-0.06, 0.06, gap_margin(east, north, even, scale, seed))
+    found = height * _phase(age, speed, residence, long, patch) * outside
     return np.where(found >= _LENGTHS[0], found, 0.0)
 
 
@@ -221,7 +222,7 @@ def _phase(age: Array, speed: Array, residence: Array, length: Array, patch: Arr
     out = np.maximum(residence, 1.6 * tall)
     up = np.clip(age / (_RISING * tall), 0.0, 1.0)
     down = 1.0 - (1.0 - _LOW) * noise.smoothstep(0.0, 1.0, (age - tall) / (out - tall))
-    fuel = np.clip(0.55 + 1.5 * patch, 0.0, 1.2)  # what the leading flames leave burns in patches
+    fuel = np.clip(0.55 + 1.5 * patch, 0.0, 1.2)  # fuel behind the leading flames burns in patches
     down *= 1.0 + (fuel - 1.0) * noise.smoothstep(0.3, 1.0, age / tall)
     main = up * (2.0 - up) * down * (1.0 - noise.smoothstep(1.0, 1.3, age / out))
     share = np.minimum(_RESIDUAL[0], _RESIDUAL[1] / np.maximum(length, 0.1))
@@ -237,11 +238,16 @@ def flare_factor(east: Array, north: Array, length: Array, scale: float, seed: i
     return np.exp(_FLARES * wave * (1.0 - noise.smoothstep(*_EVEN, length)))
 
 
-def closed(east: Array, north: Array, length: Array, scale: float, seed: int) -> Array:
-    """Return a factor (n,), 0 in the gaps of fronts with low flames (m), 1 outside of them."""
+def gap_fraction(length: Array) -> Array:
+    """Return the fraction of gaps in a front with flames of this length (m)."""
+    return _GAPS * (1.0 - noise.smoothstep(*_BROKEN, length))
+
+
+def gap_margin(east: Array, north: Array, length: Array, scale: float, seed: int) -> Array:
+    """Return the margin (n,) to the gaps of fronts with low flames (m): below 0 in gaps, 1 without any."""
     broken = noise.fractal(east, north, _GAP * scale, 2, seed + 520)  # 0.4 deviate
-    gaps = _GAPS * (1.0 - noise.smoothstep(*_BROKEN, length))
-    return np.where(gaps > 0.0, noise.smoothstep(-0.06, 0.06, 0.5 + 0.8 * broken - gaps), 1.0)
+    gaps = gap_fraction(length)
+    return np.where(gaps > 0.0, 0.5 + 0.8 * broken - gaps, 1.0)
 
 
 def upright(length: Array, wind: tuple[float, float]) -> Array:
