@@ -19,9 +19,7 @@ Array = NDArray[np.float32]
 
 _EDGE = 0.02  # smallest difference of transmittance across a silhouette
 _REACH, _SAME_DEPTH = 2, 0.1  # pixels round an edge; relative depth tolerance of one surface
-_TOUCHES = (
-    2.0e-3  # relative depth by which text may be behind a surface, such as the ground that it stands on
-)
+_TOUCHES = 2.0e-3  # relative depth by which text may be behind a surface, such as the ground below it
 _SURE = 15.0  # rays at which a pixel's coverage has the same weight as its neighbours'; estimated
 
 

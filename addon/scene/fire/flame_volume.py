@@ -42,7 +42,7 @@ _SOOT = 0.012  # of it, in the cooled soot
 INFRARED = infrared.FLAME
 _ALBEDO = 0.3  # of fresh soot (assumed)
 _CROWN = (0.22, 0.16)  # base over tree height; radius over the height of the flame (by eye)
-_SPINDLES = 1200.0  # m; farther, single torching crowns are small beside the front
+_SPINDLES = 1200.0  # m; at a greater distance the front outshines single torching crowns
 _GROWING = (0.15, 0.6)  # parts of a torching crown's time in which it flares up, and from which it declines
 
 Array = NDArray[np.float64]

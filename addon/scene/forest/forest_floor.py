@@ -97,10 +97,7 @@ def stubble(seed: int, level: int) -> Shape:
 def twigs(seed: int, level: int) -> Shape:
     """Fallen twigs and small branches, eight times as wide as tall."""
     random, shape, n = np.random.default_rng(seed), Shape(), (26, 20, 12, 6)[level]
-    angle = random.uniform(0.0, 2.0 * np.pi, n)
-    middle = np.column_stack([random.normal(0.0, 1.9, (n, 2)), random.uniform(0.02, 0.3, n)])
-    half = np.stack([np.cos(angle), np.sin(angle), random.uniform(0.0, 0.25, n)], axis=-1)
-    half = half * random.lognormal(0.1, 0.5, (n, 1))
+    middle, half = _scattered(random, n, 1.9, 0.3, 0.25, 0.1)
     bend = random.normal(0.0, 0.12, (n, 3)) * [1.0, 1.0, 0.3]
     way = np.stack([middle - half, middle + bend, middle + half], axis=1)
     way[..., 2] = np.maximum(way[..., 2], 0.0)
@@ -112,10 +109,7 @@ def twigs(seed: int, level: int) -> Shape:
 def bark_strips(seed: int, level: int) -> Shape:
     """Model strips of bark that eucalypts shed: long and curled, some pale, wider than tall."""
     random, shape, n = np.random.default_rng(seed), Shape(), (22, 16, 10, 5)[level]
-    angle = random.uniform(0.0, 2.0 * np.pi, n)
-    middle = np.column_stack([random.normal(0.0, 1.7, (n, 2)), random.uniform(0.02, 0.25, n)])
-    half = np.stack([np.cos(angle), np.sin(angle), random.uniform(0.0, 0.15, n)], axis=-1)
-    half = half * random.lognormal(0.2, 0.5, (n, 1))
+    middle, half = _scattered(random, n, 1.7, 0.25, 0.15, 0.2)
     bend = random.normal(0.0, 0.30, (n, 3)) * [1.0, 1.0, 0.5]
     way = np.stack([middle - half, middle - 0.3 * half + bend, middle + 0.4 * half, middle + half], axis=1)
     way[..., 2] = np.maximum(way[..., 2], 0.0)
@@ -125,6 +119,24 @@ def bark_strips(seed: int, level: int) -> Shape:
         if chosen.any():
             shape.limbs(way[chosen], thick[chosen], 2, colour)
     return shape.scaled(float(way[..., 2].max() + 0.05))
+
+
+def _scattered(
+    random: np.random.Generator, n: int, spread: float, high: float, rise: float, length: float
+) -> tuple[Array, Array]:
+    """Scatter pieces of wood on the floor: their middles (n, 3), and half of each (n, 3) along it.
+
+    Parameters
+    ----------
+    spread, high
+        Standard deviation of their places, and the greatest height of a middle.
+    rise, length
+        Greatest slope, and mean logarithm of half the length.
+    """
+    angle = random.uniform(0.0, 2.0 * np.pi, n)
+    middle = np.column_stack([random.normal(0.0, spread, (n, 2)), random.uniform(0.02, high, n)])
+    half = np.stack([np.cos(angle), np.sin(angle), random.uniform(0.0, rise, n)], axis=-1)
+    return middle, half * random.lognormal(length, 0.5, (n, 1))
 
 
 def burned_brush(habit: Habit, seed: int, level: int) -> Shape:

@@ -19,11 +19,8 @@ _SPACING, _WIDE, _HIGH, _SILL, _OUT = 3.2, 1.3, 1.2, 1.0, 0.04  # m, windows of 
 _DARK = 0.3  # share of buildings without any light (assumed)
 _HOURS = (0.0, 1.0, 5.0, 6.5, 17.0, 22.0, 23.5, 24.0)  # mean solar time, h
 _SHARES = (0.22, 0.10, 0.10, 0.30, 0.45, 0.45, 0.26, 0.22)  # of the windows, lit then (assumed)
-_WARM, _COOL, _COLD = (
-    (1.0, 0.60, 0.26),
-    (0.78, 0.88, 1.0),
-    0.2,
-)  # colours of lamps, and share of the cool ones
+_WARM, _COOL = (1.0, 0.60, 0.26), (0.78, 0.88, 1.0)  # colours of lamps
+_COLD = 0.2  # share of the cool ones
 _LIGHT = 0.6  # radiance at exposure 0: bright in the exposures of nights (by eye)
 _DUSK = 1.0, -5.0  # degrees, solar elevations between which lights are switched on (assumed)
 

@@ -11,7 +11,7 @@ import pkgutil
 from collections.abc import Collection
 
 from ...shot.shot import Shot
-from ._source import Source, VolumeLayer
+from ._source import Source, VolumeLayer, allows_ray_march
 
 __all__ = ["Source", "VolumeLayer", "choices", "choose", "is_integrated", "known", "preview", "select"]
 
@@ -46,7 +46,4 @@ def select(shot: Shot) -> Source:
 
 def is_integrated(shot: Shot) -> bool:
     """Return whether Cycles renders frames without smoke, which is absent or ray-marched separately."""
-    smoke = shot.settings.smoke
-    if shot.settings.render.engine != "cycles" or smoke.draw != "integrated":
-        return False
-    return not smoke.enabled or select(shot).marched
+    return allows_ray_march(shot) and (not shot.settings.smoke.enabled or select(shot).marched)

@@ -51,6 +51,11 @@ class VolumeLayer:
         return folder / f"{self.name}_{frame:06d}.vdb"
 
 
+def allows_ray_march(shot: Shot) -> bool:
+    """Return whether the settings let the integrated renderer march rays: in Cycles, without volumes."""
+    return shot.settings.smoke.draw == "integrated" and shot.settings.render.engine == "cycles"
+
+
 class Source(ABC):
     """A source of a shot's smoke.
 

@@ -21,11 +21,11 @@ from ...shot.shot import Shot
 from .. import cache, close_up, cost_estimate, flow_frames, shutter, snapshots, view
 from ..domains import Domain
 from ..flow import Flow
-from ._source import Lights, Source, VolumeLayer
+from ._source import Lights, Source, VolumeLayer, allows_ray_march
 
 Made = TypeVar("Made")
 _EMPTY = 100.0  # m, voxel of the volume without fire
-_COARSER = 2.0  # voxel size of sub-frames relative to that of frames
+_COARSER = 2.0  # voxel size of sub-frames over the voxel size of frames
 
 
 class FlowSource(Source):
@@ -38,7 +38,7 @@ class FlowSource(Source):
 
     def __init__(self, shot: Shot) -> None:
         super().__init__(shot)
-        self.exposure = shutter.exposure(shot) if self.marched and _is_marched(shot) else 0.0
+        self.exposure = shutter.exposure(shot) if self.marched and allows_ray_march(shot) else 0.0
         self.parts = shutter.parts(self.exposure)
         self.flow = Flow(shot.with_sub_frames(self.parts), lambda *done: self.progress(*done))
         self.flow.elsewhere, self.flow.stop = lambda: self.elsewhere(), self.stop
@@ -130,11 +130,12 @@ class FlowSource(Source):
         return written
 
     def bricks(self, frame: int) -> list[volume.Bricks]:
-        """Return the bricks of a frame for ray marching, without a file; with those of its exposure, if any.
+        """Return the bricks of a frame and of its exposure, for ray marching without a file.
 
         Voxels of sub-frames are wider: their average shows no detail that is finer.
         """
-        own, middle = self._bricks(frame, self.snapshot(frame), list(self.painters)), self.snapshot(frame)
+        middle = self.snapshot(frame)
+        own = self._bricks(frame, middle, self.painters)
         moments = self._sub_frames(frame)
         if len(moments) == 1:
             return own
@@ -162,7 +163,7 @@ class FlowSource(Source):
         close = painters and painters[-1].layer.voxel == self._layers[-1].voxel
         window = close_up.window(self.shot, frame, painters[-1].layer.voxel) if close else None
         if window is not None and painters[-1].layer.fine:
-            painters.append(self._close_up_painter(painters[-1].layer, window))
+            painters = [*painters, self._close_up_painter(painters[-1].layer, window)]
         for painter in painters:
             fine = window if painter.layer.fine else None
             paint = functools.partial(painter.bricks, *inputs, beyond, fine)
@@ -207,11 +208,6 @@ class FlowSource(Source):
         except snapshots.BrokenError:
             self.flow.renew(number)
             return paint()
-
-
-def _is_marched(shot: Shot) -> bool:
-    """Return whether pictures are drawn by a ray march, which can average sub-frames."""
-    return shot.settings.smoke.draw == "integrated" and shot.settings.render.engine == "cycles"
 
 
 def _voxels(layer: flow_frames.Layer) -> int:
