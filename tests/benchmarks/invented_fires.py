@@ -2,11 +2,11 @@
 
     python tests/benchmarks/invented_fires.py OUT [--fires grass maquis] [--shift 12] [--measure]
 
-Writes OUT/NAME/run and OUT/NAME/scene.toml, by `firetwin new`; an existing run stays. With --measure it
-solves the film's own flow (one to three minutes for a fire) and compares two shares of a camera's front that
-are clear of smoke in the middle of the film: the promised share, and the transmittance of the film's smoke
-along the rays to the front, which is channel `clear` of the pass `masks`. If OUT/NAME/film has the masks of
-the frame that it prints, they are compared as well. All fires are invented.
+Writes OUT/NAME/run and OUT/NAME/scene.toml, by `firetwin new`; an existing run stays. Fronts are ragged.
+With --measure it solves the film's own flow (one to three minutes for a fire) and compares two shares of a
+camera's front that are clear of smoke in the middle of the film: the promised share, and the transmittance
+of the film's smoke along the rays to the front, which is channel `clear` of the pass `masks`. If
+OUT/NAME/film has the masks of the frame that it prints, they are compared as well. All fires are invented.
 """
 
 from __future__ import annotations
@@ -49,6 +49,7 @@ WOOD = {"surface": 1.0, "lasts": 400.0, "canopy": 1.2, "height": hills}
 
 FIRES = {
     name: {"at": at, "cell": cell, "cells": cells, "speed": speed, "wind": wind, "start": start}
+    | {"seed": len(name), "fine": 3}
     | GRASS
     | more
     for name, at, cell, cells, speed, wind, start, more in (

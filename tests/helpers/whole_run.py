@@ -1,8 +1,9 @@
-"""Runs of any size and place, with elliptical fires, for tests of automatic framing."""
+"""Runs of any size and place, with elliptical or ragged fires, for tests of automatic framing."""
 
 from pathlib import Path
 
 import numpy as np
+import ragged_spread
 from firetwin.run import areas
 
 TOML = """\
@@ -31,8 +32,10 @@ def write(
     canopy=0.0,
     arrival=True,
     lasts=600.0,
+    seed=None,
+    fine=1,
 ):
-    """Write a run of square cells (m) about a place (degrees); the fuel grid is the model's.
+    """Write a run of square cells (m) about a place (degrees).
 
     Parameters
     ----------
@@ -46,21 +49,35 @@ def write(
         Whether the run has arrival times; otherwise only heat flux.
     lasts
         Time that a cell gives off heat, s.
+    seed
+        Seed of a ragged spread (`ragged_spread`); None: ellipses.
+    fine
+        Fuel cells along a side of a cell.
     """
     north, east = areas.metres_per_degree(at[0])
-    metres = (np.arange(cells) - (cells - 1) / 2) * cell
+    metres, small = _middles(cells, cell), _middles(cells * fine, cell / fine)
     x, y = np.meshgrid(metres, metres)
-    came = np.min([when + _travel(x - e, y - n, speed, wind) for e, n, when in fires], axis=0)
+    fuel_x, fuel_y = np.meshgrid(small, small)
+    if seed is None:
+        came = np.min([when + _travel(fuel_x - e, fuel_y - n, speed, wind) for e, n, when in fires], axis=0)
+    else:
+        ground = np.zeros_like(fuel_x) if height is None else height(fuel_x, fuel_y)
+        along = (0.0, 0.0) if wind is None else wind
+        came = ragged_spread.arrival(
+            fuel_x, fuel_y, ground, fires, lambda e, n: _travel(e, n, speed, wind), along, seed
+        )
     came = np.where(came <= times[-1] + 1.0, came, np.nan)
-    flux = np.array([np.where((came <= t) & (came > t - lasts), 30e3, 0.0) for t in times], np.float32)
+    blocks = came.reshape(cells, fine, cells, fine)
+    burns = [((blocks <= t) & (blocks > t - lasts)).mean((1, 3)) for t in times]
+    flux = np.asarray(30e3 * np.array(burns), np.float32)
     fields = {
         "latitude": at[0] + metres / north,
         "longitude": at[1] + metres / east,
         "elevation": np.zeros_like(x) if height is None else height(x, y),
-        "fuel_latitude": at[0] + metres / north,
-        "fuel_longitude": at[1] + metres / east,
-        "surface_fuel": np.full_like(x, surface),
-        "canopy_fuel": np.full_like(x, canopy),
+        "fuel_latitude": at[0] + small / north,
+        "fuel_longitude": at[1] + small / east,
+        "surface_fuel": np.full_like(fuel_x, surface),
+        "canopy_fuel": np.full_like(fuel_x, canopy),
         "heat_flux": flux,
         "fuel_arrival_time": came if arrival else None,
         "wind_east": None if wind is None else np.full_like(flux, wind[0]),
@@ -72,6 +89,11 @@ def write(
         if values is not None:
             np.save(folder / f"{name}.npy", values)
     return folder
+
+
+def _middles(count, size):
+    """Metres of the middles of cells in a row about zero."""
+    return (np.arange(count) - (count - 1) / 2) * size
 
 
 def _travel(x, y, speed, wind):
