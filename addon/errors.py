@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import shutil
+import sqlite3
 from collections.abc import Iterator
 from contextlib import contextmanager
 from os import PathLike, strerror
@@ -26,6 +27,8 @@ __all__ = [
     "input_error",
     "is_nearly_full",
     "is_worth_another_try",
+    "read_fault",
+    "reading",
     "to_plain",
     "writing",
 ]
@@ -33,6 +36,7 @@ __all__ = [
 DISK_FULL = (
     "the disk is full; free some space or choose another folder, then run it again; finished files stay"
 )
+_LONGEST = 300  # characters of a message of another library
 _LITTLE = 1 << 22  # bytes, below which a disk counts as full
 _NO_ROOM = (errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC))
 
@@ -109,7 +113,7 @@ def writing(path: str | PathLike[str]) -> Iterator[None]:
     Raises
     ------
     InputError
-        Replaces an OSError.
+        Replaces an OSError, and an OperationalError of SQLite.
     FullDiskError
         Replaces an error due to a full disk, including errors of the core.
     """
@@ -120,6 +124,10 @@ def writing(path: str | PathLike[str]) -> Iterator[None]:
             raise full_disk_error(path) from error
         reason = f"cannot be written ({_reason(error)}); choose another folder"
         raise input_error(path, reason) from error
+    except sqlite3.OperationalError as error:  # "disk I/O error" of a write-back to a full disk
+        if disk_is_full(error) or is_nearly_full(Path(path)):
+            raise full_disk_error(path) from error
+        raise input_error(path, f"cannot be written ({error}); choose another folder") from error
     except FullDiskError:
         raise
     except Error as error:
@@ -127,6 +135,42 @@ def writing(path: str | PathLike[str]) -> Iterator[None]:
         if silent or disk_is_full(error):
             raise full_disk_error(path) from error
         raise
+
+
+@contextmanager
+def reading(path: str | PathLike[str]) -> Iterator[None]:
+    """Convert errors during the reading of `path` to messages that name the file and a remedy.
+
+    It surrounds every reader of a user's file. A reader itself names the place of a fault that it expects.
+
+    Raises
+    ------
+    InputError
+        Replaces every other exception: of the system, of SQLite, of Python and of libraries.
+    """
+    try:
+        yield
+    except (Error, UsageError):
+        raise
+    except Exception as error:
+        if disk_is_full(error):  # of temporary files
+            raise full_disk_error(path) from error
+        raise input_error(path, read_fault(error)) from error
+
+
+def read_fault(error: Exception) -> str:
+    """Describe why a file cannot be read, and the remedy."""
+    why = " ".join(str(error).split())[:_LONGEST] or type(error).__name__
+    for kind, text in _FAULTS.items():
+        if isinstance(error, kind):
+            return text
+    if isinstance(error, UnicodeDecodeError):
+        return f"is not UTF-8 text (byte {error.start + 1:,}); save it as UTF-8"
+    if isinstance(error, OSError):
+        return f"cannot be read ({_reason(error).lower()}); copy it to a local folder"
+    if type(error).__module__.startswith("sqlite3"):
+        return f"cannot be read as a GeoPackage: {why}; export it again"
+    return f"is damaged or incomplete: {why}; export it again"
 
 
 def disk_is_full(error: BaseException) -> bool:
@@ -159,3 +203,12 @@ def _reason(error: OSError) -> str:
 
 class UsageError(Exception):
     """Invalid command line arguments."""
+
+
+_FAULTS: dict[type[Exception], str] = {
+    FileNotFoundError: "there is no such file; check the path",
+    IsADirectoryError: "is a folder; name a file",
+    PermissionError: "cannot be read (permission denied); change its permissions, or copy it",
+    RecursionError: "has parts that are nested too deeply; export it without nesting",
+    MemoryError: "does not fit into the memory; use a part of it",
+}

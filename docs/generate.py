@@ -1,4 +1,4 @@
-"""Write settings.md and passes_and_cameras.md in this folder, and the table of layers in CONTRIBUTING.md.
+"""Write settings.md, passes_and_cameras.md, tables of limits.md, and the table of layers in CONTRIBUTING.md.
 
 ``.venv/bin/python docs/generate.py``; a test compares the pages with the code.
 """
@@ -16,6 +16,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, get_args
 
+from firetwin import limits
 from firetwin.shot import passes
 from firetwin.shot.cameras import rigs
 from firetwin.shot.schema import Field, Key, fields, plain
@@ -276,7 +277,27 @@ def update_contributing() -> str:
     return before + start + "\n" + format_layers() + end + after
 
 
+def update_limits() -> str:
+    """Return limits.md with the tables of `firetwin.limits` between their marks."""
+    text = (FOLDER / "limits.md").read_text(encoding="utf-8")
+    before, start, rest = text.partition("<!-- limits: made by docs/generate.py -->\n")
+    _, end, after = rest.partition("\n<!-- end of limits -->")
+    if not end:
+        raise ValueError("docs/limits.md has no marks for the tables of limits")
+    groups = dict.fromkeys(each.group for each in limits.LIMITS)
+    tables = (
+        f"### {group}\n\n"
+        + format_table(
+            ("quantity", "limit", "beyond it"),
+            ((each.quantity, each.value, each.beyond) for each in limits.LIMITS if each.group == group),
+        )
+        for group in groups
+    )
+    return before + start + "\n" + "\n".join(tables) + end + after
+
+
 PAGES: dict[str, Any] = {
+    "limits.md": update_limits,
     "settings.md": describe_settings,
     "passes_and_cameras.md": describe_passes_and_cameras,
     "../CONTRIBUTING.md": update_contributing,

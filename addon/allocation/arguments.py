@@ -9,6 +9,7 @@ from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
 
+from .. import limits
 from ..stations.records import EXERCISE
 from . import LIMITS
 
@@ -105,6 +106,7 @@ def _amount(text: str) -> float:
         value = float(text)
     except ValueError:
         value = math.nan
-    if not 0.0 <= value < math.inf:
-        raise argparse.ArgumentTypeError(f"must be a number of at least 0, not {text!r}")
+    if not limits.is_quantity(value):
+        most = f"{limits.LARGEST_NUMBER:,.0f}"
+        raise argparse.ArgumentTypeError(f"must be a number of at least 0 and at most {most}, not {text!r}")
     return value

@@ -15,12 +15,13 @@ def run(arguments: argparse.Namespace) -> None:
     Raises
     ------
     UsageError
-        The name of the page does not end in .html.
+        The name of the page does not end in .html, or its limit is too small for any content.
     """
     if arguments.out.suffix.lower() != ".html":
         raise UsageError(f"--out: {arguments.out} does not end in .html; name an .html file")
     from . import briefing, page, text  # imported after the quick check
 
+    page.check_limit(arguments.limit)
     request = briefing.Request(
         arguments.scene, arguments.stations, arguments.film, arguments.against, arguments.limit
     )

@@ -73,6 +73,21 @@ def html(briefing: Briefing, limit: int) -> str:
     return template.substitute(parts)
 
 
+def check_limit(limit: int) -> None:
+    """Check before the work that a page without content fits into the limit.
+
+    Raises
+    ------
+    UsageError
+        It does not.
+    """
+    names = ("page.html", "page.css", "page.js", "leaflet/LICENSE")
+    least = len("".join((*map(_read, names), _leaflet_style(), _leaflet_script())).encode())
+    if limit < least:
+        words = f"an empty page has {size(least)}, above the limit of {size(limit)}"
+        raise UsageError(f"--limit: {words}; give at least 1MB")
+
+
 def notes(briefing: Briefing) -> list[str]:
     """List notes for the author of the page: invented, omitted and missing content."""
     invented = ["this run is synthetic; the page states it"] if briefing.run.synthetic else []

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import html
 import json
+import unicodedata
 from typing import Any
 
 from ..escaped import escaped
@@ -18,7 +19,7 @@ def quote(text: object) -> str:
 
 
 def script_json(value: Any) -> str:
-    """Encode JSON for a script element, without "</script>" and "<!--".
+    """Encode JSON for a script element, without "</script>", "<!--" and bidirectional characters.
 
     Raises
     ------
@@ -26,7 +27,14 @@ def script_json(value: Any) -> str:
         A number is NaN or infinite, which JSON cannot represent.
     """
     text = json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
-    return "".join(_IN_SCRIPT.get(character, character) for character in text)
+    return "".join(_IN_SCRIPT.get(character) or _visible(character) for character in text)
+
+
+def _visible(character: str) -> str:
+    r"""Return ``\u202e`` for a bidirectional or invisible character, so that the page shows its code."""
+    if character.isascii() or unicodedata.category(character) != "Cf":
+        return character
+    return escaped(character).replace("\\", "\\\\")
 
 
 def data_uri(kind: str, content: bytes) -> str:

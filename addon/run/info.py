@@ -13,6 +13,7 @@ from firetwin_core.run import Run
 from numpy.typing import NDArray
 
 from ..data import history
+from ..errors import input_error
 from ..escaped import escaped
 from . import areas, blocks, burned_fraction, fact_cache, fuel_category, released, times
 
@@ -29,11 +30,25 @@ def gather(run: Run, zone: str) -> dict[str, Any]:
 
 
 def _source(folder: Path) -> dict[str, Any]:
-    """Read the provenance from run.toml: model, version, projection, files and assumptions."""
+    """Read the provenance from run.toml: model, version, projection, files and assumptions.
+
+    Raises
+    ------
+    InputError
+        A value has another type than `convert` writes.
+    """
+    path = folder / "run.toml"
     try:
-        return tomllib.loads((folder / "run.toml").read_text(encoding="utf-8-sig")).get("source", {})
-    except (OSError, ValueError):  # the core reports errors in run.toml
+        found = tomllib.loads(path.read_text(encoding="utf-8-sig")).get("source", {})
+    except (OSError, ValueError, RecursionError):  # the core reports errors in run.toml
         return {}
+    for key, value in found.items():
+        listed = isinstance(value, list) and all(isinstance(each, str) for each in value)
+        if key == "assumptions" and not listed:
+            raise input_error(path, 'source.assumptions is not a list of texts; write ["..."], or remove it')
+        if key == "model" and not isinstance(value, str):
+            raise input_error(path, "source.model is not a text; write it in quotes, or remove it")
+    return found
 
 
 def _find(run: Run, zone: str) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from firetwin_core.run import Run
 
 from ..data import history
-from ..errors import InputError, input_error
+from ..errors import InputError, input_error, reading
 from . import tables
 
 _SHOWN = ("town", "valley", "summit", "lake")
@@ -53,13 +53,9 @@ def read(path: Path) -> list[Label]:
     """
     if path.exists() and not path.is_file():  # opening a pipe would block
         raise input_error(path, "is not a file; name a CSV or GeoJSON")
-    try:
+    with reading(path):
         text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError:
-        raise input_error(path, "is not UTF-8 text; save it as UTF-8") from None
-    except OSError as error:
-        raise input_error(path, f"cannot be read ({error.strerror}); name a CSV or GeoJSON") from None
-    return _geojson(path, text) if text.lstrip().startswith("{") else _csv(path, text)
+        return _geojson(path, text) if text.lstrip().startswith("{") else _csv(path, text)
 
 
 def _csv(path: Path, text: str) -> list[Label]:

@@ -13,6 +13,8 @@ from .stations import station_signs
 from .surface import globe_picture, land_use, observed, orthophoto
 from .terrain import elevation
 
+_HIGHEST, _WIDEST = 89.9, 170.0  # degrees of latitude, and of longitude to each side of a run
+
 
 def check(settings: Settings, run: Run) -> None:
     """Check time window, camera positions, other run-dependent settings, and the user's own files.
@@ -23,6 +25,7 @@ def check(settings: Settings, run: Run) -> None:
         Names the line of the scene file, or the file.
     """
     _window(settings, run)
+    _pole(settings, run)
     elevation.check(settings, run)
     orthophoto.check(settings, run)
     land_use.check(settings, run)
@@ -53,6 +56,20 @@ def _window(settings: Settings, run: Run) -> None:
                     f"time.speed leads to {moment:%Y-%m-%dT%H:%M:%SZ}, outside of the run, which has {span}"
                 )
             raise scene_text.error_at(settings.path, ("time", name), reason)
+
+
+def _pole(settings: Settings, run: Run) -> None:
+    """Raise an error if the ground around a run reaches a pole, or meets itself around it."""
+    size = areas.spacing(run.latitude, run.longitude)
+    cells = settings.terrain.apron / min(size)  # of the apron's half-width, which keeps the shape of a cell
+    north, east = (
+        float(np.ptp(axis)) / max(len(axis) - 1, 1) * cells for axis in (run.latitude, run.longitude)
+    )
+    highest = float(np.abs(run.latitude).max())
+    if highest + north > _HIGHEST or east > _WIDEST:
+        ground = f"the ground of {settings.terrain.apron / 1e3:g} km around it would reach the pole"
+        reason = f"the run lies at {highest:.2f} degrees of latitude, and {ground}; choose a smaller apron"
+        raise scene_text.error_at(settings.path, ("terrain", "apron"), reason)
 
 
 def _near(

@@ -69,7 +69,7 @@ class ShotSource:
         """
         from ..errors import UsageError
         from ..run import readers
-        from . import comparison, run_checks
+        from . import comparison, picture_credits, run_checks
         from .runs import scene_runs
         from .shot import Shot
 
@@ -81,4 +81,5 @@ class ShotSource:
         if self.beside and self.beside not in shot.others:
             names = ", ".join(shot.others) or "none"
             raise UsageError(f'--run: there is no "{self.beside}" in [[runs]]; the scene has {names}')
+        picture_credits.check_room(shot, picture_credits.of_settings(settings))
         return comparison.for_run(shot, self.beside)

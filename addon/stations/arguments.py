@@ -9,6 +9,7 @@ from collections.abc import Callable
 from datetime import date, datetime
 from pathlib import Path
 
+from .. import limits
 from .records import DETOUR, MODES, STAFFING
 
 STATIONS = """\
@@ -178,8 +179,9 @@ def _positive(text: str) -> float:
         value = float(text)
     except ValueError:
         value = math.nan
-    if not 0.0 < value < 1e12:
-        raise argparse.ArgumentTypeError(f"must be a number above 0, not {text!r}")
+    if not limits.is_quantity(value) or value == 0.0:
+        most = f"{limits.LARGEST_NUMBER:,.0f}"
+        raise argparse.ArgumentTypeError(f"must be a number above 0 and at most {most}, not {text!r}")
     return value
 
 

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-import contextlib
-import math
 import sqlite3
 from dataclasses import fields
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
-from ..errors import input_error
+from .. import foreign_database, limits
+from ..errors import input_error, reading
+from ..foreign_database import ForeignDatabase
+from ..limits import YEARS
 from ..run.observations import geopackage
 from . import geometry
 from .records import MODES, ORIGINS, STATUSES, Area, Availability, Resource, Source, Station, Type
 from .station_file import StationFile
 
+_STATION = ("fid", "geom", "name", "origin", "source", "kind", "agency", "address", "source_id", "picture")
+_AVAILABILITY = ("id", "resource", "begins", "ends", "status", "area")
+_AREA = ("fid", "geom", "name", "kind", "station")
 Record = TypeVar("Record", Source, Type, Resource)
 
 _NOT_STATIONS = "is not a station file; make one: firetwin stations import FILE --out STATIONS.gpkg"
@@ -31,17 +35,16 @@ def read(path: Path) -> StationFile:
     """
     if not path.is_file():
         raise input_error(path, "there is no such file; check the path")
-    try:
-        with contextlib.closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
-            tables = {name for (name,) in base.execute("SELECT name FROM sqlite_master WHERE type = 'table'")}
-            if not {"source", "type", "station", "resource", "availability", "area"} <= tables:
-                raise input_error(path, _NOT_STATIONS)
-            return _Reader(path, base).station_file()
-    except UnicodeDecodeError:
-        raise input_error(path, "cannot be read: a text in it is not UTF-8") from None
-    except sqlite3.DatabaseError as error:
-        reason = _NOT_STATIONS if "not a database" in str(error) else f"cannot be read: {error}"
-        raise input_error(path, reason) from None
+    with reading(path):
+        try:
+            with foreign_database.opened(path) as base:
+                if not {"source", "type", "station", "resource", "availability", "area"} <= base.tables():
+                    raise input_error(path, _NOT_STATIONS)
+                return _Reader(path, base).station_file()
+        except sqlite3.DatabaseError as error:
+            if "not a database" in str(error):
+                raise input_error(path, _NOT_STATIONS) from None
+            raise
 
 
 def _text(value: Any) -> str:
@@ -52,7 +55,7 @@ def _text(value: Any) -> str:
 
 
 class _Reader:
-    def __init__(self, path: Path, base: sqlite3.Connection) -> None:
+    def __init__(self, path: Path, base: ForeignDatabase) -> None:
         self.path, self.base = path, base
 
     def station_file(self) -> StationFile:
@@ -73,7 +76,7 @@ class _Reader:
         texts = [k for k, each in enumerate(fields(kind)) if each.type == "str"]
         flags = [k for k, each in enumerate(fields(kind)) if each.type == "bool"]
         found = []
-        for row in self.base.execute(f"SELECT {', '.join(names)} FROM {table} ORDER BY {key}"):
+        for row in self.base.rows(table, names, key):
             values = list(row)
             for k in texts:
                 values[k] = _text(values[k])
@@ -83,12 +86,8 @@ class _Reader:
         return tuple(found)
 
     def stations(self) -> tuple[Station, ...]:
-        command = (
-            "SELECT fid, geom, name, origin, source, kind, agency, address, source_id, picture "
-            "FROM station ORDER BY fid"
-        )
         found = []
-        for number, blob, name, origin, source, *texts in self.base.execute(command):
+        for number, blob, name, origin, source, *texts in self.base.rows("station", _STATION, "fid"):
             latitude, longitude = self.position(number, blob)
             found.append(
                 Station(number, _text(name), latitude, longitude, origin, source, *map(_text, texts))
@@ -105,7 +104,7 @@ class _Reader:
         return found
 
     def availability(self) -> tuple[Availability, ...]:
-        command = "SELECT id, resource, begins, ends, status, area FROM availability ORDER BY id"
+        rows = self.base.rows("availability", _AVAILABILITY, "id")
         return tuple(
             Availability(
                 resource,
@@ -114,7 +113,7 @@ class _Reader:
                 status,
                 _text(area),
             )
-            for number, resource, begins, ends, status, area in self.base.execute(command)
+            for number, resource, begins, ends, status, area in rows
         )
 
     def time(self, number: int, column: str, text: Any) -> datetime:
@@ -122,12 +121,14 @@ class _Reader:
             when = datetime.fromisoformat(text)
         except (TypeError, ValueError):
             self.fail("availability", number, f"has no time in {column}; write 2014-09-17T22:42:00Z")
+        if not YEARS[0] <= when.year <= YEARS[1]:
+            reason = f"has the year {when.year} in {column}; enter a year from {YEARS[0]} to {YEARS[1]}"
+            self.fail("availability", number, reason)
         return when.astimezone(UTC) if when.tzinfo else when.replace(tzinfo=UTC)
 
     def areas(self) -> tuple[Area, ...]:
         found = []
-        command = "SELECT fid, geom, name, kind, station FROM area ORDER BY fid"
-        for number, blob, name, kind, station in self.base.execute(command):
+        for number, blob, name, kind, station in self.base.rows("area", _AREA, "fid"):
             polygons = geopackage.polygons(blob) if isinstance(blob, bytes) else ()
             if not polygons:
                 self.fail("area", number, "has no polygon; draw it again, or remove it")
@@ -166,13 +167,14 @@ class _Reader:
             self.fail(table, number, "has no source; enter an id of table source")
 
     def numbers(self, each: Resource) -> None:
-        """Check that numbers are finite and not negative, the speed above 0, and the count at least 1."""
+        """Check that numbers are not negative or huge, the speed is above 0, and the count at least 1."""
         for name in NUMBERS:
             value = getattr(each, name)
             if value is None:
                 continue
-            if not isinstance(value, int | float) or not 0.0 <= value < math.inf:
-                self.fail("resource", each.id, f"has {name} {value!r}; enter a number of at least 0")
+            if not isinstance(value, int | float) or not limits.is_quantity(value):
+                reason = f"has {name} {value!r}; enter a number from 0 to {limits.LARGEST_NUMBER:,.0f}"
+                self.fail("resource", each.id, reason)
         if each.speed_km_h == 0.0:
             self.fail("resource", each.id, "has speed_km_h 0; leave it empty if it is unknown")
         if not isinstance(each.count, int) or each.count < 1:

@@ -6,7 +6,7 @@ import contextlib
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 
-from ..errors import InputError
+from ..errors import InputError, reading
 from ..progress import Progress, silent
 from . import contents, documents, explicit, implicit
 from .explicit import External
@@ -38,8 +38,9 @@ class Loader:
         self.source, self.tree, self.files = source, Tree(), 1
         self._kinds: dict[int, str] = {}
         self._pool: ThreadPoolExecutor | None = None
-        node = parse(source.read(source.root, MAX_BYTES), source.name(source.root))
-        explicit.read(self.tree, node, source.root, load=self._json(source.root))
+        with reading(source.name(source.root)):
+            node = parse(source.read(source.root, MAX_BYTES), source.name(source.root))
+            explicit.read(self.tree, node, source.root, load=self._json(source.root))
 
     def expand(self, tile_ids: Iterable[int]) -> None:
         """Read the external tilesets and subtrees of these tiles; a tile with a missing file is broken.
@@ -147,7 +148,8 @@ class Loader:
         name = self.source.name(uri)
         if isinstance(job, Subtree):
             self.files += 1
-            implicit.expand(self.tree, job, tile, data, name, self._bytes(uri))
+            with reading(name):
+                implicit.expand(self.tree, job, tile, data, name, self._bytes(uri))
         elif documents.is_tileset(node := parse(data, name)):
             self._kinds[job.content] = "tileset"
             self._read(tile, node, uri)
@@ -156,7 +158,8 @@ class Loader:
 
     def _read(self, holder: int, node: Node, uri: str) -> None:
         self.files += 1
-        explicit.read(self.tree, node, uri, holder, self._json(uri))
+        with reading(self.source.name(uri)):
+            explicit.read(self.tree, node, uri, holder, self._json(uri))
 
     def _fetch(self, uris: list[str], max_bytes: int | None = None) -> list[bytes | MissingError]:
         """Read files; an error in place of each missing one."""

@@ -233,10 +233,12 @@ def test_a_wmts_with_tiles_elsewhere_says_what_to_write(make, tmp_path, server):
 
 
 def test_keys_are_in_no_file_message_and_log(make, tmp_path, server, caplog, monkeypatch):
-    monkeypatch.setenv("MY_KEY", "s3cret-of-somebody")
+    monkeypatch.setenv("FIRETWIN_KEY_TILES", "s3cret-of-somebody")
     server.answers.gone = {(3, 1, 3)}
     with caplog.at_level(logging.DEBUG):
-        shot, told = fetched(make("photo_size = 300", path="/t/{z}/{x}/{y}.png?key=${MY_KEY}"), tmp_path)
+        shot, told = fetched(
+            make("photo_size = 300", path="/t/{z}/{x}/{y}.png?key=${FIRETWIN_KEY_TILES}"), tmp_path
+        )
     assert all(path.endswith("?key=s3cret-of-somebody") for path in server.asked)
     assert "s3cret" not in caplog.text + " ".join(told)
     assert orthophoto.inputs(shot.settings) == {"photo url": f"{server.url}/t/{{z}}/{{x}}/{{y}}.png"}

@@ -33,6 +33,19 @@ def test_what_is_shown(text, shown):
     assert escaped.escaped(text) == shown
 
 
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("https://user:pa@ss@host/a?key=abc&x=1 is bad", "https://...@host/a?key=...&x=1 is bad"),
+        ("mail a@b.org of https://h/x", "mail a@b.org of https://h/x"),
+        ("https://h/{z}?key=${FIRETWIN_KEY_A}", "https://h/{z}?key=${FIRETWIN_KEY_A}"),
+        ("https://h:80/a@b?x=1&access_token=t0k", "https://h:80/a@b?x=1&access_token=..."),
+    ],
+)
+def test_a_message_has_no_secret_of_a_url(text, shown):
+    assert escaped.message(text) == shown
+
+
 def test_a_long_message_keeps_its_beginning_and_its_end():
     shown = escaped.message("file.toml: " + "x" * 100_000 + "; do this")
     assert len(shown) < 2100

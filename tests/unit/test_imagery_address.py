@@ -49,17 +49,36 @@ def test_openstreetmap_may_not_be_draped_and_others_may():
     assert policies.for_host("tile.openstreetmap.org") is openstreetmap.POLICY
     assert not policies.OPEN.no_drape
     address.check("http://127.0.0.1:8000/{z}/{x}/{y}.png")
-    address.check("https://a.example/{z}/{x}/{y}.png?key=${MY_KEY}")
+    address.check("https://a.example/{z}/{x}/{y}.png?key=${FIRETWIN_KEY_TILES}")
     address.check("https://a.example/wmts?request=GetCapabilities")
-    assert not address.is_template("https://a.example/wmts?key=${MY_KEY}")
+    assert not address.is_template("https://a.example/wmts?key=${FIRETWIN_KEY_TILES}")
+
+
+@pytest.mark.parametrize("name", ["HOME", "AWS_SECRET_ACCESS_KEY", "GOOGLE_MAPS_API_KEY", "CESIUM_ION_TOKEN"])
+def test_a_scene_file_cannot_send_other_variables_to_a_host(monkeypatch, name):
+    monkeypatch.setenv(name, "s3cret-value")
+    for call in (address.check, address.with_variables):
+        with pytest.raises(InputError, match=f"variable {name}; only FIRETWIN_KEY_") as error:
+            call(HTTPS + f"?key=${{{name}}}")
+        assert "s3cret" not in str(error.value)
+
+
+def test_a_password_in_a_url_is_not_printed():
+    for call in (address.check, address.with_variables):
+        with pytest.raises(InputError, match="has a user name") as error:
+            call("https://me:s3cret@a.example/{z}/{x}/{y}.png")
+        assert "s3cret" not in str(error.value)
 
 
 def test_keys_come_from_the_environment_into_secret_parameters_alone(monkeypatch):
-    monkeypatch.setenv("MY_KEY", "s3cret-value")
-    assert address.with_variables(HTTPS + "?key=${MY_KEY}") == HTTPS + "?key=s3cret-value"
-    for wrong in ("https://a.example/${MY_KEY}/{z}/{x}/{y}.png", HTTPS + "?colour=${MY_KEY}"):
+    monkeypatch.setenv("FIRETWIN_KEY_TILES", "s3cret-value")
+    assert address.with_variables(HTTPS + "?key=${FIRETWIN_KEY_TILES}") == HTTPS + "?key=s3cret-value"
+    for wrong in (
+        "https://a.example/${FIRETWIN_KEY_TILES}/{z}/{x}/{y}.png",
+        HTTPS + "?colour=${FIRETWIN_KEY_TILES}",
+    ):
         with pytest.raises(InputError, match="not the complete value of a parameter") as error:
             address.with_variables(wrong)
         assert "s3cret" not in str(error.value)
-    with pytest.raises(InputError, match="needs the environment variable NOT_THERE"):
-        address.with_variables(HTTPS + "?key=${NOT_THERE}")
+    with pytest.raises(InputError, match="needs the environment variable FIRETWIN_KEY_NONE"):
+        address.with_variables(HTTPS + "?key=${FIRETWIN_KEY_NONE}")

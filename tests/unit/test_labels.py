@@ -62,7 +62,7 @@ def test_one_clear_error(tmp_path, text, line, reason):
 
 
 def test_a_missing_file(tmp_path):
-    with pytest.raises(InputError, match="cannot be read"):
+    with pytest.raises(InputError, match="there is no such file"):
         labels.read(tmp_path / "nowhere.csv")
 
 

@@ -3,6 +3,7 @@
 import firetwin_core as core
 import numpy as np
 import pytest
+from firetwin.run import info
 from firetwin_core import run as runs
 from small_run import RUN_TOML, small_fields
 
@@ -257,3 +258,18 @@ def test_burned_fraction_is_of_fuel_cells(make_run, form):
 def test_a_run_without_a_burned_fraction(make_run):
     with pytest.raises(core.Error, match="no burned_fraction"):
         runs.open(make_run()).burned_fraction(0)
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("[source]\nassumptions = 5", "source.assumptions is not a list of texts"),
+        ("[source]\nassumptions = [5]", "source.assumptions is not a list of texts"),
+        ("[source]\nmodel = [1]", "source.model is not a text"),
+    ],
+)
+def test_a_source_of_another_type_is_an_error(make_run, text, reason):
+    folder = make_run()
+    (folder / "run.toml").write_text(f"{RUN_TOML}{text}\n")
+    with pytest.raises(core.InputError, match=f"run.toml: {reason}"):
+        info.gather(runs.open(folder), "UTC")

@@ -204,7 +204,7 @@ def test_a_missing_file_and_one_that_is_not_text(tmp_path):
     with pytest.raises(InputError, match="no such scene file"):
         scene_file.read(tmp_path / "none.toml")
     (tmp_path / "bytes.toml").write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(InputError, match="cannot be read as text"):
+    with pytest.raises(InputError, match="is not UTF-8 text"):
         scene_file.read(tmp_path / "bytes.toml")
 
 

@@ -308,6 +308,10 @@ def test_without_shapely_the_command_says_what_to_install(monkeypatch):
         shapes.needed()
 
 
+def test_names_in_the_report_do_not_turn_its_text():
+    assert report.escape("a\u202egpj.<b>") == "a\\u202egpj.&lt;b&gt;"
+
+
 class _Page(HTMLParser):
     """Tags that open and close, pictures, and requests to elsewhere."""
 
@@ -344,6 +348,7 @@ def test_the_report_is_one_page_with_its_pictures_inside(round_run, against):
     text = report.html(run, scores.score(run, seen_too, *others), seen_too, *others)
     made = _Page(text)
     assert made.elsewhere == []
+    assert f'<meta http-equiv="Content-Security-Policy" content="{report.POLICY}">' in text
     assert made.drawn == 1
     assert len(made.pictures) == (2 if against == "perimeters" else scores.SAMPLES)
     for picture in made.pictures:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from firetwin.shot.source import ShotSource
 from firetwin_core import InputError
-from small_run import FX, FY, small_fields
+from small_run import FX, FY, RUN_TOML, small_fields
 
 
 def test_a_choice_is_a_scene_file_with_other_things_in_its_place(make_run, tmp_path):
@@ -52,3 +52,34 @@ def test_a_camera_that_ridges_hide_is_told_and_stays(make_run, tmp_path):
     assert would == pytest.approx(above[1], abs=1.0)
     (text,) = high.warnings()
     assert f"{above[1] - above[0]:,.0f} m higher" in text
+
+
+POLES = """
+run = "run"
+[terrain]
+apron = {apron}
+"""
+
+
+@pytest.mark.parametrize("latitude", [89.95, -89.97, 87.0])
+def test_a_run_whose_ground_would_reach_a_pole_is_refused(make_run, tmp_path, latitude):
+    fields = small_fields()
+    moved = {name: fields[name] - 38.9 + latitude for name in ("latitude", "fuel_latitude")}
+    make_run(toml=RUN_TOML.replace('event = "king_fire"\n', ""), **moved)
+    (tmp_path / "scene.toml").write_text(POLES.format(apron=110_000.0))
+    with pytest.raises(InputError, match=r"scene.toml:4:1: the run lies at 8\d.* choose a smaller apron"):
+        ShotSource(str(tmp_path / "scene.toml")).shot()
+    if latitude == 87.0:
+        (tmp_path / "scene.toml").write_text(POLES.format(apron=2000.0))
+        assert np.isfinite(ShotSource(str(tmp_path / "scene.toml")).shot().ground.floor()).all()
+
+
+def test_credits_that_do_not_fit_are_refused_before_the_build(make_run, tmp_path):
+    make_run()
+    (tmp_path / "earth.png").write_bytes(b"\x89PNG\r\n\x1a\n")
+    words = "owner " * 2000
+    camera = '{ kind = "globe", name = "g", latitude = 38.9, longitude = -120.6 }'
+    text = f'run = "run"\ncameras = [{camera}]\n[terrain]\nglobe = "earth.png"\nglobe_credit = "{words}"\n'
+    (tmp_path / "scene.toml").write_text(text)
+    with pytest.raises(InputError, match='camera "g": the credits'):
+        ShotSource(str(tmp_path / "scene.toml")).shot()

@@ -166,7 +166,11 @@ def test_a_row_without_a_true_origin_cannot_be_written(tmp_path):
         ("UPDATE resource SET speed_km_h = 'fast' WHERE id = 100", "resource 100 has speed_km_h 'fast'"),
         ("UPDATE resource SET speed_km_h = 0 WHERE id = 100", "has speed_km_h 0"),
         ("UPDATE resource SET count = 0 WHERE id = 100", "has count 0"),
+        ("UPDATE resource SET cost_hour = 1e308", "has cost_hour 1e+308; enter a number from 0 to 1,000"),
+        ("UPDATE resource SET speed_km_h = 5e-324", "has speed_km_h 5e-324"),
         ("UPDATE availability SET begins = 'soon'", "has no time in begins"),
+        ("UPDATE availability SET begins = '0001-01-01T00:00:00+14:00'", "has the year 1 in begins; enter"),
+        ("UPDATE availability SET ends = '9999-12-31T23:59:59-14:00'", "has the year 9999 in ends; enter"),
         ("UPDATE availability SET status = 'lost'", 'has status "lost"'),
         (
             "UPDATE availability SET resource = 1",
@@ -175,7 +179,7 @@ def test_a_row_without_a_true_origin_cannot_be_written(tmp_path):
         ("UPDATE area SET geom = x'00'", "area 1 has no polygon"),
         ("UPDATE area SET station = 1", "area 1 names station 1, which does not exist"),
         ("DROP TABLE availability", "is not a station file"),
-        ("ALTER TABLE resource DROP COLUMN note", "cannot be read: no such column: note"),
+        ("ALTER TABLE resource DROP COLUMN note", "has no stored column note"),
     ],
 )
 def test_what_another_program_broke_is_named(file, command, reason):
@@ -191,6 +195,19 @@ def test_what_another_program_broke_is_named(file, command, reason):
         reading.read(path)
     assert reason in str(caught.value)
     assert str(path) in str(caught.value)
+
+
+def test_geometries_in_one_another_are_refused_from_a_depth(file):
+    path, _ = file
+    nested = struct.pack("<BII", 1, 7, 1) * 50_000 + struct.pack("<BIdd", 1, 1, -120.5, 39.0)
+    base = sqlite3.connect(path)
+    for (name,) in base.execute("SELECT name FROM sqlite_master WHERE type = 'trigger'").fetchall():
+        base.execute(f"DROP TRIGGER {name}")
+    base.execute("UPDATE station SET geom = ?", (b"GP\0\1" + struct.pack("<i", 4326) + nested,))
+    base.commit()
+    base.close()
+    with pytest.raises(InputError, match="has no position in degrees"):
+        reading.read(path)
 
 
 def test_points_as_other_programs_write_them_are_read(file):

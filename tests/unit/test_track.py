@@ -211,7 +211,7 @@ def test_a_missing_track_and_a_folder_are_errors(tmp_path):
     with pytest.raises(InputError, match=r"gone.gpx: no such track"):
         track.read(tmp_path / "gone.gpx")
     (tmp_path / "b.gpx").mkdir()
-    with pytest.raises(InputError, match="cannot be read"):
+    with pytest.raises(InputError, match="is a folder; name a file"):
         track.read(tmp_path / "b.gpx")
 
 

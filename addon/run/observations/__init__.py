@@ -16,7 +16,7 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import Error, input_error
+from ...errors import input_error, reading
 from . import dates, infrared_detections
 from .feature import Feature, Polygon
 
@@ -138,15 +138,8 @@ def features(path: Path) -> list[Feature] | Detections:
     reader = _reader(path)
     if path.exists() and not path.is_file():  # opening a pipe would block
         raise input_error(path, "is not a file; name a file of observations")
-    try:
+    with reading(path):
         return reader.read(path)
-    except Error:
-        raise
-    except OSError as error:
-        raise input_error(path, (error.strerror or str(error)).lower()) from None
-    except Exception as error:  # Python's errors or a library's, from unexpected content
-        reason = " ".join(str(error).split()) or type(error).__name__
-        raise input_error(path, f"is damaged or incomplete: {reason}") from error
 
 
 def beside(folder: str | Path) -> list[Path]:

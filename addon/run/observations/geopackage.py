@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import contextlib
 import sqlite3
 import struct
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from ... import foreign_database, limits
 from ...errors import input_error
+from ...foreign_database import ForeignDatabase
 from .feature import Feature, Polygon, Ring, degrees, ring
 from .projection import to_degrees
 
@@ -29,26 +30,39 @@ def read(path: Path) -> list[Feature]:
     """
     path.stat()  # raises for a missing file; SQLite would create one
     try:
-        with contextlib.closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
-            base.row_factory = sqlite3.Row
-            return [row for table in base.execute(_TABLES).fetchall() for row in _rows(path, base, table)]
+        with foreign_database.opened(path) as base:
+            return [row for table in _tables(base) for row in _rows(path, base, table)]
     except sqlite3.Error as error:
         raise input_error(path, f"no GeoPackage: {error}") from None
 
 
-_TABLES = (
-    "SELECT g.table_name AS name, g.column_name AS shape, s.organization AS organization, "
-    "s.organization_coordsys_id AS code, s.definition AS definition FROM gpkg_geometry_columns g "
-    "JOIN gpkg_spatial_ref_sys s ON s.srs_id = g.srs_id"
-)
+class _Table(NamedTuple):
+    """A feature table: its name, its column of geometry, and its reference system."""
+
+    name: str
+    shape: str
+    system: str
 
 
-def _rows(path: Path, base: sqlite3.Connection, table: sqlite3.Row) -> Iterator[Feature]:
-    name = table["name"].replace('"', '""')
-    system = f"{table['organization']}:{table['code']}" if table["code"] > 0 else table["definition"]
-    for number, row in enumerate(base.execute(f'SELECT * FROM "{name}"'), 1):
-        place = f"row {number} of {table['name']}"
-        blob = row[table["shape"]]
+def _tables(base: ForeignDatabase) -> list[_Table]:
+    named = ("srs_id", "organization", "organization_coordsys_id", "definition")
+    systems = {
+        number: f"{body}:{code}" if isinstance(code, int) and code > 0 else str(definition)
+        for number, body, code, definition in base.rows("gpkg_spatial_ref_sys", named)
+    }
+    columns = ("table_name", "column_name", "srs_id")
+    found = base.rows("gpkg_geometry_columns", columns)
+    return [_Table(str(name), str(shape), systems[k]) for name, shape, k in found if k in systems]
+
+
+def _rows(path: Path, base: ForeignDatabase, table: _Table) -> Iterator[Feature]:
+    names = base.columns(table.name)
+    if names and table.shape not in names:
+        raise input_error(path, f"table {table.name} has no stored column {table.shape}; export it again")
+    for number, values in enumerate(base.rows(table.name), 1):
+        row = dict(zip(names, values, strict=True))
+        place = f"row {number} of {table.name}"
+        blob = row.pop(table.shape)
         parts: dict[str, list[Any]] = {"polygon": [], "line": [], "point": []}
         try:
             for kind, points in [] if blob is None else parts_of(blob):
@@ -58,13 +72,12 @@ def _rows(path: Path, base: sqlite3.Connection, table: sqlite3.Row) -> Iterator[
         except (struct.error, ValueError, IndexError, TypeError):
             raise input_error(path, f"{place} has a damaged geometry") from None
         outlines = tuple(
-            tuple(ring(path, place, to_degrees(path, system, each)) for each in rings)
+            tuple(ring(path, place, to_degrees(path, table.system, each)) for each in rings)
             for rings in parts["polygon"]
         )
-        properties = {key: row[key] for key in row.keys() if key != table["shape"]}  # noqa: SIM118
-        spots = degrees(path, place, to_degrees(path, system, np.array(parts["point"]).reshape(-1, 2)))
-        lines = tuple(degrees(path, place, to_degrees(path, system, part)) for part in parts["line"])
-        yield Feature(outlines, {"layer": table["name"]} | properties, place, spots, lines)
+        spots = degrees(path, place, to_degrees(path, table.system, np.array(parts["point"]).reshape(-1, 2)))
+        lines = tuple(degrees(path, place, to_degrees(path, table.system, part)) for part in parts["line"])
+        yield Feature(outlines, {"layer": table.name} | row, place, spots, lines)
 
 
 def parts_of(blob: bytes) -> Iterator[Part]:
@@ -114,7 +127,9 @@ class _Binary:
         self.at += 4
         return value
 
-    def geometry(self) -> Iterator[Part]:
+    def geometry(self, depth: int = 0) -> Iterator[Part]:
+        if depth > limits.GEOMETRY_DEPTH:
+            raise ValueError(f"more than {limits.GEOMETRY_DEPTH} geometries in one another")
         self.order = "<" if self.blob[self.at] else ">"
         self.at += 1
         kind = self.number()
@@ -135,7 +150,7 @@ class _Binary:
                 yield "point", coordinates[:2].astype(np.float64)
         elif kind % 1000 in (4, 5, 6, 7):
             for _ in range(self.number()):
-                yield from self.geometry()
+                yield from self.geometry(depth + 1)
         else:
             raise _NoPolygonError
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import html as markup
 from collections.abc import Iterable, Iterator, Sequence
 from datetime import datetime
-from html import escape
 from typing import Any
 
 from firetwin_core.run import Run
 
 from ...data import history
+from ...escaped import escaped
 from .. import times
 from . import plots, shapes, used
 from .grid import ScoreGrid
@@ -19,6 +20,9 @@ from .page import arrival, local, said, theirs
 ACRE = history.SQUARE_METRES_PER_ACRE
 _HELP = HELP | {"apart": "mean distance of the two perimeters from each other, and the largest (Hausdorff)"}
 _SHOWN = ("sorensen", "jaccard", "kappa", "precision", "recall", "sdi", "adi")
+
+POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
+"""Content security policy: the page loads nothing and runs no script."""
 
 STYLE = """
 :root{color-scheme:light;--ink:#1f2933;--soft:#5b6773;--line:#dde2e8}
@@ -46,6 +50,11 @@ dt{font-weight:600}dd{margin:0;color:var(--soft)}
 """
 
 
+def escape(text: str) -> str:
+    """Escape text for an element or an attribute, including control and bidirectional characters."""
+    return markup.escape(escaped(text))
+
+
 def html(run: Run, results: dict[str, Any], seen: Any, other: Run | None = None) -> str:
     """Report of the scores `found` of a run against observations `seen` or against another run."""
     grid = ScoreGrid.from_run(run)
@@ -66,6 +75,7 @@ def html(run: Run, results: dict[str, Any], seen: Any, other: Run | None = None)
     )
     return (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{name}: scores</title>'
+        f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
         f'<meta name="viewport" content="width=device-width, initial-scale=1"><style>{STYLE}</style></head>'
         f"<body><main>\n{body}\n</main></body></html>\n"
     )

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import input_error
+from ...errors import input_error, reading
 from ...run import times
 from . import track_csv, track_xml
 from .flight import Waypoints
@@ -108,13 +108,12 @@ def read(path: Path) -> Track:
     reader = _READERS.get(path.suffix.lower())
     if reader is None:
         raise input_error(path, "is no .gpx, .kml or .csv file; save the track as one of them")
-    try:
-        state = path.stat()
+    with reading(path):
+        try:
+            state = path.stat()
+        except FileNotFoundError:
+            raise input_error(path, "no such track; see track in the scene file") from None
         return _read(path, state.st_mtime_ns, state.st_size)
-    except FileNotFoundError:
-        raise input_error(path, "no such track; see track in the scene file") from None
-    except OSError as error:
-        raise input_error(path, f"cannot be read: {error.strerror}") from None
 
 
 @functools.lru_cache(maxsize=16)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...errors import InputError, input_error
+from ...errors import InputError, input_error, reading
 from .former import current
 from .toml_positions import Where, places
 
@@ -47,13 +47,11 @@ def load(path: Path) -> str:
     """
     if path.is_dir():
         raise input_error(path, _folder(path))
-    try:
-        return path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise input_error(path, "no such scene file; examples/king_fire.toml shows every key") from None
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise input_error(path, f"cannot be read as text: {reason}") from None
+    with reading(path):
+        try:
+            return path.read_text(encoding="utf-8-sig")
+        except FileNotFoundError:
+            raise input_error(path, "no such scene file; examples/king_fire.toml shows every key") from None
 
 
 def _folder(path: Path) -> str:

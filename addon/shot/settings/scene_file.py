@@ -12,7 +12,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from ...errors import InputError, input_error
+from ...errors import InputError, input_error, reading
 from ..schema import Field, Key, Where, either, fields, items, validate
 from ..schema.did_you_mean import suggestion
 from ..schema.former import FORMER, FORMER_KEYS, FORMER_VALUES
@@ -34,11 +34,12 @@ def read(path: str | Path) -> Settings:
         The error names the file, line and column, and the remedy.
     """
     path = Path(path)
-    text = load(path)
-    settings = parse(text, path)
-    if invalid := validate(settings):
-        raise _Reader(path, text).error(*invalid)
-    return settings
+    with reading(path):
+        text = load(path)
+        settings = parse(text, path)
+        if invalid := validate(settings):
+            raise _Reader(path, text).error(*invalid)
+        return settings
 
 
 def parse(text: str, path: Path) -> Settings:

@@ -11,7 +11,7 @@ import importlib
 from pathlib import Path
 from types import ModuleType
 
-from ...errors import Error, input_error
+from ...errors import input_error, reading
 from ..import_rows import Batch
 
 MODULES = ("firetwin", "usgs", "hifld", "osm", "resources_csv", "stations_csv")
@@ -47,17 +47,8 @@ def read(path: Path) -> Batch:
     InputError
         The file is missing, has an unknown format, or is damaged.
     """
-    try:
+    with reading(path):
         return find_importer(path).read(path)
-    except Error:
-        raise
-    except OSError as error:
-        raise input_error(path, (error.strerror or str(error)).lower()) from None
-    except UnicodeDecodeError:
-        raise input_error(path, "is not UTF-8 text; save it as UTF-8") from None
-    except Exception as error:  # Python's errors from unexpected content
-        reason = " ".join(str(error).split()) or type(error).__name__
-        raise input_error(path, f"is damaged or incomplete: {reason}") from error
 
 
 def _unknown_format() -> str:

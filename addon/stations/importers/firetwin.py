@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import contextlib
 import sqlite3
 from pathlib import Path
 
+from ... import foreign_database
 from .. import reading
 from ..import_rows import Batch
 
@@ -16,12 +16,11 @@ def sniff(path: Path, head: bytes) -> bool:
     """Return True for a GeoPackage with Firetwin's tables."""
     if not head.startswith(b"SQLite format 3\0"):
         return False
-    with contextlib.closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
-        try:
-            tables = {name for (name,) in base.execute("SELECT name FROM sqlite_master WHERE type = 'table'")}
-        except sqlite3.DatabaseError:
-            return False
-    return tables >= {"station", "resource", "source", "availability"}
+    try:
+        with foreign_database.opened(path) as base:
+            return base.tables() >= {"station", "resource", "source", "availability"}
+    except sqlite3.DatabaseError:
+        return False
 
 
 def read(path: Path) -> Batch:

@@ -12,6 +12,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from ... import limits
 from ...errors import input_error
 from .. import import_rows, types
 from ..import_rows import Batch, ResourceDraft
@@ -89,9 +90,10 @@ def _number(path: Path, line: int, name: str, text: str) -> float | None:
         value = float(text)
     except ValueError:
         value = math.nan
-    if not 0.0 <= value < math.inf or (name == "speed_km_h" and value == 0.0):
+    if not limits.is_quantity(value) or (name == "speed_km_h" and value == 0.0):
         least = "above 0" if name == "speed_km_h" else "of at least 0"
-        raise input_error(path, f'has {name} "{text}"; enter a number {least}, or leave it empty', line=line)
+        reason = f"enter a number {least} and at most {limits.LARGEST_NUMBER:,.0f}, or leave it empty"
+        raise input_error(path, f'has {name} "{text}"; {reason}', line=line)
     return value
 
 
@@ -120,5 +122,9 @@ def _time(path: Path, line: int, key: str, text: str) -> datetime:
         when = None
     if when is None or when.tzinfo is None:
         reason = f'has {key} "{text}"; write a time with its zone, 2014-09-17T16:00-07:00'
+        raise input_error(path, reason, line=line)
+    if not limits.YEARS[0] <= when.year <= limits.YEARS[1]:
+        first, last = limits.YEARS
+        reason = f'has {key} "{text}"; enter a year from {first} to {last}'
         raise input_error(path, reason, line=line)
     return when.astimezone(UTC)

@@ -6,13 +6,13 @@ are FTYPE 740 (emergency response and law enforcement) with FCODE 74026; other s
 
 from __future__ import annotations
 
-import contextlib
 import sqlite3
 from collections.abc import Mapping
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from ... import foreign_database
 from ...run.observations import geojson, geopackage
 from .. import import_rows
 from ..import_rows import Batch, Draft
@@ -32,19 +32,14 @@ def sniff(path: Path, head: bytes) -> bool:
         text = head.lower()
         start = head.lstrip(b"\xef\xbb\xbf \r\n").startswith(b"{")
         return start and b'"fcode"' in text and b'"ftype"' in text
-    with contextlib.closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
-        try:
-            tables = [name for (name,) in base.execute("SELECT table_name FROM gpkg_geometry_columns")]
-            return any(_is_ours(base, table) for table in tables)
-        except sqlite3.DatabaseError:
-            return False
-
-
-def _is_ours(base: sqlite3.Connection, table: str) -> bool:
-    names = {
-        row[1].lower() for row in base.execute("SELECT * FROM pragma_table_info(?)", (table,)).fetchall()
-    }
-    return {"ftype", "fcode"} <= names
+    try:
+        with foreign_database.opened(path) as base:
+            if "gpkg_geometry_columns" not in base.tables():
+                return False
+            tables = [str(name) for (name,) in base.rows("gpkg_geometry_columns", ["table_name"])]
+            return any({"ftype", "fcode"} <= set(map(str.lower, base.columns(each))) for each in tables)
+    except sqlite3.DatabaseError:
+        return False
 
 
 def read(path: Path) -> Batch:

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from urllib.parse import urlsplit
 
+from ... import limits
 from ...errors import InputError, input_error
 from .. import policies
 from ..sources import secret
@@ -73,6 +74,8 @@ def check(url: str) -> None:
     policy = policies.for_host(host)
     if policy.no_drape:
         raise input_error(name, f"{policy.name} may not be draped: {policy.no_drape}")
+    for found in _VARIABLE.finditer(url):
+        _check_variable(found[1], policy, name)
     if not is_template(url):
         return
     if "{" in (urlsplit(url).netloc):
@@ -91,12 +94,14 @@ def with_variables(url: str) -> str:
     Raises
     ------
     InputError
-        A variable is not set, or is not a secret parameter of the URL.
+        A variable may not be used, is not set, or is not a secret parameter of the URL.
     """
-    name = secret.split(url)[0]
+    name = secret.Redactor().text(secret.split(url)[0])
+    policy = policies.for_host(origin(url, name).host)
     values = []
 
     def value(found: re.Match[str]) -> str:
+        _check_variable(found[1], policy, name)
         if not (text := os.environ.get(found[1], "")):
             raise input_error(name, f"needs the environment variable {found[1]}")
         values.append(text)
@@ -107,6 +112,28 @@ def with_variables(url: str) -> str:
     if any(each not in hidden for each in values):
         raise misplaced(name)
     return whole
+
+
+def _check_variable(variable: str, policy: policies.Policy, name: str) -> None:
+    """Check that a scene file may send an environment variable to a host.
+
+    A scene file of someone else could send any variable, such as the password of another service, to a host
+    of its choice.
+
+    Raises
+    ------
+    InputError
+        It is neither ``FIRETWIN_KEY_*`` nor the key of the service at this host.
+    """
+    if variable == policy.key_variable or variable.startswith(limits.KEY_PREFIX):
+        return
+    allowed = (
+        f"{limits.KEY_PREFIX}* are sent"
+        if not policy.key_variable
+        else (f"{limits.KEY_PREFIX}* and {policy.key_variable} are sent")
+    )
+    reason = f"asks for the environment variable {variable}; only {allowed} to this host"
+    raise input_error(name, f"{reason}: set {limits.KEY_PREFIX}NAME and name it in the URL")
 
 
 def misplaced(name: str) -> InputError:

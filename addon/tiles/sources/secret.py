@@ -6,19 +6,10 @@ import logging
 import re
 from urllib.parse import parse_qsl, urlencode, urlsplit, urlunsplit
 
-NAMES = frozenset(
-    (
-        *("key", "api_key", "apikey", "api-key", "subscription-key", "session", "sessionid"),
-        *("token", "access_token", "auth", "authorization", "password", "secret"),
-        *("sig", "signature", "x-amz-signature", "x-amz-credential", "x-amz-security-token"),
-        *("x-goog-signature", "x-goog-credential", "policy", "key-pair-id"),
-    )
-)
-"""Parameters of URLs that are secrets, in lower case."""
+from ...escaped import HIDDEN, SECRETS, without_secrets
 
-HIDDEN = "..."
 _NAMED = re.compile(
-    rf"(?i)\b({'|'.join(map(re.escape, sorted(NAMES, key=len, reverse=True)))})"
+    rf"(?i)\b({'|'.join(map(re.escape, sorted(SECRETS, key=len, reverse=True)))})"
     r"""(["']?\s*[=:]\s*["']?)[^&\s"'#<>,;}]+"""
 )
 _BEARER = re.compile(r"(?i)\b(bearer\s+)[^\s\"',;]+")
@@ -29,7 +20,7 @@ def split(url: str) -> tuple[str, dict[str, str]]:
     """Split a URL into the URL without secrets and fragment, and the secrets by parameter."""
     parts = urlsplit(url)
     every = parse_qsl(parts.query, keep_blank_values=True)
-    secrets = {name: value for name, value in every if name.lower() in NAMES}
+    secrets = {name: value for name, value in every if name.lower() in SECRETS}
     if not secrets:
         return urlunsplit(parts._replace(fragment="")), {}
     rest = [(name, value) for name, value in every if name not in secrets]
@@ -60,6 +51,7 @@ class Redactor(logging.Filter):
         """Replace secrets in a text."""
         for value in sorted(self._values, key=len, reverse=True):
             text = text.replace(value, HIDDEN)
+        text = without_secrets(text)
         text = _BEARER.sub(rf"\1{HIDDEN}", text)
         return _NAMED.sub(rf"\1\2{HIDDEN}", text)
 

@@ -1,0 +1,78 @@
+"""Limits on files and servers of others: one list, from which the page of limits is made.
+
+A reader imports its number from here. `docs/generate.py` writes `LIMITS` into docs/limits.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A limit.
+
+    Attributes
+    ----------
+    group
+        Kind of files or servers.
+    quantity
+        What is limited.
+    value
+        The number with its unit, as the page shows it.
+    beyond
+        What happens beyond it.
+    """
+
+    group: str
+    quantity: str
+    value: str
+    beyond: str
+
+
+LIMITS: list[Limit] = []
+_MB = 1_000_000
+
+
+def _number(group: str, quantity: str, value: int, beyond: str, unit: str = "") -> int:
+    """List a limit and return its number; bytes are shown as MB."""
+    shown = f"{value / _MB:,.6g} MB" if unit == "bytes" else f"{value:,} {unit}".strip()
+    LIMITS.append(Limit(group, quantity, shown, beyond))
+    return value
+
+
+_G = "GeoPackages"
+SQLITE_GROWTH = _number(
+    _G, "text and bytes read from a table, as a multiple of the file size (plus 1 MB)", 2, "refused"
+)
+SQLITE_FREE = 1 << 20
+"""Bytes in addition to `SQLITE_GROWTH` times the file size."""
+SQLITE_LENGTH = _number(_G, "length of a value", 256 * _MB, "refused", "bytes")
+SQLITE_SQL = _number(
+    _G, "length of a command in the file, such as a view or a trigger", _MB, "refused", "bytes"
+)
+SQLITE_COLUMNS = _number(_G, "columns of a table", 500, "refused")
+SQLITE_DEPTH = _number(_G, "depth of an expression in the file", 100, "refused")
+SQLITE_SECONDS = _number(_G, "processor time of a file (plus 1 s per 10 MB)", 20, "refused", "s")
+GEOMETRY_DEPTH = _number("GeoPackages", "geometries in one another", 32, "refused as damaged")
+
+_E = "Scene files"
+KEY_PREFIX = "FIRETWIN_KEY_"
+"""Environment variables that a scene file may send to a host of its choice begin with this."""
+LIMITS.append(
+    Limit(_E, "environment variables that a URL may name", f"`{KEY_PREFIX}*`; a service's own key", "refused")
+)
+
+_S = "Stations and labels"
+SMALLEST_NUMBER, LARGEST_NUMBER = 1e-6, 1e9
+"""Bounds of a load, speed, time, distance or cost of a resource that is not 0."""
+_BOUNDS = f"0, and {SMALLEST_NUMBER:.6f} to {LARGEST_NUMBER:,.0f}"
+LIMITS.append(Limit(_S, "numbers of a resource, such as its cost", _BOUNDS, "refused"))
+YEARS = 1900, 2200
+"""First and last year of a window of availability."""
+LIMITS.append(Limit(_S, "years of a window of availability", f"{YEARS[0]} to {YEARS[1]}", "refused"))
+
+
+def is_quantity(value: float) -> bool:
+    """Check whether a number can be a quantity of a resource; NaN cannot."""
+    return value == 0.0 or SMALLEST_NUMBER <= value <= LARGEST_NUMBER

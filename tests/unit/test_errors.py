@@ -1,0 +1,108 @@
+"""Every reader of a user's file turns what it raises into one line: the file, the fault and a remedy."""
+
+import errno
+import importlib
+import sqlite3
+
+import pytest
+from firetwin import errors
+from firetwin.errors import FullDiskError, InputError
+from firetwin.run import labels, observations
+from firetwin.shot.cameras import track
+from firetwin.shot.settings import scene_file
+from firetwin.stations import importers, reading
+from firetwin.tiles import explicit
+from firetwin.tiles.loader import Loader
+from firetwin.tiles.sources.folder import Folder
+from small_stations import write
+from station_files import write_geojson
+from tilesets import tile, tileset
+from tilesets import write as write_tileset
+
+PLANTED = {
+    sqlite3.OperationalError("disk I/O error"): "cannot be read as a GeoPackage: disk I/O error; export it",
+    sqlite3.DatabaseError("malformed"): "cannot be read as a GeoPackage: malformed; export it",
+    ValueError("odd"): "is damaged or incomplete: odd; export it",
+    OverflowError("date value out of range"): "is damaged or incomplete: date value out of range; export it",
+    KeyError("k"): "is damaged or incomplete: 'k'; export it",
+    AssertionError(): "is damaged or incomplete: AssertionError; export it",
+    RecursionError("maximum recursion depth exceeded"): "nested too deeply; export it without nesting",
+    MemoryError(): "does not fit into the memory; use a part",
+    UnicodeDecodeError("utf-8", b"\xff", 0, 1, "invalid"): "is not UTF-8 text (byte 1); save it as UTF-8",
+    PermissionError(errno.EACCES, "Permission denied"): "permission denied); change its permissions",
+    OSError(errno.EROFS, "Read-only file system"): "cannot be read (read-only file system); copy it",
+    OSError(errno.EIO, "Input/output error"): "cannot be read (input/output error); copy it",
+    OSError(errno.ENOSPC, "No space left on device"): "the disk is full; free some space",
+}
+
+
+def _observed(name):
+    return lambda path: observations.features(path.with_name(f"a{name}"))
+
+
+READERS = {
+    "GeoJSON": (_observed(".geojson"), observations.__name__ + ".geojson:read"),
+    "KML": (_observed(".kml"), observations.__name__ + ".kml:read"),
+    "GeoPackage": (_observed(".gpkg"), observations.__name__ + ".geopackage:read"),
+    "shapefile": (_observed(".shp"), observations.__name__ + ".shapefile:read"),
+    "detections": (_observed(".csv"), observations.__name__ + ".firms:read"),
+    "station file": (reading.read, reading.__name__ + ":_Reader.station_file"),
+    "import": (importers.read, importers.__name__ + ".firetwin:read"),
+    "labels": (lambda path: labels.read(path.with_name("l.csv")), labels.__name__ + ":_csv"),
+    "track": (lambda path: track.read(path.with_name("t.gpx")), track.__name__ + ":_validated"),
+    "scene file": (lambda path: scene_file.read(path.with_name("s.toml")), scene_file.__name__ + ":parse"),
+    "tileset": (lambda path: Loader(Folder(path.parent)), explicit.__name__ + ":read"),
+}
+
+
+@pytest.fixture(scope="module")
+def station_file(tmp_path_factory):
+    """A station file, beside one file for each other reader."""
+    folder = tmp_path_factory.mktemp("files")
+    write_geojson(folder / "a.geojson", [])
+    for name in ("a.kml", "a.gpkg", "a.shp", "a.csv", "l.csv", "s.toml"):
+        (folder / name).write_text("")
+    (folder / "t.gpx").write_text('<gpx><trk><trkseg><trkpt lat="1" lon="2"/></trkseg></trk></gpx>')
+    write_tileset(folder, {"tileset.json": tileset(tile())})
+    return write(folder / "a_stations.gpkg", [(1, "A", 39.0, -120.5, "fire station", "user")])
+
+
+@pytest.mark.parametrize("reader", READERS)
+def test_what_a_reader_raises_becomes_one_line(reader, station_file, monkeypatch):
+    read, target = READERS[reader]
+    module, _, name = target.partition(":")
+    owner, _, last = name.rpartition(".")
+    holder = importlib.import_module(module)
+    holder = getattr(holder, owner) if owner else holder
+    for planted, text in PLANTED.items():
+
+        def fail(*_args, error=planted, **_more):
+            raise error
+
+        monkeypatch.setattr(holder, last, fail)
+        with pytest.raises(InputError) as caught:
+            read(station_file)
+        assert text in caught.value.reason
+        assert caught.value.path.startswith(str(station_file.parent))
+        assert "\n" not in str(caught.value)
+        assert isinstance(caught.value, FullDiskError) == (getattr(planted, "errno", 0) == errno.ENOSPC)
+
+
+def test_an_interruption_passes_a_reader():
+    with pytest.raises(KeyboardInterrupt), errors.reading("a.gpkg"):
+        raise KeyboardInterrupt
+
+
+@pytest.mark.parametrize(
+    ("planted", "text"),
+    [
+        ("database or disk is full", "a.gpkg: the disk is full; free some space"),
+        ("attempt to write a readonly database", "a.gpkg: cannot be written (attempt to write a readonly"),
+        ("unable to open database file", "a.gpkg: cannot be written (unable to open database file); choose"),
+    ],
+)
+def test_what_sqlite_raises_on_a_full_or_read_only_disk_becomes_one_line(planted, text, monkeypatch):
+    monkeypatch.setattr(errors, "is_nearly_full", lambda _: False)
+    with pytest.raises(InputError) as caught, errors.writing("a.gpkg"):
+        raise sqlite3.OperationalError(planted)
+    assert text in str(caught.value)
