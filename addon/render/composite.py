@@ -117,6 +117,17 @@ def place_text(
     )
 
 
+def soften_highlights(picture: Array, white: float) -> Array:
+    """Spread the light of a picture (h, w, 3) above a radiance over about 5 pixels, as lenses do.
+
+    Flames are many times brighter than white. Without this, a pixel that shows a little of them between
+    leaves is as bright as one full of them, and gaps look like square chips.
+    """
+    brightest = picture.max(axis=-1, keepdims=True)
+    excess = picture * np.clip(1.0 - white / np.maximum(brightest, 1.0e-6), 0.0, 1.0)
+    return (picture - excess + blur(blur(excess))).astype(np.float32)
+
+
 def infrared_radiance(surface: Array, flames: Array, warmth: Array, sky: float) -> Array:
     """Compute infrared radiance (h, w) without smoke, W m-2 sr-1, from AOVs (see `blender.nodes`).
 

@@ -26,6 +26,7 @@ Array = NDArray[np.float32]
 _STEP = 0.5  # voxels, step of the ray march
 _SPARSE, _HIDES = 16, 3.0  # pixels between rays; optical depth that transmits 5 % of light
 _FARTHEST, _NEAREST, _TAPS = 2.0e4, 1.0e-3, 48  # m; nearest distance over the surface's; distances of masks
+_WHITE = 1.2  # radiance times 2^exposure above which lenses spread light visibly (by eye)
 _PLACES = ((0.25, 0.25), (0.75, 0.75))  # positions of the marched rays in a pixel, which are averaged
 
 
@@ -77,6 +78,9 @@ class Eye:
                 marched += np.float32(weight) * found.reshape(marched.shape)
         self.clear = marched[..., 3].mean(axis=-1)
         composed = composite.compose(rendered, at, marched)
+        if self.flames:
+            white = _WHITE * 2.0**-self.stage.scene.view_settings.exposure
+            composed = composite.soften_highlights(composed, white)
         return composed if text is None else self._place_text(composed, rendered, at, text)
 
     def _march(

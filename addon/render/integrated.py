@@ -34,6 +34,7 @@ MARCHED_PASSES = ("rgb", "thermal", "depth")
 
 _AOVS = {nodes.SURFACE: "COLOR", nodes.FLAMES: "COLOR", nodes.WARMTH: "VALUE"}
 _PICTURE = "integrated picture"
+_BLOOM = {"Threshold": 2.5, "Maximum": 20.0}  # radiance times 2^exposure; text, of 2, has no bloom
 _CLOSE, _HALF = 0.1, 0.5  # share of the distance to the camera's target; share of the picture
 
 Array = NDArray[np.float32]
@@ -168,6 +169,7 @@ class IntegratedRenderer:
         sensor.write_image(file, light)
         self.image.filepath = str(file)
         self.image.reload()
+        _set_bloom(self.scene)
         layers.write_exr(self.scene, str(part), [picture])
         self.scene.render.filepath = str(part / Path(picture.file("png")).name)
         bpy.ops.render.render(write_still=True, scene=self.scene.name)
@@ -234,6 +236,17 @@ def _image_node(scene: bpy.types.Scene) -> bpy.types.Image:
             tree.nodes.remove(source)
     node.image = image
     return image
+
+
+def _set_bloom(scene: bpy.types.Scene) -> None:
+    """Set the radiance from which our bloom begins, for the exposure of the current frame."""
+    tree = compat.compositor(scene)
+    assert tree is not None
+    for node in tree.nodes:
+        if node.bl_idname == "CompositorNodeGlare" and owned.is_ours(node):
+            for name, value in _BLOOM.items():
+                socket = compat.find_socket(node.inputs, name)
+                socket.default_value = value * 2.0**-scene.view_settings.exposure
 
 
 def _write(part: Path, picture: Picture, pixels: Array) -> None:

@@ -11,12 +11,16 @@ namespace {
 
 constexpr double largest_eddy = 10.0;  // m, size of the largest eddies
 constexpr double octave_ratio = 2.07;  // of sizes of octaves
-constexpr float octave_weight = 0.52F; // octave_ratio of their strengths
+constexpr float octave_weight = 0.56F; // octave_ratio of their strengths
+constexpr float fold_weight = 0.8F;    // and of the folds of bright sheets
 constexpr float octave_warp = 0.35F;   // displacement of an octave by the previous one, cells
 constexpr float first_band =
     0.25F; // m, height of the first band; each is twice as high as the last
 constexpr float crown_eddies = 2.2F; // radii of a crown that correspond to a flame's length
 constexpr float reach = 3.0F;        // m by which eddies move flames up
+constexpr float folds = 1.8F;        // thinness of the bright sheets within flames
+constexpr float sheets = 0.9F;       // share of the soot in them
+constexpr float slow = 2.0F;         // m, height below which gas may be as slow as at the ground
 constexpr float below_ground = 2.0F; // m below the map's ground, where drawn ground may be lower
 constexpr double octave_turn = 2.4;  // radians between the lattices of octaves
 constexpr double drawn_out = 2.2;    // height over width of eddies
@@ -100,6 +104,78 @@ FlameField::Octave FlameField::make_octave(double size, double angle, std::uint3
   return made;
 }
 
+float FlameField::flight_to(float height) const {
+  const auto launch = static_cast<float>(shape_.launch),
+             lift = static_cast<float>(shape_.acceleration);
+  return (std::sqrt(launch * launch + 2.0F * lift * std::max(height, 0.0F)) - launch) / lift;
+}
+
+/// Replaces flames of the ground by those of crowns that reach higher over these points.
+///
+/// Flames climb the trunk, surround the crown as wide as it is, and narrow to tongues above it,
+/// where they lean.
+void FlameField::add_crowns(const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& moved_x,
+                            const Lanes& moved_y, FlameShares& shares) const {
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    for (const std::uint32_t number : tiles_.spindles_at(x[lane], y[lane])) {
+      const Spindle& crown = tiles_.spindles()[number];
+      const float up = (z[lane] - crown.z) / crown.top;
+      if (up < -0.1F || up > FlameTiles::crown_top) {
+        continue;
+      }
+      const float away =
+          FlameTiles::lean * flight_to(z[lane] - crown.z - FlameTiles::upright * crown.top);
+      const auto wind_x = static_cast<float>(shape_.wind[0]),
+                 wind_y = static_cast<float>(shape_.wind[1]);
+      const float dx = x[lane] - wind_x * away + moved_x[lane] - crown.x,
+                  dy = y[lane] - wind_y * away + moved_y[lane] - crown.y;
+      const float square = dx * dx + dy * dy, widest = FlameTiles::crown_wide * crown.radius;
+      if (square > widest * widest) {
+        continue;
+      }
+      const float branches = crown.base / crown.top;
+      const float climb = std::clamp(up / std::max(branches, 0.01F), 0.0F, 1.0F);
+      const float narrow = std::clamp((up - branches) / (1.0F - branches), 0.0F, 1.0F);
+      const float wide = crown.radius * (up < branches ? 0.45F + 0.65F * climb * climb
+                                                       : 1.1F - 0.65F * narrow * narrow);
+      const float round = square / (wide * wide), tip = std::max(up - 0.6F, 0.0F);
+      const float share = 0.9F * round + 0.25F * std::max(up, 0.0F) + 3.0F * tip * tip;
+      if (share < shares.share[lane]) {
+        shares.share[lane] = share;
+        shares.length[lane] = std::max(shares.length[lane], crown.top);
+        shares.eddy[lane] = crown_eddies * crown.radius;
+        shares.hollow[lane] = 0.3F + 0.7F * std::clamp(1.6F * round + 2.0F * tip, 0.0F, 1.0F);
+      }
+    }
+  }
+}
+
+float FlameField::free_distance(const std::array<float, 3>& place,
+                                const std::array<float, 3>& direction) const {
+  const auto [x, y, z] = place;
+  const float across = std::hypot(direction[0], direction[1]), along = std::abs(direction[2]);
+  const auto wind_x = static_cast<float>(shape_.wind[0]),
+             wind_y = static_cast<float>(shape_.wind[1]);
+  const auto launch = static_cast<float>(shape_.launch),
+             lift = static_cast<float>(shape_.acceleration);
+  const float ground = tiles_.ground_at(x, y);
+  const float height = std::clamp(z - ground, 0.0F, 1.0e6F);
+  // The foot moves no faster than this within half the height.
+  const float least = height > slow ? std::sqrt(launch * launch + lift * height) : launch;
+  const float speed = across + std::hypot(wind_x, wind_y) / least * (along + 0.5F * across);
+  const float away = flight_to(height);
+  const auto [longest, edge] = tiles_.rooted(x - wind_x * away, y - wind_y * away);
+  float free = edge / std::max(speed, 0.01F);
+  if (longest > 0.0F) {
+    const float over = height - FlameTiles::soot_top * longest - std::min(reach, 0.5F * longest);
+    free =
+        over > 0.0F ? std::min(free, 0.5F * over / std::max(along + 0.5F * across, 0.01F)) : 0.0F;
+  } else if (height > slow) {
+    free = std::min(free, 0.5F * height / std::max(along + 0.5F * across, 0.01F));
+  }
+  return free > 0.0F ? std::min(free, tiles_.spindle_distance(x, y, z, across)) : 0.0F;
+}
+
 FIRETWIN_CLONES("avx2")
 void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float fine,
                           FlameSamples& out) const {
@@ -117,17 +193,6 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
   roots(launch * launch + 2.0F * lift * height, speed);
   flight = (speed - launch) * (1.0F / lift);
   Lanes foot_x = x - wind_x * flight, foot_y = y - wind_y * flight;
-
-  out.near = false;
-  for (std::size_t lane = 0; lane < lane_count && !out.near; ++lane) {
-    const float longest = tiles_.longest(foot_x[lane], foot_y[lane]);
-    out.near = (longest > 0.0F && height[lane] < FlameTiles::soot_top * longest + reach) ||
-               !tiles_.spindles_at(x[lane], y[lane]).empty();
-  }
-  if (!out.near) {
-    out.flame = out.heat = out.soot = out.length = Lanes{};
-    return;
-  }
 
   // Eddies: displacement by the curl of noise, so that edges roll up.
   const auto noise_at = [&](const Octave& octave, const Lanes& px, const Lanes& py,
@@ -164,39 +229,14 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
   roots(launch * launch + 2.0F * lift * risen, speed);
   flight = (speed - launch) * (1.0F / lift);
 
-  Lanes length;
+  FlameShares shares;
+  auto& [share, length, eddy, hollow] = shares;
   tiles_.length(foot_x, foot_y, length);
-  Lanes share = length > 0.05F ? risen / length : Lanes{} + 9.0F;
-  Lanes eddy = length; // eddies are smaller than this, m
+  share = length > 0.05F ? risen / length : Lanes{} + 9.0F;
+  eddy = length;
+  hollow = Lanes{} + 1.0F;
   if (!tiles_.spindles().empty()) {
-    const Lanes moved_x = foot_x - (x - wind_x * flight), moved_y = foot_y - (y - wind_y * flight);
-    for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      for (const std::uint32_t number : tiles_.spindles_at(x[lane], y[lane])) {
-        const Spindle& crown = tiles_.spindles()[number];
-        const float tall = crown.top - crown.base;
-        const float free = std::max(0.0F, z[lane] - crown.z - crown.base - 0.35F * tall);
-        const float away = (std::sqrt(launch * launch + 2.0F * lift * free) - launch) / lift;
-        const float dx = x[lane] - wind_x * away + 0.6F * moved_x[lane] - crown.x,
-                    dy = y[lane] - wind_y * away + 0.6F * moved_y[lane] - crown.y;
-        const float square = dx * dx + dy * dy;
-        const float up = (z[lane] - crown.z - crown.base) / tall;
-        if (square > 6.0F * crown.radius * crown.radius || up < -0.6F || up > 2.2F) {
-          continue;
-        }
-        const float low = std::clamp((up + 0.3F) / 0.45F, 0.0F, 1.0F);
-        const float wide =
-            crown.radius * (up < 0.25F ? 0.4F + 0.6F * low * low * (3.0F - 2.0F * low)
-                                       : 1.0F - 0.45F * std::min((up - 0.25F) / 0.9F, 1.0F));
-        const float round = square / (wide * wide);
-        const float mine =
-            std::max(up, 0.0F) + 0.7F * round - 0.1F + (up < 0.0F ? -0.9F * up : 0.0F);
-        if (mine < share[lane]) {
-          share[lane] = std::max(mine, 0.0F);
-          length[lane] = std::max(length[lane], tall);
-          eddy[lane] = crown_eddies * crown.radius;
-        }
-      }
-    }
+    add_crowns(x, y, z, foot_x - (x - wind_x * flight), foot_y - (y - wind_y * flight), shares);
   }
   share = buried ? Lanes{} + 9.0F : share;
   out.length = length;
@@ -228,7 +268,9 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
   const float tallest = greatest(eddy), smallest = std::max(fine, 0.008F * tallest);
   Lanes sum{}, total = Lanes{} + 1.0e-6F, last{}, grain{}, grains = Lanes{} + 1.0e-6F;
   float amplitude = 1.0F;
-  for (std::size_t n = 0; n < octaves; ++n, amplitude *= octave_weight) {
+  float folds_weight = 1.0F; // finer folds are nearly as strong
+  for (std::size_t n = 0; n < octaves;
+       ++n, amplitude *= octave_weight, folds_weight *= fold_weight) {
     const Octave& octave = detail_[n];
     if (octave.size > 1.3F * tallest) {
       continue;
@@ -266,9 +308,9 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
     sum += weight * found;
     total += weight;
     Lanes small;
-    clamp_lanes(1.5F - octave.size / (eddy + 1.0e-6F) * 6.0F, 0.0F, 1.0F, small);
-    grain += small * weight * found;
-    grains += small * weight;
+    clamp_lanes(1.5F - octave.size / (eddy + 1.0e-6F) * 3.0F, 0.0F, 1.0F, small);
+    grain += small * folds_weight * found;
+    grains += small * folds_weight;
   }
   const Lanes noise = sum / total * 1.7F;
 
@@ -280,31 +322,33 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
       gaps += value;
     }
   }
-  Lanes rooted, full, top, base;
+  Lanes rooted, full, top, base, cool;
   clamp_lanes(1.0F - share * 2.5F, 0.0F, 1.0F, rooted);
   clamp_lanes(share * 1.6F, 0.0F, 1.0F, full);
+  clamp_lanes(share, 0.0F, 1.4F, cool);
   Lanes value = shape_.fill - shape_.taper * share * (0.45F + 0.5F * share) +
                 shape_.ragged * noise * (0.45F + 0.55F * full) + shape_.broken * gaps * rooted;
   smooth_lanes(length, 0.5F, 0.0F, base);
   value -= 0.5F * base;
   smooth_lanes(value, 0.0F, shape_.edge, out.flame);
-  smooth_lanes(share, 1.75F, 1.2F, top);
-  out.flame *= top;
-  // A bright sheet just inside the edge, and a core.
-  Lanes sheet = value - 0.9F * shape_.edge, cool, core;
+  smooth_lanes(share, 1.6F, 1.1F, top);
+  // Soot glows in thin folded sheets, with dark gas between them.
+  Lanes sheet = grain / grains, core;
   sheet = sheet < 0.0F ? -sheet : sheet;
-  clamp_lanes(1.0F - sheet * (1.0F / 0.35F), 0.0F, 1.0F, sheet);
-  clamp_lanes(share, 0.0F, 1.4F, cool);
-  clamp_lanes(value, 0.0F, 1.0F, core);
-  Lanes streak;
-  clamp_lanes(0.5F + 0.9F * grain / grains, 0.0F, 1.0F, streak);
-  clamp_lanes((0.45F * sheet + 0.75F * core) * (1.0F - 0.45F * cool) * (0.5F + 0.9F * streak), 0.0F,
-              1.0F, out.heat);
+  clamp_lanes(1.0F - sheet * folds, 0.0F, 1.0F, sheet);
+  sheet *= sheet;
+  sheet = grains > 0.01F ? sheet : Lanes{} + 0.4F; // folds too small to be drawn
+  clamp_lanes(value, 0.0F, 1.2F, core);
+  out.flame *= top * hollow * (1.0F - sheets + 1.4F * sheets * sheet) * (1.0F - 0.3F * cool);
+  clamp_lanes((0.12F + 0.44F * core) * (0.5F + 0.8F * sheet) * (1.0F - 0.35F * cool) *
+                  (1.0F + 0.35F * gaps * rooted),
+              0.0F, 1.0F, out.heat);
   Lanes begin, end, thick;
   smooth_lanes(share, 0.45F, 1.3F, begin);
-  smooth_lanes(share, FlameTiles::soot_top, 1.5F, end);
+  smooth_lanes(share, FlameTiles::soot_top, 1.4F, end);
   smooth_lanes(value, -0.75F, -0.05F, thick);
-  out.soot = begin * end * thick * (1.0F - out.flame);
+  clamp_lanes(1.0F - out.flame, 0.0F, 1.0F, out.soot);
+  out.soot *= begin * end * thick;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     if (!(share[lane] < FlameTiles::soot_top)) {
       out.flame[lane] = out.heat[lane] = out.soot[lane] = 0.0F;

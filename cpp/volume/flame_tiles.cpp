@@ -9,11 +9,19 @@ namespace firetwin::volume {
 namespace {
 
 constexpr float spindle_cell = 8.0F; // m
-constexpr float swing = 0.5F; // reach of swaying and eddies in flame lengths, at most `most_swing`
-constexpr float most_swing = 9.0F; // m
+constexpr float swing = 0.4F; // reach of swaying and eddies in flame lengths, at most `most_swing`
+constexpr float most_swing = 5.0F; // m
+constexpr float overshoot = 0.05F; // cells by which steps may enter one with flames, for progress
+constexpr float outside = 10.0F;   // m, step outside of all squares
+constexpr float crown_sway = 1.5F; // m
 
 std::int64_t tiles_of(std::int64_t cells) {
   return (cells + FlameTiles::side - 1) / FlameTiles::side;
+}
+
+/// Returns the time that gas takes to rise to a height (m) from the ground, s.
+double flight_time(double height, double launch, double acceleration) {
+  return (std::sqrt(launch * launch + 2.0 * acceleration * height) - launch) / acceleration;
 }
 
 /// Interpolates linearly within a cell.
@@ -43,7 +51,7 @@ FlameTiles::FlameTiles(std::span<const FlameSquare> squares, std::span<const Spi
   bounds_ = {far, -far, far, -far};
   heights_ = {far, -far};
   bound_tiles(wind, launch, acceleration);
-  list_spindles({wind[0], wind[1]});
+  list_spindles(wind, launch, acceleration);
   if (!levels_.empty()) { // the coarsest contains all others
     const Level& all = levels_.back();
     const float wide = static_cast<float>(all.columns - 1) * all.spacing,
@@ -125,15 +133,54 @@ void FlameTiles::length(const Lanes& x, const Lanes& y, Lanes& out) const {
   interpolate_lanes(&Level::length, 0.0F, x, y, out);
 }
 
-float FlameTiles::longest(float x, float y) const {
+float FlameTiles::ground_at(float x, float y) const {
   const Level* at = level(x, y);
   if (at == nullptr) {
-    return 0.0F;
+    return none;
+  }
+  const float column = (x - at->x) * at->inverse, row = (y - at->y) * at->inverse;
+  const auto i = static_cast<std::int32_t>(row), j = static_cast<std::int32_t>(column);
+  return interpolate_cell(at->ground, at->columns, i, j, row - static_cast<float>(i),
+                          column - static_cast<float>(j));
+}
+
+FlameTiles::Roots FlameTiles::rooted(float x, float y) const {
+  const Level* at = level(x, y);
+  if (at == nullptr) {
+    return {0.0F, outside};
   }
   const float scale = at->inverse / static_cast<float>(side);
-  const auto i = static_cast<std::int64_t>((y - at->y) * scale),
-             j = static_cast<std::int64_t>((x - at->x) * scale);
-  return at->rooted[static_cast<std::size_t>(i * at->tile_columns + j)];
+  const float row = (y - at->y) * scale, column = (x - at->x) * scale;
+  const auto i = static_cast<std::int64_t>(row), j = static_cast<std::int64_t>(column);
+  const float up = row - static_cast<float>(i), right = column - static_cast<float>(j);
+  const float edge = std::min(std::min(up, 1.0F - up), std::min(right, 1.0F - right));
+  return {at->rooted[static_cast<std::size_t>(i * at->tile_columns + j)],
+          (edge + overshoot) / scale};
+}
+
+float FlameTiles::spindle_distance(float x, float y, float z, float across) const {
+  constexpr float far = std::numeric_limits<float>::max();
+  if (spindles_.empty()) {
+    return far;
+  }
+  const float i = (x - spindle_corner_[0]) / spindle_cell,
+              j = (y - spindle_corner_[1]) / spindle_cell;
+  const float wide = static_cast<float>(spindle_cells_[0]),
+              deep = static_cast<float>(spindle_cells_[1]);
+  float edge = std::max(std::max(-i, i - wide), std::max(-j, j - deep));
+  float over = far;
+  if (edge < 0.0F) {
+    const float right = i - std::floor(i), up = j - std::floor(j);
+    edge = std::min(std::min(up, 1.0F - up), std::min(right, 1.0F - right));
+    for (const std::uint32_t number : spindles_at(x, y)) {
+      const Spindle& crown = spindles_[number];
+      over = std::min(over, z - crown.z - crown_top * crown.top);
+    }
+  }
+  if (over <= 0.0F) {
+    return 0.0F;
+  }
+  return std::min(over, (edge + overshoot) * spindle_cell / std::max(across, 0.01F));
 }
 
 bool FlameTiles::find(float x, float y, Tile& tile) const {
@@ -189,9 +236,7 @@ void FlameTiles::raise(float x0, float x1, float y0, float y1, float top, float 
 void FlameTiles::bound_tiles(const std::array<double, 2>& wind, double launch,
                              double acceleration) {
   const auto drift = [&](double height, std::size_t axis) {
-    const double flight =
-        (std::sqrt(launch * launch + 2.0 * acceleration * height) - launch) / acceleration;
-    return static_cast<float>(wind[axis] * flight);
+    return static_cast<float>(wind[axis] * flight_time(height, launch, acceleration));
   };
   for (std::size_t n = 0; n < levels_.size(); ++n) {
     for (std::int64_t ti = 0; ti < levels_[n].tile_rows; ++ti) {
@@ -231,19 +276,22 @@ void FlameTiles::bound_tiles(const std::array<double, 2>& wind, double launch,
   }
 }
 
-void FlameTiles::list_spindles(const std::array<double, 2>& drift) {
+void FlameTiles::list_spindles(const std::array<double, 2>& wind, double launch,
+                               double acceleration) {
   if (spindles_.empty()) {
     return;
   }
   std::array<float, 4> box{bounds_};
   std::vector<std::array<float, 4>> boxes;
   for (const Spindle& each : spindles_) {
-    const float tall = each.top - each.base, wide = 2.5F * each.radius + 0.25F * tall;
-    const auto dx = static_cast<float>(drift[0]) * 3.0F, dy = static_cast<float>(drift[1]) * 3.0F;
+    const float wide = crown_wide * each.radius + crown_sway;
+    const double free = static_cast<double>((crown_top - upright) * each.top);
+    const double flight = static_cast<double>(lean) * flight_time(free, launch, acceleration);
+    const auto dx = static_cast<float>(wind[0] * flight), dy = static_cast<float>(wind[1] * flight);
     boxes.push_back({each.x + std::min(dx, 0.0F) - wide, each.x + std::max(dx, 0.0F) + wide,
                      each.y + std::min(dy, 0.0F) - wide, each.y + std::max(dy, 0.0F) + wide});
     const auto& b = boxes.back();
-    raise(b[0], b[1], b[2], b[3], each.z + each.base + soot_top * tall, tall);
+    raise(b[0], b[1], b[2], b[3], each.z + crown_top * each.top, each.top);
     heights_[0] = std::min(heights_[0], each.z);
     box = bounds_;
   }

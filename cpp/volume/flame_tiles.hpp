@@ -18,7 +18,7 @@ struct FlameSquare {
   double spacing;                        ///< m
 };
 
-/// A crown in flames: from `base` to `top` over its foot, widest below the middle.
+/// A crown in flames: branches from `base` over its foot, flames up to `top`, radius of the crown.
 struct Spindle {
   float x, y, z, base, top, radius; ///< m
 };
@@ -26,8 +26,12 @@ struct Spindle {
 /// Nested squares of flame length, fine to coarse, with bounds on how high flames reach over tiles.
 class FlameTiles {
 public:
-  static constexpr std::int64_t side = 8; ///< cells along a tile
-  static constexpr float soot_top = 2.2F; ///< height to which soot reaches, in flame lengths
+  static constexpr std::int64_t side = 8;   ///< cells along a tile
+  static constexpr float soot_top = 1.9F;   ///< height to which soot reaches, in flame lengths
+  static constexpr float crown_top = 1.3F;  ///< height to which flames of a crown reach, in `top`
+  static constexpr float crown_wide = 1.5F; ///< their greatest radius over that of the crown
+  static constexpr float upright = 0.55F;   ///< part of `top` up to which they stand upright
+  static constexpr float lean = 0.6F;       ///< of them above, relative to free flames
   static constexpr float none = -1.0e9F;
 
   /// @param squares finest first; all are around the camera
@@ -43,8 +47,17 @@ public:
   /// Flame length at eight places close together, m; 0 outside.
   void length(const Lanes& x, const Lanes& y, Lanes& out) const;
 
-  /// Length of the longest flames around a place, within their swing, m.
-  float longest(float x, float y) const;
+  /// Ground at a place, m; `none` outside of all squares.
+  float ground_at(float x, float y) const;
+  /// Flames whose foot may be near a place.
+  struct Roots {
+    float longest; ///< length of the longest flames within their swing, m; 0 outside of all squares
+    float edge;    ///< distance within which that holds, m
+  };
+  Roots rooted(float x, float y) const;
+  /// Returns a distance (m) along a ray without flames of crowns; 0 near them.
+  /// @param across cosine of the ray's elevation
+  float spindle_distance(float x, float y, float z, float across) const;
 
   /// Tile around a place.
   struct Tile {
@@ -84,7 +97,7 @@ private:
   void raise(float x0, float x1, float y0, float y1, float top, float length);
   void add_square(const FlameSquare& square, const Vector& origin);
   void bound_tiles(const std::array<double, 2>& wind, double launch, double acceleration);
-  void list_spindles(const std::array<double, 2>& drift);
+  void list_spindles(const std::array<double, 2>& wind, double launch, double acceleration);
 
   std::vector<Level> levels_;
   std::vector<Spindle> spindles_;

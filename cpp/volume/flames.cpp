@@ -9,17 +9,11 @@ namespace {
 
 constexpr float least_step = 0.02F, most_step = 0.5F; // m
 constexpr float fine_step = 0.016F;                   // of the flame length
+constexpr float near_step = 0.013F;                   // of the distance from the eye
 constexpr float step_pixels = 0.8F;
-constexpr float finest_eddy = 1.2F;   // of the step: smaller ones would be noise
-constexpr float thin_flame = 1.0e-4F; // 1/m, extinction that is left out
-
-std::uint32_t scramble(std::uint32_t value) {
-  value ^= value >> 16;
-  value *= 0x7feb352dU;
-  value ^= value >> 15;
-  value *= 0x846ca68bU;
-  return value ^ (value >> 16);
-}
+constexpr float finest_eddy = 1.2F;                 // of the step: smaller ones would be noise
+constexpr std::array<float, 2> at_lens{1.0F, 4.0F}; // m, distances up to which flames are left out
+constexpr float thin_flame = 1.0e-4F;               // 1/m, extinction that is left out
 
 } // namespace
 
@@ -58,10 +52,8 @@ float BandRadiance::at(float kelvin) const {
 }
 
 FlameRay::FlameRay(const FlameVolume& flames, const Vector& origin, const Vector& direction,
-                   float end, std::size_t number, const BandRadiance* band)
-    : flames_(flames), band_(band), at_(0.0F), end_(end),
-      jitter_(static_cast<float>(scramble(static_cast<std::uint32_t>(number) * 9781U + 12345U)) *
-              (1.0F / 4294967296.0F)) {
+                   float end, const BandRadiance* band)
+    : flames_(flames), band_(band), at_(0.0F), end_(end) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     start_[axis] = static_cast<float>(origin[axis] - flames.origin()[axis]);
     direction_[axis] = static_cast<float>(direction[axis]);
@@ -110,15 +102,17 @@ bool FlameRay::next(float limit, FlameSlab& slab) {
       at_ = enters ? std::min(leave, at_ + (tile.top - z) / direction_[2] + past) : leave;
       continue;
     }
-    const float size = std::clamp(fine_step * tile.length, least_step, most_step);
+    const float free = flames_.field().free_distance({x, y, z}, direction_);
+    if (free > 0.0F) {
+      at_ = std::min(at_ + std::max(free, past), leave);
+      continue;
+    }
+    const float size =
+        std::clamp(std::min(fine_step * tile.length, near_step * at_), least_step, most_step);
     float step = std::max(size, step_pixels * view.pixel * at_);
     const auto count = static_cast<float>(lane_count);
     step = std::min(step, (limit - at_) / count + 1.0e-6F);
-    if (!fill(at_, step, slab)) {
-      const float leap = 0.4F * (tile.bounds[1] - tile.bounds[0]);
-      at_ += std::min(std::max(step * count, leap), limit - at_ + past);
-      continue;
-    }
+    fill(at_, step, slab);
     at_ += step * count;
     if (slab.transmittance < 1.0F || slab.infrared_transmittance < 1.0F) {
       return true;
@@ -127,26 +121,24 @@ bool FlameRay::next(float limit, FlameSlab& slab) {
   return false;
 }
 
-bool FlameRay::fill(float from, float step, FlameSlab& slab) const {
+void FlameRay::fill(float from, float step, FlameSlab& slab) const {
   const FlameLight& light = flames_.light();
   const FlameView& view = flames_.view();
   slab = {from, from + step * static_cast<float>(lane_count), {}, 1.0F, 0.0F, 1.0F};
   Lanes away;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    away[lane] = from + step * (static_cast<float>(lane) + 0.25F + 0.5F * jitter_);
+    away[lane] = from + step * (static_cast<float>(lane) + 0.5F);
   }
   FlameSamples found;
   const float fine = std::max(view.pixel * away[lane_count / 2], finest_eddy * step);
   flames_.field().evaluate(start_[0] + direction_[0] * away, start_[1] + direction_[1] * away,
                            start_[2] + direction_[2] * away, fine, found);
-  if (!found.near) {
-    return false;
-  }
   const auto last = static_cast<float>(light.visible.size() - 1);
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     float part = (away[lane] - view.fade[0]) / (view.fade[1] - view.fade[0]);
     part = std::clamp(part, 0.0F, 1.0F);
     part = 1.0F - part * part * (3.0F - 2.0F * part);
+    part *= std::clamp((away[lane] - at_lens[0]) / (at_lens[1] - at_lens[0]), 0.0F, 1.0F);
     const auto [visible, emissive] = flames_.scale(found.length[lane]);
     const float burning = light.extinction * visible * found.flame[lane] * part;
     const float soot = light.soot * found.soot[lane] * part, all = burning + soot;
@@ -177,7 +169,6 @@ bool FlameRay::fill(float from, float step, FlameSlab& slab) const {
     const float far = 0.001F * away[lane_count / 2];
     slab.infrared *= std::exp(-light.dim * std::sqrt(far * std::sqrt(far)));
   }
-  return true;
 }
 
 } // namespace firetwin::volume

@@ -71,22 +71,20 @@ struct BandRadiance {
 /// Marches flames along a ray from slab to slab. Use one object per ray.
 class FlameRay {
 public:
-  /// @param number of the ray, for the jitter of its steps
   FlameRay(const FlameVolume& flames, const Vector& origin, const Vector& direction, float end,
-           std::size_t number, const BandRadiance* band = nullptr);
+           const BandRadiance* band = nullptr);
 
   /// Finds the next slab with flames that begins before `limit` (m), and ends no later. False if
   /// there is none.
   bool next(float limit, FlameSlab& slab);
 
 private:
-  /// Returns whether flames are near.
-  bool fill(float from, float step, FlameSlab& slab) const;
+  void fill(float from, float step, FlameSlab& slab) const;
 
   const FlameVolume& flames_;
   const BandRadiance* band_;
   std::array<float, 3> start_, direction_;
-  float at_, end_, jitter_;
+  float at_, end_;
 };
 
 } // namespace firetwin::volume

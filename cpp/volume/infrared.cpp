@@ -200,7 +200,7 @@ void march_infrared(Layers layers, const FlameVolume* flames, const Rays& rays,
         }
         std::optional<FlameRay> burning;
         if (flames != nullptr) {
-          burning.emplace(*flames, origin, direction, end, ray, &band);
+          burning.emplace(*flames, origin, direction, end, &band);
         }
         const auto [light, transmittance] = along(traversal, burning ? &*burning : nullptr, origin,
                                                   direction, end, {air, hot, step});

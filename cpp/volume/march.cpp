@@ -355,7 +355,7 @@ void Marcher::ray(const Vector& origin, const Vector& direction, std::size_t num
   entry_ = smoky ? traversal_.entry() : 0.0;
   burning_.reset();
   if (flames_ != nullptr) {
-    burning_.emplace(*flames_, origin, direction, static_cast<float>(end), number);
+    burning_.emplace(*flames_, origin, direction, static_cast<float>(end));
   }
   if (smoky || burning_) {
     ends_.clear();

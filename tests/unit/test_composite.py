@@ -155,6 +155,16 @@ def test_infrared_radiance_of_the_sky_fills_what_is_not_solid():
     )
 
 
+def test_a_gap_in_foliage_is_a_soft_spot_and_keeps_its_light():
+    light = np.full((*SIZE, 3), 0.1, np.float32)
+    light[2:5, 3:6] = 6.0
+    soft = composite.soften_highlights(light, 1.0)
+    assert soft.sum() == pytest.approx(light.sum(), rel=0.02)
+    assert soft[3, 4, 0] > 1.3 * soft[2, 3, 0] > 2.0 * soft[1, 2, 0]
+    dark = np.minimum(light, 0.5)
+    assert np.array_equal(composite.soften_highlights(dark, 1.0), dark)
+
+
 @pytest.mark.parametrize(("distance", "seen"), [(100.0, 1.0), (300.0, 0.0)])
 def test_text_is_in_front_of_what_is_farther_away(distance, seen):
     found = surfaces(3.0, 200.0)

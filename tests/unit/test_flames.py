@@ -236,6 +236,37 @@ def test_frames_repeat_bit_for_bit_and_move_little_in_a_moment():
     assert np.abs(picture(1.0e5 + 1e-3) - first).mean() < 0.02 * first[..., :3].mean() + 1e-3
 
 
+def test_a_ray_meets_the_same_flames_wherever_it_starts():
+    """Steps over empty ground skip no flames."""
+    lengths = np.zeros((61, 61), np.float32)
+    lengths[30] = 12.0
+    coarse = lengths, np.zeros_like(lengths), (-240.0, -240.0), 8.0
+    burning = flames([coarse], wind=(3.0, 1.0))
+    across = np.linspace(-60.0, 60.0, 200)
+    ends = np.column_stack([across, np.full(200, 25.0), np.full(200, 1.0)])
+    ahead = np.array([0.0, 1.0, -0.15]) / np.hypot(1.0, 0.15)
+    seen = []
+    for back in (180.0, 163.3, 141.7, 125.0):
+        origins, reach = ends - back * ahead, np.full((200, 1), back)
+        seen.append(
+            volume.march([], origins, np.tile(ahead, (200, 1)), reach, LIGHT, flames=burning)[:, 0, 3]
+        )
+    assert np.mean(seen[0] < 0.9) > 0.3
+    assert max(np.abs(each - seen[0]).mean() for each in seen[1:]) < 0.02
+
+
+def test_a_crown_in_flames_is_as_wide_as_the_tree_and_rooted():
+    crown = np.array([[0.0, 0.0, 0.0, 4.0, 28.0, 3.0]])
+    empty = [(np.zeros((41, 41)), np.zeros((41, 41)), (-40.0, -40.0), 2.0)]
+    widths, rows = [], None
+    for time in (3.0, 7.7, 13.1):
+        seen, pixel = opacity(flames(empty, time, spindles=crown), 20.0)
+        rows = (seen > 0.3).sum(axis=1) * pixel
+        widths.append(rows[int(5.0 / pixel) : int(14.0 / pixel)].mean())
+        assert rows[: int(4.0 / pixel)].min() > 0.0  # flames climb the trunk
+    assert 3.0 < np.mean(widths) < 8.0
+
+
 def test_a_crown_burns_upright_at_its_middle():
     crown = np.array([[0.0, 0.0, 0.0, 4.0, 24.0, 3.2]])
     empty = [(np.zeros((41, 41)), np.zeros((41, 41)), (-40.0, -40.0), 2.0)]

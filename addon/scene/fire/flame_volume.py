@@ -5,7 +5,7 @@ luminance times 2^exposure is therefore constant, within bounds. Flames of 10,00
 1.3 units of the scene, if 1 unit is 16,000 cd/m2. Colours are chosen for the AgX view transform: a deep
 orange rim to a yellow-white core. Blue is slightly below 0, as colours of black bodies are outside of sRGB.
 
-The heat that sets the colour sets the temperature too: 900 K in the coolest part to 1400 K in the hottest.
+The heat that sets the colour sets the temperature too: 960 K in the coolest part to 1400 K in the hottest.
 The infrared extinction by flame length (`SCALES`) makes the power that flames radiate `RADIATED` of the
 fireline intensity. The heat account of the smoke leaves 0.3 for radiation, which includes the glowing ground.
 """
@@ -24,24 +24,24 @@ from .. import infrared
 from . import flames
 
 RADIATED = 0.12  # of the heat of combustion is radiated by flames (Freeborn et al. 2008: 12 +- 3 %)
-KELVIN = (900.0, 1400.0)  # K at heat 0 and 1
+KELVIN = (960.0, 1400.0)  # K at heat 0 and 1
 SCALES = (
-    (0.5, 3.6, 0.5),
-    (1.8, 2.3, 0.46),
-    (5.0, 1.6, 0.35),
-    (18.0, 1.04, 0.43),
-    (30.0, 1.0, 1.03),
+    (0.5, 5.5, 0.68),
+    (1.8, 3.8, 0.62),
+    (5.0, 1.9, 0.48),
+    (18.0, 1.1, 0.65),
+    (30.0, 1.0, 1.5),
 )
 """Flame length, m, and factors on the extinction: visible (by eye), infrared (by power, see test_flames)."""
 _CORE = 6.0  # luminance of the core times 2^exposure (by eye)
 _LUMINANCE = (0.4, 1.3)  # its bounds, units of the scene
-_CORE_HEAT, _DECADES = 0.75, 2.0  # heat of the core; decades between the luminance of heat 0 and 1
+_CORE_HEAT, _DECADES = 0.75, 2.3  # heat of the core; decades between the luminance of heat 0 and 1
 _ROWS = 33
 EXTINCTION = 0.8  # 1/m, visible
 _SOOT = 0.012  # of it, in the cooled soot
 INFRARED = infrared.FLAME
 _ALBEDO = 0.3  # of fresh soot (assumed)
-_CROWN = (0.22, 0.16)  # base over tree height; radius over the height of the flame (by eye)
+_BASE, _RADIUS = 0.22, 0.14  # of burning crowns, in tree heights (assumed)
 _SPINDLES = 1200.0  # m; at a greater distance the front outshines single torching crowns
 _GROWING = (0.15, 0.6)  # parts of a torching crown's time in which it flares up, and from which it declines
 
@@ -100,7 +100,7 @@ def light(shot: Shot, frame: int, height: float) -> volume.FlameLight:
 def visible(core: float) -> Array:
     """Return the radiance (n, 3) at evenly spaced heats, for a luminance of the core."""
     heat = np.linspace(0.0, 1.0, _ROWS)
-    colour = np.stack([np.ones(_ROWS), 0.09 + 0.46 * heat**1.05, -0.08 * (1.0 - heat**3)], axis=-1)
+    colour = np.stack([np.ones(_ROWS), 0.04 + 0.68 * heat**1.3, -0.08 * (1.0 - heat**3)], axis=-1)
     return (core * 10.0 ** (_DECADES * (heat - _CORE_HEAT)))[:, None] * colour
 
 
@@ -110,8 +110,8 @@ def spindles(torches: flames.Points, time: float, eye: Array) -> Array:
     near = lit.take(np.flatnonzero(np.linalg.norm(lit.position - eye, axis=-1) < _SPINDLES))
     part = (time - near.arrival_time) / near.residence
     up, down = np.clip(part / _GROWING[0], 0.0, 1.0), np.clip((1.0 - part) / (1.0 - _GROWING[1]), 0.0, 1.0)
-    base = _CROWN[0] * near.crown
-    tall = (near.length - base) * np.minimum(up * (2.0 - up), down)
-    kept = tall > 0.1 * near.length
-    rows = np.column_stack([near.position, base, base + tall, _CROWN[1] * tall])
+    grown = np.minimum(up * (2.0 - up), down)
+    kept = grown > 0.1
+    top = near.crown * _BASE + (near.length - near.crown * _BASE) * grown
+    rows = np.column_stack([near.position, _BASE * near.crown, top, _RADIUS * near.crown])
     return rows[kept]

@@ -217,7 +217,7 @@ def torching_crowns(shot: Shot, grown: Stand) -> Points:
     """Create flames of torching crowns when the front reaches them: tall, thin and short-lived.
 
     The fraction of burning crowns (`fire_effects`) that torch grows with canopy density. They flame for half
-    a minute to a minute, up to twice the tree's height (assumed).
+    a minute to a minute, up to 1.3 to 1.5 times the tree's height (by eye).
     """
     ground, (first, last) = shot.ground, shot.built_times[[0, -1]]
     near = np.flatnonzero((grown.distance < _TORCH_SIGHT) & (grown.height > 6.0))
@@ -235,7 +235,7 @@ def torching_crowns(shot: Shot, grown: Stand) -> Points:
     chosen = np.flatnonzero(lit & (arrival + residence > first))
     row, column, size = row[chosen], column[chosen], size[chosen]
     height = grown.height[near[chosen]]
-    length = np.clip(height * (1.1 + 0.9 * size), *_LENGTHS)
+    length = np.clip(height * (1.3 + 0.2 * size), *_LENGTHS)
     intensity = constants.HEAT_OF_COMBUSTION / 1000.0 * canopy[chosen] * ground.spread(row, column)
     return Points(
         grown.position[near[chosen]],
