@@ -5,6 +5,10 @@ ray). Extinction falls with height as exp(-z / H), so a ray from z0 to z1 has th
 exp(-z0 / H) (1 - exp(-u)) / u with u = (z1 - z0) / H. Haze affects camera rays only and does not scatter
 light onto other surfaces.
 
+In the boundary layer, air holds more dust and moisture (`sky.LOW_HAZE`). The radiance of thick haze is
+the radiance of the sky at the horizon, so that distant land merges with the sky. Scenes with the globe have
+neither.
+
 Near the ground haze is grey. A camera above the atmosphere also sees the molecules' blue: the difference of
 the Rayleigh optical depths of green and blue from red (`space_sky`) is added, in proportion to the same path.
 """
@@ -23,6 +27,9 @@ from . import curved_air, space_sky
 
 _GROUP = "haze"
 _WHITE = (1.0, 1.0, 1.0, 1.0)
+_THICK = 0.2, 1.2  # optical depths between which airlight takes the horizon's colour (by eye)
+COLOUR, HORIZON = (f'nodes["{name}"].outputs[0].default_value' for name in ("Colour", "Horizon"))
+"""Data paths of the airlight's radiance in the node group: near the camera, and where haze is thick."""
 
 
 def _group(stage: Stage) -> bpy.types.NodeTree:
@@ -43,15 +50,21 @@ def _group(stage: Stage) -> bpy.types.NodeTree:
     extinction.outputs[0].default_value = sky.HAZE
     colour = tree.node("ShaderNodeRGB")
     colour.name = "Colour"
+    horizon = tree.node("ShaderNodeRGB")
+    horizon.name = "Horizon"
     density = tree.input("Density", 1.0, "Factor on the haze of the scene; 0: none", "Haze")
     tint = tree.input("Tint", _WHITE, "Factor on the colour of the scene's haze", "Haze")
     path = weighted_path_length(tree, stage, sky.HAZE_HEIGHT)
+    earth = curved_air.earth(stage)
+    if earth is None:
+        path = path + weighted_path_length(tree, stage, sky.LOW_HEIGHT) * sky.LOW_HAZE
     depth = path * (extinction * density)
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     fraction = (1.0 - (-depth).exp()) * camera
-    light = tree.vector("MULTIPLY", colour, tint)
+    distant = colour if earth else tree.mix_colour(depth.smoothstep(*_THICK), colour, horizon)
+    light = tree.vector("MULTIPLY", distant, tint)
     shown = light
-    if (earth := curved_air.earth(stage)) is not None:
+    if earth is not None:
         shares = _rayleigh_shares(tree, earth, depth, path * density)
         fraction = shares[1] * camera
         ratios = [tree.math("DIVIDE", each, tree.math("MAXIMUM", shares[1], 1e-6)) for each in shares]
@@ -93,16 +106,11 @@ def weighted_path_length(tree: nodes.Tree, stage: Stage, height: float) -> nodes
     return distance * (-low).exp() * ((1.0 - (-rise).exp()) / rise)
 
 
-def set_amount(stage: Stage, amount: float) -> tuple[bpy.types.NodeTree, str]:
-    """Set the amount of haze (1: a dry September day).
-
-    Returns
-    -------
-    The node group, and the data path of the airlight's radiance in it.
-    """
+def set_amount(stage: Stage, amount: float) -> bpy.types.NodeTree:
+    """Set the amount of haze (1: a dry September day), and return the node group."""
     group = _group(stage)
     group.nodes["Extinction"].outputs[0].default_value = sky.HAZE * amount
-    return group, 'nodes["Colour"].outputs[0].default_value'
+    return group
 
 
 def current_state(stage: Stage) -> tuple[tuple[float, ...], float]:

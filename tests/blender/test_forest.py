@@ -57,7 +57,7 @@ def test_instances_are_the_cores_trees_that_the_cameras_see(shot, stage):
 def test_without_a_limit_of_view_every_tree_is_there(settings, run, stage):
     keys = settings.cameras[0].rig.keys
     camera = replace(settings.cameras[0], name="above", rig=Satellite(swath=14_000.0, keys=keys))
-    render = replace(settings.render, resolution=(1000, 1000))
+    render = replace(settings.render, resolution=(4000, 4000))
     shot = Shot(replace(settings, cameras=(camera,), render=render), run)
     _planted(shot, stage)
     place, _scale, model = _instances("Firetwin Trees")
@@ -168,7 +168,7 @@ def test_the_stand_grows_where_there_is_canopy_and_leaves_cameras_free(near_shot
 
 def test_a_satellite_that_sees_no_tree_sees_no_patch_of_them(near_settings, run, scene):
     """Trees drawn for another camera of the scene are hidden from it; one that sees trees sees all."""
-    for swath, hidden in ((8000.0, True), (800.0, False)):
+    for swath, hidden in ((8000.0, True), (400.0, False)):
         above = Camera("above", Satellite(swath=swath))
         shot = Shot(replace(near_settings, cameras=(*near_settings.cameras, above)), run)
         stage = owned.stage(build.build(shot, scene, ("forest", "cameras")))

@@ -68,7 +68,7 @@ def camera_at(scene, eye, toward):
 )
 def test_haze_is_that_of_the_true_ray(stage, shoot, height, bearing, distance, eye):
     curved_air.set_frame(stage, FRAME)
-    group, _ = haze.set_amount(stage, 1.0)
+    group = haze.set_amount(stage, 1.0)
     group.nodes["Colour"].outputs[0].default_value = (2.0, 2.0, 2.0, 1.0)
     angle = distance / 6.371e6
     sine = math.sin(math.radians(38.8)) * math.cos(angle)

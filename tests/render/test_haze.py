@@ -8,8 +8,16 @@ from firetwin.shot.light import sky
 
 
 def _red(stage, amount):
-    group, _ = haze.set_amount(stage, amount)
-    group.nodes["Colour"].outputs[0].default_value = (2.0, 0.0, 0.0, 1.0)
+    group = haze.set_amount(stage, amount)
+    for name in ("Colour", "Horizon"):
+        group.nodes[name].outputs[0].default_value = (2.0, 0.0, 0.0, 1.0)
+
+
+def _depth(height, distance, amount=1.0):
+    """Optical depth of haze at `height` over a level distance, or of all air above it without one."""
+    parts = ((sky.HAZE_HEIGHT, 1.0), (sky.LOW_HEIGHT, sky.LOW_HAZE))
+    lengths = (part * math.exp(-height / scale) * (distance or scale) for scale, part in parts)
+    return amount * sky.HAZE * sum(lengths)
 
 
 def _look(stage, shoot, height, distance, **inputs):
@@ -48,19 +56,27 @@ def _look(stage, shoot, height, distance, **inputs):
 
 def test_level_rays_fade_by_the_extinction_at_their_height(stage, shoot):
     _red(stage, 1.0)
-    depth = sky.HAZE * 30_000.0 * math.exp(-2000.0 / sky.HAZE_HEIGHT)
+    depth = _depth(2000.0, 30_000.0)
     assert _look(stage, shoot, 2000.0, -30_000.0) == pytest.approx(2.0 * (1.0 - math.exp(-depth)), rel=0.01)
 
 
-def test_from_space_the_whole_air_is_one_scale_height_deep(stage, shoot):
+def test_thick_haze_has_the_radiance_of_the_sky_at_the_horizon(stage, shoot):
     _red(stage, 1.0)
-    depth = sky.HAZE * sky.HAZE_HEIGHT
+    haze.set_amount(stage, 1.0).nodes["Horizon"].outputs[0].default_value = (5.0, 0.0, 0.0, 1.0)
+    assert _look(stage, shoot, 0.0, -90_000.0) == pytest.approx(
+        5.0 * (1.0 - math.exp(-_depth(0.0, 90_000.0))), rel=0.01
+    )
+
+
+def test_from_above_each_layer_of_air_is_one_scale_height_deep(stage, shoot):
+    _red(stage, 1.0)
+    depth = _depth(0.0, None)
     assert _look(stage, shoot, 0.0, 60_000.0) == pytest.approx(2.0 * (1.0 - math.exp(-depth)), rel=0.01)
 
 
 def test_one_material_may_have_more_haze_of_another_colour(stage, shoot):
     _red(stage, 1.0)
-    depth = 3.0 * sky.HAZE * sky.HAZE_HEIGHT
+    depth = _depth(0.0, None, 3.0)
     seen = _look(stage, shoot, 0.0, 60_000.0, Haze=3.0, Haze_Tint=(0.5, 1.0, 1.0, 1.0))
     assert seen == pytest.approx(1.0 - math.exp(-depth), rel=0.01)
 

@@ -11,7 +11,7 @@ from ...shot.shot import Shot
 from ...shot.terrain.terrain import Terrain
 from . import models
 
-PIXEL = 25.0  # m; a satellite with larger pixels resolves no tree
+PIXEL = 4.0  # m; in a satellite's larger pixels the ground's canopy represents trees, across the run's border
 AROUND = 30.0  # m; ambient occlusion of a view by trees outside of it ends here, or at their height
 TREES_END = 1.25
 """Factor on the draw distance of trees; beyond it the ground's material alone shows the canopy."""

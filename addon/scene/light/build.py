@@ -41,8 +41,10 @@ def build(shot: Shot, stage: Stage) -> list[str]:
     if stage.is_own and stage.scene.world is not None and owned.is_ours(stage.scene.world):
         stage.scene.world = None  # so that it is removed with Firetwin's other objects
     _build_sun(stage.part("Light"), frames, states)
-    group, colour = haze.set_amount(stage, shot.settings.light.haze)
-    add_keyframes(group, colour, frames, np.array([(*each.haze, 1.0) for each in states]))
+    group = haze.set_amount(stage, shot.settings.light.haze)
+    for path, name in ((haze.COLOUR, "haze"), (haze.HORIZON, "horizon")):
+        colours = np.array([(*getattr(each, name), 1.0) for each in states])
+        add_keyframes(group, path, frames, colours)
     if not stage.is_own:
         return []
     if stage.scene.world is None:

@@ -12,7 +12,7 @@ from ..forest.biomes import Colour, Here
 from . import open_land as lands
 from .shading_inputs import Place
 
-_CROWNS_SEEN = (5000.0, 15_000.0)  # m from the camera at which crowns have full contrast, and none
+_CROWNS_SEEN = (0.75, 2.3)  # widths of a crown in a pixel at which crowns have full contrast, and least
 _MEADOW = ((0.070, 0.070, 0.040), (0.110, 0.092, 0.052))  # high and low meadows in the dry season
 _SPRING = (0.062, 0.090, 0.030)  # all meadows when they are green
 _TWIGS = (0.066, 0.054, 0.045)  # crowns without leaves, by eye
@@ -34,7 +34,7 @@ class Crowns:
 
 def crowns(tree: nodes.Tree, place: Place, size: float, groups: nodes.Value) -> Crowns:
     """Return crowns in cells of `size` m; from afar they are filtered to their mean."""
-    sharp = place.distance.ramp(*_CROWNS_SEEN, 1.0, 0.2)
+    sharp = (place.pixel / size).ramp(*_CROWNS_SEEN, 1.0, 0.2)
     deep = tree.cells(place.position, size).smoothstep(0.34, 0.70)
     tint, lone, _ = tree.separate(tree.cells(place.position, size, "Color"))
     alone = (lone + (groups - 0.5) * 0.8) > 0.72

@@ -24,6 +24,8 @@ _DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.4
 _FULL_DAY = 1.8  # air masses; beyond, the sun and haze in its light are redder
 HAZE = 1.2e-5  # extinction at z = 0 on a dry September day, 1/m: clear mountain air
 HAZE_HEIGHT = 5000.0  # m, scale height, between dust (about 2 km) and air (8 km)
+LOW_HAZE = 4.0  # extinction of the boundary layer's dust and moisture at z = 0, relative to HAZE (assumed)
+LOW_HEIGHT = 800.0  # m, scale height of that layer by day (assumed)
 
 MEAN = (
     (-9.0, -6.0, -4.0, -2.0, 0.0, 2.0, 5.0, 10.0, 20.0, 34.0, 50.0, 70.0),
@@ -36,6 +38,12 @@ _AROUND = (
     (0.000, 0.0004, 0.0034, 0.0181, 0.0629, 0.1366, 0.2367, 0.3334, 0.3992, 0.4099, 0.3981, 0.3801),
     (0.000, 0.0004, 0.0037, 0.0178, 0.0525, 0.1109, 0.2170, 0.3546, 0.4868, 0.5452, 0.5576, 0.5520),
 )  # at the heights of MEAN, mean radiance of the same sky in red, green and blue, all parts with equal weight
+
+_HORIZON = (
+    (0.0003, 0.0032, 0.0129, 0.0497, 0.257, 0.594, 0.933, 1.163, 1.158, 1.028, 0.903, 0.788),
+    (0.0001, 0.0014, 0.0055, 0.0195, 0.091, 0.299, 0.627, 0.934, 1.064, 1.020, 0.927, 0.821),
+    (0.0000, 0.0003, 0.0008, 0.0021, 0.005, 0.038, 0.190, 0.448, 0.683, 0.753, 0.728, 0.664),
+)  # at the heights of MEAN, radiance of the same sky 0.5 to 3 degrees above the horizon, mean of all bearings
 
 GLOW = (1.0, 0.18, 0.027)  # colour of flame-lit smoke
 _GLOW_LIGHT = 0.0172, 0.2  # luminance of that, by day and by night
@@ -62,7 +70,9 @@ class State:
     around
         Unweighted mean radiance of the clear sky.
     haze
-        Radiance of haze (airlight).
+        Radiance of haze (airlight) up to some kilometres away.
+    horizon
+        Radiance of haze at distances where it hides the land: the sky's at the horizon.
     night
         Radiance of the dark sky at its mean, with the moon's light in it.
     stars
@@ -83,6 +93,8 @@ class State:
         self.colour = shining / shining.max()
         self.width = _DISC if by_sun or moon.light > 0.0 else _SOFT
         self.haze = tuple(_haze(height, moon.light))
+        bright = np.array([np.interp(height, MEAN[0], each) for each in _HORIZON])
+        self.horizon = tuple(np.maximum(bright, self.haze))
         self.night = NIGHT_SKY * (1.0 + moon.light * _MOON / _STARS)
         self.around = np.array([np.interp(height, MEAN[0], each) for each in _AROUND]) + self.night
         self.sky_mean = float(np.interp(height, *MEAN)) + self.night.mean()

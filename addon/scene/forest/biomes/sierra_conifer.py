@@ -12,9 +12,9 @@ def _suits(land: Land) -> float:
 BIOME = Biome(
     suits=_suits,
     season=Season(peak=135.0, lasts=80.0),
-    needles=((0.026, 0.043, 0.016), (0.072, 0.092, 0.036)),
-    stands=(0.034, 0.072, 0.026),
-    shade=(0.009, 0.014, 0.008),
-    between=(0.010, 0.015, 0.008),
+    needles=((0.022, 0.028, 0.008), (0.060, 0.060, 0.016)),
+    stands=(0.030, 0.037, 0.011),
+    shade=(0.009, 0.012, 0.006),
+    between=(0.010, 0.013, 0.006),
     leaf_fall="winter",
 )
