@@ -78,7 +78,7 @@ def _passes() -> str:
 
 def _report(error: Exception) -> int:
     """Print an error with its remedy in one line; returns the exit status."""
-    from .errors import Error, UsageError
+    from .errors import DISK_FULL, Error, UsageError, disk_is_full
     from .progress import say
 
     if isinstance(error, UsageError):
@@ -86,6 +86,8 @@ def _report(error: Exception) -> int:
         return 2
     if isinstance(error, Error):
         text = str(error)
+    elif isinstance(error, OSError) and disk_is_full(error):
+        text = f"{error.filename2 or error.filename or 'output or temporary files'}: {DISK_FULL}"
     elif isinstance(error, OSError) and error.filename:
         text = f"{error.filename}: {error.strerror}"
     elif isinstance(error, ModuleNotFoundError) and error.name == "bpy":

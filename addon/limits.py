@@ -56,6 +56,18 @@ SQLITE_DEPTH = _number(_G, "depth of an expression in the file", 100, "refused")
 SQLITE_SECONDS = _number(_G, "processor time of a file (plus 1 s per 10 MB)", 20, "refused", "s")
 GEOMETRY_DEPTH = _number("GeoPackages", "geometries in one another", 32, "refused as damaged")
 
+_D = "Downloads"
+DOWNLOAD_SILENCE = _number(_D, "time without data", 30, "retried", "s")
+DOWNLOAD_PIECE = _number(
+    _D, "time for the head of a response, and for each 64 kB", 60, "the file is missing", "s"
+)
+DOWNLOAD_FILE = _number(_D, "time for a file", 600, "the file is missing", "s")
+DOWNLOAD_HOST = _number(
+    _D, "time for all requests to the server of a tileset, concurrent ones added", 4 * 3600, "refused", "s"
+)
+DOWNLOAD_JOB = _number(_D, "time for all requests of a job, concurrent ones added", 8 * 3600, "refused", "s")
+DOWNLOAD_ADDRESSES = _number(_D, "tried addresses of a host", 8, "not tried")
+
 _E = "Scene files"
 KEY_PREFIX = "FIRETWIN_KEY_"
 """Environment variables that a scene file may send to a host of its choice begin with this."""
@@ -68,6 +80,10 @@ SMALLEST_NUMBER, LARGEST_NUMBER = 1e-6, 1e9
 """Bounds of a load, speed, time, distance or cost of a resource that is not 0."""
 _BOUNDS = f"0, and {SMALLEST_NUMBER:.6f} to {LARGEST_NUMBER:,.0f}"
 LIMITS.append(Limit(_S, "numbers of a resource, such as its cost", _BOUNDS, "refused"))
+LABELS = _number(_S, "labels in a scene", 500, "refused")
+SIGNS = _number(_S, "station signs in a scene", 1000, "refused")
+CORNERS = _number("Footprints", "corners of a footprint", 5000, "left out and counted; refused for stations")
+FOOTPRINT_CORNERS = _number("Footprints", "corners of all footprints of a scene", 5_000_000, "refused")
 YEARS = 1900, 2200
 """First and last year of a window of availability."""
 LIMITS.append(Limit(_S, "years of a window of availability", f"{YEARS[0]} to {YEARS[1]}", "refused"))

@@ -12,6 +12,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from .. import files
+from ..errors import writing
 from ..render.fingerprint import Fingerprints
 from ..render.store import Store
 from ..run.content import fingerprint
@@ -40,7 +41,8 @@ class PrivateFolder:
         """Enter the intact files of the film, so that they are not rendered again."""
         found: dict[tuple[str, str], dict[str, dict[str, object]]] = defaultdict(dict)
         for each in intact:
-            _link_or_copy(self.out / each.path, self.folder / each.path)
+            with writing(self.folder / each.path):
+                _link_or_copy(self.out / each.path, self.folder / each.path)
             found[each.camera, each.name][each.path] = each.as_row()
         with Store(self.folder, create=True) as store:
             for pair, made in found.items():

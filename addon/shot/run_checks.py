@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from firetwin_core.run import Run
 
-from ..run import areas, labels, times
+from ..run import areas, times
 from . import frames
 from .schema import scene_text
 from .settings import Settings
-from .stations import station_signs
+from .stations import labels, station_signs
 from .surface import globe_picture, land_use, observed, orthophoto
 from .terrain import elevation
 
@@ -31,8 +31,7 @@ def check(settings: Settings, run: Run) -> None:
     land_use.check(settings, run)
     globe_picture.check(settings)
     observed.check(settings)
-    if settings.labels.enabled and settings.labels.file:
-        labels.read(settings.labels.file)
+    labels.check(settings, run)
     station_signs.check(settings)
     for index, camera in enumerate(settings.cameras):
         for where, latitude, longitude in (*camera.rig.coordinates(), *camera.rig.coordinates_in(run)):

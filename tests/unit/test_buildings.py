@@ -5,7 +5,8 @@ import json
 
 import numpy as np
 import pytest
-from firetwin.errors import InputError
+from firetwin import limits
+from firetwin.errors import Error, InputError
 from firetwin.run import buildings
 from firetwin.run.buildings import blocks, placement, rings
 from firetwin.run.buildings.footprints import ASSUMED, STOREY
@@ -59,6 +60,17 @@ def test_what_was_assumed_and_mended_is_counted_and_said():
     assert found.summary() == (
         "footprints of buildings: 5; 1 without a height are 5 m high; 1 crossed themselves and were split"
     )
+
+
+def test_a_footprint_of_many_corners_is_left_out_and_all_together_are_limited(monkeypatch):
+    angle = np.linspace(0.0, 2.0 * np.pi, 300_000, endpoint=False)
+    round_ = 10.0 * np.column_stack([np.cos(angle), np.sin(angle)])
+    found = buildings.collect([(((round_,),), 9.0), (((SQUARE,),), 6.0)])
+    assert (len(found.outlines), found.too_large) == (1, 1)
+    assert "1 have more than 5,000 corners and are left out" in found.summary()
+    monkeypatch.setattr(limits, "FOOTPRINT_CORNERS", 7)
+    with pytest.raises(Error, match="have more than 7 corners; cut out the area"):
+        buildings.collect([(((SQUARE,),), 9.0), (((SQUARE + 50.0,),), 9.0)])
 
 
 def test_without_shapely_what_crosses_itself_is_left_out_and_said(without_shapely):

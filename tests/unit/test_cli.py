@@ -388,3 +388,12 @@ def test_a_reader_that_has_gone_is_no_traceback():
         process.stdout.close()
         assert process.stderr.read() == b""
     assert process.returncode == 1
+
+
+@pytest.mark.parametrize("names", [(), ("a.png",), ("a.png", None, "b.png")])
+def test_a_full_disk_is_named_with_its_remedy(names, capsys):
+    """A full disk under the output, such as a log file, has no name."""
+    assert cli._report(OSError(28, "No space left on device", *names)) == 1
+    found = capsys.readouterr().err
+    assert "the disk is full; free some space" in found
+    assert (names[-1] if names else "output or temporary files") in found

@@ -1,4 +1,4 @@
-"""Every reader of a user's file turns what it raises into one line: the file, the fault and a remedy."""
+"""Readers of a user's files turn every exception into one line: file, fault and remedy."""
 
 import errno
 import importlib
@@ -57,7 +57,7 @@ READERS = {
 
 @pytest.fixture(scope="module")
 def station_file(tmp_path_factory):
-    """A station file, beside one file for each other reader."""
+    """A station file, and one file for each of the other readers."""
     folder = tmp_path_factory.mktemp("files")
     write_geojson(folder / "a.geojson", [])
     for name in ("a.kml", "a.gpkg", "a.shp", "a.csv", "l.csv", "s.toml"):

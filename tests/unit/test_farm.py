@@ -1,5 +1,6 @@
 """Farm jobs: chunks, tasks, entries, engines' texts and what counts as done, without any engine."""
 
+import errno
 import json
 import sys
 from dataclasses import replace
@@ -7,8 +8,16 @@ from pathlib import Path
 
 import pytest
 from firetwin import cli
-from firetwin.errors import Error, InputError, TryAgainError, UsageError, full_disk_error, input_error
-from firetwin.farm import arguments, assemble, assets, entries, plan, status, task
+from firetwin.errors import (
+    Error,
+    FullDiskError,
+    InputError,
+    TryAgainError,
+    UsageError,
+    full_disk_error,
+    input_error,
+)
+from firetwin.farm import arguments, assemble, assets, entries, plan, private, status, task
 from firetwin.farm.engines import Batch, deadline, known, openjd
 from firetwin.farm.engines.slurm import split_arrays
 from firetwin.farm.entries import Entry
@@ -320,6 +329,22 @@ def test_a_task_publishes_what_it_made_and_keeps_what_was_whole(film, tmp_path_f
     assert [each.path for each in entries.attempts(out, 1)[-1].entries] == list(paths)
     assert (out / paths[0]).read_bytes() == b"new"
     assert len(assemble.check_pictures(plan.read(out), out, made_with)[0]) == 2
+
+
+def test_a_full_disk_of_a_node_is_named_with_its_file(film, tmp_path, monkeypatch):
+    out, made_with = film
+    render(out, made_with, 1, [1])
+    known = [entry for each in entries.attempts(out, 1) for entry in each.entries]
+    assert known
+
+    def full(source, target):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(private, "_link_or_copy", full)
+    with entries.attempt(out, 1) as log, pytest.raises(FullDiskError) as caught:
+        PrivateFolder(tmp_path, out, log).seed(known, made_with)
+    assert str(tmp_path / known[0].path) in str(caught.value)
+    assert task.exit_status(caught.value) == 75
 
 
 def test_status_is_read_from_files(film):

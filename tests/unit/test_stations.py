@@ -6,12 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import small_stations
+from firetwin import limits
 from firetwin.errors import InputError
 from firetwin.run import times
-from firetwin.shot.sections import StationSettings
+from firetwin.shot.sections import LabelSettings, StationSettings
 from firetwin.shot.settings import scene_file
 from firetwin.shot.shot import Shot
-from firetwin.shot.stations import station_signs
+from firetwin.shot.stations import labels, station_signs
 from firetwin.stations import describe, fire_arrival, measures, reading
 from firetwin.stations.records import EXERCISE, Station
 from firetwin_core import run as runs
@@ -125,3 +126,41 @@ def test_stations_without_a_file_are_an_error_that_names_the_key(shot_of):
     with pytest.raises(InputError, match=r"scene\.toml:3:\d+: stations\.enabled needs stations\.file"):
         station_signs.check(scene_file.read(settings.path))
     station_signs.check(settings)
+
+
+def test_too_many_stations_labels_and_corners_are_refused_with_their_number(shot_of, tmp_path, monkeypatch):
+    monkeypatch.setattr(limits, "SIGNS", 1)
+    with pytest.raises(InputError, match=r"stations.gpkg: has 2 stations in the scene; at most 1 are drawn"):
+        station_signs.make_signs(shot_of())
+    path = tmp_path / "labels.csv"
+    rows = "".join(f"Place {k},38.903,-120.592\n" for k in range(5000))
+    path.write_text(f"name,latitude,longitude\n{rows}Far,10,20\n")
+    shot = shot_of()
+    listed = replace(shot.settings, labels=LabelSettings(enabled=True, file=path))
+    for call in (lambda: labels.check(listed, shot.run), lambda: labels.find(Shot(listed, shot.run))):
+        with pytest.raises(InputError, match=r"labels.csv: has 5,000 labels in the scene; at most 500"):
+            call()
+    angle = np.linspace(0.0, 2.0 * np.pi, 5001)[:, None]
+    ring = (np.array([-120.592, 38.903]) + 1e-4 * np.hstack([np.cos(angle), np.sin(angle)])).tolist()
+    shape = {"type": "Polygon", "coordinates": [[*ring, ring[0]]]}
+    (tmp_path / "houses.geojson").write_text(json.dumps(shape))
+    with pytest.raises(InputError, match=r"has a footprint of 5,0\d\d corners; simplify it to at most 5,000"):
+        station_signs.check(shot_of(footprints=tmp_path / "houses.geojson").settings)
+
+
+def test_the_nearest_footprint_is_found_among_many():
+    """By brute force over all corners; some lie across the date line."""
+    rng = np.random.default_rng(5)
+    squares = np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * 2e-4
+    centres = np.column_stack([rng.uniform(179.99, 180.01, 300), rng.uniform(38.99, 39.01, 300)])
+    outlines = [centre + squares - np.array([360.0 * (centre[0] > 180.0), 0.0]) for centre in centres]
+    boxes = station_signs.bounds(outlines)
+    for longitude, latitude in rng.uniform((179.99, 38.99), (180.01, 39.01), (50, 2)):
+        far = [
+            np.hypot((ring[:, 0] % 360.0 - longitude) * 86_500.0, (ring[:, 1] - latitude) * 111_000.0).min()
+            for ring in outlines
+        ]
+        found = station_signs.nearest_outline(outlines, boxes, latitude, longitude)
+        assert (found is None) == (min(far) > 120.0) or abs(min(far) - 120.0) < 1.0
+        if found is not None and sorted(far)[1] - min(far) > 1.0:
+            assert found is outlines[int(np.argmin(far))]

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ...errors import input_error
+from ... import limits
+from ...errors import Error, input_error
 from ..observations import Detections, features
 from ..observations.feature import Feature, finite
 from . import rings
@@ -65,12 +66,15 @@ class Footprints:
         Number of self-intersecting polygons, which were split.
     refused
         Number of self-intersecting polygons that were omitted, because shapely is not installed.
+    too_large
+        Number of polygons that were omitted for more than `limits.CORNERS` corners.
     """
 
     outlines: tuple[Footprint, ...]
     assumed: int = 0
     mended: int = 0
     refused: int = 0
+    too_large: int = 0
 
     def summary(self) -> str:
         """Describe the result in a sentence."""
@@ -81,6 +85,8 @@ class Footprints:
             parts.append(f"{self.mended} crossed themselves and were split")
         if self.refused:
             parts.append(f"{self.refused} cross themselves and are left out (shapely splits them)")
+        if self.too_large:
+            parts.append(f"{self.too_large} have more than {limits.CORNERS:,} corners and are left out")
         return "; ".join(parts)
 
 
@@ -96,12 +102,25 @@ def height_of(properties: Mapping[str, Any]) -> float | None:
 
 
 def collect(known: Iterable[tuple[tuple[Rings, ...], float | None]]) -> Footprints:
-    """Convert polygons and heights (None: unknown) of buildings to footprints."""
+    """Convert polygons and heights (None: unknown) of buildings to footprints.
+
+    Raises
+    ------
+    Error
+        They have more than `limits.FOOTPRINT_CORNERS` corners.
+    """
     outlines: list[Footprint] = []
-    assumed = mended = refused = 0
+    assumed = mended = refused = too_large = corners = 0
     for number, (polygons, height) in enumerate(known):
         assumed += height is None
         for polygon in polygons:
+            corners += (here := sum(map(len, polygon)))
+            if corners > limits.FOOTPRINT_CORNERS:
+                most = f"more than {limits.FOOTPRINT_CORNERS:,}"
+                raise Error(f"footprints of buildings have {most} corners; cut out the area of the scene")
+            if here > limits.CORNERS:
+                too_large += 1
+                continue
             whole = rings.mended(polygon)
             if whole is None:
                 refused += 1
@@ -109,7 +128,7 @@ def collect(known: Iterable[tuple[tuple[Rings, ...], float | None]]) -> Footprin
             parts, changed = whole
             mended += changed
             outlines += [Footprint(part[0], part[1:], height or ASSUMED, number) for part in parts]
-    return Footprints(tuple(outlines), assumed, mended, refused)
+    return Footprints(tuple(outlines), assumed, mended, refused, too_large)
 
 
 def polygons(path: Path) -> list[Feature]:

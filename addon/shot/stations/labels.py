@@ -2,41 +2,79 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from firetwin_core.run import Run
 from numpy.typing import NDArray
 
+from ... import limits
+from ...errors import input_error
 from ...run import labels
 from ...run.content import sha256
+from ...run.labels import Label
 from ..settings import Settings
 from ..shot import Shot
+
+Array = NDArray[np.float64]
 
 
 class Labels(NamedTuple):
     """Names, positions (n, 3) on the ground in scene coordinates, m, and kinds ("town"; empty if unknown)."""
 
     names: list[str]
-    position: NDArray[np.float64]
+    position: Array
     kinds: list[str]
 
 
 def find(shot: Shot) -> Labels:
-    """Find labels within the terrain, from the list of the user, or the built-in ones of the fire."""
+    """Find labels within the terrain, from the list of the user, or the built-in ones of the fire.
+
+    Raises
+    ------
+    InputError
+        The user's list cannot be read, or has too many labels there.
+    """
     settings, ground = shot.settings.labels, shot.ground
     if not settings.enabled:
         return Labels([], np.empty((0, 3)), [])
     places = labels.read(settings.file) if settings.file else labels.known(shot.run)
-    axes = ground.fields.latitude, ground.fields.longitude
-    inside = [
+    inside = _within(places, ground.fields.latitude, ground.fields.longitude)
+    if not inside:
+        return Labels([], np.empty((0, 3)), [])
+    if settings.file:
+        _check_count(settings.file, inside)
+    names, latitude, longitude, kinds = zip(*inside, strict=True)
+    return Labels(list(names), ground.point(latitude, longitude), list(kinds))
+
+
+def check(settings: Settings, run: Run) -> None:
+    """Check before the build that the user's list can be read, and has not too many labels in the run.
+
+    Raises
+    ------
+    InputError
+        It cannot, or has.
+    """
+    places = settings.labels
+    if places.enabled and places.file:
+        _check_count(places.file, _within(labels.read(places.file), run.latitude, run.longitude))
+
+
+def _within(places: list[Label], latitude: Array, longitude: Array) -> list[Label]:
+    axes = latitude, longitude
+    return [
         place
         for place in places
         if all(axis.min() <= at <= axis.max() for axis, at in zip(axes, place[1:3], strict=True))
     ]
-    if not inside:
-        return Labels([], np.empty((0, 3)), [])
-    names, latitude, longitude, kinds = zip(*inside, strict=True)
-    return Labels(list(names), ground.point(latitude, longitude), list(kinds))
+
+
+def _check_count(path: Path, inside: list[Label]) -> None:
+    if len(inside) > limits.LABELS:
+        most = f"at most {limits.LABELS} are drawn"
+        raise input_error(path, f"has {len(inside):,} labels in the scene; {most}: keep the main ones")
 
 
 def inputs(settings: Settings) -> dict[str, str]:

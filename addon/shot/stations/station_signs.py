@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ... import limits
 from ...ellipsoid import metres_per_degree
 from ...errors import input_error
 from ...run import areas
@@ -92,16 +93,29 @@ def make_signs(shot: Shot) -> list[Sign]:
     Raises
     ------
     InputError
-        A file cannot be read.
+        A file cannot be read, or has too many stations there.
     """
     settings = shot.settings.stations
     if not settings.enabled or settings.file is None:
         return []
     known = reading.read(settings.file)
     here = [each for each in known.stations if covers(shot.ground, each.latitude, each.longitude)]
+    if len(here) > limits.SIGNS:
+        reason = (
+            f"has {len(here):,} stations in the scene; at most {limits.SIGNS:,} are drawn: keep the main ones"
+        )
+        raise input_error(settings.file, reason)
     outlines, minutes, fire = _outlines(shot.settings), _minutes(shot, known, here), _fire(shot, here)
+    boxes = bounds(outlines)
     return [
-        _sign(settings.show, station, known.resources_of[station.id], least, arrival, outlines)
+        _sign(
+            settings.show,
+            station,
+            known.resources_of[station.id],
+            least,
+            arrival,
+            nearest_outline(outlines, boxes, station.latitude, station.longitude),
+        )
         for station, least, arrival in zip(here, minutes, fire, strict=True)
     ]
 
@@ -173,9 +187,9 @@ def check(settings: Settings) -> None:
         raise scene_text.error_at(settings.path, ("stations", "enabled"), reason)
     if known.file is not None:
         reading.read(known.file)
-    for path in (known.footprints, known.routes_file):
-        if path is not None:
-            _features(path)
+    _outlines(settings)
+    if known.routes_file is not None:
+        _features(known.routes_file)
 
 
 def _minutes(shot: Shot, known: StationFile, here: Sequence[Station]) -> list[str]:
@@ -201,7 +215,7 @@ def _sign(
     resources: list[Resource],
     minutes: str,
     fire: str,
-    outlines: list[Array],
+    outline: Array | None,
 ) -> Sign:
     kind = " ".join(station.kind.split())[:_LONGEST]
     lines = [kind] if "kind" in show and kind else []
@@ -218,21 +232,45 @@ def _sign(
     origin = next(each for each in (INVENTED, USER, FACT) if each in origins)
     if origin == INVENTED:
         lines.append(EXERCISE)
-    outline = _outline(outlines, station.latitude, station.longitude)
     name, where = " ".join(station.title.split())[:_LONGEST], (station.latitude, station.longitude)
     return Sign(name, kind, *where, tuple(lines), origin, outline, station.id)
 
 
 def _outlines(settings: Settings) -> list[Array]:
     path = settings.stations.footprints
-    return [] if path is None else [rings[0] for each in _features(path) for rings in each.polygons]
+    if path is None:
+        return []
+    found = [rings[0] for each in _features(path) for rings in each.polygons]
+    most = max(map(len, found), default=0)
+    if most > limits.CORNERS:
+        reason = f"has a footprint of {most:,} corners; simplify it to at most {limits.CORNERS:,}"
+        raise input_error(path, reason)
+    if (corners := sum(map(len, found))) > limits.FOOTPRINT_CORNERS:
+        reason = f"has footprints of {corners:,} corners; cut out the area of the scene"
+        raise input_error(path, reason)
+    return found
 
 
-def _outline(outlines: list[Array], latitude: float, longitude: float) -> Array | None:
-    """Find the outline with the corner nearest to a station, within `_BESIDE`."""
+def bounds(outlines: list[Array]) -> Array:
+    """Return west, south, east and north (n, 4) of outlines, degrees."""
+    return np.array([(*ring.min(axis=0), *ring.max(axis=0)) for ring in outlines]).reshape(-1, 4)
+
+
+def nearest_outline(outlines: list[Array], boxes: Array, latitude: float, longitude: float) -> Array | None:
+    """Find the outline with the corner nearest to a station, within `_BESIDE`.
+
+    Parameters
+    ----------
+    boxes
+        `bounds` of the outlines.
+    """
     north, east = metres_per_degree(latitude)
+    beyond = np.array([_BESIDE / east, _BESIDE / north])
+    west, south = areas.turned(boxes[:, 0], longitude), boxes[:, 1]
+    close = (west <= longitude + beyond[0]) & (west + boxes[:, 2] - boxes[:, 0] >= longitude - beyond[0])
+    close &= (south <= latitude + beyond[1]) & (boxes[:, 3] >= latitude - beyond[1])
     best, found = _BESIDE, None
-    for ring in outlines:
+    for ring in (outlines[k] for k in np.flatnonzero(close)):
         turned = areas.turned(ring[:, 0], longitude)
         far = float(np.hypot((turned - longitude) * east, (ring[:, 1] - latitude) * north).min())
         if far < best:

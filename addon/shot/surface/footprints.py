@@ -24,4 +24,4 @@ def place_buildings(shot: Shot) -> list[Building]:
 def summary(shot: Shot) -> str:
     """Describe assumed heights, repaired and omitted footprints; empty without any."""
     found = collect(shot)
-    return found.summary() if found.assumed or found.mended or found.refused else ""
+    return found.summary() if found.assumed or found.mended or found.refused or found.too_large else ""

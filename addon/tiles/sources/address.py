@@ -7,6 +7,7 @@ import socket
 from dataclasses import dataclass
 from urllib.parse import SplitResult, urlsplit
 
+from ... import limits
 from ...errors import InputError, input_error
 
 _PORTS = {"http": 80, "https": 443}
@@ -86,6 +87,7 @@ class Guard:
             The host is unknown or does not respond.
         """
         found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)
+        found = found[: limits.DOWNLOAD_ADDRESSES]
         for *_, place in found:
             self._check(host, str(place[0]))
         last: OSError = OSError(f"{host} has no address")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import ssl
 import threading
+import time
 import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,12 +14,14 @@ from urllib.parse import urlsplit
 
 import firetwin_core
 
-from ...errors import UsageError, input_error
+from ... import limits
+from ...errors import InputError, UsageError, input_error
 from ._source import GROWTH, missing
 from .address import Guard, origin
 from .secret import Redactor
+from .watchdog import PACE, Pace, Watch, Watchdog
 
-TIMEOUT = 30.0  # s without data
+TIMEOUT = float(limits.DOWNLOAD_SILENCE)  # s without data
 _PIECE = 1 << 16  # bytes
 _FREE = 1 << 20  # bytes; smaller bodies may exceed the ratio
 
@@ -30,11 +33,13 @@ class TransportError(Exception):
     ----------
     cut_off
         The response began and ended early.
+    slow
+        A time limit ended the request; a repetition would take as long.
     """
 
-    def __init__(self, text: str, cut_off: bool = False) -> None:
+    def __init__(self, text: str, cut_off: bool = False, slow: bool = False) -> None:
         super().__init__(text)
-        self.cut_off = cut_off
+        self.cut_off, self.slow = cut_off, slow
 
 
 @dataclass(frozen=True)
@@ -55,13 +60,29 @@ class Connection:
         urllib3 is not installed.
     """
 
-    def __init__(self, private: bool, redactor: Redactor) -> None:
+    def __init__(self, private: bool, redactor: Redactor, pace: Pace = PACE) -> None:
+        self._pace, self._watchdog, self._current = pace, Watchdog(), threading.local()
         self._library, self._guard, self._redactor = _urllib3(), Guard(private), redactor
         self._pools: dict[tuple[str, str, int], Any] = {}
         self._lock = threading.Lock()
         logging.getLogger("urllib3.connectionpool").addFilter(redactor)
 
     def ask(self, url: str, headers: dict[str, str], max_bytes: int, name: str) -> Response:
+        """Send one GET request, without redirects and retries, within the time limits.
+
+        Parameters and errors are as in `_ask`.
+        """
+        watch = self._current.watch = Watch(self._pace)
+        try:
+            with self._watchdog.watching(watch):
+                return self._ask(url, headers, max_bytes, name)
+        except (TransportError, InputError):
+            if not watch.expired:
+                raise
+            seconds = time.monotonic() - watch.began
+            raise TransportError(f"sends too slowly: left after {seconds:,.0f} s", slow=True) from None
+
+    def _ask(self, url: str, headers: dict[str, str], max_bytes: int, name: str) -> Response:
         """Send one GET request, without redirects and retries.
 
         Parameters
@@ -127,6 +148,7 @@ class Connection:
         engine = zlib.decompressobj(31) if coding == "gzip" else None
         raw, size, pieces = 0, 0, []
         while piece := response.read(_PIECE):
+            self._current.watch.step()
             raw += len(piece)
             limit = max_bytes if engine is None else min(max_bytes, max(GROWTH * raw, _FREE))
             if engine is not None:
@@ -161,14 +183,30 @@ class Connection:
 
     def _make_pool(self, scheme: str, host: str, port: int) -> Any:
         """Make a pool whose connections go to addresses checked by the guard."""
-        guard, library = self._guard, self._library
+        guard, library, current = self._guard, self._library, self._current
         base: Any = library.connection.HTTPConnection
         if scheme == "https":
             base = library.connection.HTTPSConnection
 
         class Guarded(base):
+            handle: Any = None  # of the connection; it survives the start of TLS
+
             def _new_conn(self) -> Any:
-                return guard.connect(self.host, self.port, TIMEOUT)
+                made = guard.connect(self.host, self.port, TIMEOUT)
+                self.handle = made.dup()
+                current.watch.attach(self.handle)
+                return made
+
+            def putrequest(self, *given: Any, **more: Any) -> None:
+                if self.handle is not None:
+                    current.watch.attach(self.handle)
+                super().putrequest(*given, **more)
+
+            def close(self) -> None:
+                super().close()
+                if self.handle is not None:
+                    self.handle.close()
+                    self.handle = None
 
         if scheme == "https":
             pool = library.HTTPSConnectionPool(host, port, maxsize=8, ssl_context=_tls())

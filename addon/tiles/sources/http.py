@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 import threading
+import time
 from collections.abc import Callable
+from typing import NoReturn
 from urllib.parse import urljoin
 
 from ...errors import InputError, input_error
@@ -18,6 +20,7 @@ from .backoff import MAX_RETRIES, MAX_RETRY_AFTER, Backoff, Clock, retry_delay
 from .connection import Connection, Response, TransportError
 from .http_cache import Answer, HttpCache
 from .network import Network
+from .watchdog import Spent
 
 _GONE = (404, 410)
 _DENIED = (400, 401, 403)
@@ -73,7 +76,8 @@ class Http(Source):
         self._cache = (
             HttpCache(self.network.cache, self.network.limit) if keep and self.network.cache else None
         )
-        self._connection = Connection(self.network.private, self.redactor)
+        self._connection = Connection(self.network.private, self.redactor, self.network.pace)
+        self._spent = Spent()
         self._backoff = Backoff(self.clock)
         self._lock = threading.Lock()
         self._failures = 0
@@ -159,6 +163,8 @@ class Http(Source):
             try:
                 response = self._ask(uri, kept, max_bytes, session)
             except TransportError as error:
+                if error.slow:
+                    self._give_up(name, self._redacted(error), "cannot be had")
                 if error.cut_off:
                     cut_off += 1
                     if cut_off > 1:
@@ -196,16 +202,41 @@ class Http(Source):
     def _schedule_retry(self, name: str, why: str, asked: str | None, tries: int) -> None:
         """Pause the source before a retry, or give up."""
         if tries >= MAX_RETRIES:
-            with self._lock:
-                self._failures += 1
-                stop = self._failures >= _MAX_FAILURES
-            if stop:
-                raise input_error(name, f"the server does not respond ({why}); try again later")
-            raise missing(name, f"cannot be had after {MAX_RETRIES + 1} attempts ({why})")
+            self._give_up(name, why, f"cannot be had after {MAX_RETRIES + 1} attempts")
         wait = retry_delay(asked, tries, self.clock)
         if wait > MAX_RETRY_AFTER:
             raise input_error(name, f"the server asks to wait {wait:,.0f} s ({why}); try again then")
         self._backoff.extend(wait)
+
+    def _give_up(self, name: str, why: str, what: str) -> NoReturn:
+        """Give up a file, and the source after `_MAX_FAILURES` consecutive ones."""
+        with self._lock:
+            self._failures += 1
+            stop = self._failures >= _MAX_FAILURES
+        if stop:
+            raise input_error(name, f"the server does not respond ({why}); try again later")
+        raise missing(name, f"{what} ({why})")
+
+    def _request(
+        self, url: str, session: str, headers: dict[str, str], max_bytes: int, name: str
+    ) -> Response:
+        """Send one request, if the time limits of host and job allow it."""
+        pace = self.network.pace
+        for spent, most, whose in (
+            (self._spent, pace.host, f"to {self.home}"),
+            (self.network.spent, pace.job, "of this job"),
+        ):
+            if spent.seconds > most:
+                reason = (
+                    f"the requests {whose} took more than {most:,.0f} s; run it again, which uses the cache"
+                )
+                raise input_error(name, reason)
+        began = time.monotonic()
+        try:
+            return self._connection.ask(*self._with_secrets(url, session, headers), max_bytes, name)
+        finally:
+            for spent in (self._spent, self.network.spent):
+                spent.add(time.monotonic() - began)
 
     def _ask(self, uri: str, kept: Answer | None, max_bytes: int, session: str) -> Response:
         """Send a request; follow redirects within the host."""
@@ -216,9 +247,7 @@ class Http(Source):
         elif kept is not None and kept.modified:
             headers["If-Modified-Since"] = kept.modified
         for _ in range(_MAX_REDIRECTS):
-            response = self._connection.ask(
-                *self._with_secrets(url, session, headers), max_bytes, self.name(uri)
-            )
+            response = self._request(url, session, headers, max_bytes, self.name(uri))
             if response.status not in _MOVED:
                 return response
             target, secrets = secret.split(urljoin(url, response.headers.get("Location", "")))

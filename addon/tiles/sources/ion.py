@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from urllib.parse import urlsplit
 
 from ...errors import input_error
@@ -38,7 +39,7 @@ def open_asset(asset: str, network: Network, clock: Clock | None = None, api: st
         reason = f"Cesium ion needs a token: set the environment variable {POLICY.key_variable}"
         raise input_error(asset, reason)
     url = f"{api}/v1/assets/{number}/endpoint"
-    uncached = Network(network.online, network.setting, network.hosts, network.private, cache=None)
+    uncached = replace(network, cache=None)
 
     def ask() -> Node:
         service = Http(url, uncached, clock, bearer=token, policy=POLICY)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from .http_cache import LIMIT, folder
+from .watchdog import PACE, Pace, Spent
 
 
 @dataclass(frozen=True)
@@ -26,6 +27,10 @@ class Network:
         Folder of the cache; None: no cache.
     limit
         Limit of the cache, bytes.
+    pace
+        Time limits of downloads.
+    spent
+        Time of the requests of all sources with these permissions.
     """
 
     online: bool = True
@@ -34,3 +39,5 @@ class Network:
     private: bool = False
     cache: Path | None = field(default_factory=folder)
     limit: int = LIMIT
+    pace: Pace = PACE
+    spent: Spent = field(default_factory=Spent, compare=False)
