@@ -36,6 +36,13 @@ def model_cell_area(run: Run) -> float:
     return _area(run, run.latitude, run.longitude)
 
 
+def model_cell_areas(run: Run) -> Array:
+    """Compute the area (ny, nx) of each cell of the model grid, m2; an axis of one value has a mean width."""
+    if min(run.elevation.shape) == 1:
+        return np.full(run.elevation.shape, model_cell_area(run))
+    return areas.cell_areas(run.latitude, run.longitude)
+
+
 def _area(run: Run, rows: Array, columns: Array, within: tuple[Array, Array] | None = None) -> float:
     """Compute the mean cell area of a grid, m2, from its spacing at the run's centre."""
     width, height = areas.cell_size(rows, columns, local_frame(run).latitude, within)

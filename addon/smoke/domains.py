@@ -62,6 +62,11 @@ class Box:
         )
         return x, y
 
+    def contains(self, points: Array) -> NDArray[np.bool_]:
+        """Return which points (n, 2 or more), m, are between cell centres, where a flow takes sources."""
+        cell = (points[:, :2] - self.corner) / self.spacing - 0.5
+        return np.all((cell >= 0.0) & (cell < np.array(self.shape[::-1]) - 1.0), axis=1)
+
     @property
     def high(self) -> tuple[float, float]:
         """Corner of greatest x and y."""
@@ -94,6 +99,17 @@ class Domain:
         levels = np.array(self.box.levels)
         middles = 0.5 * (levels[1:] + levels[:-1])[:, None, None]
         return self.mean + middles + (self.ground - self.mean) * np.maximum(1.0 - middles / self.top, 0.0)
+
+    def volumes(self) -> Array:
+        """Compute the volumes of cells (nz, rows, columns), m3; over high ground they are thinner.
+
+        Smoke (kg/m3) of a snapshot times the volumes of its block sums to its airborne mass.
+        """
+        return np.diff(self.box.levels)[:, None, None] * self.thickness() * self.box.spacing**2
+
+    def thickness(self) -> Array:
+        """Compute the depth of cells relative to their levels (rows, columns)."""
+        return 1.0 - (self.ground - self.mean) / self.top
 
     def snapshot_path(self, frame: int) -> FilePath:
         """Return the snapshot file of a frame."""

@@ -23,7 +23,7 @@ from .domains import Domain
 STATE = "state.npz"
 WORK = "the smoke's flow"
 CONVECTED = 0.7  # convective fraction of the heat; the rest is radiated (Freeborn et al. 2008)
-_SOURCE_STEP = 30.0  # s between updates of the heat sources
+_SOURCE_STEP, _PARTS = 30.0, 5  # s between updates of the heat sources, which are means of so many times
 _RAMP = 300.0  # s in which the fire ramps up; a sudden start would send out a pressure wave
 # Gusts of the sources: standard deviation of the logarithm, correlation length (m) and time (s).
 _GUSTS = 0.6, 400.0, 90.0
@@ -61,6 +61,8 @@ class Integrator:
         self.lead, self.slots = _nested_lead(shot), shot.scale.time(_SOURCE_STEP)
         self.step, self.frame = 0, 0
         self.steps, self.frame_of = _schedule(shot)
+        self.ends = np.concatenate([[0.0], np.cumsum(self.steps)])  # s since the beginning
+        self.slot_of = np.floor(self.ends[:-1] / self.slots + 1e-6).astype(int)
         self.work = self._work()
         self.saved, self.saved_step = time.monotonic(), 0
         self.slot: int | None = None
@@ -130,18 +132,30 @@ class Integrator:
         self.slot = None
 
     def _update_sources(self) -> None:
-        """Update heat and smoke sources and the ambient wind."""
-        slot = math.floor(self.solvers[0].time / self.slots + 1e-6)
+        """Update heat and smoke sources and the ambient wind.
+
+        The sources of a slot are their mean over its steps. Heat ramps up, smoke does not: all emission since
+        the beginning is in the air or has left. Each domain gets only the sources inside, because gusts
+        conserve the sum of a domain's sources.
+        """
+        slot = self.slot_of[self.step]
         if slot == self.slot:
             return
-        time = self.begin + slot * self.slots
         self.solvers[0].set_wind(atmosphere.wind(self.winds[min(slot, len(self.winds) - 1)]))
-        sources = self.shot.fire.sources(time)
+        steps = np.flatnonzero(self.slot_of == slot)
+        begin, end = self.ends[steps[0]], self.ends[steps[-1] + 1]
+        parts = [
+            self.shot.fire.sources(float(self.begin + begin + (end - begin) * share))
+            for share in (np.arange(_PARTS) + 0.5) / _PARTS
+        ]
+        position = np.concatenate([part.position[:, :2] for part in parts])
+        heat, smoke = (
+            np.concatenate([getattr(part, name) for part in parts]) / _PARTS for name in ("power", "smoke")
+        )
         ramp = min(1.0, (slot + 1) * _SOURCE_STEP / _RAMP)
-        for solver in self.solvers:
-            solver.set_sources(
-                sources.position[:, :2], CONVECTED * ramp * sources.power, ramp * sources.smoke
-            )
+        for domain, solver in zip(self.domains, self.solvers, strict=False):
+            inside = domain.box.contains(position)
+            solver.set_sources(position[inside], CONVECTED * ramp * heat[inside], smoke[inside])
         self.slot = slot
 
     def _save_snapshots(self) -> None:

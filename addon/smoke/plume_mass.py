@@ -98,9 +98,8 @@ def columns(domain: Domain, low: tuple[int, int], smoke: NDArray[np.float32]) ->
     """Compute the vertical optical depth (ny, nx) of smoke (nz, ny, nx), kg/m3, in a block from `low`."""
     (west, south), (_, rows, across) = low, smoke.shape
     thick = np.diff(domain.box.levels)[: len(smoke)]
-    ground = domain.ground[south : south + rows, west : west + across]
-    squeezed = 1.0 - (ground - domain.mean) / domain.top  # levels are thinner over high ground
-    return emissions.EXTINCTION * squeezed * np.tensordot(thick, smoke.astype(np.float64), 1)
+    thinner = domain.thickness()[south : south + rows, west : west + across]
+    return emissions.EXTINCTION * thinner * np.tensordot(thick, smoke.astype(np.float64), 1)
 
 
 def _mass(kilograms: float) -> str:

@@ -20,7 +20,9 @@ _THIN = 3e-10  # kg/m3; other fields of thinner smoke are not stored
 _DRIFT_STEP = 4.0  # m, quantization of drift
 _PACKING = 1  # zlib level: three times as fast as the default, files a tenth larger
 
-_NAMES = ("smoke", "age", "rise", "temperature_excess", "drift", "low", "weights", "turns", "mass")
+_NAMES = ("smoke", "age", "rise", "temperature_excess", "drift", "low", "weights", "turns", "mass", "heat")
+_MASS = ("airborne", "emitted", "entered", "initial", "left", "rounding")
+_HEAT = ("given", "held", "warmed")
 
 Fields = dict[str, NDArray[Any]]
 
@@ -48,6 +50,8 @@ class Snapshot:
         Blend weights and restart counts of the drift's two phases.
     mass
         Mass budget of smoke, kg.
+    heat
+        Heat budget of the air, J.
     """
 
     low: tuple[int, int]
@@ -55,6 +59,7 @@ class Snapshot:
     weights: tuple[float, float]
     turns: tuple[int, int]
     mass: dict[str, float]
+    heat: dict[str, float]
 
 
 def save(path: Path, solver: flow.Solver, drift: flow.Drift) -> None:
@@ -73,12 +78,13 @@ def save(path: Path, solver: flow.Solver, drift: flow.Drift) -> None:
         arrays[name] = np.where(unseen, 0.0, np.clip(values[block], -6e4, 6e4)).astype(np.float16)
     moved = drift.values()[tuple(slice(part.start // 2, part.stop // 2 + 1) for part in block)]
     arrays["drift"] = (np.round(moved / _DRIFT_STEP) * _DRIFT_STEP).astype(np.float16)
-    mass = solver.mass()
+    mass, heat = solver.mass(), solver.heat()
     arrays |= {
         "low": np.array([block[2].start, block[1].start]),
         "weights": np.array(drift.weights),
         "turns": np.array(drift.turns),
-        "mass": np.array([mass[name] for name in sorted(mass)]),
+        "mass": np.array([mass[name] for name in _MASS]),
+        "heat": np.array([heat[name] for name in _HEAT]),
     }
     files.write(path, lambda part: write(part, arrays, _PACKING))
 
@@ -99,7 +105,6 @@ def load(path: Path) -> Snapshot:
         fields = {
             name: arrays[name].astype(np.float32) for name in ("smoke", "age", "rise", "temperature_excess")
         }
-        names = sorted(("initial", "emitted", "entered", "left", "airborne", "rounding"))
         if drift.shape != (*smoke.shape, 2, 3) or any(
             field.shape != smoke.shape for field in fields.values()
         ):
@@ -109,7 +114,8 @@ def load(path: Path) -> Snapshot:
             fields | {"drift": drift},
             (float(arrays["weights"][0]), float(arrays["weights"][1])),
             (int(arrays["turns"][0]), int(arrays["turns"][1])),
-            dict(zip(names, map(float, arrays["mass"]), strict=True)),
+            dict(zip(_MASS, map(float, arrays["mass"]), strict=True)),
+            dict(zip(_HEAT, map(float, arrays["heat"]), strict=True)),
         )
     except (LookupError, TypeError, ValueError) as error:
         raise BrokenError(path) from error

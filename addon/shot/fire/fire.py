@@ -19,7 +19,7 @@ from firetwin_core import flux
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from ...run import areas, burning
+from ...run import burning
 from ...run.frame import local_frame
 from ..terrain.elevation import Elevation
 from . import emissions, heat_release
@@ -29,6 +29,7 @@ from .heat_release import Array, Sources
 _FLAMES = emissions.column("residence")
 _HEAT, _SMOKE = ([emissions.column(name, part) for part in (0, 1)] for name in ("heat", "smoke"))
 _LOOK, _MAX_SAMPLES = 30.0, 240  # s between samples of the heat release, and samples at most
+_LINEAR = 0.5, 2.0  # limits of the factor to a linear course of the total power
 _MOMENTS = 3  # times at which the fire's power is sampled for its column
 _AHEAD = 600.0  # s after the last frame; includes fuel that ignites in the interval under way then
 
@@ -93,6 +94,7 @@ class Fire:
         self.relief = relief or Elevation(run)
         self.run, self.first, self.last, self.before, self.detail = run, first, last, before, detail
         self.frame = local_frame(run)
+        self._powers: dict[int, float] = {}
         if arrival is not None:
             self.arrival = arrival
 
@@ -109,10 +111,7 @@ class Fire:
     @cached_property
     def cell_area(self) -> Array:
         """Area (ny * nx,) of each model cell, m2."""
-        run = self.run
-        if min(run.elevation.shape) == 1:
-            return np.full(run.elevation.size, burning.model_cell_area(run))
-        return areas.cell_areas(run.latitude, run.longitude).ravel()
+        return burning.model_cell_areas(self.run).ravel()
 
     @cached_property
     def fuel(self) -> Fuel:
@@ -121,16 +120,14 @@ class Fire:
         return gather(self.run, known, self.first, self.last + _AHEAD, self.before, self.relief, self.detail)
 
     def sources(self, time: float) -> Sources:
-        """Heat sources at `time` (s); their power sums to flux times area in each model cell.
+        """Heat sources at `time` (s); at a model time their power sums to flux times area in each model cell.
 
-        A model cell without burning fuel releases its heat at its centre. The cost scales with the burning
-        fuel.
+        Between model times the total power is linear, so that its integral is the heat of the run. A model
+        cell without burning fuel releases its heat at its centre. The cost scales with the burning fuel.
         """
         fuel = self.fuel
-        hot, heat_flux = self.flux.burning(time)
-        heat_flux = np.maximum(np.nan_to_num(heat_flux.astype(np.float64)), 0.0)
-        hot, heat_flux = hot[heat_flux > 0.0], heat_flux[heat_flux > 0.0]
-        heat_of = heat_flux * self.cell_area[hot]
+        hot, heat_of = self._heat(time)
+        heat_of = heat_of * self._to_linear(time, float(heat_of.sum()))
         came = int(np.searchsorted(fuel.begin, time))
         gone = int(np.searchsorted(fuel.begin, time - self._longest))
         place = np.searchsorted(hot, fuel.cell[gone:came])
@@ -210,6 +207,33 @@ class Fire:
     def surroundings(self) -> tuple[slice, slice]:
         """Rows and columns of the model grid around all cells that burn in the run."""
         return burning.surroundings(self.run, self.arrival)
+
+    def _heat(self, time: float) -> tuple[NDArray[np.int64], Array]:
+        """Return the burning model cells (n,) at a time (s), and their heat release rate (n,), W."""
+        hot, heat_flux = self.flux.burning(time)
+        heat_flux = np.maximum(np.nan_to_num(heat_flux.astype(np.float64)), 0.0)
+        hot, heat_flux = hot[heat_flux > 0.0], heat_flux[heat_flux > 0.0]
+        return hot, heat_flux * self.cell_area[hot]
+
+    def _to_linear(self, time: float, power: float) -> float:
+        """Return the factor from the interpolated total power (W) to the linear course between model times.
+
+        Flux is interpolated for an even course of F^1.5, which has more heat in cells that ignite and burn
+        out between a few model times.
+        """
+        times = np.asarray(self.run.times)
+        if len(times) < 2 or not power > 0.0 or not times[0] <= time <= times[-1]:
+            return 1.0
+        after = int(np.clip(np.searchsorted(times, time), 1, len(times) - 1))
+        share = (time - times[after - 1]) / (times[after] - times[after - 1])
+        linear = (1.0 - share) * self._power_at(after - 1) + share * self._power_at(after)
+        return float(np.clip(linear / power, *_LINEAR))
+
+    def _power_at(self, index: int) -> float:
+        """Return the heat release rate of the run at a model time, W."""
+        if index not in self._powers:
+            self._powers[index] = float(self._heat(float(self.run.times[index]))[1].sum())
+        return self._powers[index]
 
     @cached_property
     def _longest(self) -> float:
