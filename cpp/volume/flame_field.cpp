@@ -137,9 +137,9 @@ void FlameField::add_crowns(const Lanes& x, const Lanes& y, const Lanes& z, cons
       const float climb = std::clamp(up / std::max(branches, 0.01F), 0.0F, 1.0F);
       const float narrow = std::clamp((up - branches) / (1.0F - branches), 0.0F, 1.0F);
       const float wide = crown.radius * (up < branches ? 0.45F + 0.65F * climb * climb
-                                                       : 1.1F - 0.65F * narrow * narrow);
+                                                       : 1.15F - 0.5F * narrow * narrow);
       const float round = square / (wide * wide), tip = std::max(up - 0.6F, 0.0F);
-      const float share = 0.9F * round + 0.25F * std::max(up, 0.0F) + 3.0F * tip * tip;
+      const float share = 0.9F * round + 0.25F * std::max(up, 0.0F) + 2.4F * tip * tip;
       if (share < shares.share[lane]) {
         shares.share[lane] = share;
         shares.length[lane] = std::max(shares.length[lane], crown.top);
@@ -337,10 +337,12 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
   sheet = sheet < 0.0F ? -sheet : sheet;
   clamp_lanes(1.0F - sheet * folds, 0.0F, 1.0F, sheet);
   sheet *= sheet;
-  sheet = grains > 0.01F ? sheet : Lanes{} + 0.4F; // folds too small to be drawn
+  // Where folds are too small to be drawn, their mean extinction and the light of the hottest.
+  const Lanes bright = grains > 0.01F ? sheet : Lanes{} + 0.55F;
+  sheet = grains > 0.01F ? sheet : Lanes{} + 0.4F;
   clamp_lanes(value, 0.0F, 1.2F, core);
   out.flame *= top * hollow * (1.0F - sheets + 1.4F * sheets * sheet) * (1.0F - 0.3F * cool);
-  clamp_lanes((0.12F + 0.44F * core) * (0.5F + 0.8F * sheet) * (1.0F - 0.35F * cool) *
+  clamp_lanes((0.12F + 0.44F * core) * (0.5F + 0.8F * bright) * (1.0F - 0.35F * cool) *
                   (1.0F + 0.35F * gaps * rooted),
               0.0F, 1.0F, out.heat);
   Lanes begin, end, thick;

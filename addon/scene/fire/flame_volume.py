@@ -1,8 +1,8 @@
 """Flames of one frame as a volume, for the integrated renderer.
 
 The hottest soot sets a flame's brightness in a picture, and saturates any camera. The core's
-luminance times 2^exposure is therefore constant, within bounds. Flames of 10,000 to 20,000 cd/m2 are 0.6 to
-1.3 units of the scene, if 1 unit is 16,000 cd/m2. Colours are chosen for the AgX view transform: a deep
+luminance times 2^exposure is therefore constant, within bounds. Black bodies of 1500 to 1650 K have 8,000 to
+32,000 cd/m2, 0.5 to 2 units of the scene, if 1 unit is 16,000 cd/m2. Colours are chosen for the AgX view transform: a deep
 orange rim to a yellow-white core. Blue is slightly below 0, as colours of black bodies are outside of sRGB.
 
 The heat that sets the colour sets the temperature too: 960 K in the coolest part to 1400 K in the hottest.
@@ -34,14 +34,14 @@ SCALES = (
 )
 """Flame length, m, and factors on the extinction: visible (by eye), infrared (by power, see test_flames)."""
 _CORE = 6.0  # luminance of the core times 2^exposure (by eye)
-_LUMINANCE = (0.4, 1.3)  # its bounds, units of the scene
+_LUMINANCE = (0.4, 2.0)  # its bounds, units of the scene
 _CORE_HEAT, _DECADES = 0.75, 2.3  # heat of the core; decades between the luminance of heat 0 and 1
 _ROWS = 33
 EXTINCTION = 0.8  # 1/m, visible
 _SOOT = 0.012  # of it, in the cooled soot
 INFRARED = infrared.FLAME
 _ALBEDO = 0.3  # of fresh soot (assumed)
-_BASE, _RADIUS = 0.22, 0.14  # of burning crowns, in tree heights (assumed)
+_BASE, _RADIUS = 0.22, 0.16  # of burning crowns, in tree heights (assumed)
 _SPINDLES = 1200.0  # m; at a greater distance the front outshines single torching crowns
 _GROWING = (0.15, 0.6)  # parts of a torching crown's time in which it flares up, and from which it declines
 

@@ -39,14 +39,16 @@ _RISING = 0.12  # fraction of the tall phase in which flames grow (by eye)
 _LOW = 0.22  # height behind the tall phase (by eye)
 _RESIDUAL = (0.25, 3.0)  # height of residual flames: fraction of the length, and at most, m (by eye)
 _PATCH = 9.0  # m, size of patches of fuel that burn on behind the front
-_UNEVEN = ((26.0, 0.8), (9.0, 0.6))  # m, sizes, and strengths of the noise of the lengths' logarithm (by eye)
+_UNEVEN = ((26.0, 0.8, 0.7), (9.0, 0.6, 0.2))
+"""Sizes of the noise of the lengths' logarithm, m, and its strengths in low flames and in a crown fire, where
+narrow patches would be spears (by eye)."""
 _FLARE, _FLARES = 160.0, 1.6  # m, in a crown fire; log deviation of the lengths of low flames (by eye)
 _EVEN = (5.0, 12.0)  # m, flame lengths between which lengths become uniform
 _GAP, _GAPS = 25.0, 0.5  # m, size of gaps in a crown fire; fraction of gaps in a front with the lowest flames
 _BROKEN = (0.5, 6.0)  # m, flame lengths at which a front has most gaps, and none
-_CLUMP, _CLUMPS = 19.0, (-0.22, 0.12)  # m, size of clumps of crowns that burn; noise from none to full
-_BETWEEN = 0.12  # length between clumps over the length in them (by eye)
-_TALLEST = 1.7  # length of the longest flames over the mean length (by eye)
+_CLUMP, _CLUMPS = 19.0, (-0.3, 0.05)  # m, size of clumps of crowns that burn; noise from none to full
+_BETWEEN = 0.25  # length between clumps over the length in them (by eye)
+_TALLEST = 1.5  # length of the longest flames over the mean length (by eye)
 _LENGTHS = (0.15, 75.0)  # m
 _LEAST_FUEL = 0.05  # kg/m2
 _MIDFLAME = 0.4  # wind at the flames over the wind above (P. L. Andrews 2012, RMRS-GTR-266, open fuel)
@@ -201,11 +203,11 @@ def lengths(shot: Any, place: Array, row: Array, column: Array, time: float) -> 
     formula = full.settings.fire.flame_length
     even = flame_size.flame_length(intensity, formula, canopy > flame_size.CROWNS)
     factor = flare_factor(east, north, even, scale, seed)
-    for index, (size, strength) in enumerate(_UNEVEN):
-        wave = noise.fractal(east, north, size * scale, 1, seed + 550 + index)
-        factor *= np.exp(strength * wave)
-    clumps = noise.smoothstep(*_CLUMPS, noise.fractal(east, north, _CLUMP * scale, 2, seed + 570))
     crowded = noise.smoothstep(*_EVEN, even)
+    for index, (size, low, tall) in enumerate(_UNEVEN):
+        wave = noise.fractal(east, north, size * scale, 1, seed + 550 + index)
+        factor *= np.exp((low + (tall - low) * crowded) * wave)
+    clumps = noise.smoothstep(*_CLUMPS, noise.fractal(east, north, _CLUMP * scale, 2, seed + 570))
     factor *= 1.0 - crowded * (1.0 - _BETWEEN) * (1.0 - clumps)
     long = np.clip(even * np.minimum(factor, _TALLEST), 0.0, _LENGTHS[1]) * (fuel > _LEAST_FUEL)
     height = long * upright(long, carrying_wind(shot))
