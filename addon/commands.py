@@ -267,6 +267,7 @@ def _tile_access(arguments: argparse.Namespace) -> TileAccess:
         online=not arguments.offline,
         hosts=tuple(arguments.host),
         private=arguments.private,
+        root=arguments.tile_root,
     )
 
 

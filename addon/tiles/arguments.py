@@ -70,3 +70,9 @@ def add_access(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--private", action="store_true", help="allow tilesets at addresses of private networks"
     )
+    parser.add_argument(
+        "--tile-root",
+        metavar="DIR",
+        default="",
+        help="folder within which files of local tilesets may refer to ../FILE (their own folder)",
+    )

@@ -110,6 +110,7 @@ class _Walk:
         self.content_volume: dict[int, Volumes] = {}
         self.jobs: dict[int, list[Any]] = {}
         self.placeholders: list[int] = []
+        self.flat: dict[int, str] = {}
 
     def run(self) -> int:
         """Visit all tiles, then append them."""
@@ -125,6 +126,8 @@ class _Walk:
         first = tree.append(self._rows())
         for content in self.external:
             tree.set_kind(first_content + content, EXTERNAL)
+        tree.broken |= {first + row: reason for row, reason in self.flat.items()}
+        tree.flat |= {first + row for row in self.flat}
         return first
 
     def _rows(self) -> Rows:
@@ -161,7 +164,9 @@ class _Walk:
         node, row = tile.node, len(self.parent)
         self.tree.check_room(row + 1, self.document.name)
         node.object()
-        matrix = self._transform(node, tile.matrix)
+        matrix, flat = self._transform(node, tile.matrix)
+        if flat:
+            self.flat[row] = flat
         overrides = metadata.of_tile(node, self.document.schema)
         raw = self._raw_error(node, tile, overrides)
         replaces = self._refine(node, tile.replaces)
@@ -178,6 +183,8 @@ class _Walk:
         numbers = overrides.with_heights(kind, numbers)
         self.numbers[kind][0].append(row)
         self.numbers[kind][1].append(numbers)
+        if flat:  # its content and its children have no volume
+            return
         if (request := node.get("viewerRequestVolume")) is not None:
             self.request[row] = self._transform_volume(*volumes.read(request), matrix)
         contents = _contents(node)
@@ -195,11 +202,15 @@ class _Walk:
             ]
             self.stack += reversed(below)
 
-    def _transform(self, node: Node, above: int) -> int:
-        """Multiply a tile's transform with its parent's; return the number of the product."""
+    def _transform(self, node: Node, above: int) -> tuple[int, str]:
+        """Multiply a tile's transform with its parent's; return the number of the product.
+
+        The text is the reason if the transform flattens the tile, which the specification allows: it has no
+        volume then, so its parent is shown in its place, and the number is the parent's.
+        """
         transform = node.get("transform")
         if transform is None:
-            return above
+            return above, ""
         local = np.array(transform.numbers(16)).reshape(4, 4).T
         if np.abs(local[3] - [0.0, 0.0, 0.0, 1.0]).max() > 1e-9:
             raise transform.error("is not affine: every fourth number must be 0, the last one 1")
@@ -208,12 +219,14 @@ class _Walk:
             lengths = np.linalg.norm(local[:3, :3], axis=0)
             unit = local[:3, :3] / np.where(lengths > 0.0, lengths, 1.0)
             singular = not abs(np.linalg.det(unit)) > _SINGULAR if np.isfinite(unit).all() else True
-        if singular or not np.isfinite(matrix).all():
-            raise transform.error("cannot be inverted (determinant 0), or is not finite with its parents'")
+        if not (np.isfinite(matrix).all() and np.isfinite(lengths).all()):
+            raise transform.error("is not finite with its parents'")
+        if singular:
+            return above, str(transform.error("flattens the tile (determinant 0), which is not shown"))
         number = self.tree.matrix_count + len(self.new_matrices)
         self.new_matrices.append(matrix)
         self.matrices[number] = self._scaled(matrix)
-        return number
+        return number, ""
 
     @staticmethod
     def _scaled(matrix: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:

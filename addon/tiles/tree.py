@@ -103,6 +103,8 @@ class Tree:
         Reasons for missing contents or children, by tile.
     placeholders
         Tiles that are the root of an implicit tiling.
+    flat
+        Tiles that their transform flattens; they are broken.
     """
 
     def __init__(self) -> None:
@@ -113,6 +115,7 @@ class Tree:
         self.request: dict[int, Volumes] = {}
         self.content_volume: dict[int, Volumes] = {}
         self.placeholders: set[int] = set()
+        self.flat: set[int] = set()
         self._matrices: list[NDArray[np.float64]] = [np.eye(4)]
         self._rows: list[Rows] = []
         self._kinds: list[NDArray[np.uint8]] = []
@@ -273,6 +276,7 @@ class Tree:
         stand_in = np.zeros(self.size, bool)
         stand_in[list(self.placeholders)] = True
         model |= broken & stand_in
+        model[list(self.flat)] = True  # a missing content
         holder = external | stand_in
         return (
             tiles.REPLACES * self.replaces

@@ -135,7 +135,7 @@ def test_a_landscape_larger_than_the_map(tmp_path, converted):
     load = np.asarray(run.surface_fuel)
     np.testing.assert_array_equal(load[[0, 0, -1, -1], [0, -1, 0, -1]], np.float32([0.4, 0.9, 0.9, 0.4]))
     np.testing.assert_allclose(run.elevation[[0, -1], 0], [360.0, 700.0])  # between middles of cells
-    assert "b.json is the model's own JSON" in said(run)
+    assert "b.json: the model's own JSON" in said(run)
 
 
 def test_a_ring_that_is_not_closed(tmp_path):

@@ -12,6 +12,7 @@ from firetwin.errors import Error, InputError
 from firetwin.jobs import convert
 from firetwin.run import areas, info, released
 from firetwin.run.models import fuels, heat_from_intensity
+from firetwin.run.readers import forefire
 from firetwin_core import constants
 from firetwin_core import run as runs
 
@@ -279,7 +280,26 @@ def test_forefire_fronts_place_and_date_it(tmp_path, converted):
     ring[0][1] = 88.0  # of a domain with a UTM corner
     (tmp_path / "a.geojson").write_text(json.dumps(front))
     (tmp_path / "run").rename(tmp_path / "before")
-    assert "beyond 84 degrees" in said(converted([path, tmp_path / "a.geojson"]))
+    assert "fronts that are not used: a.geojson: beyond 84 degrees" in said(
+        converted([path, tmp_path / "a.geojson"])
+    )
+
+
+def test_fronts_that_are_not_used_are_named_in_one_line(tmp_path):
+    import json
+
+    notes = []
+    for k in range(19):
+        front = {"type": "FeatureCollection", "features": [{"geometry": {"coordinates": [[1.0, 89.0]]}}]}
+        (tmp_path / f"front{k:02d}.geojson").write_text(json.dumps(front))
+        (tmp_path / f"own{k:02d}.json").write_text('{"fronts": []}')
+    assert forefire._fronts(sorted(tmp_path.iterdir()), notes) == []
+    assert notes == [
+        "fronts that are not used: 19 files (own00.json to own18.json): the model's own JSON, which has no "
+        "degrees",
+        "fronts that are not used: 19 files (front00.geojson to front18.geojson): beyond 84 degrees, as "
+        "fronts of a UTM corner are written",
+    ]
 
 
 def test_forefire_itself(tmp_path):

@@ -8,7 +8,7 @@ import zipfile
 import pytest
 from firetwin.errors import InputError
 from firetwin.tiles.loader import Loader
-from firetwin.tiles.sources import MissingError, archive, open_source
+from firetwin.tiles.sources import MissingError, Network, archive, open_source
 from firetwin.tiles.sources._source import gunzip
 from firetwin.tiles.sources.folder import Folder
 from firetwin.tiles.sources.local import relative
@@ -79,6 +79,30 @@ def test_escapes_are_undone_once():
     assert relative("in/t.json", "%2565.glb", "t.json") == "in/%65.glb"
     assert relative("in/t.json", "./a/../b.glb", "t.json") == "in/b.glb"
     assert relative("in/t.json", "../b.glb", "t.json") == "b.glb"
+
+
+def test_references_within_a_folder_above_are_allowed_by_the_user_alone(tmp_path):
+    files = {"a/tileset.json": tileset(tile(8.0, "../tiles/x.glb")), "tiles/x.glb": GLB}
+    files["b/tileset.json"] = tileset(tile(8.0, "../../secret.glb"))
+    folder = write(tmp_path / "set", files)
+    write(tmp_path, {"secret.glb": GLB})
+    with pytest.raises(
+        InputError, match="leaves the tileset's folder; --tile-root DIR allows a folder above"
+    ):
+        Loader(open_source(str(folder / "a"))).check([0])
+    network = Network(root=folder)
+    for place in ("a", "a/tileset.json"):
+        loader, contents = Loader(open_source(str(folder / place), network)), {}
+        loader.check([0], contents.__setitem__)
+        assert contents == {0: GLB}
+        assert loader.source.name(loader.source.root) == str(folder / "a/tileset.json")
+    with pytest.raises(InputError, match="leaves the tileset's folder"):
+        Loader(open_source(str(folder / "b"), network)).check([0])
+    (folder / "tiles/link.glb").symlink_to(tmp_path / "secret.glb")
+    with pytest.raises(InputError, match="is a link that leaves"):
+        open_source(str(folder / "a"), network).read("tiles/link.glb")
+    own = open_source(str(write(tmp_path / "own", SET)), network)  # not in the folder of the option
+    assert own.root == "tileset.json"
 
 
 def test_links_that_lead_out_are_refused_and_others_followed(tmp_path):

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from firetwin import ellipsoid
 from firetwin.errors import InputError
-from firetwin.tiles import explicit, json_text, metadata, tree, volumes
+from firetwin.tiles import cut, explicit, json_text, metadata, tree, volumes
 from firetwin.tiles.loader import Loader
 from firetwin_core import tiles as core
+from tile_views import HERE, looking, names
 from tilesets import GLB, Memory, box, load, tile, tileset
 
 SHIFT = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 10, 20, 30, 1]  # column by column
@@ -159,8 +160,6 @@ REFUSED_TILES = [
     ({"boundingVolume": {"sphere": [1e16, 0, 0, 1]}}, "beyond 1e15"),
     ({"refine": "BOTH"}, r"\$\.root\.refine: must be ADD or REPLACE"),
     ({"transform": [1.0] * 16}, "not affine"),
-    ({"transform": [0] * 15 + [1]}, "cannot be inverted"),
-    ({"transform": [1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}, "cannot be inverted"),
     ({"transform": [1e150, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}, "scale of its transform"),
     ({"transform": [1, 2]}, "must be 16 numbers"),
     ({"content": {}}, r"\$\.root\.content: uri is missing"),
@@ -304,3 +303,37 @@ def test_slanted_boxes_are_held_by_their_box():
     assert along.max() < 1e-9
     np.testing.assert_allclose(np.einsum("nki,nji->nkj", made.axis, made.axis), [np.eye(3)] * 200, atol=1e-12)
     assert (made.radius >= np.linalg.norm(corner - made.centre, axis=1) - 1e-9).all()
+
+
+FLAT = [[0] * 15 + [1], [1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], [1, 0, 0, 0, 0, 1] + [0] * 9 + [1]]
+
+
+@pytest.mark.parametrize("transform", FLAT)
+def test_a_tile_that_its_transform_flattens_is_left_out_with_one_line(transform):
+    """The specification's validator passes it. Its parent stays in its place, its siblings are shown."""
+    files = {"root.glb": GLB, "beside.glb": GLB}
+    flat = tile(1.0, "flat.glb", [tile(0.0, "below.glb")], transform=transform)
+    loader = load(tile(8.0, "root.glb", [flat, tile(1.0, "beside.glb")], refine="REPLACE"), files)
+    tree = loader.tree
+    (reason,) = tree.broken.values()
+    assert reason == (
+        "tileset.json: $.root.children[0].transform: flattens the tile (determinant 0), which is not shown"
+    )
+    assert [tree.reference(k) for k in range(len(tree.content))] == ["root.glb", "beside.glb"]
+    number = next(iter(tree.broken))
+    assert tree.flags()[number] & core.BROKEN
+    assert tree.flags()[number] & core.CONTENT
+    chosen = cut.select_tiles(loader, looking(-50.0), HERE, 0.01)
+    assert names(loader, chosen) == ["root.glb"]
+    assert list(chosen.missing.values()) == [reason]
+
+
+def test_a_tileset_that_its_transform_flattens_has_no_tile_and_one_line():
+    tree = load(tile(8.0, "root.glb", [tile(1.0, "a.glb")], transform=FLAT[0])).tree
+    assert (tree.size, tree.contents, len(tree.broken)) == (1, 0, 1)
+
+
+def test_a_transform_that_is_not_finite_with_its_parents_is_refused():
+    huge = [1e300, 0, 0, 0, 0, 1e300, 0, 0, 0, 0, 1e300, 0, 0, 0, 0, 1]
+    with pytest.raises(InputError, match="is not finite with its parents"):
+        load(tile(0.0, children=[tile(0.0, transform=huge)], transform=huge))

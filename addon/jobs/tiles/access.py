@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from dataclasses import asdict, dataclass, replace
+from pathlib import Path
 from typing import Any
 
 from ...tiles.sources import Network
@@ -23,8 +24,8 @@ class TileAccess:
         Requests to servers are allowed; otherwise only the cache and files on this machine are used.
     setting
         Remedy for `online` being off, for messages.
-    hosts, private
-        As in `Network`.
+    hosts, private, root
+        As in `Network`; the root is empty for none.
     """
 
     strict: bool = False
@@ -32,6 +33,7 @@ class TileAccess:
     setting: str = "leave out --offline"
     hosts: tuple[str, ...] = ()
     private: bool = False
+    root: str = ""
 
     def plain(self) -> dict[str, Any]:
         """Return the plain form, for `from_plain`."""
@@ -39,7 +41,8 @@ class TileAccess:
 
     def network(self) -> Network:
         """Return the network permissions of a source."""
-        return Network(self.online, self.setting, tuple(self.hosts), self.private)
+        root = Path(self.root) if self.root else None
+        return Network(self.online, self.setting, tuple(self.hosts), self.private, root=root)
 
 
 def from_plain(values: dict[str, Any]) -> TileAccess:

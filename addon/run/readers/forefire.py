@@ -82,6 +82,8 @@ def _begun(options: Options, domain: dict, arrival: NDArray, fronts: list, notes
 def _fronts(paths: list[Path], notes: list[str]) -> list[tuple[datetime | None, float, float, float, float]]:
     """Read date and bounding box (west, south, east, north) of each GeoJSON or KML front."""
     fronts = []
+    own: list[str] = []
+    far: list[str] = []
     for path in paths:
         if path.suffix.lower() not in (".geojson", ".json", ".kml"):
             continue
@@ -94,7 +96,7 @@ def _fronts(paths: list[Path], notes: list[str]) -> list[tuple[datetime | None, 
                 data = json.loads(text)
                 # numbers as text with units, positions in metres, not degrees
                 if "fronts" in data:
-                    notes.append(f"{path.name} is the model's own JSON, which has no degrees: not used")
+                    own.append(path.name)
                     continue
                 if "valid_at" in data:
                     moment = datetime.fromisoformat(data["valid_at"]).astimezone(UTC)
@@ -105,11 +107,16 @@ def _fronts(paths: list[Path], notes: list[str]) -> list[tuple[datetime | None, 
             continue
         x, y = np.array(places, np.float64)[:, :2].T
         if np.abs(y).max() > _FAR:
-            notes.append(
-                f"{path.name} lies beyond 84 degrees, as fronts of a UTM corner are written: not used"
-            )
+            far.append(path.name)
             continue
         fronts.append((moment, x.min(), y.min(), x.max(), y.max()))
+    for unused, reason in (
+        (own, "the model's own JSON, which has no degrees"),
+        (far, "beyond 84 degrees, as fronts of a UTM corner are written"),
+    ):
+        if unused:
+            names = unused[0] if len(unused) == 1 else f"{len(unused)} files ({unused[0]} to {unused[-1]})"
+            notes.append(f"fronts that are not used: {names}: {reason}")
     return fronts
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ...errors import input_error
 from ._source import MAX_BYTES, Source, check_size, missing, unpack
-from .local import relative
+from .local import LeavesError, relative
 
 
 class Folder(Source):
@@ -16,6 +16,9 @@ class Folder(Source):
     ----------
     path
         The file, or its folder.
+    within
+        Folder above it within which its files may refer to one another (``../tiles/a.glb``); ignored unless
+        it contains the file.
 
     Raises
     ------
@@ -23,16 +26,22 @@ class Folder(Source):
         The file does not exist.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, within: Path | None = None) -> None:
         file = path / "tileset.json" if path.is_dir() else path
         if not file.is_file():
             raise input_error(file, "is not there; name a tileset.json, its folder, a .3tz file or a URL")
-        self.folder = file.parent.resolve()
-        self.root = file.name
+        above = within.resolve() if within else None
+        if above is not None and file.resolve().is_relative_to(above):
+            self.folder, self.root = above, file.resolve().relative_to(above).as_posix()
+        else:
+            self.folder, self.root = file.parent.resolve(), file.name
 
     def resolve(self, base: str, reference: str) -> str:
         """Resolve to a path below the folder."""
-        return relative(base, reference, self.name(base))
+        try:
+            return relative(base, reference, self.name(base))
+        except LeavesError as error:
+            raise input_error(error.path, f"{error.reason}; --tile-root DIR allows a folder above") from None
 
     def read(self, uri: str, max_bytes: int = MAX_BYTES) -> bytes:
         """Read a file in the folder; links are followed."""
@@ -60,7 +69,8 @@ class Folder(Source):
     def _path(self, uri: str) -> Path:
         path = (self.folder / uri).resolve()
         if not path.is_relative_to(self.folder):
-            raise input_error(self.name(uri), "is a link that leaves the tileset's folder")
+            reason = "is a link that leaves the tileset's folder; --tile-root DIR allows a folder above"
+            raise input_error(self.name(uri), reason)
         if path.exists() and not path.is_file():
             raise missing(self.name(uri), "is not a file")
         return path

@@ -1,4 +1,4 @@
-"""Network permissions of a source."""
+"""Permissions of a source: network, and folders of this machine."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .watchdog import PACE, Pace, Spent
 
 @dataclass(frozen=True)
 class Network:
-    """Network permissions of a source.
+    """Permissions of a source.
 
     Attributes
     ----------
@@ -27,6 +27,8 @@ class Network:
         Folder of the cache; None: no cache.
     limit
         Limit of the cache, bytes.
+    root
+        Folder within which files of tilesets on this machine may refer to one another; None: their own.
     pace
         Time limits of downloads.
     spent
@@ -39,5 +41,6 @@ class Network:
     private: bool = False
     cache: Path | None = field(default_factory=folder)
     limit: int = LIMIT
+    root: Path | None = None
     pace: Pace = PACE
     spent: Spent = field(default_factory=Spent, compare=False)
