@@ -8,7 +8,8 @@ import uuid
 from collections.abc import Callable
 from pathlib import Path
 
-from .errors import writing
+from . import limits
+from .errors import input_error, writing
 
 
 def publish(part: Path, path: Path, durable: bool = True) -> None:
@@ -71,6 +72,20 @@ def write_cached(path: Path, data: bytes) -> None:
 def write_text(path: Path, text: str, newline: str | None = None) -> None:
     """Write a text atomically, as UTF-8 (see `write`)."""
     write(path, lambda part: part.write_text(text, encoding="utf-8", newline=newline))
+
+
+def check_text_size(path: Path) -> None:
+    """Check that a text file of a user is not larger than `limits.TEXT_BYTES`.
+
+    Raises
+    ------
+    InputError
+        It is.
+    """
+    size = path.stat().st_size
+    if size > limits.TEXT_BYTES:
+        most = f"at most {limits.TEXT_BYTES / 1e6:,.0f} MB are read"
+        raise input_error(path, f"has {size / 1e6:,.0f} MB; {most}: take a part of it")
 
 
 def _sync_folder(folder: Path) -> None:

@@ -36,7 +36,7 @@ _MB = 1_000_000
 
 def _number(group: str, quantity: str, value: int, beyond: str, unit: str = "") -> int:
     """List a limit and return its number; bytes are shown as MB."""
-    shown = f"{value / _MB:,.6g} MB" if unit == "bytes" else f"{value:,} {unit}".strip()
+    shown = f"{value / _MB:,.3g} MB" if unit == "bytes" else f"{value:,} {unit}".strip()
     LIMITS.append(Limit(group, quantity, shown, beyond))
     return value
 
@@ -55,6 +55,21 @@ SQLITE_COLUMNS = _number(_G, "columns of a table", 500, "refused")
 SQLITE_DEPTH = _number(_G, "depth of an expression in the file", 100, "refused")
 SQLITE_SECONDS = _number(_G, "processor time of a file (plus 1 s per 10 MB)", 20, "refused", "s")
 GEOMETRY_DEPTH = _number("GeoPackages", "geometries in one another", 32, "refused as damaged")
+
+_X = "Other files"
+TEXT_BYTES = _number(_X, "size of GeoJSON, KML, GPX and CSV, also within a KMZ", 1 << 28, "refused", "bytes")
+
+_T = "3D tiles"
+TILE_BYTES = _number(_T, "size of a file, decompressed", 256 << 20, "refused", "bytes")
+TILE_GROWTH = _number(_T, "growth of a file by decompression (above 1 MB)", 64, "refused", "times")
+TILE_JSON_BYTES = _number(_T, "size of a tileset.json", 64 << 20, "refused", "bytes")
+TILE_JSON_DEPTH = _number(_T, "arrays and objects in one another", 256, "refused")
+TILE_MEMBERS = _number(_T, "files of a .3tz archive", 2_000_000, "refused")
+TILE_COUNT = _number(_T, "tiles of a tileset", 1_000_000, "refused")
+TILE_CONTENTS = _number(_T, "contents of a tile", 64, "refused")
+TILE_NESTED = _number(_T, "tilesets in one another", 64, "refused")
+TILE_MEMORY = _number(_T, "memory of the process that decodes tiles", 3 << 30, "the tile is missing", "bytes")
+TILE_SECONDS = _number(_T, "time to decode a tile", 60, "the tile is missing", "s")
 
 _D = "Downloads"
 DOWNLOAD_SILENCE = _number(_D, "time without data", 30, "retried", "s")

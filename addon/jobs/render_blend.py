@@ -104,7 +104,7 @@ def in_blender(
     from ..smoke import bake, prefetch, sources
     from . import device
 
-    bpy.ops.wm.open_mainfile(filepath=blend, load_ui=False)
+    bpy.ops.wm.open_mainfile(filepath=blend, load_ui=False, use_scripts=False)
     stage = owned.stage(bpy.data.scenes[scene])
     layers.repair(stage.scene)
     shot = _with_scene_settings(ShotSource(**choice).shot(), stage.scene)

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 from firetwin_core.run import Run
 
+from .. import files
 from ..data import history
 from ..errors import InputError, input_error, reading
 from . import tables
@@ -54,6 +55,7 @@ def read(path: Path) -> list[Label]:
     if path.exists() and not path.is_file():  # opening a pipe would block
         raise input_error(path, "is not a file; name a CSV or GeoJSON")
     with reading(path):
+        files.check_text_size(path)
         text = path.read_text(encoding="utf-8-sig")
         return _geojson(path, text) if text.lstrip().startswith("{") else _csv(path, text)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from .. import limits
 from . import metadata
 from .json_text import Node
 from .tree import Document, Tree
@@ -15,7 +16,7 @@ KNOWN_EXTENSIONS = {
     "3DTILES_metadata",
     "3DTILES_multiple_contents",
 }
-MOST_NESTED = 64  # tilesets in one another
+MOST_NESTED = limits.TILE_NESTED
 
 
 def is_tileset(node: Node) -> bool:

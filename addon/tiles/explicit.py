@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import limits
 from . import documents, implicit, metadata, scheme, volumes
 from .json_text import Node
 from .tree import EXTERNAL, Document, Rows, Tree
 from .volumes import Volumes
 
-MOST_CONTENTS = 64  # of a tile
+MOST_CONTENTS = limits.TILE_CONTENTS
 _SINGULAR = 1e-12  # determinant of columns of length 1
 
 

@@ -10,10 +10,11 @@ from typing import Any, NoReturn
 
 import numpy as np
 
+from .. import limits
 from ..errors import InputError, input_error
 
-MAX_BYTES = 64 << 20  # of one text
-DEEPEST = 256  # arrays and objects in one another
+MAX_BYTES = limits.TILE_JSON_BYTES  # of one text
+DEEPEST = limits.TILE_JSON_DEPTH
 
 _TEXT = re.compile(rb'"(?:[^"\\]|\\.)*"', re.DOTALL)
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")

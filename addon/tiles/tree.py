@@ -9,10 +9,11 @@ import numpy as np
 from firetwin_core import tiles
 from numpy.typing import NDArray
 
+from .. import limits
 from ..errors import InputError, input_error
 from .volumes import Volumes
 
-MOST_TILES = 1_000_000
+MOST_TILES = limits.TILE_COUNT
 MODEL, EXTERNAL = 0, 1
 """Kinds of content: a model, or an external tileset."""
 

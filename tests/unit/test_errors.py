@@ -5,7 +5,7 @@ import importlib
 import sqlite3
 
 import pytest
-from firetwin import errors
+from firetwin import errors, limits
 from firetwin.errors import FullDiskError, InputError
 from firetwin.run import labels, observations
 from firetwin.shot.cameras import track
@@ -106,3 +106,10 @@ def test_what_sqlite_raises_on_a_full_or_read_only_disk_becomes_one_line(planted
     with pytest.raises(InputError) as caught, errors.writing("a.gpkg"):
         raise sqlite3.OperationalError(planted)
     assert text in str(caught.value)
+
+
+@pytest.mark.parametrize("reader", ["GeoJSON", "KML", "detections", "labels", "track"])
+def test_a_text_that_is_too_large_is_refused_unread(reader, station_file, monkeypatch):
+    monkeypatch.setattr(limits, "TEXT_BYTES", -1)
+    with pytest.raises(InputError, match="MB; at most -0 MB are read: take a part of it"):
+        READERS[reader][0](station_file)

@@ -16,14 +16,15 @@ from typing import Any
 
 import numpy as np
 
+from ... import limits
 from ...errors import InputError
 from ...progress import MessageCallback, Progress, silent
 from ...tiles import decoded
 from .. import worker
 
-_MEMORY = 3 << 30
+_MEMORY = limits.TILE_MEMORY
 """Limit on the address space of a decoding process, bytes."""
-_SECONDS = 60.0
+_SECONDS = float(limits.TILE_SECONDS)
 """Limit on the time of a tile, s."""
 
 

@@ -16,6 +16,7 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import NDArray
 
+from ... import files
 from ...errors import input_error, reading
 from . import dates, infrared_detections
 from .feature import Feature, Polygon
@@ -139,6 +140,8 @@ def features(path: Path) -> list[Feature] | Detections:
     if path.exists() and not path.is_file():  # opening a pipe would block
         raise input_error(path, "is not a file; name a file of observations")
     with reading(path):
+        if path.suffix.lower() not in (".gpkg", ".shp"):
+            files.check_text_size(path)
         return reader.read(path)
 
 

@@ -8,10 +8,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from xml.etree import ElementTree
 
+from ... import limits
 from ...errors import input_error
 from .feature import Feature, Polygon, Ring, degrees, ring
 
-_LARGEST = 1 << 28  # bytes of text; a perimeter is far smaller, a zip bomb far larger
+_LARGEST = limits.TEXT_BYTES
 
 
 def read(path: Path) -> list[Feature]:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ... import files
 from ...errors import input_error, reading
 from ...run import times
 from . import track_csv, track_xml
@@ -113,6 +114,7 @@ def read(path: Path) -> Track:
             state = path.stat()
         except FileNotFoundError:
             raise input_error(path, "no such track; see track in the scene file") from None
+        files.check_text_size(path)
         return _read(path, state.st_mtime_ns, state.st_size)
 
 

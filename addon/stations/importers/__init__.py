@@ -11,6 +11,7 @@ import importlib
 from pathlib import Path
 from types import ModuleType
 
+from ... import files
 from ...errors import input_error, reading
 from ..import_rows import Batch
 
@@ -48,7 +49,10 @@ def read(path: Path) -> Batch:
         The file is missing, has an unknown format, or is damaged.
     """
     with reading(path):
-        return find_importer(path).read(path)
+        importer = find_importer(path)
+        if path.suffix.lower() != ".gpkg":
+            files.check_text_size(path)
+        return importer.read(path)
 
 
 def _unknown_format() -> str:

@@ -6,11 +6,12 @@ import zlib
 from abc import ABC, abstractmethod
 from os import PathLike
 
+from ... import limits
 from ...errors import InputError, input_error
 from ..policies import OPEN, Policy
 
-MAX_BYTES = 256 << 20  # of one file
-GROWTH = 64  # maximum ratio of decompressed to compressed size
+MAX_BYTES = limits.TILE_BYTES  # of one file
+GROWTH = limits.TILE_GROWTH  # maximum ratio of decompressed to compressed size
 _FREE = 1 << 20  # bytes; smaller results may exceed the ratio
 _GZIP = b"\x1f\x8b"
 

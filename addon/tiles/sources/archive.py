@@ -8,12 +8,13 @@ import zipfile
 import zlib
 from pathlib import Path
 
+from ... import limits
 from ...errors import InputError, input_error
 from ._source import GROWTH, MAX_BYTES, Source, check_size, missing, unpack
 from .local import relative
 
 _METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
-_MOST_MEMBERS = 2_000_000
+_MOST_MEMBERS = limits.TILE_MEMBERS
 _FREE = 1 << 20  # bytes; smaller members may exceed the ratio
 _ENCRYPTED = 0x1
 
