@@ -72,7 +72,8 @@ void SparseSmoke::keep_all(std::span<const float> dense) {
       for (Index y = j * side; y < std::min((j + 1) * side, shape_[1]); ++y) {
         for (Index z = k * side; z < std::min((k + 1) * side, shape_[2]); ++z) {
           const float value = dense[static_cast<std::size_t>((x * shape_[1] + y) * shape_[2] + z)];
-          values[static_cast<std::size_t>((x % side * side + y % side) * side + z % side)] = value;
+          const auto at = static_cast<std::size_t>((x % side * side + y % side) * side + z % side);
+          values[at] = values[veil * block_size + at] = value;
           any = any || value != 0.0F;
         }
       }

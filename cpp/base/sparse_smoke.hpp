@@ -17,6 +17,8 @@ namespace firetwin {
 /// the corners of blocks, for two phases that are blended.
 struct NoiseFrame {
   static constexpr std::size_t phases = 2, parts = 3 * phases;
+  static constexpr double finer = 0.47;    ///< wavelength of an octave over the one before
+  static constexpr float roughness = 0.7F; ///< amplitude of an octave over the one before
 
   float size = 0.0F;                   ///< wavelength of the largest octave not painted, m
   float share = 0.0F;                  ///< its amplitude in the unit of `edge`
@@ -39,8 +41,10 @@ public:
   enum Field : std::size_t {
     density, ///< extinction, 1/m
     fresh,   ///< freshness: 1 for young smoke, 0 for old or no smoke
-    edge,    ///< share of the voxel inside the outline of the smoke; 1 in smoke without an outline
-    glow     ///< light of flames; optional
+    edge, ///< position in the outline of billows: 0 far outside, 1 where smoke begins, 2 where it
+          ///< is complete, 3 far inside
+    veil, ///< part of the extinction without an outline, 1/m
+    glow  ///< light of flames; optional
   };
   static constexpr Index side = 8;
   static constexpr std::size_t block_size = side * side * side;

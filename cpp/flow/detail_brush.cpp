@@ -246,10 +246,9 @@ void Detail::Brush::finish() {
   }
   for (std::size_t lane = 0; lane < w.count; ++lane) {
     const Painted painted = paint(lane, raise[lane]);
-    if (painted.extinction > 0.0F) {
-      out_.set(SparseSmoke::density, w.place[lane], w.share[lane] * painted.extinction);
-      out_.set(SparseSmoke::edge, w.place[lane], painted.edge);
-    }
+    out_.set(SparseSmoke::density, w.place[lane], w.share[lane] * painted.extinction);
+    out_.set(SparseSmoke::veil, w.place[lane], w.share[lane] * painted.veil);
+    out_.set(SparseSmoke::edge, w.place[lane], painted.edge);
   }
   w.count = 0;
 }
@@ -266,23 +265,27 @@ Detail::Brush::Painted Detail::Brush::paint(std::size_t n, float raise) const {
   // An outline has at least the width of some voxels, and is a line so that it can be sharpened.
   const float middle = 0.5F * (low + high),
               width = std::max(high - low, v * pending_.reach[n] * outline_);
-  const float inside = std::clamp((raised - middle) / width + 0.5F, 0.0F, 1.0F);
-  const float left = lerp(inside * inside * (3.0F - 2.0F * inside), inside, v);
-  const float billows = dense(held, lerp(soft_gain, crisp_gain, v) * left);
-  const float veil =
-      dense(veiled, veil_gain * v * (1.0F - solid) * smoothstep(soft_cut[0], soft_cut[1], veiled));
+  const float position = (raised - middle) / width + 0.5F;
+  const float inside = std::clamp(position, 0.0F, 1.0F);
+  const float gain = lerp(soft_gain, crisp_gain, v);
+  const float veil = lerp(
+      dense(held, gain * inside * inside * (3.0F - 2.0F * inside)),
+      dense(veiled, veil_gain * (1.0F - solid) * smoothstep(soft_cut[0], soft_cut[1], veiled)), v);
   const float rooted = lerp(
       root, 1.0F,
       smoothstep(root_heights[0], root_heights[1], pending_.above[n] / detail_.settings_.scale));
   const DetailSettings& settings = detail_.settings_;
-  const float all = billows + veil;
-  if (all <= 0.0F) {
-    return {0.0F, 0.0F};
-  }
   const float full =
-      all * detail_.unit_ * extinction_per_kg * static_cast<float>(settings.opacity) * rooted;
-  return {settings.max_extinction * (1.0F - std::exp(-full / settings.max_extinction)),
-          lerp(1.0F, inside, v * billows / all)};
+      detail_.unit_ * extinction_per_kg * static_cast<float>(settings.opacity) * rooted;
+  const auto level_off = [&](float all) {
+    return all > 0.0F
+               ? settings.max_extinction * (1.0F - std::exp(-full * all / settings.max_extinction))
+               : 0.0F;
+  };
+  // Billows level off before their outline: otherwise it would be a step in thick smoke.
+  const float soft = level_off(veil),
+              billows = v * inside * level_off(dense(held, inside > 0.0F ? gain : 0.0F));
+  return {soft + billows, std::clamp(position, -1.0F, 2.0F) + 1.0F, soft};
 }
 
 SparseSmoke Detail::paint(const VoxelRegion& b, float min_extinction) const {

@@ -40,9 +40,9 @@ private:
   void paint_surface();
   void enqueue();
   void wait_for(std::size_t n);
-  /// Extinction (1/m) of a voxel, and its share inside the outline.
+  /// Values of `SparseSmoke` at a voxel.
   struct Painted {
-    float extinction, edge;
+    float extinction, edge, veil;
   };
   Painted paint(std::size_t n, float raise) const;
 

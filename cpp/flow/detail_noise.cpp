@@ -2,6 +2,7 @@
 
 #include "base/clones.hpp"
 #include "base/interpolation.hpp"
+#include "base/sparse_smoke.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +10,11 @@
 namespace firetwin::flow {
 namespace {
 
-constexpr float roughness = 0.7F;
-constexpr double finer = 0.47;
-constexpr double finest_wave = 1.7;    // voxels, wavelength of the finest octave
+constexpr float roughness = NoiseFrame::roughness;
+constexpr double finer = NoiseFrame::finer;
+// Voxels, wavelength of the finest octave. Ridges repeat after half a wavelength: finer ones would
+// draw the lattice of the voxels.
+constexpr double finest_wave = 1.7, finest_ridges = 3.4;
 constexpr double outline_width = 2.0;  // voxels
 constexpr double billow_height = 1.25; // factor on the distance to the nearest point
 constexpr float veils_only = 0.02F, billows_only = 0.98F; // vigour
@@ -55,7 +58,12 @@ void blend(const Row& soft, const Row& crisp, const Row& vigour, Row& noise) {
 
 DetailNoise::DetailNoise(double size, double voxel,
                          const std::array<std::uint32_t, Drift::phases>& seeds)
-    : size_(size), voxel_(voxel), finest_(finest_wave * voxel), seeds_(seeds) {}
+    : size_(size), voxel_(voxel), seeds_(seeds) {}
+
+bool DetailNoise::paints(int octave, double size) const {
+  const double finest = octave < billow_octaves ? finest_wave : finest_ridges;
+  return octave < max_octaves && size > finest * voxel_;
+}
 
 void DetailNoise::at(const Origins& places, std::size_t phase, const Row& vigour, Row& noise) {
   const auto [least, most] = std::minmax_element(vigour.begin(), vigour.end());
@@ -63,7 +71,7 @@ void DetailNoise::at(const Origins& places, std::size_t phase, const Row& vigour
   Row crisp{}, soft{}, found, x, y, z;
   float share = 1.0F;
   double size = size_;
-  for (int octave = 0; octave < max_octaves && size > finest_; ++octave) {
+  for (int octave = 0; paints(octave, size); ++octave) {
     const std::uint32_t own = seeds_[phase] * 8U + static_cast<std::uint32_t>(octave);
     scale(places[0], 1.0 / size, x);
     scale(places[1], 1.0 / size, y);
@@ -87,7 +95,7 @@ void DetailNoise::at(const Origins& places, std::size_t phase, const Row& vigour
 
 float DetailNoise::outline() const {
   double square = 0.0, share = 1.0, size = size_;
-  for (int octave = 0; octave < max_octaves && size > finest_; ++octave) {
+  for (int octave = 0; paints(octave, size); ++octave) {
     square += std::pow(billow_height * share / size, 2);
     share *= static_cast<double>(roughness);
     size *= finer;
@@ -97,7 +105,7 @@ float DetailNoise::outline() const {
 
 std::array<double, 2> DetailNoise::finer_octave() const {
   double share = 1.0, size = size_;
-  for (int octave = 0; octave < max_octaves && size > finest_; ++octave) {
+  for (int octave = 0; paints(octave, size); ++octave) {
     share *= static_cast<double>(roughness);
     size *= finer;
   }

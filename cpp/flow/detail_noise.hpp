@@ -32,7 +32,10 @@ public:
 private:
   static constexpr int billow_octaves = 3, max_octaves = 7;
 
-  double size_, voxel_, finest_;
+  /// Returns whether voxels resolve an octave.
+  bool paints(int octave, double size) const;
+
+  double size_, voxel_;
   std::array<std::uint32_t, Drift::phases> seeds_;
   std::array<std::array<Worley, billow_octaves>, Drift::phases> worley_;
 };

@@ -73,6 +73,7 @@ private:
     const SparseSmoke& smoke = lit_.smoke();
     smoke.gather(SparseSmoke::fresh, block, 0, wide, fresh_.data());
     smoke.gather(SparseSmoke::edge, block, 0, wide, edge_.data());
+    smoke.gather(SparseSmoke::veil, block, 0, wide, veil_.data());
     if (smoke.glows()) {
       smoke.gather(SparseSmoke::glow, block, 0, wide, glow_.data());
     }
@@ -83,13 +84,16 @@ private:
     const Index row = x * wide + y;
     const Index own = row * row_size + SparseSmoke::side;
     const float *fresh = fresh_.data() + own, *glow = glow_.data() + own,
-                *edge = edge_.data() + own;
+                *edge = edge_.data() + own, *veil = veil_.data() + own;
     const float *sun = light_.sun.data() + row * BlockLight::row,
                 *sky = light_.sky.data() + row * BlockLight::row;
     for (Index k = 0; k < wide; ++k, out += Bricks::channels) {
       const Index z = std::min(k, last);
-      Bricks::write(
-          {visible_.density(density[z], column), fresh[z], sun[z], sky[z], glow[z], edge[z]}, out);
+      const float seen = visible_.density(density[z], column);
+      const float plain = density[z] > 0.0F ? seen * std::min(veil[z] / density[z], 1.0F) : 0.0F;
+      Bricks::write({seen, fresh[z], sun[z], sky[z], glow[z],
+                     std::clamp(edge[z] - 1.0F, 0.0F, 1.0F), edge[z], plain},
+                    out);
     }
   }
 
@@ -97,7 +101,7 @@ private:
   const VisibleShare& visible_;
   Neighbourhood around_;
   BlockLight light_;
-  Voxels fresh_{}, glow_{}, edge_{};
+  Voxels fresh_{}, glow_{}, edge_{}, veil_{};
 };
 
 void check_fields(const Bricks::Fields& fields) {
@@ -116,9 +120,8 @@ void check_fields(const Bricks::Fields& fields) {
 
 } // namespace
 
-void Bricks::write(const std::array<float, 6>& voxel, std::uint16_t* out) {
+void Bricks::write(const std::array<float, channels>& voxel, std::uint16_t* out) {
   std::transform(voxel.begin(), voxel.end(), out, to_half);
-  std::fill(out + voxel.size(), out + channels, std::uint16_t{0});
 }
 
 template <class HasSmoke, class Filler>
@@ -199,8 +202,10 @@ void Bricks::pack(const Fields& fields, const Place& block, std::uint16_t* out) 
         const Index z = std::min(block[2] * side + k, shape_[2] - 1);
         const auto at = static_cast<std::size_t>((x * shape_[1] + y) * shape_[2] + z);
         const float glow = fields.glow.empty() ? 0.0F : fields.glow[at];
+        const float edge = fields.edge.empty() ? 1.0F : fields.edge[at];
         write({fields.density[at], fields.fresh[at], fields.sun[at], fields.sky[at], glow,
-               fields.edge.empty() ? 1.0F : fields.edge[at]},
+               std::clamp(edge, 0.0F, 1.0F), 1.0F + std::clamp(edge, -1.0F, 2.0F),
+               fields.edge.empty() ? fields.density[at] : 0.0F},
               out);
       }
     }

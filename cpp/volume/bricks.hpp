@@ -31,7 +31,7 @@ class Bricks {
 public:
   static constexpr std::int64_t side = 8; ///< cells
   static constexpr std::int64_t wide = side + 1;
-  static constexpr std::size_t channels = 8; ///< two of them unused
+  static constexpr std::size_t channels = 8;
   static constexpr std::size_t block_size = wide * wide * wide * channels;
   static constexpr float min_extinction = 2.5e-5F; ///< 1/m; a block is stored if a voxel exceeds it
 
@@ -42,7 +42,8 @@ public:
     std::span<const float> sun;     ///< fourth root of the sunlight's transmittance
     std::span<const float> sky;     ///< transmittance of skylight
     std::span<const float> glow;    ///< light of flames; may be empty
-    std::span<const float> edge;    ///< share inside the outline; empty: 1
+    /// Position in the outline, 0 (outer side) to 1 (inner side); empty: no outline.
+    std::span<const float> edge;
   };
 
   /// @param shape voxels along x, y and z; z runs fastest
@@ -72,8 +73,9 @@ public:
   /// Noise below the voxel; null: none.
   const NoiseFrame* noise() const { return noise_.get(); }
 
-  /// Packs density, fresh, sun, sky, glow and edge of a voxel.
-  static void write(const std::array<float, 6>& voxel, std::uint16_t* out);
+  /// Packs density, fresh, sun, sky and glow of a voxel; its share inside the outline, 0 to 1, its
+  /// position in the outline as in `SparseSmoke`, and its density without an outline.
+  static void write(const std::array<float, channels>& voxel, std::uint16_t* out);
 
 private:
   using Place = std::array<std::int64_t, 3>;

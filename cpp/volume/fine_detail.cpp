@@ -10,14 +10,14 @@
 namespace firetwin::volume {
 namespace {
 
-constexpr float finer = 0.47F, roughness = 0.7F; // as in flow::DetailNoise
-constexpr float mean_ridge = 0.25F;              // of |Perlin noise|
+constexpr auto finer = static_cast<float>(NoiseFrame::finer);
+constexpr float mean_ridge = 0.25F; // of |Perlin noise|
 constexpr float ridge_height = 1.2F;
 constexpr float whole =
     1.6F; // wavelength over the finest at which an octave has its full amplitude
 constexpr int max_octaves = 5;
 constexpr std::uint32_t first_seed = 7; // octave number that is not painted
-constexpr float body = 0.8F;            // amplitude of noise inside of the outline
+constexpr float body_noise = 0.8F;      // amplitude of noise inside of the outline
 constexpr float clear = 1.0e-3F;
 
 using Lines = std::array<SampleRow, 3>;
@@ -30,6 +30,13 @@ void add_ridges(const Lines& places, float scale, std::uint32_t seed, float shar
         perlin_at(places[0][n] * scale, places[1][n] * scale, places[2][n] * scale, seed);
     noise[n] += share * (mean_ridge - std::abs(found));
   }
+}
+
+/// Rotates a place by a fixed angle about an oblique axis: octaves do not share a lattice, and none
+/// is level.
+std::array<float, 3> turned(const std::array<float, 3>& v) {
+  return {0.80F * v[1] + 0.60F * v[2], -0.80F * v[0] + 0.36F * v[1] - 0.48F * v[2],
+          -0.60F * v[0] - 0.48F * v[1] + 0.64F * v[2]};
 }
 
 using Corner = std::array<float, NoiseFrame::parts>;
@@ -85,33 +92,39 @@ void FineDetail::at(const SampleRow& distances, float finest, SampleRow& noise) 
     if (frame_->weights[phase] < 0.02F) {
       continue;
     }
-    Lines places;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t p = 3 * phase + axis;
-      for (std::size_t n = 0; n < noise.size(); ++n) {
-        places[axis][n] = start_[p] + slope_[p] * (distances[n] - from_);
-      }
-    }
+    std::array<float, 3> start, slope;
+    std::copy_n(start_.begin() + static_cast<std::ptrdiff_t>(3 * phase), 3, start.begin());
+    std::copy_n(slope_.begin() + static_cast<std::ptrdiff_t>(3 * phase), 3, slope.begin());
     float size = frame_->size, share = ridge_height * frame_->share * frame_->weights[phase];
     std::uint32_t seed = frame_->seeds[phase] * 8U + first_seed;
     for (int octave = 0; octave < max_octaves && size > finest; ++octave) {
       const float shown = std::min((size / finest - 1.0F) / (whole - 1.0F), 1.0F);
+      start = turned(start);
+      slope = turned(slope);
+      Lines places;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t n = 0; n < noise.size(); ++n) {
+          places[axis][n] = start[axis] + slope[axis] * (distances[n] - from_);
+        }
+      }
       add_ridges(places, 1.0F / size, seed, share * shown, noise);
       size *= finer;
-      share *= roughness;
+      share *= NoiseFrame::roughness;
       seed += 0x10001U;
     }
   }
 }
 
-float outline_factor(float edge, float noise, float sharpness) {
-  if (edge <= clear) {
-    return 0.0F;
+float Outline::extinction(float density, float noise, float sharpness, float part) const {
+  const float body = std::max(1.0F + body_noise * noise, 0.0F);
+  if (share <= clear) {
+    return density + (body * veil - density) * part;
   }
   // Noise moves an outline but neither starts smoke in clear air nor holes inside of it.
-  const float moved = edge + noise * std::min(6.0F * edge * (1.0F - edge), 1.0F);
-  const float inside = std::clamp((moved - 0.5F) * sharpness + 0.5F, 0.0F, 1.0F);
-  return inside / edge * std::max(1.0F + body * noise, 0.0F);
+  const float reach = std::clamp(1.5F - std::abs(2.0F * position - 3.0F), 0.0F, 1.0F);
+  const float inside = std::clamp((position + reach * noise - 1.5F) * sharpness + 0.5F, 0.0F, 1.0F);
+  const float drawn = body * (veil + (density - veil) * inside / share);
+  return density + (drawn - density) * part;
 }
 
 } // namespace firetwin::volume

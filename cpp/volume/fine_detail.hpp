@@ -32,10 +32,21 @@ private:
   std::array<float, NoiseFrame::parts> start_{}, slope_{}; ///< m at `from_`, and per m
 };
 
-/// Smoke of a sample: a factor on its interpolated extinction, which sharpens outlines and adds
-/// noise to them. The mean over an outline stays the same.
-/// @param edge interpolated share inside the outline
-/// @param sharpness steepness of the outline, relative to the painted one
-float outline_factor(float edge, float noise, float sharpness);
+/// Outline of the smoke at a sample, interpolated between voxels.
+///
+/// The share of voxels inside an outline is clamped, so that its surface of one half follows the
+/// lattice. Their position is not, and its surface of one half is smooth.
+struct Outline {
+  float share;    ///< inside the outline, 0 to 1
+  float position; ///< in the outline: 1 on its outer side, 2 on its inner side
+  float veil;     ///< extinction without an outline, 1/m
+
+  /// Returns the extinction with a sharp outline and noise. The mean over an outline stays about
+  /// the same.
+  /// @param density interpolated extinction, 1/m
+  /// @param sharpness steepness of the outline, relative to the painted one
+  /// @param part share of this change, 0 to 1
+  float extinction(float density, float noise, float sharpness, float part) const;
+};
 
 } // namespace firetwin::volume

@@ -22,6 +22,7 @@ constexpr float opaque_flames = 0.01F;
 constexpr float no_limit = std::numeric_limits<float>::max();
 constexpr float outline_pixels = 1.5F; // width of an outline, half as many voxels as it is painted
 constexpr float max_sharpness = 4.0F;
+constexpr float outline_range = 0.5F;  // of sharpness over 1, in which outlines fade in
 constexpr float finest_noise = 4.0F;   // pixels, wavelength of the finest noise
 constexpr float noise_step = 0.4F;     // steps relative to that wavelength
 constexpr float shortest_step = 0.06F; // voxels
@@ -142,6 +143,7 @@ void sample_row(const ActiveLayers& active, std::size_t layer, const SampleRow& 
   }
   SampleRow noise{};
   const float sharpness = active.sharpness[layer];
+  const float shown = std::min((sharpness - 1.0F) / outline_range, 1.0F);
   const bool detailed = active.detail[layer].shows(active.finest);
   if (noisy && detailed) {
     active.detail[layer].at(distances, active.finest, noise);
@@ -152,11 +154,10 @@ void sample_row(const ActiveLayers& active, std::size_t layer, const SampleRow& 
     if (v[0] <= Bricks::min_extinction) {
       continue;
     }
-    v[0] *= shading.density;
-    if (detailed || sharpness > 1.0F) {
-      v[0] *= outline_factor(v[5], noise[n], sharpness);
+    if (shown > 0.0F) {
+      v[0] = Outline{v[5], v[6], v[7]}.extinction(v[0], noise[n], sharpness, shown);
     }
-    out.extinction[n] = v[0];
+    out.extinction[n] = shading.density * v[0];
     out.light[n] = radiance(v, shading, haze[n]);
   }
 }

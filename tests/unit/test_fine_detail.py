@@ -60,3 +60,21 @@ def test_outlines_are_spread_over_voxels_so_that_they_draw_no_stairs():
     low, high = np.minimum(density[1:], density[:-1]), np.maximum(density[1:], density[:-1])
     outline = (low < 0.1 * density.max()) & (high > 0.3 * density.max())
     assert (high[outline] > 0.8 * density.max()).mean() < 0.2
+
+
+def test_a_slanting_outline_is_straight_between_voxels():
+    """The surface of smoke whose outline is narrower than two voxels has no stairs."""
+    count, slope = 40, 0.15
+    x, y, _z = np.indices((count, count, 8), dtype=float)
+    edge = np.clip(0.5 + (y - 20.0 - slope * (x - 20.0)) / 1.5, -1.0, 2.0)
+    density = np.clip(edge, 0.0, 1.0)
+    even = np.ones_like(density)
+    wall = volume.Bricks(density, even, even, even, None, 1.0, (0.0, 0.0, 0.0), edge)
+    across, along = np.linspace(10.0, 30.0, 161), np.linspace(15.0, 25.0, 401)
+    places = np.stack([*np.meshgrid(across, along, indexing="ij"), np.full((161, 401), -1.0)], axis=-1)
+    ends = np.full((places.size // 3, 1), 1e9)
+    ways = np.broadcast_to([0.0, 0.0, 1.0], (len(ends), 3))
+    found = volume.march([wall], places.reshape(-1, 3), ways, ends, LIGHT, pixel=(0.05, 0.0))
+    surface = along[np.argmax(found[..., 3].reshape(161, 401) < 0.5, axis=1)]
+    stairs = surface - np.polyval(np.polyfit(across, surface, 1), across)
+    assert stairs.std() < 0.03

@@ -413,7 +413,7 @@ class Bricks:
         origin
             m, the centre of voxel (0, 0, 0).
         edge
-            Share of the voxel inside the outline of the smoke; None: 1.
+            Position in the outline, 0 (outer side) to 1 (inner side); None: no outline.
 
         Raises
         ------
