@@ -70,7 +70,7 @@ def test_energies_are_straight_lines_between_moments(near, run, stage, sun_at):
     for frame in (1, 2, 3):
         curves = [(thing.data, compat.fcurves(thing.data)) for thing in things]
         total.append(sum(found[0].evaluate(frame) if found else data.energy for data, found in curves))
-    far = lamps.place_lamps(shot, flame_light.FAR_LAMPS)
+    far = lamps.place_lamps(shot, flame_light.FAR_LAMPS, lamps.glow_share(shot))
     wanted = np.interp(shot.frames.times, far.time, far.heat.sum(axis=1)) * lamps.LIGHT
     assert total == pytest.approx(wanted, rel=1e-3)
 

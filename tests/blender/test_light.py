@@ -1,3 +1,4 @@
+import colorsys
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 
@@ -10,7 +11,7 @@ from firetwin.blender import compat, owned
 from firetwin.render import engine
 from firetwin.run import frame, sun
 from firetwin.scene.light import build as light
-from firetwin.shot.light import exposure, sky
+from firetwin.shot.light import exposure, exposure_meter, sky
 from firetwin.shot.shot import Shot
 
 
@@ -46,6 +47,23 @@ def test_exposure_can_be_set(settings, run, stage, scene):
     scene.frame_set(2)
     assert scene.view_settings.exposure == 1.25
     assert scene.view_settings.look == "AgX - Medium High Contrast"
+
+
+@pytest.mark.parametrize("luminance", [0.04, 0.12, exposure._WHITE])
+def test_smoke_over_flames_is_orange_in_the_picture_of_a_moonlit_night(
+    shot, stage, scene, tmp_path, luminance
+):
+    light.build(shot, stage)
+    scene.view_settings.exposure, scene.render.image_settings.file_format = 0.0, "PNG"
+    moonlit = sky.State(200.0, -30.0, sun.Moon(150.0, 40.0, 0.5)).around * 0.5 * 2.0**3.0
+    pixel = bpy.data.images.new("pixel", 1, 1, float_buffer=True)
+    glow = np.array(sky.GLOW) * luminance / exposure_meter.luminance(sky.GLOW)
+    pixel.pixels.foreach_set(np.append(glow + moonlit, 1.0).astype(np.float32))
+    pixel.save_render(str(tmp_path / "pixel.png"), scene=scene)
+    shown = bpy.data.images.load(str(tmp_path / "pixel.png"))
+    hue, saturation, _ = colorsys.rgb_to_hsv(*shown.pixels[:3])
+    assert 15.0 < 360.0 * hue < 28.0
+    assert saturation > 0.7
 
 
 def test_building_twice_leaves_one_sky(shot, stage, scene):

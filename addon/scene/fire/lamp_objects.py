@@ -15,12 +15,13 @@ COLOUR = (1.0, 0.32, 0.07)  # light of flames of 1300 K as displayed by AgX
 def build(shot: Shot, collection: bpy.types.Collection) -> list[bpy.types.Object]:
     """Build "Firetwin Lamp 00" and so on in the collection of lamps; an empty list by day.
 
-    They leave out the flames near a camera if these have their own light (see `flame_light`).
+    Near a camera they are the light of smoke alone if flames there have their own light (see `flame_light`).
     """
     first, last = shot.frames.first, shot.frames.last
     if shot.settings.light.lamps == 0 or np.all(lamps.darkness(shot, np.linspace(first, last, 9)) == 0.0):
         return []
-    placed = lamps.place_lamps(shot, flame_light.FAR_LAMPS if flame_light.applies(shot) else (0.0, 0.0))
+    nearest = flame_light.FAR_LAMPS if flame_light.applies(shot) else (0.0, 0.0)
+    placed = lamps.place_lamps(shot, nearest, lamps.glow_share(shot))
     strength = lamps.LIGHT * lamps.darkness(shot, placed.time)
     frames = 1.0 + (placed.time - first) / (shot.frames.step or 1.0)
     made = []

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...run import sun
 from ...shot.cameras.path import Path
 from ...shot.fire import heat_release
 from ...shot.light import exposure
@@ -18,13 +19,15 @@ from ...shot.shot import Shot
 from ...shot.terrain import noise
 
 LIGHT = 6.0e-4  # W of light per luminous W of heat at night; chosen by eye
+_GLOW = 0.45  # share of that light from flame-lit smoke, which also lights the ground near a camera; by eye
+_DUSK = 0.0, -8.0  # degrees, solar elevations between which that light appears
 _REACH = 9000.0  # m from a camera; light on ground farther away is not visible
 _NEAR = 150.0  # m from the camera; nearer lamps are not spaced more closely
 _KEYS = 13  # maximum number of keyframes in the shot
 _BLOCK = 120.0  # m; heat within this distance belongs to one lamp
 _ROUNDS = 12
 _HEIGHTS, _RADII, _SHARED = (12.0, 60.0), (6.0, 60.0), 25.0  # m
-_LOWEST = 3.0  # m, height of the lamps of a small fire
+_LOWEST = 8.0  # m, height of the lamps of a small fire
 # Lengths except `_REACH` and `_LOWEST` are for a fire of 15 km.
 
 Array = NDArray[np.float64]
@@ -57,12 +60,18 @@ def darkness(shot: Shot, times: Array) -> Array:
     return exposure.darkness(shot, times) ** 2
 
 
-def place_lamps(shot: Shot, nearest: tuple[float, float] = (0.0, 0.0)) -> Lamps:
+def glow_share(shot: Shot) -> float:
+    """Return the share of the lamps' light that comes from smoke at mid-shot; 0 by day."""
+    return _GLOW * float(noise.smoothstep(*_DUSK, sun.position(shot.run, shot.frames.middle)[1]))
+
+
+def place_lamps(shot: Shot, nearest: tuple[float, float] = (0.0, 0.0), least: float = 0.0) -> Lamps:
     """Cluster the luminous heat of all times near the cameras by weighted k-means (Lloyd 1982).
 
     Heat is weighted by its distance from a camera, so lamps are dense where their positions are visible. Heat
     is shared between nearby lamps, so that a passing front fades from one to the next. Without heat near a
-    camera the result is empty. Heat fades out between the distances `nearest` (m) towards a camera.
+    camera the result is empty. Heat fades to its part `least` between the distances `nearest` (m) towards a
+    camera.
     """
     times, near = keyframe_times(shot), shot.perspective_paths
     none = Lamps(times, np.empty((0, 3)), np.empty(0), np.empty((len(times), 0)))
@@ -78,7 +87,7 @@ def place_lamps(shot: Shot, nearest: tuple[float, float] = (0.0, 0.0)) -> Lamps:
     size = shot.scale.length
     power = power * np.clip((_REACH - distance) / (0.3 * _REACH), 0.0, 1.0)
     if nearest[1] > 0.0:
-        power = power * noise.smoothstep(*nearest, distance)
+        power = power * (least + (1.0 - least) * noise.smoothstep(*nearest, distance))
     lit = np.flatnonzero(power > 0.0)
     if len(lit) == 0:
         return none

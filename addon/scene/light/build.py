@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ...blender import compat, nodes, owned
 from ...blender.owned import Stage
 from ...shot.light import exposure
-from ...shot.light.sky import NIGHT_SKY, State, state
+from ...shot.light.sky import DAY_SKY, State, state
 from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import curved_air, haze, infrared, space_sky
@@ -22,7 +22,7 @@ _SKY = 0.12  # strength of the sky texture; more hides the sunlit side of smoke
 _DUST = 0.3  # parameter of the sky texture; 1 makes it pale and greenish
 _FILL = 0.44  # factor on the sky's mean radiance for ambient light in open places; by eye
 _NEAR = 15.0  # m, distance of ambient occlusion
-_NIGHT_FILL = 0.1  # minimum of that mean radiance: eyes and films adapt to the night; by eye
+_NIGHT_FILL = 0.004  # minimum of that mean radiance; by eye
 _TRANSFORM, _LOOK = "AgX", "AgX - Medium High Contrast"
 _INSTEAD = ("Filmic", "Standard")  # fallback view transforms if AgX is missing, best first
 
@@ -95,7 +95,7 @@ def _build_world(shot: Shot, stage: Stage, frames: NDArray[np.float64], states: 
     compat.find_socket(light.socket.node.inputs, "Scale").default_value = _SKY
     up = tree.separate(tree.output("ShaderNodeTexCoord", name="Generated"))[2]
     night = any(state.sky[0] < 0.0 for state in states)
-    dark, stars = night_sky.radiance(tree, shot, frames, states) if night else (tuple(NIGHT_SKY), None)
+    dark, stars = night_sky.radiance(tree, shot, frames, states) if night else (tuple(DAY_SKY), None)
     light = tree.vector("ADD", light, dark)
     light = haze.before_sky(tree, stage, light, up)
     earth = curved_air.earth(stage)

@@ -19,13 +19,15 @@ from ...shot.shot import Shot
 from .keyframes import add_keyframes
 
 _CHART = "Firetwin Stars"
-_POINT = 0.6  # pixels, standard deviation of a star's image
+_POINT = 0.4  # pixels, standard deviation of a star's image
 _SHARPEST, _WIDEST = 1.0e-4, 1.5e-3  # rad, bounds of that; a wider image would leave the star's texel
 _FLUX = (
     10.0 ** (0.4 * stars.DARK_SKY) * np.radians(1.0 / 3600.0) ** 2
 )  # sr of dark sky in a star of magnitude 0
 _EXTINCTION = (0.10, 0.15, 0.23)  # optical depths of the zenith in red, green and blue (assumed)
-_BLUE, _WHITE, _RED = (0.72, 0.83, 1.0), (1.0, 0.97, 0.93), (1.0, 0.70, 0.42)  # stars of B - V -0.4, 0.5, 2.0
+# stars of B - V -0.4, 0.5 and 2.0, for a camera balanced for a colour temperature of about 4500 K (by eye)
+_BLUE, _WHITE, _RED = (0.55, 0.74, 1.0), (0.82, 0.92, 1.0), (1.0, 0.84, 0.66)
+_EXPOSED = 0.05  # factor on stars and Milky Way: the exposure is for flames, which shows few stars (by eye)
 _BAND = np.radians(9.0)  # scale height of the Milky Way
 _BAND_LIGHT, _BULGE = 0.9, 1.2  # radiance over the dark sky's, of the Milky Way and of its centre (by eye)
 _RADIUS = np.radians(0.259)  # of the moon
@@ -114,7 +116,7 @@ def _stars(
     points = _points(tree, shot, across, height, tree.math("SQRT", tree.math("MAXIMUM", 1.0 - z * z, 0.0)))
     band = _milky_way(tree, tree.combine(x, y, z), across, height)
     sky = tree.vector("ADD", points, band)
-    return tree.vector("SCALE", sky, shown * float(NIGHT_SKY.mean()))
+    return tree.vector("SCALE", sky, shown * (_EXPOSED * float(NIGHT_SKY.mean())))
 
 
 def _points(

@@ -14,13 +14,17 @@ from ..terrain import noise
 
 _SUN = 11.1  # W/m2 above the atmosphere
 _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
-# W/m2 of a full moon, and of a moonless sky: brighter than real, as in films of nights; by eye
-_MOON, _STARS = 0.9, 0.18
+# W/m2 of a full moon, and of a moonless sky: brighter than real, dark in pictures exposed for flames; by eye
+_MOON, _STARS = 0.040, 0.010
+_MOONLIT = 5.0  # radiance of the sky and of haze by a full moon, relative to a moonless sky (by eye)
 _DISC, _SOFT = 0.53, 60.0  # degrees, width of sun and moon, and of the light of a moonless sky (by eye)
 _TWILIGHT = 18.0  # degrees below the horizon at which the sun's last light has gone (astronomical twilight)
 _MOON_COLOUR = (0.65, 0.78, 1.0)
-NIGHT_SKY = np.array([0.010, 0.014, 0.024]) * 0.075  # radiance
-_DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.45, 0.75]) * 0.01
+NIGHT_SKY = np.array([0.009, 0.014, 0.026]) * 0.030  # radiance
+DAY_SKY = np.array([0.010, 0.014, 0.024]) * 0.075  # radiance added to the sky texture by day (by eye)
+_DAY_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5
+_DUSK_HAZE, _NIGHT_HAZE = np.array([0.35, 0.45, 0.75]) * 0.01, np.array([0.40, 0.48, 0.70]) * 0.0009
+_DUSK = 0.0, -8.0  # degrees, solar elevations between which light of the dusk gives way to the night's
 _FULL_DAY = 1.8  # air masses; beyond, the sun and haze in its light are redder
 HAZE = 1.2e-5  # extinction at z = 0 on a dry September day, 1/m: clear mountain air
 HAZE_HEIGHT = 5000.0  # m, scale height, between dust (about 2 km) and air (8 km)
@@ -74,7 +78,7 @@ class State:
     horizon
         Radiance of haze at distances where it hides the land: the sky's at the horizon.
     night
-        Radiance of the dark sky at its mean, with the moon's light in it.
+        Radiance of the sky without the sun's light, at its mean, with the moon's light in it.
     stars
         0..1, visibility of the stars in twilight (by eye).
     twilight
@@ -95,7 +99,7 @@ class State:
         self.haze = tuple(_haze(height, moon.light))
         bright = np.array([np.interp(height, MEAN[0], each) for each in _HORIZON])
         self.horizon = tuple(np.maximum(bright, self.haze))
-        self.night = NIGHT_SKY * (1.0 + moon.light * _MOON / _STARS)
+        self.night = _at_dusk(DAY_SKY, NIGHT_SKY, height) * (1.0 + moon.light * _MOONLIT)
         self.around = np.array([np.interp(height, MEAN[0], each) for each in _AROUND]) + self.night
         self.sky_mean = float(np.interp(height, *MEAN)) + self.night.mean()
         self.stars = 1.0 - float(noise.smoothstep(-13.0, -5.0, height))
@@ -117,8 +121,13 @@ def _haze(height: float, moonlight: float) -> NDArray[np.float64]:
     blue = float(noise.smoothstep(-10.0, 12.0, height))
     low = np.exp(-_SUN_DEPTH * max(sun.air_mass(max(height, 0.0)) - _FULL_DAY, 0.0))
     by_day = _DAY_HAZE * 0.5 * (1.0 + low / low.max())
-    by_night = _NIGHT_HAZE * (1.0 + moonlight * _MOON / _STARS)
+    by_night = _at_dusk(_DUSK_HAZE, _NIGHT_HAZE, height) * (1.0 + moonlight * _MOONLIT)
     return by_night + (by_day - by_night) * blue**2
+
+
+def _at_dusk(before: NDArray[np.float64], after: NDArray[np.float64], height: float) -> NDArray[np.float64]:
+    """Interpolate from dusk to night by solar elevation `height` (degrees)."""
+    return before + (after - before) * float(noise.smoothstep(*_DUSK, height))
 
 
 def state(shot: Shot, time: float) -> State:
