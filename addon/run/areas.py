@@ -32,12 +32,26 @@ def area_factors(
 
     Exact for the ellipsoid: between two parallels lie a^2/2 (q_high - q_low) per radian of longitude, where q
     belongs to the authalic latitude (Snyder, Map Projections, USGS Professional Paper 1395, 1987, eq. 3-12).
+    An axis with a single value has a cell of `cell_size`.
     """
-    sine = np.sin(np.radians(edges(latitude)))
+    rows, columns = _wide_edges(latitude, longitude)
+    sine = np.sin(np.radians(rows))
     e = np.sqrt(E2)
     q = (1 - E2) * (sine / (1 - E2 * sine**2) + np.arctanh(e * sine) / e)
-    width = np.radians(np.diff(edges(longitude)))
+    width = np.radians(np.diff(columns))
     return np.abs(A * A / 2 * np.diff(q)), np.abs(width)
+
+
+def _wide_edges(latitude: ArrayLike, longitude: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Compute cell edges of both axes (degrees); the cell of a single value has the size of `cell_size`."""
+    sizes = cell_size(latitude, longitude)[::-1]
+    north, east = metres_per_degree(float(np.mean(latitude)))
+    result = []
+    for axis, size, degree in zip((latitude, longitude), sizes, (north, east), strict=True):
+        axis = np.asarray(axis, np.float64)
+        half = 0.5 * size / degree
+        result.append(axis[0] + np.array([-half, half]) if axis.size == 1 else edges(axis))
+    return result[0], result[1]
 
 
 def turned(longitude: ArrayLike, middle: float) -> NDArray[np.float64]:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ..data import history
 from ..errors import input_error
 from ..escaped import escaped
-from . import areas, blocks, burned_fraction, fact_cache, fuel_category, released, times
+from . import areas, blocks, burned_fraction, fact_cache, fuel_category, released, run_warnings, times
 
 ACRE = history.SQUARE_METRES_PER_ACRE
 
@@ -85,7 +85,7 @@ def _find(run: Run, zone: str) -> dict[str, Any]:
             "last": last,
         },
         "reported": _reported(run, reports, then),
-        "warnings": [*run.warnings, *released.warnings(heat, fuel)],
+        "warnings": [*run_warnings.texts(run), *released.warnings(heat, fuel)],
     }
 
 
@@ -129,7 +129,7 @@ def reported(run: Run) -> list[dict[str, Any]]:
 
 
 def _grid(latitude: np.ndarray, longitude: np.ndarray) -> dict[str, Any]:
-    dx, dy = areas.spacing(latitude, longitude)
+    dx, dy = areas.cell_size(latitude, longitude)
     return {
         "shape": [len(latitude), len(longitude)],
         "latitude": [float(min(latitude)), float(max(latitude))],

@@ -9,14 +9,14 @@ from firetwin_core import constants
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from . import areas, blocks, burned_fraction
+from . import areas, blocks, burned_fraction, burning
 
 _MUCH = 1.1  # times the fuel's heat; fluxes at discrete times give the total to about a tenth
 
 
 def energy(run: Run) -> float:
     """Integrate the released heat of the run (J): flux times cell area, trapezoidal rule in time."""
-    return float(np.sum(run.heat_released() * areas.cell_areas(run.latitude, run.longitude)))
+    return float(np.sum(run.heat_released() * burning.model_cell_areas(run)))
 
 
 def of_fuel(run: Run) -> float:

@@ -55,11 +55,14 @@ def air_temperature_node(tree: nodes.Tree, shot: Shot, stage: Stage) -> nodes.Va
 def burned_temperature(
     tree: nodes.Tree, background: Any, age: nodes.Value, burned: Any, pulse: Any = air_temperature.PULSE
 ) -> nodes.Value:
-    """Return the temperature of burned ground heated for `pulse` (s), without its flames and embers."""
+    """Return the temperature of burned ground heated for `pulse` (s), without its flames and embers.
+
+    It is at most `FLAME_HIGH`: nothing under flames is hotter than they are.
+    """
     age = tree.math("MAXIMUM", age, 0.0)
     before = tree.math("MAXIMUM", age - pulse, 0.0)
     above = (tree.math("SQRT", age) - tree.math("SQRT", before)) * burned
-    return background + above * air_temperature.COOLING
+    return tree.math("MINIMUM", background + above * air_temperature.COOLING, FLAME_HIGH)
 
 
 def build(shot: Shot, stage: Stage) -> None:
@@ -100,6 +103,7 @@ def _group(shot: Shot, stage: Stage, fill: bool = True) -> bpy.types.NodeTree:
     kelvin, model, _ = tree.separate(both)
     sunward = _named_node(tree, "ShaderNodeCombineXYZ", "Sun")
     kelvin = kelvin - (elevation - model) * air_temperature.LAPSE
+    kelvin = tree.math("MAXIMUM", kelvin, air_temperature.TROPOPAUSE)
     tree.finish({"Kelvin": kelvin, "Sun": sunward})
     if fill:
         _write_air(group, shot)

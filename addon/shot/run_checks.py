@@ -59,7 +59,7 @@ def _window(settings: Settings, run: Run) -> None:
 
 def _pole(settings: Settings, run: Run) -> None:
     """Raise an error if the ground around a run reaches a pole, or meets itself around it."""
-    size = areas.spacing(run.latitude, run.longitude)
+    size = areas.cell_size(run.latitude, run.longitude)
     cells = settings.terrain.apron / min(size)  # of the apron's half-width, which keeps the shape of a cell
     north, east = (
         float(np.ptp(axis)) / max(len(axis) - 1, 1) * cells for axis in (run.latitude, run.longitude)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ..errors import UsageError
 from ..progress import Progress, count, duration, silent
-from ..run import burning, content, times, zone
+from ..run import burning, content, run_warnings, times, zone
 from ..run.frame import local_frame
 from . import frames
 from .cameras import camera_warnings, path
@@ -316,8 +316,16 @@ class Shot:
         ]
 
     def warnings(self) -> list[str]:
-        """Warnings about the scene file and the camera paths."""
-        return [*self.settings.notes, *camera_warnings.ridges(self.paths, self.ground)]
+        """Warnings about the scene file, the run's fire, its smoke, and the camera paths."""
+        smoke = self.settings.smoke
+        cell = max(burning.fuel_cell(self.run))
+        coarse = smoke_scale.warnings(self.scale, cell) if smoke.enabled and smoke.method == "flow" else []
+        return [
+            *self.settings.notes,
+            *run_warnings.of_fire(self.run),
+            *coarse,
+            *camera_warnings.ridges(self.paths, self.ground),
+        ]
 
     @property
     def perspective_paths(self) -> list[Path]:

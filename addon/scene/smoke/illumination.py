@@ -18,7 +18,8 @@ from .. import haze, infrared
 from .. import temperature as airs
 from . import sunlit
 
-_TABLE = 180.0, 1900.0, 0.5  # K, temperatures of air and flames in the radiance table, and their step
+_TABLE = air_temperature.TROPOPAUSE, 1900.0, 0.5
+"""K, temperatures of air and flames in the radiance table, and their step; colder air has the first."""
 
 
 def material(stage: Stage) -> bpy.types.Material | None:

@@ -30,6 +30,7 @@ STONE = 0.94  # emissivity of stone, the lowest of any ground (assumed)
 
 _FIRE = 1.0  # W/m2; lower fluxes are not fire (see `firetwin_core.flux.at_time`)
 LAPSE = 6.5e-3  # K/m, the standard atmosphere
+TROPOPAUSE = 216.65  # K, air from 11 to 20 km in the standard atmosphere; air aloft is not colder
 _SAMPLES = 25  # times of a shot at most at which its air is sampled
 _AVERAGED = 600.0  # s
 _DAY, _NIGHT = 304.0, 292.0  # K at sea level under a sun 20 degrees high, and without one (assumed)

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from ...run import burning
 from ...run.frame import local_frame
 from ..terrain.elevation import Elevation
-from . import emissions, heat_release
+from . import emissions, heat_release, long_burning
 from .fuel import BURN_OUT_CANOPY, DETAIL, Fuel, gather
 from .heat_release import Array, Sources
 
@@ -175,9 +175,9 @@ class Fire:
 
     @cached_property
     def residence(self) -> Array:
-        """Residence time of flames (fy, fx), s, in each fuel cell."""
-        run = self.run
-        return _FLAMES[emissions.of_run(run)]
+        """Residence time of flames (fy, fx), s; longer where the run's heat flux stays intense."""
+        of_fuel, intense = _FLAMES[emissions.of_run(self.run)], long_burning.duration(self.run)
+        return of_fuel if intense is None else np.maximum(of_fuel, intense)
 
     @cached_property
     def smoke(self) -> emissions.Mix:

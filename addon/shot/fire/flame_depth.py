@@ -15,7 +15,7 @@ from firetwin_core.run import Run
 from numpy.typing import NDArray
 
 from ...run import fuel_category
-from . import emissions
+from . import emissions, long_burning
 
 if TYPE_CHECKING:
     from ..terrain.terrain import Terrain
@@ -62,8 +62,12 @@ class FrontFields:
 
     @cached_property
     def residence(self) -> Array:
-        """Residence time of flames (ny, nx), s."""
-        return emissions.column("residence")[self.kind]
+        """Residence time of flames (ny, nx), s; longer where the run's heat flux stays intense."""
+        of_fuel, run = emissions.column("residence")[self.kind], self.run
+        intense = long_burning.duration(run)
+        if intense is None:
+            return of_fuel
+        return np.maximum(of_fuel, self.ground.padded(intense, run.fuel_latitude, run.fuel_longitude))
 
     @cached_property
     def intensity(self) -> Array:

@@ -95,6 +95,16 @@ def choose(extent: float, fuel_cell: float, budget: float = _BUDGET) -> Scale:
     )
 
 
+def warnings(scale: Scale, fuel_cell: float) -> list[str]:
+    """Warn if a fuel cell (m) is wider than the coarsest cells of a flow can resolve."""
+    if fuel_cell <= _FUEL * scale.cell * 1.001:
+        return []
+    return [
+        f"fuel cells of {fuel_cell / 1000.0:,.3g} km are too coarse for a plume: smoke is solved on cells of "
+        f"{scale.cell:,.0f} m, as a layer; use a finer run, or set smoke.enabled = false"
+    ]
+
+
 def extent(run: Run, arrival: NDArray, first: float, last: float) -> float:
     """Extent (m) of the fire between two model times (s): longer side of its bounds without outliers.
 

@@ -1,0 +1,71 @@
+"""Extreme runs: gaps of heat flux, a single cell, cells as wide as a county, and a flux beyond any flame."""
+
+import numpy as np
+import pytest
+import whole_run
+from firetwin.run import info, released, run_warnings
+from firetwin.shot.fire import long_burning, smoke_scale
+from firetwin.shot.fire.fire import Fire
+from firetwin_core import run as runs
+
+
+@pytest.fixture
+def make(tmp_path):
+    """Write a run of some cells, with W/m2 in some of them from the second time on."""
+
+    def write(cells, flux, **options):
+        folder = whole_run.write(tmp_path / "run", cells=cells, arrival=False, **options)
+        fluxes = np.zeros_like(np.load(folder / "heat_flux.npy"))
+        for place, value in flux:
+            fluxes[1:][(slice(None), *place)] = value
+        np.save(folder / "heat_flux.npy", fluxes)
+        return runs.open(folder)
+
+    return write
+
+
+def test_gaps_of_heat_flux_are_counted_and_named(make):
+    run = make(16, [((8, slice(2, 6)), 5e4), ((3, slice(4, 14)), np.nan)])
+    (text,) = run_warnings.of_fire(run)
+    assert text.startswith("heat_flux has no value 20 times, first at 2020-07-01T20:30:00Z, 38.89")
+    assert text.endswith("there it counts as no fire")
+    assert text in info.gather(run, "UTC")["warnings"]
+
+
+def test_a_run_without_gaps_has_no_warning(make):
+    assert run_warnings.of_fire(make(16, [((8, 8), 5e4)])) == []
+
+
+@pytest.mark.parametrize("cells", [1, 2])
+def test_a_run_of_few_cells_releases_the_heat_that_its_smoke_is_of(make, cells):
+    run = make(cells, [((0, 0), 5e4)], cell=100.0)
+    heat = 5e4 * 100.0**2 * 2700.0  # J; 30 minutes, and half of the 30 minutes before
+    assert released.energy(run) == pytest.approx(heat, rel=0.01)
+    assert info.gather(run, "UTC")["energy"] == pytest.approx(heat, rel=0.01)
+    fire = Fire(run, 0.0, 3600.0)
+    power = np.array([fire.sources(time).power.sum() for time in np.linspace(0.0, 3600.0, 241)])
+    assert np.sum(0.5 * (power[1:] + power[:-1])) * 15.0 == pytest.approx(released.energy(run), rel=0.005)
+    assert fire.smoke_made(0.0, 3600.0) > 0.0
+    warned = [text for text in run_warnings.of_fire(run) if "single cell" in text]
+    assert len(warned) == (cells == 1)
+
+
+@pytest.mark.parametrize(("fuel_cell", "coarse"), [(30.0, False), (4800.0, False), (10_000.0, True)])
+def test_cells_that_resolve_no_plume_are_named(fuel_cell, coarse):
+    scale = smoke_scale.choose(20.0 * fuel_cell, fuel_cell)
+    assert len(smoke_scale.warnings(scale, fuel_cell)) == coarse
+
+
+def test_ground_stays_in_flames_where_flux_is_beyond_any_front(make):
+    """A cell of 1e7 W/m2 was at 319 K after its fuel had burned out, in the thermal picture."""
+    run = make(16, [((8, 8), 1e7), ((4, 4), 1e5)])
+    lasts = long_burning.duration(run)
+    assert lasts[8, 8] == pytest.approx(3600.0)
+    assert np.count_nonzero(lasts) == 1
+    residence = Fire(run, 0.0, 3600.0).residence
+    assert residence[8, 8] == pytest.approx(3600.0)
+    assert residence[4, 4] < 200.0
+
+
+def test_no_ordinary_fire_burns_longer_than_its_fuel(make):
+    assert long_burning.duration(make(16, [((8, 8), 2.9e5)])) is None
