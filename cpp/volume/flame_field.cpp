@@ -18,7 +18,7 @@ constexpr float first_band =
     0.25F; // m, height of the first band; each is twice as high as the last
 constexpr float crown_eddies = 2.2F; // radii of a crown that correspond to a flame's length
 constexpr float reach = 3.0F;        // m by which eddies move flames up
-constexpr float folds = 1.8F;        // thinness of the bright sheets within flames
+constexpr float folds = 1.0F;        // thinness of the bright sheets within flames
 constexpr float sheets = 0.9F;       // share of the soot in them
 constexpr float slow = 2.0F;         // m, height below which gas may be as slow as at the ground
 constexpr float below_ground = 2.0F; // m below the map's ground, where drawn ground may be lower
@@ -110,7 +110,7 @@ float FlameField::flight_to(float height) const {
   return (std::sqrt(launch * launch + 2.0F * lift * std::max(height, 0.0F)) - launch) / lift;
 }
 
-/// Replaces flames of the ground by those of crowns that reach higher over these points.
+/// Replaces flames of the ground by flames of crowns that reach higher over these points.
 ///
 /// Flames climb the trunk, surround the crown as wide as it is, and narrow to tongues above it,
 /// where they lean.
@@ -310,7 +310,7 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
     Lanes small;
     clamp_lanes(1.5F - octave.size / (eddy + 1.0e-6F) * 3.0F, 0.0F, 1.0F, small);
     grain += small * folds_weight * found;
-    grains += small * folds_weight;
+    grains += small * small * (folds_weight * folds_weight);
   }
   const Lanes noise = sum / total * 1.7F;
 
@@ -333,11 +333,13 @@ void FlameField::evaluate(const Lanes& x, const Lanes& y, const Lanes& z, float 
   smooth_lanes(value, 0.0F, shape_.edge, out.flame);
   smooth_lanes(share, 1.6F, 1.1F, top);
   // Soot glows in thin folded sheets, with dark gas between them.
-  Lanes sheet = grain / grains, core;
+  Lanes sheet, core;
+  roots(grains, sheet);
+  sheet = grain / sheet;
   sheet = sheet < 0.0F ? -sheet : sheet;
   clamp_lanes(1.0F - sheet * folds, 0.0F, 1.0F, sheet);
   sheet *= sheet;
-  // Where folds are too small to be drawn, their mean extinction and the light of the hottest.
+  // Folds that are too small to be drawn: mean extinction, and nearly the light of the hottest.
   const Lanes bright = grains > 0.01F ? sheet : Lanes{} + 0.55F;
   sheet = grains > 0.01F ? sheet : Lanes{} + 0.4F;
   clamp_lanes(value, 0.0F, 1.2F, core);

@@ -1,8 +1,8 @@
 """Flames of one frame as a volume, for the integrated renderer.
 
-The hottest soot sets a flame's brightness in a picture, and saturates any camera. The core's
-luminance times 2^exposure is therefore constant, within bounds. Black bodies of 1500 to 1650 K have 8,000 to
-32,000 cd/m2, 0.5 to 2 units of the scene, if 1 unit is 16,000 cd/m2. Colours are chosen for the AgX view transform: a deep
+The hottest soot sets a flame's brightness in a picture, and saturates any camera. The core's luminance times
+2^exposure is therefore constant, within bounds. Black bodies of 1500 to 1650 K have 8,000 to 32,000 cd/m2,
+0.5 to 2 units of the scene, if 1 unit is 16,000 cd/m2. Colours are chosen for the AgX view transform: a deep
 orange rim to a yellow-white core. Blue is slightly below 0, as colours of black bodies are outside of sRGB.
 
 The heat that sets the colour sets the temperature too: 960 K in the coolest part to 1400 K in the hottest.
