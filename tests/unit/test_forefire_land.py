@@ -7,6 +7,7 @@ import model_files as made
 import numpy as np
 import pytest
 from firetwin.errors import InputError
+from firetwin.run.models import fuels
 
 SIDE, BOX = 1000.0, "9.0,42.0,9.02,42.02"
 FUEL = np.ones((1, 1, 4, 4), np.int16)
@@ -21,11 +22,11 @@ def said(run):
 def make(tmp_path, converted):
     """Convert a map and a landscape of the same domain."""
 
-    def run(altitude=None, wind=None, **domain):
+    def run(altitude=None, wind=None, fuel=FUEL, **domain):
         altitude = np.zeros((1, 1, 5, 5), np.float32) if altitude is None else altitude[None, None]
         files = [made.forefire(tmp_path / "ForeFire.0.nc", ARRIVAL, lx=SIDE, ly=SIDE)]
         files += [
-            made.landscape(tmp_path / "land.nc", FUEL, altitude, size=SIDE, box=BOX, wind=wind, **domain)
+            made.landscape(tmp_path / "land.nc", fuel, altitude, size=SIDE, box=BOX, wind=wind, **domain)
         ]
         return converted(files)
 
@@ -82,3 +83,26 @@ def test_what_answers_to_a_wind_that_is_not_there_is_no_wind(make):
 def test_halves_of_a_wind_have_to_fit(make):
     with pytest.raises(InputError, match=r"land\.nc.*windU \(1, 1, 1, 1\) and windV \(1, 1, 2, 1\)"):
         make(wind=(np.ones((1, 1, 1, 1)), np.ones((1, 1, 2, 1))))
+
+
+@pytest.mark.parametrize(
+    ("numbers", "models", "words"),
+    [
+        ([311, 312, 323, 512], {182, 188, 147, 98}, "Corine land cover"),
+        ([102, 145, 183, 98], {102, 145, 183, 98}, "Scott and Burgan's fuel models"),
+    ],
+)
+def test_fuel_without_a_table_is_read_by_its_legend(make, numbers, models, words):
+    run = make(fuel=np.repeat(np.array(numbers, np.int16), 4).reshape(1, 1, 4, 4))
+    assert set(np.unique(run.fuel_rows("fuel_category", 0, len(run.fuel_latitude)))) == models
+    assert np.unique(run.surface_fuel) == pytest.approx(np.unique(fuels.loads(np.array(sorted(models)))))
+    assert f"fuel of land.nc has the numbers of {words}" in said(run)
+
+
+@pytest.mark.parametrize("numbers", [[1, 2, 5, 7], [121, 122, 123, 142], [311, 312, 9999, 512]])
+def test_fuel_of_no_clear_legend_is_named_as_unused(make, numbers):
+    run = make(fuel=np.repeat(np.array(numbers, np.int16), 4).reshape(1, 1, 4, 4))
+    assert "fuel_category" not in run.fields
+    text = said(run)
+    assert f"fuel of land.nc is not used: its numbers ({', '.join(map(str, sorted(numbers)))})" in text
+    assert "add the model's fuels table" in text

@@ -502,6 +502,22 @@ def test_a_front_that_stands_or_meets_another_has_a_speed():
     np.testing.assert_allclose(found, 0.5)
 
 
+def test_heat_by_intensity_is_bounded_by_its_neighbourhood():
+    """A cell that a front reached late had the 13 kg/m2 of the heaviest fuel; heavy fuel keeps its own."""
+    fuel, speed = np.full((12, 30), 0.8), 0.2
+    fuel[:, 20:] = 4.0
+    arrival = np.tile(np.arange(30) * 30.0 / speed, (12, 1))
+    intensity = fuel * constants.HEAT_OF_COMBUSTION * speed
+    exact = heat_from_intensity.of_intensity(arrival, intensity, None, (30.0, 30.0))
+    np.testing.assert_allclose(exact, fuel * constants.HEAT_OF_COMBUSTION, rtol=1e-9)
+    late = arrival.copy()
+    late[4::4, 3:18:4] += 5000.0
+    found = heat_from_intensity.of_intensity(late, intensity, None, (30.0, 30.0))
+    delayed = late != arrival
+    assert found[delayed] == pytest.approx(3.0 * 0.8 * constants.HEAT_OF_COMBUSTION)
+    assert found.sum() == pytest.approx(exact.sum(), rel=0.03)  # it was 15 % more
+
+
 def test_a_run_that_releases_more_than_its_fuel_is_warned_of(make_run):
     path = make_run()
     found = info.gather(runs.open(path), "UTC")

@@ -16,7 +16,7 @@ from firetwin_core import terrain
 from numpy.typing import NDArray
 
 from ...errors import input_error
-from . import from_arrival_time, given_wind, netcdf
+from . import from_arrival_time, given_wind, land_cover, netcdf
 from .given_wind import Wind
 
 DOMAIN = ("SWx", "SWy", "Lx", "Ly", "refYear", "refDay", "BBoxWSEN", "t0", "Lt")
@@ -85,19 +85,32 @@ def take(
             maps.elevation = places.between(values)
             whole = ", whole metres there" if np.issubdtype(values.dtype, np.integer) else ""
             notes.append(f"elevation is altitude of {path.name}, bilinear between its cells{whole}")
-        table = next((each for each in paths if _is_table(each)), None)
-        if "fuel" in file and table:
-            loads = _loads(table)
-            index = places.nearest(_first(file, "fuel"))
-            maps.surface = np.zeros(maps.arrival.shape, np.float32)
-            for number, load in loads.items():
-                maps.surface[index == number] = load
-            notes.append(
-                f"surface fuel is Sigmad, the dead load, of {table.name}, by the nearest fuel of {path.name}"
-            )
+        if "fuel" in file:
+            _take_fuel(file, paths, places, maps, notes)
         maps.wind = _wind(file, box, places, notes)
     finally:
         file.close()
+
+
+def _take_fuel(
+    file: netcdf.File, paths: list[Path], places: _Places, maps: from_arrival_time.Maps, notes: list[str]
+) -> None:
+    """Take fuel by the model's fuels table, or by the legend that the layer's numbers belong to."""
+    index, name = places.nearest(_first(file, "fuel")), file.path.name
+    if table := next((each for each in paths if _is_table(each)), None):
+        maps.surface = np.zeros(maps.arrival.shape, np.float32)
+        for number, load in _loads(table).items():
+            maps.surface[index == number] = load
+        notes.append(f"surface fuel is Sigmad, the dead load, of {table.name}, by the nearest fuel of {name}")
+    elif legend := land_cover.categories(index):
+        maps.category, said = legend
+        notes.append(f"fuel of {name} has the numbers of {said}")
+    else:
+        numbers = [str(number) for number in np.unique(index)[:6]]
+        notes.append(
+            f"fuel of {name} is not used: its numbers ({', '.join(numbers)}) belong to no known legend; "
+            "add the model's fuels table (Index;Sigmad) to the files"
+        )
 
 
 def _first(file: netcdf.File, name: str) -> NDArray:

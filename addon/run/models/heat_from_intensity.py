@@ -14,11 +14,15 @@ from firetwin_core import constants
 from numpy.typing import NDArray
 
 from ...errors import Error
-from .fuels import HEAVIEST
 
 _STEPS = (1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 10800, 21600, 43200, 86400)
 _FRAMES = 300
 _MOST = 20_000
+FRONT_HEAT = 3.0e5 * 120.0
+"""J/m2, heat of a front of 300 kW/m2 (crown fires: Butler et al. 2004, doi 10.1139/x04-060) during 120 s, the
+residence time of flames in timber.
+"""
+_OUTLIER = 3.0  # times the median of the neighbourhood (chosen on fires with known fuel)
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,16 +98,27 @@ def of_intensity(
     """Compute heat per area, J/m2: fireline intensity (W/m) / rate of spread (m/s), Byram 1959.
 
     Without `speed`, rate of spread comes from arrival times (s) on cells (width, height) in m. Cells without
-    a value take the median of the others. The heaviest fuel model is the upper limit.
+    a value take the median of the others. If a cell has more heat than an intense front releases in its
+    residence time (`FRONT_HEAT`), and more than `_OUTLIER` times the median of its neighbourhood, its front
+    was not as slow as arrival times say, and the larger of the two limits applies.
     """
     with np.errstate(divide="ignore", invalid="ignore"):
         heat = np.asarray(intensity, np.float64) / (spread(arrival, cell) if speed is None else speed)
     known = np.isfinite(heat) & (heat > 0)
     middle = float(np.median(heat[known])) if known.any() else 0.0
-    return np.minimum(
-        np.where(known, heat, np.where(np.isfinite(arrival), middle, 0.0)),
-        constants.HEAT_OF_COMBUSTION * HEAVIEST,
-    )
+    heat = np.where(known, heat, np.where(np.isfinite(arrival), middle, 0.0))
+    return np.minimum(heat, np.maximum(FRONT_HEAT, _OUTLIER * _neighbourhood(heat, heat > FRONT_HEAT)))
+
+
+def _neighbourhood(heat: NDArray[np.float64], wanted: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Compute the median of the burned cells of 3 x 3 around `wanted` cells; infinite in other cells."""
+    row, column = np.nonzero(wanted)
+    padded = np.pad(np.where(heat > 0.0, heat, np.nan), 1, constant_values=np.nan)
+    around = [padded[row + up, column + right] for up in range(3) for right in range(3)]
+    result = np.full(heat.shape, np.inf)
+    if len(row):
+        result[row, column] = np.nanmedian(around, axis=0)
+    return result
 
 
 def spread(arrival: NDArray, cell: tuple[float, float]) -> NDArray[np.float64]:
