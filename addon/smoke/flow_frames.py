@@ -21,7 +21,7 @@ from ..shot.cameras.path import SENSOR
 from ..shot.fire.smoke_scale import Scale
 from ..shot.shot import WIDE_LENS, Shot
 from ..shot.terrain import noise
-from . import flame_light, snapshots, tones
+from . import flame_light, snapshots, tones, windward
 from .close_up import Window
 from .domains import Box, Domain
 from .flow import Flow
@@ -223,11 +223,44 @@ class Painter:
         wanted = _visible_blocks(views, origin, (*surface.shape, count), voxel, self.scale.length(_ROUND))
         time = float(self.shot.frames.times[frame - 1])
         smoke = self._detail(snapshot, lights, time).paint_sparse(
-            origin, voxel, surface, end, count, wanted, self._thin
+            origin,
+            voxel,
+            surface,
+            end,
+            count,
+            wanted,
+            self._thin,
+            self._log_gain(snapshot, time, origin, surface.shape),
+            self._lean,
+            self.scale.length(windward.HEIGHT),
         )
         toward = sun.toward_light(self.shot.run, time)
         lit = volume.LitSmoke(smoke, toward.tolist(), *LIGHT, beyond.depths if beyond else None)
         return _PaintedLayer(lit, share, origin, snapshot.mass)
+
+    def _log_gain(
+        self, snapshot: snapshots.Snapshot, time: float, origin: tuple[float, ...], shape: tuple[int, ...]
+    ) -> Array | None:
+        """Return the logarithm of a factor (nx, ny) on smoke at the ground, see `windward`."""
+        if not self.layer.fine or self.shot.settings.fire.emitters != "front":
+            return None
+        box, voxel = self.layer.domain.box, self.layer.voxel
+        x, y = (low + np.arange(count) * voxel for low, count in zip(origin, shape, strict=False))
+        places = windward.find_sources(self.shot, time, x, y)
+        found = windward.log_gain(places, voxel, self.scale, box.spacing, self.shot.wind)
+        if found is None:
+            return None
+        corner = [low + (at + 0.5) * box.spacing for low, at in zip(box.corner, snapshot.low, strict=True)]
+        age = snapshot.fields["age"][: windward.LEVELS].mean(axis=0).T.astype(np.float64)
+        share = windward.local_share(age, self.scale.time(1.0))
+        return found * _sampled(share, box.spacing, (corner[0], corner[1]), x, y)
+
+    @property
+    def _lean(self) -> tuple[float, float]:
+        """Return the horizontal shift of rising smoke over its height."""
+        east, north = self.shot.wind
+        factor = windward.LEAN / max(float(np.hypot(east, north)), 1.0e-6)
+        return factor * east, factor * north
 
     @functools.cached_property
     def _heights(self) -> Array:

@@ -73,16 +73,23 @@ make_detail(double spacing, const std::array<double, 2>& corner, const py::objec
 std::shared_ptr<SparseSmoke> paint_sparse(const Detail& detail, const std::array<double, 3>& origin,
                                           double voxel, const py::object& surface,
                                           const py::object& share, Index layers,
-                                          const py::object& wanted, float min_extinction) {
+                                          const py::object& wanted, float min_extinction,
+                                          const py::object& log_gain,
+                                          const std::array<float, 2>& lean, float gain_height) {
   const auto ground = to_array<float>(surface, "surface", {-1, -1});
   const auto part = to_array<float>(share, "share", {ground.shape(0), ground.shape(1)});
   flow::VoxelRegion brick{origin,       voxel,      {ground.shape(0), ground.shape(1), layers},
-                          view(ground), view(part), {}};
+                          view(ground), view(part), {},
+                          {},           lean,       gain_height};
   const auto blocks = brick.blocks();
   const auto asked = wanted.is_none() ? Array<std::uint8_t>(py::ssize_t{0})
                                       : to_array<std::uint8_t>(wanted, "wanted",
                                                                {blocks[0], blocks[1], blocks[2]});
   brick.wanted = view(asked);
+  const auto placed = log_gain.is_none() ? Array<float>(py::ssize_t{0})
+                                         : to_array<float>(log_gain, "log_gain",
+                                                           {ground.shape(0), ground.shape(1)});
+  brick.log_gain = view(placed);
   const py::gil_scoped_release release;
   return std::make_shared<SparseSmoke>(detail.paint(brick, min_extinction));
 }
@@ -91,7 +98,8 @@ std::shared_ptr<SparseSmoke> paint_sparse(const Detail& detail, const std::array
 py::tuple paint(const Detail& detail, const std::array<double, 3>& origin, double voxel,
                 const py::object& surface, const py::object& share, Index layers,
                 const py::object& wanted) {
-  const auto smoke = paint_sparse(detail, origin, voxel, surface, share, layers, wanted, 0.0F);
+  const auto smoke = paint_sparse(detail, origin, voxel, surface, share, layers, wanted, 0.0F,
+                                  py::none(), {}, 1.0F);
   const auto dense = [&](SparseSmoke::Field field) {
     const auto& shape = smoke->shape();
     auto array = zeros({shape[0], shape[1], shape[2]});
@@ -128,7 +136,8 @@ void init_flow_detail(Module module) {
       .def("paint", &paint, "origin"_a, "voxel"_a, "surface"_a, "share"_a, "layers"_a,
            "wanted"_a = py::none())
       .def("paint_sparse", &paint_sparse, "origin"_a, "voxel"_a, "surface"_a, "share"_a, "layers"_a,
-           "wanted"_a = py::none(), "min_extinction"_a = 0.0F);
+           "wanted"_a = py::none(), "min_extinction"_a = 0.0F, "log_gain"_a = py::none(),
+           "lean"_a = std::array<float, 2>{}, "gain_height"_a = 250.0F);
 }
 
 } // namespace firetwin::bindings

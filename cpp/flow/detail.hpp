@@ -56,6 +56,11 @@ struct VoxelRegion {
   std::span<const float> share;   ///< [nx][ny] factor on the extinction, 0 to 1
   /// Mask of blocks of `block` voxels along each side to compute, in the voxels' order; empty: all.
   std::span<const std::uint8_t> wanted;
+  /// [nx][ny] logarithm of a factor on smoke near the ground, where sources finer than cells place
+  /// it; empty: 0.
+  std::span<const float> log_gain;
+  std::array<float, 2> lean{}; ///< horizontal shift of `log_gain` over the height above ground
+  float gain_height = 250.0F;  ///< height to which `log_gain` reaches, m
 
   static constexpr Index block = 16;
   std::array<Index, 3> blocks() const {

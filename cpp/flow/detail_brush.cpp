@@ -16,8 +16,10 @@ constexpr float soft_cut[] = {2.4F, 6.2F}, crisp_cut[] = {5.2F, 6.2F};
 constexpr float soft_gain = 1.5F, crisp_gain = 3.5F, veil_gain = 1.0F;
 constexpr float soft_reach = 1.5F; // amplitude of soft noise
 constexpr float max_noise = 1.2F;  // largest noise assumed when clear voxels are skipped
-constexpr float root = 0.12F;      // share of the extinction at the ground
-constexpr float root_heights[] = {10.0F, 130.0F};
+constexpr float root = 0.06F;      // share of the extinction at the ground
+constexpr float root_heights[] = {15.0F, 200.0F};
+// Share of `VoxelRegion::log_gain` that moves outlines; the rest thins smoke inside of them.
+constexpr float eroding = 0.5F;
 
 } // namespace
 
@@ -35,7 +37,7 @@ Detail::Brush::Brush(const Detail& d, const VoxelRegion& b, DetailOutput& out)
   places_.part.resize(voxels);
   voxel_.resize(voxels);
   for (auto* values :
-       {&high_up_, &above_, &amount_, &vigour_, &cloud_, &reach_, &solid_, &value_}) {
+       {&high_up_, &above_, &amount_, &gain_, &vigour_, &cloud_, &reach_, &solid_, &value_}) {
     values->resize(voxels);
   }
 }
@@ -185,9 +187,35 @@ void Detail::Brush::find_amount() {
   levels[high_ + 1] = levels[high_];
   cubic_between(places_, levels, amount_.data());
   for (std::size_t n = 0; n < count; ++n) {
-    amount_[n] = std::max(amount_[n], 0.0F) + cloud_amount * cloud_[n];
+    gain_[n] = eroding * log_gain(above_[n]);
+    amount_[n] = std::max(amount_[n], 0.0F) + cloud_amount * cloud_[n] + gain_[n];
     reach_[n] = lerp(soft_reach, reach_[n], vigour_[n]);
   }
+}
+
+/// Interpolates the logarithm of the factor on the smoke at a height above ground, m.
+float Detail::Brush::log_gain(float above) const {
+  const VoxelRegion& b = brick_;
+  const float part = above / b.gain_height;
+  if (b.log_gain.empty() || part > 2.5F) {
+    return 0.0F;
+  }
+  std::array<Index, 2> low{};
+  std::array<float, 2> way{};
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const auto at = static_cast<float>(axis == 0 ? i_ : j_) -
+                    b.lean[axis] * above / static_cast<float>(b.voxel);
+    const float held = std::clamp(at, 0.0F, static_cast<float>(b.shape[axis] - 1));
+    low[axis] = std::min(static_cast<Index>(held), std::max(b.shape[axis] - 2, Index{0}));
+    way[axis] = held - static_cast<float>(low[axis]);
+  }
+  const auto value = [&](Index i, Index j) {
+    const Index x = std::min(i, b.shape[0] - 1), y = std::min(j, b.shape[1] - 1);
+    return b.log_gain[static_cast<std::size_t>(x * b.shape[1] + y)];
+  };
+  const auto [i, j] = low;
+  return std::exp(-part * part) * lerp(lerp(value(i, j), value(i, j + 1), way[1]),
+                                       lerp(value(i + 1, j), value(i + 1, j + 1), way[1]), way[0]);
 }
 
 /// Queues voxels that some noise could make visible, and paints them as soon as they fill a Row.
@@ -214,6 +242,7 @@ void Detail::Brush::wait_for(std::size_t n) {
   w.share[lane] = brick_.share[column_];
   w.above[lane] = above_[n];
   w.amount[lane] = amount_[n];
+  w.gain[lane] = gain_[n];
   w.reach[lane] = reach_[n];
   w.vigour[lane] = vigour_[n];
   w.solid[lane] = solid_[n];
@@ -275,8 +304,10 @@ Detail::Brush::Painted Detail::Brush::paint(std::size_t n, float raise) const {
       root, 1.0F,
       smoothstep(root_heights[0], root_heights[1], pending_.above[n] / detail_.settings_.scale));
   const DetailSettings& settings = detail_.settings_;
+  const float eroded = pending_.gain[n];
+  const float placed = eroded == 0.0F ? 1.0F : std::exp(eroded * (1.0F - eroding) / eroding);
   const float full =
-      detail_.unit_ * extinction_per_kg * static_cast<float>(settings.opacity) * rooted;
+      detail_.unit_ * extinction_per_kg * static_cast<float>(settings.opacity) * rooted * placed;
   const auto level_off = [&](float all) {
     return all > 0.0F
                ? settings.max_extinction * (1.0F - std::exp(-full * all / settings.max_extinction))
@@ -293,9 +324,10 @@ SparseSmoke Detail::paint(const VoxelRegion& b, float min_extinction) const {
   const auto [nx, ny, nz] = b.blocks();
   const auto blocks = static_cast<std::size_t>(nx * ny * nz);
   if (b.surface.size() != columns || b.share.size() != columns ||
-      (!b.wanted.empty() && b.wanted.size() != blocks)) {
+      (!b.wanted.empty() && b.wanted.size() != blocks) ||
+      (!b.log_gain.empty() && b.log_gain.size() != columns)) {
     throw std::invalid_argument(
-        "surface, share and wanted must have the shape of the voxel region");
+        "surface, share, wanted and log_gain must have the shape of the voxel region");
   }
   SparseSmoke smoke({b.shape[0], b.shape[1], b.shape[2]}, b.voxel, b.origin, glows());
   smoke.set_noise(find_noise(b, smoke.blocks()));

@@ -25,7 +25,7 @@ private:
   struct PendingVoxels {
     std::size_t count = 0;
     std::array<std::size_t, static_cast<std::size_t>(lanes)> place{}; ///< destination in the output
-    Row share{}, above{}, amount{}, reach{}, vigour{}, solid{};
+    Row share{}, above{}, amount{}, gain{}, reach{}, vigour{}, solid{};
     std::array<Origins, Drift::phases> origin{};
   };
 
@@ -37,6 +37,7 @@ private:
   void add_voxel(Index voxel, float height, std::size_t k, float way);
   void interpolate(const Columns& of, std::vector<float>& values);
   void find_amount();
+  float log_gain(float above) const;
   void paint_surface();
   void enqueue();
   void wait_for(std::size_t n);
@@ -65,7 +66,7 @@ private:
   LevelSamples places_;
   std::vector<Index> voxel_;           ///< z index
   std::vector<float> high_up_, above_; ///< elevation, and height above ground, m
-  std::vector<float> amount_, vigour_, cloud_, reach_, solid_, value_;
+  std::vector<float> amount_, gain_, vigour_, cloud_, reach_, solid_, value_;
 
   DetailNoise noise_;
   float outline_; ///< change of the noise across an outline

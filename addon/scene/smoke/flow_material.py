@@ -23,9 +23,10 @@ from .. import haze, infrared
 from . import material, sunlit
 
 _PALE, _FRESH = (
-    (0.80, 0.78, 0.755),
+    (0.70, 0.665, 0.62),
     (0.36, 0.315, 0.275),
 )  # albedo of smoke from a grass fire, and from a crown fire's soot and char
+_TUNED = 0.945, 1.9  # albedo for which the light in smoke was tuned, and factor on deviations from it
 _OLD = np.array([0.995, 1.0, 1.005])  # albedo of aged haze and cloud, relative to green light
 _MIDDLE = (0.86, 0.83, 0.79)  # factor on light that reaches smoke through other smoke
 FORWARD = 0.6  # anisotropy of smoke (Reid et al. 2005: 0.5 to 0.65 in green light)
@@ -51,7 +52,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     young = material.mix_colours(_PALE, _FRESH, shot.fire.smoke.dark)
     fresh = tree.input("Fresh Colour", young, "Albedo of fresh smoke: dark with soot, or pale", "Colour")
     old = tree.input(
-        "Old Colour", tuple(_OLD * shot.fire.smoke.white), "Albedo of aged haze and cloud", "Colour"
+        "Old Colour", tuple(_OLD * drawn_albedo(shot.fire.smoke.white)), "Albedo of aged haze", "Colour"
     )
     thick = tree.input("Density", 1.0, "Factor on how thick smoke is", "Density")
     even = tree.input("Anisotropy", _ANISOTROPY, "How much light is scattered forwards", "Light", -0.99, 0.99)
@@ -70,6 +71,18 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     made.cycles.volume_sampling = "DISTANCE"
     made.cycles.emission_sampling = "NONE"
     return made
+
+
+def drawn_albedo(white: float) -> float:
+    """Return the albedo to draw smoke of a single-scattering albedo with.
+
+    The three orders of scattering that are drawn were tuned for 0.945. In darker smoke they leave out the
+    absorption of all further orders: thick smoke of asymmetry 0.6 reflects 0.43 of the light at an albedo of
+    0.945, 0.32 at 0.9 and 0.26 at 0.86 (similarity relation of H. C. van de Hulst 1980, "Multiple Light
+    Scattering"). The drawn albedo gives these ratios with light of sun and sky.
+    """
+    tuned, slope = _TUNED
+    return tuned + slope * min(white - tuned, 0.0)
 
 
 def _solved_light(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.Value:

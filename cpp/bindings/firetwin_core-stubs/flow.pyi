@@ -394,5 +394,18 @@ class Detail:
         layers: int,
         wanted: ArrayLike | None = None,
         min_extinction: float = 0.0,
+        log_gain: ArrayLike | None = None,
+        lean: tuple[float, float] = (0.0, 0.0),
+        gain_height: float = 250.0,
     ) -> SparseSmoke:
-        """Paint a sparse grid. Smoke with an extinction below `min_extinction` (1/m) is set to clear."""
+        """Paint a sparse grid. Smoke with an extinction below `min_extinction` (1/m) is set to clear.
+
+        Parameters
+        ----------
+        log_gain
+            Logarithm of a factor (nx, ny) on smoke near the ground; None: 0.
+        lean
+            Shift of this factor to the east and north over the height above ground.
+        gain_height
+            Height (m) at which the logarithm has decreased to 1/e.
+        """
