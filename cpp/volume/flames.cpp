@@ -12,7 +12,7 @@ constexpr float fine_step = 0.016F;                   // of the flame length
 constexpr float near_step = 0.013F;                   // of the distance from the eye
 constexpr float step_pixels = 0.8F;
 constexpr float finest_eddy = 1.2F;                 // of the step: smaller ones would be noise
-constexpr std::array<float, 2> at_lens{1.0F, 4.0F}; // m, distances up to which flames are left out
+constexpr std::array<float, 2> at_lens{0.4F, 2.0F}; // m, distances up to which flames are left out
 constexpr float thin_flame = 1.0e-4F;               // 1/m, extinction that is left out
 
 } // namespace
