@@ -27,7 +27,7 @@ _FLUX = (
 _EXTINCTION = (0.10, 0.15, 0.23)  # optical depths of the zenith in red, green and blue (assumed)
 # stars of B - V -0.4, 0.5 and 2.0, for a camera balanced for a colour temperature of about 4500 K (by eye)
 _BLUE, _WHITE, _RED = (0.55, 0.74, 1.0), (0.82, 0.92, 1.0), (1.0, 0.84, 0.66)
-_EXPOSED = 0.05  # factor on stars and Milky Way: the exposure is for flames, which shows few stars (by eye)
+_EXPOSED = 0.12  # factor on stars and Milky Way: the exposure is for flames, which shows few stars (by eye)
 _BAND = np.radians(9.0)  # scale height of the Milky Way
 _BAND_LIGHT, _BULGE = 0.9, 1.2  # radiance over the dark sky's, of the Milky Way and of its centre (by eye)
 _RADIUS = np.radians(0.259)  # of the moon

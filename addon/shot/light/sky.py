@@ -15,7 +15,7 @@ from ..terrain import noise
 _SUN = 11.1  # W/m2 above the atmosphere
 _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
 # W/m2 of a full moon, and of a moonless sky: brighter than real, dark in pictures exposed for flames; by eye
-_MOON, _STARS = 0.040, 0.010
+_MOON, _STARS = 0.030, 0.010
 _MOONLIT = 5.0  # radiance of the sky and of haze by a full moon, relative to a moonless sky (by eye)
 _DISC, _SOFT = 0.53, 60.0  # degrees, width of sun and moon, and of the light of a moonless sky (by eye)
 _TWILIGHT = 18.0  # degrees below the horizon at which the sun's last light has gone (astronomical twilight)
