@@ -26,6 +26,7 @@ constexpr float outline_range = 0.5F;  // of sharpness over 1, in which outlines
 constexpr float finest_noise = 4.0F;   // pixels, wavelength of the finest noise
 constexpr float noise_step = 0.4F;     // steps relative to that wavelength
 constexpr float shortest_step = 0.06F; // voxels
+constexpr float faint = 0.03F;         // transmittance below which noise is not visible
 
 using Four = Simd<float, 4>;
 
@@ -130,11 +131,11 @@ struct LayerRow {
   std::array<Four, row_size> light;
 };
 
-/// Samples a layer at a row of distances; `count` of them are used.
+/// Samples a layer at a row of distances; `count` of them are used. Samples have noise if `clear`.
 FIRETWIN_CLONES("avx2")
 void sample_row(const ActiveLayers& active, std::size_t layer, const SampleRow& distances,
-                const SampleRow& haze, std::size_t count, const ShadingConstants& shading,
-                LayerRow& out) {
+                const SampleRow& haze, std::size_t count, bool clear,
+                const ShadingConstants& shading, LayerRow& out) {
   std::array<Lanes, row_size> values;
   bool noisy = false;
   for (std::size_t n = 0; n < count; ++n) {
@@ -144,7 +145,7 @@ void sample_row(const ActiveLayers& active, std::size_t layer, const SampleRow& 
   SampleRow noise{};
   const float sharpness = active.sharpness[layer];
   const float shown = std::min((sharpness - 1.0F) / outline_range, 1.0F);
-  const bool detailed = active.detail[layer].shows(active.finest);
+  const bool detailed = clear && active.detail[layer].shows(active.finest);
   if (noisy && detailed) {
     active.detail[layer].at(distances, active.finest, noise);
   }
@@ -176,7 +177,8 @@ void accumulate(const ActiveLayers& active, const Steps& steps, const ShadingCon
       haze[n] = steps.haze + steps.haze_slope * offset;
     }
     for (std::size_t k = 0; k < active.count; ++k) {
-      sample_row(active, k, distances, haze, count, shading, layers[k]);
+      sample_row(active, k, distances, haze, count, state.transmittance > faint, shading,
+                 layers[k]);
     }
     for (std::size_t n = 0; n < count && state.transmittance >= min_transmittance; ++n) {
       for (std::size_t k = 0; k < active.count; ++k) {
