@@ -24,7 +24,7 @@ _DAY, _CLEAR = 0.5, 0.19  # stops at the reference, a clear afternoon with this 
 # Fractions of the stops that exposure follows, below and above that: white smoke is to be white; by eye.
 _ADAPTATION_DARK, _ADAPTATION_BRIGHT = 0.6, 0.3
 _WHITE = 0.34  # largest luminance of the brightest tenth of the glow; above, AgX turns it from orange to pink
-_AMID = 0.085  # largest mean of the glow over the picture: flames and trees must show in glowing smoke; by eye
+_AMID = 0.085  # largest mean of the glow over the picture: flames and trees must show in it; by eye
 _LEAST, _MOST = -3.0, 4.0  # stops
 _SUNLIT, _RISEN = 0.2, (-2.0, 6.0)  # darkness at most while the sun is up, and heights (degrees); by eye
 _DARK = 1.4, 3.4  # stops without flames at which flame light begins to dominate, and dominates fully; by eye
