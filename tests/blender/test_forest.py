@@ -168,7 +168,7 @@ def test_the_stand_grows_where_there_is_canopy_and_leaves_cameras_free(near_shot
 
 def test_a_satellite_that_sees_no_tree_sees_no_patch_of_them(near_settings, run, scene):
     """Trees drawn for another camera of the scene are hidden from it; one that sees trees sees all."""
-    for swath, hidden in ((8000.0, True), (400.0, False)):
+    for swath, hidden in ((8000.0, True), (200.0, False)):
         above = Camera("above", Satellite(swath=swath))
         shot = Shot(replace(near_settings, cameras=(*near_settings.cameras, above)), run)
         stage = owned.stage(build.build(shot, scene, ("forest", "cameras")))

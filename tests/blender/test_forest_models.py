@@ -9,7 +9,7 @@ from firetwin.scene.forest import build as forest
 from firetwin.scene.forest import levels, library, models
 from firetwin.scene.forest.shape import FOLIAGE
 
-TRIANGLES = ((10_000, 30_000), (1_000, 2_500), (60, 350), (16, 40))  # of living trees, level by level
+TRIANGLES = ((10_000, 60_000), (1_000, 2_500), (60, 350), (16, 40))  # of living trees, level by level
 BRUSH = ((3_000, 6_000), (800, 2_500), (60, 350), (16, 40))
 SNAGS = ((100, 1_000), (50, 300), (20, 120), (2, 10))
 # Diameter of the crown over the height: conifers in the open are a quarter to a half as wide as tall, black

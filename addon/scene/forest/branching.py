@@ -12,6 +12,8 @@ from .habit import Habit
 from .shape import Array, Shape
 
 _DARK, _FRESH = 0.55, 1.25  # colour of leaves near the trunk and at the tips, against the habit's
+_FAN = 0.55  # rad between the outermost needles of a tuft and its middle
+_FULL = 1.22  # area of a tuft's needles / its leaf, which gives the crown the same cover (measured)
 
 
 @dataclass(frozen=True)
@@ -44,6 +46,21 @@ class Leaves:
         """Corners (n, 3, 3) of one triangle per leaf, with its tip at the base."""
         tip = self.middle + self.along
         return np.stack([self.middle - self.along, tip + self.across, tip - self.across], axis=1)
+
+    def needles(self, count: int) -> Array:
+        """Corners (n, count, 3, 3) of pointed triangles in a tuft per leaf, with the leaf's cover."""
+        long = np.linalg.norm(self.along, axis=-1, keepdims=True)
+        flat = _unit(self.across)
+        normal = _unit(np.cross(self.along, flat))
+        foot = (self.middle - self.along)[:, None]
+        turn = 2.399963 * (np.arange(count) + np.arange(len(long))[:, None])
+        ring = np.cos(turn)[..., None] * flat[:, None] + np.sin(turn)[..., None] * normal[:, None]
+        tilt = _FAN * np.sqrt((np.arange(count) + 0.5) / count)[:, None]
+        tip = foot + 2.0 * np.cos(tilt) * self.along[:, None] + 2.0 * np.sin(tilt) * long[:, None] * ring
+        side = _unit(np.cross(tip - foot, ring + 0.3 * normal[:, None])) * (
+            np.linalg.norm(self.across, axis=-1)[:, None, None] * _FULL / count
+        )
+        return np.stack([foot - side, foot + side, tip], axis=2)
 
 
 @lru_cache(maxsize=1)  # the levels of detail of a tree are generated one after the other

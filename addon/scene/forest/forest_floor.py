@@ -69,14 +69,16 @@ def rock(seed: int, level: int) -> Shape:
 
 
 def tuft(seed: int, level: int, burned: bool = False) -> Shape:
-    """Model a bunch of dry grass; burned, its black stubble."""
+    """Model a bunch of dry grass; burned, its black stubble: few short stalks, scattered."""
     random, shape = np.random.default_rng(seed), Shape()
     n, wider = ((70, 1.0), (48, 1.3), (24, 1.9), (10, 3.0))[level]
+    if burned:
+        n, wider = n // 3, 0.8 * wider
     angle = _GOLDEN * np.arange(n) + random.normal(0.0, 0.3, n)
     out = np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], axis=-1)
-    tall = random.uniform(0.45, 1.0, (n, 1)) * (0.22 if burned else 1.0)
+    tall = random.uniform(*((0.03, 0.22) if burned else (0.45, 1.0)), (n, 1))
     lean = random.uniform(0.1, 0.8, (n, 1)) * tall
-    foot = out * random.uniform(0.02, 0.22, (n, 1))
+    foot = out * random.uniform(0.02, 0.60 if burned else 0.22, (n, 1))
     side = np.cross(out, [0.0, 0.0, 1.0]) * (0.016 * wider) * random.uniform(0.7, 1.3, (n, 1))
     rise = np.array([0.0, 0.0, 1.0])
     middle = foot + 0.35 * lean * out + 0.6 * tall * rise

@@ -51,6 +51,8 @@ class Habit:
         Linear reflectances of leaves and bark.
     autumn
         Reflectance of leaves that have turned; None: the tree is evergreen.
+    needles
+        Needles into which a leaf is divided close by; 1: a leaf.
     hang
         Weight with which leaves hang down, against the direction of their spray.
     fit
@@ -79,6 +81,7 @@ class Habit:
     colour: Colour
     wood: Colour
     autumn: Colour | None = None
+    needles: int = 1
     hang: float = 0.0
     fit: tuple[Fit, Fit, Fit] = ((1.0, 1.0, 1.0), (1.0, 1.0, 1.0), (1.0, 1.0, 1.0))
 
@@ -103,6 +106,7 @@ SUGAR_PINE = Habit(
     dead=16,
     colour=(0.040, 0.062, 0.029),
     wood=(0.105, 0.070, 0.048),
+    needles=3,
     fit=((0.79, 0.80, 0.82), (1.25, 2.24, 0.93), (1.31, 1.22, 0.63)),
 )
 PONDEROSA = Habit(
@@ -125,6 +129,7 @@ PONDEROSA = Habit(
     dead=18,
     colour=(0.052, 0.070, 0.024),
     wood=(0.125, 0.078, 0.048),
+    needles=3,
     fit=((0.71, 0.80, 0.78), (1.38, 2.30, 0.99), (1.40, 1.76, 0.57)),
 )
 WHITE_FIR = Habit(
@@ -147,6 +152,7 @@ WHITE_FIR = Habit(
     dead=14,
     colour=(0.034, 0.056, 0.027),
     wood=(0.092, 0.080, 0.066),
+    needles=3,
     fit=((0.68, 0.82, 0.77), (1.16, 2.26, 0.90), (1.45, 1.10, 0.68)),
 )
 INCENSE_CEDAR = Habit(
@@ -169,6 +175,7 @@ INCENSE_CEDAR = Habit(
     dead=10,
     colour=(0.056, 0.078, 0.024),
     wood=(0.135, 0.070, 0.042),
+    needles=3,
     fit=((0.69, 0.87, 0.77), (1.21, 2.01, 1.05), (1.44, 1.42, 0.61)),
 )
 RED_FIR = replace(

@@ -98,11 +98,14 @@ class TreeModel:
 def tree(habit: Habit, seed: int, level: int) -> Shape:
     """Model a living tree in a level of detail."""
     limbs, leaves = grown(habit, seed)
-    height = float(leaves.corners()[..., 2].max())
+    corners, parts = leaves.corners(), 1
+    if level == 0 and habit.needles > 1:
+        corners, parts = leaves.needles(habit.needles).reshape(-1, 3, 3), habit.needles
+    height = float(corners[..., 2].max())
     shape, random = Shape(), np.random.default_rng(seed + 1)
     wood(shape, habit, limbs, level, random)
     if level == 0:
-        shape.leaves(leaves.corners(), leaves.colour)
+        shape.leaves(corners, np.repeat(leaves.colour, parts, axis=0))
     elif level == 1:
         levels.some(shape, leaves, _LEAVES, habit.fit[0])
     else:

@@ -25,6 +25,8 @@ crowns of trees of 18 m are scorched to a third at 240 kW/m; by Van Wagner (1977
 """
 _GREEN = 260.0, 80.0  # kW/m, intensities from which no crown and below which all crowns stay green
 _LOGS = 0.55  # fraction of the cells with a log that burned out (by eye)
+_WISP = (1.0, 0.30, 1.0)  # streaks of ash are three times as long as wide (by eye)
+_WISP_ASH = (0.21, 0.205, 0.198)
 _STUBS = (0.135, 0.110, 0.066)  # straw below the flames
 _WIDE = 0.8  # minimum width of the flaming front, pixels; its coverage is reduced in proportion
 _PALE = 0.55  # factor on the emission of grass flames, which are low and thin
@@ -107,8 +109,19 @@ def _burned_grass_colour(tree: nodes.Tree, place: Place, tone: nodes.Value, ash:
     char = tree.mix_colour(pale, dark, (0.071, 0.066, 0.059))
     char = tree.mix_colour(ash * 0.4, char, (0.125, 0.124, 0.122))
     char = tree.mix_colour(place.duff.smoothstep(0.10, 0.42) * 0.35, char, _STUBS)
+    char = _matted_ash(tree, place, char)
     tufts = place.grain.noise(12.0, 4.0, 0.7).smoothstep(0.60, 0.68) * broad.smoothstep(0.40, 0.60)
     return tree.mix_colour(tufts * 0.5, char, (0.120, 0.100, 0.066))
+
+
+def _matted_ash(tree: nodes.Tree, place: Place, char: nodes.Value) -> nodes.Value:
+    """Return the colour of burned grass with mats of black residue, and thin streaks of white ash between."""
+    mats = place.grain.noise(2.2, 4.0, 0.72)
+    tone = mats.ramp(0.3, 0.7, 0.6, 1.35)
+    char = tree.mix_colour(1.0, char, tree.combine(tone, tone, tone), "MULTIPLY")
+    wisps = place.grain.at(tree.vector("MULTIPLY", place.position, _WISP)).noise(9.0, 5.0, 0.72)
+    line = tree.math("ABSOLUTE", wisps - 0.5).smoothstep(0.03, 0.0) * mats.smoothstep(0.46, 0.60)
+    return tree.mix_colour(line * place.pixel.ramp(0.3, 2.0, 0.40, 0.1), char, _WISP_ASH)
 
 
 def front_coverage(tree: nodes.Tree, stage: Stage, place: Place) -> tuple[nodes.Value, nodes.Value]:
