@@ -6,8 +6,8 @@ import pytest
 from firetwin.blender import owned
 from firetwin.scene import build, flame_field
 from firetwin.scene.forest import build as forest
-from firetwin.scene.forest import models, plot, stand, visibility
-from firetwin.scene.forest.material import BARE_AFTER, TORCHING
+from firetwin.scene.forest import library, models, plot, stand, visibility
+from firetwin.scene.forest.material import BARE_AFTER, LOW_BARE_AFTER, TORCHING, burning_share
 from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
@@ -181,3 +181,18 @@ def test_a_satellite_that_sees_no_tree_sees_no_patch_of_them(near_settings, run,
         assert counts[0] > 100
         assert counts[2] == counts[0]
         assert (counts[1] == 0) is hidden
+
+
+def test_tufts_are_bare_soon_after_the_fire(shot, stage, scene):
+    scene.frame_set(1)
+    age = np.array([-10.0, 0.9 * LOW_BARE_AFTER[0], 1.1 * LOW_BARE_AFTER[1]]) * TORCHING * burning_share(shot)
+    zero, tuft = np.zeros(3), models.instance(np.full(3, models.TUFTS[0]), np.full(3, 3))
+    points = dict.fromkeys(("rotation", "pitch", "roll", "tint"), zero) | {"position": np.zeros((3, 3))}
+    points |= dict.fromkeys(("scale", "width", "torched", "scorch", "hue", "dead"), zero + 1.0)
+    points |= {"tint": np.array([0.0, 0.0, 1.0]), "elevation": zero, "canopy_fuel": zero, "model": tuft}
+    points |= {"arrival_time": shot.frames.time(1.0) - age}
+    points |= {"snag_model": models.instance(np.full(3, models.STUBBLE[0]), np.full(3, 3))}
+    made = library.tree_models(shot, stage, library.drawn(points))
+    forest._instances(shot, stage, stage.part("Forest"), "Understorey", points, made)
+    seen = [_number(name) for name in _instances("Firetwin Understorey")[2]]
+    assert seen == [models.TUFTS[0], models.TUFTS[0], models.STUBBLE[0]]

@@ -77,6 +77,31 @@ def test_models_are_made_from_their_seeds(meshes):
     assert not any(np.array_equal(meshes[a][1][0], meshes[b][1][0]) for a, b in same)
 
 
+def _triangles(model, level):
+    """Lengths (n, 3) of the sides of a model's triangles of foliage, ascending, and their areas (n,)."""
+    points, triangles, materials, _ = model.make(level).mesh()
+    a, b, c = points[triangles[materials == FOLIAGE]].transpose(1, 0, 2)
+    sides = np.stack([np.linalg.norm(one - other, axis=-1) for one, other in ((a, b), (b, c), (c, a))], -1)
+    return np.sort(sides, axis=-1), 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=-1)
+
+
+def test_conifers_close_by_have_narrow_needles():
+    for model in MODELS:
+        if model.kind in ("large", "medium", "small") and model.state == "living":
+            sides, _ = _triangles(model, 0)
+            assert np.median(sides[:, 0] / sides[:, 2]) < 0.27, model
+
+
+def test_burned_tufts_are_scattered_stalks():
+    tufts = [model for model in models.undergrowth() if model.kind == "tuft"]
+    area = {state: [] for state in ("living", "snag")}
+    for model in tufts:
+        points, triangles, *_ = model.make(1).mesh()
+        a, b, c = points[triangles].transpose(1, 0, 2)
+        area[model.state].append(0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=-1).sum())
+    assert max(area["snag"]) < 0.1 * min(area["living"])
+
+
 BELOW = {  # most triangles of level 0 and 3, least and most width over the height
     "brush": (500, 60, 0.5, 2.5),
     "log": (600, 60, 12.0, 21.0),

@@ -28,7 +28,7 @@ from .. import clock, flame_field
 from . import fire_effects, models, preview, stand_structure, understorey, visibility, visible_cells
 from .frame_culling import IN_VIEW
 from .library import drawn, grass_models, levelled, tree_models
-from .material import BARE_AFTER, TORCHING
+from .material import BARE_AFTER, LOW_BARE_AFTER, TORCHING, burning_share
 from .stand import Stand
 
 GRASS_DISTANCE = 400.0  # m
@@ -174,17 +174,16 @@ def _instances(
     library: bpy.types.Collection,
 ) -> bpy.types.Object:
     """Create an object of plant instances, and its proxies for the viewport."""
-    culled = name == "Trees"
-    full = _object(
-        collection, name, points, node_group(shot, stage, f"Firetwin {name}", library, culled=culled)
-    )
+    culled, low = name == "Trees", name == "Understorey"
+    group = node_group(shot, stage, f"Firetwin {name}", library, culled=culled, low=low)
+    full = _object(collection, name, points, group)
     if culled:
         add_attribute(full.data, IN_VIEW, "BOOLEAN", np.ones(len(points["position"])))
     shown = []
     for part, some, follows in preview.parts(shot, points, name != "Grass"):
         title = f"{part} {name} in Viewport".strip()
         few = preview.used(title, library, some)
-        group = node_group(shot, stage, f"Firetwin {title}", few, burns=follows)
+        group = node_group(shot, stage, f"Firetwin {title}", few, burns=follows, low=low)
         shown.append(_object(collection, title, some, group))
     preview.show_proxies(full, shown)
     return full
@@ -225,10 +224,12 @@ def node_group(
     *,
     burns: bool = True,
     culled: bool = False,
+    low: bool = False,
 ) -> bpy.types.NodeTree:
     """Geometry nodes that instance a model on each point; with `burns` it then becomes a snag.
 
     It becomes a snag as its flames end: within the field of flames, which shows them, sooner than far away.
+    Plants that are `low`, bushes and tufts, are bare sooner still.
 
     If `culled`, points outside of a frame's views have no instance (see `frame_culling`).
     """
@@ -248,6 +249,9 @@ def node_group(
         soon = attribute("tint", "FLOAT").ramp(0.0, 1.0, *BARE_AFTER)
         near = flame_field.distance_beyond(tree, stage) < 0.0
         after = tree.mix(near, after, tree.math("MINIMUM", after, soon))
+        if low:
+            spent = (TORCHING * burning_share(shot) * part for part in LOW_BARE_AFTER)
+            after = tree.math("MINIMUM", after, attribute("tint", "FLOAT").ramp(0.0, 1.0, *spent))
         burned = tree.output("FunctionNodeCompare", [age, after], data_type="FLOAT", operation="GREATER_THAN")
         choice = {"Switch": burned, "False": model, "True": attribute("snag_model", "INT")}
         model = tree.output("GeometryNodeSwitch", choice, input_type="INT")

@@ -142,12 +142,12 @@ def _scattered(
 
 
 def burned_brush(habit: Habit, seed: int, level: int) -> Shape:
-    """Burned remains of a bush: black stems."""
+    """Burned remains of a bush: thin black stems, as twigs and leaves are gone."""
     limbs, leaves = grown(habit, seed)
     shape, height = Shape(), float(leaves.corners()[..., 2].max())
     kept = np.arange(0, len(limbs.root), (1, 1, 2, 4)[level])
     steps = np.broadcast_to([0.0, 0.45, 0.85], (len(limbs.root), 3))
-    thick = (0.012 + 0.010 * limbs.length[:, None]) * (1.1 - steps) * (1.0, 1.0, 1.5, 2.5)[level]
+    thick = (0.007 + 0.006 * limbs.length[:, None]) * (1.1 - steps) * (1.0, 1.0, 1.5, 2.5)[level]
     shape.limbs(limbs.at(steps)[kept], thick[kept], 3 if level < 2 else 2, habit.wood)
     return shape.scaled(height)
 

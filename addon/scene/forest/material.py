@@ -27,6 +27,9 @@ _DEAD = 0.03  # fraction of trees that died before the fire
 _HEATED, _CHARRED, _KILLED = (-10.0, 4.0), (2.0, 20.0), (5.0, 60.0)
 """s after the front's arrival between which needles of a burning crown turn brown, then black, and needles
 that heat kills turn brown (assumed)."""
+LOW_BARE_AFTER = 0.1, 0.5
+"""Times from the fire to a bare bush or tuft, over the time that bushes are in flames: thin fuel goes first
+(by eye)."""
 BARE_AFTER = 60.0, 180.0  # s from the fire to a bare plant within the field of flames (assumed)
 _STRESSED = 0.07  # fraction of trees whose tops are yellow and brown from drought or insects; by eye
 _YELLOWED = (0.110, 0.098, 0.036)
@@ -183,6 +186,16 @@ def _rounded(tree: nodes.Tree, place: nodes.Value) -> nodes.Value:
     return tree.vector("NORMALIZE", tree.vector("ADD", facing, own))
 
 
+def _short(shot: Shot) -> float:
+    """Return the ratio of the burning time of the shot's surface fuel to the burning time of timber."""
+    return min(shot.fire.smoke.residence / heat_release.FLAMING, 1.0)
+
+
+def burning_share(shot: Shot) -> float:
+    """Return the ratio of the time that bushes are in flames to `TORCHING`."""
+    return max(_short(shot), _BUSH)
+
+
 def _leaves(
     tree: nodes.Tree,
     shot: Shot,
@@ -204,8 +217,7 @@ def _leaves(
     leaf = tree.mix_shader(clear, matt, through)
     x, y, z = tree.separate(tree.output("ShaderNodeNewGeometry", name="Position"))
     flicker = tree.noise(tree.combine(x, y, (z - age * 6.0) * _TONGUES), 4.0, 2.0)
-    short = min(shot.fire.smoke.residence / heat_release.FLAMING, 1.0)  # fuel and burning time of timber
-    bush = max(short, _BUSH)
+    short, bush = _short(shot), burning_share(shot)
     crown = (
         age.smoothstep(0.0, 40.0 * bush) * age.smoothstep(TORCHING * bush, 0.4 * TORCHING * bush) * torched
     )
