@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from firetwin_core import sensor
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 # Bitmap font, 3 x 5 pixels per character, row by row from the top. Pictures are finished without Blender, and
 # in Blender, which has no matplotlib, so no typeface is available to both.
@@ -50,14 +50,17 @@ _SIGNS = {
     ":": "000010000010000",
     " ": "000000000000000",
 }
+FOOT = 0.15  # darkest part of the palette, for temperatures below the ground's (by eye)
 _STEPS = (1000, 500, 100, 50, 10, 5, 2, 1)
 _ENOUGH = 5  # tick marks; scales with fewer use steps below 10 K
 
 
-def draw(picture: NDArray[np.float32], low: float, high: float, palette: str, knee: float) -> None:
+def draw(
+    picture: NDArray[np.float32], low: float, high: float, palette: str, knee: float, cold: float = 0.0
+) -> None:
     """Draw a colour bar into a picture (h, w, 3): the palette of `sensor.colour`, hot at the top, with ticks.
 
-    Pictures that are too small are left unchanged.
+    Pictures that are too small are left unchanged. The parameters are the same as for `paint`.
     """
     height, width = picture.shape[:2]
     size = max(height // 240, 1)  # pixels per font pixel
@@ -66,11 +69,11 @@ def draw(picture: NDArray[np.float32], low: float, high: float, palette: str, kn
     top, bottom = int(0.08 * height), int(0.92 * height)
     right = width - 3 * size
     left = right - 6 * size
-    bar = sensor.colour(np.linspace(high, low, bottom - top)[:, None], low, high, palette)
+    bar = sensor.colour(np.linspace(1.0, 0.0, bottom - top)[:, None], 0.0, 1.0, palette)
     picture[top - size : bottom + size, left - size : right + size] = 1.0
     picture[top:bottom, left:right] = bar
-    for kelvin in choose_ticks(low, high, knee, (bottom - top) / (9.0 * size)):
-        at = bottom - 1 - round((bottom - 1 - top) * scale_position(kelvin, low, high, knee))
+    for kelvin in choose_ticks(low, high, knee, (bottom - top) / (9.0 * size), cold):
+        at = bottom - 1 - round((bottom - 1 - top) * scale_position(kelvin, low, high, knee, cold))
         picture[at : at + 1, left - 3 * size : left] = 1.0
         _write(picture, f"{kelvin:.0f}", left - 4 * size, at, size)
     _write(picture, "K", right + size, top - 5 * size, size)
@@ -86,22 +89,42 @@ def write_title(picture: NDArray[np.float32], lines: list[str]) -> None:
             _write(picture, line.upper(), right, (7 * number + 6) * size, size)
 
 
-def choose_ticks(low: float, high: float, knee: float, most: float) -> list[float]:
+def paint(
+    kelvin: NDArray, low: float, high: float, palette: str, knee: float, cold: float
+) -> NDArray[np.float32]:
+    """Return the colours (h, w, 3) of temperatures (h, w), K.
+
+    Parameters
+    ----------
+    low, high, knee
+        Temperatures, K, as for `sensor.colour`.
+    cold
+        K below `low` over which the darkest `FOOT` of the palette extends, for a cold sky; 0: none.
+    """
+    kelvin = np.where(np.isnan(kelvin), low - cold, kelvin)
+    return sensor.colour(scale_position(kelvin, low, high, knee, cold), 0.0, 1.0, palette)
+
+
+def choose_ticks(low: float, high: float, knee: float, most: float, cold: float = 0.0) -> list[float]:
     """Choose tick values: up to about `most` round temperatures (K), well apart on the scale."""
     ticks: list[float] = []
     for step in _STEPS:
         if step < 10 and len(ticks) >= _ENOUGH:
             break
-        for kelvin in np.arange(np.ceil(low / step) * step, high + 1e-9, step):
-            places = [scale_position(tick, low, high, knee) for tick in (*ticks, kelvin)]
+        for kelvin in np.arange(np.ceil((low - cold) / step) * step, high + 1e-9, step):
+            places = [scale_position(tick, low, high, knee, cold) for tick in (*ticks, kelvin)]
             if all(abs(place - places[-1]) >= 1.0 / most for place in places[:-1]):
                 ticks.append(float(kelvin))
     return sorted(ticks)
 
 
-def scale_position(kelvin: float, low: float, high: float, knee: float) -> float:
-    """Return the position of a temperature on the scale, 0..1."""
-    return float(np.log1p((kelvin - low) / knee) / np.log1p((high - low) / knee))
+def scale_position(kelvin: ArrayLike, low: float, high: float, knee: float, cold: float = 0.0) -> NDArray:
+    """Return the positions of temperatures on the scale, 0..1; see `paint`."""
+    kelvin = np.clip(np.asarray(kelvin, np.float64), low - cold, high)
+    place = np.log1p(np.maximum(kelvin - low, 0.0) / knee) / np.log1p((high - low) / knee)
+    if cold == 0.0:
+        return place
+    return FOOT * np.minimum((kelvin - low) / cold + 1.0, 1.0) + (1.0 - FOOT) * place
 
 
 def _write(picture: NDArray[np.float32], text: str, right: int, middle: int, size: int) -> None:

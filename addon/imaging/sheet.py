@@ -127,16 +127,20 @@ class Sheet:
         high: float,
         palette: str,
         knee: float,
+        cold: float,
         part: Part = WHOLE,
     ) -> None:
-        """Draw brightness temperatures (h, w), K, and their bar, with the palette of `sensor.colour`."""
-        self.picture(place, "THERMAL", sensor.colour(kelvin, low, high, palette, knee), part)
-        bar = sensor.colour(np.linspace(high, low, 256)[:, None], low, high, palette)
-        marks = colour_bar.choose_ticks(low, high, knee, 0.5 * self.high / 2.0)
+        """Draw brightness temperatures (h, w), K, and their bar, as `colour_bar.paint` does."""
+        self.picture(place, "THERMAL", colour_bar.paint(kelvin, low, high, palette, knee, cold), part)
+        bar = sensor.colour(np.linspace(1.0, 0.0, 256)[:, None], 0.0, 1.0, palette)
+        marks = colour_bar.choose_ticks(low, high, knee, 0.5 * self.high / 2.0, cold)
         self._scale(
             place,
             bar,
-            [(f"{mark:.0f}", colour_bar.scale_position(mark, low, high, knee)) for mark in marks],
+            [
+                (f"{mark:.0f}", float(colour_bar.scale_position(mark, low, high, knee, cold)))
+                for mark in marks
+            ],
             "K",
         )
 

@@ -132,7 +132,7 @@ def soften_highlights(picture: Array, white: float) -> Array:
     return (picture - excess + blur(blur(excess))).astype(np.float32)
 
 
-def infrared_radiance(surface: Array, flames: Array, warmth: Array, sky: float) -> Array:
+def infrared_radiance(surface: Array, flames: Array, warmth: Array, sky: Array | float) -> Array:
     """Compute infrared radiance (h, w) without smoke, W m-2 sr-1, from AOVs (see `blender.nodes`).
 
     Parameters
@@ -142,12 +142,25 @@ def infrared_radiance(surface: Array, flames: Array, warmth: Array, sky: float) 
     warmth
         (h, w).
     sky
-        Radiance of the clear sky, W m-2 sr-1.
+        (h, w) radiance of the clear sky, W m-2 sr-1.
     """
     emissivity = flames[..., 2]
     behind = surface[..., 2] + np.clip(1.0 - surface[..., 1], 0.0, 1.0) * sky
     # Emissivities of overlapping flames can add up to more than 1; the pixel then has their mean radiance.
     return warmth / np.maximum(emissivity, 1.0) + np.clip(1.0 - emissivity, 0.0, 1.0) * behind
+
+
+def average_hot(radiance: Array, rays: int, hot: float) -> Array:
+    """Average infrared radiance (h, w) over 3 x 3 pixels where some of them exceed the radiance `hot`.
+
+    In a burn, hot ground lies between cold crowns that are smaller than pixels. A pixel of few rays sees one
+    or the other, so its mean is estimated from its neighbours too. The fewer `rays` per pixel, the more they
+    count. Colder pixels are unchanged.
+    """
+    own = rays / (rays + _SURE)
+    near = widen(radiance > hot, 1)
+    smooth = own * radiance + (1.0 - own) * blur(radiance[..., None])[..., 0]
+    return np.where(near, smooth, radiance).astype(np.float32)
 
 
 def _coverage(surfaces: Surfaces, distances: Array) -> Array:
@@ -195,6 +208,13 @@ def _neighbourhood(values: Array, pick: np.ufunc) -> Array:
     padded = np.pad(values, 1, mode="edge")
     rows = pick(pick(padded[:-2], padded[1:-1]), padded[2:])
     return pick(pick(rows[:, :-2], rows[:, 1:-1]), rows[:, 2:])
+
+
+def widen(mask: NDArray[np.bool_], pixels: int) -> NDArray[np.bool_]:
+    """Widen a mask (h, w) by a number of pixels."""
+    for _ in range(pixels):
+        mask = _neighbourhood(mask, np.maximum)
+    return mask
 
 
 def _without_edges(colour: Array, near: Array, edge: NDArray[np.bool_]) -> Array:

@@ -7,15 +7,16 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
-from firetwin_core import volume
+from firetwin_core import sensor, volume
 from numpy.typing import NDArray
 
 from ..blender import nodes
 from ..blender.owned import Stage
-from ..scene import infrared
+from ..scene import infrared, temperature
 from ..scene.labels.material import COVER
 from ..scene.smoke import illumination
 from ..shot.passes import masks
+from ..shot.sections.thermal import BANDS
 from ..shot.shot import Shot
 from ..smoke import shutter
 from . import composite, rays
@@ -28,6 +29,10 @@ _SPARSE, _HIDES = 16, 3.0  # pixels between rays; optical depth that transmits 5
 _FARTHEST, _NEAREST, _TAPS = 2.0e4, 1.0e-3, 48  # m; nearest distance over the surface's; distances of masks
 _WHITE = 1.2  # radiance times 2^exposure above which lenses spread light visibly (by eye)
 _PLACES = ((0.25, 0.25), (0.75, 0.75))  # positions of the marched rays in a pixel, which are averaged
+_FINER_PLACES = tuple(((n + 0.5) / 8.0, (n * 3 % 8 + 0.5) / 8.0) for n in range(8))
+"""The same for pixels with flames in the infrared, where flames are a hundred times brighter than ground."""
+_HOT = 350.0  # K, hotter surfaces are burned ground or flames: no sunlit ground is
+_AROUND = 2  # pixels by which these pixels extend beyond those with flames on the first rays
 
 
 class Eye:
@@ -122,15 +127,46 @@ class Eye:
             channels[nodes.SURFACE],
             channels[nodes.FLAMES],
             channels[nodes.WARMTH][..., 0],
-            infrared.sky_radiance(self.shot),
+            self._clear_sky(frame),
         )
+        hot = float(sensor.radiance(_HOT, BANDS[self.shot.settings.thermal.band]))
+        bare = composite.average_hot(bare, self.stage.scene.cycles.samples, hot)
         if not (self.smoke or self.flames):
             return bare
         air = illumination.infrared_arguments(self.shot, self.stage, frame)
         air |= self._burning
-        marched = volume.march_infrared(self.smoke, *_lines(self.rays), self.distance.ravel(), **air)
+        everywhere = np.ones(self.shape, bool)
+        marched = self._march_infrared(self.smoke, everywhere, _PLACES, air)
+        if self.flames:
+            alight = self._march_infrared([], everywhere, _PLACES, air)[:, 1] < 1.0
+            alight = composite.widen(alight.reshape(self.shape), _AROUND)
+            finer = self._march_infrared(self.smoke, alight, _FINER_PLACES, air)
+            marched[alight.ravel()] = finer
         light, through = np.moveaxis(marched.reshape(*self.shape, 2), -1, 0)
         return bare * through + light
+
+    def _march_infrared(
+        self,
+        smoke: Sequence[volume.Bricks],
+        chosen: NDArray[np.bool_],
+        places: Sequence[tuple[float, float]],
+        air: dict[str, Any],
+    ) -> Array:
+        """Return mean radiance and transmittance (n, 2) of chosen pixels (h, w) over places in each pixel."""
+        total = np.zeros((int(chosen.sum()), 2), np.float32)
+        for place in places:
+            through = self._through(at=place)
+            origins = through.origins if through.origins.ndim == 1 else through.origins[chosen]
+            total += volume.march_infrared(
+                smoke, origins, through.directions[chosen], self.distance[chosen], **air
+            )
+        return total / np.float32(len(places))
+
+    def _clear_sky(self, frame: int) -> Array:
+        """Infrared radiance (h, w) of the sky without smoke."""
+        air = temperature.field(self.shot, float(self.shot.frames.times[frame - 1]))
+        origin = self.rays.origins.reshape(-1, 3)[0]
+        return infrared.clear_sky(self.shot, air, origin, self.rays.directions[..., 2]).astype(np.float32)
 
     def masks(self, pixels: Array) -> Array:
         """Add flames and smoke to the mask pixels (h, w, 3) of the surfaces, see `blender.nodes.mask_switch`.

@@ -24,6 +24,7 @@ from typing import Any
 import bpy
 import numpy as np
 from firetwin_core import sensor
+from numpy.typing import NDArray
 
 from ..blender import nodes, owned
 from ..blender.owned import Stage
@@ -40,6 +41,10 @@ FLAME = 0.6  # 1/m: emissivity of a flame of depth D is 1 - exp(-0.6 D) (assumed
 _DIM = 0.03  # extinction of air, per g/m3, at 1 km
 _BEND = 0.75
 _HALF = 2000.0  # m, scale height of water vapour
+_CURVED = 0.014
+"""Sine of the elevation at which a path through a flat atmosphere of 2 km is 141 km long: sqrt(pi R 2 km / 2)
+for R = 6371 km, the horizontal path through the atmosphere of the Earth."""
+_BACKGROUND = 200.0  # K, brightness temperature of the sky without water vapour (assumed)
 _GROUP, _NODES = "infrared", 5
 _FIRST = 2.0 * 6.62607015e-34 * 299792458.0**2 * 1e24  # W m-2 sr-1 um4
 _SECOND = 14387.768775  # um K
@@ -87,8 +92,28 @@ def build(shot: Shot, stage: Stage) -> None:
 
 
 def sky_radiance(shot: Shot) -> float:
-    """Return the radiance of the sky, W m-2 sr-1."""
+    """Return the mean radiance of the sky, which surfaces reflect, W m-2 sr-1."""
     return float(sensor.radiance(SKY, BANDS[shot.settings.thermal.band]))
+
+
+def clear_sky(
+    shot: Shot, air: temperature.TemperatureField, place: NDArray[np.float64], sine: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the radiance of the clear sky, W m-2 sr-1, by the sine of the elevation.
+
+    The sky is air of decreasing density in front of a cold background. Towards the zenith the emitting air is
+    higher and colder. At the horizon it is opaque and as warm as the air around the camera.
+
+    Parameters
+    ----------
+    place
+        (3,) scene coordinates of the camera, m.
+    """
+    way = 1.0e-3 * _HALF / (np.maximum(sine, 0.0) + _CURVED)
+    clear = np.exp(-air_depth(shot, float(place[2])) * way**_BEND)
+    band = BANDS[shot.settings.thermal.band]
+    own = sensor.radiance(air.at(place) - model.LAPSE * _HALF * np.maximum(sine, 0.0), band)
+    return clear * sensor.radiance(_BACKGROUND, band) + (1.0 - clear) * own
 
 
 def air_depth(shot: Shot, height: float) -> float:

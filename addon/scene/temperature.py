@@ -164,6 +164,13 @@ class TemperatureField(NamedTuple):
     corner: NDArray[np.float64]
     spacing: NDArray[np.float64]
 
+    def at(self, place: NDArray[np.float64]) -> float:
+        """Return the air temperature (K) in the cell of a point (3,) of the scene, m; clamped to the grid."""
+        rows, columns = self.kelvin.shape
+        east, north = np.round((place[:2] - self.corner) / self.spacing).astype(int)
+        cell = int(np.clip(north, 0, rows - 1)), int(np.clip(east, 0, columns - 1))
+        return float(self.kelvin[cell] - (place[2] - self.elevation[cell]) * air_temperature.LAPSE)
+
 
 def field(shot: Shot, time: float) -> TemperatureField:
     """Return the run's air at a model time (s)."""

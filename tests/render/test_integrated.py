@@ -10,7 +10,7 @@ from firetwin.blender import owned
 from firetwin.render import engine, integrated, layers, pictures
 from firetwin.render.picture import Picture
 from firetwin.render.sharing import open_session
-from firetwin.scene import build
+from firetwin.scene import build, infrared
 from firetwin.shot import passes
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.sections import Time
@@ -63,10 +63,16 @@ def film(near_settings, run, few_cells, cache, tmp_path):
     return make
 
 
+def uniform_sky(shot, _air, _place, sine):
+    """Return the radiance of the sky that Cycles draws alone."""
+    return np.full(sine.shape, infrared.sky_radiance(shot))
+
+
 @pytest.fixture
 def both(film, monkeypatch):
     monkeypatch.setattr(close_up, "window", lambda *asked: None)  # which no volume has
     monkeypatch.setattr(hot_gas, "layers", lambda *asked: [])  # nor has it hot gas
+    monkeypatch.setattr(infrared, "clear_sky", uniform_sky)  # nor a graded sky
     names = "rgb", "thermal", "depth", "masks"
     return film(*names), film(*names, draw="volume")
 

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from firetwin.blender import compat, nodes, owned
+from firetwin.imaging import colour_bar
 from firetwin.render import engine, layers, pictures
 from firetwin.render.finish import thermal
 from firetwin.render.picture import Picture
@@ -146,7 +147,8 @@ def test_the_thermal_picture_shows_its_temperatures(render, settings, shot):
     low, high = thermal.scale(shot, 2)
     coldest = air_temperature.coldest_ground(shot.run, shot.frames.time(2), (8.0, 14.0))
     assert (low, high) == (coldest, settings.render.thermal_high)
-    expected = sensor.colour(kelvin, low, high, settings.thermal.palette, thermal.KNEE)
+    cold = thermal.cold_range(shot)
+    expected = colour_bar.paint(kelvin, low, high, settings.thermal.palette, thermal.KNEE, cold)
     shown = images["drone/thermal/drone_thermal_000002.png"][..., :3]
     assert np.abs(shown - expected).max() <= 0.5 / 255 + 1e-6
 

@@ -198,3 +198,17 @@ def test_smoke_in_front_dims_text_as_it_does_surfaces():
     through = np.exp(-0.1)
     shown = composite.place_text(found.colour, found, composite.taps(found), text, front)
     assert shown == pytest.approx(7.0 * through + 2.0 * (1.0 - through), rel=1e-5)
+
+
+def test_hot_spots_smaller_than_pixels_are_averaged_and_cold_ground_is_exact():
+    """3 rays a pixel on ground of which a third is hot: closer to the mean; cold pixels do not change."""
+    random = np.random.default_rng(5)
+    radiance = np.full((60, 60), 55.0, np.float32)
+    radiance[:, 30:] += 300.0 * random.binomial(3, 1 / 3, (60, 30)).astype(np.float32) / 3.0
+    found = composite.average_hot(radiance, 3, 112.0)
+    assert np.array_equal(found[:, :28], radiance[:, :28])
+    inner = slice(2, -2), slice(32, -2)
+    assert found[inner].mean() == pytest.approx(radiance[inner].mean(), rel=0.02)
+    assert (found[inner] - 155.0).std() < 0.6 * (radiance[inner] - 155.0).std()
+    many = composite.average_hot(radiance, 10**9, 112.0)
+    assert many == pytest.approx(radiance, rel=1e-5)

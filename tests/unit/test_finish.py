@@ -44,7 +44,7 @@ def test_the_thermal_pass_holds_brightness_temperature_and_radiance(tmp_path):
     half = sensor.brightness_temperature(0.5 * sensor.radiance([300.0, 1000.0]).sum())
     assert kelvin[25] == pytest.approx(float(half), abs=1e-3)
     assert half > 700.0
-    expected = sensor.colour(kelvin, 290.0, 1000.0, "white-hot", 5.0)
+    expected = sensor.colour(kelvin, 290.0, 1000.0, "white-hot", thermal_pass.KNEE)
     assert np.abs(picture - expected).max() < 0.51 / 255
 
 
@@ -73,7 +73,7 @@ def test_a_bar_of_round_temperatures_stands_at_the_right(tmp_path):
     assert all(kelvin % 10 == 0 for kelvin in colour_bar.choose_ticks(290.0, 1000.0, 5.0, 20.0))
     assert len(colour_bar.choose_ticks(299.0, 301.0, 5.0, 20.0)) >= 3
     _, picture = thermal(tmp_path, scene(180, 320), palette="inferno")
-    bare = sensor.colour(np.full((180, 320), 300.0), 290.0, 1000.0, "inferno", 5.0)
+    bare = sensor.colour(np.full((180, 320), 300.0), 290.0, 1000.0, "inferno", thermal_pass.KNEE)
     bar = picture[20:160, 312:316].mean(axis=(1, 2))
     assert bar[0] > bar[-1] + 0.5
     assert np.all(np.diff(bar) < 0.02)
@@ -192,6 +192,20 @@ def test_the_thermal_scale_follows_the_moment_alone(make_run, monkeypatch):
     assert {thermal_pass.scale(held, frame) for frame in (1, 2, 3)} == {(280.0, 800.0)}
 
 
+def test_the_sky_has_its_own_part_of_the_palette(tmp_path):
+    """Colder than the coldest ground, it is graded in the darkest part; the ground begins above it."""
+    kelvin = np.array([[np.nan, 240.0, 270.0, 285.0, 300.0, 320.0, 800.0]])
+    place = colour_bar.paint(kelvin, 300.0, 800.0, "white-hot", 5.0, 45.0)[0, :, 0]
+    assert place[0] == place[1] == 0.0
+    assert np.all(np.diff(place[1:]) > 0.03)
+    assert place[[4, 6]] == pytest.approx([colour_bar.FOOT, 1.0], abs=1e-6)
+    plain = colour_bar.paint(kelvin, 300.0, 800.0, "white-hot", 5.0, 0.0)
+    assert plain == pytest.approx(sensor.colour(kelvin, 300.0, 800.0, "white-hot", 5.0), abs=1e-6)
+    ticks = colour_bar.choose_ticks(300.0, 800.0, 5.0, 20.0, 45.0)
+    assert min(ticks) < 290.0
+    assert max(ticks) >= 700.0
+
+
 def test_hot_spots_lie_over_the_picture(tmp_path):
     rgb, kelvin = np.full((20, 30, 3), 0.4), np.full((20, 30), 320.0)
     kelvin[5:10], kelvin[12] = 700.0, 400.0
@@ -204,7 +218,7 @@ def test_hot_spots_lie_over_the_picture(tmp_path):
     finisher("overlay")({"png": path}, needed, SimpleNamespace(settings=settings), "drone", 1)
     found = sensor.read_image(path)
     assert np.abs(found[:5] - 0.4).max() < 0.51 / 255
-    hot = sensor.colour([[700.0, 400.0]], 290.0, 800.0, "ironbow", 5.0)[0]
+    hot = sensor.colour([[700.0, 400.0]], 290.0, 800.0, "ironbow", thermal_pass.KNEE)[0]
     assert found[7, 7] == pytest.approx(0.04 + 0.9 * hot[0], abs=0.01)
     assert found[12, 7] == pytest.approx(0.55 * 0.4 + 0.45 * hot[1], abs=0.01)
 

@@ -36,7 +36,8 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     pixels = {"rgb": rgb, "thermal": kelvin, "depth": depth}
     parts = {need: _part(shot, view, frame, taken[need][0], pixels[need].shape) for need in pixels}
     sheet.picture(0, "VISIBLE", rgb, parts["rgb"], outlined={part: need for need, part in parts.items()})
-    sheet.thermal(1, kelvin, low, high, shot.settings.thermal.palette, thermal.KNEE, parts["thermal"])
+    palette, cold = shot.settings.thermal.palette, thermal.cold_range(shot)
+    sheet.thermal(1, kelvin, low, high, palette, thermal.KNEE, cold, parts["thermal"])
     sheet.depth(3, depth, pixel_rays.SKY, parts["depth"])
     panel = sheet.panel(2, "MAP")
     if mount.MAP in taken:

@@ -14,7 +14,8 @@ from ...shot.sections.thermal import BANDS
 from ...shot.shot import Shot
 from . import Files
 
-KNEE = 5.0  # K, above which the palette is logarithmic, so that cold ground shows its relief
+_COLD = 45.0  # K below the coldest ground at which the palette ends, for the sky (by eye)
+KNEE = 10.0  # K above the lower limit, from which the palette is logarithmic: relief of cold ground is seen
 
 
 def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
@@ -37,8 +38,9 @@ def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, 
     about = {"Comment": f"kelvin: brightness temperature; radiance: W m-2 sr-1, {low_um:g} to {high_um:g} um"}
     sensor.write_image(files["exr"], np.stack(list(channels.values()), axis=-1), about, list(channels))
     low, high = scale(shot, frame)
-    shown = sensor.colour(channels["kelvin"], low, high, settings.palette, KNEE)
-    colour_bar.draw(shown, low, high, settings.palette, KNEE)
+    cold = cold_range(shot)
+    shown = colour_bar.paint(channels["kelvin"], low, high, settings.palette, KNEE, cold)
+    colour_bar.draw(shown, low, high, settings.palette, KNEE, cold)
     sensor.write_image(files["png"], shown)
 
 
@@ -49,3 +51,8 @@ def scale(shot: Shot, frame: int) -> tuple[float, float]:
         band = BANDS[shot.settings.thermal.band]
         low = min(air_temperature.coldest_ground(shot.run, shot.frames.time(frame), band), high - 1.0)
     return low, high
+
+
+def cold_range(shot: Shot) -> float:
+    """Return the range (K) of the palette below its lower limit, for the sky; 0 if settings fix the limit."""
+    return _COLD if shot.settings.render.thermal_low is None else 0.0

@@ -235,7 +235,7 @@ def _leaves(
     warmth = _warmth(tree, shot, stage, normal, age, 0.0)
     hot = flaming.ramp(0.0, 1.0, temperature.FLAME_LOW, temperature.FLAME_HIGH)
     hot = infrared.surface_radiance(tree, shot, stage, hot)
-    warmth = tree.mix(flaming.smoothstep(0.0, 0.5), warmth, hot)
+    warmth = tree.mix(flaming, warmth, hot)
     _finish(tree, shot, stage, burning, warmth, alight)
 
 

@@ -36,6 +36,8 @@ _BENEATH = 0.06  # factor on it below flames that are drawn as a field (by eye)
 _COALS = 0.04, 0.5  # m, pixel sizes between which coals of a few cm blend into patches
 _COAL_LIGHT = 0.12, 0.05  # factors on the emission of coals and of patches below the field of flames (by eye)
 _COAL = (1.0, 0.055, 0.004)  # colour of embers there
+_GLOWING = 0.05
+"""Area fraction of glowing coals in a patch of embers (assumed): at 850 K they radiate 1.5 kW/m2."""
 _SPARSE = 0.25  # coverage of coals between patches, relative to within them (by eye)
 
 
@@ -147,6 +149,11 @@ def front_coverage(tree: nodes.Tree, stage: Stage, place: Place) -> tuple[nodes.
     embers = tree.mix(place.pixel.ramp(*_COALS), coals, patches) * place.woody.ramp(0.0, 1.0, 0.3, 1.0)
     beyond = flame_field.share(tree, stage).ramp(0.0, 1.0, _BENEATH, 1.0)
     return body * tongues * beyond, embers * fading
+
+
+def glowing_fraction(tree: nodes.Tree, place: Place) -> nodes.Value:
+    """Return the fraction 0..1 of the area of embers that glows: single coals close by, patches from afar."""
+    return place.pixel.ramp(*_COALS, 1.0, _GLOWING)
 
 
 def fire_emission(tree: nodes.Tree, shot: Shot, stage: Stage, place: Place, fuel: nodes.Value) -> nodes.Value:
