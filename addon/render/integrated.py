@@ -52,7 +52,8 @@ class IntegratedRenderer:
         (view,) = shot.paths
         flame_field.set_reach(stage, flame_map.reach(shot, view))
         self.shadow = _shadow(shot, stage) if shot.settings.smoke.enabled else None
-        for volume_object in stage.objects_of("Smoke"):
+        marched = [*stage.objects_of("Smoke"), *stage.objects_of("Fire")]
+        for volume_object in (each for each in marched if each.type == "VOLUME"):
             volume_object.hide_render = True
         layers.exclude(self.scene, shadow.NAME.lower(), but="rgb")
         self.has_text = text_layer.build(stage)

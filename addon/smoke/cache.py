@@ -18,7 +18,7 @@ IN_USE = 600.0  # s since the last heartbeat; also the age of an unfinished file
 _HEARTBEAT = 60.0  # s between heartbeats
 _MAGIC = b" BDV\0\0\0\0"
 _OURS = re.compile(
-    r"\.?((smoke|far|moment)_\d{6,}|state)(\.[0-9a-f]{12}\.part)?\.(vdb|npz)|smoke_\d{6,}\.txt|state\.lock"
+    r"\.?((smoke|far|flames|moment)_\d{6,}|state)(\.[0-9a-f]{12}\.part)?\.(vdb|npz)|smoke_\d{6,}\.txt|state\.lock"
 )
 
 

@@ -1,10 +1,14 @@
 #include "volume/flames.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "volume/flame_bake.hpp"
 
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <tuple>
 
 namespace firetwin::bindings {
@@ -45,6 +49,21 @@ std::shared_ptr<FlameVolume> make_flames(const std::vector<SquareArrays>& square
   return std::make_shared<FlameVolume>(given, crowns, shape, light, seen, origin, time);
 }
 
+Array<float> sample(const FlameVolume& flames, const py::object& points, double fine) {
+  const auto places = to_array<double>(points, "points", {-1, 3});
+  auto found = zeros({places.shape(0), 2});
+  const std::span<float> out = writable(found);
+  const py::gil_scoped_release release;
+  volume::sample_flames(flames, view(places), static_cast<float>(fine), out);
+  return found;
+}
+
+volume::VdbSummary write(const std::filesystem::path& path, const FlameVolume& flames,
+                         double voxel_size, const std::optional<io::Metadata>& metadata) {
+  const py::gil_scoped_release release;
+  return volume::write_flames(path, flames, voxel_size, metadata.value_or(io::Metadata{}));
+}
+
 } // namespace
 
 void init_flames(Module module) {
@@ -78,7 +97,10 @@ void init_flames(Module module) {
            "hottest"_a, "scales"_a, "infrared"_a, "dim"_a);
   Class<FlameVolume, std::shared_ptr<FlameVolume>>(module, "FlameVolume")
       .def(py::init(&make_flames), py::kw_only(), "squares"_a, "spindles"_a, "shape"_a, "light"_a,
-           "pixel"_a, "fade"_a, "origin"_a, "time"_a);
+           "pixel"_a, "fade"_a, "origin"_a, "time"_a)
+      .def("sample", &sample, "points"_a, "fine"_a = 0.0);
+  module.def("write_flames", &write, "path"_a, "flames"_a, "voxel_size"_a, py::kw_only(),
+             "metadata"_a = py::none());
 }
 
 } // namespace firetwin::bindings

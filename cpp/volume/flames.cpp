@@ -43,6 +43,12 @@ std::array<float, 2> FlameVolume::scale(float length) const {
   return {low[1] + part * (high[1] - low[1]), low[2] + part * (high[2] - low[2])};
 }
 
+float FlameView::share(float away) const {
+  const float part = std::clamp((away - fade[0]) / (fade[1] - fade[0]), 0.0F, 1.0F);
+  const float lens = std::clamp((away - at_lens[0]) / (at_lens[1] - at_lens[0]), 0.0F, 1.0F);
+  return lens * (1.0F - part * part * (3.0F - 2.0F * part));
+}
+
 float BandRadiance::at(float kelvin) const {
   const double last = static_cast<double>(radiance.size() - 1);
   const double place = std::clamp((static_cast<double>(kelvin) - coldest) / step, 0.0, last);
@@ -135,10 +141,7 @@ void FlameRay::fill(float from, float step, FlameSlab& slab) const {
                            start_[2] + direction_[2] * away, fine, found);
   const auto last = static_cast<float>(light.visible.size() - 1);
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    float part = (away[lane] - view.fade[0]) / (view.fade[1] - view.fade[0]);
-    part = std::clamp(part, 0.0F, 1.0F);
-    part = 1.0F - part * part * (3.0F - 2.0F * part);
-    part *= std::clamp((away[lane] - at_lens[0]) / (at_lens[1] - at_lens[0]), 0.0F, 1.0F);
+    const float part = view.share(away[lane]);
     const auto [visible, emissive] = flames_.scale(found.length[lane]);
     const float burning = light.extinction * visible * found.flame[lane] * part;
     const float soot = light.soot * found.soot[lane] * part, all = burning + soot;

@@ -26,6 +26,10 @@ struct FlameLight {
 struct FlameView {
   float pixel;               ///< size of a pixel per distance, m/m
   std::array<float, 2> fade; ///< distances between which the flames fade out, m
+
+  /// Share of the flames, 0 to 1, that is drawn at a distance, m: none at the lens and beyond
+  /// `fade`.
+  float share(float away) const;
 };
 
 /// Flames of one frame, as a volume.

@@ -14,7 +14,7 @@ from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import clock, flame_field
 from ..forest.stand import Stand
-from . import firebrand_nodes, flame_light, flames, fronts, lamp_objects, material, observed
+from . import firebrand_nodes, flame_bake, flame_light, flames, fronts, lamp_objects, material, observed
 
 CARDS = 4
 SHOWN = 1.0, 0.25, 0.02, 1.0  # red, green, blue and alpha in the solid view
@@ -46,6 +46,7 @@ def build(shot: Shot, stage: Stage, grown: Stand | None = None) -> bpy.types.Obj
     lit = owned.child(collection, "Lamps")
     lamp_objects.build(shot, lit)
     flame_light.build(shot, grown, lit)
+    flame_bake.build(shot, stage, collection, torching_crowns(stage))
     return obj
 
 

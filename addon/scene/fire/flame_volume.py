@@ -35,7 +35,8 @@ SCALES = (
 """Flame length, m, and factors on the extinction: visible (by eye), infrared (by power, see test_flames)."""
 _CORE = 6.0  # luminance of the core times 2^exposure (by eye)
 _LUMINANCE = (0.4, 2.0)  # its bounds, units of the scene
-_CORE_HEAT, _DECADES = 0.75, 2.3  # heat of the core; decades between the luminance of heat 0 and 1
+CORE_HEAT, DECADES = 0.75, 2.3  # heat of the core; decades between the luminance of heat 0 and 1
+GREEN = 0.04, 0.68, 1.3  # green over red: at heat 0, increase, and its exponent
 _ROWS = 33
 EXTINCTION = 0.8  # 1/m, visible
 _SOOT = 0.012  # of it, in the cooled soot
@@ -48,20 +49,25 @@ _GROWING = (0.15, 0.6)  # parts of a torching crown's time in which it flares up
 Array = NDArray[np.float64]
 
 
-def build(shot: Shot, path: Path, frame: int, torches: flames.Points | None) -> volume.FlameVolume | None:
+def build(
+    shot: Shot, path: Path, frame: int, torches: flames.Points | None, limit: float | None = None
+) -> volume.FlameVolume | None:
     """Build the flames that a camera may see in a frame; None if there are none.
 
     Parameters
     ----------
     torches
         Torching crowns of the shot.
+    limit
+        Distance (m) up to which flames are drawn, in all directions; None: `flame_map.reach`, in the view.
     """
-    limit = flame_map.reach(shot, path)
+    all_around = path.around or limit is not None
+    limit = flame_map.reach(shot, path) if limit is None else limit
     if limit <= 0.0:
         return None
     time, eye = float(shot.frames.times[frame - 1]), path.position[frame - 1]
     lens = None
-    if not path.around:
+    if not all_around:
         lens = flame_map.Lens(path.rotation[frame - 1], tuple(path.halves[frame - 1]))
     squares = flame_map.squares(shot, eye, time, limit, lens)
     crowns = spindles(torches, time, eye) if torches is not None else np.empty((0, 6))
@@ -85,7 +91,7 @@ def light(shot: Shot, frame: int, height: float) -> volume.FlameLight:
     state = sky.state(shot, float(shot.frames.times[frame - 1]))
     sun = state.power * np.array(state.colour) / (4.0 * np.pi)
     return volume.FlameLight(
-        visible=visible(float(np.clip(_CORE * 2.0**-stops, *_LUMINANCE))),
+        visible=visible(core_luminance(stops)),
         extinction=EXTINCTION,
         soot=_SOOT * EXTINCTION,
         soot_light=_ALBEDO * (state.around + sun),
@@ -97,11 +103,18 @@ def light(shot: Shot, frame: int, height: float) -> volume.FlameLight:
     )
 
 
+def core_luminance(stops: float) -> float:
+    """Return the luminance of a flame's core at an exposure (stops)."""
+    return float(np.clip(_CORE * 2.0**-stops, *_LUMINANCE))
+
+
 def visible(core: float) -> Array:
     """Return the radiance (n, 3) at evenly spaced heats, for a luminance of the core."""
     heat = np.linspace(0.0, 1.0, _ROWS)
-    colour = np.stack([np.ones(_ROWS), 0.04 + 0.68 * heat**1.3, -0.08 * (1.0 - heat**3)], axis=-1)
-    return (core * 10.0 ** (_DECADES * (heat - _CORE_HEAT)))[:, None] * colour
+    colour = np.stack(
+        [np.ones(_ROWS), GREEN[0] + GREEN[1] * heat ** GREEN[2], -0.08 * (1.0 - heat**3)], axis=-1
+    )
+    return (core * 10.0 ** (DECADES * (heat - CORE_HEAT)))[:, None] * colour
 
 
 def spindles(torches: flames.Points, time: float, eye: Array) -> Array:

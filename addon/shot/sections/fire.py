@@ -36,6 +36,16 @@ class FireSettings:
         at_most=100_000,
     )
     torches: bool = key(True, "draw torching: crowns near the cameras flare up when the front reaches them")
+    volume_radius: float = key(
+        0.0,
+        "distance from the first camera to which F12 shows flames as volumes (OpenVDB); 0: billboards",
+        unit="m",
+        at_least=0,
+        at_most=400,
+    )
+    volume_voxel: float = key(
+        0.5, "edge length of a voxel of these volumes", unit="m", at_least=0.1, at_most=10
+    )
     observed: Path | None = key(
         None,
         "observed perimeters or detections, drawn by date: .geojson, .shp, .kml, .kmz, .gpkg, .csv, folder",

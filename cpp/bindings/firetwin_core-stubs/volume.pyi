@@ -604,6 +604,35 @@ class FlameVolume:
             Shapes do not match.
         """
 
+    def sample(self, points: ArrayLike, fine: float = 0.0) -> NDArray[np.float32]:
+        """Return visible extinction (1/m) and temperature (K, 0 without flames) at points (n, 3): (n, 2).
+
+        Eddies smaller than `fine` (m) are left out. Flames fade out with the distance from the origin.
+        Cooled soot over the flames is not included.
+        """
+
+def write_flames(
+    path: str | PathLike[str],
+    flames: FlameVolume,
+    voxel_size: float,
+    *,
+    metadata: Mapping[str, str] | None = None,
+) -> VdbSummary:
+    """Write flames as an OpenVDB file with the grids `flames` (visible extinction, 1/m) and `temperature` (K).
+
+    The voxels have the values of `FlameVolume.sample` at their centres, in half precision, up to the distance
+    at which the flames fade out. Memory: 76 bytes per block of 8^3 voxels with flames.
+
+    Raises
+    ------
+    ValueError
+        voxel_size is not 1e-4 to 1e6 m.
+    Error
+        The voxels are far too small for the extent of the flames.
+    InputError
+        The folder is missing or cannot be written.
+    """
+
 def march(
     layers: Sequence[Bricks],
     origins: ArrayLike,

@@ -1,0 +1,83 @@
+"""Flames written as voxels: the values of the field at the voxels' centres, and no flame left out."""
+
+import numpy as np
+import pytest
+from firetwin.scene.fire import flame_volume
+from firetwin_core import volume
+from plumes import read
+
+VOXEL = 0.5
+HALF = 2.0**-10  # relative rounding of half precision
+
+
+def flames(fade=(1e5, 2e5), origin=(1000.0, -2000.0, 300.0), heights=6.0):
+    """A front of flames along x, 3 m deep, near the origin, on ground at its height."""
+    cells = 32
+    length = np.zeros((cells, cells), np.float32)
+    length[14:18] = heights
+    return volume.FlameVolume(
+        squares=[(length, np.full_like(length, origin[2]), (origin[0] - 12.0, origin[1] - 12.0), 0.75)],
+        spindles=np.empty((0, 6)),
+        shape=volume.FlameShape(wind=(0.0, 1.0)),
+        light=volume.FlameLight(
+            visible=flame_volume.visible(1.0),
+            extinction=0.8,
+            soot=0.01,
+            soot_light=(0.0, 0.0, 0.0),
+            coolest=900.0,
+            hottest=1400.0,
+            scales=flame_volume.SCALES,
+            infrared=0.6,
+            dim=0.0,
+        ),
+        pixel=0.0,
+        fade=fade,
+        origin=origin,
+        time=7.0,
+    )
+
+
+@pytest.fixture
+def written(tmp_path):
+    """Flames, the summary of their file, and indices (n, 3) and values (n, 2) of its voxels."""
+    burning = flames()
+    summary = volume.write_flames(tmp_path / "flames.vdb", burning, VOXEL)
+    grids = read(tmp_path / "flames.vdb")
+    (extinction, low), (kelvin, low_too) = grids["flames"], grids["temperature"]
+    assert np.array_equal(low, low_too)
+    lit = np.argwhere(extinction > 0.0)
+    return burning, summary, lit + low, np.stack([extinction[tuple(lit.T)], kelvin[tuple(lit.T)]], axis=-1)
+
+
+def test_voxels_hold_the_field_at_their_centres(written):
+    """Eight neighbours are evaluated together and share the octaves of noise, which moves a few edges."""
+    burning, summary, index, values = written
+    found = burning.sample(index * VOXEL, fine=VOXEL)
+    assert summary.active_voxels == len(found) > 500
+    alike = np.isclose(values, found, rtol=2.0 * HALF, atol=1e-3).all(axis=1)
+    assert alike.mean() > 0.95
+    assert np.abs(values - found)[:, 0].mean() < 0.01 * found[:, 0].mean()
+    assert 900.0 <= values[:, 1].min() < values[:, 1].max() <= 1400.0
+
+
+def test_no_flame_is_left_out(written):
+    burning, _, index, _ = written
+    low, high = (np.array(corner) for corner in ((1976, -4024, 596), (2016, -3976, 632)))
+    every = np.stack(np.meshgrid(*map(np.arange, low, high), indexing="ij"), axis=-1).reshape(-1, 3)
+    burns = burning.sample(every * VOXEL, fine=VOXEL)[:, 0] > 0.1
+    missing = set(map(tuple, every[burns])) - set(map(tuple, index))
+    assert burns.sum() > 200
+    assert len(missing) < 0.01 * burns.sum()
+
+
+def test_flames_fade_out_with_the_distance(tmp_path):
+    near = volume.write_flames(tmp_path / "near.vdb", flames(fade=(3.0, 6.0)), VOXEL)
+    full = volume.write_flames(tmp_path / "full.vdb", flames(), VOXEL)
+    none = volume.write_flames(tmp_path / "none.vdb", flames(heights=0.0), VOXEL)
+    assert 0 < near.active_voxels < 0.8 * full.active_voxels
+    assert none.active_voxels == 0
+
+
+def test_voxels_of_no_size_are_refused(tmp_path):
+    with pytest.raises(ValueError, match="voxel"):
+        volume.write_flames(tmp_path / "flames.vdb", flames(), 0.0)
