@@ -19,7 +19,7 @@ Array = NDArray[np.float32]
 
 _EDGE = 0.02  # smallest difference of transmittance across a silhouette
 _REACH, _SAME_DEPTH = 2, 0.1  # pixels round an edge; relative depth tolerance of one surface
-_FAINT = 0.1  # of white: light of flames in a gap that looks like a chip if it is sharp (by eye)
+_FAINT = 0.3  # of white: light of what hides flames at most, if their light spreads onto it (by eye)
 _TOUCHES = 2.0e-3  # relative depth by which text may be behind a surface, such as the ground below it
 _SURE = 15.0  # rays at which a pixel's coverage has the same weight as its neighbours'; estimated
 
@@ -67,7 +67,7 @@ def taps(surfaces: Surfaces) -> Array:
     return np.stack([near, far, surfaces.fire_distance], axis=-1)
 
 
-def compose(surfaces: Surfaces, distances: Array, marched: Array, white: float = np.inf) -> Array:
+def compose(surfaces: Surfaces, distances: Array, marched: Array, white: float | None = None) -> Array:
     """Composite surfaces and smoke to radiance (h, w, 3).
 
     Parameters
@@ -77,7 +77,7 @@ def compose(surfaces: Surfaces, distances: Array, marched: Array, white: float =
     marched
         (h, w, 3, 4) at these distances, as `firetwin_core.volume.march` returns it.
     white
-        Radiance that is white in the picture; light of flames in gaps, above a tenth of it, is softened.
+        Radiance that is white in the picture, if the light of flames in gaps is to be softened.
     """
     share = _coverage(surfaces, distances)[..., None]
     smoke, through = marched[..., :3], marched[..., 3:]
@@ -92,7 +92,12 @@ def compose(surfaces: Surfaces, distances: Array, marched: Array, white: float =
     split = share * inner * (near - far) + solid * far
     behind = np.where(edge[..., None], split, behind)
     gaps = (1.0 - share) * (smoke[:, :, 1] - smoke[:, :, 0])
-    light = smoke[:, :, 0] + soften_highlights(gaps, _FAINT * white)
+    light = smoke[:, :, 0] + gaps
+    if white is not None:
+        flaming = gaps * _share_of_flames(gaps)
+        # Light spreads onto what hides flames; flames near the gap stay as bright.
+        lit = smoke[:, :, 0].max(axis=-1, keepdims=True) / (_FAINT * white)
+        light += np.clip(1.0 - lit, 0.0, 1.0) * (blur(blur(flaming)) - flaming)
     return (np.maximum(behind + fire * flames, 0.0) + light).astype(np.float32)
 
 
@@ -119,6 +124,12 @@ def place_text(
     return np.where(written, picture * (1.0 - cover[..., None] * seen) + over * seen, picture).astype(
         np.float32
     )
+
+
+def _share_of_flames(light: Array) -> Array:
+    """Estimate the share (h, w, 1) of flames in light (h, w, 3): they have little blue, and smoke is grey."""
+    red, blue = light[..., :1], light[..., 2:]
+    return np.clip((red - 2.0 * blue) / np.maximum(red, 1.0e-6), 0.0, 1.0)
 
 
 def soften_highlights(picture: Array, white: float) -> Array:

@@ -82,8 +82,8 @@ class Eye:
                 found = self._march(smoke, *lines, ends)
                 marched += np.float32(weight) * found.reshape(marched.shape)
         self.clear = marched[..., 3].mean(axis=-1)
-        white = 2.0**-self.stage.scene.view_settings.exposure if self.flames else np.inf
-        composed = composite.compose(rendered, at, marched, white)
+        white = 2.0**-self.stage.scene.view_settings.exposure
+        composed = composite.compose(rendered, at, marched, white if self.flames else None)
         if self.flames:
             composed = composite.soften_highlights(composed, _WHITE * white)
         return composed if text is None else self._place_text(composed, rendered, at, text)

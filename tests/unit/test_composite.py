@@ -160,14 +160,18 @@ def test_flames_in_a_gap_are_softened_and_smoke_is_not():
     distance[3, 4] = 4000.0
     found = surfaces(0.0, distance, nearness=1000.0 / distance)
     at = composite.taps(found)
-    shine = np.where(at > 1000.0, 8.0, 0.0)[..., None] * np.ones(3)
-    marched = np.concatenate([shine, np.ones((*at.shape, 1))], axis=-1).astype(np.float32)
-    sharp, soft = composite.compose(found, at, marched), composite.compose(found, at, marched, 1.0)
+    shine, clear = np.where(at > 1000.0, 8.0, 0.0)[..., None], np.ones((*at.shape, 1))
+    flames, smoke = (
+        np.concatenate([shine * colour, clear], axis=-1).astype(np.float32)
+        for colour in ((1, 0.4, 0), (1, 1, 1))
+    )
+    sharp, soft = composite.compose(found, at, flames), composite.compose(found, at, flames, 1.0)
     assert sharp[3, 4, 0] == pytest.approx(8.0, rel=0.01)
     assert 0.5 < soft[3, 4, 0] < 2.5
-    assert soft[3, 5, 0] > soft[3, 6, 0] > 0.0
+    assert soft[3, 5, 0] > soft[3, 6, 0] > 0.0 == sharp[3, 6, 0]
     assert soft.sum() == pytest.approx(sharp.sum(), rel=0.02)
-    assert np.array_equal(sharp, composite.compose(found, at, marched, 1000.0))
+    grey = composite.compose(found, at, smoke)
+    assert composite.compose(found, at, smoke, 1.0) == pytest.approx(grey, abs=1e-5)
 
 
 def test_a_gap_in_foliage_is_a_soft_spot_and_keeps_its_light():
