@@ -97,7 +97,7 @@ def compose(surfaces: Surfaces, distances: Array, marched: Array, white: float |
         flaming = gaps * _share_of_flames(gaps)
         # Light spreads onto what hides flames; flames near the gap stay as bright.
         lit = smoke[:, :, 0].max(axis=-1, keepdims=True) / (_FAINT * white)
-        light += np.clip(1.0 - lit, 0.0, 1.0) * (blur(blur(flaming)) - flaming)
+        light += np.clip(1.0 - lit, 0.0, 1.0) * (blur(flaming) - flaming)
     return (np.maximum(behind + fire * flames, 0.0) + light).astype(np.float32)
 
 
