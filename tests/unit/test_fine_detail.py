@@ -63,10 +63,10 @@ def test_outlines_are_spread_over_voxels_so_that_they_draw_no_stairs():
 
 
 def test_a_slanting_outline_is_straight_between_voxels():
-    """The surface of smoke whose outline is narrower than two voxels has no stairs."""
+    """The surface of smoke whose outline is a voxel wide has no stairs."""
     count, slope = 40, 0.15
     x, y, _z = np.indices((count, count, 8), dtype=float)
-    edge = np.clip(0.5 + (y - 20.0 - slope * (x - 20.0)) / 1.5, -1.0, 2.0)
+    edge = np.clip(0.5 + y - 20.0 - slope * (x - 20.0), -1.0, 2.0)
     density = np.clip(edge, 0.0, 1.0)
     even = np.ones_like(density)
     wall = volume.Bricks(density, even, even, even, None, 1.0, (0.0, 0.0, 0.0), edge)
