@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import whole_run
 from fires import LATITUDE, LONGITUDE, axes, circle, degrees, geojson, round_fire, square
 from firetwin.errors import UsageError
 from firetwin.run import observations, readers
@@ -20,6 +21,7 @@ from firetwin.run.observations import Perimeter
 from firetwin.run.score import arrival, page, plots, report, shapes
 from firetwin.run.score.grid import ScoreGrid
 from firetwin.run.score.overlap import Overlap
+from firetwin_core import run as runs
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis_profiles import examples
@@ -185,6 +187,24 @@ def test_a_run_against_itself_is_perfect(round_run):
         assert row["distance"]["hausdorff"] < 1.0
     assert found["arrival"]["bias"] == found["arrival"]["rmse"] == 0.0
     assert found["arrival"]["run_only"] == found["arrival"]["seen_only"] == 0
+
+
+@pytest.mark.parametrize("cell", [30.0, 77.0])
+def test_arrival_error_of_a_slow_circle_is_that_of_the_formula(tmp_path, cell):
+    """Speeds of 0.25 and 0.3 m/s; both cover 600 to 3000 s, so rings from 180 to 750 m count.
+
+    Of all cells that the longer run covers, up to 900 m, the error would be 15 % more.
+    """
+    slow = {"cells": 82, "wind": None, "speed": 0.25, "times": (0.0, 1800.0, 3600.0)}
+    fast = {"cells": round(82 * 30.0 / cell), "cell": cell, "wind": None, "speed": 0.3}
+    one = runs.open(whole_run.write(tmp_path / "slow", **slow))
+    two = runs.open(whole_run.write(tmp_path / "fast", **fast, times=(600.0, 1800.0, 3000.0)))
+    low, high = 600.0 * 0.3, 3000.0 * 0.25
+    mean = 2.0 / 3.0 * (high**3 - low**3) / (high**2 - low**2)  # m, of the distance in the ring
+    found = scores.score(one, observations.Observations(), two)["arrival"]
+    assert found["bias"] == pytest.approx((1.0 / 0.25 - 1.0 / 0.3) * mean, rel=0.02)
+    area = np.pi * (high**2 - low**2) / 30.0**2
+    assert found["cells"] == pytest.approx(area, rel=0.03)
 
 
 def test_arrival_times_count_cell_by_cell_where_both_burned():

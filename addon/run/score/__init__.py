@@ -163,9 +163,8 @@ def _arrival(run: Run, grid: ScoreGrid, seen: Sequence[Seen], other: Run | None)
     if other is not None:
         theirs = ScoreGrid.from_run(other)
         shift = times.seconds(run, times.utc(other, 0.0))
-        return arrival.between(
-            grid.arrival, arrival.sampled(theirs, grid) + shift, (float(run.times[0]), float(run.times[-1]))
-        )
+        low, high = (times.seconds(run, moment) for moment in _common(run, other))
+        return arrival.between(grid.arrival, arrival.sampled(theirs, grid) + shift, (low, high))
     if len(seen) < 2:
         return None
     masks = [grid.inside(perimeter.shape) for perimeter in seen]
@@ -181,10 +180,21 @@ def _reported(run: Run, grid: ScoreGrid) -> list[dict[str, Any]]:
     return rows
 
 
+def _common(run: Run, other: Run) -> tuple[datetime, datetime]:
+    """Return the first and the last time that both runs cover."""
+    first, last = zip(
+        *(
+            (times.utc(each, float(each.times[0])), times.utc(each, float(each.times[-1])))
+            for each in (run, other)
+        ),
+        strict=True,
+    )
+    return max(first), min(last)
+
+
 def _of_run(other: Run, run: Run, moments: Sequence[datetime]) -> list[Seen]:
     """Return perimeters of another run as reference."""
-    low = max(times.utc(run, float(run.times[0])), times.utc(other, float(other.times[0])))
-    high = min(times.utc(run, float(run.times[-1])), times.utc(other, float(other.times[-1])))
+    low, high = _common(run, other)
     if low >= high:
         raise UsageError(f"--against: {other.path} and the run have no moment in common")
     common = [moment for moment in moments if low <= moment <= high]

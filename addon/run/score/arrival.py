@@ -15,7 +15,9 @@ if TYPE_CHECKING:
 def between(run: NDArray[np.float64], seen: NDArray[np.float64], common: Sequence[float]) -> dict[str, Any]:
     """Compare two arrival times (ny, nx) in cells that burned after the first common time in both.
 
-    Cells that burned in only one of them are counted separately and excluded from means.
+    Cells that burned in only one of them by the last common time are counted separately and excluded from
+    means. So a run that spreads too slowly has a smaller error than its fire will have later: if its front
+    needs a s/m and the other b s/m, the error of a cell at the distance x is (a - b) x.
     """
     first, last = common
     here, there = run <= last, seen <= last
