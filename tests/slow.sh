@@ -77,6 +77,7 @@ else
   slow 2 "${pytest[@]}" tests/unit -m hypothesis --hypothesis-profile thorough -o budget_factor=10
   slow 2 tests/system/fuzz/run.sh --runs 20000
   slow 1 .venv/bin/python tests/system/fuzz/tilesets.py --runs 10000
+  slow 2 .venv/bin/python tests/system/fuzz/files.py --seconds 10
   slow 2 .venv/bin/python tests/system/fuzz/convert.py --each 200
   slow 1 .venv/bin/python tests/system/fuzz/scenes.py --builds 8 --seconds 50
   title="what tests/run.sh leaves out"

@@ -19,6 +19,7 @@ from .station_file import StationFile
 
 _STATION = ("fid", "geom", "name", "origin", "source", "kind", "agency", "address", "source_id", "picture")
 _AVAILABILITY = ("id", "resource", "begins", "ends", "status", "area")
+_TYPE_NUMBERS = ("tank_l", "payload_kg", "pump_l_min", "people")
 _AREA = ("fid", "geom", "name", "kind", "station")
 Record = TypeVar("Record", Source, Type, Resource)
 
@@ -139,6 +140,9 @@ class _Reader:
         """Check references, words and numbers that other programs may have written."""
         stations, sources = station_file.station_row, station_file.source_of
         resources = {each.id for each in station_file.resources}
+        for kind in station_file.types:
+            for name in _TYPE_NUMBERS:
+                self.number("type", kind.code, name, getattr(kind, name))
         for station in station_file.stations:
             self.origin("station", station.id, station.origin, station.source in sources)
         for each in station_file.resources:
@@ -169,18 +173,19 @@ class _Reader:
     def numbers(self, each: Resource) -> None:
         """Check that numbers are not negative or huge, the speed is above 0, and the count at least 1."""
         for name in NUMBERS:
-            value = getattr(each, name)
-            if value is None:
-                continue
-            if not isinstance(value, int | float) or not limits.is_quantity(value):
-                reason = f"has {name} {value!r}; enter a number from 0 to {limits.LARGEST_NUMBER:,.0f}"
-                self.fail("resource", each.id, reason)
+            self.number("resource", each.id, name, getattr(each, name))
         if each.speed_km_h == 0.0:
             self.fail("resource", each.id, "has speed_km_h 0; leave it empty if it is unknown")
         if not isinstance(each.count, int) or each.count < 1:
             self.fail("resource", each.id, f"has count {each.count!r}; enter a whole number of at least 1")
 
-    def fail(self, table: str, number: int, reason: str) -> NoReturn:
+    def number(self, table: str, row: int | str, name: str, value: Any) -> None:
+        if value is None or (isinstance(value, int | float) and limits.is_quantity(value)):
+            return
+        least = f"enter 0, or {limits.SMALLEST_NUMBER:.6f} to {limits.LARGEST_NUMBER:,.0f}"
+        self.fail(table, row, f"has {name} {value!r:.40}; {least}")
+
+    def fail(self, table: str, number: int | str, reason: str) -> NoReturn:
         raise input_error(self.path, f"{table} {number} {reason}")
 
 
