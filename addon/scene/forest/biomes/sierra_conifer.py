@@ -12,9 +12,9 @@ def _suits(land: Land) -> float:
 BIOME = Biome(
     suits=_suits,
     season=Season(peak=135.0, lasts=80.0),
-    needles=((0.022, 0.028, 0.008), (0.060, 0.060, 0.016)),
-    stands=(0.030, 0.037, 0.011),
+    needles=((0.021, 0.026, 0.006), (0.057, 0.056, 0.012)),
+    stands=(0.029, 0.035, 0.008),
     shade=(0.009, 0.012, 0.006),
-    between=(0.010, 0.013, 0.006),
+    between=(0.010, 0.012, 0.005),
     leaf_fall="winter",
 )
