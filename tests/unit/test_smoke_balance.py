@@ -3,6 +3,8 @@
 import closure
 import numpy as np
 import pytest
+from firetwin.run import info
+from firetwin.shot.satellites import imager
 
 MOST = 0.005  # relative error of each sum
 QUICK = [
@@ -39,3 +41,15 @@ def test_cells_over_high_ground_are_thinner(tmp_path):
     np.testing.assert_allclose(box.volumes(), depth, rtol=1e-9)
     assert np.ptp(box.volumes()[0]) > 0.05 * box.volumes()[0].mean()
     assert nest.volumes().sum() < box.volumes().sum()
+
+
+@pytest.mark.parametrize("fire", ["front in wind", "crowns", "fluxes alone"])
+def test_scar_and_satellite_picture_have_the_area_and_heat_of_the_run(tmp_path, fire):
+    shot = closure.make_shot(tmp_path / "run", fire, "hills")
+    now, cell = shot.frames.last, 30.0
+    scar = np.count_nonzero((shot.ground.burned >= 0.5) & (shot.ground.arrival <= now)) * cell**2
+    assert scar == pytest.approx(info.burned(shot.run, [now])[0], rel=MOST)
+    instrument = imager.INSTRUMENTS["viirs"]
+    grid = imager.grid_of(instrument, shot.run, -137.0)
+    shown = imager.picture(instrument, grid, shot.fire, now).heat
+    assert shown == pytest.approx(closure.heat_of_run(shot, now - 0.5, now + 0.5), rel=MOST)

@@ -1,0 +1,64 @@
+"""Burned area estimated from heat fluxes alone, for ellipses and circles of known area.
+
+    .venv/bin/python tests/benchmarks/flux_area.py
+
+A cell's flux is 30 kW/m2 times the part of it that burns, in 5 x 5 parts, for 2 or 10 minutes. Outputs are 1,
+5 or 15 minutes apart. Prints mean, smallest and largest error for each cell size.
+"""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
+
+import whole_run
+from firetwin.run import info
+from firetwin_core import run as runs
+
+CASES = ((30.0, 80), (75.0, 40), (150.0, 24))  # m, and cells along a side
+PARTS, END, SPEED = 5, 3600.0, 0.3  # s; m/s
+
+
+def main() -> None:
+    """Measure all cases and print a Markdown table."""
+    argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter).parse_args()
+    print("| cells, m | outputs, min | cases | mean | smallest | largest |\n|--:|--:|--:|--:|--:|--:|")
+    for (cell, cells), interval in itertools.product(CASES, (60.0, 300.0, 900.0)):
+        errors = [
+            measure(cell, cells, interval, lasts, wind)
+            for lasts, wind in itertools.product((120.0, 600.0), ((4.0, 0.0), None))
+            if cells * cell > 2500.0 or wind
+        ]
+        figures = np.mean(errors), min(errors), max(errors)
+        shown = " | ".join(f"{100.0 * figure:+.1f} %" for figure in figures)
+        print(f"| {cell:g} | {interval / 60.0:g} | {len(errors)} | {shown} |", flush=True)
+
+
+def measure(
+    cell: float, cells: int, interval: float, lasts: float, wind: tuple[float, float] | None
+) -> float:
+    """Return the relative error of the burned area at the end of a fire."""
+    times = tuple(np.arange(0.0, END + 1.0, interval).tolist())
+    count = cells * PARTS
+    metres = (np.arange(count) - (count - 1) / 2) * cell / PARTS
+    came = whole_run._travel(*np.meshgrid(metres, metres), SPEED, wind)
+    parts = np.array([np.where((came <= time) & (came > time - lasts), 30e3, 0.0) for time in times])
+    with tempfile.TemporaryDirectory() as name:
+        folder = whole_run.write(Path(name) / "run", cell=cell, cells=cells, times=times, arrival=False)
+        np.save(
+            folder / "heat_flux.npy",
+            parts.reshape(len(times), cells, PARTS, cells, PARTS).mean((2, 4)).astype(np.float32),
+        )
+        burned = info.burned(runs.open(folder), [END])[0]
+    return burned / (np.count_nonzero(came <= END) * (cell / PARTS) ** 2) - 1.0
+
+
+if __name__ == "__main__":
+    main()
