@@ -99,6 +99,16 @@ def test_no_lamps_by_day(near, run, stage, sun_at, height):
     assert not lit()
 
 
+def test_smoke_lights_the_ground_near_a_camera_at_night_alone(near, run, sun_at):
+    shot, shares, heats = Shot(near, run), [], []
+    for height in (10.0, -20.0):
+        sun_at(height)
+        shares.append(lamps.glow_share(shot))
+        heats.append(lamps.place_lamps(shot, flame_light.FAR_LAMPS, shares[-1]).heat.sum())
+    assert shares[0] == 0.0 < shares[1]
+    assert heats[1] > heats[0]
+
+
 def test_lamps_where_smoke_shuts_out_the_sun(near, run, stage, sun_at):
     sun_at(10.0)
     built(replace(near, smoke=replace(near.smoke, enabled=True)), run, stage)
