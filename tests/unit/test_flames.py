@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 from firetwin.scene.fire import flame_volume
-from firetwin_core import volume
+from firetwin_core import sensor, volume
 from march_light import NO_LIGHT
 
 PLANCK = dict(coldest=180.0, kelvin_step=2.0)
@@ -144,6 +144,19 @@ def test_temperatures_of_opaque_flames_are_between_the_coolest_and_the_hottest()
     assert len(kelvin) > 100
     assert np.all((kelvin > low - 1.0) & (kelvin < high + 1.0))
     assert np.ptp(kelvin) > 200.0
+
+
+@pytest.mark.parametrize("band", [(8.0, 14.0), (3.4, 4.1)])
+def test_opaque_flames_of_one_temperature_have_its_planck_radiance(band):
+    origins, directions, _, _ = look(18.0)
+    even = flames([front(18.0, 14.0)], infrared=50.0, coolest=1150.0, hottest=1150.0)
+    table, ends = sensor.radiance(KELVINS, band), np.full(len(origins), 150.0)
+    found = volume.march_infrared(
+        [], origins, directions, ends, radiance=table, flames=even, **PLANCK, **EMPTY
+    )
+    opaque = found[found[:, 1] < 1e-3, 0]
+    assert len(opaque) > 100
+    assert opaque == pytest.approx(float(sensor.radiance(1150.0, band)), rel=0.02)
 
 
 def test_the_pattern_rises_with_the_gas():
