@@ -5,6 +5,8 @@ Light is in picture units: a sun of 9 W/m2 at an elevation of 38 degrees suits e
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,11 +14,14 @@ from ...run import sun
 from ..shot import Shot
 from ..terrain import noise
 
+Value = TypeVar("Value", float, NDArray[np.float64])
+
 _SUN = 11.1  # W/m2 above the atmosphere
 _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
 # W/m2 of a full moon, and of a moonless sky: brighter than real, dark in pictures exposed for flames; by eye
 _MOON, _STARS = 0.030, 0.010
-_MOONLIT = 5.0  # radiance of the sky and of haze by a full moon, relative to a moonless sky (by eye)
+# radiance added to sky and haze by a full moon, relative to a moonless sky, at dusk and by night (by eye)
+_MOONLIT = 5.0, 1.5
 _DISC, _SOFT = 0.53, 60.0  # degrees, width of sun and moon, and of the light of a moonless sky (by eye)
 _TWILIGHT = 18.0  # degrees below the horizon at which the sun's last light has gone (astronomical twilight)
 _MOON_COLOUR = (0.65, 0.78, 1.0)
@@ -99,7 +104,7 @@ class State:
         self.haze = tuple(_haze(height, moon.light))
         bright = np.array([np.interp(height, MEAN[0], each) for each in _HORIZON])
         self.horizon = tuple(np.maximum(bright, self.haze))
-        self.night = _at_dusk(DAY_SKY, NIGHT_SKY, height) * (1.0 + moon.light * _MOONLIT)
+        self.night = _at_dusk(DAY_SKY, NIGHT_SKY, height) * (1.0 + moon.light * _at_dusk(*_MOONLIT, height))
         self.around = np.array([np.interp(height, MEAN[0], each) for each in _AROUND]) + self.night
         self.sky_mean = float(np.interp(height, *MEAN)) + self.night.mean()
         self.stars = 1.0 - float(noise.smoothstep(-13.0, -5.0, height))
@@ -121,11 +126,11 @@ def _haze(height: float, moonlight: float) -> NDArray[np.float64]:
     blue = float(noise.smoothstep(-10.0, 12.0, height))
     low = np.exp(-_SUN_DEPTH * max(sun.air_mass(max(height, 0.0)) - _FULL_DAY, 0.0))
     by_day = _DAY_HAZE * 0.5 * (1.0 + low / low.max())
-    by_night = _at_dusk(_DUSK_HAZE, _NIGHT_HAZE, height) * (1.0 + moonlight * _MOONLIT)
+    by_night = _at_dusk(_DUSK_HAZE, _NIGHT_HAZE, height) * (1.0 + moonlight * _at_dusk(*_MOONLIT, height))
     return by_night + (by_day - by_night) * blue**2
 
 
-def _at_dusk(before: NDArray[np.float64], after: NDArray[np.float64], height: float) -> NDArray[np.float64]:
+def _at_dusk(before: Value, after: Value, height: float) -> Value:
     """Interpolate from dusk to night by solar elevation `height` (degrees)."""
     return before + (after - before) * float(noise.smoothstep(*_DUSK, height))
 
