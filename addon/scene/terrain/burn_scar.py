@@ -119,11 +119,11 @@ def _burned_grass_colour(tree: nodes.Tree, place: Place, tone: nodes.Value, ash:
 def _matted_ash(tree: nodes.Tree, place: Place, char: nodes.Value) -> nodes.Value:
     """Return the colour of burned grass with mats of black residue, and thin streaks of white ash between."""
     mats = place.grain.noise(2.2, 4.0, 0.72)
-    tone = mats.ramp(0.3, 0.7, 0.6, 1.35)
+    tone = mats.ramp(0.3, 0.7, 0.45, 1.15)
     char = tree.mix_colour(1.0, char, tree.combine(tone, tone, tone), "MULTIPLY")
     wisps = place.grain.at(tree.vector("MULTIPLY", place.position, _WISP)).noise(9.0, 5.0, 0.72)
     line = tree.math("ABSOLUTE", wisps - 0.5).smoothstep(0.03, 0.0) * mats.smoothstep(0.46, 0.60)
-    return tree.mix_colour(line * place.pixel.ramp(0.3, 2.0, 0.40, 0.1), char, _WISP_ASH)
+    return tree.mix_colour(line * place.pixel.ramp(0.3, 2.0, 0.28, 0.08), char, _WISP_ASH)
 
 
 def front_coverage(tree: nodes.Tree, stage: Stage, place: Place) -> tuple[nodes.Value, nodes.Value]:
