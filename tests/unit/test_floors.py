@@ -113,6 +113,7 @@ ABOUT_ALL = {
     "handlers",
     "processor_time",
     "prose",
+    "ragged_spread",
     "touched",
     "documentation_artists",
     "documentation_glossary",
