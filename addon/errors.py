@@ -124,8 +124,9 @@ def writing(path: str | PathLike[str]) -> Iterator[None]:
             raise full_disk_error(path) from error
         reason = f"cannot be written ({_reason(error)}); choose another folder"
         raise input_error(path, reason) from error
-    except sqlite3.OperationalError as error:  # "disk I/O error" of a write-back to a full disk
-        if disk_is_full(error) or is_nearly_full(Path(path)):
+    except sqlite3.OperationalError as error:
+        silent = "disk I/O error" in str(error) and is_nearly_full(Path(path))
+        if silent or disk_is_full(error):
             raise full_disk_error(path) from error
         raise input_error(path, f"cannot be written ({error}); choose another folder") from error
     except FullDiskError:

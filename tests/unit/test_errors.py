@@ -96,13 +96,14 @@ def test_an_interruption_passes_a_reader():
 @pytest.mark.parametrize(
     ("planted", "text"),
     [
+        ("disk I/O error", "a.gpkg: the disk is full; free some space"),
         ("database or disk is full", "a.gpkg: the disk is full; free some space"),
         ("attempt to write a readonly database", "a.gpkg: cannot be written (attempt to write a readonly"),
         ("unable to open database file", "a.gpkg: cannot be written (unable to open database file); choose"),
     ],
 )
 def test_what_sqlite_raises_on_a_full_or_read_only_disk_becomes_one_line(planted, text, monkeypatch):
-    monkeypatch.setattr(errors, "is_nearly_full", lambda _: False)
+    monkeypatch.setattr(errors, "is_nearly_full", lambda _: True)
     with pytest.raises(InputError) as caught, errors.writing("a.gpkg"):
         raise sqlite3.OperationalError(planted)
     assert text in str(caught.value)
