@@ -464,3 +464,8 @@ def test_a_page_has_32_megabytes_at_most_unless_more_is_asked_for(folder, tmp_pa
     assert arguments.LIMIT == 32_000_000
     assert cli.main(["brief", str(folder), "--out", str(tmp_path / "page.html"), "--limit", "10KB"]) == 2
     assert "above the limit of 10 kB" in capsys.readouterr().err
+
+
+def test_a_limit_below_any_page_is_refused_before_the_work(folder, tmp_path, monkeypatch):
+    monkeypatch.setattr(briefing, "gather", lambda _: pytest.fail("the work began"))
+    assert cli.main(["brief", str(folder), "--out", str(tmp_path / "page.html"), "--limit", "10KB"]) == 2
