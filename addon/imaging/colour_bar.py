@@ -73,7 +73,7 @@ def draw(
     picture[top - size : bottom + size, left - size : right + size] = 1.0
     picture[top:bottom, left:right] = bar
     for kelvin in choose_ticks(low, high, knee, (bottom - top) / (9.0 * size), cold):
-        at = bottom - 1 - round((bottom - 1 - top) * scale_position(kelvin, low, high, knee, cold))
+        at = bottom - 1 - round((bottom - 1 - top) * float(scale_position(kelvin, low, high, knee, cold)))
         picture[at : at + 1, left - 3 * size : left] = 1.0
         _write(picture, f"{kelvin:.0f}", left - 4 * size, at, size)
     _write(picture, "K", right + size, top - 5 * size, size)
