@@ -48,7 +48,7 @@ def test_lines_lie_over_the_ground_by_their_dates(scene):
 
 def test_a_file_that_is_none_is_named_with_its_line(scene):
     scene.write_text(scene.read_text().replace('"seen"', '"gone.kml"'))
-    with pytest.raises(InputError, match=r"scene.toml:5:1: fire.observed: .*gone.kml: no such file"):
+    with pytest.raises(InputError, match=r"scene.toml:5:1: fire.observed: .*gone.kml: there is no such file"):
         ShotSource(scene=str(scene)).shot()
 
 
