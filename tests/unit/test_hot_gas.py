@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from firetwin.shot.fire import air_temperature
 from firetwin_core import volume
 
 AIR = {
@@ -52,3 +53,15 @@ def test_the_finer_gas_counts_where_it_is():
 def test_cells_of_other_shapes_are_refused():
     with pytest.raises(ValueError, match="two cells"):
         seen([smoke()], volume.HotGas(np.ones((1, 4, 4)), np.ones((1, 4, 4)), (0.0, 0.0), 10.0))
+
+
+def test_smoke_far_above_has_the_temperature_of_the_tropopause():
+    """18 km above the ground it had 185 K."""
+    coldest = air_temperature.TROPOPAUSE
+    aloft = {"elevation": np.full((3, 3), -18e3), "lapse": air_temperature.LAPSE, "coldest": coldest}
+    table = np.arange(100.0, 500.0)  # at `coldest`: 100
+    light, through = volume.march_infrared(
+        [smoke()], *RAY, **AIR | aloft | {"radiance": table}, hot=(), gas=0.0
+    )[0]
+    assert light == pytest.approx(100.0 * (1.0 - through), rel=1e-6)
+    assert 216.0 < coldest < 217.0
