@@ -57,6 +57,9 @@ SQLITE_SECONDS = _number(_G, "processor time of a file (plus 1 s per 10 MB)", 20
 GEOMETRY_DEPTH = _number("GeoPackages", "geometries in one another", 32, "refused as damaged")
 
 _X = "Other files"
+RUN_YEARS = 1000, 9998
+"""First and last year of the times of a run."""
+LIMITS.append(Limit(_X, "years of the times of a run", f"{RUN_YEARS[0]} to {RUN_YEARS[1]}", "refused"))
 TEXT_BYTES = _number(_X, "size of GeoJSON, KML, GPX and CSV, also within a KMZ", 1 << 28, "refused", "bytes")
 
 _T = "3D tiles"

@@ -3,7 +3,7 @@
 import firetwin_core as core
 import numpy as np
 import pytest
-from firetwin.run import info
+from firetwin.run import info, readers
 from firetwin_core import run as runs
 from small_run import RUN_TOML, small_fields
 
@@ -273,3 +273,19 @@ def test_a_source_of_another_type_is_an_error(make_run, text, reason):
     (folder / "run.toml").write_text(f"{RUN_TOML}{text}\n")
     with pytest.raises(core.InputError, match=f"run.toml: {reason}"):
         info.gather(runs.open(folder), "UTC")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        RUN_TOML.replace("2014-09-16T", "0014-09-16T"),
+        RUN_TOML.replace("2014-09-16T", "9999-09-16T"),
+        RUN_TOML.replace("interval_s = 60.0", "times_s = [-1e308, 60, 120]"),
+        RUN_TOML.replace("interval_s = 60.0", "interval_s = 1e12"),
+    ],
+)
+def test_times_that_are_no_dates_are_refused(make_run, text):
+    folder = make_run()
+    (folder / "run.toml").write_text(text)
+    with pytest.raises(core.InputError, match="has times outside of the years 1000 to 9998; correct"):
+        readers.open(folder)

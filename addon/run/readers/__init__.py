@@ -15,7 +15,9 @@ from types import ModuleType
 from firetwin_core import run
 from firetwin_core.run import Run
 
-from ...errors import Error, input_error
+from ... import limits
+from ...errors import Error, input_error, reading
+from .. import times
 from . import folder
 
 MODELS = ("wrf_sfire", "cfbm", "forefire", "elmfire", "farsite", "pyretechnics", "netcdf_cf")
@@ -36,7 +38,28 @@ def open(path: str | Path) -> Run:
     if not folder.sniff(path) and foreign(path):
         reason = f"is a fire model's own output; make a run of it: firetwin convert {path} --out RUN"
         raise input_error(path, reason)
-    return run.open(path)  # which reports errors
+    with reading(path):
+        found = run.open(path)  # which reports errors
+        _check_years(found)
+        return found
+
+
+def _check_years(found: Run) -> None:
+    """Check that the times of a run are dates of Python and of ISO 8601, also in other time zones.
+
+    Raises
+    ------
+    InputError
+        They are not.
+    """
+    first, last = limits.RUN_YEARS
+    try:
+        years = [times.utc(found, float(found.times[index])).year for index in (0, -1)]
+    except OverflowError:
+        years = [0]
+    if not all(first <= year <= last for year in years):
+        reason = f"has times outside of the years {first} to {last}; correct start, interval_s or times_s"
+        raise input_error(Path(found.path) / "run.toml", reason)
 
 
 def foreign(path: Path) -> bool:

@@ -74,8 +74,8 @@ def check(url: str) -> None:
     policy = policies.for_host(host)
     if policy.no_drape:
         raise input_error(name, f"{policy.name} may not be draped: {policy.no_drape}")
-    for found in _VARIABLE.finditer(url):
-        _check_variable(found[1], policy, name)
+    for variable in _VARIABLE.finditer(url):
+        _check_variable(variable[1], policy, name)
     if not is_template(url):
         return
     if "{" in (urlsplit(url).netloc):

@@ -30,4 +30,4 @@ def open_source(place: str, network: Network | None = None) -> Source:
     if _URL.match(place):
         return Http(place, network)
     path = Path(place)
-    return Archive(path) if path.suffix.lower() == ".3tz" else Folder(path, network and network.root)
+    return Archive(path) if path.suffix.lower() == ".3tz" else Folder(path, network.root if network else None)

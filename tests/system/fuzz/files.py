@@ -29,12 +29,11 @@ import small_stations
 from damage import WAYS, damaged
 from file_seeds import PLACES, SCENE, SEEDS, TOKENS, VALUES
 from firetwin import cli
-from firetwin.run import buildings, info, labels, observations, zone
+from firetwin.run import buildings, info, labels, observations, readers, zone
 from firetwin.shot.cameras import track
 from firetwin.shot.settings import scene_file
 from firetwin.stations import importers, measures, merging, page, reading
 from firetwin.stations.query import Query
-from firetwin_core import run as runs
 from station_files import write_usgs
 
 SECONDS = 5.0
@@ -81,7 +80,7 @@ def read_scene(path):
 
 def read_run(path):
     """Open a run whose run.toml is damaged, and describe it."""
-    run = runs.open(path.parent)
+    run = readers.open(path.parent)
     info.page(info.gather(run, zone.time_zone(run)))
 
 
