@@ -45,7 +45,7 @@ def area_factors(
 def _wide_edges(latitude: ArrayLike, longitude: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Compute cell edges of both axes (degrees); the cell of a single value has the size of `cell_size`."""
     sizes = cell_size(latitude, longitude)[::-1]
-    north, east = metres_per_degree(float(np.mean(latitude)))
+    north, east = metres_per_degree(float(np.asarray(latitude, np.float64).mean()))
     result = []
     for axis, size, degree in zip((latitude, longitude), sizes, (north, east), strict=True):
         axis = np.asarray(axis, np.float64)
