@@ -9,6 +9,7 @@ distance) of the pixel's few rays, and from its neighbours. Flames have a separa
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 from ..shot.cameras.pixel_rays import SKY
 
 Array = NDArray[np.float32]
+Scalar = TypeVar("Scalar", bound=np.generic)
 
 _EDGE = 0.02  # smallest difference of transmittance across a silhouette
 _REACH, _SAME_DEPTH = 2, 0.1  # pixels round an edge; relative depth tolerance of one surface
@@ -214,7 +216,7 @@ def blur(values: Array) -> Array:
     return 0.25 * rows[:, :-2] + 0.5 * rows[:, 1:-1] + 0.25 * rows[:, 2:]
 
 
-def _neighbourhood(values: Array, pick: np.ufunc) -> Array:
+def _neighbourhood(values: NDArray[Scalar], pick: np.ufunc) -> NDArray[Scalar]:
     """Compute the minimum or maximum of each 3 x 3 neighbourhood."""
     padded = np.pad(values, 1, mode="edge")
     rows = pick(pick(padded[:-2], padded[1:-1]), padded[2:])
