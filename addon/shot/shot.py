@@ -319,7 +319,8 @@ class Shot:
         """Warnings about the scene file, the run's fire, its smoke, and the camera paths."""
         smoke = self.settings.smoke
         cell = max(burning.fuel_cell(self.run))
-        coarse = smoke_scale.warnings(self.scale, cell) if smoke.enabled and smoke.method == "flow" else []
+        solved = smoke.enabled and SMOKE_METHODS[smoke.method].history == "spin_up"
+        coarse = smoke_scale.warnings(self.scale, cell) if solved else []
         return [
             *self.settings.notes,
             *run_warnings.of_fire(self.run),

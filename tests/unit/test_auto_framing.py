@@ -126,8 +126,9 @@ def test_the_overview_stands_to_windward_with_the_sun_behind_it(fit_of):
     way = candidates.bearing(shot.for_camera("overview").paths[0]) % 360.0
     assert 200.0 < way < 320.0
     assert "windward" in found.cameras["overview"]
-    found, run = fit_of("calm")
-    way = candidates.bearing(Shot(found.settings, run).for_camera("overview").paths[0])
+    found, run = fit_of("calm")  # there smoke on these wide cells decides, so the preference alone is tested
+    moving = front.find_front(Shot(found.settings, run))
+    way = max(overview._BEARINGS, key=lambda bearing: candidates.liking(moving, bearing))
     azimuth, height = sun.position(run, 0.0)
     assert height > 0.0
     assert np.cos(np.radians(way - azimuth)) > 0.5
