@@ -13,7 +13,7 @@ from firetwin_core import sensor
 from PIL import Image
 
 FILM, SMALL = (640, 360), (240, 135)  # width and height, pixels
-RATE = 125  # ms per frame
+RATE = 83  # ms per frame, 12 frames per second
 WHITE_DEPTH = 15_000.0  # m
 
 

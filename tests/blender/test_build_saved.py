@@ -38,7 +38,7 @@ def test_the_papers_trees_are_there_without_the_run(
         settings,
         run=folder,
         cameras=(Camera("above", above),),
-        render=replace(settings.render, resolution=(1000, 1000)),
+        render=replace(settings.render, resolution=(4000, 4000)),
     )
     shot = Shot(settings, runs.open(folder))
     axes = shot.run.fuel_latitude, shot.run.fuel_longitude
