@@ -20,10 +20,9 @@ SECRETS = frozenset(
     )
 )
 """Parameters of URLs that are secrets, in lower case."""
-_PARAMETER = re.compile(
-    rf"(?i)([?&](?:{'|'.join(map(re.escape, sorted(SECRETS, key=len, reverse=True)))})=)"
-    r"(?!\$\{)[^&\s'\"#<>,;}]+"
-)
+ANY_SECRET = "|".join(map(re.escape, sorted(SECRETS, key=len, reverse=True)))
+"""Regular expression of these names, the longest first."""
+_PARAMETER = re.compile(rf"(?i)([?&](?:{ANY_SECRET})=)" r"(?!\$\{)[^&\s'\"#<>,;}]+")
 
 
 def without_secrets(text: str) -> str:

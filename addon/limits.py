@@ -17,11 +17,11 @@ class Limit:
     group
         Kind of files or servers.
     quantity
-        What is limited.
+        Quantity that the limit bounds.
     value
         The number with its unit, as the page shows it.
     beyond
-        What happens beyond it.
+        Result of exceeding it.
     """
 
     group: str
@@ -54,7 +54,7 @@ SQLITE_SQL = _number(
 SQLITE_COLUMNS = _number(_G, "columns of a table", 500, "refused")
 SQLITE_DEPTH = _number(_G, "depth of an expression in the file", 100, "refused")
 SQLITE_SECONDS = _number(_G, "processor time of a file (plus 1 s per 10 MB)", 20, "refused", "s")
-GEOMETRY_DEPTH = _number("GeoPackages", "geometries in one another", 32, "refused as damaged")
+GEOMETRY_DEPTH = _number(_G, "geometries in one another", 32, "refused as damaged")
 
 _X = "Other files"
 RUN_YEARS = 1000, 9998

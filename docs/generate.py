@@ -267,23 +267,24 @@ def format_layers() -> str:
     return "\n".join(out)
 
 
+def replace_tables(page: Path, name: str, tables: str) -> str:
+    """Return a page with tables in place of the ones between its marks of a name."""
+    before, start, rest = page.read_text(encoding="utf-8").partition(
+        f"<!-- {name}: made by docs/generate.py -->\n"
+    )
+    _, end, after = rest.partition(f"\n<!-- end of {name} -->")
+    if not end:
+        raise ValueError(f"{page.name} has no marks for the tables of {name}")
+    return before + start + "\n" + tables + end + after
+
+
 def update_contributing() -> str:
     """Return CONTRIBUTING.md with the table of layers between its marks."""
-    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-    before, start, rest = text.partition("<!-- layers: made by docs/generate.py -->\n")
-    _, end, after = rest.partition("\n<!-- end of layers -->")
-    if not end:
-        raise ValueError("CONTRIBUTING.md has no marks for the table of layers")
-    return before + start + "\n" + format_layers() + end + after
+    return replace_tables(ROOT / "CONTRIBUTING.md", "layers", format_layers())
 
 
 def update_limits() -> str:
     """Return limits.md with the tables of `firetwin.limits` between their marks."""
-    text = (FOLDER / "limits.md").read_text(encoding="utf-8")
-    before, start, rest = text.partition("<!-- limits: made by docs/generate.py -->\n")
-    _, end, after = rest.partition("\n<!-- end of limits -->")
-    if not end:
-        raise ValueError("docs/limits.md has no marks for the tables of limits")
     groups = dict.fromkeys(each.group for each in limits.LIMITS)
     tables = (
         f"### {group}\n\n"
@@ -293,7 +294,7 @@ def update_limits() -> str:
         )
         for group in groups
     )
-    return before + start + "\n" + "\n".join(tables) + end + after
+    return replace_tables(FOLDER / "limits.md", "limits", "\n".join(tables))
 
 
 PAGES: dict[str, Any] = {

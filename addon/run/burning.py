@@ -14,6 +14,10 @@ CROSSING = (60.0, 3600.0)  # s
 # m, cell size from which `CROSSING` is the least crossing time; s, the least on the finest cells
 _COARSE, _QUICK = 60.0, 2.0
 _WIND_STEP = 600.0  # s between wind samples
+CROWN_FIRE_FLUX = 3.0e5
+"""W/m2, heat flux of an intense flame front: crown fires reach 200 to 300 kW/m2 (Butler et al. 2004, doi
+10.1139/x04-060).
+"""
 
 Array = NDArray[np.float64]
 

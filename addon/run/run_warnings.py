@@ -11,14 +11,18 @@ _GAPS = "heat_flux has no value"
 
 
 def texts(run: Run) -> list[str]:
-    """List all warnings about a run, without those of its energy (`released.warnings`)."""
-    return [*(text + _first_gap(run, text) for text in run.warnings), *_single_cell(run)]
+    """List all warnings about a run; `released.warnings` has the ones about its energy."""
+    return [*_of_values(run), *_single_cell(run)]
 
 
 def of_fire(run: Run) -> list[str]:
     """List the warnings that concern a run's fire: gaps of its heat flux, and an assumed cell size."""
     run.flux_range()  # reads all fluxes once
-    return [text for text in texts(run) if text.startswith("heat_flux") or text in _single_cell(run)]
+    return [*(text for text in _of_values(run) if text.startswith("heat_flux")), *_single_cell(run)]
+
+
+def _of_values(run: Run) -> list[str]:
+    return [text + _first_gap(run, text) for text in run.warnings]
 
 
 def _first_gap(run: Run, text: str) -> str:

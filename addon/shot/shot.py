@@ -319,7 +319,7 @@ class Shot:
         """Warnings about the scene file, the run's fire, its smoke, and the camera paths."""
         smoke = self.settings.smoke
         cell = max(burning.fuel_cell(self.run))
-        solved = smoke.enabled and SMOKE_METHODS[smoke.method].history == "spin_up"
+        solved = smoke.enabled and SMOKE_METHODS[smoke.method].solved
         coarse = smoke_scale.warnings(self.scale, cell) if solved else []
         return [
             *self.settings.notes,

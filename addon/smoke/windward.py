@@ -21,10 +21,8 @@ from ..shot.terrain import noise
 LEAN = 0.8  # shift downwind of rising smoke over its height (flames of a running front lean by 40 degrees)
 HEIGHT = 200.0  # m, height at which the cells spread smoke no wider than the plume is; scales with the cells
 LEVELS = 2  # lowest levels whose mean age tells where smoke comes from
-_WIDTH, _TRAIL = (
-    0.12,
-    0.75,
-)  # cells: half-width of a source, and length over which smoke thins downwind (by eye)
+# cells, half-width of a source, and length over which smoke thins downwind (by eye)
+_WIDTH, _TRAIL = 0.12, 0.75
 _SPREAD = 1.0  # cells, standard deviation by which the flow and its interpolation spread smoke (assumed)
 _BACKGROUND = 0.02  # smoke of other origin, relative to the densest
 _LIMITS = -5.0, 1.2  # logarithm of the factor on smoke

@@ -298,7 +298,7 @@ Detail::Brush::Painted Detail::Brush::paint(std::size_t n, float raise) const {
   const float inside = std::clamp(position, 0.0F, 1.0F);
   const float gain = lerp(soft_gain, crisp_gain, v);
   const float veil = lerp(
-      dense(held, gain * inside * inside * (3.0F - 2.0F * inside)),
+      dense(held, gain * smoothstep(0.0F, 1.0F, position)),
       dense(veiled, veil_gain * (1.0F - solid) * smoothstep(soft_cut[0], soft_cut[1], veiled)), v);
   const float rooted = lerp(
       root, 1.0F,

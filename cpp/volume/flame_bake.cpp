@@ -16,7 +16,6 @@ namespace {
 
 constexpr int leaf_edge = static_cast<int>(leaf_side);
 static_assert(lane_count == leaf_side);
-constexpr float below_map = 2.0F;      // m below the map's ground, where drawn ground may be lower
 constexpr float least_flame = 1.0e-3F; // 1/m, extinction below which a voxel is not active
 
 struct FlamePoints {
@@ -80,12 +79,11 @@ public:
     return burning;
   }
 
-  /// Returns the leaves with flames above a leaf's column of ground.
-  Leaves column(int east, int north) const {
-    Leaves found;
+  /// Adds the leaves with flames above a leaf's column of ground.
+  void add_column(int east, int north, Leaves& found) const {
     const auto [low, high] = heights(east, north);
     if (!(low < high)) {
-      return found;
+      return;
     }
     const int first = leaf_number(low, voxel_), last = leaf_number(high, voxel_);
     for (int up = first; up <= last; ++up) {
@@ -103,7 +101,6 @@ public:
         found.add(origin, mask);
       }
     }
-    return found;
   }
 
 private:
@@ -124,7 +121,7 @@ private:
         Lanes ground;
         flames_.tiles().ground(Lanes{} + across, Lanes{} + along, ground);
         if (ground[0] > FlameTiles::none) {
-          low = std::min(low, ground[0] - below_map);
+          low = std::min(low, ground[0] - FlameField::below_ground);
           high = std::max(high, tile.top);
         }
       }
@@ -154,10 +151,7 @@ Leaves burning_leaves(const FlameVolume& flames, const FlameVoxels& voxels, doub
   std::vector<Leaves> by_row(rows);
   tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t row) {
     for (int north = low[1]; north < high[1]; ++north) {
-      const Leaves found = voxels.column(low[0] + static_cast<int>(row), north);
-      for (std::size_t n = 0; n < found.size(); ++n) {
-        by_row[row].add(found.origins[n], found.masks[n]);
-      }
+      voxels.add_column(low[0] + static_cast<int>(row), north, by_row[row]);
     }
   });
   Leaves all;

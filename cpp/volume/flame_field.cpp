@@ -21,7 +21,6 @@ constexpr float reach = 3.0F;        // m by which eddies move flames up
 constexpr float folds = 1.0F;        // thinness of the bright sheets within flames
 constexpr float sheets = 0.9F;       // share of the soot in them
 constexpr float slow = 2.0F;         // m, height below which gas may be as slow as at the ground
-constexpr float below_ground = 2.0F; // m below the map's ground, where drawn ground may be lower
 constexpr double octave_turn = 2.4;  // radians between the lattices of octaves
 constexpr double drawn_out = 2.2;    // height over width of eddies
 constexpr std::array<double, FlameField::sways> sway_sizes{7.5, 2.4, 0.8}; // m

@@ -50,6 +50,8 @@ struct FlameShares {
 class FlameField {
 public:
   static constexpr std::size_t octaves = 9, bands = 9, sways = 3;
+  static constexpr float below_ground =
+      2.0F; ///< m below the map's ground, where drawn ground may be lower
 
   FlameField(const FlameTiles& tiles, const FlameShape& shape, const Vector& origin, double time);
 

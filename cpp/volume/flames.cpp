@@ -1,5 +1,7 @@
 #include "volume/flames.hpp"
 
+#include "base/smoothstep.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -44,9 +46,8 @@ std::array<float, 2> FlameVolume::scale(float length) const {
 }
 
 float FlameView::share(float away) const {
-  const float part = std::clamp((away - fade[0]) / (fade[1] - fade[0]), 0.0F, 1.0F);
   const float lens = std::clamp((away - at_lens[0]) / (at_lens[1] - at_lens[0]), 0.0F, 1.0F);
-  return lens * (1.0F - part * part * (3.0F - 2.0F * part));
+  return lens * (1.0F - smoothstep(fade[0], fade[1], away));
 }
 
 float BandRadiance::at(float kelvin) const {

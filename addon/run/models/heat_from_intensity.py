@@ -14,14 +14,13 @@ from firetwin_core import constants
 from numpy.typing import NDArray
 
 from ...errors import Error
+from .. import burning
 
 _STEPS = (1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 10800, 21600, 43200, 86400)
 _FRAMES = 300
 _MOST = 20_000
-FRONT_HEAT = 3.0e5 * 120.0
-"""J/m2, heat of a front of 300 kW/m2 (crown fires: Butler et al. 2004, doi 10.1139/x04-060) during 120 s, the
-residence time of flames in timber.
-"""
+FRONT_HEAT = burning.CROWN_FIRE_FLUX * 120.0
+"""J/m2, heat of an intense front during 120 s, the residence time of flames in timber."""
 _OUTLIER = 3.0  # times the median of the neighbourhood (chosen on fires with known fuel)
 
 

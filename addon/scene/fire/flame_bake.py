@@ -28,9 +28,8 @@ from ...smoke import cache
 from .. import flame_field, infrared
 from . import flame_volume, flames
 
-_INFRARED = (
-    0.4  # infrared over visible extinction, between flame lengths of 1 and 20 m (see flame_volume.SCALES)
-)
+# infrared extinction over visible, between flame lengths of 1 and 20 m (see flame_volume.SCALES)
+_INFRARED = 0.4
 _THIN = 1.0e-3  # 1/m, extinction below which Cycles skips a voxel
 
 

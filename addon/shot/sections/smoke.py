@@ -9,15 +9,24 @@ from ..schema import key
 
 
 class SmokeMethod(NamedTuple):
-    """A choice of `smoke.method`: help, and the key with the history that it needs before the first frame."""
+    """A choice of `smoke.method`.
+
+    Attributes
+    ----------
+    history
+        Key with the history that it needs before the first frame.
+    solved
+        True if the flow of the air is solved on cells.
+    """
 
     help: str
     history: str
+    solved: bool
 
 
 SMOKE_METHODS = {
-    "flow": SmokeMethod("flow solved once per shot", "spin_up"),
-    "puffs": SmokeMethod("quick preview", "max_age"),
+    "flow": SmokeMethod("flow solved once per shot", "spin_up", solved=True),
+    "puffs": SmokeMethod("quick preview", "max_age", solved=False),
 }
 """The sources of smoke that a scene file can choose; the sources themselves are in ``smoke/sources``."""
 

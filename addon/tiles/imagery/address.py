@@ -127,12 +127,8 @@ def _check_variable(variable: str, policy: policies.Policy, name: str) -> None:
     """
     if variable == policy.key_variable or variable.startswith(limits.KEY_PREFIX):
         return
-    allowed = (
-        f"{limits.KEY_PREFIX}* are sent"
-        if not policy.key_variable
-        else (f"{limits.KEY_PREFIX}* and {policy.key_variable} are sent")
-    )
-    reason = f"asks for the environment variable {variable}; only {allowed} to this host"
+    allowed = " and ".join(filter(None, (f"{limits.KEY_PREFIX}*", policy.key_variable)))
+    reason = f"asks for the environment variable {variable}; only {allowed} are sent to this host"
     raise input_error(name, f"{reason}: set {limits.KEY_PREFIX}NAME and name it in the URL")
 
 

@@ -6,10 +6,10 @@ import logging
 import re
 from urllib.parse import parse_qsl, urlencode, urlsplit, urlunsplit
 
-from ...escaped import HIDDEN, SECRETS, without_secrets
+from ...escaped import ANY_SECRET, HIDDEN, SECRETS, without_secrets
 
 _NAMED = re.compile(
-    rf"(?i)\b({'|'.join(map(re.escape, sorted(SECRETS, key=len, reverse=True)))})"
+    rf"(?i)\b({ANY_SECRET})"
     r"""(["']?\s*[=:]\s*["']?)[^&\s"'#<>,;}]+"""
 )
 _BEARER = re.compile(r"(?i)\b(bearer\s+)[^\s\"',;]+")
