@@ -21,6 +21,7 @@ UP = np.array([0.0, 0.0, 1.0])
 _NEAREST = 0.5  # m
 _HIGHEST_AIR = 20_000.0  # m, above any smoke
 _HIGHEST = 1500.0  # m, limit to which a camera is raised to see over a ridge
+_FFT_REACH = 500  # values, half a window from which the mean is taken by FFT
 _RIDGE_SAMPLES = 600  # frames at most that are tested for ridges
 
 Array = NDArray[np.float64]
@@ -163,10 +164,27 @@ def hidden(ground: Terrain, position: Array, target: Array, margin: float = 40.0
 def eased(short: Array) -> Array:
     """Smooth height offsets (frames,), at least `short`, that ease over a sixth of the shot."""
     reach = max(len(short) // 12, 1)
-    padded = np.pad(short, 2 * reach, "edge")
-    highest = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1).max(1)
+    return hann_mean(_moving_maximum(np.pad(short, 2 * reach, "edge"), 2 * reach + 1), reach)
+
+
+def hann_mean(values: Array, reach: int) -> Array:
+    """Return the moving average (n - 2 reach,) of values (n,) under a Hann window of 2 reach + 1 values."""
     window = np.hanning(2 * reach + 3)[1:-1]
-    return np.convolve(highest, window / window.sum(), "valid")
+    window /= window.sum()
+    if reach < _FFT_REACH:
+        return np.convolve(values, window, "valid")
+    spectrum = np.fft.rfft(values) * np.fft.rfft(window, len(values))
+    return np.fft.irfft(spectrum, len(values))[2 * reach :]  # the first values wrap around
+
+
+def _moving_maximum(values: Array, width: int) -> Array:
+    """Return the maximum (n - width + 1,) of every `width` neighbours of values (n,)."""
+    span = 1
+    while 2 * span <= width:
+        values = np.maximum(values[:-span], values[span:])
+        span *= 2
+    rest = width - span
+    return np.maximum(values[: len(values) - rest], values[rest:])
 
 
 def blend(at: Array, aims: Array, moments: Array) -> Array:

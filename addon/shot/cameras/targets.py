@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ...run import extent
 from ..terrain.terrain import NEVER, UNKNOWN, Terrain, box
+from .path import hann_mean
 
 Array = NDArray[np.float64]
 
@@ -85,8 +86,7 @@ def ignition(ground: Terrain) -> tuple[float, float]:
 def smoothed(values: Array) -> Array:
     """Return the moving average over a fifth of the shot; the ends are continued."""
     reach = max(len(values) // 10, 1)
-    window = np.hanning(2 * reach + 3)[1:-1]
-    return np.convolve(np.pad(values, reach, "edge"), window / window.sum(), "valid")
+    return hann_mean(np.pad(values, reach, "edge"), reach)
 
 
 def _burned(ground: Terrain) -> tuple[Array, Array, Array, Array]:
