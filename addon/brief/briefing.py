@@ -151,7 +151,7 @@ def gather(request: Request) -> Briefing:
         layers=layers.draw(run, elevation.fuel, clock),
         fronts=lines,
         tolerance=tolerance,
-        points=_points(run, settings, station_file),
+        points=_points(run, settings, station_file, clock, _arrival_error(scores)),
         station_file=station_file,
         film=shown,
         observed=[p for p in seen.perimeters if run.times[0] <= times.seconds(run, p.time) <= run.times[-1]],
@@ -171,13 +171,15 @@ def _hashes(run: Run) -> dict[str, str]:
     }  # the name of a run can change
 
 
-def _points(run: Run, settings: Settings | None, station_file: StationFile | None) -> list[Point]:
+def _points(
+    run: Run, settings: Settings | None, station_file: StationFile | None, clock: str, error: float | None
+) -> list[Point]:
     """List stations, then named places within the grid, with the arrival of the fire at each."""
     file = settings.labels.file if settings else None
     towns = labels.read(file) if file else labels.known(run)
     by_name = sorted(station_file.stations, key=lambda each: (each.title, each.id)) if station_file else ()
     spots: list[Station | Label] = [*by_name, *towns]
-    found = reached.find(run, [s.latitude for s in spots], [s.longitude for s in spots])
+    found = reached.find(run, [s.latitude for s in spots], [s.longitude for s in spots], clock, error)
     middle = 0.5 * float(run.longitude[0] + run.longitude[-1])
     return [
         Point(
@@ -188,6 +190,12 @@ def _points(run: Run, settings: Settings | None, station_file: StationFile | Non
         for k, (spot, how) in enumerate(zip(spots, found, strict=True))
         if isinstance(spot, Station) or how.state != "outside"
     ]  # fmt: skip
+
+
+def _arrival_error(scores: dict[str, Any] | None) -> float | None:
+    """Return the mean absolute error of arrival times against observations, s; None: unknown."""
+    errors = (scores or {}).get("arrival")
+    return errors["mae"] if errors else None
 
 
 def _open(scene: Path) -> tuple[Run, Settings | None, Elevation]:

@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator, Sequence
 
-from ..run import times
 from ..stations.describe import degrees, web_map_address
 from ..stations.records import EXERCISE, Resource, Station
 from ..stations.station_file import StationFile
 from . import facts
 from .briefing import Briefing, Point
-from .reached import Reached
 from .text import quote
 
 _FIRE = (
     ("", "any"),
     ("now", "reached by the time shown"),
     ("reached", "reached during the run"),
-    ("never", "not reached"),
+    ("not_reached", "not reached"),
 )
 
 
@@ -40,28 +37,6 @@ def section(briefing: Briefing) -> str:
             f"</div>{_METHOD}</section>",
         )
     )
-
-
-def reach_text(briefing: Briefing, reached: Reached) -> tuple[str, str]:
-    """Format the arrival time at a place and a note: UTC and range, or the nearest distance."""
-    run, zone = briefing.run, briefing.zone
-    if reached.span is not None:
-        moment, earliest, latest = (times.utc(run, time) for time in reached.span)
-        between = f"between {earliest:%d %b %H:%M} and {latest:%d %b %H:%M}"
-        return times.text(moment, zone), f"{moment:%d %b %H:%M} UTC, {between}"
-    if reached.state == "before":
-        return "before the run", f"by {briefing.moments[0]}"
-    if reached.state == "outside":
-        return "unknown", "outside the grid of the run"
-    near = "" if reached.distance is None else f"; nearest fire {distance(reached.distance)} away"
-    return "not reached", f"by {briefing.moments[-1]}{near}"
-
-
-def distance(metres: float) -> str:
-    """Format a distance in km and miles with about two digits."""
-    km = metres / 1000.0
-    digits = max(0, min(2, 1 - math.floor(math.log10(max(km, 0.1)))))
-    return f"{km:.{digits}f} km ({km / 1.609344:.{digits}f} mi)"
 
 
 def _warning(briefing: Briefing) -> Iterator[str]:
@@ -163,8 +138,8 @@ def _button(point: Point) -> str:
 
 
 def _when(briefing: Briefing, point: Point) -> str:
-    when, note = reach_text(briefing, point.reached)
-    return f'<span class="when">{quote(when)}</span><small>{quote(note)}</small>'
+    text = point.reached.text
+    return f'<span class="when">{quote(text.headline)}</span><small>{quote(text.note)}</small>'
 
 
 def _origin(origin: str, source: str) -> str:
@@ -184,6 +159,7 @@ def _web_map(point: Point) -> str:
 
 _METHOD = (
     '<p class="soft">The arrival time at a place is interpolated between the centres of the four surrounding '
-    "fuel cells, whose times also give the range. A place in a cell without fuel is listed as not reached, "
-    "even if fire surrounds it: note the distance. The simulated fire is not affected by suppression.</p>"
+    "fuel cells. A place in a cell without fuel does not burn in a model: its row has the closest approach "
+    "of the fire, to the centre of the nearest cell that burns. Suppression does not affect the simulated "
+    "fire.</p>"
 )

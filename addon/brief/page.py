@@ -169,6 +169,6 @@ def _point(briefing: Briefing, point: Point) -> dict[str, Any]:
         "longitude": round(point.longitude, 6),
         "state": reached.state,
         "time": None if reached.time is None else times.iso(times.utc(briefing.run, reached.time)),
-        "text": ", ".join(lists.reach_text(briefing, reached)),
+        "text": str(reached.text),
         "exercise": point.station is not None and "exercise" in briefing.origins(point.station),
     }

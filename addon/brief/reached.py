@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -9,13 +10,14 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import ArrayLike
 
-from ..stations import fire_arrival
+from ..stations import arrival_text, fire_arrival
+from ..stations.arrival_text import ArrivalText
 
-State = Literal["reached", "before", "never", "outside"]
+State = Literal["reached", "before", "not_reached", "outside"]
 _STATES: dict[int, State] = {
     fire_arrival.REACHED: "reached",
     fire_arrival.BEFORE: "before",
-    fire_arrival.NEVER: "never",
+    fire_arrival.NOT_REACHED: "not_reached",
     fire_arrival.OUTSIDE: "outside",
 }
 
@@ -27,37 +29,53 @@ class Reached:
     Attributes
     ----------
     state
-        "reached" during the run; "before" its first time; "never" until its last; "outside" the grid.
-    span
-        Model times (s) for "reached", otherwise None: arrival time, earliest and latest (see
-        `fire_arrival.Arrivals`).
+        "reached" during the run; "before" its first time; "not_reached" until its last; "outside" the grid.
+    text
+        Its wording.
+    time
+        Model time (s) for "reached", otherwise None.
     distance
-        For "never", the distance to the nearest burning cell, m; None for other states, or without fire.
+        For "not_reached", the distance to the nearest burning cell, m; otherwise, or without fire, None.
     """
 
     state: State
-    span: tuple[float, float, float] | None = None
+    text: ArrivalText
+    time: float | None = None
     distance: float | None = None
 
-    @property
-    def time(self) -> float | None:
-        """Model time (s) for "reached", otherwise None."""
-        return self.span[0] if self.span else None
 
+def find(
+    run: Run, latitude: ArrayLike, longitude: ArrayLike, zone: str, error: float | None = None
+) -> list[Reached]:
+    """Find the arrival of the fire at places (n,), degrees north and east.
 
-def find(run: Run, latitude: ArrayLike, longitude: ArrayLike) -> list[Reached]:
-    """Find the arrival of the fire at places (n,), degrees north and east."""
+    Parameters
+    ----------
+    zone
+        Time zone of the texts.
+    error
+        Mean absolute error of arrival times against observations, s; None: unknown.
+    """
     latitude, longitude = (np.atleast_1d(np.asarray(each, np.float64)) for each in (latitude, longitude))
     if not latitude.size:
         return []
-    found = fire_arrival.sample(run, latitude, longitude, until=float(run.times[-1]))
-    return [_reached(found, index) for index in range(len(latitude))]
+    found = fire_arrival.sample(run, latitude, longitude)
+    return [_reached(run, found, index, zone, error) for index in range(len(latitude))]
 
 
-def _reached(found: fire_arrival.Arrivals, index: int) -> Reached:
+def _reached(run: Run, found: fire_arrival.Arrivals, index: int, zone: str, error: float | None) -> Reached:
     state = _STATES[int(found.state[index])]
-    if state == "reached":
-        time, earliest, latest = (float(each[index]) for each in (found.time, found.earliest, found.latest))
-        return Reached(state, (time, earliest, latest))
     away = 1000.0 * float(found.nearest_km[index])
-    return Reached(state, None, away if state == "never" and np.isfinite(away) else None)
+    return Reached(
+        state,
+        arrival_text.describe(run, found, index, zone, distance, error),
+        float(found.time[index]) if state == "reached" else None,
+        away if state == "not_reached" and np.isfinite(away) else None,
+    )
+
+
+def distance(metres: float) -> str:
+    """Format a distance in metric units and miles, with about two digits."""
+    miles = metres / 1609.344
+    digits = max(0, min(2, 1 - math.floor(math.log10(max(miles, 0.1)))))
+    return f"{arrival_text.format_distance(metres)} ({miles:.{digits}f} mi)"

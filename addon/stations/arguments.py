@@ -36,8 +36,8 @@ time.
 With --tonnes-per-hour the result is the cheapest set that delivers this much; the exit status is 1 if there
 is no such set within --budget. With --budget only, the result is the earliest resources that the budget pays
 for. Units and assumptions are printed. With --run the list gives the time at which the fire reaches each
-station, with the earliest and latest time, or its closest approach. For a file without resources the stations
-are listed, as with --stations."""
+station, or the closest approach of the fire. For a file without resources the stations are listed, as with
+--stations."""
 
 _LENGTHS = {"": 1.0, "km": 1.0, "m": 0.001, "mi": 1.609344}
 

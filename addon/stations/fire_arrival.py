@@ -21,9 +21,9 @@ from .distance import distance_km
 
 Array = NDArray[np.float64]
 
-OUTSIDE, NEVER, BEFORE, REACHED = range(4)
-STATES = ("outside of the run", "never", "burned before the run", "reached")
-"""States of a point; "never" holds until the end of the run."""
+OUTSIDE, NOT_REACHED, BEFORE, REACHED = range(4)
+STATES = ("outside of the run", "not reached", "burned before the run", "reached")
+"""States of a point; "not reached" holds until the end of the run."""
 
 ARRIVAL_FIELD = "fuel_arrival_time"
 
@@ -63,16 +63,6 @@ class Arrivals:
         )
         return first, second, third
 
-    def format_arrival(self, run: Run, index: int, zone: str) -> str:
-        """Format the time of a point; without arrival, its state, and the closest approach of the fire."""
-        state, near = int(self.state[index]), float(self.nearest_km[index])
-        there = float(self.nearest_time[index])
-        moment = "" if np.isnan(there) else times.text(times.utc(run, there), zone)
-        if state == REACHED:
-            return moment
-        far = "" if state == BEFORE or not moment else f"; at {near:.1f} km {moment}"
-        return STATES[state] + far
-
 
 def sample(run: Run, latitude: ArrayLike, longitude: ArrayLike, until: float | None = None) -> Arrivals:
     """Sample the arrival of a run's fire at points (n,), degrees north and east.
@@ -84,8 +74,7 @@ def sample(run: Run, latitude: ArrayLike, longitude: ArrayLike, until: float | N
     """
     cells = ArrivalGrid.from_run(run)
     grid = _Corners.from_reach(front.reach(run), latitude, longitude)
-    last = float(run.times[-1])
-    end = max(last, float(np.nanmax(grid.field, initial=last))) if until is None else until
+    end = float(run.times[-1]) if until is None else until
     since = bilinear(fill_unburned(grid.field - end), grid.row, grid.column)
     burned = grid.inside & (since <= 0.0) & np.isfinite(grid.time)
     time = np.where(burned, grid.time, np.nan)
@@ -93,7 +82,7 @@ def sample(run: Run, latitude: ArrayLike, longitude: ArrayLike, until: float | N
     if not run.has(ARRIVAL_FIELD):
         earliest, latest = _widen_to_model(run, latitude, longitude, earliest, latest)
     latest = np.where(grid.stops, np.maximum(latest, end), latest)
-    state = np.where(burned, np.where(time < run.times[0], BEFORE, REACHED), NEVER)
+    state = np.where(burned, np.where(time < run.times[0], BEFORE, REACHED), NOT_REACHED)
     near, near_time = _nearest(cells, latitude, longitude, ~burned, end)
     return Arrivals(
         np.where(grid.inside, state, OUTSIDE),
@@ -103,15 +92,6 @@ def sample(run: Run, latitude: ArrayLike, longitude: ArrayLike, until: float | N
         np.where(burned, 0.0, near),
         np.where(burned, time, near_time),
     )
-
-
-def format_arrival(run: Run, arrivals: Arrivals, index: int) -> str:
-    """Format the arrival at a point with its bounds."""
-    found = arrivals.format_arrival(run, index, zone.time_zone(run))
-    if arrivals.state[index] != REACHED:
-        return found
-    bounds = (format_time(run, float(each[index])) for each in (arrivals.earliest, arrivals.latest))
-    return f"{found} ({' to '.join(bounds)})"
 
 
 def format_time(run: Run, seconds: float) -> str:

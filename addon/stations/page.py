@@ -14,8 +14,8 @@ from firetwin_core.run import Run
 
 from ..escaped import escaped
 from ..progress import count
-from ..run import times
-from . import fire_arrival, search, station_search
+from ..run import times, zone
+from . import arrival_text, fire_arrival, search, station_search
 from .query import Query
 from .records import EXERCISE, Source
 from .station_file import StationFile
@@ -95,10 +95,13 @@ class Answer:
                 f"{query.turnaround_min:g} min to fill and discharge",
             ]
         if self.run is not None:
-            lines.append(f"fire: run {self.run.name}, until {self._text(float(self.run.times[-1]))}")
+            first, last = (self._text(float(self.run.times[k])) for k in (0, -1))
+            lines.append(f"fire: run {self.run.name}, {first} to {last}")
+            lines.append(f"fire: times {arrival_text.format_resolution(self.run)}")
             if not self.run.has(fire_arrival.ARRIVAL_FIELD):
                 lines.append(
-                    "fire: times are estimated from heat fluxes; ground burned before the run counts as never"
+                    "fire: times are estimated from heat fluxes; ground burned before the run counts as not "
+                    "reached"
                 )
         return lines
 
@@ -161,7 +164,7 @@ class Answer:
         return text + (f", {found.tonnes_per_hour:.1f} t/h" if found.matches else "")
 
     def _row(self, index: int, match: search.Match | station_search.StationMatch) -> list[str]:
-        fire = [self._fire_text(index)] if self.run else []
+        fire = [self._arrival_text(index).headline] if self.run else []
         if isinstance(match, station_search.StationMatch):
             return [_number(match.distance_km, 1), match.station.origin, escaped(match.station.name), *fire]
         each = match.resource
@@ -172,23 +175,27 @@ class Answer:
         ]  # fmt: skip
 
     def _fire(self, index: int) -> dict[str, Any]:
-        """Return the arrival of the fire at a match: state, and time, earliest and latest time in UTC."""
+        """Return the arrival of the fire at a match: state, text, closest approach, and times in UTC.
+
+        The times of the surrounding cells limit the interpolation; they are not a forecast's uncertainty.
+        """
         arrivals, run = self.arrivals, self.run
         assert arrivals is not None and run is not None  # noqa: PT018
         known = arrivals.utc(run, index)
-        names = ("time", "earliest", "latest")
+        names = ("time", "earliest_cell", "latest_cell")
         near = float(arrivals.nearest_km[index])
         there = None if np.isnan(near) else times.utc(run, float(arrivals.nearest_time[index]))
         return {
             "state": fire_arrival.STATES[arrivals.state[index]],
+            "text": str(self._arrival_text(index)),
             "nearest_km": None if there is None else near,
             "nearest_time": None if there is None else times.iso(there),
         } | {name: None if known is None else times.iso(known[k]) for k, name in enumerate(names)}
 
-    def _fire_text(self, index: int) -> str:
+    def _arrival_text(self, index: int) -> arrival_text.ArrivalText:
         arrivals, run = self.arrivals, self.run
         assert arrivals is not None and run is not None  # noqa: PT018
-        return fire_arrival.format_arrival(run, arrivals, index)
+        return arrival_text.describe(run, arrivals, index, zone.time_zone(run))
 
     def _text(self, seconds: float) -> str:
         assert self.run is not None

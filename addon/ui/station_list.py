@@ -12,7 +12,8 @@ import bpy
 
 from ..errors import Error
 from ..progress import count
-from ..stations import fire_arrival, listing
+from ..run import zone
+from ..stations import arrival_text, listing
 from ..stations.listing import Row
 from ..stations.query import Query
 from ..stations.records import Station
@@ -106,9 +107,8 @@ def describe(panel: bpy.types.PropertyGroup) -> None:
         return
     lines = listing.facts(loaded.station_file, station)
     if loaded.run is not None and loaded.arrivals is not None:
-        reached = fire_arrival.format_arrival(
-            loaded.run, loaded.arrivals, loaded.station_file.station_row[station.id]
-        )
+        row, clock = loaded.station_file.station_row[station.id], zone.time_zone(loaded.run)
+        reached = str(arrival_text.describe(loaded.run, loaded.arrivals, row, clock))
         marked = not lines[-1][0]  # the label of an exercise comes last
         lines.insert(len(lines) - marked, ("Fire", reached))
     _detail = now, Detail(station, lines)

@@ -90,10 +90,10 @@ def compare_arrivals(folder: Path, copy: Path) -> None:
     print(f"  mean absolute error {np.abs(error).mean():.0f} min, bias {error.mean():+.1f} min")
     print(f"  between earliest and latest: {100.0 * within.mean():.0f} %; median width {wide:.0f} min")
     print(f"  median width with fuel_arrival_time {narrow:.0f} min")
-    missed = (true.state == fire_arrival.REACHED) & (found.state == fire_arrival.NEVER)
-    added = (true.state == fire_arrival.NEVER) & (found.state == fire_arrival.REACHED)
+    missed = (true.state == fire_arrival.REACHED) & (found.state == fire_arrival.NOT_REACHED)
+    added = (true.state == fire_arrival.NOT_REACHED) & (found.state == fire_arrival.REACHED)
     print(f"  reached, but never by fluxes: {missed.sum():,}; never, but reached by fluxes: {added.sum():,}")
-    never = before & (found.state == fire_arrival.NEVER)
+    never = before & (found.state == fire_arrival.NOT_REACHED)
     print(f"  burned before the run: {before.sum():,}, never by fluxes: {never.sum():,}")
 
 

@@ -232,7 +232,7 @@ def test_search_and_filters_find_stations(opened):
     opened.find_element(By.ID, "slider").send_keys(Keys.HOME)
     early = shown(opened)
     assert set(early) < set(late)
-    selects["fire"].select_by_value("never")
+    selects["fire"].select_by_value("not_reached")
     assert not set(shown(opened)) & set(late)
 
 

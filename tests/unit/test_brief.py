@@ -12,7 +12,7 @@ import pytest
 import small_stations
 import whole_run
 from firetwin import cli
-from firetwin.brief import arguments, briefing, curve, facts, film, lists, page, reached, sections, text
+from firetwin.brief import arguments, briefing, curve, facts, film, page, reached, sections, text
 from firetwin.data import history
 from firetwin.errors import InputError, UsageError
 from firetwin.render import manifest
@@ -217,11 +217,12 @@ def test_the_fire_reaches_a_place_between_the_times_of_the_cells_around(folder):
     latitude, longitude = run.fuel_latitude[row], run.fuel_longitude[column]
     never_row, never_column = np.argwhere(np.isnan(arrival))[0]
     far = float(run.fuel_latitude[never_row]), float(run.fuel_longitude[never_column])
-    found = reached.find(run, [latitude + 1e-4, *far[:1], 10.0], [longitude - 1e-4 + 360.0, far[1], 10.0])
-    assert [each.state for each in found] == ["reached", "never", "outside"]
+    found = reached.find(
+        run, [latitude + 1e-4, *far[:1], 10.0], [longitude - 1e-4 + 360.0, far[1], 10.0], "UTC"
+    )
+    assert [each.state for each in found] == ["reached", "not_reached", "outside"]
     sampled = fire_arrival.sample(run, [latitude + 1e-4], [longitude - 1e-4])
-    assert found[0].span == (sampled.time[0], sampled.earliest[0], sampled.latest[0])
-    assert found[0].span[1] <= found[0].time <= found[0].span[2]
+    assert found[0].time == sampled.time[0]
     burned = np.argwhere(np.isfinite(arrival))
     metres = whole_run.areas.metres_per_degree(38.9)
     away = np.hypot(
@@ -240,8 +241,8 @@ def test_places_burned_before_the_run_began_are_told(folder):
         def __getattr__(self, name):
             return getattr(run, name)
 
-    (found,) = reached.find(Later(), [38.9], [-120.6])
-    assert found == reached.Reached("before")
+    (found,) = reached.find(Later(), [38.9], [-120.6], "UTC")
+    assert (found.state, found.text.headline, found.time) == ("before", "burned before the run", None)
 
 
 def test_what_a_list_says_of_a_place(folder, gpkg):
@@ -249,11 +250,12 @@ def test_what_a_list_says_of_a_place(folder, gpkg):
     states = {point["name"]: (point["state"], point["text"]) for point in made.data["points"]}
     assert states["Alpha"][0] == "reached"
     moment = r"17 Sep 04:\d\d"
-    told = rf"16 Sep 2014 20:\d\d -08, {moment} UTC, between {moment} and {moment}"
+    told = rf"16 Sep 2014 20:\d\d -08, {moment} UTC, at the model's cell of \d+ m"
     assert re.fullmatch(told, states["Alpha"][1])
-    assert states["Far"] == ("outside", "unknown, outside the grid of the run")
-    assert lists.distance(140.0) == "0.14 km (0.09 mi)"
-    assert lists.distance(14_000.0) == "14 km (9 mi)"
+    assert states["Far"][0] == "outside"
+    assert states["Far"][1].startswith("outside the run, nearest fire ")
+    assert reached.distance(140.0) == "140 m (0.09 mi)"
+    assert reached.distance(14_000.0) == "14 km (8.7 mi)"
 
 
 def test_named_places_of_a_known_fire_come_without_a_file(make_run):
@@ -387,8 +389,8 @@ def test_what_burns_after_the_run_ends_is_never_reached_in_it(folder):
     arrival = run.fuel_arrival_time()
     late = np.argwhere(arrival > run.times[4])[0]
     at = [run.fuel_latitude[late[0]]], [run.fuel_longitude[late[1]]]
-    (whole,), (short,) = reached.find(run, *at), reached.find(Shorter(), *at)
-    assert (whole.state, short.state) == ("reached", "never")
+    (whole,), (short,) = reached.find(run, *at, "UTC"), reached.find(Shorter(), *at, "UTC")
+    assert (whole.state, short.state) == ("reached", "not_reached")
     assert short.distance > 60.0
 
 

@@ -63,9 +63,9 @@ def test_a_sign_says_when_the_fire_reaches_it_where_that_is_asked_for(shot_of):
     shot = shot_of(show=("fire",))
     fact, base = station_signs.make_signs(shot)
     found = fire_arrival.sample(shot.run, [fact.latitude, base.latitude], [fact.longitude, base.longitude])
-    assert found.state.tolist() == [fire_arrival.REACHED, fire_arrival.NEVER]
+    assert found.state.tolist() == [fire_arrival.REACHED, fire_arrival.NOT_REACHED]
     assert fact.lines == (f"fire: {times.text(found.utc(shot.run, 0)[0], shot.settings.time.zone)}",)
-    assert base.lines[0].startswith("fire: never; at ")
+    assert base.lines[0].startswith(("fire: within ", "fire: not reached, nearest fire "))
     assert base.lines[1:] == (EXERCISE,)
 
 

@@ -30,7 +30,9 @@ def test_at_the_centres_of_cells_the_times_are_the_runs_own(burning):
     assert (
         found.state
         == np.where(
-            np.isnan(own), fire_arrival.NEVER, np.where(own < 0, fire_arrival.BEFORE, fire_arrival.REACHED)
+            np.isnan(own),
+            fire_arrival.NOT_REACHED,
+            np.where(own < 0, fire_arrival.BEFORE, fire_arrival.REACHED),
         )
     ).all()
 
@@ -102,7 +104,7 @@ def test_a_run_without_fire_reaches_nothing(make_run):
     run = runs.open(make_run(heat_flux=np.zeros_like(small_fields()["heat_flux"])))
     assert fire_arrival.first_burned_point(run) is None
     found = fire_arrival.sample(run, [38.9], [-120.6])
-    assert found.state.tolist() == [fire_arrival.NEVER]
+    assert found.state.tolist() == [fire_arrival.NOT_REACHED]
     assert np.isnan(found.nearest_km[0])
 
 

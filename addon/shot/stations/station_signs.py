@@ -19,7 +19,7 @@ from ...errors import input_error
 from ...run import areas
 from ...run.content import sha256
 from ...run.observations import Detections, Feature, features
-from ...stations import fire_arrival, measures, reading
+from ...stations import arrival_text, fire_arrival, measures, reading
 from ...stations.describe import count_types
 from ...stations.records import EXERCISE, ORIGINS, Resource, Station
 from ...stations.station_file import StationFile
@@ -206,7 +206,8 @@ def _fire(shot: Shot, here: Sequence[Station]) -> list[str]:
     if "fire" not in shot.settings.stations.show:
         return [""] * len(here)
     found = fire_arrival.sample(shot.run, [each.latitude for each in here], [each.longitude for each in here])
-    return [f"fire: {found.format_arrival(shot.run, k, shot.settings.time.zone)}" for k in range(len(here))]
+    clock = shot.settings.time.zone
+    return [f"fire: {arrival_text.describe(shot.run, found, k, clock).headline}" for k in range(len(here))]
 
 
 def _sign(
