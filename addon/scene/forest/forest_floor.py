@@ -49,23 +49,34 @@ def log(seed: int, level: int) -> Shape:
 
 
 def rock(seed: int, level: int) -> Shape:
-    """Model a boulder: a sphere cut by planes, as joints cut granite; a quarter of it is below ground."""
+    """Model a boulder: a rough ball split along three sets of joints; a quarter of it is below ground."""
     random, shape = np.random.default_rng(seed), Shape()
     points, faces = _ball(_TURNS[level])
-    cuts = random.normal(0.0, 1.0, (9, 3))
-    cuts /= np.linalg.norm(cuts, axis=1, keepdims=True)
-    depth = random.uniform(0.55, 0.85, 9)
-    waves = random.normal(0.0, 2.2, (6, 3))
-    lumps = np.sin(points @ waves.T + random.uniform(0.0, 6.0, 6)).sum(1)
-    points = points * (1.0 + 0.035 * lumps)[:, None]
-    for normal, limit in zip(cuts, depth, strict=True):
-        over = np.maximum(points @ normal - limit, 0.0)
-        points = points - 0.85 * over[:, None] * normal
+    points = points * (1.0 + _lumps(random, points, 2.2, 0.04))[:, None]
+    for normal in _joints(random):
+        over = np.maximum(points @ normal - random.uniform(0.42, 0.90), 0.0)
+        points = points - over[:, None] * normal
+    for frequency, depth in ((9.0, 0.012), (21.0, 0.006)):
+        points = points * (1.0 + _lumps(random, points, frequency, depth))[:, None]
     points *= random.uniform([0.8, 0.6, 0.5], [1.2, 1.0, 0.75])
     low, high = points[:, 2].min(), points[:, 2].max()
     points[:, 2] -= low + 0.25 * (high - low)
     shape.add(points, faces, BARK, _STONE)
     return shape.scaled(float(points[:, 2].max()))
+
+
+def _joints(random: np.random.Generator) -> Array:
+    """Return unit normals (18, 3) of the planes that split granite: three directions and breaks across."""
+    axes = np.linalg.qr(random.normal(size=(3, 3)))[0]
+    sets = np.repeat(np.concatenate([axes, -axes]), 2, axis=0) + random.normal(0.0, 0.16, (12, 3))
+    normals = np.concatenate([sets, random.normal(size=(6, 3))])
+    return normals / np.linalg.norm(normals, axis=1, keepdims=True)
+
+
+def _lumps(random: np.random.Generator, points: Array, frequency: float, depth: float) -> Array:
+    """Return relative heights (n,) of waves in six directions over points (n, 3)."""
+    waves = random.normal(0.0, frequency, (6, 3))
+    return depth * np.sin(points @ waves.T + random.uniform(0.0, 6.0, 6)).sum(1)
 
 
 def tuft(seed: int, level: int, burned: bool = False) -> Shape:

@@ -112,9 +112,10 @@ def rock(shot: Shot, stage: Stage) -> bpy.types.Material:
     tint, age = tree.attribute("tint", "INSTANCER"), _age(tree)
     stone, height = granite.face(tree, position, granite.pixel_size(shot, distance))
     stone = tree.mix_colour(
-        1.0, stone, tree.mix_colour(tint, (0.62, 0.60, 0.56), (1.1, 1.1, 1.1)), "MULTIPLY"
+        1.0, stone, tree.mix_colour(tint, (0.46, 0.44, 0.40), (0.95, 0.94, 0.90)), "MULTIPLY"
     )
-    soot = tree.separate(_place(tree))[2].smoothstep(1.1, 0.0) * (age > 60.0)
+    licks = tree.noise(position, 0.5, 3.0)  # flames blacken the stone in tongues from the ground
+    soot = (tree.separate(_place(tree))[2] + licks - 0.5).smoothstep(1.1, 0.1) * age.smoothstep(*_CHARRED)
     colour = tree.mix_colour(soot * 0.85, stone, (0.022, 0.020, 0.019))
     normal = tree.output("ShaderNodeBump", {"Strength": 0.8, "Distance": 1.0, "Height": height})
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour, "Roughness": 0.6, "Normal": normal})
