@@ -494,16 +494,8 @@ def test_rasters_of_no_projection_lie_where_their_fuels_say(tmp_path, converted)
     assert set(np.unique(run.surface_fuel)) == {np.float32(0), np.float32(0.247), np.float32(3.138)}
 
 
-def test_a_front_that_stands_or_meets_another_has_a_speed():
-    x = np.arange(20) * 30.0
-    arrival = np.minimum(x, 600.0 - x) / 0.5  # two fronts that meet
-    arrival[5:] += np.where(x[5:] < 330.0, 4000.0, 0.0)  # one of which stood for long
-    found = heat_from_intensity.spread(np.tile(arrival, (4, 1)), (30.0, 30.0))
-    np.testing.assert_allclose(found, 0.5)
-
-
-def test_heat_by_intensity_is_bounded_by_its_neighbourhood():
-    """A cell that a front reached late had the 13 kg/m2 of the heaviest fuel; heavy fuel keeps its own."""
+def test_heat_by_intensity_of_a_late_cell_is_that_of_its_neighbours():
+    """It was the 13 kg/m2 of the heaviest fuel; heavy fuel keeps its own."""
     fuel, speed = np.full((12, 30), 0.8), 0.2
     fuel[:, 20:] = 4.0
     arrival = np.tile(np.arange(30) * 30.0 / speed, (12, 1))
@@ -513,9 +505,7 @@ def test_heat_by_intensity_is_bounded_by_its_neighbourhood():
     late = arrival.copy()
     late[4::4, 3:18:4] += 5000.0
     found = heat_from_intensity.of_intensity(late, intensity, None, (30.0, 30.0))
-    delayed = late != arrival
-    assert found[delayed] == pytest.approx(3.0 * 0.8 * constants.HEAT_OF_COMBUSTION)
-    assert found.sum() == pytest.approx(exact.sum(), rel=0.03)  # it was 15 % more
+    np.testing.assert_allclose(found, exact, rtol=1e-9)  # the sum was 15 % more
 
 
 def test_a_run_that_releases_more_than_its_fuel_is_warned_of(make_run):

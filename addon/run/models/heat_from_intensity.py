@@ -15,13 +15,15 @@ from numpy.typing import NDArray
 
 from ...errors import Error
 from .. import burning
+from . import rate_of_spread
 
 _STEPS = (1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 10800, 21600, 43200, 86400)
 _FRAMES = 300
 _MOST = 20_000
 FRONT_HEAT = burning.CROWN_FIRE_FLUX * 120.0
 """J/m2, heat of an intense front during 120 s, the residence time of flames in timber."""
-_OUTLIER = 3.0  # times the median of the neighbourhood (chosen on fires with known fuel)
+_OUTLIER = 4.0  # times the median of the neighbourhood (chosen on fires with known fuel)
+_NOISE = 0.25  # median difference of logarithms between neighbours (chosen on fires with known fuel)
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,41 +99,61 @@ def of_intensity(
     """Compute heat per area, J/m2: fireline intensity (W/m) / rate of spread (m/s), Byram 1959.
 
     Without `speed`, rate of spread comes from arrival times (s) on cells (width, height) in m. Cells without
-    a value take the median of the others. If a cell has more heat than an intense front releases in its
-    residence time (`FRONT_HEAT`), and more than `_OUTLIER` times the median of its neighbourhood, its front
-    was not as slow as arrival times say, and the larger of the two limits applies.
+    a value take the median of the others. A cell with more than `_OUTLIER` times the median of its
+    neighbourhood was reached late, or its speed is nearly zero: it takes the mean of its neighbours. With the
+    model's own `speed`, only if the heat is also above `FRONT_HEAT`.
+
+    Speed and intensity vary together, so their ratio varies with the fuel alone. If neighbours differ by more
+    than `_NOISE`, and by less than half as much with smoothed arrival times, the times are noisy, and the
+    smoothed times count.
     """
+    intensity, arrival = np.asarray(intensity, np.float64), np.asarray(arrival, np.float64)
+    if speed is not None:
+        return _heat(arrival, intensity, speed, FRONT_HEAT)
+    fine = _heat(arrival, intensity, rate_of_spread.of_arrival(arrival, cell), 0.0)
+    if _scatter(fine) < _NOISE:
+        return fine
+    even = rate_of_spread.smoothed(rate_of_spread.without_late_cells(arrival))
+    even = _heat(arrival, intensity, rate_of_spread.of_arrival(even, cell), 0.0)
+    return even if _scatter(even) < 0.5 * _scatter(fine) else fine
+
+
+def _heat(
+    arrival: NDArray[np.float64], intensity: NDArray[np.float64], speed: NDArray, trusted: float
+) -> NDArray[np.float64]:
+    """Compute intensity over speed, J/m2, without gaps and outliers above `trusted` (J/m2)."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        heat = np.asarray(intensity, np.float64) / (spread(arrival, cell) if speed is None else speed)
+        heat = intensity / speed
     known = np.isfinite(heat) & (heat > 0)
     middle = float(np.median(heat[known])) if known.any() else 0.0
-    heat = np.where(known, heat, np.where(np.isfinite(arrival), middle, 0.0))
-    return np.minimum(heat, np.maximum(FRONT_HEAT, _OUTLIER * _neighbourhood(heat, heat > FRONT_HEAT)))
+    return _without_outliers(np.where(known, heat, np.where(np.isfinite(arrival), middle, 0.0)), trusted)
 
 
-def _neighbourhood(heat: NDArray[np.float64], wanted: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Compute the median of the burned cells of 3 x 3 around `wanted` cells; infinite in other cells."""
-    row, column = np.nonzero(wanted)
-    padded = np.pad(np.where(heat > 0.0, heat, np.nan), 1, constant_values=np.nan)
-    around = [padded[row + up, column + right] for up in range(3) for right in range(3)]
-    result = np.full(heat.shape, np.inf)
-    if len(row):
-        result[row, column] = np.nanmedian(around, axis=0)
-    return result
+def _scatter(heat: NDArray[np.float64]) -> float:
+    """Return the median ratio of neighbours in a row, as the absolute difference of logarithms."""
+    burned = np.where(heat > 0.0, heat, np.nan)
+    steps = np.abs(np.diff(np.log(burned), axis=1))
+    return float(np.median(steps[np.isfinite(steps)])) if np.isfinite(steps).any() else 0.0
 
 
-def spread(arrival: NDArray, cell: tuple[float, float]) -> NDArray[np.float64]:
-    """Compute the rate of spread (m/s) in cells (width, height) in m: inverse gradient of arrival time.
+def _without_outliers(heat: NDArray[np.float64], trusted: float) -> NDArray[np.float64]:
+    """Replace outliers by the mean of the burned cells of 3 x 3 around them that are not outliers.
 
-    Along each axis the smaller one-sided difference counts. The larger one may come from another front or
-    from a stop before the cell, which is not a slow front. Infinite for cells without neighbours.
+    Heat (J/m2) up to `trusted` is not an outlier.
     """
-    padded = np.pad(np.asarray(arrival, np.float64), 1, constant_values=np.nan)
-    here, inner = padded[1:-1, 1:-1], np.s_[1:-1]
-    beside = (
-        ((padded[:-2, inner], padded[2:, inner]), cell[1]),
-        ((padded[inner, :-2], padded[inner, 2:]), cell[0]),
-    )
-    steps = [np.nan_to_num(np.fmin(*(np.abs(here - each) for each in pair))) / size for pair, size in beside]
-    with np.errstate(divide="ignore"):
-        return 1.0 / np.hypot(*steps)
+    padded = np.pad(np.where(heat > 0.0, heat, np.nan), 1, constant_values=np.nan)
+    outlier = np.zeros(padded.shape, bool)
+    beside = (padded[:-2, 1:-1], padded[2:, 1:-1], padded[1:-1, :-2], padded[1:-1, 2:])
+    least = np.fmin.reduce([*beside, heat])
+    row, column = np.nonzero((heat > trusted) & (heat > _OUTLIER * least))
+    if len(row) == 0:
+        return heat
+    at = [(row + up, column + right) for up in range(3) for right in range(3)]
+    limit = _OUTLIER * np.nanmedian([padded[place] for place in at], axis=0)
+    outlier[row + 1, column + 1] = heat[row, column] > limit
+    padded[outlier] = np.nan
+    mean = np.nanmean([padded[place] for place in at], axis=0)
+    result = heat.copy()
+    chosen = outlier[row + 1, column + 1]
+    result[row[chosen], column[chosen]] = mean[chosen]
+    return result
