@@ -10,6 +10,7 @@ from datetime import date, datetime
 from pathlib import Path
 
 from .. import limits
+from .import_options import MEANINGS
 from .records import DETOUR, MODES, STAFFING
 
 STATIONS = """\
@@ -20,10 +21,11 @@ Makes and lists station files: stations and resources in a GeoPackage, which QGI
   firetwin stations info stations.gpkg
 
 `import` reads fire stations from HIFLD (CSV, GeoJSON), the USGS (structures; GeoPackage, GeoJSON) and
-OpenStreetMap (Overpass JSON, GeoJSON), CSV of stations (name, latitude, longitude) and of resources (station,
-type), and station files. The format is detected from the content. Stations within 150 m with similar name and
-equal kind are merged. Telephone numbers and persons are never stored. `exercise` invents resources at bases
-in towns around the fire of a run; everything in the file is labelled as an exercise."""
+OpenStreetMap (Overpass JSON, GeoJSON), other tables (CSV) and point layers (GeoPackage, GeoJSON) of stations,
+CSV of resources (station, type), and station files. The format is detected from the content, columns from
+their names (--column), and coordinates are degrees, Web Mercator or UTM (--crs). Stations within 150 m with
+similar name and equal kind are merged. Telephone numbers and persons are never stored. `exercise` invents
+resources at bases in towns around the fire of a run; everything in the file is labelled as an exercise."""
 
 RESOURCES = """\
 Lists the resources that meet all conditions, earliest arrival first. Response time is getaway time (order to
@@ -67,6 +69,17 @@ def add_stations(parser: argparse.ArgumentParser, path: Callable[[str], Path]) -
         type=_day,
         default=None,
         help="date of the data, such as 2026-11-25 (from the data or the file)",
+    )
+    made.add_argument(
+        "--column", metavar="MEANING=COLUMN", type=_column, action="append", default=[],
+        help="column of tables and layers, such as name=Station_Name (guessed); repeat it",
+    )  # fmt: skip
+    made.add_argument(
+        "--crs", metavar="CODE", type=_crs,
+        help="reference system of files that name none, such as EPSG:26910 or utm10n (degrees, Web Mercator)",
+    )  # fmt: skip
+    made.add_argument(
+        "--skip-bad", action="store_true", help="omit files that cannot be read or have no valid row"
     )
 
     exercise = verb("exercise", "invent resources of an exercise around the fire of a run")
@@ -196,6 +209,25 @@ def _day(text: str) -> str:
         return date.fromisoformat(text).isoformat()
     except ValueError:
         raise argparse.ArgumentTypeError(f"must be a day such as 2026-11-25, not {text!r}") from None
+
+
+def _column(text: str) -> tuple[str, str]:
+    meaning, _, column = (part.strip() for part in text.partition("="))
+    if meaning not in MEANINGS or not column:
+        raise argparse.ArgumentTypeError(
+            f"must have the form name=Station_Name, not {text!r}; known are {', '.join(MEANINGS)}"
+        )
+    return meaning, column
+
+
+def _crs(text: str) -> str:
+    plain = text.strip().lower().replace(" ", "")
+    if match := re.fullmatch(r"utm(?:zone)?(\d{1,2})([ns])", plain):
+        if 1 <= int(match[1]) <= 60:
+            return f"EPSG:{326 if match[2] == 'n' else 327}{int(match[1]):02d}"
+    elif match := re.fullmatch(r"(?:epsg:+)?(\d{4,6})", plain):
+        return f"EPSG:{match[1]}"
+    raise argparse.ArgumentTypeError(f"must be a code such as EPSG:26910, EPSG:3857 or utm10n, not {text!r}")
 
 
 def _words(text: str) -> tuple[str, ...]:

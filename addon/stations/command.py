@@ -12,10 +12,12 @@ from pathlib import Path
 from firetwin_core.run import Run
 
 from ..data import history
-from ..errors import UsageError, input_error
+from ..errors import InputError, UsageError, input_error
 from ..progress import count, result, say
 from ..run import labels, times, zone
 from . import exercise, ignition, importers, merging, page, reading, search, station_search, writing
+from .import_options import ImportOptions
+from .import_rows import Batch
 from .query import Query
 from .records import EXERCISE
 
@@ -45,17 +47,50 @@ def import_files(arguments: argparse.Namespace) -> None:
     """Make a station file from other files."""
     _check_out(arguments)
     about = merging.SourceOptions(arguments.source, arguments.licence, arguments.date or "", arguments.url)
-    batches = [(path, importers.read(path)) for path in arguments.files]
+    batches = _read_files(arguments)
     station_file, messages = merging.merge(batches, about)
     for message in messages:
         say(message)
     if not station_file.stations:
         reason = "has no valid station" + ("" if len(batches) == 1 else ", and neither have the other files")
         raise input_error(arguments.files[0], reason)
+    _check_every_file_gave(arguments, batches)
     if any(source.licence == merging.NO_LICENCE for source in station_file.sources):
         say("a source has no licence; give --source and --licence before you publish the data")
     writing.write(station_file, arguments.out)
     result(arguments.out)
+
+
+def _read_files(arguments: argparse.Namespace) -> list[tuple[Path, Batch]]:
+    """Read the files; with --skip-bad, files that cannot be read are named and omitted."""
+    options = ImportOptions(dict(arguments.column), arguments.crs or "")
+    batches = []
+    for path in arguments.files:
+        try:
+            batches.append((path, importers.read(path, options)))
+        except InputError as error:
+            if not arguments.skip_bad:
+                raise
+            say(f"skipped: {error}")
+    return batches
+
+
+def _check_every_file_gave(arguments: argparse.Namespace, batches: list[tuple[Path, Batch]]) -> None:
+    """Check that each file has a valid row, unless --skip-bad is set.
+
+    Raises
+    ------
+    InputError
+        A file has none.
+    """
+    for path, batch in batches:
+        content = batch.station_file
+        if (
+            not (batch.stations or batch.resources or (content and content.stations))
+            and not arguments.skip_bad
+        ):
+            lines = "; ".join(batch.rejected.lines()) or "it has no rows"
+            raise input_error(path, f"gave no station: {lines}; correct it, or omit it with --skip-bad")
 
 
 def make_exercise(arguments: argparse.Namespace, fire: OpenFire) -> None:

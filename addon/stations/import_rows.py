@@ -15,6 +15,9 @@ from .station_file import StationFile
 MISSING = "no coordinates"
 BEYOND = "coordinates are not in degrees (save them in WGS84, EPSG:4326)"
 EMS = "ambulance or medical service, not a fire station"
+KIND = "fire station"
+"""Kind of a station whose file gives none."""
+
 NAMELESS = "no name and no number"
 
 _TELEPHONE = re.compile(
@@ -32,11 +35,12 @@ class Draft:
     name: str
     latitude: float
     longitude: float
-    kind: str = "fire station"
+    kind: str = KIND
     agency: str = ""
     address: str = ""
     source_id: str = ""
     origin: str = "fact"
+    staffing: str = ""
     place: str = ""
 
 
@@ -70,6 +74,8 @@ class Batch:
         Resources with the name or number of their station, from a table of resources.
     licence, name, retrieved, url
         Source, as the format or the file gives it; empty if neither does.
+    notes
+        Messages on guessed columns and reference systems.
     dropped
         Columns and tags with telephone numbers or persons, which are not stored.
     station_file
@@ -83,6 +89,7 @@ class Batch:
     licence: str = ""
     retrieved: str = ""
     url: str = ""
+    notes: list[str] = field(default_factory=list)
     dropped: list[str] = field(default_factory=list)
     station_file: StationFile | None = None
 
@@ -99,13 +106,14 @@ class ResourceDraft:
 
 def add(batch: Batch, latitude: Any, longitude: Any, draft: Draft) -> None:
     """Add a station with normalised texts to a batch, or count it as rejected."""
-    draft.name, draft.agency, draft.address = (
-        make_readable(remove_telephones(text)) for text in (draft.name, draft.agency, draft.address)
+    draft.name, draft.agency, draft.address, draft.kind, draft.staffing = (
+        make_readable(remove_telephones(text))
+        for text in (draft.name, draft.agency, draft.address, draft.kind, draft.staffing)
     )
     position = parse_position(latitude, longitude)
     if isinstance(position, str):
         batch.rejected.add(position, draft.place)
-    elif is_medical(f"{draft.name} {draft.agency}"):
+    elif is_medical(" ".join((draft.name, draft.agency, draft.kind if draft.kind != KIND else ""))):
         batch.rejected.add(EMS, draft.place)
     elif not (draft.name or draft.source_id):
         batch.rejected.add(NAMELESS, draft.place)

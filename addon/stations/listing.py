@@ -84,6 +84,7 @@ def facts(station_file: StationFile, station: Station) -> list[tuple[str, str]]:
         ("Kind", station.kind),
         ("Agency", station.agency),
         ("Address", station.address),
+        ("Staffing", station.staffing),
         ("Resources", count_types(own, _TYPES) or "unknown"),
         ("Source", "" if source is None else f"{source.name}, {source.licence}, {source.retrieved}"),
         ("Origin", station.origin),

@@ -97,7 +97,7 @@ def _report(merged: _Merged, path: Path, batch: Batch, source: Source, resources
     what = _format_counts(len(batch.stations), resources)
     about = f"source {source.name}, licence {source.licence}, data of {source.retrieved}"
     merged.messages.append(f"{path}: {what}; {about}")
-    merged.messages += [f"{path}: {line}" for line in batch.rejected.lines()]
+    merged.messages += [f"{path}: {line}" for line in (*batch.notes, *batch.rejected.lines())]
     if batch.dropped:
         listed = ", ".join(batch.dropped)
         merged.messages.append(f"{path}: telephone numbers and persons are not stored ({listed})")
@@ -109,7 +109,7 @@ def _add_stations(merged: _Merged, batch: Batch, source: Source) -> None:
         merged.stations.append(
             Station(
                 number, draft.name, draft.latitude, draft.longitude, draft.origin, source.id, draft.kind,
-                draft.agency, draft.address, draft.source_id,
+                draft.agency, draft.address, draft.source_id, staffing=draft.staffing,
             )
         )  # fmt: skip
 
@@ -189,7 +189,9 @@ def _merge_duplicates(merged: _Merged) -> None:
     by_id = {each.id: each for each in merged.stations}
     for other, first in into.items():
         kept, gone = by_id[first], by_id[other]
-        by_id[first] = replace(kept, agency=kept.agency or gone.agency, address=kept.address or gone.address)
+        names_of = ("agency", "address", "staffing")
+        missing = {name: getattr(gone, name) for name in names_of if not getattr(kept, name)}
+        by_id[first] = replace(kept, **missing)
     merged.stations = [by_id[each.id] for each in merged.stations if each.id not in into]
     merged.resources = [
         replace(each, station=into.get(each.station, each.station)) for each in merged.resources

@@ -18,6 +18,7 @@ from .records import MODES, ORIGINS, STATUSES, Area, Availability, Resource, Sou
 from .station_file import StationFile
 
 _STATION = ("fid", "geom", "name", "origin", "source", "kind", "agency", "address", "source_id", "picture")
+_STAFFING = "staffing"  # a column that files of older versions do not have
 _AVAILABILITY = ("id", "resource", "begins", "ends", "status", "area")
 _TYPE_NUMBERS = ("tank_l", "payload_kg", "pump_l_min", "people")
 _AREA = ("fid", "geom", "name", "kind", "station")
@@ -88,7 +89,8 @@ class _Reader:
 
     def stations(self) -> tuple[Station, ...]:
         found = []
-        for number, blob, name, origin, source, *texts in self.base.rows("station", _STATION, "fid"):
+        more = (_STAFFING,) if _STAFFING in self.base.columns("station") else ()
+        for number, blob, name, origin, source, *texts in self.base.rows("station", _STATION + more, "fid"):
             latitude, longitude = self.position(number, blob)
             found.append(
                 Station(number, _text(name), latitude, longitude, origin, source, *map(_text, texts))

@@ -90,6 +90,8 @@ class Station:
         One of `ORIGINS`.
     picture
         Name of a picture file, or empty.
+    staffing
+        Employment of its people as the source describes it, or empty.
     """
 
     id: int
@@ -103,6 +105,7 @@ class Station:
     address: str = ""
     source_id: str = ""
     picture: str = ""
+    staffing: str = ""
 
     @property
     def title(self) -> str:

@@ -54,7 +54,8 @@ CREATE TABLE type (
 CREATE TABLE station (
   fid INTEGER PRIMARY KEY, geom POINT NOT NULL, name TEXT NOT NULL, kind TEXT NOT NULL,
   agency TEXT NOT NULL, address TEXT NOT NULL, source INTEGER NOT NULL REFERENCES source(id),
-  source_id TEXT NOT NULL, origin TEXT NOT NULL {_one_of("origin", ORIGINS)}, picture TEXT NOT NULL);
+  source_id TEXT NOT NULL, origin TEXT NOT NULL {_one_of("origin", ORIGINS)}, picture TEXT NOT NULL,
+  staffing TEXT NOT NULL DEFAULT '');
 CREATE TABLE resource (
   id INTEGER PRIMARY KEY, station INTEGER NOT NULL REFERENCES station(fid),
   type TEXT NOT NULL REFERENCES type(code), name TEXT NOT NULL,

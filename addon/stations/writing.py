@@ -81,7 +81,7 @@ def _rows(base: sqlite3.Connection, station_file: StationFile) -> None:
     _many(base, "type", types, "fid", *(each.name for each in fields(Type)))
     stations = (
         (s.id, geometry.point(s.latitude, s.longitude), s.name, s.kind, s.agency, s.address, s.source,
-         s.source_id, s.origin, s.picture)
+         s.source_id, s.origin, s.picture, s.staffing)
         for s in station_file.stations
     )  # fmt: skip
     _many(base, "station", stations)

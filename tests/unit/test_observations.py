@@ -160,7 +160,10 @@ BAD = {
         "not degrees.*4326",
     ),
     "words.geojson": ('{"type": "Polygon", "coordinates": [["a", "b", "c"]]}', "longitudes and latitudes"),
-    "crs.geojson": ('{"type": "Polygon", "crs": {"properties": {"name": "EPSG:3310"}}}', "EPSG:3310.*4326"),
+    "crs.geojson": (
+        '{"type": "Point", "crs": {"properties": {"name": "EPSG:1"}}, "coordinates": [0, 0]}',
+        "reference system that is none",
+    ),
     "crs_none.geojson": ('{"type": "Point", "crs": {"properties": null}}', "no polygons"),
     "digits.geojson": (f'{{"type": {"1" * 5000}}}', "is damaged or incomplete: .*digits"),
     "large.geojson": (

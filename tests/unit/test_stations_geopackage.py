@@ -131,8 +131,8 @@ def test_the_index_of_stations_finds_them_and_follows_edits(file):
     base.execute("DELETE FROM station WHERE fid = 999")
     assert len(indexed()) == len(station_file.stations) - 1
     base.execute(
-        "INSERT INTO station SELECT 5, ?, name, kind, agency, address, source, source_id, origin, picture "
-        "FROM station LIMIT 1",
+        "INSERT INTO station SELECT 5, ?, name, kind, agency, address, source, source_id, origin, picture, "
+        "staffing FROM station LIMIT 1",
         (geometry.point(1.0, 2.0),),
     )
     assert indexed()[5] == 2.0

@@ -232,7 +232,7 @@ def test_a_file_of_places_is_taken_over_beside_others(tmp_path):
     ("content", "reason"),
     [
         (b"", "has an unknown format"),
-        (b"a,b\n1,2\n", "has an unknown format"),
+        (b"a,b\n1,2\n", "has no column for name and latitude and longitude: it has a, b"),
         (b"\x00\xff\xfe", "has an unknown format"),
         (b'{"elements": [{"tags": 3}', "not valid JSON"),
         (b'{"osm3s": {}, "elements": 3}', "is not a list"),

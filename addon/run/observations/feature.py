@@ -12,6 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import input_error
+from .projection import to_degrees
+
+SAVE_IN_DEGREES = "save it in WGS84 (EPSG:4326)"
 
 Ring = NDArray[np.float64]
 Polygon = tuple[Ring, ...]
@@ -32,15 +35,15 @@ class Feature:
     lines: tuple[Ring, ...] = ()
 
 
-def ring(path: Path, place: str, points: Iterable[Any]) -> Ring:
-    """Convert to a ring of at least three corners, closed or not, in degrees.
+def ring(path: Path, place: str, points: Iterable[Any], system: str = "") -> Ring:
+    """Convert to a ring of at least three corners, closed or not, in degrees (see `degrees`).
 
     Raises
     ------
     InputError
         The ring is too short, or its numbers are not degrees.
     """
-    corners = degrees(path, place, points)
+    corners = degrees(path, place, points, system)
     if len(corners) > 1 and (corners[0] == corners[-1]).all():
         corners = corners[:-1]
     if len(corners) < 3:
@@ -48,8 +51,13 @@ def ring(path: Path, place: str, points: Iterable[Any]) -> Ring:
     return corners
 
 
-def degrees(path: Path, place: str, points: Iterable[Any]) -> Ring:
+def degrees(path: Path, place: str, points: Iterable[Any], system: str = "") -> Ring:
     """Convert to positions (n, 2) in degrees.
+
+    Parameters
+    ----------
+    system
+        Reference system of the points; empty: degrees on WGS84.
 
     Raises
     ------
@@ -66,12 +74,14 @@ def degrees(path: Path, place: str, points: Iterable[Any]) -> Ring:
         return positions
     if not np.isfinite(positions).all():
         raise input_error(path, f"{place} has a position that is not a number")
+    if system:
+        positions = to_degrees(path, system, positions)
     wide, high = np.abs(positions).max(axis=0)
     if wide > 540.0 or high > 90.0:
         raise input_error(
             path,
             f"{place} lies at {positions[0, 0]:g}, {positions[0, 1]:g}, not degrees east and north: "
-            "save it in WGS84 (EPSG:4326)",
+            f"{SAVE_IN_DEGREES}",
         )
     return positions
 

@@ -14,14 +14,19 @@ from ... import foreign_database, limits
 from ...errors import input_error
 from ...foreign_database import ForeignDatabase
 from .feature import Feature, Polygon, Ring, degrees, ring
-from .projection import to_degrees
+from .projection import UNDEFINED, to_degrees
 
 Part = tuple[str, Polygon | Ring]
 _ENVELOPES = (0, 32, 48, 48, 64)  # bytes of the envelope by flag bits
 
 
-def read(path: Path) -> list[Feature]:
+def read(path: Path, system: str = "") -> list[Feature]:
     """Read the rows of all feature tables.
+
+    Parameters
+    ----------
+    system
+        Reference system of tables that name none.
 
     Raises
     ------
@@ -31,7 +36,7 @@ def read(path: Path) -> list[Feature]:
     path.stat()  # raises for a missing file; SQLite would create one
     try:
         with foreign_database.opened(path) as base:
-            return [row for table in _tables(base) for row in _rows(path, base, table)]
+            return [row for table in _tables(base, system) for row in _rows(path, base, table)]
     except sqlite3.Error as error:
         raise input_error(path, f"no GeoPackage: {error}") from None
 
@@ -44,15 +49,19 @@ class _Table(NamedTuple):
     system: str
 
 
-def _tables(base: ForeignDatabase) -> list[_Table]:
+def _tables(base: ForeignDatabase, system: str) -> list[_Table]:
     named = ("srs_id", "organization", "organization_coordsys_id", "definition")
     systems = {
-        number: f"{body}:{code}" if isinstance(code, int) and code > 0 else str(definition)
+        number: f"{body}:{code}" if isinstance(code, int) and code > 0 else _defined(definition, system)
         for number, body, code, definition in base.rows("gpkg_spatial_ref_sys", named)
     }
     columns = ("table_name", "column_name", "srs_id")
     found = base.rows("gpkg_geometry_columns", columns)
     return [_Table(str(name), str(shape), systems[k]) for name, shape, k in found if k in systems]
+
+
+def _defined(definition: Any, system: str) -> str:
+    return system if str(definition) in UNDEFINED and system else str(definition)
 
 
 def _rows(path: Path, base: ForeignDatabase, table: _Table) -> Iterator[Feature]:

@@ -1,32 +1,50 @@
-"""Reprojection of coordinates in other reference systems to degrees, by pyproj if installed."""
+"""Conversion of coordinates in other reference systems to degrees on WGS84.
+
+Degrees, Web Mercator and UTM need no package; other systems need pyproj. Grids of WGS84 and NAD83 are within
+2 m of each other.
+"""
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...ellipsoid import E2, A
 from ...errors import input_error
 
-_DEGREES = ("EPSG:4326", "EPSG:4269", "OGC:CRS84")  # WGS84, and NAD83, which is within 2 m of it
+Array = NDArray[np.float64]
+
+_DEGREES = ("EPSG:4326", "EPSG:4269", "EPSG:4979", "CRS:84", "OGC:CRS84")
+_WEB_MERCATOR = ("EPSG:3857", "EPSG:900913", "EPSG:3785", "EPSG:102100", "EPSG:102113")
+UNDEFINED = ("", "undefined", "Undefined")
+"""Definitions of GeoPackages without a reference system."""
 
 
-def to_degrees(path: Path, system: str, points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Reproject points (n, 2) to degrees (n, 2) east and north on WGS84.
+def to_degrees(path: Path, system: str, points: Array) -> Array:
+    """Convert points (n, 2) to degrees (n, 2) east and north on WGS84.
 
     Parameters
     ----------
     system
-        A code such as "EPSG:32610", or well-known text.
+        A code such as "EPSG:32610" or "urn:ogc:def:crs:EPSG::32610", or well-known text.
 
     Raises
     ------
     InputError
-        pyproj is missing or does not know the system.
+        The system is undefined, or pyproj is missing or does not know it.
     """
-    if system.upper() in _DEGREES or (system.startswith("GEOGCS") and _plain(system)):
+    code = normalise(system)
+    if code in _DEGREES or (system.startswith("GEOGCS") and _is_plain(system)):
         return points
+    if code in _WEB_MERCATOR:
+        return _from_web_mercator(points)
+    if zone := _utm_zone(code):
+        return _from_utm(points, *zone)
+    if system in UNDEFINED:
+        raise input_error(path, "has no reference system; save it in WGS84 (EPSG:4326)")
     try:
         from pyproj import Transformer
         from pyproj.exceptions import ProjError
@@ -37,13 +55,65 @@ def to_degrees(path: Path, system: str, points: NDArray[np.float64]) -> NDArray[
         )
         raise input_error(path, reason) from None
     try:
-        east, north = Transformer.from_crs(system, "EPSG:4326", always_xy=True).transform(*points.T)
+        east, north = Transformer.from_crs(code, "EPSG:4326", always_xy=True).transform(*points.T)
     except ProjError as error:
         raise input_error(path, f"has a reference system that is none: {error}") from None
     return np.column_stack([east, north])
 
 
-def _plain(text: str) -> bool:
+def normalise(system: str) -> str:
+    """Return a code such as "EPSG:3857" for the ways in which files write it; other texts unchanged."""
+    match = re.fullmatch(
+        r"(?:urn:ogc:def:crs:)?(EPSG|ESRI|OGC|CRS):(?:[\d.]*:)?(CRS84|84|\d+)", system.strip(), re.I
+    )
+    if not match:
+        return system
+    body, number = match[1].upper(), match[2].upper()
+    return f"EPSG:{number}" if body == "ESRI" and f"EPSG:{number}" in _WEB_MERCATOR else f"{body}:{number}"
+
+
+def _from_web_mercator(points: Array) -> Array:
+    """Invert Web Mercator: spherical, with the equatorial radius (IOGP Guidance Note 7-2)."""
+    return np.degrees(np.column_stack([points[:, 0] / A, np.arcsin(np.tanh(points[:, 1] / A))]))
+
+
+def _utm_zone(code: str) -> tuple[int, bool] | None:
+    """Return UTM zone and True for north, for codes of WGS84 and of NAD83 in America; else None."""
+    match = re.fullmatch(r"EPSG:(326|327|269)(\d\d)", code)
+    if not match or not 1 <= (zone := int(match[2])) <= (23 if match[1] == "269" else 60):
+        return None
+    return zone, match[1] != "327"
+
+
+def _from_utm(points: Array, zone: int, north: bool) -> Array:
+    """Invert UTM by Krueger's series to the fourth order (Karney 2011, Journal of Geodesy 85, 475-485).
+
+    The series for the latitude from the conformal latitude is from Snyder 1987, USGS PP 1395, in powers of n.
+    """
+    f = 1.0 - np.sqrt(1.0 - E2)
+    n = f / (2.0 - f)
+    radius = 0.9996 * A / (1.0 + n) * (1.0 + n**2 / 4.0 + n**4 / 64.0)
+    beta = (
+        n / 2 - 2 * n**2 / 3 + 37 * n**3 / 96 - n**4 / 360,
+        n**2 / 48 + n**3 / 15 - 437 * n**4 / 1440,
+        17 * n**3 / 480 - 37 * n**4 / 840,
+        4397 * n**4 / 161280,
+    )
+    delta = (
+        2 * n - 2 * n**2 / 3 - 2 * n**3 + 116 * n**4 / 45,
+        7 * n**2 / 3 - 8 * n**3 / 5 - 227 * n**4 / 45,
+        56 * n**3 / 15 - 136 * n**4 / 35,
+        4279 * n**4 / 630,
+    )
+    plane = (points[:, 1] - (0.0 if north else 1e7)) / radius + 1j * (points[:, 0] - 5e5) / radius
+    plane = plane - sum(b * np.sin(2 * j * plane) for j, b in enumerate(beta, 1))
+    conformal = np.arcsin(np.sin(plane.real) / np.cosh(plane.imag))
+    latitude = conformal + sum(d * np.sin(2 * j * conformal) for j, d in enumerate(delta, 1))
+    longitude = np.arctan2(np.sinh(plane.imag), np.cos(plane.real))
+    return np.column_stack([np.degrees(longitude) + 6.0 * zone - 183.0, np.degrees(latitude)])
+
+
+def _is_plain(text: str) -> bool:
     """Check whether well-known text means WGS84 or NAD83 degrees from Greenwich."""
     return any(name in text for name in ("WGS_1984", "WGS 84", "North_American_1983", "NAD83")) and (
         "0.0174532925" in text and '"Greenwich",0' in text.replace(" ", "")

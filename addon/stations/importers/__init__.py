@@ -1,8 +1,8 @@
 """Importers of stations and resources: each module reads one format, recognised by file content.
 
 A module has ``NAME``, the name of the format, ``sniff(path, head) -> bool``, which recognises the format by
-the first bytes of a file, and ``read(path) -> Batch``. `MODULES` lists the modules in the order of the
-attempts.
+the first bytes of a file, and ``read(path, options) -> Batch``. `MODULES` lists the modules in the order of
+the attempts.
 """
 
 from __future__ import annotations
@@ -12,10 +12,12 @@ from pathlib import Path
 from types import ModuleType
 
 from ... import files
-from ...errors import input_error, reading
+from ...errors import InputError, input_error, reading
+from ...run.observations.feature import SAVE_IN_DEGREES
+from ..import_options import USUAL, ImportOptions
 from ..import_rows import Batch
 
-MODULES = ("firetwin", "usgs", "hifld", "osm", "resources_csv", "stations_csv")
+MODULES = ("firetwin", "usgs", "hifld", "osm", "resources_csv", "point_layer", "stations_csv")
 _HEAD = 65536  # bytes passed to `sniff`
 
 
@@ -40,8 +42,13 @@ def find_importer(path: Path) -> ModuleType:
     raise input_error(path, _unknown_format())
 
 
-def read(path: Path) -> Batch:
+def read(path: Path, options: ImportOptions = USUAL) -> Batch:
     """Read a file of any known format.
+
+    Parameters
+    ----------
+    options
+        Columns and reference system that the file does not name.
 
     Raises
     ------
@@ -52,12 +59,19 @@ def read(path: Path) -> Batch:
         importer = find_importer(path)
         if path.suffix.lower() != ".gpkg":
             files.check_text_size(path)
-        return importer.read(path)
+        try:
+            return importer.read(path, options)
+        except InputError as error:
+            if SAVE_IN_DEGREES in str(error) and not options.crs:
+                reason = f"{error.reason}, or name the system, such as --crs EPSG:26910 (UTM zone 10 north)"
+                raise input_error(path, reason) from None
+            raise
 
 
 def _unknown_format() -> str:
     known = (
         "HIFLD fire stations (CSV, GeoJSON), USGS structures (GeoPackage, GeoJSON), OpenStreetMap (Overpass "
-        "JSON, GeoJSON), CSV of stations (name, latitude, longitude) and of resources (station, type)"
+        "JSON, GeoJSON), CSV of stations (name, latitude, longitude) and of resources (station, type), point "
+        "layers (GeoPackage, GeoJSON)"
     )
     return f"has an unknown format; known formats: {known}"

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ... import foreign_database
 from .. import reading
+from ..import_options import USUAL, ImportOptions
 from ..import_rows import Batch
 
 NAME = "station file"
@@ -23,6 +24,6 @@ def sniff(path: Path, head: bytes) -> bool:
         return False
 
 
-def read(path: Path) -> Batch:
+def read(path: Path, options: ImportOptions = USUAL) -> Batch:
     """Read a station file."""
     return Batch(station_file=reading.read(path), name=NAME)

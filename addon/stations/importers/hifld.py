@@ -13,8 +13,9 @@ from typing import Any
 
 from ...run.observations import geojson
 from .. import import_rows
+from ..import_options import USUAL, ImportOptions
 from ..import_rows import Batch, Draft
-from . import tables
+from . import positions, tables
 
 NAME = "HIFLD fire stations"
 LICENCE = "public domain (HIFLD: free of licence)"
@@ -32,37 +33,38 @@ def sniff(path: Path, head: bytes) -> bool:
     return head.lstrip(_BEFORE).startswith(b"{") and all(mark in head.lower() for mark in marks)
 
 
-def read(path: Path) -> Batch:
+def read(path: Path, options: ImportOptions = USUAL) -> Batch:
     """Read all stations."""
     batch = Batch(name=NAME, licence=LICENCE, url=URL)
     if _first_line(path).lstrip().startswith("{"):
-        _read_features(path, batch)
+        _read_features(path, batch, options.crs)
     else:
-        _read_table(path, batch)
+        _read_table(path, batch, options.crs)
     return batch
 
 
-def _read_features(path: Path, batch: Batch) -> None:
+def _read_features(path: Path, batch: Batch, crs: str) -> None:
     names: set[str] = set()
-    for feature in geojson.read(path):
+    for feature in geojson.read(path, crs):
         row = {str(key).lower(): value for key, value in feature.properties.items()}
         names |= set(map(str, feature.properties))
         x, y = feature.points[0] if len(feature.points) else (row.get("x"), row.get("y"))
-        _add(batch, row, y, x, feature.place)
+        import_rows.add(batch, y, x, _draft(batch, row, feature.place))
     batch.dropped = import_rows.private_columns(names)
 
 
-def _read_table(path: Path, batch: Batch) -> None:
+def _read_table(path: Path, batch: Batch, crs: str) -> None:
     with path.open(encoding="utf-8-sig", newline="") as file:
         reader = csv.reader(file, delimiter=max(",;\t", key=_first_line(path).count))
         names = [name.strip() for name in next(reader)]
         low = [name.lower() for name in names]
+        rows = []
         for values in reader:
             if any(value.strip() for value in values):
                 row = dict(zip(low, values, strict=False))
-                latitude = row.get("y") or row.get("latitude")
-                longitude = row.get("x") or row.get("longitude")
-                _add(batch, row, latitude, longitude, f"line {reader.line_num}")
+                x, y = row.get("longitude") or row.get("x"), row.get("latitude") or row.get("y")
+                rows.append(positions.Row(x, y, _draft(batch, row, f"line {reader.line_num}")))
+    positions.add_rows(path, batch, rows, crs)
     batch.dropped = import_rows.private_columns(names)
 
 
@@ -71,16 +73,16 @@ def _first_line(path: Path) -> str:
         return file.readline()
 
 
-def _add(batch: Batch, row: Mapping[str, Any], latitude: Any, longitude: Any, place: str) -> None:
+def _draft(batch: Batch, row: Mapping[str, Any], place: str) -> Draft:
     address = [_text(row, key) for key in ("address", "city", "state", "zip")]
     draft = Draft(
         _text(row, "name"), 0.0, 0.0,
         address=", ".join(each for each in address if each), source_id=_text(row, "id"), place=place,
     )  # fmt: skip
-    import_rows.add(batch, latitude, longitude, draft)
     newest = _text(row, "geodate")[:10].replace("/", "-")
     if len(newest) == 10 and newest[4] == "-":
         batch.retrieved = max(batch.retrieved, newest)
+    return draft
 
 
 def _text(row: Mapping[str, Any], key: str) -> str:

@@ -17,6 +17,7 @@ from ...errors import input_error
 from ...run.observations import geojson
 from ...run.observations.feature import finite
 from .. import import_rows
+from ..import_options import USUAL, ImportOptions
 from ..import_rows import Batch, Draft
 
 NAME = "OpenStreetMap, (c) OpenStreetMap contributors"
@@ -35,7 +36,7 @@ def sniff(path: Path, head: bytes) -> bool:
     return overpass or b'"@id"' in head
 
 
-def read(path: Path) -> Batch:
+def read(path: Path, options: ImportOptions = USUAL) -> Batch:
     """Read all fire stations."""
     batch = Batch(name=NAME, licence=LICENCE, url=URL)
     try:
@@ -49,7 +50,7 @@ def read(path: Path) -> Batch:
     if "elements" in whole:
         _read_elements(path, whole, batch)
     else:
-        _read_features(path, batch)
+        _read_features(path, batch, options.crs)
     return batch
 
 
@@ -85,8 +86,8 @@ def _centre(element: Mapping[str, Any]) -> Mapping[str, Any]:
     }
 
 
-def _read_features(path: Path, batch: Batch) -> None:
-    for feature in geojson.read(path):
+def _read_features(path: Path, batch: Batch, crs: str) -> None:
+    for feature in geojson.read(path, crs):
         corners = [ring for rings in feature.polygons for ring in rings] or [feature.points]
         points = np.concatenate(corners)
         x, y = 0.5 * (points.min(axis=0) + points.max(axis=0)) if len(points) else (None, None)

@@ -15,10 +15,11 @@ from typing import Any
 from ... import limits
 from ...errors import input_error
 from .. import import_rows, types
+from ..import_options import USUAL, ImportOptions
 from ..import_rows import Batch, ResourceDraft
 from ..reading import NUMBERS
 from ..records import MODES, ORIGINS, STAFFING, STATUSES, Resource
-from . import tables
+from . import column_names, tables
 
 NAME = "CSV of resources"
 
@@ -36,10 +37,12 @@ _YES = {"": False, "no": False, "0": False, "false": False, "yes": True, "1": Tr
 def sniff(path: Path, head: bytes) -> bool:
     """Return True if the first line names station and type, and no position."""
     found = tables.columns(head)
-    return all(_NAMES[need] & found for need in _NEEDED) and not {"latitude", "lat"} & found
+    if not all(_NAMES[need] & found for need in _NEEDED):
+        return False
+    return not column_names.has_position(column_names.find_columns(path, found, {}))
 
 
-def read(path: Path) -> Batch:
+def read(path: Path, options: ImportOptions = USUAL) -> Batch:
     """Read all resources; their origin is ``user``, unless a column gives another."""
     batch = Batch(name=path.stem, dropped=import_rows.private_columns(tables.read_header(path).values()))
     help = 'station and type, such as "engine/3"'

@@ -1,47 +1,58 @@
-"""Stations of the user: CSV with name, latitude and longitude, and optional columns."""
+"""CSV of stations: of the user, of a county, or of a federal service, with any usual column names."""
 
 from __future__ import annotations
 
+import csv
 from pathlib import Path
 
 from ...errors import input_error
 from .. import import_rows
-from ..import_rows import Batch, Draft
-from ..records import ORIGINS
-from . import tables
+from ..import_options import USUAL, ImportOptions
+from ..import_rows import Batch
+from . import column_names, drafts, positions, tables
 
 NAME = "CSV of stations"
 
-_NAMES = {
-    "name": {"name", "station", "title"},
-    "latitude": {"latitude", "lat", "y"},
-    "longitude": {"longitude", "lon", "lng", "long", "x"},
-    "kind": {"kind", "type"},
-    "agency": {"agency", "operator", "department"},
-    "address": {"address"},
-    "source_id": {"id", "number", "source_id", "ref"},
-    "origin": {"origin"},
-}
-_NEEDED = ("name", "latitude", "longitude")
-
 
 def sniff(path: Path, head: bytes) -> bool:
-    """Return True if the first line names the three columns."""
-    found = tables.columns(head)
-    return all(_NAMES[need] & found for need in _NEEDED)
+    """Return True for a table with at least two columns."""
+    return len(tables.columns(head)) > 1
 
 
-def read(path: Path) -> Batch:
-    """Read all stations; their origin is ``user``, unless a column gives another."""
-    batch = Batch(name=path.stem, dropped=import_rows.private_columns(tables.read_header(path).values()))
-    for line, row in tables.rows(path, _NAMES, _NEEDED, "name, latitude and longitude (degrees)"):
-        origin = row.get("origin", "").strip().lower() or "user"
-        if origin not in ORIGINS:
-            raise input_error(path, f'has origin "{origin}"; use one of {", ".join(ORIGINS)}', line=line)
-        draft = Draft(
-            row["name"], 0.0, 0.0, kind=row.get("kind", "").strip() or "fire station",
-            agency=row.get("agency", ""), address=row.get("address", ""),
-            source_id=row.get("source_id", "").strip(), origin=origin, place=f"line {line}",
-        )  # fmt: skip
-        import_rows.add(batch, row["latitude"], row["longitude"], draft)
+def read(path: Path, options: ImportOptions = USUAL) -> Batch:
+    """Read all stations; their origin is ``user``, unless a column gives another.
+
+    Raises
+    ------
+    InputError
+        A column is missing, or the reference system is unknown.
+    """
+    header = list(tables.read_header(path).values())
+    found = column_names.find_columns(path, header, options.columns)
+    column_names.check_needed(path, header, found, position=True)
+    batch = Batch(name=path.stem, dropped=import_rows.private_columns(header))
+    in_degrees = {"latitude", "longitude"} <= set(found)
+    if in_degrees and not {"x", "y"} & set(options.columns):
+        found = {meaning: name for meaning, name in found.items() if meaning not in ("x", "y")}
+        x, y = found["longitude"], found["latitude"]
+    else:
+        found = {meaning: name for meaning, name in found.items() if meaning not in ("latitude", "longitude")}
+        x, y = found["x"], found["y"]
+    rows = []
+    try:
+        with path.open(encoding="utf-8-sig", newline=None) as file:
+            first = file.readline()
+            comma = max(",;\t", key=first.count)
+            names = [name.strip() for name in next(csv.reader([first], delimiter=comma), [])]
+            reader = csv.reader(file, delimiter=comma)
+            for values in reader:
+                if any(each.strip() for each in values):
+                    row = dict(zip(names, values, strict=False))
+                    line = reader.line_num + 1
+                    draft = drafts.make_draft(path, batch, row.get, found, f"line {line}")
+                    rows.append(positions.Row(row.get(x), row.get(y), draft))
+    except csv.Error as error:
+        raise input_error(path, f"is no CSV: {error}") from None
+    positions.add_rows(path, batch, rows, options.crs)
+    batch.notes += drafts.describe_columns(found)
     return batch

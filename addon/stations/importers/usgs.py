@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import sqlite3
 from collections.abc import Mapping
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from ... import foreign_database
 from ...run.observations import geojson, geopackage
 from .. import import_rows
+from ..import_options import USUAL, ImportOptions
 from ..import_rows import Batch, Draft
+from . import days
 
 NAME = "USGS National Structures Dataset"
 LICENCE = "public domain (US Geological Survey)"
@@ -42,13 +43,13 @@ def sniff(path: Path, head: bytes) -> bool:
         return False
 
 
-def read(path: Path) -> Batch:
+def read(path: Path, options: ImportOptions = USUAL) -> Batch:
     """Read the fire stations among all structures."""
     batch = Batch(name=NAME, licence=LICENCE, url=URL)
     names: set[str] = set()
     with path.open("rb") as file:
         binary = file.read(len(_SQLITE)) == _SQLITE
-    for feature in (geopackage if binary else geojson).read(path):
+    for feature in (geopackage if binary else geojson).read(path, options.crs):
         row = {str(key).lower(): value for key, value in feature.properties.items()}
         names |= set(map(str, feature.properties))
         if _number(row.get("fcode")) != FCODE or _number(row.get("ftype")) not in (FTYPE, None):
@@ -61,7 +62,7 @@ def read(path: Path) -> Batch:
             source_id=_text(row, "permanent_identifier"), place=feature.place,
         )  # fmt: skip
         import_rows.add(batch, y, x, draft)
-        batch.retrieved = max(batch.retrieved, _day(row.get("loaddate")))
+        batch.retrieved = max(batch.retrieved, days.parse_day(row.get("loaddate")))
     batch.dropped = import_rows.private_columns(names)
     return batch
 
@@ -76,14 +77,3 @@ def _number(value: Any) -> int | None:
         return int(float(value))
     except (TypeError, ValueError, OverflowError):
         return None
-
-
-def _day(value: Any) -> str:
-    """Parse a date, in ISO 8601 or in ms since 1970; empty if there is none."""
-    if isinstance(value, int | float) and 1e11 < value < 1e14:
-        return datetime.fromtimestamp(value / 1e3, UTC).date().isoformat()
-    text = str(value or "")[:10].replace("/", "-")
-    try:
-        return datetime.fromisoformat(text).date().isoformat()
-    except ValueError:
-        return ""
