@@ -139,10 +139,17 @@ def writing(path: str | PathLike[str]) -> Iterator[None]:
 
 
 @contextmanager
-def reading(path: str | PathLike[str]) -> Iterator[None]:
+def reading(path: str | PathLike[str], kind: str = "") -> Iterator[None]:
     """Convert errors during the reading of `path` to messages that name the file and a remedy.
 
     It surrounds every reader of a user's file. A reader itself names the place of a fault that it expects.
+
+    Parameters
+    ----------
+    path
+        The file, or a folder; an error of the system names the file in it.
+    kind
+        Format of the file for the message, such as "GeoTIFF".
 
     Raises
     ------
@@ -156,21 +163,27 @@ def reading(path: str | PathLike[str]) -> Iterator[None]:
     except Exception as error:
         if disk_is_full(error):  # of temporary files
             raise full_disk_error(path) from error
-        raise input_error(path, read_fault(error)) from error
+        if isinstance(error, OSError) and isinstance(error.filename, str):
+            path = error.filename
+        reason = read_fault(error, kind).replace(f"'{path}'", "it")
+        raise input_error(path, reason) from error
 
 
-def read_fault(error: Exception) -> str:
-    """Describe why a file cannot be read, and the remedy."""
-    why = " ".join(str(error).split())[:_LONGEST] or type(error).__name__
-    for kind, text in _FAULTS.items():
-        if isinstance(error, kind):
+def read_fault(error: Exception, kind: str = "") -> str:
+    """Describe why a file of a `kind`, such as "GeoTIFF", cannot be read, and the remedy."""
+    text = getattr(error, "strerror", None) or str(error.__cause__ or error)
+    why = " ".join(text.split())[:_LONGEST] or type(error).__name__
+    for fault, text in _FAULTS.items():
+        if isinstance(error, fault):
             return text
     if isinstance(error, UnicodeDecodeError):
         return f"is not UTF-8 text (byte {error.start + 1:,}); save it as UTF-8"
-    if isinstance(error, OSError):
+    if isinstance(error, OSError) and (error.errno or 0) > 0:  # libraries raise others
         return f"cannot be read ({_reason(error).lower()}); copy it to a local folder"
     if type(error).__module__.startswith("sqlite3"):
-        return f"cannot be read as a GeoPackage: {why}; export it again"
+        kind = "GeoPackage"
+    if kind:
+        return f"cannot be read as a {kind}: {why}; export it again"
     return f"is damaged or incomplete: {why}; export it again"
 
 

@@ -8,7 +8,7 @@ import os
 import tomllib
 from pathlib import Path
 
-from ..errors import Error, UsageError
+from ..errors import Error, reading
 from ..progress import MessageCallback, Progress, no_message, silent
 from . import worker
 
@@ -125,9 +125,9 @@ def _convert(files: list[Path], out: Path, options: list, progress: Progress, te
     from ..run.models import write
     from ..run.models.model import Options
 
-    try:
-        start, at, projection, interval, *more = options
-        said = Options.of(start, at, projection, interval, files, *more)
+    start, at, projection, interval, *more = options
+    said = Options.of(start, at, projection, interval, files, *more)
+    with reading(files[0]):
         reader = readers.reader(files)
         tell(f"{files[0].name} is {reader.NAME}")
         model = reader.read(files, said)
@@ -136,15 +136,8 @@ def _convert(files: list[Path], out: Path, options: list, progress: Progress, te
             write.write(model, out, _fingerprint(files, options), progress)
         finally:
             model.close()
-        for text in [*model.assumptions, *write.moved(model)]:
-            tell(text)
-    except (Error, UsageError, OSError):
-        raise
-    except MemoryError:
-        raise Error(f"{files[0]}: memory ran out; it is damaged, or its grid is too large") from None
-    except Exception as error:
-        why = " ".join(f"{type(error).__name__}: {error}".split())
-        raise Error(f"{files[0]}: its contents are invalid; it is damaged ({why})") from error
+    for text in [*model.assumptions, *write.moved(model)]:
+        tell(text)
 
 
 def _fingerprint(files: list[Path], options: list) -> str:

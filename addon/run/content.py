@@ -18,6 +18,7 @@ from typing import Any
 
 from firetwin_core.run import Run
 
+from ..errors import reading
 from ..progress import Progress, silent
 
 REMEMBERED = ".firetwin-hashes.json"
@@ -74,7 +75,8 @@ def inputs(
 def of_file(path: Path, cache: Path, progress: Progress = silent) -> str:
     """Hash a file outside a run, with the hash cached in `cache`."""
     place = cache / f"file-{fingerprint({'file': str(path.resolve())})}.json"
-    return _hashes(path.parent, [path], (place,), progress)[path]
+    with reading(path):
+        return _hashes(path.parent, [path], (place,), progress)[path]
 
 
 def stamp(path: Path) -> Stamp:

@@ -106,6 +106,14 @@ def test_a_picture_is_checked_and_needs_a_credit(settings, run, tmp_path, conten
     assert error.value.line == 2
 
 
+def test_a_damaged_picture_is_one_line(space, tmp_path):
+    path = tmp_path / "earth.jpg"
+    path.write_bytes(b"\xff\xd8\xff\xe0 cut off")
+    settings = replace(space.settings, terrain=replace(space.settings.terrain, globe=path))
+    with pytest.raises(InputError, match=r"earth\.jpg: is damaged or not a picture; export it again"):
+        globe.load_picture(Shot(settings, space.run))
+
+
 def test_its_picture_and_credit_are_told(space, stage, tmp_path, plain_looks):
     path = tmp_path / "earth.png"
     image = bpy.data.images.new("earth", 8, 4)

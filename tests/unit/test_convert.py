@@ -308,7 +308,7 @@ def test_what_is_no_models_output_is_told_apart(tmp_path):
         "c.npz": "does not begin as a .npz", "notes.txt": "no known fire model: WRF-SFIRE",
         "b.npz": "no array time_of_arrival", "d.lcp": "a landscape without a fire",
         "fire.asc": "identified by name", "x_arrival.asc": "x_arrival.asc:7:5: 'abc' is not a number",
-        cut.name: "cannot be read as netCDF", absurd.name: "nothing burns in it",
+        cut.name: "as a netCDF file: NetCDF: HDF error; export", absurd.name: "nothing burns in it",
     }.items():  # fmt: skip
         told = []
         with pytest.raises(InputError, match=words) as caught:

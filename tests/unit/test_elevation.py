@@ -213,9 +213,7 @@ def test_what_is_cut_off_is_one_line(make, tiff, tmp_path):
     path = tiff()
     data = path.read_bytes()
     path.write_bytes(data[: len(data) // 2])
-    with pytest.raises(
-        InputError, match=r"scene\.toml:.*terrain\.elevation: .*dem\.tif cannot be read as a GeoTIFF"
-    ):
+    with pytest.raises(InputError, match=r"dem\.tif: cannot be read as a GeoTIFF: .*; export it again"):
         _ = make().shot().relief.fuel
 
 

@@ -126,7 +126,7 @@ def test_a_photo_without_rasterio_is_a_png(make, tmp_path, monkeypatch):
 
 
 BAD = {
-    "none": ('photo = "no.png"', None, r"scene\.toml:9:1: terrain\.photo: .*no\.png cannot be read: No such"),
+    "none": ('photo = "no.png"', None, r"scene\.toml:9:1: terrain\.photo: no such file .*no\.png"),
     "no world": ('photo = "photo.png"', None, r"photo\.png: has no world file"),
     "four": ('photo_extent = [1.0, 2.0]', None, r"9:1: terrain\.photo_extent must be west, south"),
     "turned": ('photo_extent = [2.0, 1.0, 1.0, 2.0]', None, r"terrain\.photo_extent must be west, south"),
@@ -156,7 +156,7 @@ def test_no_picture_is_one_line(make, tmp_path, data):
     if data.startswith(b"II"):
         pytest.importorskip("rasterio")
     (tmp_path / "photo.png").write_bytes(data)
-    with pytest.raises(InputError, match=r"scene\.toml:9:1: terrain\.photo: .*photo\.png "):
+    with pytest.raises(InputError, match=r"[^:]*photo\.png: "):
         make(f'photo = "photo.png"\nphoto_extent = {list(BOX)}').shot()
 
 

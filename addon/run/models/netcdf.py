@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import Error, InputError, input_error
+from ...errors import InputError, input_error, reading
 from . import heartbeat, netcdf3_length, optional_packages
 
 _MAGIC = (b"\x89HDF\r\n\x1a\n", b"CDF\x01", b"CDF\x02", b"CDF\x05")
@@ -66,14 +66,8 @@ class File:
     def sense(self) -> Iterator[None]:
         """Send a heartbeat, and convert library errors to errors that name the file."""
         heartbeat.sign()
-        try:
+        with reading(self.path, "netCDF file"):
             yield
-        except Error:
-            raise
-        except Exception as error:
-            text = getattr(error, "strerror", None) or str(error) or type(error).__name__
-            why = " ".join(str(text).split())
-            raise self.error(f"cannot be read as netCDF ({why}); it is damaged or incomplete") from error
 
     def error(self, reason: str) -> InputError:
         """Create an error about this file."""

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import Error, InputError, input_error
+from ...errors import InputError, input_error, reading
 from . import heartbeat, optional_packages
 from .grid import Grid, project
 
@@ -126,15 +126,10 @@ def read(path: Path) -> Raster:
         The file cannot be read.
     """
     heartbeat.sign()
-    try:
+    with reading(path, "raster"):
         with path.open("rb") as file:
             ascii_grid = file.read(5).lower() == b"ncols"
         return _read_ascii(path) if ascii_grid else _read_gdal(path)
-    except Error:
-        raise
-    except Exception as error:
-        why = " ".join(str(error.__cause__ or error).split()) or type(error).__name__
-        raise _error(path, f"cannot be read as a raster ({why}); it is damaged or incomplete") from error
 
 
 def _read_gdal(path: Path) -> Raster:
@@ -229,6 +224,11 @@ def landscape(path: Path) -> dict[str, Raster]:
     InputError
         The file is damaged.
     """
+    with reading(path, "landscape (LCP)"):
+        return _read_landscape(path)
+
+
+def _read_landscape(path: Path) -> dict[str, Raster]:
     if not is_lcp(path):
         raise _error(path, "has no header of an LCP with cells behind it; it is damaged or incomplete")
     with path.open("rb") as file:

@@ -19,7 +19,7 @@ from firetwin_core import run
 from numpy.typing import NDArray
 
 from ... import files
-from ...errors import Error, InputError, input_error, writing
+from ...errors import Error, InputError, input_error, reading, writing
 from ...progress import Progress, size
 from .model import LONGEST, Model
 
@@ -92,7 +92,9 @@ def write(model: Model, out: Path, inputs: str, progress: Progress) -> None:
         _moving(model, shapes, part, inputs, done, progress)
         for name, get in model.still.items():
             where = model.grid_of(name).placed
-            _save(part / f"{name}.npy", where.put(get(), _FILL.get(name)), where.shape)
+            with reading(model.files[0]):
+                values = where.put(get(), _FILL.get(name))
+            _save(part / f"{name}.npy", values, where.shape)
         for before, where in placed.items():
             _save(part / f"{before}latitude.npy", where.latitude)
             _save(part / f"{before}longitude.npy", where.longitude)
@@ -131,7 +133,8 @@ def _moving(
             for index in range(done, count):
                 progress(index, count, what)
                 for name, get in model.moving.items():
-                    values = _put(model, name, get(index))
+                    with reading(model.files[0]):
+                        values = _put(model, name, get(index))
                     if values.shape != shapes[name][1:]:
                         reason = f"{name} is {values.shape} at time {index + 1}, not {shapes[name][1:]}"
                         raise input_error(model.files[0], reason)

@@ -35,10 +35,10 @@ def open(path: str | Path) -> Run:
         The path is missing, is a fire model's own output, has an unknown format, or is damaged.
     """
     path = Path(path)
-    if not folder.sniff(path) and foreign(path):
-        reason = f"is a fire model's own output; make a run of it: firetwin convert {path} --out RUN"
-        raise input_error(path, reason)
     with reading(path):
+        if not folder.sniff(path) and foreign(path):
+            reason = f"is a fire model's own output; make a run of it: firetwin convert {path} --out RUN"
+            raise input_error(path, reason)
         found = run.open(path)  # which reports errors
         _check_years(found)
         return found
@@ -87,7 +87,8 @@ def gathered(paths: list[Path]) -> list[Path]:
     for path in paths:
         if not path.exists():
             raise input_error(path, "there is no such file or folder; check the path")
-        inner = [path] if path.is_file() else [file for file in sorted(path.iterdir()) if file.is_file()]
+        with reading(path):
+            inner = [path] if path.is_file() else [file for file in sorted(path.iterdir()) if file.is_file()]
         files += [file for file in inner if file not in files]
         if len(files) > _MANY:
             raise input_error(path, f"holds more than {_MANY:,} files; give the files of one run")

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import Error, input_error
+from ...errors import input_error, reading
 from ..models import companion_rasters, from_arrival_time, given_wind, one_run
 from ..models.given_wind import Wind
 from ..models.grid import Grid
@@ -122,15 +122,10 @@ def _arrays(path: Path) -> dict[str, NDArray]:
     )
     wanted += ("latitude", "longitude", "x", "y", "cell_width", "cell_height")
     wanted += ("wind_speed_10m", "upwind_direction", "band_duration")
-    try:
+    with reading(path, "NumPy archive"):
         with zipfile.ZipFile(path) as archive:
             sizes = {member.filename: member.file_size for member in archive.infolist()}
         if max(sizes.values()) > _LARGEST:
             raise input_error(path, "holds an array that is larger than any fire")
         with np.load(path, allow_pickle=False) as arrays:
             return {name: arrays[name].astype(np.float64) for name in wanted if name in arrays.files}
-    except Error:
-        raise
-    except Exception as error:
-        why = " ".join(str(error).split()) or type(error).__name__
-        raise input_error(path, f"cannot be read ({why}); it is damaged") from error

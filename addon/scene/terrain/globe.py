@@ -15,6 +15,7 @@ from ...blender import owned
 from ...blender.mesh import create_mesh
 from ...blender.owned import Stage
 from ...ellipsoid import MEAN_RADIUS
+from ...errors import input_error, reading
 from ...run import areas
 from ...shot.shot import Shot
 from ...shot.surface import globe_picture
@@ -46,9 +47,21 @@ def build(
 
 
 def load_picture(shot: Shot) -> bpy.types.Image:
-    """Load the user's picture of the Earth, else the default, which is packed into the file."""
+    """Load the user's picture of the Earth, else the default, which is packed into the file.
+
+    Raises
+    ------
+    InputError
+        The picture is damaged.
+    """
     path = shot.settings.terrain.globe
-    image = owned.mark(bpy.data.images.load(str((path or globe_picture.DEFAULT).absolute())))
+    place = (path or globe_picture.DEFAULT).absolute()
+    with reading(place):
+        image = owned.mark(bpy.data.images.load(str(place)))
+        size = tuple(image.size)  # of the decoded picture
+    image.buffers_free()
+    if 0 in size:
+        raise input_error(place, "is damaged or not a picture; export it again as JPEG or PNG")
     image.name = "Firetwin Globe"
     if path is None:
         image.pack()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ...errors import reading
 from ...progress import Progress, silent
 from ...run import content
 from ..schema import scene_text
@@ -29,7 +30,7 @@ def check(settings: Settings) -> None:
     if not path.is_file():
         reason = f"terrain.globe: {path} is not a file; name a JPEG, PNG, TIFF or EXR"
         raise scene_text.error_at(settings.path, _WHERE, reason)
-    with path.open("rb") as file:
+    with reading(path), path.open("rb") as file:
         begin = file.read(8)
     if not begin.startswith(_KINDS):
         reason = f"terrain.globe: {path} is no JPEG, PNG, TIFF or EXR by its first bytes"

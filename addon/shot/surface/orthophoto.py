@@ -18,7 +18,7 @@ from firetwin_core.run import Run
 from firetwin_core.terrain import bilinear
 from numpy.typing import NDArray
 
-from ...errors import InputError, input_error
+from ...errors import InputError, input_error, reading
 from ...progress import Progress, silent
 from ...run import areas, content
 from ..schema import scene_text
@@ -161,13 +161,13 @@ def source_of(shot: Shot) -> PhotoSource:
 def _file(settings: Settings) -> PhotoSource:
     path = settings.terrain.photo
     assert path is not None
-    try:
+    if not path.exists():
+        reason = f"terrain.photo: no such file {path}"
+        raise scene_text.error_at(settings.path, ("terrain", "photo"), reason)
+    with reading(path):
         with path.open("rb") as stream:
             start = stream.read(8)
-    except OSError as error:
-        reason = f"terrain.photo: {path} cannot be read: {error.strerror}"
-        raise scene_text.error_at(settings.path, ("terrain", "photo"), reason) from None
-    return _Tiff(settings) if start.startswith(_TIFF) else _Plain(settings, path)
+        return _Tiff(settings) if start.startswith(_TIFF) else _Plain(settings, path)
 
 
 class _Tiff(PhotoSource):
@@ -197,11 +197,7 @@ class _Tiff(PhotoSource):
 class _Plain(PhotoSource):
     def __init__(self, settings: Settings, path: Path) -> None:
         self.path = path
-        try:
-            pixels = sensor.read_image(self.path)
-        except InputError as error:
-            reason = f"terrain.photo: {self.path} {error.reason}"
-            raise scene_text.error_at(settings.path, ("terrain", "photo"), reason) from None
+        pixels = sensor.read_image(self.path)
         self.pixels = np.rint(255.0 * np.clip(pixels, 0.0, 1.0)).astype(np.uint8)
         self.affine = self._affine(settings)
         height, width = self.pixels.shape[:2]
@@ -233,9 +229,11 @@ class _Plain(PhotoSource):
                 "has no world file (.pgw, .jgw or .wld); georeference it with "
                 "terrain.photo_extent = [west, south, east, north] in degrees"
             )
+        with reading(world):
+            words = world.read_text(encoding="utf-8").split()
         try:
-            a, d, b, e, c, f = map(float, world.read_text(encoding="utf-8").split())
-        except (OSError, ValueError):
+            a, d, b, e, c, f = map(float, words)
+        except ValueError:
             raise input_error(world, "not a world file: it must hold six numbers, one a line") from None
         if not np.isfinite([a, d, b, e, c, f]).all() or abs(a * e - b * d) == 0.0:
             raise input_error(world, "not a world file: its pixels have no area")

@@ -18,7 +18,7 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from ...errors import Error, InputError, input_error
+from ...errors import InputError, input_error, reading
 from ...run import areas
 from ..schema import scene_text
 from ..sections import SceneSettings
@@ -68,7 +68,6 @@ class GeoTiff:
 
     def __init__(self, settings: SceneSettings, name: str) -> None:
         self.rasterio = library(settings, name)
-        self.key = settings.path, ("terrain", name)
         self.path: Path = getattr(settings.terrain, name)
         if not self.path.is_file():
             reason = f"terrain.{name}: no such file {self.path}"
@@ -100,21 +99,13 @@ class GeoTiff:
         ------
         InputError
         """
-        known = self.rasterio.errors
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore", known.NotGeoreferencedWarning)
-                with (
-                    self.rasterio.Env(GDAL_DISABLE_READDIR_ON_OPEN="EMPTY_DIR", GDAL_CACHEMAX=_MEMORY),
-                    self.rasterio.open(self.path, driver="GTiff") as source,
-                ):
-                    yield source
-        except Error:
-            raise
-        except (known.RasterioError, OSError, ValueError) as error:
-            why = " ".join(str(error.__cause__ or error).split()).replace(str(self.path), "it")
-            reason = f"{'.'.join(self.key[1])}: {self.path} cannot be read as a GeoTIFF ({why})"
-            raise scene_text.error_at(*self.key, reason) from error
+        with reading(self.path, "GeoTIFF"), warnings.catch_warnings():
+            warnings.simplefilter("ignore", self.rasterio.errors.NotGeoreferencedWarning)
+            with (
+                self.rasterio.Env(GDAL_DISABLE_READDIR_ON_OPEN="EMPTY_DIR", GDAL_CACHEMAX=_MEMORY),
+                self.rasterio.open(self.path, driver="GTiff") as source,
+            ):
+                yield source
 
     def overlaps(self, latitude: Array, longitude: Array) -> bool:
         """Return whether the raster overlaps the bounding box of these points, degrees."""

@@ -23,7 +23,7 @@ def work(kind, each, seed):
     with tempfile.TemporaryDirectory() as folder:
         for end in damage.tried(kind, Path(folder), each, seed):
             ends["signal" if end.signal else "refused" if end.said else "read"] += 1
-            guessed += "are invalid; it is damaged (" in end.said
+            guessed += "is damaged or incomplete: " in end.said
             findings += [f"{kind}: {end.way}: {end.wrong}: {end.said[:400]!r}"] if end.wrong else []
     print(f"fuzz: {kind}: {dict(ends)}; refused by what nobody foresaw: {guessed}", flush=True)
     return findings
