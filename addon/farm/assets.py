@@ -39,6 +39,8 @@ def list_assets(shot: Shot) -> list[Path]:
     found += [part for path in observed.files(settings) for part in _with_parts(path)]
     found += [path for camera in settings.cameras for path in camera.rig.input_files()]
     found += [path for place in settings.tiles.sources for path in _tileset(settings.path.parent / place)]
+    if settings.tiles.root:
+        found += _tileset(settings.path.parent / settings.tiles.root)
     every = sorted({path.absolute() for path in found})
     for path in every:
         if not path.is_file():

@@ -32,7 +32,7 @@ def check(settings: Settings, run: Run) -> None:
     globe_picture.check(settings)
     observed.check(settings)
     labels.check(settings, run)
-    station_signs.check(settings)
+    station_signs.check(settings, run)
     for index, camera in enumerate(settings.cameras):
         for where, latitude, longitude in (*camera.rig.coordinates(), *camera.rig.coordinates_in(run)):
             _near(settings, run, ("cameras", index, *where), camera.name, latitude, longitude)

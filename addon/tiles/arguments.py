@@ -74,5 +74,5 @@ def add_access(parser: argparse.ArgumentParser) -> None:
         "--tile-root",
         metavar="DIR",
         default="",
-        help="folder within which files of local tilesets may refer to ../FILE (their own folder)",
+        help="folder within which files of local tilesets may refer to ../FILE (root under [tiles])",
     )

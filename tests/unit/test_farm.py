@@ -183,6 +183,8 @@ def test_tilesets_of_this_machine_are_needed_too(make_shot, tmp_path):
     names = {path.relative_to(tmp_path).as_posix() for path in assets.list_assets(shot)}
     assert {"set/tileset.json", "set/1/a.glb", "other/tileset.json", "other/b.glb", "city.3tz"} < names
     assert not any("example" in name for name in names)
+    (tmp_path / "beside.glb").touch()
+    assert tmp_path / "beside.glb" in assets.list_assets(make_shot(more='\n[tiles]\nroot = "."\n'))
 
 
 def test_files_of_stations_are_needed_where_stations_are_on(make_shot, tmp_path):

@@ -190,7 +190,9 @@ def test_what_is_found_later_has_a_place_too(load):
 def test_a_portable_text_reads_back_in_any_folder(load, tmp_path, monkeypatch):
     """Also if the scene file was named by a relative path; only tilesets that exist are files."""
     (tmp_path / "set").mkdir()
-    load('run = "r"\ncache = "c"\n[terrain]\nphoto = "p.tif"\n[tiles]\nsources = ["set", "https://a.b/c"]')
+    load(
+        'run = "r"\ncache = "c"\n[terrain]\nphoto = "p.tif"\n[tiles]\nroot = "."\nsources = ["set", "https://a.b/c"]'
+    )
     monkeypatch.chdir(tmp_path)
     text = scene_file.portable(scene_file.read("scene.toml"))
     found = scene_file.parse(text, Path("/else/where.toml"))
@@ -198,6 +200,7 @@ def test_a_portable_text_reads_back_in_any_folder(load, tmp_path, monkeypatch):
         tmp_path / each for each in ("r", "c", "p.tif")
     )
     assert found.tiles.sources == (str(tmp_path / "set"), "https://a.b/c")
+    assert found.tiles.root == str(tmp_path)
 
 
 def test_a_missing_file_and_one_that_is_not_text(tmp_path):

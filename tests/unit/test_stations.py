@@ -124,14 +124,18 @@ def test_stations_without_a_file_are_an_error_that_names_the_key(shot_of):
     settings = shot_of().settings
     settings.path.write_text('run = "run"\n[stations]\nenabled = true\n')
     with pytest.raises(InputError, match=r"scene\.toml:3:\d+: stations\.enabled needs stations\.file"):
-        station_signs.check(scene_file.read(settings.path))
-    station_signs.check(settings)
+        station_signs.check(scene_file.read(settings.path), None)
+    station_signs.check(settings, shot_of().run)
 
 
 def test_too_many_stations_labels_and_corners_are_refused_with_their_number(shot_of, tmp_path, monkeypatch):
     monkeypatch.setattr(limits, "SIGNS", 1)
-    with pytest.raises(InputError, match=r"stations.gpkg: has 2 stations in the scene; at most 1 are drawn"):
-        station_signs.make_signs(shot_of())
+    crowded = shot_of()
+    checked = lambda: station_signs.check(crowded.settings, crowded.run)  # noqa: E731
+    for call in (checked, lambda: station_signs.make_signs(crowded)):
+        with pytest.raises(InputError, match=r"stations.gpkg: has 2 stations in the scene; at most 1 are"):
+            call()
+    monkeypatch.undo()
     path = tmp_path / "labels.csv"
     rows = "".join(f"Place {k},38.903,-120.592\n" for k in range(5000))
     path.write_text(f"name,latitude,longitude\n{rows}Far,10,20\n")
@@ -145,7 +149,7 @@ def test_too_many_stations_labels_and_corners_are_refused_with_their_number(shot
     shape = {"type": "Polygon", "coordinates": [[*ring, ring[0]]]}
     (tmp_path / "houses.geojson").write_text(json.dumps(shape))
     with pytest.raises(InputError, match=r"has a footprint of 5,0\d\d corners; simplify it to at most 5,000"):
-        station_signs.check(shot_of(footprints=tmp_path / "houses.geojson").settings)
+        station_signs.check(shot_of(footprints=tmp_path / "houses.geojson").settings, crowded.run)
 
 
 def test_the_nearest_footprint_is_found_among_many():

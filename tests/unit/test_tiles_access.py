@@ -9,8 +9,13 @@ from firetwin import cli
 from firetwin.errors import InputError
 from firetwin.jobs.tiles import access as job
 from firetwin.jobs.tiles.access import TileAccess
+from firetwin.jobs.tiles.source import open_tileset
+from firetwin.shot.sections.tiles import TileSettings
+from firetwin.shot.settings import Settings
+from firetwin.tiles.loader import Loader
 from firetwin.tiles.sources import open_source
 from lying_server import serving
+from tilesets import GLB, tile, tileset, write
 
 MANIFEST = Path(job.__file__).parents[2] / "blender_manifest.toml"
 
@@ -31,6 +36,23 @@ def test_access_goes_to_another_process_and_back():
     assert job.from_plain(access.plain()) == access
     network = access.network()
     assert (network.online, network.hosts, network.private) == (False, ("a.example", "b.example"), True)
+
+
+@pytest.mark.parametrize(
+    ("option", "setting", "opened"),
+    [("", "", False), ("", ".", True), ("DIR", "", True), ("DIR", "elsewhere", True)],
+)
+def test_a_folder_above_comes_from_the_option_or_else_from_the_scene_file(tmp_path, option, setting, opened):
+    folder = write(tmp_path, {"a/tileset.json": tileset(tile(8.0, "../x.glb")), "x.glb": GLB})
+    tiles = TileSettings(sources=("a",), root=setting)
+    shot = SimpleNamespace(settings=Settings(path=tmp_path / "scene.toml", tiles=tiles))
+    access = job.from_plain(TileAccess(root=str(folder) if option else "").plain())
+    loader = Loader(open_tileset(shot, 0, access))
+    if opened:
+        loader.check([0])
+    else:
+        with pytest.raises(InputError, match="leaves the tileset's folder"):
+            loader.check([0])
 
 
 def test_blender_is_asked_and_the_preference_is_named(blender, capsys):

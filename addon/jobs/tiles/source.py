@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -44,9 +44,12 @@ def open_tileset(shot: Shot, number: int, access: TileAccess) -> Source:
     """
     from ...tiles.sources import open_source
 
-    place = shot.settings.tiles.sources[number]
-    near = shot.settings.path.parent / place
-    return open_source(str(near) if near.exists() else place, access.network())
+    tiles, folder = shot.settings.tiles, shot.settings.path.parent
+    place, network = tiles.sources[number], access.network()
+    if tiles.root and network.root is None:
+        network = replace(network, root=folder / tiles.root)
+    near = folder / place
+    return open_source(str(near) if near.exists() else place, network)
 
 
 def to_scene(shot: Shot) -> tuple[float | None, NDArray[np.float64]]:

@@ -16,6 +16,11 @@ class TileSettings:
         "tilesets: folders, tileset.json, .3tz archives or URLs; paths start at the scene file's folder",
         affects=("terrain",),
     )
+    root: str = key(
+        "",
+        "folder within which files of local tilesets may refer to ../FILE; empty: their own folder",
+        affects=("terrain",),
+    )
     max_screen_space_error: float = key(
         2.0,
         "largest screen-space error of a tile; interactive viewers often use 16",

@@ -39,9 +39,11 @@ def portable(settings: Settings) -> str:
 
 def with_absolute_tilesets(settings: Settings) -> Settings:
     """Return settings whose tilesets are absolute paths, if they are paths relative to the scene file."""
-    near = [(place, settings.path.absolute().parent / place) for place in settings.tiles.sources]
+    folder, tiles = settings.path.absolute().parent, settings.tiles
+    near = [(place, folder / place) for place in tiles.sources]
     sources = tuple(str(path) if path.exists() else place for place, path in near)
-    return replace(settings, tiles=replace(settings.tiles, sources=sources))
+    root = str(folder / tiles.root) if tiles.root else ""
+    return replace(settings, tiles=replace(tiles, sources=sources, root=root))
 
 
 def brief(settings: Settings, asked: Collection[str], remarks: Mapping[str, str]) -> str:

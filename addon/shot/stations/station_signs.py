@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from firetwin_core.run import Run
 from numpy.typing import NDArray
 
 from ... import limits
@@ -27,7 +28,6 @@ from ..cameras import targets
 from ..schema import scene_text
 from ..settings import Settings
 from ..shot import Shot
-from ..terrain.terrain import Terrain
 
 FACT, INVENTED, USER = ORIGINS
 
@@ -99,12 +99,8 @@ def make_signs(shot: Shot) -> list[Sign]:
     if not settings.enabled or settings.file is None:
         return []
     known = reading.read(settings.file)
-    here = [each for each in known.stations if covers(shot.ground, each.latitude, each.longitude)]
-    if len(here) > limits.SIGNS:
-        reason = (
-            f"has {len(here):,} stations in the scene; at most {limits.SIGNS:,} are drawn: keep the main ones"
-        )
-        raise input_error(settings.file, reason)
+    axes = shot.ground.fields.latitude, shot.ground.fields.longitude
+    here = _within(settings.file, known.stations, *axes)
     outlines, minutes, fire = _outlines(shot.settings), _minutes(shot, known, here), _fire(shot, here)
     boxes = bounds(outlines)
     return [
@@ -156,10 +152,20 @@ def find_moving_points(shot: Shot) -> MovingPoints:
     return MovingPoints(None if began is None else ground.point(*began)[0], head)
 
 
-def covers(ground: Terrain, latitude: float, longitude: float) -> bool:
-    """Return True if a point is on the ground of the scene."""
-    axes, at = (ground.fields.latitude, ground.fields.longitude), (latitude, longitude)
-    return all(axis.min() <= each <= axis.max() for axis, each in zip(axes, at, strict=True))
+def _within(path: Path, stations: Iterable[Station], latitude: Array, longitude: Array) -> list[Station]:
+    """List the stations of a file within the axes of a grid, degrees.
+
+    Raises
+    ------
+    InputError
+        They are too many.
+    """
+    (south, north), (west, east) = ((axis.min(), axis.max()) for axis in (latitude, longitude))
+    here = [each for each in stations if south <= each.latitude <= north and west <= each.longitude <= east]
+    if len(here) > limits.SIGNS:
+        most = f"at most {limits.SIGNS:,} are drawn"
+        raise input_error(path, f"has {len(here):,} stations in the scene; {most}: keep the main ones")
+    return here
 
 
 def inputs(settings: Settings) -> dict[str, str]:
@@ -171,13 +177,13 @@ def inputs(settings: Settings) -> dict[str, str]:
     return {name: sha256(path)[:16] for name, path in files.items() if path is not None}
 
 
-def check(settings: Settings) -> None:
-    """Check that the user's files can be read.
+def check(settings: Settings, run: Run) -> None:
+    """Check before the build that the user's files can be read, and have not too many stations in the run.
 
     Raises
     ------
     InputError
-        A file cannot be read, or none is given.
+        A file cannot be read, has too many stations, or none is given.
     """
     known = settings.stations
     if not known.enabled:
@@ -186,7 +192,7 @@ def check(settings: Settings) -> None:
         reason = "stations.enabled needs stations.file, a GeoPackage of stations, or stations.routes_file"
         raise scene_text.error_at(settings.path, ("stations", "enabled"), reason)
     if known.file is not None:
-        reading.read(known.file)
+        _within(known.file, reading.read(known.file).stations, run.latitude, run.longitude)
     _outlines(settings)
     if known.routes_file is not None:
         _features(known.routes_file)

@@ -8,6 +8,8 @@ from ...errors import input_error
 from ._source import MAX_BYTES, Source, check_size, missing, unpack
 from .local import LeavesError, relative
 
+_REMEDY = "--tile-root DIR, or root under [tiles], allows a folder above"
+
 
 class Folder(Source):
     """A tileset.json and the files in its folder and below.
@@ -41,7 +43,7 @@ class Folder(Source):
         try:
             return relative(base, reference, self.name(base))
         except LeavesError as error:
-            raise input_error(error.path, f"{error.reason}; --tile-root DIR allows a folder above") from None
+            raise input_error(error.path, f"{error.reason}; {_REMEDY}") from None
 
     def read(self, uri: str, max_bytes: int = MAX_BYTES) -> bytes:
         """Read a file in the folder; links are followed."""
@@ -69,7 +71,7 @@ class Folder(Source):
     def _path(self, uri: str) -> Path:
         path = (self.folder / uri).resolve()
         if not path.is_relative_to(self.folder):
-            reason = "is a link that leaves the tileset's folder; --tile-root DIR allows a folder above"
+            reason = f"is a link that leaves the tileset's folder; {_REMEDY}"
             raise input_error(self.name(uri), reason)
         if path.exists() and not path.is_file():
             raise missing(self.name(uri), "is not a file")
