@@ -22,6 +22,7 @@ from ..jobs import worker
 from ..progress import MessageCallback, Progress, no_message, silent
 from ..shot import sections, settings
 from ..shot.cameras.rigs.drone import CameraKey, Drone
+from ..shot.light import sky
 from ..shot.passes import file_of
 from ..shot.shot import Shot
 from .harness import OURS, Bench
@@ -99,8 +100,10 @@ def light() -> volume.Illumination:
         glow=(0.0, 0.0, 0.0),
         thin=0.1,
         air=(0.25, 0.3, 0.38),
-        haze=1.2e-5,
-        haze_height=5000.0,
+        horizon=(0.7, 0.8, 0.9),
+        thick_haze=sky.THICK_HAZE,
+        haze=(sky.HAZE, sky.HAZE * sky.LOW_HAZE),
+        haze_height=(sky.HAZE_HEIGHT, sky.LOW_HEIGHT),
     )
 
 

@@ -15,6 +15,7 @@ the Rayleigh optical depths of green and blue from red (`space_sky`) is added, i
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import bpy
@@ -27,7 +28,6 @@ from . import curved_air, space_sky
 
 _GROUP = "haze"
 _WHITE = (1.0, 1.0, 1.0, 1.0)
-_THICK = 0.2, 1.2  # optical depths between which airlight takes the horizon's colour (by eye)
 COLOUR, HORIZON = (f'nodes["{name}"].outputs[0].default_value' for name in ("Colour", "Horizon"))
 """Data paths of the airlight's radiance in the node group: near the camera, and where haze is thick."""
 
@@ -61,7 +61,7 @@ def _group(stage: Stage) -> bpy.types.NodeTree:
     depth = path * (extinction * density)
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     fraction = (1.0 - (-depth).exp()) * camera
-    distant = colour if earth else tree.mix_colour(depth.smoothstep(*_THICK), colour, horizon)
+    distant = colour if earth else tree.mix_colour(depth.smoothstep(*sky.THICK_HAZE), colour, horizon)
     light = tree.vector("MULTIPLY", distant, tint)
     shown = light
     if earth is not None:
@@ -113,11 +113,30 @@ def set_amount(stage: Stage, amount: float) -> bpy.types.NodeTree:
     return group
 
 
-def current_state(stage: Stage) -> tuple[tuple[float, ...], float]:
-    """Return the airlight's radiance and the extinction at height 0 (1/m), in the scene's current frame."""
+def illumination(
+    stage: Stage, density: float = 1.0, tint: Sequence[float] = _WHITE[:3]
+) -> dict[str, Sequence[float]]:
+    """Return the haze of the scene's current frame, as `firetwin_core.volume.Illumination` takes it.
+
+    Parameters
+    ----------
+    density, tint
+        Factors on the haze and on its colour.
+    """
     group = stage.evaluated(_group(stage))
-    colour = group.nodes["Colour"].outputs[0].default_value
-    return tuple(colour[:3]), float(group.nodes["Extinction"].outputs[0].default_value)
+    air, horizon = (
+        [part * by for part, by in zip(group.nodes[name].outputs[0].default_value[:3], tint, strict=True)]
+        for name in ("Colour", "Horizon")
+    )
+    extinction = density * float(group.nodes["Extinction"].outputs[0].default_value)
+    plain = curved_air.earth(stage) is not None
+    return {
+        "air": air,
+        "horizon": air if plain else horizon,
+        "thick_haze": sky.THICK_HAZE,
+        "haze": (extinction, 0.0 if plain else extinction * sky.LOW_HAZE),
+        "haze_height": (sky.HAZE_HEIGHT, sky.LOW_HEIGHT),
+    }
 
 
 def fraction(tree: nodes.Tree, stage: Stage) -> tuple[nodes.Value, nodes.Value]:

@@ -366,12 +366,26 @@ class Shot:
     @cached_property
     def fire_distance(self) -> float:
         """Distance of the cameras to the fire, m: 10th percentile of the cells in the closest frame."""
-        cells = self.fire.cells(self.frames.first - 1800.0, self.frames.last + 1.0)
-        if not self.paths or len(cells.arrival) == 0:
-            return _NO_FIRE_DISTANCE
-        return min(
-            float(np.percentile(self.visibility.distance_from(view, cells.position[::5]), 10.0))
+        distances = [
+            self._distance_to_fire(view, 10.0)
             if view.perspective
             else 2.0 * view.half[0] * WIDE_LENS / SENSOR  # equal pixel size of the reference lens
             for view in self.paths
-        )
+        ]
+        return min(distances) if distances and len(self._burning_places) else _NO_FIRE_DISTANCE
+
+    @cached_property
+    def nearest_fire(self) -> list[float]:
+        """Distances of the perspective cameras to the nearest fire, m: 2nd percentile of the cells."""
+        return [self._distance_to_fire(view, 2.0) for view in self.perspective_paths]
+
+    @cached_property
+    def _burning_places(self) -> NDArray[np.float64]:
+        """Positions (n, 3) of cells that burn in the shot or shortly before, m."""
+        return self.fire.cells(self.frames.first - 1800.0, self.frames.last + 1.0).position[::5]
+
+    def _distance_to_fire(self, path: Path, percent: float) -> float:
+        """Return a percentile of the distances of burning cells in a camera's closest frame, m."""
+        if not len(self._burning_places):
+            return _NO_FIRE_DISTANCE
+        return float(np.percentile(self.visibility.distance_from(path, self._burning_places), percent))

@@ -34,14 +34,19 @@ class Window:
 
 
 def window(shot: Shot, frame: int, voxel: float) -> Window | None:
-    """Return a window around the eyes of a frame if voxels of `voxel` m are too coarse there, else None."""
-    if shot.settings.smoke.voxel_size or shot.fire_distance > _NEAR * voxel:
+    """Return a window before the eye nearest to fire if voxels of `voxel` m are too coarse there, else None.
+
+    Other cameras that film the frame have no window.
+    """
+    filming = [
+        (distance, number)
+        for number, distance in enumerate(shot.nearest_fire)
+        if frame - 1 in shot.filmed(shot.perspective_paths[number])
+    ]
+    distance, number = min(filming, default=(np.inf, 0))
+    if shot.settings.smoke.voxel_size or distance > _NEAR * voxel:
         return None
-    paths = [path for path in shot.perspective_paths if frame - 1 in shot.filmed(path)]
-    if not paths:
-        return None
-    half = _HALF * voxel
-    ahead = [path.position[frame - 1] - _AHEAD * half * path.rotation[frame - 1, :, 2] for path in paths]
-    middle = np.mean(ahead, axis=0)[:2]
+    path, half = shot.perspective_paths[number], _HALF * voxel
+    middle = (path.position[frame - 1] - _AHEAD * half * path.rotation[frame - 1, :, 2])[:2]
     low, high = middle - half, middle + half
     return Window(tuple(low.tolist()), tuple(high.tolist()), voxel / FINER)

@@ -57,16 +57,16 @@ _BLOCK, _ROUND = 16, 300.0  # voxels of a culling block; m of margin for multipl
 
 Array = NDArray[np.float64]
 Brick = tuple[NDArray[np.float32], float, list[float]]
-"""Values (nx, ny, nz), voxel size and centre of the first voxel (m), as `volume.smoke_light` takes them."""
+"""Values (nx, ny, nz), voxel size and centre of the first voxel (m), as in `volume.occluded_smoke`."""
 Eyes = tuple[Array, Array]
 """Viewpoints, as returned by `Visibility.eyes`."""
 
 
 @dataclass(frozen=True)
 class OuterLayer:
-    """Outer layer's effect on the next: optical depth towards the sun, and occluding extinction (1/m)."""
+    """Outer layer's effect on the next: optical depth to its lights, and occluding extinction (1/m)."""
 
-    depths: Brick | None = None
+    depths: volume.LightDepths | None = None
     smoke: Brick | None = None
 
 

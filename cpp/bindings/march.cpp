@@ -159,15 +159,17 @@ void init_march(Module module) {
       .def(py::init([](float density, const Colour& fresh, const Colour& old, const Colour& sun,
                        const Colour& sky, const Vector& sun_direction, double anisotropy,
                        const std::array<float, 2>& multiple_scattering, const Colour& glow,
-                       float thin, const Colour& air, double haze, double haze_height) {
+                       float thin, const Colour& air, const Colour& horizon,
+                       const std::array<float, 2>& thick_haze, const std::array<double, 2>& haze,
+                       const std::array<double, 2>& haze_height) {
              return Illumination{density,    fresh,         old,        sun,
                                  sky,        sun_direction, anisotropy, multiple_scattering,
-                                 glow,       thin,          air,        haze,
-                                 haze_height};
+                                 glow,       thin,          air,        horizon,
+                                 thick_haze, haze,          haze_height};
            }),
            py::kw_only(), "density"_a, "fresh"_a, "old"_a, "sun"_a, "sky"_a, "sun_direction"_a,
-           "anisotropy"_a, "multiple_scattering"_a, "glow"_a, "thin"_a, "air"_a, "haze"_a,
-           "haze_height"_a);
+           "anisotropy"_a, "multiple_scattering"_a, "glow"_a, "thin"_a, "air"_a, "horizon"_a,
+           "thick_haze"_a, "haze"_a, "haze_height"_a);
   const volume::MarchSettings defaults;
   module.def("march", &march, "layers"_a, "origins"_a, "directions"_a, "distances"_a, "light"_a,
              "step"_a = defaults.step, "min_transmittance"_a = defaults.min_transmittance,

@@ -17,23 +17,28 @@ namespace py = pybind11;
 namespace {
 
 using volume::Bricks;
+using volume::LightDepths;
 using volume::LitSmoke;
 using volume::VisibleShare;
 
 std::shared_ptr<LitSmoke> make_lit(std::shared_ptr<SparseSmoke> smoke, const Vector& direction,
                                    double sun_factor, double sky_factor,
-                                   const std::optional<Placed>& beyond) {
-  const Beyond outside(beyond);
+                                   const std::shared_ptr<LightDepths>& beyond) {
   const py::gil_scoped_release release;
-  return std::make_shared<LitSmoke>(std::move(smoke), direction, outside.get(),
+  return std::make_shared<LitSmoke>(std::move(smoke), direction, beyond.get(),
                                     std::array{sun_factor, sky_factor});
 }
 
-/// Returns the optical depths as a view that `self` keeps alive.
-py::tuple depths(const py::object& self) {
-  const auto& found = self.cast<const LitSmoke&>().depths();
+/// Returns the optical depths to the sun as a view that `self` keeps alive.
+Array<float> sun_depths(const py::object& self) {
+  const auto& found = self.cast<const LightDepths&>().sun;
   const auto [nx, ny, nz] = found.shape;
-  return py::make_tuple(lend<float>(found.values, {nx, ny, nz}, self), found.voxel, found.origin);
+  return lend<float>(found.values, {nx, ny, nz}, self);
+}
+
+/// Returns the optical depths of smoke; Python never changes them.
+std::shared_ptr<LightDepths> depths(const LitSmoke& lit) {
+  return std::const_pointer_cast<LightDepths>(lit.depths());
 }
 
 Array<double> share_of(const LitSmoke& lit, const py::object& share) {
@@ -75,7 +80,7 @@ py::dict grids(const LitSmoke& lit, const py::object& share, float min_extinctio
 
 py::tuple smoke_light(const py::object& extinction, double voxel_size, const Vector& direction,
                       double sun_factor, double sky_factor, const Vector& origin,
-                      const std::optional<Placed>& beyond) {
+                      const std::shared_ptr<LightDepths>& beyond) {
   const auto dense = to_array<float>(extinction, "extinction", {-1, -1, -1});
   const std::vector<py::ssize_t> shape{dense.shape(0), dense.shape(1), dense.shape(2)};
   auto smoke = std::make_shared<SparseSmoke>(SparseSmoke::Place{shape[0], shape[1], shape[2]},
@@ -84,7 +89,7 @@ py::tuple smoke_light(const py::object& extinction, double voxel_size, const Vec
   const auto found = make_lit(smoke, direction, sun_factor, sky_factor, beyond);
   auto sun = zeros(shape), sky = zeros(shape);
   found->write_dense(writable(sun), writable(sky));
-  return py::make_tuple(sun, sky, depths(py::cast(found)));
+  return py::make_tuple(sun, sky, depths(*found));
 }
 
 } // namespace
@@ -96,6 +101,8 @@ void init_smoke(Module module) {
       .def_property_readonly("origin", &SparseSmoke::origin)
       .def_property_readonly("shape", &SparseSmoke::shape)
       .def_property_readonly("used", &SparseSmoke::used);
+  Class<LightDepths, std::shared_ptr<LightDepths>>(module, "LightDepths")
+      .def_property_readonly("sun", &sun_depths);
   Class<LitSmoke, std::shared_ptr<LitSmoke>>(module, "LitSmoke")
       .def(py::init(&make_lit), "smoke"_a, "direction"_a, "sun_factor"_a, "sky_factor"_a,
            "beyond"_a = py::none())

@@ -62,10 +62,19 @@ OwnedVoxelGrid halved(const SparseSmoke& smoke) {
   return coarse;
 }
 
-OwnedVoxelGrid sky_light_grid(const OwnedVoxelGrid& smoke, double part) {
-  OwnedVoxelGrid open = volume::halved(smoke.view());
-  open.values = sky_light(open.view(), part);
-  return open;
+std::shared_ptr<const LightDepths> light_depths(const SparseSmoke& smoke, const Vector& direction,
+                                                const LightDepths* beyond) {
+  OwnedVoxelGrid coarse = halved(smoke);
+  const std::optional<VoxelGrid> outside =
+      beyond == nullptr ? std::nullopt : std::optional(beyond->sun.view());
+  SkyDepths sky =
+      sky_depths(volume::halved(coarse.view()).view(), beyond == nullptr ? nullptr : &beyond->sky);
+  coarse.values = optical_depth(coarse.view(), direction, outside ? &*outside : nullptr);
+  return std::make_shared<const LightDepths>(LightDepths{std::move(coarse), std::move(sky)});
+}
+
+OwnedVoxelGrid sky_light_grid(const SkyDepths& depths, double part) {
+  return {sky_light(depths, part), depths[0].shape, depths[0].voxel, depths[0].origin};
 }
 
 FIRETWIN_CLONES("avx512f", "avx2")
@@ -182,11 +191,11 @@ LitSmoke::Stencil::Stencil(const Vector& direction) {
 }
 
 LitSmoke::LitSmoke(std::shared_ptr<const SparseSmoke> smoke, const Vector& direction,
-                   const VoxelGrid* beyond, std::array<double, 2> factors)
+                   const LightDepths* beyond, std::array<double, 2> factors)
     : smoke_((check_direction(direction), std::move(smoke))),
-      log_attenuation_(static_cast<float>(-factors[0])), depths_(halved(*smoke_)),
-      sky_light_(sky_light_grid(depths_, factors[1])), first_steps_(direction) {
-  depths_.values = optical_depth(depths_.view(), direction, beyond);
+      log_attenuation_(static_cast<float>(-factors[0])),
+      depths_(light_depths(*smoke_, direction, beyond)),
+      sky_light_(sky_light_grid(depths_->sky, factors[1])), first_steps_(direction) {
   const auto between = [this](const OwnedVoxelGrid& values, double steps, const Vector& way) {
     Vector shift{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -195,8 +204,8 @@ LitSmoke::LitSmoke(std::shared_ptr<const SparseSmoke> smoke, const Vector& direc
     return GridResampler(values, smoke_->shape(), smoke_->voxel(), smoke_->origin(), shift);
   };
   sky_ = between(sky_light_, 0.0, direction);
-  depth_ = between(depths_, 0.0, direction);
-  depth_beyond_ = between(depths_, fine_steps, direction);
+  depth_ = between(depths_->sun, 0.0, direction);
+  depth_beyond_ = between(depths_->sun, fine_steps, direction);
 }
 
 void LitSmoke::gather(const Place& block, Neighbourhood& out) const {

@@ -2,6 +2,7 @@
 
 #include "base/sparse_smoke.hpp"
 #include "volume/grid_resampler.hpp"
+#include "volume/sunlight.hpp"
 #include "volume/voxel_grid.hpp"
 
 #include <array>
@@ -36,6 +37,12 @@ struct BlockLight {
   std::array<float, wide * wide * row> sun, sky;
 };
 
+/// Optical depths of smoke to its lights.
+struct LightDepths {
+  OwnedVoxelGrid sun; ///< on voxels of twice the size
+  SkyDepths sky;      ///< on voxels of four times the size
+};
+
 /// Sunlight and skylight in sparse smoke as transmittance exp(-factor * optical depth), 1 in clear
 /// air. It is computed where the voxel or one of its 26 neighbours has smoke, as interpolation
 /// needs; elsewhere it is 0.
@@ -51,11 +58,10 @@ public:
   /// @param factors on the optical depth, for sunlight and for skylight
   /// @throws std::invalid_argument
   LitSmoke(std::shared_ptr<const SparseSmoke> smoke, const Vector& direction,
-           const VoxelGrid* beyond, std::array<double, 2> factors);
+           const LightDepths* beyond, std::array<double, 2> factors);
 
   const SparseSmoke& smoke() const { return *smoke_; }
-  /// Optical depths to the sun, on voxels of twice the size.
-  const OwnedVoxelGrid& depths() const { return depths_; }
+  const std::shared_ptr<const LightDepths>& depths() const { return depths_; }
   void gather(const SparseSmoke::Place& block, Neighbourhood& out) const;
   /// Computes the light in a block. Returns false, and writes nothing, if there is no smoke near.
   bool light(const SparseSmoke::Place& block, const Neighbourhood& around, BlockLight& out) const;
@@ -77,7 +83,8 @@ private:
 
   std::shared_ptr<const SparseSmoke> smoke_;
   float log_attenuation_; ///< sunlight = exp(log_attenuation_ * optical depth)
-  OwnedVoxelGrid depths_, sky_light_;
+  std::shared_ptr<const LightDepths> depths_;
+  OwnedVoxelGrid sky_light_;
   Stencil first_steps_;
   std::optional<GridResampler> sky_, depth_,
       depth_beyond_; ///< depth_beyond_ starts at the end of the first steps

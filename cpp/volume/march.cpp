@@ -2,6 +2,7 @@
 
 #include "base/clones.hpp"
 #include "base/simd.hpp"
+#include "base/smoothstep.hpp"
 #include "volume/fine_detail.hpp"
 #include "volume/flames.hpp"
 #include "volume/half.hpp"
@@ -36,7 +37,7 @@ Four four(const Colour& colour, float factor = 1.0F) {
 
 /// Constants of a ray's shading.
 struct ShadingConstants {
-  Four fresh, old, sun, sky, glow, air;
+  Four fresh, old, sun, sky, glow;
   float phase = 0.0F; ///< phase function towards the eye; isotropic: 1
   float density, twice, thrice;
   float thin;
@@ -45,8 +46,8 @@ struct ShadingConstants {
   explicit ShadingConstants(const Illumination& light)
       : fresh(four(light.fresh)), old(four(light.old)),
         sun(four(light.sun, 0.25F / std::numbers::pi_v<float>)), sky(four(light.sky)),
-        glow(four(light.glow)), air(four(light.air)), density(light.density),
-        twice(light.multiple_scattering[0]), thrice(light.multiple_scattering[1]), thin(light.thin),
+        glow(four(light.glow)), density(light.density), twice(light.multiple_scattering[0]),
+        thrice(light.multiple_scattering[1]), thin(light.thin),
         glows(std::max({light.glow[0], light.glow[1], light.glow[2]}) > 0.0F) {}
 };
 
@@ -56,11 +57,19 @@ struct RayState {
   float transmittance = 1.0F;
 };
 
+/// Haze between the eye and a point on a ray.
+struct HazeState {
+  float share; ///< of haze in the radiance, 0 to 1
+  Four light;  ///< radiance of the haze in front of an opaque object
+};
+
+using SampleHaze = std::array<HazeState, SampleRow{}.size()>;
+
 /// Equal steps through blocks that overlap along the ray.
 struct Steps {
   float from, length; ///< m
   int count;
-  float haze, haze_slope; ///< share of haze in the radiance at `from`, and its increase per m
+  HazeState haze, haze_slope; ///< at `from`, and its increase per m
 };
 
 __attribute__((always_inline)) inline void blend(const Lanes& a, const Lanes& b, float part,
@@ -100,7 +109,7 @@ sample(const LayerCrossing& crossing, const Segment& segment, float distance, La
 
 /// Returns the radiance of smoke towards the eye per unit of optical depth.
 __attribute__((always_inline)) inline Four radiance(const Lanes& v, const ShadingConstants& shading,
-                                                    float haze) {
+                                                    const HazeState& haze) {
   const Four albedo = shading.old + (shading.fresh - shading.old) * v[1];
   const float sun_root = v[2] * v[2];
   Four lit = albedo * (shading.thrice * v[2]) + shading.twice * sun_root;
@@ -109,7 +118,7 @@ __attribute__((always_inline)) inline Four radiance(const Lanes& v, const Shadin
   if (shading.glows) {
     lit += shading.glow * (v[4] * (1.0F - (1.0F - shading.thin) * v[3]));
   }
-  return lit + (shading.air - lit) * haze;
+  return lit * (1.0F - haze.share) + haze.light;
 }
 
 /// Layers with smoke at the current position of the ray.
@@ -134,7 +143,7 @@ struct LayerRow {
 /// Samples a layer at a row of distances; `count` of them are used. Samples have noise if `clear`.
 FIRETWIN_CLONES("avx2")
 void sample_row(const ActiveLayers& active, std::size_t layer, const SampleRow& distances,
-                const SampleRow& haze, std::size_t count, bool clear,
+                const SampleHaze& haze, std::size_t count, bool clear,
                 const ShadingConstants& shading, LayerRow& out) {
   std::array<Lanes, row_size> values;
   bool noisy = false;
@@ -170,11 +179,13 @@ void accumulate(const ActiveLayers& active, const Steps& steps, const ShadingCon
   for (std::size_t first = 0; first < all && state.transmittance >= min_transmittance;
        first += row_size) {
     const std::size_t count = std::min(row_size, all - first);
-    SampleRow distances, haze;
+    SampleRow distances;
+    SampleHaze haze;
     for (std::size_t n = 0; n < row_size; ++n) {
       const float offset = (static_cast<float>(first + n) + 0.5F) * steps.length;
       distances[n] = steps.from + offset;
-      haze[n] = steps.haze + steps.haze_slope * offset;
+      haze[n] = {steps.haze.share + steps.haze_slope.share * offset,
+                 steps.haze.light + steps.haze_slope.light * offset};
     }
     for (std::size_t k = 0; k < active.count; ++k) {
       sample_row(active, k, distances, haze, count, state.transmittance > faint, shading,
@@ -194,22 +205,31 @@ void accumulate(const ActiveLayers& active, const Steps& steps, const ShadingCon
   }
 }
 
-/// Share of haze in the radiance between the eye and a point on a ray, as in `scene.haze`.
+/// Haze along a ray, the same as on surfaces (`scene.haze`).
 class Haze {
 public:
   Haze(const Illumination& light, const Vector& origin, const Vector& direction)
-      : extinction_(light.haze), height_(light.haze_height), start_(origin[2]),
-        rise_(direction[2]) {}
+      : light_(light), start_(origin[2]), rise_(direction[2]) {}
 
-  float at(double distance) const {
-    const double low = (start_ + rise_ * distance) / height_;
-    const double rise = -rise_ * distance / height_;
-    const double mean = std::abs(rise) < 1.0e-3 ? 1.0 - 0.5 * rise : -std::expm1(-rise) / rise;
-    return static_cast<float>(-std::expm1(-extinction_ * distance * std::exp(-low) * mean));
+  HazeState at(double distance) const {
+    double depth = 0.0;
+    for (std::size_t layer = 0; layer < light_.haze.size(); ++layer) {
+      const double height = light_.haze_height[layer];
+      const double low = (start_ + rise_ * distance) / height;
+      const double rise = -rise_ * distance / height;
+      const double mean = std::abs(rise) < 1.0e-3 ? 1.0 - 0.5 * rise : -std::expm1(-rise) / rise;
+      depth += light_.haze[layer] * distance * std::exp(-low) * mean;
+    }
+    const auto share = static_cast<float>(-std::expm1(-depth));
+    const float thick =
+        smoothstep(light_.thick_haze[0], light_.thick_haze[1], static_cast<float>(depth));
+    const Four air = four(light_.air);
+    return {share, (air + (four(light_.horizon) - air) * thick) * share};
   }
 
 private:
-  double extinction_, height_, start_, rise_;
+  const Illumination& light_;
+  double start_, rise_;
 };
 
 /// Marches rays one by one; use one object per thread.
@@ -228,7 +248,7 @@ private:
   float prepare(float t, float until);
   void step(float t, float until, const Haze& haze);
   void pass(float t, float until, const Haze& haze);
-  void add(const FlameSlab& slab, float haze);
+  void add(const FlameSlab& slab, const HazeState& haze);
   bool is_opaque() const {
     return static_cast<double>(state_.transmittance) < settings_.min_transmittance;
   }
@@ -304,16 +324,17 @@ float Marcher::prepare(float t, float until) {
 void Marcher::step(float t, float until, const Haze& haze) {
   const float all = until - t;
   const int count = std::max(1, static_cast<int>(std::ceil(all / prepare(t, until))));
-  const float near = haze.at(entry_ + static_cast<double>(t));
-  const float far = haze.at(entry_ + static_cast<double>(until));
-  accumulate(active_, {t, all / static_cast<float>(count), count, near, (far - near) / all},
-             shading_, static_cast<float>(settings_.min_transmittance), state_);
+  const HazeState near = haze.at(entry_ + static_cast<double>(t));
+  const HazeState far = haze.at(entry_ + static_cast<double>(until));
+  const HazeState slope{(far.share - near.share) / all, (far.light - near.light) * (1.0F / all)};
+  accumulate(active_, {t, all / static_cast<float>(count), count, near, slope}, shading_,
+             static_cast<float>(settings_.min_transmittance), state_);
 }
 
 /// Adds flames to the end of the ray.
-void Marcher::add(const FlameSlab& slab, float haze) {
+void Marcher::add(const FlameSlab& slab, const HazeState& haze) {
   const Four light{slab.radiance[0], slab.radiance[1], slab.radiance[2], 0.0F};
-  const Four seen = light + (shading_.air * (1.0F - slab.transmittance) - light) * haze;
+  const Four seen = light * (1.0F - haze.share) + haze.light * (1.0F - slab.transmittance);
   state_.radiance += seen * state_.transmittance;
   state_.transmittance *= slab.transmittance;
   if (state_.transmittance < opaque_flames) {

@@ -21,10 +21,11 @@ struct Illumination {
   std::array<float, 2> multiple_scattering; ///< weights of light scattered two and three times,
                                             ///< relative to single scattering
   Colour glow;                              ///< radiance where `glow` is 1; black: no glow
-  float thin;         ///< share of the glow that smoke without other smoke around it scatters
-  Colour air;         ///< radiance of haze
-  double haze;        ///< extinction of haze at height 0, 1/m
-  double haze_height; ///< e-folding height of haze, m
+  float thin;          ///< share of the glow that smoke without other smoke around it scatters
+  Colour air, horizon; ///< radiance of thin and of thick haze
+  std::array<float, 2> thick_haze;   ///< optical depths between which haze takes the second
+  std::array<double, 2> haze;        ///< extinction of two layers of haze at height 0, 1/m
+  std::array<double, 2> haze_height; ///< their e-folding heights, m
 };
 
 /// Distances along rays at which the result is returned.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 namespace firetwin::volume {
 namespace {
@@ -121,17 +122,28 @@ std::vector<float> optical_depth(const VoxelGrid& smoke, const Vector& direction
   return depth;
 }
 
-std::vector<float> sky_light(const VoxelGrid& smoke, double part) {
+SkyDepths sky_depths(const VoxelGrid& smoke, const SkyDepths* beyond) {
   const double flat = std::sqrt(1.0 - ring * ring);
-  const std::array<Vector, 5> ways{
+  const std::array<Vector, sky_directions> ways{
       {{0, 0, 1}, {flat, 0, ring}, {-flat, 0, ring}, {0, flat, ring}, {0, -flat, ring}}};
-  std::vector<float> sum(smoke.values.size());
+  SkyDepths found;
+  for (std::size_t n = 0; n < ways.size(); ++n) {
+    const std::optional<VoxelGrid> outside =
+        beyond == nullptr ? std::nullopt : std::optional((*beyond)[n].view());
+    found[n] = {optical_depth(smoke, ways[n], outside ? &*outside : nullptr), smoke.shape,
+                smoke.voxel, smoke.origin};
+  }
+  return found;
+}
+
+std::vector<float> sky_light(const SkyDepths& depths, double part) {
+  std::vector<float> sum(depths[0].values.size());
   const auto log_attenuation = static_cast<float>(-part);
-  const float share = 1.0F / static_cast<float>(ways.size());
-  for (const Vector& way : ways) {
-    const std::vector<float> depth = optical_depth(smoke, way, nullptr);
-    each_block(sum.size(),
-               [&](std::size_t n) { sum[n] += share * std::exp(log_attenuation * depth[n]); });
+  const float share = 1.0F / static_cast<float>(depths.size());
+  for (const OwnedVoxelGrid& depth : depths) {
+    each_block(sum.size(), [&](std::size_t n) {
+      sum[n] += share * std::exp(log_attenuation * depth.values[n]);
+    });
   }
   return sum;
 }

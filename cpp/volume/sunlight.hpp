@@ -3,6 +3,8 @@
 #include "base/vector.hpp"
 #include "volume/voxel_grid.hpp"
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 namespace firetwin::volume {
@@ -21,8 +23,17 @@ namespace firetwin::volume {
 std::vector<float> optical_depth(const VoxelGrid& smoke, const Vector& direction,
                                  const VoxelGrid* beyond);
 
-/// Averages exp(-part * optical depth) over five upward directions, each representing a fifth of
-/// the sky.
-std::vector<float> sky_light(const VoxelGrid& smoke, double part);
+/// Number of directions that represent the sky.
+constexpr std::size_t sky_directions = 5;
+using SkyDepths = std::array<OwnedVoxelGrid, sky_directions>;
+
+/// Computes the optical depths from voxel centres in five upward directions, each representing a
+/// fifth of the sky.
+/// @param beyond the result for a larger, coarser grid, added where a ray leaves this one; may be
+/// null
+SkyDepths sky_depths(const VoxelGrid& smoke, const SkyDepths* beyond);
+
+/// Averages exp(-part * optical depth) over the directions.
+std::vector<float> sky_light(const SkyDepths& depths, double part);
 
 } // namespace firetwin::volume

@@ -16,13 +16,17 @@ def shot(distance=200.0, place=(500.0, -300.0, 80.0), **smoke):
     """One that films frame 1 from a place, looking along x."""
     turn = np.array([[0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
     path = SimpleNamespace(position=np.array([place]), rotation=turn[None])
+    other = SimpleNamespace(position=np.array([place]) + 1000.0, rotation=turn[None])
     settings = SimpleNamespace(smoke=SimpleNamespace(**({"voxel_size": 0.0} | smoke)))
     return SimpleNamespace(
-        perspective_paths=[path], settings=settings, fire_distance=distance, filmed=lambda path: np.array([0])
+        perspective_paths=[other, path],
+        settings=settings,
+        nearest_fire=[distance + 1000.0, distance],
+        filmed=lambda path: np.array([0]),
     )
 
 
-def test_it_is_round_the_eye_and_more_of_it_before_it():
+def test_it_is_round_the_eye_nearest_to_fire_and_more_of_it_before_it():
     found = close_up.window(shot(), 1, VOXEL)
     assert found.voxel == pytest.approx(VOXEL / close_up.FINER)
     low, high = np.array(found.low), np.array(found.high)

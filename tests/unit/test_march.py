@@ -115,9 +115,17 @@ def test_a_camera_in_geostationary_orbit_sees_what_one_nearby_does():
 
 
 def test_haze_before_smoke_is_that_of_koschmieder():
-    lit = light(air=(1.0, 1.0, 1.0), haze=1e-3, haze_height=1e9)
+    lit = light(air=3 * (1.0,), horizon=3 * (1.0,), haze=(1e-3, 0.0), haze_height=(1e9, 1e9))
     found = volume.march([slab(0.3)], *along_x([FAR], start=-1000.0), lit)[0, 0]
     assert found[:3] == pytest.approx(3 * [1.0 - np.exp(-1.0)], rel=0.01)
+
+
+@pytest.mark.parametrize(("away", "thick"), [(150.0, 0.0), (700.0, 0.5), (5000.0, 1.0)])
+def test_layers_of_haze_add_up_and_take_the_colour_of_the_horizon(away, thick):
+    lit = light(air=(1.0, 0.0, 0.0), horizon=(0.0, 1.0, 0.0), haze=(4e-4, 6e-4), haze_height=(1e9, 1e9))
+    red, green, _, _ = volume.march([slab(0.3)], *along_x([FAR], start=-away), lit)[0, 0]
+    assert red + green == pytest.approx(1.0 - np.exp(-1e-3 * away), rel=0.03)
+    assert green / (red + green) == pytest.approx(thick, abs=0.01)
 
 
 def test_optical_depth_is_the_logarithm_of_what_comes_through():

@@ -23,8 +23,10 @@ LIGHT = volume.Illumination(
     glow=(1.0, 0.5, 0.2),
     thin=0.3,
     air=(0.0, 0.0, 0.0),
-    haze=0.0,
-    haze_height=2000.0,
+    horizon=(0.0, 0.0, 0.0),
+    thick_haze=(0.2, 1.2),
+    haze=(0.0, 0.0),
+    haze_height=(2000.0, 800.0),
 )
 
 
@@ -90,8 +92,9 @@ def test_blocks_hold_what_dense_arrays_do(seed, cells, shape, glows, direction):
     detail, rng = smoke_of(seed, cells, glows)
     end = rng.uniform(0.5, 1.0, shape[:2])
     share = np.clip(rng.uniform(-0.5, 1.5, shape[:2]), 0.0, 1.0)
-    beyond = (rng.uniform(0.0, 2.0, (9, 9, 9)).astype(np.float32), 160.0, (-80.0, -80.0, -80.0))
-    grids, (depths, *_) = dense(detail, shape, end, share, direction, beyond)
+    around = rng.uniform(0.0, 0.004, (18, 18, 18))
+    *_, beyond = volume.smoke_light(around, 80.0, direction, *PARTS, (-120.0, -120.0, -120.0))
+    grids, depths = dense(detail, shape, end, share, direction, beyond)
     lit = sparse(detail, shape, end, direction, beyond)
     found = lit.grids(share, THIN)
     assert set(found) == {name for name, values in grids.items() if values is not None}
@@ -99,7 +102,7 @@ def test_blocks_hold_what_dense_arrays_do(seed, cells, shape, glows, direction):
     for name, values in found.items():
         where = np.ones_like(there) if name in ("density", "sun", "sky") else there
         assert np.array_equal(values[where], grids[name][where]), name
-    assert np.array_equal(lit.depths[0], depths)
+    assert np.array_equal(lit.depths.sun, depths.sun)
     one = volume.Bricks(**grids, voxel_size=VOXEL, origin=(0.0, 0.0, 0.0))
     other = lit.bricks(share, THIN)
     assert (one.used, one.bytes, one.shape) == (other.used, other.bytes, other.shape)

@@ -69,6 +69,23 @@ def test_the_sky_over_an_even_slab():
     assert sky[120, 120, 16] == pytest.approx(1.0, abs=0.1)
 
 
+def test_finer_smoke_within_other_smoke_has_no_brighter_sky_at_its_sides():
+    coarse, fine, low = 40.0, 40.0 / 3.0, 22
+    slab = np.full((60, 60, 20), 0.004, np.float32)
+    slab[:, :, 12:] = 0.0
+    _, outer, depths = volume.smoke_light(slab, coarse, UP, 0.25, 0.5)
+    part = np.full((48, 48, 60), 0.004, np.float32)
+    part[:, :, 36:] = 0.0
+    origin = np.array([low * coarse, low * coarse, 0.0]) - 0.5 * (coarse - fine)
+    _, inner, _ = volume.smoke_light(part, fine, UP, 0.25, 0.5, origin, depths)
+    _, alone, _ = volume.smoke_light(part, fine, UP, 0.25, 0.5, origin)
+    places = (np.stack(np.indices(part.shape)) * fine + origin[:, None, None, None]) / coarse
+    around = map_coordinates(outer, places, order=1, mode="nearest")
+    for side in (np.s_[0, :, :30], np.s_[-1, :, :30], np.s_[:, 0, :30], np.s_[:, -1, :30]):
+        assert inner[side] == pytest.approx(around[side], abs=0.05), "of 0.2 at the bottom, 0.7 at the top"
+        assert np.abs(alone[side] - around[side]).mean() > 0.2
+
+
 def test_light_is_known_in_smoke_and_a_voxel_round_it_alone(cloud):
     sun, sky, _ = volume.smoke_light(cloud, 20.0, SLANTED, 0.25, 0.5)
     near = maximum_filter(cloud, 3, mode="constant") > 0.0

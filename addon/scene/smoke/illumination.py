@@ -39,7 +39,6 @@ def visible_light(stage: Stage) -> volume.Illumination:
     """
     group, tree = _group(stage)
     sun, around, toward = (tree.nodes[name] for name in sunlit.NODES)
-    air, extinction = haze.current_state(stage)
     strength = _input_number(group, "Glow") if "Glow" in group.inputs else 0.0
     glow = [part * strength for part in _input_colour(group, "Glow Colour")] if strength else 3 * [0.0]
     return volume.Illumination(
@@ -53,15 +52,12 @@ def visible_light(stage: Stage) -> volume.Illumination:
         multiple_scattering=sunlit.OFTENER,
         glow=glow,
         thin=sky.THIN,
-        air=np.array(air) * np.array(_input_colour(group, "Haze Tint")),
-        haze=extinction * _input_number(group, "Haze"),
-        haze_height=sky.HAZE_HEIGHT,
+        **haze.illumination(stage, _input_number(group, "Haze"), _input_colour(group, "Haze Tint")),
     )
 
 
 def light_without_smoke(stage: Stage) -> volume.Illumination:
     """Return the light of a scene without smoke: only its haze, in the scene's current frame."""
-    air, extinction = haze.current_state(stage)
     black = 3 * [0.0]
     return volume.Illumination(
         density=0.0,
@@ -74,9 +70,7 @@ def light_without_smoke(stage: Stage) -> volume.Illumination:
         multiple_scattering=sunlit.OFTENER,
         glow=black,
         thin=sky.THIN,
-        air=air,
-        haze=extinction,
-        haze_height=sky.HAZE_HEIGHT,
+        **haze.illumination(stage),
     )
 
 

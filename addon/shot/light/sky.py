@@ -35,6 +35,7 @@ HAZE = 1.2e-5  # extinction at z = 0 on a dry September day, 1/m: clear mountain
 HAZE_HEIGHT = 5000.0  # m, scale height, between dust (about 2 km) and air (8 km)
 LOW_HAZE = 4.0  # extinction of the boundary layer's dust and moisture at z = 0, relative to HAZE (assumed)
 LOW_HEIGHT = 800.0  # m, scale height of that layer by day (assumed)
+THICK_HAZE = 0.2, 1.2  # optical depths between which airlight takes the horizon's colour (by eye)
 
 MEAN = (
     (-9.0, -6.0, -4.0, -2.0, 0.0, 2.0, 5.0, 10.0, 20.0, 34.0, 50.0, 70.0),

@@ -294,8 +294,8 @@ def smoke_light(
     sun_factor: float,
     sky_factor: float,
     origin: Sequence[float] = (0.0, 0.0, 0.0),
-    beyond: tuple[ArrayLike, float, Sequence[float]] | None = None,
-) -> tuple[NDArray[np.float32], NDArray[np.float32], tuple[NDArray[np.float32], float, list[float]]]:
+    beyond: LightDepths | None = None,
+) -> tuple[NDArray[np.float32], NDArray[np.float32], LightDepths]:
     """Compute the transmittance of sunlight and skylight in smoke.
 
     Parameters
@@ -311,7 +311,7 @@ def smoke_light(
     origin
         m, the centre of voxel (0, 0, 0).
     beyond
-        `depths` of a coarser, larger grid, as returned. They are added where a ray to the sun leaves this
+        `depths` of a coarser, larger grid, as returned. They are added where a ray to a light leaves this
         grid.
 
     Returns
@@ -327,8 +327,15 @@ def smoke_light(
         (nx, ny, nz) transmittance of a uniform sky: the mean over five upward directions, each representing a
         fifth of the sky, on voxels of four times the size.
     depths
-        Optical depths to the sun on voxels of twice the size, their size (m), and the first's centre (m).
+        Optical depths to the sun and to the sky.
     """
+
+class LightDepths:
+    """Optical depths of smoke to the sun and to the sky, for finer smoke inside of it."""
+
+    @property
+    def sun(self) -> NDArray[np.float32]:
+        """Optical depths to the sun on voxels of twice the size."""
 
 class SparseSmoke:
     """Sparse voxel grid of smoke: blocks of 8^3 voxels; clear blocks are not stored.
@@ -359,12 +366,12 @@ class LitSmoke:
         direction: Sequence[float],
         sun_factor: float,
         sky_factor: float,
-        beyond: tuple[ArrayLike, float, Sequence[float]] | None = None,
+        beyond: LightDepths | None = None,
     ) -> None:
         """Compute optical depths; the arguments are the same as for `smoke_light`."""
     @property
-    def depths(self) -> tuple[NDArray[np.float32], float, list[float]]:
-        """Optical depths to the sun, as `smoke_light` returns them."""
+    def depths(self) -> LightDepths:
+        """Optical depths to the sun and to the sky."""
     def bricks(self, share: ArrayLike, min_extinction: float) -> Bricks:
         """Pack the visible share for ray marching.
 
@@ -466,8 +473,10 @@ class Illumination:
         glow: Sequence[float],
         thin: float,
         air: Sequence[float],
-        haze: float,
-        haze_height: float,
+        horizon: Sequence[float],
+        thick_haze: Sequence[float],
+        haze: Sequence[float],
+        haze_height: Sequence[float],
     ) -> None:
         """Set all parameters.
 
@@ -492,8 +501,12 @@ class Illumination:
         thin
             Share of the glow that smoke without other smoke around it scatters. It rises to 1 inside thick
             smoke, where no skylight arrives.
-        air, haze, haze_height
-            Radiance of the haze, its extinction (1/m) at height 0, and its e-folding height (m).
+        air, horizon
+            Radiance of thin and of thick haze.
+        thick_haze
+            Optical depths between which the haze changes from `air` to `horizon`.
+        haze, haze_height
+            Extinction (1/m) at height 0 of two layers of haze, and their e-folding heights (m).
         """
 
 class FlameShape:
