@@ -203,10 +203,15 @@ def _made_of(source: dict[str, Any]) -> list[str]:
     ]
 
 
-def brief(info: dict[str, Any]) -> list[tuple[str, str]]:
-    """List key facts for a narrow panel: labels and texts."""
+def format_area(square_metres: float, unit: str) -> str:
+    """Format an area in ``acres`` or ``ha``, without the unit."""
+    return f"{square_metres / (ACRE if unit == 'acres' else 1.0e4):,.0f}"
+
+
+def brief(info: dict[str, Any], area_unit: str = "acres") -> list[tuple[str, str]]:
+    """List key facts for a narrow panel: labels and texts. Areas are in ``acres`` or ``ha``."""
     grid, fuel, when = info["grid"], info["fuel_grid"], info["times"]
-    burned = [info["burned"][key] / ACRE for key in ("first", "last")]
+    burned = [format_area(info["burned"][key], area_unit) for key in ("first", "last")]
     return [
         *([("Kind", "synthetic")] if info["synthetic"] else []),
         ("Grid", _cells(grid)),
@@ -218,7 +223,7 @@ def brief(info: dict[str, Any]) -> list[tuple[str, str]]:
             (label, times.text(datetime.fromisoformat(when[key]), info["zone"]))
             for label, key in (("First", "first"), ("Last", "last"))
         ),
-        ("Burned", f"{burned[0]:,.0f} to {burned[1]:,.0f} acres"),
+        ("Burned", f"{burned[0]} to {burned[1]} {area_unit}"),
         ("Heat flux", f"up to {info['heat_flux']['max'] / 1e3:,.4g} kW/m²"),
     ]
 

@@ -73,6 +73,7 @@ def build(shot: Shot, identify: Identify, progress: Progress = silent) -> int:
     _mark_materials(identify)
     for group in filter(owned.is_ours, bpy.data.node_groups):
         _mark(group, identify(_KINDS[group.bl_idname]), _describe_group(group))
+    _picture_groups(trees.objects["Large Conifer 1"])
     for obj in (obj for obj in stage.root.all_objects if obj.type == "CAMERA"):
         _mark(obj, identify("Cameras"), "A camera of the shot, with its path")
     blocks = (bpy.data.objects, bpy.data.materials, bpy.data.node_groups)
@@ -113,6 +114,25 @@ def _mark_materials(identify: Identify) -> None:
             pixels = np.empty(_PICTURE * _PICTURE * 4, np.float32)
             made.preview.image_pixels_float.foreach_get(pixels)
             _set_preview(material, pixels)
+
+
+def _picture_groups(tree: bpy.types.Object) -> None:
+    """Give node groups previews: of a material that uses them, or of a tree for those that plant trees."""
+    pixels = np.empty(_PICTURE * _PICTURE * 4, np.float32)
+    for group in filter(owned.is_ours, bpy.data.node_groups):
+        users = [material for material in bpy.data.materials if _uses(material, group)]
+        shown = next((each for each in users if each.preview and each.preview.image_size[0]), None)
+        if shown is None and group.bl_idname == "GeometryNodeTree" and "Tree" in group.name:
+            shown = tree
+        if shown is not None:
+            shown.preview.image_pixels_float.foreach_get(pixels)
+            _set_preview(group, pixels)
+
+
+def _uses(material: bpy.types.Material, group: bpy.types.NodeTree) -> bool:
+    """Return whether the node tree of a material has a node of this group."""
+    nodes = material.node_tree.nodes if material.node_tree else ()
+    return any(node.type == "GROUP" and node.node_tree == group for node in nodes)
 
 
 def _set_preview(block: bpy.types.ID, pixels: np.ndarray) -> None:

@@ -5,6 +5,7 @@ import atexit
 import bpy
 
 from . import (
+    asset_library,
     assets,
     background,
     build,
@@ -12,10 +13,14 @@ from . import (
     cameras_panel,
     command,
     feature_panels,
+    fly,
     foreign,
     former_names,
     go_to,
+    keymap,
+    manual,
     maps,
+    menus,
     navigation,
     open,
     other_runs_panel,
@@ -34,6 +39,7 @@ from . import (
     tile_credits,
     tiles_panel,
     time,
+    translations,
     vr,
     working,
 )
@@ -42,6 +48,7 @@ classes = (
     *preferences.classes,
     *properties.classes,
     *working.classes,
+    *manual.classes,
     *rows.classes,
     *run.classes,
     *other_runs_panel.classes,
@@ -53,6 +60,7 @@ classes = (
     *time.classes,
     *cameras_panel.classes,
     *navigation.classes,
+    *fly.classes,
     *camera_targets.classes,
     *go_to.classes,
     *vr.classes,
@@ -65,6 +73,7 @@ classes = (
     *tiles_panel.classes,
     *report.classes,
     *assets.classes,
+    *menus.classes,
 )
 
 
@@ -79,6 +88,11 @@ def register() -> None:
     bpy.types.Scene.firetwin = bpy.props.PointerProperty(type=properties.FIRETWIN_PG_scene)
     command.register()
     open.register()
+    menus.register()
+    manual.register()
+    keymap.register()
+    asset_library.register()
+    translations.register()
     former_names.register()
     smoke_volumes.register()
     stations_panel.register()
@@ -100,6 +114,11 @@ def unregister() -> None:
     stations_panel.unregister()
     smoke_volumes.unregister()
     former_names.unregister()
+    translations.unregister()
+    asset_library.unregister()
+    keymap.unregister()
+    manual.unregister()
+    menus.unregister()
     open.unregister()
     command.unregister()
     del bpy.types.Scene.firetwin

@@ -9,7 +9,7 @@ import bpy
 
 from ..errors import Error
 from ..progress import count
-from . import choice, render, run, scene_file
+from . import asset_library, choice, render, run, scene_file
 from .job import InThread, Steps
 from .working import Working
 
@@ -40,7 +40,8 @@ class FIRETWIN_OT_assets(Working, bpy.types.Operator):
         made = yield InThread(
             "starting Blender", functools.partial(assets.run, choice.from_panel(settings), Path(out))
         )
-        return f"Wrote {count(made, 'asset')} to {out}"
+        asset_library.add(Path(out))
+        return f"Wrote {count(made, 'asset')} to {out}; the asset browser lists them as {asset_library.NAME}"
 
 
 classes = (FIRETWIN_OT_assets,)

@@ -8,6 +8,7 @@ import bpy
 
 from ..blender import owned
 from . import choice, queue, render, run, scene_file, working
+from .sidebar import SidebarPanel
 from .text import draw_paragraph
 
 _ICONS = {
@@ -141,7 +142,7 @@ class FIRETWIN_OT_queue(bpy.types.Operator):
     """Pause, resume or remove a render"""
 
     bl_idname = "firetwin.queue"
-    bl_label = "Queue"
+    bl_label = "Pause, resume or remove a render"
     bl_options = {"INTERNAL"}
 
     index: bpy.props.IntProperty(options={"SKIP_SAVE"})
@@ -176,14 +177,11 @@ class FIRETWIN_OT_queue(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class FIRETWIN_PT_queue(bpy.types.Panel):
+class FIRETWIN_PT_queue(SidebarPanel, bpy.types.Panel):
     """Queue of background renders"""
 
     bl_idname = "FIRETWIN_PT_queue"
-    bl_label = "Background"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Firetwin"
+    bl_label = "Background Renders"
     bl_parent_id = "FIRETWIN_PT_render"
 
     def draw(self, context: bpy.types.Context) -> None:

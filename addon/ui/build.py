@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from pathlib import Path
 
 import bpy
 
@@ -23,6 +24,7 @@ from . import (
     keys,
     landmarks,
     panel_order,
+    preferences,
     quality,
     run,
     smoke_volumes,
@@ -34,6 +36,7 @@ from . import (
     working,
 )
 from .job import InThread, Message, Steps
+from .sidebar import SidebarPanel
 from .text import draw_paragraph, labelled_row
 from .working import Working
 
@@ -125,6 +128,7 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     shot, moving = yield InThread("reading the run", lambda **_: _read_shot(chosen, part == ALL))
     if smoke and shot.settings.smoke.enabled:
         yield InThread("smoke", functools.partial(bake.run, chosen, volumes=True))
+        yield InThread("removing old smoke", lambda **_: _limit_cache())
     if shot.settings.terrain.photo_url and "terrain" in parts:
         yield InThread("orthophoto", functools.partial(imagery.prepare, chosen, ()))
     yield "removing the previous build"
@@ -146,6 +150,16 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
         yield Message(text, "WARNING")
     what = f"{shot.frames.count} frames" if part == ALL else f"the {part}"
     return f"Built {what} of {shot.run.name}" + (f"; {words}" if words else "")
+
+
+def _limit_cache() -> None:
+    """Remove the smoke that was unused for longest beyond the limit of the preferences."""
+    from ..jobs import cache
+
+    limit = preferences.cache_limit()
+    folder = Path(bpy.path.abspath(preferences.cache_folder()))
+    if limit is not None and folder.is_dir():
+        cache.prune(cache.by_last_use([folder]), limit)
 
 
 def _read_shot(chosen: ShotSource, whole: bool) -> tuple[Shot, MovingPoints | None]:
@@ -224,14 +238,14 @@ class FIRETWIN_MT_parts(bpy.types.Menu):
     """Rebuild one part, or remove all parts"""
 
     bl_idname = "FIRETWIN_MT_parts"
-    bl_label = "Parts"
+    bl_label = "Rebuild Parts"
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
         for name, label, _ in _CHOICES[1:]:
             layout.operator(FIRETWIN_OT_build.bl_idname, text=f"Rebuild {label}").part = name
         layout.separator()
-        layout.operator(FIRETWIN_OT_remove.bl_idname, text="Remove all", icon="TRASH")
+        layout.operator(FIRETWIN_OT_remove.bl_idname, text="Remove all parts", icon="TRASH")
 
 
 def draw_rebuild_button(layout: bpy.types.UILayout, part: str, due: bool = False) -> None:
@@ -242,14 +256,11 @@ def draw_rebuild_button(layout: bpy.types.UILayout, part: str, due: bool = False
     row.label(text="", icon="BLANK1")
 
 
-class FIRETWIN_PT_build(bpy.types.Panel):
+class FIRETWIN_PT_build(SidebarPanel, bpy.types.Panel):
     """Scene built from the run"""
 
     bl_idname = "FIRETWIN_PT_build"
     bl_label = "Scene"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Firetwin"
     bl_order = 1
 
     def draw(self, context: bpy.types.Context) -> None:

@@ -33,7 +33,7 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
     """Add an empty as the look-at target of the scene's camera: the fire, a point or a place"""
 
     bl_idname = "firetwin.camera_aim"
-    bl_label = "Look at"
+    bl_label = "Point camera at"
     bl_options = {"REGISTER", "UNDO"}
 
     target: bpy.props.EnumProperty(name="Target", description="Look-at target of the camera", items=_TARGETS)
@@ -109,7 +109,7 @@ class FIRETWIN_OT_camera_path(bpy.types.Operator):
     """
 
     bl_idname = "firetwin.camera_path"
-    bl_label = "Draw path"
+    bl_label = "Draw camera path"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod

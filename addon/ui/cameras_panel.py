@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 
 from . import build, camera_list, changed_settings, job, panel_order, working
+from .sidebar import SidebarPanel
 
 
 class FIRETWIN_UL_cameras(bpy.types.UIList):
@@ -68,18 +69,16 @@ class FIRETWIN_OT_camera_copy(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class FIRETWIN_PT_cameras(bpy.types.Panel):
+class FIRETWIN_PT_cameras(SidebarPanel, bpy.types.Panel):
     """Cameras of the scene"""
 
     bl_idname = "FIRETWIN_PT_cameras"
     bl_label = "Cameras"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Firetwin"
     bl_options = {"DEFAULT_CLOSED"}
     bl_order = panel_order.CAMERAS
 
     def draw_header_preset(self, context: bpy.types.Context) -> None:
+        SidebarPanel.draw_header_preset(self, context)
         build.draw_rebuild_button(self.layout, "cameras")
 
     def draw(self, context: bpy.types.Context) -> None:

@@ -20,12 +20,13 @@ from ..progress import MessageCallback, Progress, count
 from ..shot.source import ShotSource
 from . import camera_edits, farm_watch, job, keys, run, scene_file, working
 from .job import InThread, Message, Steps
+from .sidebar import SidebarPanel
 from .text import draw_paragraph, labelled_row
 from .working import Working
 
 NOT_SAVED = "Save the .blend file first; the scene file of the job is written next to it"
 NO_OUTPUT = "Choose an output folder for the farm first"
-NO_JOB = "has no farm job; write one with Write job"
+NO_JOB = "has no farm job; write one with Write farm job"
 
 
 def _engine_items() -> tuple[tuple[str, str, str, str, int], ...]:
@@ -178,7 +179,7 @@ class FIRETWIN_OT_farm_write(Working, bpy.types.Operator):
     """Plan the film as tasks of a render farm and write the scheduler's job; nothing is submitted"""
 
     bl_idname = "firetwin.farm_write"
-    bl_label = "Write job"
+    bl_label = "Write farm job"
     bl_options = {"REGISTER"}
 
     @classmethod
@@ -195,7 +196,7 @@ class FIRETWIN_OT_farm_submit(Working, bpy.types.Operator):
     """Plan the film as tasks of a render farm, write the scheduler's job and submit it"""
 
     bl_idname = "firetwin.farm_submit"
-    bl_label = "Submit"
+    bl_label = "Submit farm job"
     bl_options = {"REGISTER"}
 
     @classmethod
@@ -221,7 +222,7 @@ class FIRETWIN_OT_farm_status(_JobOperator, bpy.types.Operator):
     """Read how many tasks and pictures of the job are finished, from its files"""
 
     bl_idname = "firetwin.farm_status"
-    bl_label = "Status"
+    bl_label = "Read farm status"
     bl_options = {"REGISTER"}
 
     def steps(self, context: bpy.types.Context) -> Steps:
@@ -238,7 +239,7 @@ class FIRETWIN_OT_farm_resume(_JobOperator, bpy.types.Operator):
     """Read all pictures of the job and submit the tasks of those that are missing or damaged"""
 
     bl_idname = "firetwin.farm_resume"
-    bl_label = "Resume"
+    bl_label = "Resume farm job"
     bl_options = {"REGISTER"}
 
     def steps(self, context: bpy.types.Context) -> Steps:
@@ -255,7 +256,7 @@ class FIRETWIN_OT_farm_cancel(_JobOperator, bpy.types.Operator):
     """Cancel the submitted tasks of the job. Finished pictures remain"""
 
     bl_idname = "firetwin.farm_cancel"
-    bl_label = "Cancel job"
+    bl_label = "Cancel farm job"
     bl_options = {"REGISTER"}
 
     def steps(self, context: bpy.types.Context) -> Steps:
@@ -264,17 +265,14 @@ class FIRETWIN_OT_farm_cancel(_JobOperator, bpy.types.Operator):
         _check_job(out)
         command = submission.cancel_command(out)
         yield InThread("cancelling", functools.partial(submission.run_command, command, out))
-        return f"Cancelled the job of {out}; Resume continues it"
+        return f"Cancelled the job of {out}; Resume farm job continues it"
 
 
-class FIRETWIN_PT_farm(bpy.types.Panel):
+class FIRETWIN_PT_farm(SidebarPanel, bpy.types.Panel):
     """Film of all cameras and frames as a render farm job"""
 
     bl_idname = "FIRETWIN_PT_farm"
     bl_label = "On a farm"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Firetwin"
     bl_parent_id = "FIRETWIN_PT_render"
     bl_options = {"DEFAULT_CLOSED"}
     bl_order = 1

@@ -63,7 +63,7 @@ class FIRETWIN_OT_go(bpy.types.Operator):
     """Move this view to coordinates, a name, a date or a reported event"""
 
     bl_idname = "firetwin.go"
-    bl_label = "Go to"
+    bl_label = "Go to place or time"
     bl_options = {"REGISTER", "UNDO_GROUPED"}  # views have no undo, but the frame has
     bl_undo_group = "Frame Change"
 
@@ -78,6 +78,11 @@ class FIRETWIN_OT_go(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return can_navigate(cls, context)
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if self.text or context.scene.firetwin.go_to:
+            return self.execute(context)
+        return context.window_manager.invoke_props_dialog(self)  # from F3: ask where
 
     @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -164,7 +169,7 @@ class FIRETWIN_MT_go(bpy.types.Menu):
     """Go to the head of the fire, the ignition, a station, a place, or the time of an event"""
 
     bl_idname = "FIRETWIN_MT_go"
-    bl_label = "Go to"
+    bl_label = "Go to Place"
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, panel = self.layout, context.scene.firetwin

@@ -14,6 +14,7 @@ from ..shot.cameras.rigs._view import View
 from ..shot.settings import Camera
 from . import camera_edits, camera_list, choice, job, keys, run, working
 from .job import InThread, Message, Steps
+from .sidebar import SidebarPanel
 from .working import Working
 
 _AHEAD = 2000.0  # m, distance of the view's target if its ray misses the terrain
@@ -146,7 +147,7 @@ class FIRETWIN_OT_camera_key(bpy.types.Operator):
     """
 
     bl_idname = "firetwin.camera_key"
-    bl_label = "Set key here"
+    bl_label = "Set camera key"
     bl_options = {"REGISTER", "UNDO"}
 
     clearance: bpy.props.FloatProperty(
@@ -209,7 +210,7 @@ class FIRETWIN_OT_camera_lens(bpy.types.Operator):
     """Set lens and sensor of the scene's camera to a drone, thermal or film camera"""
 
     bl_idname = "firetwin.camera_lens"
-    bl_label = "Lens and sensor"
+    bl_label = "Set lens and sensor"
     bl_options = {"REGISTER", "UNDO"}
 
     preset: bpy.props.EnumProperty(
@@ -252,14 +253,11 @@ class FIRETWIN_MT_lenses(bpy.types.Menu):
             self.layout.operator(FIRETWIN_OT_camera_lens.bl_idname, text=each.name).preset = name
 
 
-class FIRETWIN_PT_flying(bpy.types.Panel):
+class FIRETWIN_PT_flying(SidebarPanel, bpy.types.Panel):
     """Manual camera work from this view"""
 
     bl_idname = "FIRETWIN_PT_flying"
-    bl_label = "By Hand"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Firetwin"
+    bl_label = "Camera by Hand"
     bl_parent_id = "FIRETWIN_PT_cameras"
 
     @classmethod
@@ -276,9 +274,9 @@ class FIRETWIN_PT_flying(bpy.types.Panel):
         column.prop(scene, "camera", text="")
         row = column.row(align=True)
         row.operator_context = "INVOKE_REGION_WIN"  # the sidebar is not a view
-        row.operator("view3d.walk", text="Walk", icon="VIEW_PAN")
-        row.operator("view3d.fly", text="Fly", icon="ORIENTATION_GIMBAL")
-        column.operator(FIRETWIN_OT_camera_key.bl_idname, icon="KEY_HLT")
+        row.operator("firetwin.fly", text="Walk", icon="VIEW_PAN").mode = "walk"
+        row.operator("firetwin.fly", text="Fly", icon="ORIENTATION_GIMBAL").mode = "fly"
+        column.operator(FIRETWIN_OT_camera_key.bl_idname, text="Set key here", icon="KEY_HLT")
         row = column.row(align=True)
         row.operator_menu_enum("firetwin.camera_aim", "target", text="Look at", icon="CON_TRACKTO")
         row.operator("firetwin.camera_path", text="Draw path", icon="CON_FOLLOWPATH")

@@ -6,6 +6,7 @@ import bpy
 
 from ..shot.settings import MOST_RUNS
 from . import job, working
+from .sidebar import SidebarPanel
 from .text import draw_paragraph
 
 
@@ -52,14 +53,11 @@ class FIRETWIN_OT_run_remove(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class FIRETWIN_PT_other_runs(bpy.types.Panel):
+class FIRETWIN_PT_other_runs(SidebarPanel, bpy.types.Panel):
     """Other runs of the same place and time, for comparison"""
 
     bl_idname = "FIRETWIN_PT_other_runs"
     bl_label = "Compare With"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Firetwin"
     bl_parent_id = "FIRETWIN_PT_run"
     bl_options = {"DEFAULT_CLOSED"}
 

@@ -113,7 +113,7 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings):
     )
     station_filter: bpy.props.PointerProperty(type=station_filter.FIRETWIN_PG_stationfilter)
     station_map: bpy.props.BoolProperty(
-        name="Map", description="Show a map of the listed stations here", update=station_map.changed
+        name="Station map", description="Show a map of the listed stations here", update=station_map.changed
     )
     camera: bpy.props.EnumProperty(name="Camera", description="Cameras to render", items=render.camera_items)
     which: bpy.props.EnumProperty(
@@ -121,7 +121,7 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings):
         description="Frames to render",
         items=(
             ("frame", "This frame", "Current frame"),
-            ("list", "List", "A list of frames"),
+            ("list", "Frame list", "A list of frames"),
             ("all", "All", "Every frame of the cameras"),
         ),
     )

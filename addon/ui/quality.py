@@ -84,7 +84,7 @@ class FIRETWIN_OT_quality(bpy.types.Operator):
     """Set trees, terrain, smoke, resolution and samples together"""
 
     bl_idname = "firetwin.quality"
-    bl_label = "Quality"
+    bl_label = "Set quality"
     bl_options = {"UNDO", "INTERNAL"}
 
     level: bpy.props.EnumProperty(name="Quality", items=_ITEMS)
@@ -108,7 +108,7 @@ class FIRETWIN_OT_preset(AddPresetBase, bpy.types.Operator):
     """Save these settings as a preset, or remove a preset"""
 
     bl_idname = "firetwin.preset"
-    bl_label = "Save preset"
+    bl_label = "Save settings as preset"
     preset_menu = "FIRETWIN_MT_presets"
     preset_subdir = "firetwin"
     bl_options = {"REGISTER"}
@@ -140,6 +140,7 @@ class FIRETWIN_OT_preset(AddPresetBase, bpy.types.Operator):
 class FIRETWIN_MT_presets(bpy.types.Menu):
     """Saved presets of settings"""
 
+    bl_idname = "FIRETWIN_MT_presets"
     bl_label = "Presets"
     preset_subdir = "firetwin"
     preset_operator = "script.execute_preset"

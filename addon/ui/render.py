@@ -10,6 +10,7 @@ import bpy
 from ..progress import count
 from . import choice, job, panel_order, run, scene_file, working
 from .job import InThread, Steps
+from .sidebar import SidebarPanel
 from .text import draw_paragraph
 from .working import Working
 
@@ -61,14 +62,11 @@ class FIRETWIN_OT_render(Working, bpy.types.Operator):
         return f"Rendered {count(made.pictures, 'picture')} to {out}"
 
 
-class FIRETWIN_PT_render(bpy.types.Panel):
+class FIRETWIN_PT_render(SidebarPanel, bpy.types.Panel):
     """Pictures and films of the run"""
 
     bl_idname = "FIRETWIN_PT_render"
     bl_label = "Render"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Firetwin"
     bl_options = {"DEFAULT_CLOSED"}
     bl_order = panel_order.RENDER
 

@@ -6,17 +6,15 @@ import bpy
 
 from . import keys, panel_order, run, working
 from .job import Job
+from .sidebar import SidebarPanel
 from .text import draw_paragraph, labelled_row
 
 
-class FIRETWIN_PT_report(bpy.types.Panel):
+class FIRETWIN_PT_report(SidebarPanel, bpy.types.Panel):
     """Burned area of the run and as reported, and messages of the last task"""
 
     bl_idname = "FIRETWIN_PT_report"
     bl_label = "Report"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Firetwin"
     bl_options = {"DEFAULT_CLOSED"}
     bl_order = panel_order.REPORT
 

@@ -59,10 +59,10 @@ def _needs_full_width(part: Field) -> bool:
 
 
 class FIRETWIN_OT_reset(bpy.types.Operator):
-    """Reset this setting to its default"""
+    """Reset this setting, or all settings of a section, to their defaults"""
 
     bl_idname = "firetwin.reset"
-    bl_label = "Reset to default"
+    bl_label = "Reset settings to default"
     bl_options = {"UNDO", "INTERNAL"}
 
     section: bpy.props.StringProperty(options={"SKIP_SAVE"})
@@ -75,8 +75,9 @@ class FIRETWIN_OT_reset(bpy.types.Operator):
     @working.report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
         section = next(part for part in sections.sections() if part.name == self.section)
-        part = next(part for part in fields(section.table) if part.name == self.key)
-        keys.put(getattr(context.scene.firetwin, self.section), part, part.default)
+        for part in fields(section.table):
+            if part.name == self.key or (not self.key and not part.table and not part.key.variants):
+                keys.put(getattr(context.scene.firetwin, self.section), part, part.default)
         return {"FINISHED"}
 
 

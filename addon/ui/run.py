@@ -14,8 +14,9 @@ from ..blender import owned
 from ..jobs.worker import StoppedError
 from ..run import readers
 from ..shot.settings import scene_file as file
-from . import auto_framing, changed_settings, choice, job, maps, scene_file, solve, working
+from . import auto_framing, changed_settings, choice, job, maps, preferences, scene_file, solve, working
 from .job import InThread, Steps
+from .sidebar import SidebarPanel
 from .text import draw_paragraph, labelled_row
 from .working import Working
 
@@ -108,29 +109,29 @@ def collect_facts(folder: Path) -> tuple[dict[str, Any], maps.Images]:
     from ..run import info, labels, thumbnails, zone
 
     run = readers.open(folder)
-    report = info.gather(run, zone.time_zone(run))
+    report, unit = info.gather(run, zone.time_zone(run)), preferences.area_unit()
     told = {
         "name": report["name"],
         "synthetic": report["synthetic"],
-        "rows": info.brief(report),
+        "rows": info.brief(report, unit),
         "warnings": report["warnings"],
         "first": report["times"]["first"],
         "last": report["times"]["last"],
         "zone": report["zone"],
-        "moments": _dated_events(report),
-        "burned": _burned_areas(report),
+        "moments": _dated_events(report, unit),
+        "burned": _burned_areas(report, unit),
         "places": labels.known(run),
         "fits": auto_framing.frame_run(run),
     }
     return told, thumbnails.draw(run)
 
 
-def _dated_events(found: dict[str, Any]) -> list[tuple[str, str]]:
+def _dated_events(found: dict[str, Any], unit: str) -> list[tuple[str, str]]:
     """Return dated events: start and end of the run, and reports in between."""
     from ..run import info
 
     reports = (
-        (each["time"], f"{each['reported'] / info.ACRE:,.0f} acres reported")
+        (each["time"], f"{info.format_area(each['reported'], unit)} {unit} reported")
         for each in found["reported"]
         if each["run"] is not None
     )
@@ -138,15 +139,15 @@ def _dated_events(found: dict[str, Any]) -> list[tuple[str, str]]:
     return [(times["first"], "the run begins"), *reports, (times["last"], "the run ends")]
 
 
-def _burned_areas(found: dict[str, Any]) -> list[tuple[str, str, str]]:
+def _burned_areas(found: dict[str, Any], unit: str) -> list[tuple[str, str, str]]:
     """Return burned areas: date, reported area, and the run's area with its difference."""
     from ..run import info, times
 
     return [
         (
             times.text(datetime.fromisoformat(each["time"]), found["zone"]),
-            f"{each['reported'] / info.ACRE:,.0f} acres",
-            f"{each['run'] / info.ACRE:,.0f} acres ({round(each['difference'], 3) + 0.0:+.1%})",
+            f"{info.format_area(each['reported'], unit)} {unit}",
+            f"{info.format_area(each['run'], unit)} {unit} ({round(each['difference'], 3) + 0.0:+.1%})",
         )
         for each in found["reported"]
         if each["run"] is not None
@@ -159,14 +160,11 @@ def parse_facts(text: str) -> dict[str, Any]:
     return json.loads(text)
 
 
-class FIRETWIN_PT_run(bpy.types.Panel):
+class FIRETWIN_PT_run(SidebarPanel, bpy.types.Panel):
     """Run that the scene shows"""
 
     bl_idname = "FIRETWIN_PT_run"
     bl_label = "Run"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Firetwin"
     bl_order = 0
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -196,14 +194,11 @@ def _draw_hint(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
     row.operator("firetwin.sample", icon="LIGHT_SUN")
 
 
-class FIRETWIN_PT_facts(bpy.types.Panel):
+class FIRETWIN_PT_facts(SidebarPanel, bpy.types.Panel):
     """Grids, extent, times, burned area and warnings of the run"""
 
     bl_idname = "FIRETWIN_PT_facts"
-    bl_label = "Content"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Firetwin"
+    bl_label = "Content of the Run"
     bl_parent_id = "FIRETWIN_PT_run"
 
     @classmethod

@@ -16,7 +16,7 @@ from .. import files
 from ..errors import Error
 from ..shot.schema import validate
 from ..shot.settings import Settings, scene_file, toml_update
-from . import camera_edits, camera_list, keys, other_runs, sections
+from . import camera_edits, camera_list, keys, other_runs, preferences, sections
 
 
 def read_settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Settings:
@@ -28,7 +28,8 @@ def read_settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Se
         A value is invalid; the message uses the panel's labels.
     """
     panel = scene.firetwin
-    cache = panel.cache or output_folder(panel, "cache") or own_folder() / "cache"
+    cache = panel.cache or preferences.cache_folder()
+    cache = cache or output_folder(panel, "cache") or own_folder() / "cache"
     run, cache = (Path(bpy.path.abspath(str(path))) for path in (panel.run, cache))
     cameras, runs = camera_list.cameras(panel), other_runs.list_runs(panel)
     whole = Settings(path=path, run=run, cache=cache, cameras=cameras, runs=runs)

@@ -9,6 +9,7 @@ import bpy
 from ..scene.build import PARTS
 from ..shot.schema import Field, fields
 from . import build, job, keys, panel_order, rows, sections
+from .sidebar import SidebarPanel
 
 _OWN = ("time",)  # drawn by a separate panel
 _BELOW = {"render": "FIRETWIN_PT_render"}  # sections inside another panel
@@ -34,15 +35,13 @@ def _create_panel(section: Field, place: int) -> type[bpy.types.Panel]:
         draw(self.layout, context.scene.firetwin, name)
 
     def again(self: bpy.types.Panel, context: bpy.types.Context) -> None:
+        SidebarPanel.draw_header_preset(self, context)
         build.draw_rebuild_button(self.layout, name, name in context.scene.firetwin.changed.split())
 
     own: dict[str, Any] = {
         "__doc__": keys.sentence(section.key.help),
         "bl_idname": f"FIRETWIN_PT_section_{name}",
-        "bl_label": "Settings" if name in _BELOW else panel_order.title(name),
-        "bl_space_type": "VIEW_3D",
-        "bl_region_type": "UI",
-        "bl_category": "Firetwin",
+        "bl_label": "Render Settings" if name in _BELOW else panel_order.title(name),
         "bl_options": {"DEFAULT_CLOSED"},
         "bl_order": place,
         "draw": drawn,
@@ -51,7 +50,7 @@ def _create_panel(section: Field, place: int) -> type[bpy.types.Panel]:
         own["draw_header_preset"] = again
     if name in _BELOW:
         own["bl_parent_id"] = _BELOW[name]
-    return type(own["bl_idname"], (bpy.types.Panel,), own)
+    return type(own["bl_idname"], (SidebarPanel, bpy.types.Panel), own)
 
 
 def _create_panels() -> tuple[type[bpy.types.Panel], ...]:

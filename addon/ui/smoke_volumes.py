@@ -103,7 +103,7 @@ class FIRETWIN_OT_smoke_volumes(Working, bpy.types.Operator):
     """Write missing smoke volumes, so that Blender shows and renders the smoke"""
 
     bl_idname = "firetwin.smoke_volumes"
-    bl_label = "Smoke of frames"
+    bl_label = "Write smoke of frames"
     bl_options = {"REGISTER", "UNDO"}
 
     which: bpy.props.EnumProperty(

@@ -149,7 +149,7 @@ class FIRETWIN_OT_station_map(bpy.types.Operator):
     """Show the map of stations in an open image editor, or in a new window"""
 
     bl_idname = "firetwin.station_map"
-    bl_label = "Show map"
+    bl_label = "Show station map"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
@@ -181,7 +181,7 @@ class FIRETWIN_OT_station_pick(bpy.types.Operator):
     """Select a station with a click on the map; Esc cancels"""
 
     bl_idname = "firetwin.station_pick"
-    bl_label = "Pick on map"
+    bl_label = "Pick station on map"
     bl_options = {"UNDO"}
 
     @classmethod

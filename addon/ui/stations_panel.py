@@ -17,6 +17,7 @@ from . import (
     station_sync,
     working,
 )
+from .sidebar import SidebarPanel
 from .text import draw_paragraph, labelled_row
 
 
@@ -42,14 +43,11 @@ class FIRETWIN_UL_stations(bpy.types.UIList):
         line.label(text=item.minutes)
 
 
-class FIRETWIN_PT_stations(bpy.types.Panel):
+class FIRETWIN_PT_stations(SidebarPanel, bpy.types.Panel):
     """Stations of the file, with search filters"""
 
     bl_idname = "FIRETWIN_PT_stations"
-    bl_label = "List"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Firetwin"
+    bl_label = "Station List"
     bl_parent_id = "FIRETWIN_PT_section_stations"
     bl_options = {"DEFAULT_CLOSED"}
 
@@ -68,14 +66,11 @@ class FIRETWIN_PT_stations(bpy.types.Panel):
             _draw_selected(context, layout.box(), found)
 
 
-class FIRETWIN_PT_station_map(bpy.types.Panel):
+class FIRETWIN_PT_station_map(SidebarPanel, bpy.types.Panel):
     """Map of the listed stations and of the burned ground at the current frame"""
 
     bl_idname = "FIRETWIN_PT_station_map"
-    bl_label = "Map"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Firetwin"
+    bl_label = "Station Map"
     bl_parent_id = "FIRETWIN_PT_stations"
     bl_options = {"DEFAULT_CLOSED"}
 
@@ -114,7 +109,7 @@ def _draw_selected(context: bpy.types.Context, box: bpy.types.UILayout, found: s
         else:
             box.label(text=text, icon="EXPERIMENTAL")
     row, at = box.row(align=True), (found.station.latitude, found.station.longitude)
-    go = row.operator(go_to.FIRETWIN_OT_go.bl_idname, icon="VIEWZOOM")
+    go = row.operator(go_to.FIRETWIN_OT_go.bl_idname, text="Go to place", icon="VIEWZOOM")
     go.text, go.smooth = f"{at[0]:.6f} {at[1]:.6f}", context.scene.firetwin.go_smoothly
     row.operator("wm.url_open", text="Open in web map", icon="URL").url = web_map_address(*at)
 

@@ -14,6 +14,7 @@ from ..shot.source import ShotSource
 from ..shot.tiles.tile_cut import TileCut
 from . import choice, job, run, target_scene, tile_facts, view, working
 from .job import InThread, Steps
+from .sidebar import SidebarPanel
 from .text import draw_paragraph, labelled_row
 from .working import Working
 
@@ -110,7 +111,7 @@ class FIRETWIN_OT_tiles_clear(bpy.types.Operator):
     """Remove the preview of tiles; tiles that were built stay"""
 
     bl_idname = "firetwin.tiles_clear"
-    bl_label = "Remove preview"
+    bl_label = "Remove tile preview"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
@@ -132,14 +133,11 @@ class FIRETWIN_OT_tiles_clear(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class FIRETWIN_PT_tiles(bpy.types.Panel):
+class FIRETWIN_PT_tiles(SidebarPanel, bpy.types.Panel):
     """Sources of tiles, their preview, numbers and credits"""
 
     bl_idname = "FIRETWIN_PT_tiles"
-    bl_label = "Preview"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Firetwin"
+    bl_label = "Tile Preview"
     bl_parent_id = "FIRETWIN_PT_section_tiles"
 
     def draw(self, context: bpy.types.Context) -> None:

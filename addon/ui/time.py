@@ -13,6 +13,7 @@ from ..shot.schema import fields
 from ..shot.sections import Time
 from ..shot.shot import Shot
 from . import job, keys, rows, run, working
+from .sidebar import SidebarPanel
 from .text import labelled_row
 
 
@@ -52,7 +53,7 @@ class FIRETWIN_OT_jump(bpy.types.Operator):
     """Show the frame nearest to this time"""
 
     bl_idname = "firetwin.jump"
-    bl_label = "Jump to a time"
+    bl_label = "Jump to time of the run"
     bl_options = {"INTERNAL"}
 
     moment: bpy.props.StringProperty(options={"SKIP_SAVE"})
@@ -78,7 +79,7 @@ class FIRETWIN_OT_window(bpy.types.Operator):
     """Set the first or last frame to this time of the run"""
 
     bl_idname = "firetwin.window"
-    bl_label = "Set first or last frame"
+    bl_label = "Set time of first or last frame"
     bl_options = {"UNDO", "INTERNAL"}
 
     moment: bpy.props.StringProperty(options={"SKIP_SAVE"})
@@ -110,7 +111,7 @@ class FIRETWIN_MT_moments(bpy.types.Menu):
     """Dated events of the run"""
 
     bl_idname = "FIRETWIN_MT_moments"
-    bl_label = "Jump to"
+    bl_label = "Jump to Event"
 
     def draw(self, context: bpy.types.Context) -> None:
         settings = context.scene.firetwin
@@ -123,7 +124,7 @@ class FIRETWIN_MT_start(bpy.types.Menu):
     """Set the first frame to a dated event of the run"""
 
     bl_idname = "FIRETWIN_MT_start"
-    bl_label = "Begin at"
+    bl_label = "Begin at Event"
 
     def draw(self, context: bpy.types.Context) -> None:
         _draw_event_buttons(self.layout, context.scene.firetwin, "start")
@@ -133,7 +134,7 @@ class FIRETWIN_MT_end(bpy.types.Menu):
     """Set the last frame to a dated event of the run"""
 
     bl_idname = "FIRETWIN_MT_end"
-    bl_label = "End at"
+    bl_label = "End at Event"
 
     def draw(self, context: bpy.types.Context) -> None:
         _draw_event_buttons(self.layout, context.scene.firetwin, "end")
@@ -169,14 +170,11 @@ def _window_end(text: str, other: str) -> datetime | None:
     return moment if moment.tzinfo else moment.replace(tzinfo=UTC)
 
 
-class FIRETWIN_PT_time(bpy.types.Panel):
+class FIRETWIN_PT_time(SidebarPanel, bpy.types.Panel):
     """Model times of the frames, and the time that is shown"""
 
     bl_idname = "FIRETWIN_PT_time"
     bl_label = "Time"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Firetwin"
     bl_order = 2
 
     def draw(self, context: bpy.types.Context) -> None:

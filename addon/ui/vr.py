@@ -23,7 +23,7 @@ class FIRETWIN_OT_vr_landmarks(bpy.types.Operator):
     """Add stations, the ignition and the moving head of the fire as landmarks of Blender's VR viewer"""
 
     bl_idname = "firetwin.vr_landmarks"
-    bl_label = "VR landmarks"
+    bl_label = "Add VR landmarks"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod

@@ -246,7 +246,7 @@ def draw_messages(
 
 def draw_copy_button(layout: bpy.types.UILayout, message: str) -> None:
     """Draw a button that copies an error message with the details for a support request."""
-    layout.operator(FIRETWIN_OT_copy.bl_idname, icon="COPYDOWN").message = message
+    layout.operator(FIRETWIN_OT_copy.bl_idname, text="Copy details", icon="COPYDOWN").message = message
 
 
 def last_messages(operator: type[bpy.types.Operator]) -> tuple[Message, ...]:
@@ -261,7 +261,7 @@ class FIRETWIN_OT_stop(bpy.types.Operator):
     """Stop the task, as Esc over this sidebar does. Finished work remains"""
 
     bl_idname = "firetwin.stop"
-    bl_label = "Stop"
+    bl_label = "Stop running task"
     bl_options = {"INTERNAL"}
 
     @classmethod
@@ -281,14 +281,15 @@ class FIRETWIN_OT_copy(bpy.types.Operator):
     """Copy the message with the versions of Firetwin, Blender and the system, for a support request"""
 
     bl_idname = "firetwin.copy"
-    bl_label = "Copy details"
+    bl_label = "Copy details of last message"
     bl_options = {"INTERNAL"}
 
     message: bpy.props.StringProperty(options={"SKIP_SAVE"})
 
     @report_errors
     def execute(self, context: bpy.types.Context) -> set[str]:
-        context.window_manager.clipboard = support_details(self.message)
+        last = "" if Job.last is None else "\n".join(each.text for each in Job.last.messages)
+        context.window_manager.clipboard = support_details(self.message or last)
         self.report({"INFO"}, "Copied the details")
         return {"FINISHED"}
 

@@ -55,11 +55,14 @@ def manifest(wheels: list[Path], platforms: list[str], version: str) -> str:
 
 
 def stage(folder: Path, wheels: list[Path], text: str) -> None:
-    """Copy the extension in Blender's layout: the add-on without its benchmarks, and data/."""
+    """Copy the extension in Blender's layout: the add-on without its benchmarks, data/ and docs/."""
     shutil.rmtree(folder, ignore_errors=True)
     ignore = shutil.ignore_patterns("__pycache__", "*.pyc")
     shutil.copytree(ROOT / "addon", folder, ignore=shutil.ignore_patterns("__pycache__", "*.pyc", "bench"))
     shutil.copytree(ROOT / "data", folder / "data", ignore=ignore)
+    for page in (ROOT / "docs").rglob("*.md"):  # the manual; addon/ui/manual_pages.py makes HTML of it
+        (target := folder / page.relative_to(ROOT)).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(page, target)
     shutil.copy(ROOT / "LICENSE", folder)
     (folder / "wheels").mkdir()
     for wheel in wheels:

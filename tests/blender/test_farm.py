@@ -116,7 +116,7 @@ def test_what_is_submitted_is_followed_resumed_and_cancelled(panel, tmp_path, sl
 
 @pytest.mark.parametrize("name", ["farm_status", "farm_resume", "farm_cancel"])
 def test_a_folder_without_a_job_is_told(panel, name):
-    with pytest.raises(RuntimeError, match="has no farm job; write one with Write job"):
+    with pytest.raises(RuntimeError, match="has no farm job; write one with Write farm job"):
         getattr(bpy.ops.firetwin, name)()
 
 
@@ -148,7 +148,7 @@ def test_a_submission_is_stopped_and_its_command_has_ended(panel, tmp_path, monk
         f"trap 'echo ended >{tmp_path}/ended; exit 1' TERM; echo begun >{tmp_path}/begun; sleep 60 & wait"
     )
     monkeypatch.setattr(submission, "prepare", lambda *_: ["bash", "-c", script])
-    work = job.Job("Submit", farm.FIRETWIN_OT_farm_submit.steps(SimpleNamespace(), bpy.context))
+    work = job.Job("Submit farm job", farm.FIRETWIN_OT_farm_submit.steps(SimpleNamespace(), bpy.context))
     while not (tmp_path / "begun").exists():
         assert not work.advance()  # Blender goes on
         time.sleep(0.02)

@@ -1,5 +1,6 @@
 """The panel: rejected input and its reasons, operators, stopped work, and its remains."""
 
+import os
 import shutil
 import time
 from dataclasses import replace
@@ -53,7 +54,13 @@ def inventory():
         for function in functions
     ]
     kinds = bpy.types, bpy.types.Scene, bpy.types.WindowManager, bpy.types.Object, bpy.ops.firetwin
-    return handlers, [set(dir(kind)) for kind in kinds]
+    config = bpy.context.window_manager.keyconfigs.addon
+    keys = [(name, len(keymap.keymap_items)) for name, keymap in config.keymaps.items()]
+    menus = (bpy.types.VIEW3D_MT_editor_menus, bpy.types.TOPBAR_MT_help, bpy.types.VIEW3D_MT_add)
+    drawn = [len(getattr(menu.draw, "_draw_funcs", "1")) for menu in menus]
+    libraries = bpy.context.preferences.filepaths.asset_libraries.keys()
+    known = len(list(bpy.utils.manual_map())), libraries, sum(count for _, count in keys), drawn
+    return handlers, [set(dir(kind)) for kind in kinds], known
 
 
 def test_unregister_leaves_nothing():
@@ -240,13 +247,34 @@ def test_the_panel_says_what_smoke_is_made_of(settings, scene_file, run_folder):
 
 def test_the_preferences_say_what_renders_on(settings, monkeypatch):
     assert preferences.device() == ""
-    chosen = SimpleNamespace(preferences=SimpleNamespace(device="gpu"))
+    chosen = SimpleNamespace(
+        preferences=SimpleNamespace(device="gpu", cache="", cache_limit=0.0, area_unit="acres")
+    )
     known = SimpleNamespace(preferences=SimpleNamespace(addons={"firetwin": chosen}))
     settings.run = "somewhere"
     monkeypatch.setattr(preferences, "bpy", SimpleNamespace(context=known))
     assert choice.from_panel(settings).device == "gpu"
     chosen.preferences.device = "scene"
     assert choice.from_panel(settings).device == ""
+
+
+def test_the_preferences_say_where_smoke_is_cached_and_how_much(settings, tmp_path, monkeypatch):
+    kept = SimpleNamespace(device="scene", cache=str(tmp_path), cache_limit=1.0e-6, area_unit="ha")
+    addons = {"firetwin": SimpleNamespace(preferences=kept)}
+    known = SimpleNamespace(preferences=SimpleNamespace(addons=addons))
+    settings.run = "somewhere"
+    monkeypatch.setattr(preferences, "bpy", SimpleNamespace(context=known))
+    assert scene_settings.read_settings(bpy.context.scene).cache == tmp_path
+    settings.cache = str(tmp_path / "own")
+    assert scene_settings.read_settings(bpy.context.scene).cache == tmp_path / "own"
+    for number, name in enumerate(("0" * 16, "1" * 16)):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "smoke_000001.vdb").write_bytes(bytes(800))
+        os.utime(tmp_path / name, (1.0e9 + number,) * 2)
+    build._limit_cache()  # 1000 bytes
+    assert [path.name for path in tmp_path.iterdir()] == ["1" * 16]
+    kept.cache_limit = 0.0
+    assert preferences.cache_limit() is None
 
 
 @pytest.mark.parametrize(

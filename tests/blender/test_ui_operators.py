@@ -1,6 +1,7 @@
 """All operators: their texts, no traceback on failure, and undo."""
 
 import shutil
+import webbrowser
 
 import bpy
 import exercise_stations
@@ -128,9 +129,10 @@ KEEPS = {
     "farm_status": {},
     "farm_resume": {},
     "farm_cancel": {},
+    "help": {"page": "farm"},
 }
 BOX = {"name": "set", "tiles": 1, "credits": [], "corners": np.arange(24.0).tolist()}
-LISTENS = {"queue_esc", "station_pick", "stop"}  # for Esc or a click, and while something goes on
+LISTENS = {"queue_esc", "station_pick", "stop", "fly"}  # for Esc or a click, and while something goes on
 
 
 def call(name, options, folder):
@@ -149,6 +151,7 @@ def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path
     monkeypatch.setattr(sample, "run", lambda folder, **_: shutil.copytree(blend.parent / "other", folder))
     monkeypatch.setattr(render, "run", lambda *_, **__: render.RenderResult(1))
     monkeypatch.setattr(assets, "run", lambda *_, **__: 1)
+    monkeypatch.setattr(webbrowser, "open", lambda url: True)
     monkeypatch.setattr(bounding_boxes, "run", lambda *_, **__: [BOX])
     monkeypatch.setattr(render_blend, "run", lambda *_, **__: 1)
     monkeypatch.setattr(submission, "run_command", lambda *_, **__: None)

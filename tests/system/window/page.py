@@ -135,7 +135,7 @@ def _go(words: Page, place: str) -> Iterator[object]:
 
 
 def _flown(words: Page) -> Iterator[object]:
-    words.next("Cameras", "By Hand")
+    words.next("Cameras", "Camera by Hand")
     yield from _go(words, "38.965 -120.575")
     words.next("Add camera from view", "Poses", "Set key here")
     call(bpy.ops.firetwin.camera_add, kind="poses")

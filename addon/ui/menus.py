@@ -1,0 +1,220 @@
+"""Menu Firetwin in the header of the 3D view, and the pie menu.
+
+The menus name every operator, so that F3 (Menu Search) finds it, for example as *Firetwin > Cameras > Set
+camera key*.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import bpy
+
+from ..optional_features import is_installed
+from . import manual, panel_order, sections
+
+
+class Entry(NamedTuple):
+    """A menu entry: operator, text (empty: the operator's name), icon, and its options."""
+
+    operator: str
+    text: str = ""
+    icon: str = "NONE"
+    options: dict[str, Any] = {}
+    choice: str = ""  # option of which the entry is a submenu
+
+
+class Submenu(NamedTuple):
+    """A menu of another module, by its `bl_idname`, with a text that is complete in F3."""
+
+    name: str
+    text: str
+
+
+Line = Entry | Submenu
+
+_FARM = (
+    Entry("farm_write", icon="FILE_TICK"),
+    Entry("farm_submit", icon="EXPORT"),
+    Entry("farm_status", icon="FILE_REFRESH"),
+    Entry("farm_resume", icon="PLAY"),
+    Entry("farm_cancel", icon="CANCEL"),
+)
+
+MENUS: dict[str, tuple[Line, ...]] = {
+    "Run": (
+        Entry("open", "Open run...", "FILEBROWSER"),
+        Entry("sample", icon="LIGHT_SUN"),
+        Entry("inspect", icon="FILE_REFRESH"),
+        Entry("export", "Export scene file...", "EXPORT"),
+        Entry("run_add", icon="ADD"),
+        Entry("run_remove", "Remove first compared run", "REMOVE"),
+    ),
+    "Scene": (
+        Entry("build", icon="WORLD"),
+        Submenu("FIRETWIN_MT_parts", "Rebuild parts"),
+        Entry("solve", icon="MOD_FLUIDSIM"),
+        Entry("smoke_volumes", "Write smoke of this frame", "OUTLINER_DATA_VOLUME", {"which": "frame"}),
+        Entry("smoke_volumes", "Write smoke of playback range", "OUTLINER_DATA_VOLUME", {"which": "range"}),
+        Entry("quality", "Set quality", choice="level"),
+        Entry("preset", icon="ADD"),
+        Submenu("FIRETWIN_MT_presets", "Use saved preset"),
+        Submenu("FIRETWIN_MT_reset", "Reset settings"),
+        Entry("view", "View through camera", "CAMERA_DATA", {"whole": False}),
+        Entry("view", "View whole run", "WORLD_DATA", {"whole": True}),
+        Entry("tiles_preview", icon="MESH_GRID"),
+        Entry("tiles_clear", icon="TRASH"),
+        Entry("assets", icon="ASSET_MANAGER"),
+        Entry("remove", icon="TRASH"),
+    ),
+    "Time": (
+        Submenu("FIRETWIN_MT_moments", "Jump to event"),
+        Submenu("FIRETWIN_MT_start", "Begin film at event"),
+        Submenu("FIRETWIN_MT_end", "End film at event"),
+    ),
+    "Cameras": (
+        Entry("camera_add", "Add camera from view", "OUTLINER_OB_CAMERA", choice="kind"),
+        Entry("fly", "Walk with keys for the camera", "VIEW_PAN", {"mode": "walk"}),
+        Entry("fly", "Fly with keys for the camera", "ORIENTATION_GIMBAL", {"mode": "fly"}),
+        Entry("camera_key", icon="KEY_HLT"),
+        Entry("camera_aim", "Point camera at", "CON_TRACKTO", choice="target"),
+        Submenu("FIRETWIN_MT_named", "Point camera at place"),
+        Entry("camera_path", icon="CON_FOLLOWPATH"),
+        Submenu("FIRETWIN_MT_lenses", "Set lens and sensor"),
+        Entry("camera_copy", icon="DUPLICATE"),
+        Entry("camera_remove", icon="REMOVE"),
+        Entry("go", icon="FORWARD"),
+        Submenu("FIRETWIN_MT_go", "Go to place of the run"),
+        Entry("vr_landmarks", icon="PMARKER_ACT"),
+        Entry("station_map", icon="IMAGE_DATA"),
+        Entry("station_pick", icon="EYEDROPPER"),
+    ),
+    "Render": (
+        Entry("render", "Render pictures and films", "RENDER_STILL"),
+        Entry("render_background", icon="RENDER_ANIMATION"),
+        Entry("queue", "Pause background render", "PAUSE", {"what": "pause"}),
+        Entry("queue", "Resume background render", "PLAY", {"what": "go_on"}),
+        Entry("queue", "Remove background render", "X", {"what": "remove"}),
+        Entry("f12_files", "Let F12 write files", "OUTPUT", {"on": True}),
+        Entry("f12_files", "Stop F12 writing files", "OUTPUT", {"on": False}),
+        *(_FARM if is_installed("farm") else ()),
+        Entry("stop", icon="CANCEL"),
+    ),
+    "Help": (
+        Entry("help", "Open manual: first steps", "QUESTION", {"page": "artists"}),
+        Entry("help", "Open manual: settings", "QUESTION", {"page": "settings"}),
+        Entry("help", "Open manual: all pages", "QUESTION", {"page": "index"}),
+        Entry("copy", "Copy details of last message", "COPYDOWN"),
+    ),
+}
+"""Submenus of the menu Firetwin, and their lines."""
+
+WITHOUT_ENTRY = {"convert": "Open run starts it", "queue_esc": "Render in background starts it"}
+"""Operators that only other operators call, and the reason."""
+
+PIE = (
+    Entry("camera_key", icon="KEY_HLT"),
+    Entry("fly", "Walk", "VIEW_PAN", {"mode": "walk"}),
+    Entry("build", icon="WORLD"),
+    Entry("view", "Through camera", "CAMERA_DATA", {"whole": False}),
+    Entry("camera_add", "Add camera from view", "OUTLINER_OB_CAMERA", choice="kind"),
+    Entry("camera_aim", "Point camera at", "CON_TRACKTO", choice="target"),
+    Entry("render_background", icon="RENDER_ANIMATION"),
+    Submenu("FIRETWIN_MT_go", "Go to place"),
+)
+"""Sectors of the pie menu, in Blender's order: left, right, below, above, then the corners."""
+
+
+def entry_text(entry: Entry) -> str:
+    """Return the text of an entry: its own, else the name of its operator."""
+    return entry.text or getattr(bpy.types, f"FIRETWIN_OT_{entry.operator}").bl_label
+
+
+def _draw(layout: bpy.types.UILayout, lines: tuple[Line, ...]) -> None:
+    for line in lines:
+        if isinstance(line, Submenu):
+            layout.menu(line.name, text=line.text)
+        elif line.choice:
+            layout.operator_menu_enum(
+                f"firetwin.{line.operator}", line.choice, text=line.text, icon=line.icon
+            )
+        else:
+            pressed = layout.operator(f"firetwin.{line.operator}", text=entry_text(line), icon=line.icon)
+            for name, value in line.options.items():
+                setattr(pressed, name, value)
+
+
+def _create_menu(title: str, lines: tuple[Line, ...]) -> type[bpy.types.Menu]:
+    def draw(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+        self.layout.operator_context = "INVOKE_REGION_WIN"
+        _draw(self.layout, lines)
+
+    name = f"FIRETWIN_MT_main_{title.lower()}"
+    own = {"__doc__": f"Firetwin: {title.lower()}", "bl_idname": name, "bl_label": title, "draw": draw}
+    return type(name, (bpy.types.Menu,), own)
+
+
+_SUBMENUS = tuple(_create_menu(title, lines) for title, lines in MENUS.items())
+
+
+class FIRETWIN_MT_main(bpy.types.Menu):
+    """All operators of Firetwin"""
+
+    bl_idname = "FIRETWIN_MT_main"
+    bl_label = "Firetwin"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        for menu in _SUBMENUS:
+            self.layout.menu(menu.bl_idname)
+
+
+class FIRETWIN_MT_reset(bpy.types.Menu):
+    """Reset all settings of a section to their defaults"""
+
+    bl_idname = "FIRETWIN_MT_reset"
+    bl_label = "Reset Settings"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        for section in sections.sections():
+            text = f"Reset {panel_order.title(section.name).lower()} settings"
+            self.layout.operator("firetwin.reset", text=text).section = section.name
+
+
+class FIRETWIN_MT_pie(bpy.types.Menu):
+    """Firetwin's operators for work with cameras"""
+
+    bl_idname = "FIRETWIN_MT_pie"
+    bl_label = "Firetwin"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        pie = self.layout.menu_pie()
+        pie.operator_context = "INVOKE_REGION_WIN"
+        _draw(pie, PIE)
+
+
+def _draw_header(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+    if context.mode == "OBJECT":
+        self.layout.menu(FIRETWIN_MT_main.bl_idname)
+
+
+def _draw_help(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+    self.layout.separator()
+    self.layout.operator(manual.FIRETWIN_OT_help.bl_idname, text="Firetwin Manual", icon="QUESTION")
+
+
+_PLACES = (("VIEW3D_MT_editor_menus", _draw_header), ("TOPBAR_MT_help", _draw_help))
+
+
+def register() -> None:
+    """Add the menus to Blender's."""
+    for name, draw in _PLACES:
+        getattr(bpy.types, name).append(draw)
+
+
+def unregister() -> None:
+    """Remove the menus from Blender's."""
+    for name, draw in _PLACES:
+        getattr(bpy.types, name).remove(draw)
+
+
+classes = (*_SUBMENUS, FIRETWIN_MT_main, FIRETWIN_MT_reset, FIRETWIN_MT_pie)

@@ -1,0 +1,110 @@
+"""Translations of the interface (`bpy.app.translations`): names of operators, panels and menus, in German.
+
+Another language is another table with the same keys. Texts that a table does not have stay English.
+"""
+
+from __future__ import annotations
+
+import bpy
+
+GERMAN = {
+    # operators
+    "Add VR landmarks": "VR-Landmarken hinzufügen",
+    "Add camera from view": "Kamera aus Ansicht hinzufügen",
+    "Add run to compare": "Vergleichslauf hinzufügen",
+    "Build scene": "Szene bauen",
+    "Cancel farm job": "Farm-Auftrag abbrechen",
+    "Convert model output": "Modellausgabe umwandeln",
+    "Copy camera": "Kamera kopieren",
+    "Copy details of last message": "Einzelheiten der letzten Meldung kopieren",
+    "Draw camera path": "Kamerapfad zeichnen",
+    "Esc pauses the queue": "Esc hält die Warteschlange an",
+    "Export scene file": "Szenendatei exportieren",
+    "F12 writes files": "F12 schreibt Dateien",
+    "Go to place or time": "Zu Ort oder Zeit gehen",
+    "Jump to time of the run": "Zu einer Zeit des Laufs springen",
+    "Open manual": "Handbuch öffnen",
+    "Open run": "Lauf öffnen",
+    "Pause, resume or remove a render": "Rendern anhalten, fortsetzen oder entfernen",
+    "Pick station on map": "Station auf der Karte wählen",
+    "Point camera at": "Kamera ausrichten auf",
+    "Preview tiles": "Kacheln ansehen",
+    "Read farm status": "Stand der Farm lesen",
+    "Read run": "Lauf lesen",
+    "Remove camera": "Kamera entfernen",
+    "Remove run": "Lauf entfernen",
+    "Remove scene": "Szene entfernen",
+    "Remove tile preview": "Kachelvorschau entfernen",
+    "Render": "Rendern",
+    "Render in background": "Im Hintergrund rendern",
+    "Reset settings to default": "Einstellungen zurücksetzen",
+    "Resume farm job": "Farm-Auftrag fortsetzen",
+    "Save settings as preset": "Einstellungen als Vorlage sichern",
+    "Set camera key": "Kameraschlüssel setzen",
+    "Set lens and sensor": "Objektiv und Sensor einstellen",
+    "Set quality": "Qualität einstellen",
+    "Set time of first or last frame": "Zeit des ersten oder letzten Bildes setzen",
+    "Show station map": "Stationskarte zeigen",
+    "Solve smoke": "Rauch berechnen",
+    "Stop running task": "Laufende Aufgabe beenden",
+    "Submit farm job": "Farm-Auftrag abschicken",
+    "Try the King Fire": "King Fire ausprobieren",
+    "View scene": "Szene ansehen",
+    "Walk or fly with camera keys": "Gehen oder fliegen mit Kameraschlüsseln",
+    "Write asset library": "Asset-Bibliothek schreiben",
+    "Write farm job": "Farm-Auftrag schreiben",
+    "Write smoke of frames": "Rauch von Bildern schreiben",
+    # panels and menus
+    "Background Renders": "Rendern im Hintergrund",
+    "Begin at Event": "Beginn bei Ereignis",
+    "Camera by Hand": "Kamera von Hand",
+    "Cameras": "Kameras",
+    "Compare With": "Vergleichen mit",
+    "Content of the Run": "Inhalt des Laufs",
+    "End at Event": "Ende bei Ereignis",
+    "Fire": "Feuer",
+    "Firetwin": "Firetwin",
+    "Forest": "Wald",
+    "Go to Place": "Zu Ort gehen",
+    "Help": "Hilfe",
+    "Jump to Event": "Zu Ereignis springen",
+    "Labels": "Beschriftungen",
+    "Lens and Sensor": "Objektiv und Sensor",
+    "Light": "Licht",
+    "Look at a Place": "Auf einen Ort richten",
+    "On a farm": "Auf einer Farm",
+    "Presets": "Vorlagen",
+    "Rebuild Parts": "Teile neu bauen",
+    "Render Settings": "Rendereinstellungen",
+    "Report": "Bericht",
+    "Reset Settings": "Einstellungen zurücksetzen",
+    "Run": "Lauf",
+    "Scene": "Szene",
+    "Sensors": "Sensoren",
+    "Smoke": "Rauch",
+    "Station List": "Stationsliste",
+    "Station Map": "Stationskarte",
+    "Stations": "Stationen",
+    "Terrain": "Gelände",
+    "Tile Preview": "Kachelvorschau",
+    "Tiles": "Kacheln",
+    "Time": "Zeit",
+}
+"""German names, by English names. Blender's own words (Szene, Rendern) as in its German interface."""
+
+_CONTEXTS = ("*", "Operator")
+
+
+def table() -> dict[str, dict[tuple[str, str], str]]:
+    """Return the translations in Blender's layout: by language, and by context and English text."""
+    return {"de_DE": {(context, text): own for text, own in GERMAN.items() for context in _CONTEXTS}}
+
+
+def register() -> None:
+    """Add the translations to Blender."""
+    bpy.app.translations.register(__package__, table())
+
+
+def unregister() -> None:
+    """Remove the translations from Blender."""
+    bpy.app.translations.unregister(__package__)
