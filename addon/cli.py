@@ -227,6 +227,8 @@ def _parser() -> argparse.ArgumentParser:
             command("brief", "write a briefing page of a run", brief.DETAIL),
             types.path,
             types.size,
+            types.name,
+            types.moment,
         )
 
     imager = command("imager", "simulate a satellite imager's measurements of a run", help_texts.IMAGER)

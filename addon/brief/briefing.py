@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from firetwin_core.run import Run
+from numpy.typing import NDArray
 
 from ..errors import UsageError
 from ..run import areas, content, info, labels, observations, readers, score, times, zone
@@ -20,12 +22,14 @@ from ..shot.terrain.elevation import Elevation
 from ..stations import reading
 from ..stations.records import Resource, Station
 from ..stations.station_file import StationFile
-from . import film, fronts, layers, reached
+from . import context, film, fronts, layers, reached
 from .arguments import LIMIT
+from .context import Context
 from .film import Film
 from .fronts import Front
 from .layers import Layer
 from .reached import Reached
+from .sheet_options import SheetOptions
 
 
 @dataclass(frozen=True)
@@ -42,6 +46,10 @@ class Request:
         Files of observations; if empty, the files in the folder of the run.
     limit
         Maximum size of the page, bytes.
+    context
+        Names and files of map features (see `context`).
+    sheet
+        Choices for the printed sheets.
     """
 
     scene: Path
@@ -49,6 +57,8 @@ class Request:
     film: Path | None = None
     against: Sequence[str | Path] = ()
     limit: int = LIMIT
+    context: Sequence[tuple[str, Path]] = ()
+    sheet: SheetOptions = field(default_factory=SheetOptions)
 
 
 @dataclass(frozen=True)
@@ -82,6 +92,8 @@ class Briefing:
 
     Attributes
     ----------
+    elevation
+        (fy, fx) on the fuel grid, m; can come from a user's elevation model.
     facts
         See `info.gather`.
     tolerance
@@ -96,10 +108,15 @@ class Briefing:
         Names of the comparison runs of the scene file, which the page omits.
     inputs
         Files with unknown licences: role and file name.
+    context
+        Map features of the user, in the order of drawing.
+    sheet
+        Choices for the printed sheets.
     """
 
     run: Run
     zone: str
+    elevation: NDArray[np.floating]
     facts: dict[str, Any]
     layers: list[Layer]
     fronts: list[Front]
@@ -112,11 +129,40 @@ class Briefing:
     no_scores: str
     others: list[str]
     inputs: list[tuple[str, str]]
+    context: list[Context]
+    sheet: SheetOptions
 
     @cached_property
     def moments(self) -> list[str]:
         """Local times of the fronts."""
         return [times.text(front.utc, self.zone) for front in self.fronts]
+
+    @cached_property
+    def warnings(self) -> list[tuple[str, str]]:
+        """Words in large letters on each map and sheet, and their meaning."""
+        found = []
+        if self.run.synthetic:
+            found.append(("SYNTHETIC", "Not the output of a fire model, and not a forecast"))
+        if self.station_file is not None and self.station_file.exercise:
+            found.append(("EXERCISE", "Stations or resources are invented: not operational advice"))
+        return found
+
+    @property
+    def marks(self) -> tuple[str, ...]:
+        """Words in large letters on each map and sheet."""
+        return tuple(word for word, _ in self.warnings)
+
+    @cached_property
+    def short_sources(self) -> list[str]:
+        """Name the sources in short, for the map sheet."""
+        source = self.facts["source"] if isinstance(self.facts["source"], dict) else {}
+        model = f", made from {source['model']}" if source.get("model") else ""
+        stations = self.station_file.sources if self.station_file else ()
+        named = [f"Stations: {each.name}" for each in stations]
+        named += [f"{each.title}: {each.file}" for each in self.context]
+        if self.observed:
+            named.append(f"Perimeter: {self.observed[-1].source}")
+        return [f"Fire, terrain, fuel: run {self.run.name}{model}", *dict.fromkeys(named)]
 
     def resources(self, station: Station) -> list[Resource]:
         """Return the resources of a station."""
@@ -144,9 +190,11 @@ def gather(request: Request) -> Briefing:
     scores, reason = _scores(run, seen, clock, bool(request.against))
     files = sorted({observations.dates.without(each)[0].name for each in named})
     lines, tolerance = fronts.find(run, clock)
+    around = context.read(request.context)
     return Briefing(
         run=run,
         zone=clock,
+        elevation=elevation.fuel,
         facts=info.gather(run, clock),
         layers=layers.draw(run, elevation.fuel, clock),
         fronts=lines,
@@ -158,7 +206,13 @@ def gather(request: Request) -> Briefing:
         scores=scores,
         no_scores=reason,
         others=[other.name for other in settings.runs] if settings else [],
-        inputs=[*_inputs(settings), *(("Observations", name) for name in files)],
+        inputs=[
+            *_inputs(settings),
+            *(("Observations", name) for name in files),
+            *((f"Context ({each.name})", each.file) for each in around),
+        ],
+        context=around,
+        sheet=request.sheet,
     )
 
 

@@ -19,11 +19,19 @@ def run(arguments: argparse.Namespace) -> None:
     """
     if arguments.out.suffix.lower() != ".html":
         raise UsageError(f"--out: {arguments.out} does not end in .html; name an .html file")
-    from . import briefing, page, text  # imported after the quick check
+    from . import briefing, context, page, sheet_options, text  # imported after the quick check
 
     page.check_limit(arguments.limit)
+    if arguments.period and arguments.period[0] >= arguments.period[1]:
+        raise UsageError("--period: its first time is not before its last; give the first time first")
     request = briefing.Request(
-        arguments.scene, arguments.stations, arguments.film, arguments.against, arguments.limit
+        arguments.scene,
+        arguments.stations,
+        arguments.film,
+        arguments.against,
+        arguments.limit,
+        [context.parse(each) for each in arguments.context],
+        sheet_options.of_arguments(arguments),
     )
     with notify_if_slow(READING):
         found = briefing.gather(request)

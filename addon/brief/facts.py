@@ -58,12 +58,19 @@ def availability(
     station_file: StationFile, resource: Resource, zone: str, span: tuple[datetime, datetime]
 ) -> Iterator[str]:
     """Describe the windows that overlap a time span (UTC) in local time, and count the others."""
-    first, last = span
-    windows = station_file.windows_of[resource.id]
-    shown = [each for each in windows if each.begins <= last and each.ends > first]
-    yield from (_window(each, zone) for each in shown)
-    if left := len(windows) - len(shown):
+    shown = windows(station_file, resource, zone, span)
+    yield from shown
+    if left := len(station_file.windows_of[resource.id]) - len(shown):
         yield f"{left} more periods before or after the run"
+
+
+def windows(
+    station_file: StationFile, resource: Resource, zone: str, span: tuple[datetime, datetime]
+) -> list[str]:
+    """Describe the windows that overlap a time span (UTC) in local time."""
+    first, last = span
+    known = station_file.windows_of[resource.id]
+    return [_window(each, zone) for each in known if each.begins <= last and each.ends > first]
 
 
 def _window(window: Availability, zone: str) -> str:

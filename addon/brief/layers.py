@@ -23,6 +23,8 @@ _LEVELS = 24  # colours of a ramp
 _GREYS = 48  # levels of the hill shading
 _BEFORE = "#6b6560"  # burned before the start of the run
 _ARRIVAL = [to_hex(c) for c in matplotlib.colormaps["plasma"](np.linspace(0.05, 0.97, _LEVELS))]
+ARRIVAL_PALETTE = ("#000000", _BEFORE, *_ARRIVAL)
+"""Colours of `arrival_index`; the first is transparent."""
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
 
 
@@ -72,20 +74,24 @@ def draw(run: Run, elevation: NDArray[np.floating], zone: str) -> list[Layer]:
 
 def _hillshade(run: Run, elevation: NDArray[np.floating]) -> Layer:
     """Draw hill shading with light from the north-west."""
+    grey = np.round((0.35 + 0.63 * shade(run, elevation)) * (_GREYS - 1)) / (_GREYS - 1)
+    box, pixels = _sampled(run, np.round(255.0 * grey).astype(np.uint8), _LEAST)
+    return Layer("hillshade", "Terrain (hill shading)", box, _png(Image.fromarray(pixels)), None, 1.0, True)
+
+
+def shade(run: Run, elevation: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Compute hill shading (fy, fx) from 0 to 1, lit from the north-west."""
     known = elevation[np.isfinite(elevation)]
     height = np.nan_to_num(elevation.astype(np.float64), nan=float(known.min()) if known.size else 0.0)
     latitude, longitude = np.argsort(-run.fuel_latitude), np.argsort(run.fuel_longitude)
     if min(height.shape) < 3:
-        shade = np.full(height.shape, 0.7)
-    else:
-        dx, dy = areas.spacing(run.fuel_latitude, run.fuel_longitude)
-        lit = LightSource(azdeg=315, altdeg=45)
-        shade = np.empty(height.shape)
-        facing_north = height[np.ix_(latitude, longitude)]
-        shade[np.ix_(latitude, longitude)] = lit.hillshade(facing_north, vert_exag=2.0, dx=dx, dy=dy)
-    grey = np.round((0.35 + 0.63 * shade) * (_GREYS - 1)) / (_GREYS - 1)
-    box, pixels = _sampled(run, np.round(255.0 * grey).astype(np.uint8), _LEAST)
-    return Layer("hillshade", "Terrain (hill shading)", box, _png(Image.fromarray(pixels)), None, 1.0, True)
+        return np.full(height.shape, 0.7)
+    dx, dy = areas.spacing(run.fuel_latitude, run.fuel_longitude)
+    lit = LightSource(azdeg=315, altdeg=45)
+    shaded = np.empty(height.shape)
+    facing_north = height[np.ix_(latitude, longitude)]
+    shaded[np.ix_(latitude, longitude)] = lit.hillshade(facing_north, vert_exag=2.0, dx=dx, dy=dy)
+    return shaded
 
 
 def _fuel(run: Run) -> Layer:
@@ -104,6 +110,17 @@ def _fuel(run: Run) -> Layer:
 
 def _arrival(run: Run, zone: str) -> Layer:
     """Draw the arrival time at each fuel cell; transparent where the fire does not arrive."""
+    first, last = float(run.times[0]), float(run.times[-1])
+    index = arrival_index(run)
+    box, pixels = _sampled(run, index)
+    ticks = tuple((at, _clock(run, first + at * (last - first), zone)) for at in (0.0, 0.5, 1.0))
+    notes = ((_BEFORE, "burned before the run"),) if (index == 1).any() else ()
+    legend = Legend(f"Fire arrival, {_zone_name(run, zone)}", tuple(_ARRIVAL), ticks, notes)
+    return Layer("arrival", "Fire arrival time", box, _indexed(pixels, ARRIVAL_PALETTE), legend, 0.8, True)
+
+
+def arrival_index(run: Run) -> NDArray[np.uint8]:
+    """Compute the index into `ARRIVAL_PALETTE` of each fuel cell (fy, fx); 0 without fire."""
     arrival = np.asarray(run.fuel_arrival_time(), np.float64)
     first, last = float(run.times[0]), float(run.times[-1])
     share = np.clip(np.nan_to_num((arrival - first) / max(last - first, 1.0)), 0.0, 1.0)
@@ -111,12 +128,7 @@ def _arrival(run: Run, zone: str) -> Layer:
     with np.errstate(invalid="ignore"):
         index[arrival < first] = 1
         index[~(arrival <= last)] = 0
-    box, pixels = _sampled(run, index)
-    ticks = tuple((at, _clock(run, first + at * (last - first), zone)) for at in (0.0, 0.5, 1.0))
-    notes = ((_BEFORE, "burned before the run"),) if (index == 1).any() else ()
-    legend = Legend(f"Fire arrival, {_zone_name(run, zone)}", tuple(_ARRIVAL), ticks, notes)
-    png = _indexed(pixels, ["#000000", _BEFORE, *_ARRIVAL])
-    return Layer("arrival", "Fire arrival time", box, png, legend, 0.8, True)
+    return index
 
 
 def _sampled(run: Run, values: NDArray[np.uint8], least: int = 0) -> tuple[Box, NDArray[np.uint8]]:

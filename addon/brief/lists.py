@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from ..stations.describe import degrees, web_map_address
 from ..stations.records import EXERCISE, Resource, Station
 from ..stations.station_file import StationFile
-from . import facts
+from . import facts, resource_table
 from .briefing import Briefing, Point
 from .text import quote
 
@@ -34,7 +34,7 @@ def section(briefing: Briefing) -> str:
             '<div class="list" tabindex="0" role="region" aria-label="Places">',
             *([_stations(briefing, stations)] if stations else []),
             *([_towns(briefing, towns)] if towns else []),
-            f"</div>{_METHOD}</section>",
+            f"</div>{resource_table.tables(briefing)}{_METHOD}</section>",
         )
     )
 

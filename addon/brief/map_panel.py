@@ -1,20 +1,20 @@
-"""Switches and legends of map layers, and a static map for print."""
+"""Switches, legends and pictures of map layers."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
+from . import symbols
 from .briefing import Briefing
 from .fronts import Front
 from .layers import Layer, Legend
 from .mercator import Box
 from .text import data_uri, quote
 
-_WIDTH = 1000  # width of the static drawing
-_STILL_FRONTS = 6
-_NAME, _NAMES_APART = 260, 30  # space of a name in the drawing
+FRONT_EDGE, FRONT_FILL = symbols.FIRE_EDGE, "#ff3b14"
+"""Colours of the front: on the map, on the sheet and in their legends."""
 
 
 def bounds(layers: Sequence[Layer]) -> Box:
@@ -44,9 +44,11 @@ def view(fronts: Sequence[Front], whole: Box) -> Box:
 
 def switches(briefing: Briefing) -> str:
     """Build switch, opacity and legend of each layer, topmost first."""
-    made = [_drawn("front", "Front at this time", '<i style="background:#ff3b14"></i>burned by this time')]
+    filled = f'<i style="background:{FRONT_FILL}66;border:2px solid {FRONT_EDGE}"></i>burned by this time'
+    made = [_drawn("front", "Front at this time", filled)]
     if briefing.observed:
-        key = '<i style="background:#0b4fa8"></i>latest perimeter up to this time'
+        colour = symbols.LINES["Observed Perimeter"].colour
+        key = f'<i style="border:2px dashed {colour}"></i>latest perimeter up to this time'
         made.append(_drawn("observed", "Observed perimeters", key))
     made += [_switch(layer) for layer in reversed(briefing.layers)]
     return "\n".join(made)
@@ -91,71 +93,10 @@ def _legend(legend: Legend | None) -> str:
     )
 
 
-def still(briefing: Briefing) -> str:
-    """Build the static map without scripts: pictures of all layers, some fronts, and places.
-
-    The interactive map uses the same pictures, so that the page contains each of them once.
-    """
-    box = bounds(briefing.layers)
-    wide, high = box.metres
-    height = _WIDTH * high / wide
-    pictures = "".join(_picture(layer, box) for layer in briefing.layers)
-    drawing = "".join((*_fronts(briefing.fronts, box, height), *_places(briefing, box, height)))
-    last = briefing.moments[-1]
-    return (
-        '<figure class="static-map"><div class="sheet" '
-        f'style="aspect-ratio:{wide:.0f}/{high:.0f}">{pictures}'
-        f'<svg viewBox="0 0 {_WIDTH} {height:.0f}" role="img" aria-label="Map of the fire">{drawing}</svg>'
-        f"</div><figcaption>Fire arrival time over hill shading. Lines: fronts; bold: "
-        f"{quote(last)}. Filled marks: burned by this time. Web Mercator, north is up.</figcaption></figure>"
+def pictures(briefing: Briefing) -> str:
+    """Build the hidden pictures of all layers, which the script shows on the map."""
+    made = (
+        f'<img data-layer="{layer.name}" alt="{quote(layer.title)}" src="{data_uri("image/png", layer.png)}">'
+        for layer in briefing.layers
     )
-
-
-def _picture(layer: Layer, box: Box) -> str:
-    (left, right), (bottom, top) = box.share(
-        [layer.box.south, layer.box.north], [layer.box.west, layer.box.east]
-    )
-    place = (
-        f"left:{100 * left:.3f}%;top:{100 * top:.3f}%;"
-        f"width:{100 * (right - left):.3f}%;height:{100 * (bottom - top):.3f}%"
-    )
-    hidden = "" if layer.shown else ";display:none"
-    return (
-        f'<img data-layer="{layer.name}" alt="{quote(layer.title)}" '
-        f'style="{place};opacity:{layer.opacity:g}{hidden}" src="{data_uri("image/png", layer.png)}">'
-    )
-
-
-def _fronts(fronts: Sequence[Front], box: Box, height: float) -> Iterator[str]:
-    chosen = np.unique(np.linspace(0, len(fronts) - 1, _STILL_FRONTS).round().astype(int))
-    for index in chosen:
-        path = "".join(_path(line, box, height) for line in fronts[index].lines)
-        bold = index == len(fronts) - 1
-        width = 2.4 if bold else 0.8
-        yield f'<path d="{path}" fill="none" stroke="#3a0a02" stroke-width="{width}" opacity="0.85"/>'
-
-
-def _path(line: np.ndarray, box: Box, height: float) -> str:
-    x, y = box.share(line[:, 1], line[:, 0])
-    points = np.round(np.column_stack([x * _WIDTH, y * height]), 1)
-    kept = points[np.r_[True, np.any(np.diff(points, axis=0) != 0.0, axis=1)]]
-    return "M" + " ".join(f"{a:g},{b:g}" for a, b in kept) + "Z" if len(kept) > 2 else ""
-
-
-def _places(briefing: Briefing, box: Box, height: float) -> Iterator[str]:
-    """Draw marks of towns and stations, with names if there is space."""
-    taken: list[tuple[float, float]] = []
-    for place in briefing.points:
-        x, y = box.share(place.latitude, place.longitude)
-        if not (0.0 < x < 1.0 and 0.0 < y < 1.0):
-            continue
-        left, top = float(x) * _WIDTH, float(y) * height
-        fill = "#e02b12" if place.reached.state in ("before", "reached") else "#ffffff"
-        size = 6 if place.kind == "station" else 4
-        spot = f'cx="{left:.1f}" cy="{top:.1f}" r="{size}"'
-        yield f'<circle {spot} fill="{fill}" stroke="#111" stroke-width="2"/>'
-        if all(abs(top - b) > _NAMES_APART or abs(left - a) > _NAME for a, b in taken):
-            taken.append((left, top))
-            aside, anchor = (-10, "end") if left > _WIDTH - _NAME else (10, "start")
-            at = f'x="{left + aside:.1f}" y="{top + 5:.1f}" text-anchor="{anchor}"'
-            yield f"<text {at}>{quote(place.name)}</text>"
+    return f'<div id="pictures" hidden>{"".join(made)}</div>'

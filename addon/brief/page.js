@@ -27,18 +27,31 @@
     made.setMaxBounds(L.latLngBounds(data.bounds).pad(0.5));
     made.createPane("fronts").style.zIndex = 410;
     made.createPane("towns").style.zIndex = 420;
+    addMarks();
     return made;
+  }
+
+  function addMarks() {
+    if (!data.marks.length) return;
+    const box = document.createElement("div");
+    box.className = "map-mark";
+    box.setAttribute("aria-hidden", "true");
+    for (const word of data.marks) {
+      const line = document.createElement("span");
+      line.textContent = word;
+      box.append(line);
+    }
+    find("map").append(box);
   }
 
   function addLayers() {
     const made = {};
     for (const box of all(".layer[data-layer]")) {
       const name = box.dataset.layer;
-      const picture = document.querySelector(`.static-map img[data-layer="${name}"]`);
+      const picture = document.querySelector(`#pictures img[data-layer="${name}"]`);
       const own = data.overlays[name];
       if (picture) {
         const copy = picture.cloneNode();
-        copy.removeAttribute("style");
         copy.removeAttribute("data-layer");
         copy.classList.add(name === "hillshade" ? "shade" : "crisp");
         made[name] = L.imageOverlay(copy, own.bounds, { opacity: own.opacity, zIndex: own.order });
@@ -125,7 +138,7 @@
       if (!drawn[index]) {
         const rings = data.fronts.features[index].geometry.coordinates.map((ring) => ring.map(([x, y]) => [y, x]));
         drawn[index] = L.polygon(rings, {
-          pane: "fronts", className: "front", color: "#1a0500", weight: 1.6, fillColor: "#ff3b14", fillOpacity: 0.22,
+          pane: "fronts", className: "front", color: data.front.edge, weight: 2, fillColor: data.front.fill, fillOpacity: 0.22,
           smoothFactor: 0.6, interactive: false,
         });
       }
@@ -139,7 +152,7 @@
       layers.observed.clearLayers();
       if (last) {
         layers.observed.addLayer(L.geoJSON(last, {
-          pane: "fronts", interactive: false, style: { color: "#0b4fa8", weight: 2, dashArray: "6 4", fill: false },
+          pane: "fronts", interactive: false, style: { color: data.front.observed, weight: 2, dashArray: "6 4", fill: false },
         }));
       }
     };

@@ -6,6 +6,7 @@ Its content security policy blocks all requests, by scripts as well as by conten
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
 from string import Template
 from typing import Any
@@ -16,9 +17,11 @@ import numpy as np
 from ..errors import UsageError
 from ..run import times
 from ..stations.records import EXERCISE
-from . import curve, fronts, lists, map_panel, sections
+from . import curve, fronts, lists, map_panel, map_sheet, paper, sections, symbols
 from .briefing import Briefing, Point
+from .map_panel import FRONT_EDGE, FRONT_FILL
 from .mercator import Box
+from .sheet_options import Titles
 from .text import quote, script_json, size
 
 POLICY = (
@@ -44,6 +47,8 @@ def html(briefing: Briefing, limit: int) -> str:
     UsageError
         The page exceeds the limit.
     """
+    titles = Titles.of(briefing.run, briefing.sheet, briefing.zone)
+    sheet = map_sheet.draw(briefing, briefing.sheet, titles)
     parts = {
         "policy": POLICY,
         "generator": f"Firetwin {firetwin_core.__version__}",
@@ -51,7 +56,10 @@ def html(briefing: Briefing, limit: int) -> str:
         "leaflet_style": _leaflet_style(),
         "style": _read("page.css"),
         "head": sections.head(briefing),
-        "static_map": map_panel.still(briefing),
+        "page_style": paper.style(sheet.paper, _running(briefing, titles)),
+        "stamp": _stamp(briefing.marks, "stamp"),
+        "map_sheet": sheet.svg,
+        "pictures": map_panel.pictures(briefing),
         "last": str(len(briefing.fronts) - 1),
         "layers": map_panel.switches(briefing),
         "places": lists.section(briefing),
@@ -103,6 +111,24 @@ def _read(name: str) -> str:
     return (_FOLDER / name).read_text(encoding="utf-8")
 
 
+def _running(briefing: Briefing, titles: Titles) -> dict[str, str]:
+    """Write the running header and footer of the printed page."""
+    return {
+        "top-left": ": ".join(filter(None, (" / ".join(briefing.marks), titles.incident))),
+        "top-right": f"Operational period {titles.period}",
+        "bottom-left": f"Prepared {titles.prepared}",
+        "bottom-center": f"Model issued {titles.issued}, age {titles.age}",
+    }
+
+
+def _stamp(words: Sequence[str], kind: str) -> str:
+    """Build large words that lie across a map or a sheet."""
+    if not words:
+        return ""
+    inside = "".join(f"<span>{quote(word)}</span>" for word in words)
+    return f'<div class="{kind}" aria-hidden="true">{inside}</div>'
+
+
 def _leaflet_style() -> str:
     """Read Leaflet's style sheet without references to pictures, which the page does not use."""
     return re.sub(r"[\w-]+:\s*url\([^)]*\);?", "", _read("leaflet/leaflet.css"))
@@ -132,6 +158,12 @@ def _data(briefing: Briefing) -> dict[str, Any]:
         else None,
         "times": _times(briefing),
         "step_ms": round(float(np.clip(_PLAY_MS / count, *_STEP_MS))),
+        "marks": briefing.marks,
+        "front": {
+            "edge": FRONT_EDGE,
+            "fill": FRONT_FILL,
+            "observed": symbols.LINES["Observed Perimeter"].colour,
+        },
         "points": [_point(briefing, point) for point in briefing.points],
     }
 

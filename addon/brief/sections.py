@@ -157,13 +157,15 @@ def scores(briefing: Briefing) -> str:
 
 def sources(briefing: Briefing) -> str:
     """Build the list of all sources with their licences."""
-    items = "".join(f"<li>{item}</li>" for item in _sources(briefing))
+    printed = "".join(f"<li>{item}</li>" for item in _sources(briefing))
+    more = "".join(f'<li class="screen">{item}</li>' for item in _details(briefing))
+    items = printed + more
     licence = quote((_LEAFLET / "LICENSE").read_text(encoding="utf-8").replace("\n", "\f")).replace(
         "\\x0c", "\n"
     )
     return (
         f'<ul class="sources">{items}</ul>'
-        f"<details><summary>Licence of Leaflet 1.9.4</summary><pre>{licence}</pre></details>"
+        f'<details class="screen"><summary>Licence of Leaflet 1.9.4</summary><pre>{licence}</pre></details>'
     )
 
 
@@ -178,8 +180,8 @@ def _sources(briefing: Briefing) -> Iterator[str]:
         "Source of terrain, fuel, arrival times and fronts; fronts on the map are simplified by at most "
         f"{briefing.tolerance:.3g} m."
     )
-    for text in source.get("assumptions", []):
-        yield f"<b>Assumption of the run</b>: {quote(text)}"
+    if assumed := source.get("assumptions", []):
+        yield f"<b>Assumptions of the run</b>: {len(assumed)}, which the page lists on the screen"
     for what, name in briefing.inputs:
         yield f"<b>{what}</b>: {quote(name)}; {_NOT_KNOWN}"
     if briefing.facts["reported"]:
@@ -192,6 +194,14 @@ def _sources(briefing: Briefing) -> Iterator[str]:
         yield f"<b>Stations and resources</b>: {_source(each)}"
     if briefing.film:
         yield "<b>Pictures and clips</b>: rendered by Firetwin with Blender from this run"
+    yield f"<b>This page</b>: Firetwin {firetwin_core.__version__}, GPL-3.0-or-later"
+
+
+def _details(briefing: Briefing) -> Iterator[str]:
+    """List what concerns the page on the screen alone."""
+    source = briefing.facts["source"] if isinstance(briefing.facts["source"], dict) else {}
+    for text in source.get("assumptions", []):
+        yield f"<b>Assumption of the run</b>: {quote(text)}"
     if briefing.points:
         yield (
             "<b>Open in web map</b>: links to openstreetmap.org, whose map is © OpenStreetMap contributors "
@@ -201,8 +211,6 @@ def _sources(briefing: Briefing) -> Iterator[str]:
         '<b>Map script</b>: <a href="https://leafletjs.com" rel="noopener noreferrer">Leaflet</a> 1.9.4, '
         "© 2010-2023 Volodymyr Agafonkin, © 2010-2011 CloudMade, BSD-2-Clause (below)"
     )
-    version = firetwin_core.__version__
-    yield f"<b>This page</b>: script and style are part of Firetwin {version}, GPL-3.0-or-later"
 
 
 def _source(source: Source) -> str:

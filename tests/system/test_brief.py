@@ -305,14 +305,14 @@ def test_the_printed_document_has_every_row_and_the_map(opened, tmp_path, theme)
     for words in (
         "Exercise: not operational advice",
         "This run is synthetic",
-        "Fire arrival time over hill shading",
-        "BSD 2-Clause License",
+        "Simulated fire edge",
+        "Datum WGS 84",
         "Scores against observations",
     ):
         assert words in text
     colours(opened, theme, "print")
     assert not opened.find_element(By.ID, "map").is_displayed()
-    assert opened.find_element(By.CSS_SELECTOR, ".static-map").is_displayed()
+    assert opened.find_element(By.CSS_SELECTOR, ".map-sheet").is_displayed()
     assert ground(opened) == "rgb(255, 255, 255)"
     colours(opened, "light")
 
@@ -365,7 +365,7 @@ def test_without_scripts_the_page_is_whole(browser, page):
     browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
     try:
         browser.get(page.as_uri())
-        assert browser.find_element(By.CSS_SELECTOR, ".static-map").is_displayed()
+        assert browser.find_element(By.CSS_SELECTOR, ".map-sheet").is_displayed()
         assert not browser.find_element(By.ID, "map").is_displayed()
         assert "Scripts are disabled" in browser.find_element(By.TAG_NAME, "noscript").text
         assert browser.find_element(By.CSS_SELECTOR, "tbody[data-id]").is_displayed()

@@ -1,0 +1,117 @@
+"""Context of the map from files of the user: roads, water, boundaries, evacuation zones, values at risk.
+
+A feature whose property "FeatureCategory" (or "category", "kind", "type") names a symbol of the NWCG standard
+has that symbol, whatever the name of its file; so has an export of the National Incident Feature Service.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..errors import UsageError, input_error
+from ..run import observations
+from ..run.observations import Detections, Feature
+from . import symbols
+
+PRIORITY = ("water", "boundaries", "roads", "zones", "values")
+"""Names with a known style, lowest first; others are drawn above roads."""
+TITLES = {
+    "water": "Water",
+    "boundaries": "Boundary",
+    "roads": "Road",
+    "zones": "Evacuation zone",
+    "values": "Value at risk",
+}
+"""Texts of the legend."""
+_CATEGORY = ("featurecategory", "category", "kind", "type")
+_LABEL = ("label", "name", "zone", "zone_id", "zone_name", "fullname", "ref")
+_LONGEST = 40  # characters of a label
+_SUFFIXES = (".gpkg", ".geojson", ".json", ".kml", ".kmz", ".shp")
+
+
+@dataclass(frozen=True)
+class Context:
+    """Features of a file and the name of their style."""
+
+    name: str
+    file: str
+    features: tuple[Feature, ...]
+
+    @property
+    def style(self) -> str:
+        """Style of features without a category: the name, or "other"."""
+        return self.name if self.name in PRIORITY else "other"
+
+    @property
+    def title(self) -> str:
+        """Text in the legend."""
+        return TITLES.get(self.name, self.name)
+
+
+def read(named: Sequence[tuple[str, Path]]) -> list[Context]:
+    """Read files in the order in which they are drawn.
+
+    Raises
+    ------
+    InputError
+        A file cannot be read, or has no features.
+    """
+    found = []
+    for name, path in sorted(named, key=lambda each: _rank(each[0])):
+        if path.suffix.lower() not in _SUFFIXES:
+            raise input_error(
+                path, f"is not a file of map features; name one that ends in {', '.join(_SUFFIXES)}"
+            )
+        features = observations.features(path)
+        if isinstance(features, Detections) or not features:
+            raise input_error(path, "has no features; export points, lines or polygons")
+        found.append(Context(name, path.name, tuple(features)))
+    return found
+
+
+def parse(text: str) -> tuple[str, Path]:
+    """Parse ``NAME=FILE``.
+
+    Raises
+    ------
+    UsageError
+        The text has another form.
+    """
+    name, equals, file = text.partition("=")
+    if not equals or not name.strip() or not file:
+        known = ", ".join(PRIORITY)
+        raise UsageError(f"--context: {text!r} is not NAME=FILE; write for example roads=FILE.gpkg ({known})")
+    return name.strip(), Path(file)
+
+
+def category(feature: Feature) -> str:
+    """Return the category of a feature; empty without one."""
+    return _property(feature, _CATEGORY)
+
+
+def label(feature: Feature) -> str:
+    """Return the label of a feature; empty without one."""
+    return _property(feature, _LABEL)[:_LONGEST]
+
+
+def point_symbol(context: Context, feature: Feature) -> str:
+    """Choose the symbol of a point."""
+    named = symbols.find(category(feature), symbols.POINTS)
+    return named or ("Value at risk" if context.name == "values" else "Named place")
+
+
+def line_style(context: Context, feature: Feature) -> str:
+    """Choose the name of the style of a line or an outline."""
+    return symbols.find(category(feature), symbols.LINES) or context.style
+
+
+def _property(feature: Feature, names: Sequence[str]) -> str:
+    lower = {str(name).lower(): value for name, value in feature.properties.items()}
+    found = (" ".join(str(lower[name]).split()) for name in names if isinstance(lower.get(name), str | int))
+    return next(filter(None, found), "")
+
+
+def _rank(name: str) -> float:
+    return PRIORITY.index(name) if name in PRIORITY else PRIORITY.index("roads") + 0.5
