@@ -5,12 +5,18 @@ containment, Forest Science 49(2):331-335: the chosen resources build at least a
 the front at the hour of containment, at minimum cost and loss. The front comes from the run, and suppression
 does not affect it.
 
-`divisions` divides the front, `resources` and `read` provide the resources, `problem` converts both to
-arrays, `containment` and `nearest` solve with SciPy, `shortfall` finds the reasons if there is none, `page`
-prints the result.
+`control_line` generalises the front, `divisions` divides it, `resources` and `read` provide the resources,
+`problem` converts both to arrays, `containment` and `nearest` solve with SciPy, `shortfall` finds the reasons
+if there is none, `page` prints the result, `map_layer` writes it as GeoJSON.
 """
 
 from __future__ import annotations
+
+RADIUS = 500.0
+"""Radius (m) of the bays and gaps of the front that are closed, by eye: with 1,000 m the lines of most
+divisions of the sample run are less than 6 % shorter."""
+INDIRECT = 100.0
+"""Distance (m) of the line from the fire's edge, assumed."""
 
 LIMITS = (
     "suppression does not affect the fire of the run: its front grows as if nobody fought it",

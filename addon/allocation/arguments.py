@@ -11,7 +11,7 @@ from pathlib import Path
 
 from .. import limits
 from ..stations.records import EXERCISE
-from . import LIMITS
+from . import INDIRECT, LIMITS, RADIUS
 
 _LIMITS = textwrap.fill(f"Limits: {'; '.join(LIMITS)}.", 110)
 
@@ -20,7 +20,9 @@ DETAIL = f"""\
 
 Suggests an allocation of the resources of a station file to divisions of a run's front. They build at least
 as much line as the length of the front at the hour of containment, at minimum cost and loss (after Donovan
-and Rideout 2003). Divisions are sectors around the centre of the burned area, lettered clockwise from north.
+and Rideout 2003). The line closes gaps and bays of the front (--close-gaps) and runs outside its edge
+(--indirect). The result names each division that cannot be held, with the nearest feasible plan. Divisions
+are sectors around the centre of the burned area, lettered clockwise from north.
 
   firetwin allocate stations.gpkg RUN --budget 250000 --standard-response engine/3=4,dozer/2=1 --minutes 60
 
@@ -83,7 +85,26 @@ def add(
         "--escape-loss",
         metavar="X",
         type=_amount,
-        help="loss of a division that is not contained (without it, each must be contained)",
+        default=math.inf,
+        help="loss of a division that is not contained (more than the cost of all resources)",
+    )
+    parser.add_argument("--contain-all", action="store_true", help="fail if a division cannot be contained")
+    parser.add_argument(
+        "--close-gaps",
+        metavar="M",
+        type=_amount,
+        default=2.0 * RADIUS,
+        help=f"width up to which the line closes gaps and bays of the front, m ({2.0 * RADIUS:g}; 0: none)",
+    )
+    parser.add_argument(
+        "--indirect",
+        metavar="M",
+        type=_amount,
+        default=INDIRECT,
+        help=f"distance of the line from the fire's edge, m ({INDIRECT:g})",
+    )
+    parser.add_argument(
+        "--geojson", metavar="FILE", type=path, help="also write lines and resources for maps"
     )
     parser.add_argument("--json", action="store_true", help="write JSON")
 

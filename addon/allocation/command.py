@@ -9,10 +9,12 @@ from pathlib import Path
 
 from firetwin_core.run import Run
 
+from .. import files
 from ..errors import Error
 from ..progress import result
 from ..run import times
 from . import job, page, read
+from .control_line import LineOptions
 from .problem import Request
 
 
@@ -32,10 +34,14 @@ def run(arguments: argparse.Namespace, open_run: Callable[[Path], Run]) -> None:
         arguments.response,
         arguments.minutes,
         arguments.loss_hectare,
-        arguments.escape_loss,
+        None if arguments.contain_all else arguments.escape_loss,
     )
-    found = job.suggest(units, run, request, start, arguments.hours, arguments.divisions)
+    line = LineOptions(0.5 * arguments.close_gaps, arguments.indirect)
+    found = job.suggest(units, run, request, start, arguments.hours, arguments.divisions, line=line)
+    drawn = found.pop("map")
     found["left_out"] += left_out
+    if arguments.geojson is not None:
+        files.write_text(arguments.geojson, json.dumps(drawn, separators=(",", ":")) + "\n")
     result(json.dumps(found, indent=1) if arguments.json else page.format_text(found))
     if found["reasons"]:
         raise Error("; ".join(found["reasons"]))

@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from ..errors import Error
 from . import symmetry
 from .model import KM, USUAL, Model, Options
-from .problem import SMALLEST, Problem
+from .problem import SMALLEST, Problem, Request
 
 Array = NDArray[np.float64]
 Whole = NDArray[np.int64]
@@ -78,6 +78,66 @@ def solve(problem: Problem, options: Options = USUAL) -> Answer | None:
     division = symmetry.assign(model.classes, _remove_spare(problem, model.classes, counts))
     answer = make_answer(problem, division, _first_hour(problem, built_line(problem, division)))
     return replace(answer, bound=min(bound, answer.cost + answer.loss), in_time=in_time)
+
+
+@dataclass(frozen=True)
+class PartialPlan:
+    """Nearest feasible plan for divisions that cannot be contained: the longest line by the last hour.
+
+    Attributes
+    ----------
+    division
+        (n,) division of each resource that is not sent otherwise; -1: not sent.
+    line
+        (k,) line that is built by the last hour, m; NaN for contained divisions.
+    """
+
+    division: NDArray[np.int64]
+    line: Array
+
+
+def plan_the_rest(problem: Problem, answer: Answer, options: Options = USUAL) -> PartialPlan:
+    """Send the remaining resources to the divisions that escape, within the remaining budget."""
+    open_ = np.flatnonzero(answer.hour < 0)
+    rest = np.flatnonzero(answer.division < 0)
+    division = np.full(len(problem.ids), -1)
+    built = built_line(problem, answer.division)[:, -1]
+    if open_.size and rest.size:
+        budget = problem.request.budget
+        request = Request(None if budget is None else max(budget - answer.cost, 0.0))
+        left = np.maximum(problem.perimeter[open_, -1:] - built[open_, None], 0.0)
+        part = Problem(
+            tuple(problem.ids[i] for i in rest),
+            tuple(problem.types[i] for i in rest),
+            problem.minutes[np.ix_(rest, open_)],
+            problem.rate[rest],
+            problem.cost[rest],
+            problem.hours[-1:],
+            left,
+            np.zeros_like(left),
+            request,
+        )
+        model = Model(part, slack=True)
+        values, _, _ = model.run(model.shortfall(), options)
+        assert values is not None
+        found = symmetry.assign(model.classes, _useful(part, model.classes, model.read(values)[0]))
+        division[rest[found >= 0]] = open_[found[found >= 0]]
+    sent = np.where(division >= 0, division, answer.division)
+    line = np.where(answer.hour < 0, built_line(problem, sent)[:, -1], np.nan)
+    return PartialPlan(division, line)
+
+
+def _useful(part: Problem, classes: list[Whole], counts: Whole) -> Whole:
+    """Remove resources beyond the length of the front, the most expensive class first."""
+    first = np.array([members[0] for members in classes], np.int64)
+    line, front = part.line[first][..., 0], part.perimeter[:, 0]
+    for c in np.argsort(-part.cost[first], kind="stable"):
+        for k in range(counts.shape[1]):
+            spare = float((counts * line)[:, k].sum() - front[k])
+            each = float(line[c, k])
+            more = counts[c, k] if each <= 0.0 else min(counts[c, k], int(max(spare, 0.0) / each))
+            counts[c, k] -= more
+    return counts
 
 
 def minimum_shortfall(problem: Problem, options: Options = USUAL) -> tuple[Array, NDArray[np.int64]]:

@@ -11,6 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 from ..ellipsoid import metres_per_degree
 from ..run import front
 from ..run.arrival_grid import ArrivalGrid
+from . import control_line
+from .control_line import USUAL, Line, LineOptions
 
 MOST = 26  # divisions, named by letters
 HOUR = 3600.0  # s
@@ -29,18 +31,24 @@ class Divisions:
     hours
         (t,) hours after the order: 1, 2, ...
     perimeter
-        (k, t) length of the outer front in each sector, m, without slopes.
+        (k, t) length of the control line in each sector, m, without slopes.
+    detailed
+        (k, t) length of the outer front in all detail, m.
     burned
         (k, t) burned area in each sector, m2.
     place
         (k, 2) latitude and longitude of the middle of the first front in each sector, degrees; NaN: none.
+    lines
+        Control line at each hour.
     """
 
     centre: tuple[float, float]
     hours: Array
     perimeter: Array
+    detailed: Array
     burned: Array
     place: Array
+    lines: tuple[Line, ...]
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -53,8 +61,8 @@ class Divisions:
         return k * width, (k + 1) * width
 
 
-def divide(run: Run, start: float, hours: int, count: int) -> Divisions:
-    """Divide a run's front.
+def divide(run: Run, start: float, hours: int, count: int, options: LineOptions = USUAL) -> Divisions:
+    """Divide the control line around a run's fire.
 
     Parameters
     ----------
@@ -64,19 +72,23 @@ def divide(run: Run, start: float, hours: int, count: int) -> Divisions:
         Number of hours after it.
     count
         Number of divisions, 1 to `MOST`.
+    options
+        Detail of the control line.
     """
     grid, reach = ArrivalGrid.from_run(run), front.reach(run)
     centre = _centre(grid, start)
     rows, columns = np.meshgrid(grid.latitude, grid.longitude, indexing="ij")
     cell = sector(*_to_metres(rows, columns, centre), count)
     after = np.arange(1, hours + 1, dtype=np.float64)
-    perimeter, burned, place = np.zeros((count, hours)), np.zeros((count, hours)), np.full((count, 2), np.nan)
+    perimeter, detailed, burned = (np.zeros((count, hours)) for _ in range(3))
+    place, lines = np.full((count, 2), np.nan), []
     for t, moment in enumerate(start + HOUR * after):
-        line = reach.line(moment)
-        perimeter[:, t], middle = front_lengths(*line, centre, count)
+        lines.append(control_line.trace(grid, reach, moment, options))
+        perimeter[:, t], middle = front_lengths(*lines[-1], centre, count)
+        detailed[:, t], _ = front_lengths(*reach.line(moment), centre, count)
         place = np.where(np.isnan(place), middle, place)
         burned[:, t] = np.bincount(cell.ravel(), (grid.areas * grid.burned(moment)).ravel(), count)
-    return Divisions(centre, after, perimeter, burned, place)
+    return Divisions(centre, after, perimeter, detailed, burned, place, tuple(lines))
 
 
 def ignition_time(run: Run) -> float:
@@ -116,6 +128,30 @@ def front_lengths(
     sums = np.stack([np.bincount(own, length * middle[:, axis], count) for axis in (0, 1)], axis=-1)
     with np.errstate(invalid="ignore", divide="ignore"):
         return total, sums / total[:, None]
+
+
+def split_line(line: Line, centre: tuple[float, float], count: int) -> list[list[Array]]:
+    """Split the outer rings of a line into polylines (n, 2) of each sector, degrees east and north."""
+    latitude, longitude, after = line
+    parts: list[list[Array]] = [[] for _ in range(count)]
+    outer = outer_points(*_to_metres(latitude, longitude, centre), after)
+    points = np.column_stack([longitude, latitude])
+    middle = 0.5 * (points + points[after])
+    own = sector(*_to_metres(middle[:, 1], middle[:, 0], centre), count)
+    left = np.zeros(len(after), bool)
+    left[outer] = True
+    for first in outer.tolist():
+        if not left[first]:
+            continue
+        ring = [first]
+        while (there := int(after[ring[-1]])) != first:
+            ring.append(there)
+        left[ring] = False
+        changes = [k for k in range(len(ring)) if own[ring[k]] != own[ring[k - 1]]] or [0]
+        for begin, end in zip(changes, [*changes[1:], changes[0] + len(ring)], strict=True):
+            part = [ring[k % len(ring)] for k in range(begin, end + 1)]
+            parts[own[part[0]]].append(points[part])
+    return parts
 
 
 def outer_points(x: Array, y: Array, after: NDArray[np.int64]) -> NDArray[np.int64]:

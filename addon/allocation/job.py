@@ -18,8 +18,10 @@ from ..errors import UsageError, input_error
 from ..jobs import worker
 from ..progress import MessageCallback, Progress, no_message, silent
 from ..run import times
-from . import containment, divisions, nearest, shortfall, suggestion
-from .containment import Answer
+from . import containment, divisions, map_layer, nearest, shortfall, suggestion
+from .containment import Answer, PartialPlan
+from .control_line import USUAL as USUAL_LINE
+from .control_line import LineOptions
 from .divisions import HOUR
 from .model import USUAL, Options
 from .nearest import Nearest
@@ -39,6 +41,7 @@ def suggest(
     count: int = 4,
     options: Options = USUAL,
     stop: worker.Stop | None = None,
+    line: LineOptions = USUAL_LINE,
 ) -> dict[str, Any]:
     """Suggest an allocation of resources to `count` divisions of a run's front (see `suggestion.describe`).
 
@@ -46,6 +49,8 @@ def suggest(
     ----------
     start, hours
         Time of the order (by default the ignition), and hours after it.
+    line
+        Detail of the control line.
 
     Raises
     ------
@@ -61,11 +66,11 @@ def suggest(
     if not 1 <= count <= divisions.MOST:
         raise UsageError(f"--divisions: must be from 1 to {divisions.MOST}, not {count}")
     kept, left = select_usable(resources)
-    parts = divisions.divide(run, order, hours, count)
+    parts = divisions.divide(run, order, hours, count, line)
     if not parts.perimeter.any():
         raise UsageError("--from: the run has no front in these hours; give a later time or more hours")
     problem, burning = make_problem(kept, parts, request)
-    asked = suggestion.AllocationInput(kept, left, parts, burning, problem)
+    asked = suggestion.AllocationInput(kept, left, parts, burning, problem, line)
     solved = worker.run(
         f"{__name__}:solve_in_worker",
         {"problem": problem.as_json(), "names": asked.names, "options": asdict(options)},
@@ -73,8 +78,10 @@ def suggest(
         stop=stop,
     )
     answer = None if solved["answer"] is None else _from_json(solved["answer"])
+    rest = None if solved["rest"] is None else _plan_from_json(solved["rest"])
     pairs = [Nearest(*each) for each in solved["nearest"]]
-    found = suggestion.describe(asked, answer, pairs, solved["reasons"])
+    found = suggestion.describe(asked, answer, rest, pairs, solved["reasons"])
+    found["map"] = map_layer.make(asked, answer, found)
     return {"run": run.name, "from": times.iso(times.utc(run, order)), **found}
 
 
@@ -103,13 +110,16 @@ def solve_in_worker(
     asked, chosen = Problem.from_json(problem), Options(**options)
     answer = containment.solve(asked, chosen)
     reasons: list[str] = []
+    rest = None
     if answer is None:
         reasons = shortfall.explain(asked, tuple(names), chosen)
         reasons = reasons or ["budget, line and standard response cannot be met together"]
     else:
         containment.check(asked, answer)
+        rest = containment.plan_the_rest(asked, answer, chosen)
     plain = None if answer is None else asdict(answer) | _lists(answer)
-    return {"answer": plain, "nearest": nearest.pair_nearest(asked), "reasons": reasons}
+    partial = None if rest is None else {name: getattr(rest, name).tolist() for name in _PLAN}
+    return {"answer": plain, "rest": partial, "nearest": nearest.pair_nearest(asked), "reasons": reasons}
 
 
 def _lists(answer: Answer) -> dict[str, Any]:
@@ -118,6 +128,13 @@ def _lists(answer: Answer) -> dict[str, Any]:
 
 def _from_json(plain: dict[str, Any]) -> Answer:
     return Answer(**plain | {name: np.array(plain[name], np.int64) for name in ("division", "hour")})
+
+
+_PLAN = ("division", "line")
+
+
+def _plan_from_json(plain: dict[str, Any]) -> PartialPlan:
+    return PartialPlan(np.array(plain["division"], np.int64), np.array(plain["line"], np.float64))
 
 
 def _limit_hours(run: Run, order: float, hours: int | None) -> int:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+_LENGTHS = ("perimeter", "detailed_perimeter")
+
 
 def format_text(found: dict[str, Any]) -> str:
     """Format divisions, sums, assumptions and limits, with the exercise label first and last."""
@@ -16,6 +18,9 @@ def _lines(found: dict[str, Any]) -> Iterator[str]:
     money = f" {cost}" if cost else ""
     yield label
     yield f"run {found['run']}, ordered {found['from']}, {found['hours'][-1]:g} h"
+    for hour in (0, -1):
+        line, front = (sum(each[name][hour] for each in found["divisions"]) for name in _LENGTHS)
+        yield f"control line {line:,.0f} m at hour {found['hours'][hour]:g}; front in detail {front:,.0f} m"
     for reason in found["reasons"]:
         yield f"no allocation: {reason}"
     for division in found["divisions"]:
@@ -50,19 +55,37 @@ def _division(division: dict[str, Any], found: dict[str, Any], money: str) -> It
         return
     hour = division["contained_at_hour"]
     if hour is None:
-        yield f"{head}: escapes, with a front of {front[-1]:,.0f} m at hour {found['hours'][-1]:g}"
+        yield f"{head}: cannot be held, with a front of {front[-1]:,.0f} m at hour {found['hours'][-1]:g}"
     else:
         there = front[found["hours"].index(hour)]
         yield f"{head}: contained at hour {hour:g}, line {division['line']:,.0f} m of {there:,.0f} m"
-    for each in division["resources"]:
-        yield (
-            f"  {each['id']:<8} {each['type']:<14} {each['name']:<28} arrives after {each['arrival']:>4.0f} "
-            f"min, line {each['line']:>7,.0f} m, cost {each['cost']:>10,.2f}{money} ({each['origin']})"
-        )
+    yield from (_resource(each, money) for each in division["resources"])
+    if plan := division.get("nearest_plan"):
+        yield from _plan(plan, money)
+
+
+def _plan(plan: dict[str, Any], money: str) -> Iterator[str]:
+    part = 100.0 * plan["line"] / plan["front"] if plan["front"] else 100.0
+    yield (
+        f"  nearest feasible plan: {plan['line']:,.0f} m ({part:.0f} %) by hour {plan['hour']:g}, for "
+        f"another {plan['cost']:,.2f}{money}"
+    )
+    yield f"  it misses {plan['missing']:,.0f} m, a rate of {plan['missing_rate']:,.0f} m/h from the order"
+    every, hour = plan["line_of_all"], plan["hour_of_all"]
+    contain = "would not contain it" if hour is None else f"would contain it at hour {hour:g}"
+    yield f"  all resources together {contain}: they build {every:,.0f} m by hour {plan['hour']:g}"
+    yield from (_resource(each, money) for each in plan["resources"])
+
+
+def _resource(each: dict[str, Any], money: str) -> str:
+    return (
+        f"  {each['name']:<36} {each['type']:<14} arrives after {each['arrival']:>4.0f} "
+        f"min, line {each['line']:>7,.0f} m, cost {each['cost']:>10,.2f}{money} ({each['origin']})"
+    )
 
 
 def _pair(each: dict[str, Any]) -> str:
-    return f"{each['kind']} for {each['division']}: {each['id']}, {each['arrival']:.0f} min"
+    return f"{each['kind']} for {each['division']}: {each['name']}, {each['arrival']:.0f} min"
 
 
 def _listed(title: str, lines: Any) -> Iterator[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any
 
 import numpy as np
@@ -30,7 +30,8 @@ class Request:
     loss
         Loss per hectare of burned area.
     escape
-        Loss of a division that is not contained; None: each must be contained.
+        Loss of a division that is not contained; None: each must be contained; infinite: more than the cost
+        of all resources, so that as many divisions as possible are contained.
     """
 
     budget: float | None = None
@@ -108,6 +109,13 @@ class Problem:
 _ARRAYS = ("minutes", "rate", "cost", "hours", "perimeter", "loss")
 
 
+def set_escape_loss(request: Request, costs: Array) -> Request:
+    """Replace an infinite escape loss by one above the sum of costs (n,), in full thousands."""
+    if request.escape is None or np.isfinite(request.escape):
+        return request
+    return replace(request, escape=1000.0 * float(np.floor(costs.sum() / 1000.0) + 1.0))
+
+
 def make_problem(
     resources: Sequence[Unit], divisions: Divisions, request: Request
 ) -> tuple[Problem, list[int]]:
@@ -121,15 +129,16 @@ def make_problem(
     come = np.maximum.accumulate(perimeter > 0.0, axis=1)
     loss = np.round(request.loss * divisions.burned[burning] / 1e4 / SMALLEST) * SMALLEST
     period = float(divisions.hours[-1])
+    costs = np.round(period_costs(resources, period) / SMALLEST) * SMALLEST
     problem = Problem(
         tuple(each.id for each in resources),
         tuple(each.type for each in resources),
         travel_times(resources, divisions.place[burning]),
         np.array([each.line_m_h or 0.0 for each in resources], np.float64),
-        np.round(period_costs(resources, period) / SMALLEST) * SMALLEST,
+        costs,
         divisions.hours,
         np.where(come, perimeter, np.nan),
         np.where(come, loss, np.nan),
-        request,
+        set_escape_loss(request, costs),
     )
     return problem, burning

@@ -35,7 +35,7 @@ def read(path: Path, moment: datetime) -> tuple[list[Unit], list[str]]:
         if status == "available":
             units += _units(path, station_file, resource)
         else:
-            left.append(f"{resource.id} ({resource.type}) is {status}")
+            left.append(f"{_title(station_file, resource)} ({resource.type}) is {status}")
     _one_currency(path, units)
     return units, left
 
@@ -46,16 +46,25 @@ def _status(station_file: StationFile, resource: Resource, window: int) -> str:
     return "of unknown status then" if station_file.windows_of[resource.id] else "available"
 
 
+def _title(station_file: StationFile, each: Resource) -> str:
+    return each.name or station_file.stations[station_file.station_row[each.station]].title
+
+
 def _units(path: Path, station_file: StationFile, each: Resource) -> list[Unit]:
     if each.count > _MOST:
         raise input_error(path, f"resource {each.id} has a count of {each.count:,}, above {_MOST:,}")
     station = station_file.stations[station_file.station_row[each.station]]
     one = Unit(
         str(each.id), each.type, each.line_m_h, each.mobilise_min, each.speed_km_h, each.cost_hour,
-        station.latitude, station.longitude, each.name or station.title, each.origin, each.currency,
-        each.cost_mobilise, each.cost_day,
+        station.latitude, station.longitude, _title(station_file, each), each.origin,
+        each.currency, each.cost_mobilise, each.cost_day, station.title,
     )  # fmt: skip
-    return [one._replace(id=f"{each.id}-{k}") for k in range(1, each.count + 1)] if each.count > 1 else [one]
+    if each.count == 1:
+        return [one]
+    return [
+        one._replace(id=f"{each.id}-{k}", name=f"{one.name} ({k} of {each.count})")
+        for k in range(1, each.count + 1)
+    ]
 
 
 def _one_currency(path: Path, units: list[Unit]) -> None:

@@ -33,6 +33,8 @@ class Unit(NamedTuple):
         Cost per hour, of mobilisation and per day, in `currency`.
     lat, lon
         Position of its station, degrees.
+    name, station
+        Name of the unit, and of its station.
     """
 
     id: str
@@ -48,6 +50,12 @@ class Unit(NamedTuple):
     currency: str = ""
     cost_mobilise: float | None = None
     cost_day: float | None = None
+    station: str = ""
+
+    @property
+    def title(self) -> str:
+        """Name, or id without a name."""
+        return self.name or self.id
 
 
 def select_usable(units: Iterable[Unit]) -> tuple[list[Unit], list[str]]:
@@ -61,7 +69,7 @@ def select_usable(units: Iterable[Unit]) -> tuple[list[Unit], list[str]]:
         if not (_is_known(each, "cost_hour") or _is_known(each, "cost_day")):
             missing.append("cost_hour")
         if missing:
-            left.append(f"{each.id} ({each.type}) has no {' and no '.join(missing)}")
+            left.append(f"{each.title} ({each.type}) has no {' and no '.join(missing)}")
         else:
             kept.append(each)
     return kept, left

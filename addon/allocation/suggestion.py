@@ -7,10 +7,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..stations.records import AIR, DETOUR, EXERCISE
 from . import LIMITS, containment
-from .containment import Answer
+from .containment import Answer, PartialPlan
+from .control_line import USUAL, LineOptions
 from .divisions import Divisions
 from .nearest import Nearest
 from .problem import Problem
@@ -28,6 +30,7 @@ class AllocationInput:
     divisions: Divisions
     burning: list[int]
     problem: Problem
+    line: LineOptions = USUAL
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -36,7 +39,11 @@ class AllocationInput:
 
 
 def describe(
-    asked: AllocationInput, answer: Answer | None, pairs: list[Nearest], reasons: list[str]
+    asked: AllocationInput,
+    answer: Answer | None,
+    rest: PartialPlan | None,
+    pairs: list[Nearest],
+    reasons: list[str],
 ) -> dict[str, Any]:
     """Return the suggestion, or the reasons if it is infeasible."""
     request, divisions = asked.problem.request, asked.divisions
@@ -49,7 +56,7 @@ def describe(
         "budget": request.budget,
         "standard_response": request.response,
         "response_minutes": request.limit,
-        "divisions": [_division(asked, answer, k) for k in range(len(divisions.names))],
+        "divisions": [_division(asked, answer, rest, k) for k in range(len(divisions.names))],
         "sums": None if answer is None else _sums(answer),
         "nearest": [_pair(asked, each) for each in pairs],
         "left_out": asked.left_out,
@@ -59,12 +66,15 @@ def describe(
     }
 
 
-def _division(asked: AllocationInput, answer: Answer | None, which: int) -> dict[str, Any]:
+def _division(
+    asked: AllocationInput, answer: Answer | None, rest: PartialPlan | None, which: int
+) -> dict[str, Any]:
     divisions = asked.divisions
     found: dict[str, Any] = {
         "name": divisions.names[which],
         "bearings": list(divisions.bearings(which)),
         "perimeter": divisions.perimeter[which].round(1).tolist(),
+        "detailed_perimeter": divisions.detailed[which].round(1).tolist(),
         "contained_at_hour": None,
         "resources": [],
     }
@@ -78,19 +88,47 @@ def _division(asked: AllocationInput, answer: Answer | None, which: int) -> dict
         "contained_at_hour": float(problem.hours[hour]) if held else None,
         "line": round(float(line), 1),
     }
-    found["resources"] = [
+    found["resources"] = _resources(asked, np.flatnonzero(answer.division == k), k, hour)
+    if not held and rest is not None:
+        found["nearest_plan"] = _partial(asked, rest, k)
+    return found
+
+
+def _resources(asked: AllocationInput, sent: NDArray[np.int64], k: int, hour: int) -> list[dict[str, Any]]:
+    problem = asked.problem
+    return [
         {
             "id": problem.ids[i],
             "type": problem.types[i],
-            "name": asked.resources[i].name,
+            "name": asked.resources[i].title,
+            "station": asked.resources[i].station,
             "origin": asked.resources[i].origin,
             "arrival": round(float(problem.minutes[i, k]), 1),
             "line": round(float(problem.line[i, k, hour]), 1),
             "cost": round(float(problem.cost[i]), 2),
         }
-        for i in np.flatnonzero(answer.division == k)
+        for i in sent
     ]
-    return found
+
+
+def _partial(asked: AllocationInput, rest: PartialPlan, k: int) -> dict[str, Any]:
+    """Describe the nearest feasible plan of a division that cannot be held, by the last hour."""
+    problem, sent = asked.problem, np.flatnonzero(rest.division == k)
+    last, front = float(problem.hours[-1]), float(problem.perimeter[k, -1])
+    line = min(float(rest.line[k]), front)
+    every = problem.line[:, k].sum(axis=0)
+    holds = every >= problem.perimeter[k]  # False for NaN
+    return {
+        "hour": last,
+        "front": round(front, 1),
+        "line": round(line, 1),
+        "missing": round(front - line, 1),
+        "missing_rate": round((front - line) / last, 1),
+        "line_of_all": round(float(every[-1]), 1),
+        "hour_of_all": float(problem.hours[holds.argmax()]) if holds.any() else None,
+        "cost": round(float(problem.cost[sent].sum()), 2),
+        "resources": _resources(asked, sent, k, -1),
+    }
 
 
 def _sums(answer: Answer) -> dict[str, Any]:
@@ -108,6 +146,8 @@ def _pair(asked: AllocationInput, each: Nearest) -> dict[str, Any]:
         "kind": each.kind,
         "division": asked.names[each.division],
         "id": asked.problem.ids[each.resource],
+        "name": asked.resources[each.resource].title,
+        "station": asked.resources[each.resource].station,
         "arrival": round(each.minutes, 1),
     }
 
@@ -123,6 +163,7 @@ def _assumptions(asked: AllocationInput) -> list[str]:
     )
     return [
         f"divisions are sectors around the centre of the area burned by the time of the order; each {escape}",
+        asked.line.describe(),
         "a division is contained at the first hour at which its line is as long as its front in the run, "
         "measured on the map without slopes",
         f"a resource works in one division and is paid for mobilisation and {period:g} h",

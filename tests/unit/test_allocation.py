@@ -26,8 +26,9 @@ from firetwin.allocation import (
     shortfall,
     symmetry,
 )
+from firetwin.allocation.control_line import LineOptions
 from firetwin.allocation.model import Options
-from firetwin.allocation.problem import Problem, Request
+from firetwin.allocation.problem import Problem, Request, set_escape_loss
 from firetwin.allocation.resources import Unit
 from firetwin.errors import Error, InputError, UsageError
 from firetwin.run import areas, readers
@@ -259,7 +260,7 @@ def round_run(make_run):
 
 
 def test_divisions_of_a_circle_have_its_arcs(round_run):
-    parts = divisions.divide(readers.open(round_run), 0.0, 1, 6)
+    parts = divisions.divide(readers.open(round_run), 0.0, 1, 6, LineOptions(0.0, 0.0))
     radius = 300.0 + 0.5 * 3600.0
     assert parts.perimeter[:, 0] == pytest.approx(2.0 * np.pi * radius / 6.0, rel=0.03)
     assert parts.perimeter.sum() == pytest.approx(2.0 * np.pi * radius, rel=0.002)
@@ -269,6 +270,64 @@ def test_divisions_of_a_circle_have_its_arcs(round_run):
     assert parts.bearings(1) == (60.0, 120.0)
     east = (parts.place[:, 1] - LONGITUDE)[[1, 4]]
     assert east[0] > 0.0 > east[1]
+
+
+def test_what_cannot_be_held_is_said_with_the_nearest_plan(round_run, station_file, tmp_path, capsys):
+    """The budget of one engine for four divisions of 4 km: one is held, and the plans keep to the budget."""
+    layer = tmp_path / "plan.geojson"
+    line = ["allocate", str(station_file), str(round_run), "--hours", "1", "--geojson", str(layer)]
+    assert cli.main([*line, "--budget", "100", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    lost = [each for each in found["divisions"] if each["contained_at_hour"] is None]
+    assert len(lost) == 3
+    plans = [each["nearest_plan"] for each in lost]
+    assert sum(plan["cost"] for plan in plans) + found["sums"]["cost"] <= 100.0
+    for plan in plans:
+        assert plan["line"] + plan["missing"] == pytest.approx(plan["front"], abs=0.2)
+        assert plan["line"] == pytest.approx(sum(each["line"] for each in plan["resources"]), abs=0.2)
+        assert plan["hour_of_all"] == 1.0
+    text = page.format_text(found)
+    assert text.count("cannot be held, with a front of") == 3
+    assert "  nearest feasible plan: 0 m (0 %) by hour 1, for another 0.00 USD" in text
+    assert "  all resources together would contain it at hour 1: they build " in text
+    drawn = json.loads(layer.read_text())["features"]
+    kinds = [each["properties"]["kind"] for each in drawn]
+    assert kinds.count("control_line") == kinds.count("division_break") == 4
+    assert {each["properties"]["label"] for each in drawn} == {EXERCISE}
+
+
+def test_the_rest_builds_as_much_line_as_any_assignment():
+    """Against brute force: all assignments of the resources that are left, within the budget."""
+    checked = 0
+    for seed in range(12):
+        problem = made(seed, 6, 2, 3, budget=3000.0, escape=100.0)
+        answer = containment.solve(problem, EXACT)
+        rest = np.flatnonzero(answer.division < 0)
+        lost = np.flatnonzero(answer.hour < 0)
+        plan = containment.plan_the_rest(problem, answer, EXACT)
+        assert np.isnan(plan.line[answer.hour >= 0]).all()
+        assert not (plan.division[answer.division >= 0] >= 0).any()
+        best = -1.0
+        built = containment.built_line(problem, answer.division)[lost, -1]
+        for choice in itertools.product([-1, *lost], repeat=len(rest)):
+            sent = np.array(choice, np.int64)
+            if problem.cost[rest[sent >= 0]].sum() <= 3000.0 - answer.cost + 1e-9:
+                more = [problem.line[rest[sent == k], k, -1].sum() for k in lost]
+                best = max(best, np.minimum(built + more, problem.perimeter[lost, -1]).sum())
+        if lost.size:
+            checked += bool(rest.size)
+            found = np.minimum(plan.line[lost], problem.perimeter[lost, -1]).sum()
+            assert found == pytest.approx(best, abs=0.1)
+            spent = problem.cost[plan.division >= 0].sum()
+            assert spent <= 3000.0 - answer.cost + 1e-9
+    assert checked > 3
+
+
+def test_without_a_loss_as_many_divisions_as_possible_are_held():
+    costs = np.array([1200.0, 800.5])
+    assert set_escape_loss(Request(escape=np.inf), costs).escape == 3000.0
+    assert set_escape_loss(Request(escape=5.0), costs).escape == 5.0
+    assert set_escape_loss(Request(), costs).escape is None
 
 
 def test_islands_need_no_line():
@@ -357,10 +416,13 @@ def station_file(tmp_path):
 def test_resources_are_read_as_they_are_at_the_time(station_file):
     units, left = read.read(station_file, START)
     assert [unit.id for unit in units] == [f"7-{k}" for k in range(1, 8)]
-    assert (units[0].name, units[0].lat, units[0].currency) == ("North", 38.95, "USD")
-    assert left == ["9 (dozer/2) is committed"]
+    assert (units[0].name, units[0].lat, units[0].currency) == ("North (1 of 7)", 38.95, "USD")
+    assert units[0].station == "North"
+    assert left == ["Dozer (dozer/2) is committed"]
     assert [unit.id for unit in read.read(station_file, START + timedelta(minutes=15))[0]][-1] == "9"
-    assert read.read(station_file, START + timedelta(days=2))[1] == ["9 (dozer/2) is of unknown status then"]
+    assert read.read(station_file, START + timedelta(days=2))[1] == [
+        "Dozer (dozer/2) is of unknown status then"
+    ]
 
 
 def test_costs_in_two_currencies_are_told(station_file):
@@ -404,8 +466,9 @@ def test_the_command_prints_a_suggestion_or_why_there_is_none(round_run, station
     text = capsys.readouterr().out
     assert "division A" in text
     assert "cost     200.00 USD (exercise)" in text
-    assert "- 9 (dozer/2) is committed" in text
-    assert cli.main([*line, "--budget", "1", "--json"]) == 1
+    assert "- Dozer (dozer/2) is committed" in text
+    assert "  North (1 of 7) " in text
+    assert cli.main([*line, "--budget", "1", "--json", "--contain-all"]) == 1
     out, err = capsys.readouterr()
     assert json.loads(out)["status"] == "infeasible"
     assert "the budget of 1.00 is too small by" in err
