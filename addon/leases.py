@@ -21,6 +21,7 @@ import uuid
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+from . import files
 from .database import Database
 from .errors import Error, writing
 
@@ -74,7 +75,7 @@ def lock(path: Path, done: Callable[[], bool], wait: Callable[[], None]) -> Iter
     with writing(path):
         path.touch()
     with contextlib.closing(sqlite3.connect(path, timeout=0.0, isolation_level=None)) as database:
-        mine = _lock(database)
+        mine = _lock(database) or not _can_lock(path)
         while not mine and not done():
             wait()
             time.sleep(_POLL_INTERVAL)
@@ -89,6 +90,17 @@ def _lock(database: sqlite3.Connection) -> bool:
     except sqlite3.Error as error:
         return getattr(error, "sqlite_errorcode", 0) != sqlite3.SQLITE_BUSY
     return True
+
+
+def _can_lock(path: Path) -> bool:
+    """Check if the file system of `path` has locks: SQLite reports a missing lock server (ENOLCK) as busy."""
+    probe = files.temporary_path(path)
+    try:
+        with contextlib.closing(sqlite3.connect(probe, timeout=0.0, isolation_level=None)) as database:
+            return _lock(database)
+    finally:
+        with contextlib.suppress(OSError):
+            probe.unlink(missing_ok=True)
 
 
 class Leases:

@@ -93,6 +93,17 @@ def test_where_nothing_can_be_locked_everybody_works(tmp_path):
         assert mine
 
 
+def test_without_a_lock_server_everybody_works(tmp_path, monkeypatch):
+    monkeypatch.setattr(leases, "_lock", lambda database: False)  # ENOLCK is SQLITE_BUSY, of any file
+
+    def wait():
+        raise AssertionError("waits for a lock that nobody holds")
+
+    with leases.lock(tmp_path / "lock", lambda: False, wait) as mine:
+        assert mine
+    assert [path.name for path in tmp_path.iterdir()] == ["lock"]
+
+
 def test_a_sign_that_fails_is_followed_by_others():
     given, enough = [], threading.Event()
 
