@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from ..errors import Error, InputError, UsageError, is_worth_another_try
+from ..errors import Error, InputError, UsageError, is_worth_another_try, writing
 from ..jobs import render, solve, worker
 from ..progress import Progress, say
 from ..render import fingerprint
@@ -138,7 +138,9 @@ def _render(job: Job, choice: ShotSource, out: Path, number: int, log: Log, prog
     render.prepare_tiles(choice, pictures, render.RenderRequest(out, resume=True), tell=say)
     made_with = fingerprint.compute(shot, pictures)
     known = [entry for each in entries.attempts(out, number) for entry in each.entries]
-    with tempfile.TemporaryDirectory(prefix="firetwin-farm-", ignore_cleanup_errors=True) as place:
+    with writing("the temporary folder"):
+        temporary = tempfile.TemporaryDirectory(prefix="firetwin-farm-", ignore_cleanup_errors=True)
+    with temporary as place:
         private = PrivateFolder(Path(place), out, log)
         private.seed(verified_entries(known, out, made_with), made_with)
 

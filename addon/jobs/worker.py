@@ -104,8 +104,11 @@ def run(
     EndedError
         The process of a task without Blender ended otherwise.
     """
-    log = tempfile.NamedTemporaryFile(prefix="firetwin-", suffix=".log", delete=False)  # noqa: SIM115
-    forget = functools.partial(Path(log.name).unlink, missing_ok=True)
+    from ..errors import Error, from_plain, writing
+
+    with writing("the temporary folder"):
+        log = tempfile.NamedTemporaryFile(prefix="firetwin-", suffix=".log", delete=False)  # noqa: SIM115
+    forget = functools.partial(_remove, Path(log.name))
     package = __package__ or "firetwin"
     code = f"import importlib; importlib.import_module({package + '.worker'!r}).serve({blender})"
     with log:
@@ -132,8 +135,6 @@ def run(
     if stop is not None and stop.asked:
         forget()
         raise StoppedError
-    from ..errors import Error, from_plain
-
     found, log_at = answer.get("error"), f" (the log of Blender is {log.name})" if blender else ""
     if found and ("place" in found or not blender):
         forget()
@@ -187,6 +188,12 @@ class _Watchdog:
             self._heard.clear()
         self.over = True
         self._child.kill()
+
+
+def _remove(path: Path) -> None:
+    """Remove a log; it stays if its disk has become read-only."""
+    with contextlib.suppress(OSError):
+        path.unlink(missing_ok=True)
 
 
 def _converse(

@@ -94,7 +94,8 @@ class Integrator:
                     self._save()
             progress(int(self.work[end]), total, WORK)
             if self.step == len(self.steps):
-                (self.domains[-1].folder / STATE).unlink(missing_ok=True)
+                with writing(self.domains[-1].folder / STATE):
+                    (self.domains[-1].folder / STATE).unlink(missing_ok=True)
 
     def _step_of(self, frame: int) -> int:
         return next(step for step, reached in self.frame_of.items() if reached == frame)
