@@ -5,7 +5,7 @@
 #   tests/slow.sh                      as much as fits into 25 minutes
 #   tests/slow.sh SECONDS              as much as fits into so many seconds
 #   tests/slow.sh --release            what only a release and each night need: wheels, extension, Blender 5.2, its
-#                                      window, sanitizers; within 3 hours
+#                                      window, sanitizers, an hour of faults; within 3 hours
 #   tests/slow.sh --release SECONDS    as much of that as fits into so many seconds
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -65,6 +65,7 @@ if $release; then
   slow 3 .venv/bin/python tests/system/fuzz/scenes.py --builds 20 --seconds 150
   slow 16 tests/system/window.sh
   slow 20 tests/system/sanitize.sh
+  slow 65 .venv/bin/python tests/system/chaos/chaos.py --minutes 60
   title="what a release needs"
 else
   done=()
@@ -80,6 +81,7 @@ else
   slow 2 .venv/bin/python tests/system/fuzz/files.py --seconds 10
   slow 2 .venv/bin/python tests/system/fuzz/convert.py --each 200
   slow 1 .venv/bin/python tests/system/fuzz/scenes.py --builds 8 --seconds 50
+  slow 8 .venv/bin/python tests/system/chaos/chaos.py --minutes 5
   title="what tests/run.sh leaves out"
 fi
 printf '%s\n' "== $title" "${summary[@]}"

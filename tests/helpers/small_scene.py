@@ -67,10 +67,10 @@ def _axis(low: float, high: float, count: int) -> np.ndarray:
 @pytest.fixture(scope="session")
 def run_folder(tmp_path_factory):
     """A run of 24 x 24 cells of 370 m with fuels on 120 x 120: hills, bare rock, a round fire."""
-    return made_once(tmp_path_factory, "run", _write_run)
+    return made_once(tmp_path_factory, "run", write_run)
 
 
-def _write_run(folder):
+def write_run(folder):
     fy, fx = NY * FINE, NX * FINE
     y, x = np.meshgrid(np.linspace(-1, 1, fy), np.linspace(-1, 1, fx), indexing="ij")
     height = 1400 + 300 * np.sin(3 * x + 1) * np.cos(2 * y) + 60 * np.sin(11 * x) * np.sin(9 * y) + 250 * x
