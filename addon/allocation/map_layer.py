@@ -5,11 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..stations.records import EXERCISE
 from . import divisions
 from .containment import Answer
 from .suggestion import AllocationInput
+
+Array = NDArray[np.float64]
 
 _DIGITS = 5  # of degrees, 1 m
 
@@ -39,11 +42,12 @@ def make(asked: AllocationInput, answer: Answer | None, found: dict[str, Any]) -
             "front_m": division["perimeter"][index],
             "line_m": None if answer is None else built,
         }
+        end = _nearest(lines, parts.place[k][::-1])
         drawn = [line.round(_DIGITS).tolist() for line in lines]
         features.append(_feature("control_line", "MultiLineString", drawn, about))
         for each in [*division["resources"], *(plan or {"resources": []})["resources"]]:
             unit = where[each["id"]]
-            ends = [[unit.lon, unit.lat], parts.place[k][::-1].tolist()]
+            ends = [[unit.lon, unit.lat], end]
             about = {name: each[name] for name in ("name", "type", "station", "origin")} | {
                 "division": division["name"], "arrival_min": each["arrival"], "line_m": each["line"],
                 "held": held,
@@ -52,10 +56,18 @@ def make(asked: AllocationInput, answer: Answer | None, found: dict[str, Any]) -
     return {"type": "FeatureCollection", "name": EXERCISE, "features": features}
 
 
+def _nearest(lines: list[Array], place: Array) -> list[float]:
+    """Return the point of lines (n, 2) nearest to a place, degrees east and north; the place without lines."""
+    points = np.concatenate(lines) if lines else place[None, :]
+    away = (points - place) * (np.cos(np.radians(place[1])), 1.0)
+    x, y = points[np.hypot(*away.T).argmin()].tolist()
+    return [x, y]
+
+
 def _breaks(asked: AllocationInput) -> list[dict[str, Any]]:
     """Return the points where the control line of the last hour passes from one division to the next.
 
-    Of several points between two divisions, the one farthest from the centre counts.
+    If there are several points between two divisions, the farthest from the centre counts.
     """
     parts, count = asked.divisions, len(asked.divisions.names)
     if count < 2:
