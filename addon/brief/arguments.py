@@ -55,6 +55,15 @@ def add(
         default=[],
         help="map features: roads, water, boundaries, zones, values or another name; repeatable (none)",
     )
+    parser.add_argument(
+        "--pdf", metavar="X.pdf", type=path, help="also print the page, by Chromium or WeasyPrint (none)"
+    )
+    parser.add_argument(
+        "--geopdf",
+        metavar="X.pdf",
+        type=path,
+        help="also write the map sheet with coordinates, by GDAL (none)",
+    )
     _add_sheet(parser, name, moment)
 
 

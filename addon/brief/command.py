@@ -19,9 +19,18 @@ def run(arguments: argparse.Namespace) -> None:
     """
     if arguments.out.suffix.lower() != ".html":
         raise UsageError(f"--out: {arguments.out} does not end in .html; name an .html file")
-    from . import briefing, context, page, sheet_options, text  # imported after the quick check
+    from . import (
+        briefing,
+        context,
+        map_sheet,
+        page,
+        pdf,
+        sheet_options,
+        text,
+    )  # imported after the quick check
 
     page.check_limit(arguments.limit)
+    pdf.check(arguments.pdf, arguments.geopdf)
     if arguments.period and arguments.period[0] >= arguments.period[1]:
         raise UsageError("--period: its first time is not before its last; give the first time first")
     request = briefing.Request(
@@ -41,3 +50,11 @@ def run(arguments: argparse.Namespace) -> None:
     files.write_text(arguments.out, made, newline="\n")
     say(f"wrote one file of {text.size(len(made.encode()))}, which loads no other files")
     result(arguments.out)
+    if arguments.pdf:
+        pdf.write(arguments.out, arguments.pdf)
+        result(arguments.pdf)
+    if arguments.geopdf:
+        titles = sheet_options.Titles.of(found.run, found.sheet, found.zone)
+        sheet = map_sheet.draw(found, found.sheet, titles)
+        pdf.write_geopdf(sheet, titles.incident, titles.author, arguments.geopdf)
+        result(arguments.geopdf)
