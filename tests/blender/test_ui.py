@@ -248,7 +248,7 @@ def test_the_panel_says_what_smoke_is_made_of(settings, scene_file, run_folder):
 def test_the_preferences_say_what_renders_on(settings, monkeypatch):
     assert preferences.device() == ""
     chosen = SimpleNamespace(
-        preferences=SimpleNamespace(device="gpu", cache="", cache_limit=0.0, area_unit="acres")
+        preferences=SimpleNamespace(device="gpu", cache="", cache_limit=0.0, area_unit="acres", library="")
     )
     known = SimpleNamespace(preferences=SimpleNamespace(addons={"firetwin": chosen}))
     settings.run = "somewhere"
@@ -259,7 +259,9 @@ def test_the_preferences_say_what_renders_on(settings, monkeypatch):
 
 
 def test_the_preferences_say_where_smoke_is_cached_and_how_much(settings, tmp_path, monkeypatch):
-    kept = SimpleNamespace(device="scene", cache=str(tmp_path), cache_limit=1.0e-6, area_unit="ha")
+    kept = SimpleNamespace(
+        device="scene", cache=str(tmp_path), cache_limit=1.0e-6, area_unit="ha", library=""
+    )
     addons = {"firetwin": SimpleNamespace(preferences=kept)}
     known = SimpleNamespace(preferences=SimpleNamespace(addons=addons))
     settings.run = "somewhere"

@@ -154,6 +154,28 @@ def _read_gdal(path: Path) -> Raster:
     return Raster(path, _mask_no_data(converted), x, y, projection, whole)
 
 
+def read_bands(path: Path) -> tuple[NDArray[np.float32], list[str]]:
+    """Read all bands (nt, ny, nx) of a GDAL raster, NaN without data, and their descriptions.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read.
+    """
+    heartbeat.sign()
+    rasterio = optional_packages.package("rasterio")
+    with reading(path, "raster"), warnings.catch_warnings():
+        warnings.simplefilter("ignore", rasterio.errors.NotGeoreferencedWarning)
+        with rasterio.open(path) as source:
+            if source.count * source.width * source.height > _LARGEST:
+                raise _error(path, f"has {source.count} bands, more values than a model's masks")
+            values = source.read()
+            converted = values.astype(np.float32)
+            if source.nodata is not None and source.nodata != 0:
+                converted[values == source.nodata] = np.nan
+            return converted, [text or "" for text in source.descriptions]
+
+
 def _read_ascii(path: Path) -> Raster:
     """Read Esri's ASCII grid: six header lines of a word and a number, then rows from the north."""
     head: dict[str, float] = {}

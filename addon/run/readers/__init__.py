@@ -20,7 +20,7 @@ from ...errors import Error, input_error, reading
 from .. import times
 from . import folder
 
-MODELS = ("wrf_sfire", "cfbm", "forefire", "elmfire", "farsite", "pyretechnics", "netcdf_cf")
+MODELS = ("wrf_sfire", "cfbm", "forefire", "elmfire", "farsite", "pyretechnics", "masks", "netcdf_cf")
 """Readers of fire models, in the order in which they are tried."""
 
 _MANY = 200_000  # files of a folder
@@ -85,6 +85,9 @@ def gathered(paths: list[Path]) -> list[Path]:
     """
     files: list[Path] = []
     for path in paths:
+        if path.suffix.lower() == ".zarr" or (path / ".zgroup").exists() or (path / "zarr.json").exists():
+            remedy = f'xarray.open_zarr("{path.name}").to_netcdf("{path.stem}.nc")'
+            raise input_error(path, f"is zarr, which is not read; convert it in Python: {remedy}")
         if not path.exists():
             raise input_error(path, "there is no such file or folder; check the path")
         with reading(path):
@@ -147,7 +150,8 @@ def _why(paths: list[Path]) -> str:
     if raster.is_raster(first):
         return (
             "rasters are identified by name: name arrival times time_of_arrival_0000001_0003600.tif as "
-            "ELMFIRE does (s), or FIRE_Arrival Time.asc as FlamMap does (min)"
+            "ELMFIRE does (s), FIRE_Arrival Time.asc as FlamMap does (min), or burned_mask.tif, with a band "
+            "for each time"
         )
     return (
         "is output of no known fire model: WRF-SFIRE, CFBM, ForeFire, ELMFIRE, FARSITE, FlamMap, "

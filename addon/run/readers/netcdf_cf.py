@@ -8,6 +8,7 @@ identified by units and standard names; ``[axes]`` names them if these are missi
 from __future__ import annotations
 
 import tomllib
+from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from functools import partial
 from pathlib import Path
@@ -17,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import input_error
-from ..models import companion_rasters, from_arrival_time, netcdf, optional_packages
+from ..models import companion_rasters, from_arrival_time, masks, netcdf, optional_packages
 from ..models.grid import Grid
 from ..models.model import Model, Options
 
@@ -40,10 +41,10 @@ def read(paths: list[Path], options: Options) -> Model:
     ours = sorted(path for path in paths if sniff(path))
     first = files(ours[0])
     fields = {name: {"variable": name} for name in (*_MOVING, *_LEVELS, *_STILL) if name in first} | fields
-    if not {"heat_flux", "fuel_arrival_time"} & set(fields):
+    if not {"heat_flux", "fuel_arrival_time", "burned_fraction"} & set(fields):
         reason = (
             f"does not belong to a known model; map its variables ({_some(first)}) "
-            'in a TOML file next to it: [fields] heat_flux = "NAME"'
+            'in a TOML file next to it: [fields] heat_flux = "NAME", or fuel_arrival_time or burned_fraction'
         )
         raise first.error(reason)
     grid, projection = _grid(first, axes, options, next(iter(fields.values()))["variable"])
@@ -64,11 +65,15 @@ def read(paths: list[Path], options: Options) -> Model:
     def moved(name: str, i: int) -> NDArray:
         return get(name, frames[i][1], frames[i][2])
 
-    if "heat_flux" not in fields:
-        maps = from_arrival_time.Maps(still("fuel_arrival_time").astype(np.float64))
+    def maps_with(arrival: NDArray) -> from_arrival_time.Maps:
+        maps = from_arrival_time.Maps(arrival)
         for name in ("surface_fuel", "canopy_fuel", "elevation", "fuel_category"):
             if name in fields:
                 setattr(maps, name.removesuffix("_fuel").removeprefix("fuel_"), still(name))
+        return maps
+
+    if "heat_flux" not in fields and "fuel_arrival_time" in fields:
+        maps = maps_with(still("fuel_arrival_time").astype(np.float64))
         return from_arrival_time.model(maps, grid, land, options, "netCDF", ours, notes)
 
     frames = sorted(
@@ -77,6 +82,20 @@ def read(paths: list[Path], options: Options) -> Model:
     )
     frames = [each for k, each in enumerate(frames) if k == 0 or each[0] > frames[k - 1][0]]
     start = frames[0][0]
+    if "heat_flux" not in fields:
+        times = masks.since([moment for moment, _, _ in frames])
+        begun = replace(options, start=start, projection=projection)
+        return masks.model(
+            times,
+            partial(moved, "burned_fraction"),
+            grid,
+            land,
+            begun,
+            "netCDF",
+            ours,
+            notes,
+            maps_with(np.empty(0)),
+        )
     first = files(ours[0])  # it may have been closed to limit open files
     model = Model(
         source="netCDF (CF)",
