@@ -110,7 +110,7 @@ class Round:
             "sound": {},
             "clock": {"LD_PRELOAD": self.tools / "faults.so", "CHAOS_CLOCK": hours * 3600},
             "locks": {"LD_PRELOAD": self.tools / "faults.so", "CHAOS_LOCKS": 5},
-            "version": {"PYTHONPATH": self.tools / "other"},
+            "version": {"PYTHONPATH": before_others(self.tools / "other")},
         }
         return Process(self.job.work, self.place, **faulty[machine])
 
@@ -149,6 +149,11 @@ class Round:
         return len(names)
 
 
+def before_others(folder: Path) -> str:
+    """Return a PYTHONPATH that begins with this folder."""
+    return os.pathsep.join(filter(None, (str(folder), os.environ.get("PYTHONPATH"))))
+
+
 def prepare(tools: Path) -> None:
     """Build the faults, and copy this version and the other version of the package."""
     tools.mkdir()
@@ -171,7 +176,7 @@ def disturb(root: Path, seconds: float, seed: int, mounts: bool) -> int:
     """Disturb all jobs in turn, print what happened, and return the number of findings."""
     write_run(root / "run")
     prepare(root / "tools")
-    os.environ["PYTHONPATH"] = str(root / "tools" / "this")
+    os.environ["PYTHONPATH"] = before_others(root / "tools" / "this")
     jobs = shared_jobs.all_jobs(root / "run", root)
     small = disk.Disk(root / "disk") if mounts else None
     faults: Counter[str] = Counter()
