@@ -1,6 +1,7 @@
 #include "flow/detail_brush.hpp"
 
 #include "base/interpolation.hpp"
+#include "base/perlin.hpp"
 #include "base/smoothstep.hpp"
 #include "flow/parallel.hpp"
 
@@ -20,6 +21,10 @@ constexpr float root = 0.06F;      // share of the extinction at the ground
 constexpr float root_heights[] = {15.0F, 200.0F};
 // Share of `VoxelRegion::log_gain` that moves outlines; the rest thins smoke inside of them.
 constexpr float eroding = 0.5F;
+// Displacement of `VoxelRegion::log_gain` by eddies that grow with the height above ground, and
+// their wavelength over `VoxelRegion::gain_height` (by eye).
+constexpr float meandering = 0.9F, meander_size = 0.25F;
+constexpr std::uint32_t meander_seed = 0x51U;
 
 } // namespace
 
@@ -50,6 +55,7 @@ void Detail::Brush::column(Index i, Index j) {
   find_voxels(i, j);
   if (places_.count > 0) {
     paint_surface();
+    find_drift();
     find_amount();
     enqueue();
   }
@@ -187,24 +193,61 @@ void Detail::Brush::find_amount() {
   levels[high_ + 1] = levels[high_];
   cubic_between(places_, levels, amount_.data());
   for (std::size_t n = 0; n < count; ++n) {
-    gain_[n] = eroding * log_gain(above_[n]);
+    gain_[n] = eroding * log_gain(n);
     amount_[n] = std::max(amount_[n], 0.0F) + cloud_amount * cloud_[n] + gain_[n];
     reach_[n] = lerp(soft_reach, reach_[n], vigour_[n]);
   }
 }
 
-/// Interpolates the logarithm of the factor on the smoke at a height above ground, m.
-float Detail::Brush::log_gain(float above) const {
+/// Finds the drift on the levels of the column.
+void Detail::Brush::find_drift() {
+  for (std::size_t p = 0; p < Drift::parts; ++p) {
+    if (detail_.shows(p / 3)) {
+      detail_.drift_[p].linear(at_, low_, high_, drift_[p].data());
+    }
+  }
+}
+
+/// Interpolates a part of the drift at a voxel, m.
+float Detail::Brush::moved(std::size_t part, std::size_t n) const {
+  const auto low = static_cast<std::size_t>(places_.low[n]);
+  return lerp(drift_[part][low], drift_[part][low + 1], places_.part[n]);
+}
+
+/// Returns the horizontal displacement of smoke near the ground by eddies, m. It travels with the
+/// air.
+std::array<float, 2> Detail::Brush::meander(std::size_t n) const {
+  std::array<float, 2> shift{};
+  const double size = static_cast<double>(meander_size * brick_.gain_height);
+  for (std::size_t p = 0; p < Drift::phases; ++p) {
+    if (!detail_.shows(p)) {
+      continue;
+    }
+    const auto at = [&](double place, std::size_t part) {
+      return static_cast<float>((place - static_cast<double>(moved(3 * p + part, n))) / size);
+    };
+    const float x = at(x_, 0), y = at(y_, 1), z = at(static_cast<double>(above_[n]), 2);
+    for (std::size_t axis = 0; axis < shift.size(); ++axis) {
+      const auto seed = detail_.seeds_[p] * 8U + meander_seed + static_cast<std::uint32_t>(axis);
+      shift[axis] += detail_.weights_[p] * meandering * above_[n] * perlin_at(x, y, z, seed);
+    }
+  }
+  return shift;
+}
+
+/// Interpolates the logarithm of the factor on the smoke at a voxel.
+float Detail::Brush::log_gain(std::size_t n) const {
   const VoxelRegion& b = brick_;
-  const float part = above / b.gain_height;
+  const float above = above_[n], part = above / b.gain_height;
   if (b.log_gain.empty() || part > 2.5F) {
     return 0.0F;
   }
+  const std::array<float, 2> shift = meander(n);
   std::array<Index, 2> low{};
   std::array<float, 2> way{};
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const auto at = static_cast<float>(axis == 0 ? i_ : j_) -
-                    b.lean[axis] * above / static_cast<float>(b.voxel);
+                    (b.lean[axis] * above + shift[axis]) / static_cast<float>(b.voxel);
     const float held = std::clamp(at, 0.0F, static_cast<float>(b.shape[axis] - 1));
     low[axis] = std::min(static_cast<Index>(held), std::max(b.shape[axis] - 2, Index{0}));
     way[axis] = held - static_cast<float>(low[axis]);
@@ -220,11 +263,6 @@ float Detail::Brush::log_gain(float above) const {
 
 /// Queues voxels that some noise could make visible, and paints them as soon as they fill a Row.
 void Detail::Brush::enqueue() {
-  for (std::size_t p = 0; p < Drift::parts; ++p) {
-    if (detail_.shows(p / 3)) {
-      detail_.drift_[p].linear(at_, low_, high_, drift_[p].data());
-    }
-  }
   for (std::size_t n = 0; n < static_cast<std::size_t>(places_.count); ++n) {
     const float thin = vigour_[n] * (1.0F - solid_[n]);
     const float low = lerp(soft_cut[0], crisp_cut[0], vigour_[n]);
@@ -246,15 +284,11 @@ void Detail::Brush::wait_for(std::size_t n) {
   w.reach[lane] = reach_[n];
   w.vigour[lane] = vigour_[n];
   w.solid[lane] = solid_[n];
-  const auto low = static_cast<std::size_t>(places_.low[n]);
-  const auto moved = [&](std::size_t part) {
-    return lerp(drift_[part][low], drift_[part][low + 1], places_.part[n]);
-  };
   for (std::size_t p = 0; p < Drift::phases; ++p) {
     if (detail_.shows(p)) {
-      w.origin[p][0][lane] = x_ - static_cast<double>(moved(3 * p));
-      w.origin[p][1][lane] = y_ - static_cast<double>(moved(3 * p + 1));
-      w.origin[p][2][lane] = static_cast<double>(above_[n] - moved(3 * p + 2));
+      w.origin[p][0][lane] = x_ - static_cast<double>(moved(3 * p, n));
+      w.origin[p][1][lane] = y_ - static_cast<double>(moved(3 * p + 1, n));
+      w.origin[p][2][lane] = static_cast<double>(above_[n] - moved(3 * p + 2, n));
     }
   }
   if (w.count == w.place.size()) {

@@ -37,7 +37,10 @@ private:
   void add_voxel(Index voxel, float height, std::size_t k, float way);
   void interpolate(const Columns& of, std::vector<float>& values);
   void find_amount();
-  float log_gain(float above) const;
+  void find_drift();
+  float moved(std::size_t part, std::size_t n) const;
+  std::array<float, 2> meander(std::size_t n) const;
+  float log_gain(std::size_t n) const;
   void paint_surface();
   void enqueue();
   void wait_for(std::size_t n);
