@@ -21,7 +21,7 @@ from ..shot.cameras.path import SENSOR
 from ..shot.fire.smoke_scale import Scale
 from ..shot.shot import WIDE_LENS, Shot
 from ..shot.terrain import noise
-from . import flame_light, snapshots, tones, windward
+from . import eddies, flame_light, snapshots, tones, windward
 from .close_up import Window
 from .domains import Box, Domain
 from .flow import Flow
@@ -217,7 +217,8 @@ class Painter:
         beyond: OuterLayer | None,
         window: Window | None = None,
     ) -> _PaintedLayer:
-        snapshot = snapshots.load(self.layer.domain.snapshot_path(frame))
+        domain, seed = self.layer.domain, self.shot.settings.seed
+        snapshot = eddies.displace(snapshots.load(domain.snapshot_path(frame)), domain, seed)
         voxel = self.layer.voxel
         origin, surface, end, share, count = self._brick(snapshot, window)
         wanted = _visible_blocks(views, origin, (*surface.shape, count), voxel, self.scale.length(_ROUND))

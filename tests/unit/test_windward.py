@@ -85,3 +85,22 @@ def test_the_factor_leans():
         painted(log_gain=gain, gain_height=5000.0, lean=lean) for lean in ((0.0, 0.0), (1.0, 0.0))
     )
     assert leaning < 0.97 * upright
+
+
+def test_the_edge_of_clear_air_is_straight_at_the_ground_and_wavy_above():
+    z = (np.arange(N) + 0.5)[:, None, None] * 80.0
+    even = {"smoke": 2e-6, "age": 30.0, "rise": 4.0}
+    fields = {name: np.full((N, N, N), value) for name, value in even.items()}
+    detail = flow.Detail(**moment(levels=z.ravel(), heights=np.broadcast_to(z, (N, N, N)), **fields))
+    plane, gain = np.ones((24, 24)), np.zeros((24, 24))
+    gain[:12] = -4.0
+    box = (400.0, 400.0, 0.0), VOXEL, 0.0 * plane, plane, 16
+    density = [
+        volume.LitSmoke(detail.paint_sparse(*box, **options), (0.0, 0.0, 1.0), 0.2, 0.5).grids(plane, 0.0)[
+            "density"
+        ]
+        for options in ({"log_gain": gain, "gain_height": 2000.0}, {})
+    ]
+    spread = (density[0] / density[1])[11:13].std(axis=1).mean(axis=0)  # along the edge, by height
+    assert spread[0] < 0.03
+    assert spread[10:].mean() > 0.1
