@@ -17,7 +17,9 @@
   function drawMap() {
     document.documentElement.classList.add("js");
     for (const id of ["map", "time", "theme", "print"]) find(id).hidden = false;
-    const made = L.map("map", { zoomSnap: 0.25, maxZoom: 16, minZoom: 2, maxBoundsViscosity: 0.6 });
+    const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    const motion = { zoomAnimation: !still, fadeAnimation: !still, markerZoomAnimation: !still, inertia: !still };
+    const made = L.map("map", { ...motion, zoomSnap: 0.25, maxZoom: 16, minZoom: 2, maxBoundsViscosity: 0.6 });
     made.attributionControl.setPrefix('<a href="https://leafletjs.com" rel="noopener noreferrer">Leaflet</a>');
     const credit = document.createElement("span");
     credit.textContent = data.credit;
@@ -124,7 +126,7 @@
       if (!fromList && !chosen.row.hidden) row.scrollIntoView({ block: "nearest" });
     }
     if (fromList) {
-      map.setView(chosen.dot.getLatLng(), Math.max(map.getZoom(), 11));
+      map.setView(chosen.dot.getLatLng(), Math.max(map.getZoom(), 11), { animate: map.options.zoomAnimation });
       chosen.dot.openTooltip();
       find("map").scrollIntoView({ block: "nearest" });
     }

@@ -115,8 +115,6 @@ class Content:
                 return
 
 
-HALO = 'paint-order="stroke" stroke="#fff" stroke-width="0.8" stroke-linejoin="round"'
-"""Attributes of texts on the map."""
 BURNED = "#ff9d8a"
 """Fill of a point that has burned by the end of the run."""
 
@@ -259,7 +257,6 @@ def _texts(lines: Sequence[str], x: float, top: float, size: float, right: bool)
         letters = size if number == 0 else 0.8 * size
         weight = ' font-weight="600"' if number == 0 else ""
         y = top + size * (0.85 + 1.0 * number)
-        yield (
-            f'<text {HALO} x="{x:.2f}" y="{y:.2f}" font-size="{letters:.2f}" text-anchor="{anchor}"{weight}>'
-            f"{quote(text)}</text>"
-        )
+        at = f'x="{x:.2f}" y="{y:.2f}" font-size="{letters:.2f}" text-anchor="{anchor}"{weight}'
+        yield f'<text {at} {symbols.HALO} aria-hidden="true">{quote(text)}</text>'
+        yield f"<text {at}>{quote(text)}</text>"

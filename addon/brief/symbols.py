@@ -18,6 +18,8 @@ Array = NDArray[np.float64]
 _RED, _BLUE, _PURPLE, _GREEN = "#d40000", "#0b3fa8", "#7a1fa2", "#15803d"
 FIRE_EDGE = _RED
 """Colour of the fire's edge."""
+HALO = 'fill="none" stroke="#fff" stroke-width="0.8" stroke-linejoin="round"'
+"""Attributes of a white text below a text on the map; not every printer knows `paint-order`."""
 
 
 def _circle(fill: str, stroke: str, inside: str = "") -> str:
@@ -180,7 +182,6 @@ def _mark(style: LineStyle) -> str:
         return _path("M-0.9,-0.8L0.9,0.8M-0.9,0.8L0.9,-0.8", style.colour, 0.4)
     if style.mark == "tick":
         return _path("M0,0V-1.5", style.colour, 0.35)
-    return (
-        f'<text class="glyph" y="0.8" font-size="2.2" font-weight="700" text-anchor="middle" '
-        f'fill="{style.colour}" stroke="#fff" stroke-width="0.5" paint-order="stroke">{style.mark}</text>'
-    )
+    at = 'y="0.8" font-size="2.2" font-weight="700" text-anchor="middle"'
+    halo = f'<text {at} {HALO} aria-hidden="true">{style.mark}</text>'
+    return f'{halo}<text {at} fill="{style.colour}">{style.mark}</text>'

@@ -471,3 +471,30 @@ def test_a_page_has_32_megabytes_at_most_unless_more_is_asked_for(folder, tmp_pa
 def test_a_limit_below_any_page_is_refused_before_the_work(folder, tmp_path, monkeypatch):
     monkeypatch.setattr(briefing, "gather", lambda _: pytest.fail("the work began"))
     assert cli.main(["brief", str(folder), "--out", str(tmp_path / "page.html"), "--limit", "10KB"]) == 2
+
+
+def test_controls_and_tables_have_names_and_the_page_a_language(folder, gpkg):
+    made = parts(folder, stations=gpkg)
+    assert made.all("html")[0][0]["lang"] == "en"
+    labelled = "".join(inside for _, inside in made.all("label"))
+    for tag in ("input", "select", "button", "video"):
+        for attributes, inside in made.all(tag):
+            named = attributes.get("aria-label") or inside.strip() or attributes.get("type") == "checkbox"
+            assert named, (tag, attributes)
+    assert all(title in labelled for title in ("Front at this time", "Fire arrival time", "Fuel load"))
+    assert all(attributes["alt"] for attributes, _ in made.all("img"))
+    assert all(attributes["scope"] == "col" for attributes, _ in made.all("th"))
+    assert len(made.all("caption")) == len(made.all("table")) == 3
+    ((_, title),) = made.all("h1")
+    assert title
+    levels = [int(tag[1]) for tag, _, _ in made.elements if re.fullmatch("h[1-6]", tag)]
+    assert all(b - a <= 1 for a, b in zip(levels, levels[1:], strict=False))
+    assert not any(int(attributes.get("tabindex", 0)) > 0 for _, attributes, _ in made.elements)
+    ids = [attributes["id"] for _, attributes, _ in made.elements if "id" in attributes]
+    assert len(ids) == len(set(ids))
+
+
+def test_motion_and_forced_colours_are_respected():
+    style = (Path(page.__file__).parent / "page.css").read_text()
+    assert "@media (prefers-reduced-motion: reduce)" in style
+    assert "@media (forced-colors: active)" in style
