@@ -30,6 +30,7 @@ class Margin:
         column = Column(width, unit)
         self._title(column)
         self._legend(column)
+        self._arrival(column)
         self._scale(column)
         self._source(column)
         return column
@@ -39,6 +40,7 @@ class Margin:
         columns = [Column(width, unit) for _ in range(3)]
         self._title(columns[0])
         self._legend(columns[1])
+        self._arrival(columns[2])
         self._scale(columns[2])
         self._source(columns[0])
         return columns
@@ -61,6 +63,9 @@ class Margin:
         column.heading("Legend")
         for text, drawing in reversed(self.content.legend.items()):
             column.row(drawing, text)
+
+    def _arrival(self, column: Column) -> None:
+        """Write the colours of arrival times, a part of the legend."""
         known = next((layer.legend for layer in self.briefing.layers if layer.name == "arrival"), None)
         if known is None:
             return

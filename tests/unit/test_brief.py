@@ -1,6 +1,7 @@
 """The briefing page: its content, escaped texts of files, and its size."""
 
 import hashlib
+import itertools
 import json
 import re
 import sqlite3
@@ -488,7 +489,7 @@ def test_controls_and_tables_have_names_and_the_page_a_language(folder, gpkg):
     ((_, title),) = made.all("h1")
     assert title
     levels = [int(tag[1]) for tag, _, _ in made.elements if re.fullmatch("h[1-6]", tag)]
-    assert all(b - a <= 1 for a, b in zip(levels, levels[1:], strict=False))
+    assert all(b - a <= 1 for a, b in itertools.pairwise(levels))
     assert not any(int(attributes.get("tabindex", 0)) > 0 for _, attributes, _ in made.elements)
     ids = [attributes["id"] for _, attributes, _ in made.elements if "id" in attributes]
     assert len(ids) == len(set(ids))
