@@ -10,6 +10,7 @@ from __future__ import annotations
 import functools
 import json
 import os
+import re
 import socket
 import time
 from collections import defaultdict
@@ -78,6 +79,8 @@ class Attempt:
         Number of the task.
     began, last
         Time of its start and of its last heartbeat, s since 1970.
+    host, process, scheduled
+        Machine, process ID, and job of the scheduler (`scheduler_job`).
     ended
         Exit status; None while it runs, or if it was killed.
     message
@@ -91,6 +94,8 @@ class Attempt:
     last: float
     began: float = 0.0
     host: str = ""
+    process: int = 0
+    scheduled: str = ""
     ended: int | None = None
     message: str = ""
 
@@ -134,12 +139,25 @@ class Log:
         self._file.close()
 
 
+def scheduler_job() -> str:
+    """Return scheduler and job of this process: ``slurm 123``, ``htcondor 12.0``; empty if unknown."""
+    if number := os.environ.get("SLURM_JOB_ID"):
+        return f"slurm {number}"
+    try:
+        described = Path(os.environ["_CONDOR_JOB_AD"]).read_text(encoding="utf-8", errors="replace")
+        ids = [re.search(rf"(?m)^{name}\s*=\s*(\d+)", described)[1] for name in ("ClusterId", "ProcId")]  # type: ignore[index]
+    except (KeyError, OSError, TypeError):
+        return ""
+    return f"htcondor {'.'.join(ids)}"
+
+
 @contextmanager
 def attempt(out: Path, number: int) -> Iterator[Log]:
     """Start an attempt at a task, with a heartbeat until it ends."""
     log = Log(_folder(out) / f"{number:05d}-{leases.new_owner()}.jsonl")
     try:
-        log.write({"began": time.time(), "host": socket.gethostname()})
+        where = {"host": socket.gethostname(), "process": os.getpid(), "scheduled": scheduler_job()}
+        log.write({"began": time.time()} | where)
         with leases.heartbeats(HEARTBEAT, log.heartbeat):
             yield log
     finally:
@@ -168,6 +186,7 @@ def _read(path: Path) -> Attempt:
     first, last = _value(whole.partition("\n")[0]), _value(whole[:-1].rpartition("\n")[2])
     if isinstance(first, dict) and "began" in first:
         made.began, made.host = first["began"], first["host"]
+        made.process, made.scheduled = first.get("process", 0), first.get("scheduled", "")
     if isinstance(last, dict) and "ended" in last:
         made.ended, made.message, made.last = last["ended"], last["message"], last["at"]
     return made

@@ -1,4 +1,7 @@
-"""Progress of a job, read from its files: schedulers are not queried, and pictures are not opened."""
+"""Progress of a job, read from its files: pictures are not opened.
+
+It only asks schedulers about attempts without a recent heartbeat (`lost`).
+"""
 
 from __future__ import annotations
 
@@ -11,7 +14,7 @@ from typing import Any
 
 from ..progress import count, duration
 from ..shot import passes
-from . import entries, plan
+from . import entries, lost, plan
 from .entries import Attempt
 from .plan import Job
 
@@ -26,7 +29,8 @@ class Status:
     ----------
     done, running, failed, waiting
         Numbers of tasks. Done: all its files exist. Running: an attempt has a recent heartbeat. Failed: the
-        last attempt failed, or its heartbeat stopped. Waiting: not started, or finished but files are gone.
+        last attempt failed, was killed, or its heartbeat stopped. Waiting: not started, or finished but files
+        are gone.
     pictures, finished
         Number of pictures of the film, and of existing ones.
     seconds_left
@@ -68,15 +72,17 @@ def gather(out: Path, now: float | None = None) -> Status:
     there = _FolderListings(out)
     groups: dict[str, list[int]] = {"done": [], "running": [], "failed": [], "waiting": []}
     wanted = finished = files_left = 0
-    errors = {}
+    errors, gone = {}, lost.Lost(now)
     for number in range(1, len(job.tasks) + 1):
         made, every, lacking = _made(job, number, tried[number], there)
         wanted, finished, files_left = wanted + every, finished + made, files_left + lacking
         state = _state(job, number, tried[number], lacking, now)
+        why = gone.reason(tried[number][-1]) if state == "running" else ""
+        state = "failed" if why else state
         groups[state].append(number)
         if state == "failed":
             last = tried[number][-1]
-            errors[number] = last.message or f"heartbeat stopped on {last.host}"
+            errors[number] = last.message or why or f"heartbeat stopped on {last.host}"
     left = None if file_s is None else file_s * files_left / max(len(groups["running"]), 1)
     return Status(
         len(job.tasks), **groups, pictures=wanted, finished=finished, seconds_left=left, errors=errors

@@ -2,6 +2,7 @@
 
 import errno
 import json
+import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -17,7 +18,7 @@ from firetwin.errors import (
     full_disk_error,
     input_error,
 )
-from firetwin.farm import arguments, assemble, assets, entries, plan, private, status, task
+from firetwin.farm import arguments, assemble, assets, entries, lost, plan, private, status, task
 from firetwin.farm.engines import Batch, deadline, known, openjd
 from firetwin.farm.engines.slurm import split_arrays
 from firetwin.farm.entries import Entry
@@ -367,6 +368,45 @@ def test_status_is_read_from_files(film):
     json.dumps(found.as_json())
     (out / Picture("drone", 1, "rgb").files()[0]).unlink()
     assert status.gather(out).waiting == [1]
+
+
+def test_a_killed_task_is_shown_after_45_seconds(film, monkeypatch):
+    out, made_with = film
+    killed = subprocess.Popen([sys.executable, "-c", ""])
+    killed.wait()
+    monkeypatch.setattr(entries.os, "getpid", lambda: killed.pid)
+    render(out, made_with, 1, [1], ended=None)
+    assert status.gather(out, now=found_time(out) + lost.STALE - 1.0).running == [1]
+    found = status.gather(out, now=found_time(out) + lost.STALE + 1.0)
+    assert found.failed == [1]
+    assert "was killed" in found.errors[1]
+    monkeypatch.undo()
+    render(out, made_with, 1, [1], ended=None)  # this process lives
+    assert status.gather(out, now=found_time(out) + lost.STALE + 1.0).running == [1]
+
+
+@pytest.mark.parametrize(
+    ("listed", "reason"), [({"7"}, ""), (set(), "slurm no longer runs job 7"), (None, "")]
+)
+def test_the_scheduler_is_asked_once_about_stale_tasks(monkeypatch, film, listed, reason):
+    out, made_with = film
+    monkeypatch.setenv("SLURM_JOB_ID", "7")
+    render(out, made_with, 1, [1], ended=None)
+    (attempt,) = entries.attempts(out)
+    assert attempt.scheduled == "slurm 7"
+    asked = []
+    known = lost.Lost(attempt.last + 60.0, lambda name: asked.append(name) or listed)
+    assert [known.reason(attempt) for _ in range(2)] == [reason] * 2
+    assert asked == ["slurm"]
+
+
+def test_htcondor_says_its_job(monkeypatch, tmp_path):
+    (tmp_path / "ad").write_text("ProcId = 0\nClusterId = 12\n")
+    monkeypatch.delenv("SLURM_JOB_ID", raising=False)
+    monkeypatch.setenv("_CONDOR_JOB_AD", str(tmp_path / "ad"))
+    assert entries.scheduler_job() == "htcondor 12.0"
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert lost.list_running("slurm") is None
 
 
 def found_time(out):

@@ -12,6 +12,7 @@ import pytest
 from farm_film import until
 from firetwin.errors import UsageError
 from firetwin.farm.engines import _engine, flamenco, htcondor, known, opencue, pbs
+from firetwin.farm.engines import openjd as open_job
 from small_job import BAKES, RENDERS, batch, write
 
 FARM = [sys.executable, "-m", "firetwin", "farm"]
@@ -212,3 +213,28 @@ def test_htcondor_quotes_arguments():
 def test_htcondor_refuses_a_folder_that_it_takes_for_a_macro(tmp_path):
     with pytest.raises(UsageError, match="another --out"):
         write("htcondor", batch(tmp_path / "$(film)"))
+
+
+HOSTS = ("os=linux", "memory=1.5G", "gpus=1", "gpu_memory=8G", "cores=4")
+
+
+def test_host_requirements_are_options_with_an_equals_sign(tmp_path):
+    steps = {each["name"]: each for each in open_job.template(batch(tmp_path, options=HOSTS))["steps"]}
+    render = steps["Render"]["hostRequirements"]
+    assert render["attributes"] == [{"name": "attr.worker.os.family", "anyOf": ["linux"]}]
+    assert {each["name"]: each["min"] for each in render["amounts"]} == {
+        "amount.worker.memory": 1536,
+        "amount.worker.gpu": 1,
+        "amount.worker.gpu.memory": 8192,
+        "amount.worker.vcpu": 4,
+    }
+    for name in ("Bake", "Assemble"):
+        assert len(steps[name]["hostRequirements"]["amounts"]) == 2  # no GPU
+    assert open_job.split_options((*HOSTS, "--farm-id", "a=b"))[1] == ["--farm-id", "a=b"]
+    assert "hostRequirements" not in str(open_job.template(batch(tmp_path)))
+
+
+@pytest.mark.parametrize("wrong", ["os=amiga", "memory=much", "gpus=0"])
+def test_invalid_host_requirements_are_refused(wrong):
+    with pytest.raises(UsageError, match="write"):
+        open_job.split_options((wrong,))

@@ -35,7 +35,8 @@ class Deadline(Engine):
         }
         for name, found in texts.items():
             files.write_text(folder / name, json.dumps(found, indent=1) + "\n")
-        return ["deadline", "bundle", "submit", *batch.options, str(folder)]
+        _, options = openjd.split_options(batch.options)
+        return ["deadline", "bundle", "submit", *options, str(folder)]
 
     def cancel(self, out: Path) -> list[str]:
         """Refuse: Deadline Cloud needs the job ID that its submission printed."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,14 @@ from ...shot.schema.frame_list import FrameList
 from ..plan import FILE, job_dir
 from ._engine import Batch, Engine, firetwin_command
 
+_HOSTS = {
+    "os": "attr.worker.os.family",
+    "cores": "amount.worker.vcpu",
+    "memory": "amount.worker.memory",
+    "gpus": "amount.worker.gpu",
+    "gpu_memory": "amount.worker.gpu.memory",
+}
+"""Options for requirements of hosts, and their names in the specification. Only render tasks need GPUs."""
 _GRACE = 60  # s from SIGTERM to SIGKILL
 _CHUNK_SECONDS = 600  # target run time of a command that runs several tasks
 
@@ -30,7 +39,8 @@ class OpenJD(Engine):
         files.write_text(
             values, json.dumps(paths(batch) | {"Program": firetwin_command()[0]}, indent=1) + "\n"
         )
-        return ["openjd", "run", str(path), "--job-param", f"file://{values}", *batch.options]
+        _, options = split_options(batch.options)
+        return ["openjd", "run", str(path), "--job-param", f"file://{values}", *options]
 
     def cancel(self, out: Path) -> list[str]:
         """Refuse: `openjd run` runs in the foreground."""
@@ -45,13 +55,16 @@ def paths(batch: Batch) -> dict[str, str]:
 def template(batch: Batch) -> dict[str, Any]:
     """Build a job template of specification jobtemplate-2023-09 with TASK_CHUNKING."""
     _, *arguments = firetwin_command()
+    needs, _ = split_options(batch.options)
     steps: list[dict[str, Any]] = []
     for stage in ("bake", "render"):
         if numbers := batch.stage(stage):
             before = [each["name"] for each in steps]
             run = _step(stage.title(), [*arguments, "farm", "task"], ["{{Task.Param.Tasks}}"], before)
-            steps.append(run | {"parameterSpace": _space(numbers)})
-    steps.append(_step("Assemble", [*arguments, "farm", "assemble"], [], [each["name"] for each in steps]))
+            hosts = _host(needs if stage == "render" else _without_gpu(needs))
+            steps.append(run | {"parameterSpace": _space(numbers)} | hosts)
+    last = _step("Assemble", [*arguments, "farm", "assemble"], [], [each["name"] for each in steps])
+    steps.append(last | _host(_without_gpu(needs)))
     return {
         "specificationVersion": "jobtemplate-2023-09",
         "extensions": ["TASK_CHUNKING"],
@@ -64,6 +77,52 @@ def template(batch: Batch) -> dict[str, Any]:
         ],
         "steps": steps,
     }
+
+
+def split_options(options: tuple[str, ...]) -> tuple[dict[str, str], list[str]]:
+    """Separate requirements of hosts, such as ``gpus=1``, from options of the command.
+
+    Raises
+    ------
+    UsageError
+        The value of a requirement is invalid.
+    """
+    needs: dict[str, str] = {}
+    rest = []
+    for each in options:
+        name, found, value = each.partition("=")
+        if not found or name not in _HOSTS:
+            rest.append(each)
+            continue
+        needs[name] = value
+        _requirement(name, value)
+    return needs, rest
+
+
+def _requirement(name: str, value: str) -> dict[str, Any]:
+    """Convert a requirement: memory in MiB, an operating system, or a number."""
+    key = _HOSTS[name]
+    if name == "os":
+        if value not in ("linux", "windows", "macos"):
+            raise UsageError(f"os={value}: write linux, windows or macos")
+        return {"name": key, "anyOf": [value]}
+    size = re.fullmatch(r"(\d+(?:\.\d+)?)([MG]?)", value)
+    if not size or float(size[1]) <= 0.0:
+        raise UsageError(f"{name}={value}: write a number above 0, of memory with M or G, such as 16G")
+    scale = 1024 if size[2] == "G" else 1
+    return {"name": key, "min": int(float(size[1]) * scale)}
+
+
+def _host(needs: dict[str, str]) -> dict[str, Any]:
+    """Return the host requirements of a step; empty without any."""
+    amounts = [_requirement(name, value) for name, value in needs.items() if name != "os"]
+    attributes = [_requirement(name, value) for name, value in needs.items() if name == "os"]
+    found = {"amounts": amounts, "attributes": attributes}
+    return {"hostRequirements": {name: each for name, each in found.items() if each}} if needs else {}
+
+
+def _without_gpu(needs: dict[str, str]) -> dict[str, str]:
+    return {name: value for name, value in needs.items() if not name.startswith("gpu")}
 
 
 def _path(name: str, kind: str, flow: str) -> dict[str, str]:

@@ -31,16 +31,17 @@ def openjd():
     return run
 
 
-def plan(engine, path, out):
+def plan(engine, path, out, *options):
     """Plan a film; arguments of the scheduler's command."""
-    return shlex.split(firetwin("farm", path, "--engine", engine, "--out", out, "--chunk", 2))[1:]
+    more = ("--", *options) if options else ()
+    return shlex.split(firetwin("farm", path, "--engine", engine, "--out", out, "--chunk", 2, *more))[1:]
 
 
 @pytest.mark.parametrize("engine", ["openjd", "deadline"])
 def test_templates_are_what_the_specification_asks_for(openjd, film, tmp_path, engine):
     path = tmp_path / "scene.toml"
     path.write_text(film[0].read_text().replace('"puffs"', '"flow"'))  # with a bake
-    plan(engine, path, tmp_path / "out")
+    plan(engine, path, tmp_path / "out", "os=linux", "memory=16G", "gpus=1", "gpu_memory=8G")
     template = tmp_path / "out" / "farm" / engine / "template.json"
     openjd("check", template)
     assert [step["name"] for step in json.loads(template.read_text())["steps"]] == [
