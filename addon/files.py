@@ -5,11 +5,14 @@ from __future__ import annotations
 import contextlib
 import os
 import uuid
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from . import limits
 from .errors import input_error, writing
+
+_MARKS = b",", b"[", b"{", b"<"  # each begins a value of JSON, XML or CSV
+_BLOCK = 1 << 22  # bytes
 
 
 def publish(part: Path, path: Path, durable: bool = True) -> None:
@@ -75,17 +78,34 @@ def write_text(path: Path, text: str, newline: str | None = None) -> None:
 
 
 def check_text_size(path: Path) -> None:
-    """Check that a text file of a user is not larger than `limits.TEXT_BYTES`.
+    """Check that a text file of a user is within `limits.TEXT_BYTES` and `limits.TEXT_VALUES`.
 
     Raises
     ------
     InputError
-        It is.
+        It is not.
     """
     size = path.stat().st_size
     if size > limits.TEXT_BYTES:
         most = f"at most {limits.TEXT_BYTES / 1e6:,.0f} MB are read"
         raise input_error(path, f"has {size / 1e6:,.0f} MB; {most}: take a part of it")
+    if size > limits.TEXT_VALUES:
+        with path.open("rb") as file:
+            check_values(path, iter(lambda: file.read(_BLOCK), b""))
+
+
+def check_values(path: Path, blocks: Iterable[bytes]) -> None:
+    """Check that the text of a file has at most `limits.TEXT_VALUES` values; each takes about 100 bytes.
+
+    Raises
+    ------
+    InputError
+        It has more.
+    """
+    values = sum(block.count(mark) for block in blocks for mark in _MARKS)
+    if values > limits.TEXT_VALUES:
+        most = f"at most {limits.TEXT_VALUES:,} are read"
+        raise input_error(path, f"has about {values:,} numbers, lists or tags; {most}: take a part of it")
 
 
 def _sync_folder(folder: Path) -> None:

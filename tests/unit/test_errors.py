@@ -3,6 +3,7 @@
 import errno
 import importlib
 import sqlite3
+import zipfile
 
 import numpy as np
 import pytest
@@ -174,6 +175,19 @@ def test_what_sqlite_raises_on_a_full_or_read_only_disk_becomes_one_line(planted
     with pytest.raises(InputError) as caught, errors.writing("a.gpkg"):
         raise sqlite3.OperationalError(planted)
     assert text in str(caught.value)
+
+
+def test_a_short_text_of_many_values_is_refused_unread(tmp_path, monkeypatch):
+    """Also within a KMZ."""
+    monkeypatch.setattr(limits, "TEXT_VALUES", 100)
+    texts = {"a.geojson": '{"type": "x"' + ",[1]" * 50 + "}", "a.kml": "<kml>" + "<a/>" * 100 + "</kml>"}
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text)
+    with zipfile.ZipFile(tmp_path / "a.kmz", "w") as archive:
+        archive.writestr("a.kml", texts["a.kml"])
+    for name, values in {"a.geojson": 101, "a.kml": 102, "a.kmz": r"10\d"}.items():
+        with pytest.raises(InputError, match=rf"{name}: has about {values} numbers, .*; at most 100 are"):
+            observations.features(tmp_path / name)
 
 
 @pytest.mark.parametrize("reader", ["GeoJSON", "KML", "detections", "labels", "track"])

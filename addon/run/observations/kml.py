@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from xml.etree import ElementTree
 
-from ... import limits
+from ... import files, limits
 from ...errors import input_error
 from .feature import Feature, Polygon, Ring, degrees, ring
 
@@ -46,7 +46,9 @@ def _unpacked(path: Path) -> bytes:
                 raise input_error(path, "holds no .kml")
             if inside[0].file_size > _LARGEST:
                 raise input_error(path, f"its .kml has {inside[0].file_size / 1e6:,.0f} MB")
-            return archive.read(inside[0])
+            text = archive.read(inside[0])
+            files.check_values(path, [text])
+            return text
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError) as error:
         raise input_error(path, f"no KMZ: {str(error)[:1].lower()}{str(error)[1:]}") from None
 
