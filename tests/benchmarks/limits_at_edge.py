@@ -2,7 +2,7 @@
 
     .venv/bin/python tests/benchmarks/limits_at_edge.py RUN [CASE ...]
 
-Each case is a separate command; the largest of its processes counts. RUN is a run folder; scenes have bare ground.
+Each case is a separate command; the largest of its processes counts. RUN is a run folder; its ground is bare.
 """
 
 from __future__ import annotations
