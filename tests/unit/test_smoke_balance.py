@@ -48,7 +48,10 @@ def test_scar_and_satellite_picture_have_the_area_and_heat_of_the_run(tmp_path, 
     shot = closure.make_shot(tmp_path / "run", fire, "hills")
     now, cell = shot.frames.last, 30.0
     scar = np.count_nonzero((shot.ground.burned >= 0.5) & (shot.ground.arrival <= now)) * cell**2
-    assert scar == pytest.approx(info.burned(shot.run, [now])[0], rel=MOST)
+    passed = np.count_nonzero(shot.run.fuel_arrival_time() <= now) * cell**2
+    assert scar == pytest.approx(passed, rel=MOST)
+    if fire != "fluxes alone":  # whose burned area counts the heat of partly burned cells
+        assert scar == pytest.approx(info.burned(shot.run, [now])[0], rel=MOST)
     instrument = imager.INSTRUMENTS["viirs"]
     grid = imager.grid_of(instrument, shot.run, -137.0)
     shown = imager.picture(instrument, grid, shot.fire, now).heat
