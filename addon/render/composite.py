@@ -21,7 +21,8 @@ Scalar = TypeVar("Scalar", bound=np.generic)
 
 _EDGE = 0.02  # smallest difference of transmittance across a silhouette
 _REACH, _SAME_DEPTH = 2, 0.1  # pixels round an edge; relative depth tolerance of one surface
-_FAINT = 0.3  # of white: light of what hides flames at most, if their light spreads onto it (by eye)
+_GAP = 1.5  # of white: limit on the radiance of flames in gaps (by eye)
+_BEHIND = 1.25  # distance behind flames over the distance at which half of their light is emitted (by eye)
 _TOUCHES = 2.0e-3  # relative depth by which text may be behind a surface, such as the ground below it
 _SURE = 15.0  # rays at which a pixel's coverage has the same weight as its neighbours'; estimated
 
@@ -48,6 +49,10 @@ class Surfaces:
         (h, w) share of rays that met a surface whose material writes its distance.
     fire_distance
         (h, w) m, mean over the flames weighted by their light; 0: no flames.
+    flame_distance
+        (h, w) m, of the flames that are marched; 0 without any, or if `before` is not known.
+    before
+        (h, w) share of rays that met a surface nearer than these flames.
     rays
         Rays (samples) per pixel.
     """
@@ -60,12 +65,16 @@ class Surfaces:
     aside: NDArray[np.float64]
     solid: Array
     fire_distance: Array
+    flame_distance: Array
+    before: Array
     rays: int
 
 
 def taps(surfaces: Surfaces) -> Array:
     """Return sample distances of smoke (h, w, 3), m: near surface, far surface and flames."""
     near, far = _neighbourhood(surfaces.distance, np.minimum), _neighbourhood(surfaces.distance, np.maximum)
+    # Gaps that no central ray meets show the flames too.
+    far = np.where(_hides_flames(surfaces, near), np.maximum(far, _BEHIND * surfaces.flame_distance), far)
     return np.stack([near, far, surfaces.fire_distance], axis=-1)
 
 
@@ -97,9 +106,7 @@ def compose(surfaces: Surfaces, distances: Array, marched: Array, white: float |
     light = smoke[:, :, 0] + gaps
     if white is not None:
         flaming = gaps * _share_of_flames(gaps)
-        # Light spreads onto what hides flames; flames near the gap stay as bright.
-        lit = smoke[:, :, 0].max(axis=-1, keepdims=True) / (_FAINT * white)
-        light += np.clip(1.0 - lit, 0.0, 1.0) * (blur(flaming) - flaming)
+        light += _limited(flaming, share, _GAP * white) - flaming
     return (np.maximum(behind + fire * flames, 0.0) + light).astype(np.float32)
 
 
@@ -134,15 +141,26 @@ def _share_of_flames(light: Array) -> Array:
     return np.clip((red - 2.0 * blue) / np.maximum(red, 1.0e-6), 0.0, 1.0)
 
 
+def _limited(gaps: Array, share: Array, most: float) -> Array:
+    """Limit the light (h, w, 3) of gaps in a near surface that covers a share (h, w, 1) of the pixel.
+
+    Light over the radiance `most` in a gap counts less, the more of the pixel is covered: a pixel is then the
+    mean of what its parts look like, and edges in front of flames are not ragged by clipped pixels.
+    """
+    excess = gaps.max(axis=-1, keepdims=True) * share / np.maximum((1.0 - share) * most, 1.0e-6)
+    excess = np.maximum(excess, 1.0e-6)
+    return gaps * -np.expm1(-excess) / excess
+
+
 def soften_highlights(picture: Array, white: float) -> Array:
-    """Spread the light of a picture (h, w, 3) above a radiance over about 5 pixels, as lenses do.
+    """Spread the light of a picture (h, w, 3) above a radiance over about 3 pixels, as lenses do.
 
     Flames are many times brighter than white. Without this, a pixel that shows a little of them between
     leaves is as bright as one full of them, and gaps look like square chips.
     """
     brightest = picture.max(axis=-1, keepdims=True)
     excess = picture * np.clip(1.0 - white / np.maximum(brightest, 1.0e-6), 0.0, 1.0)
-    return (picture - excess + blur(blur(excess))).astype(np.float32)
+    return (picture - excess + blur(excess)).astype(np.float32)
 
 
 def infrared_radiance(surface: Array, flames: Array, warmth: Array, sky: Array | float) -> Array:
@@ -186,7 +204,13 @@ def _coverage(surfaces: Surfaces, distances: Array) -> Array:
     # Materials of an artist do not write distance: only the depth of the centre ray is known.
     unknown = (surfaces.solid < 0.5) & (surfaces.distance < SKY)
     share = np.where(unknown, surfaces.distance <= distances[..., 0] * (1.0 + _SAME_DEPTH), share)
-    return np.where(apart > 1.0e-3 * near, share, 1.0)
+    share = np.where(apart > 1.0e-3 * near, share, 1.0)
+    return np.where(_hides_flames(surfaces, distances[..., 0]) & ~unknown, surfaces.before, share)
+
+
+def _hides_flames(surfaces: Surfaces, near: Array) -> NDArray[np.bool_]:
+    """Return a mask (h, w) of pixels whose near surface is before the flames."""
+    return near < surfaces.flame_distance
 
 
 def _near_share(distance: Array, distances: Array) -> Array:
@@ -221,6 +245,11 @@ def _neighbourhood(values: NDArray[Scalar], pick: np.ufunc) -> NDArray[Scalar]:
     padded = np.pad(values, 1, mode="edge")
     rows = pick(pick(padded[:-2], padded[1:-1]), padded[2:])
     return pick(pick(rows[:, :-2], rows[:, 1:-1]), rows[:, 2:])
+
+
+def greatest_near(values: Array) -> Array:
+    """Return the greatest value of each 3 x 3 neighbourhood (h, w)."""
+    return _neighbourhood(values, np.maximum)
 
 
 def widen(mask: NDArray[np.bool_], pixels: int) -> NDArray[np.bool_]:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ..blender import nodes
 from ..blender.owned import Stage
-from ..scene import infrared, temperature
+from ..scene import flame_gaps, infrared, temperature
 from ..scene.labels.material import COVER
 from ..scene.smoke import illumination
 from ..shot.passes import masks
@@ -20,6 +20,7 @@ from ..shot.sections.thermal import BANDS
 from ..shot.shot import Shot
 from ..smoke import shutter
 from . import composite, rays
+from . import flame_distance as flame_distances
 from .surfaces import Channels
 
 Array = NDArray[np.float32]
@@ -46,6 +47,8 @@ class Eye:
         Smoke volumes of the frame.
     flames
         Flames of the frame that are drawn as a volume; None if there are none.
+    flame_distance
+        Their distance in each cell of the picture (see `flame_distance`), m; None if surfaces do not know it.
     """
 
     def __init__(
@@ -56,6 +59,7 @@ class Eye:
         number: int,
         smoke: Sequence[volume.Bricks],
         flames: volume.FlameVolume | None = None,
+        flame_distance: Array | None = None,
     ) -> None:
         self.shot, self.stage, self.channels = shot, stage, channels
         self.smoke, self.flames = smoke, flames
@@ -66,6 +70,9 @@ class Eye:
             rays.pixel_rays, stage.evaluated(stage.scene.camera), stage.scene, height, width, number
         )
         self.rays = self._through()
+        self._flame_distance = np.zeros(self.shape, np.float32)
+        if flame_distance is not None:
+            self._flame_distance = flame_distances.of_pixels(flame_distance, height, width)
         self.clear = np.ones(self.shape, np.float32)
         """Transmittance (h, w) of smoke, once `picture` has computed it."""
 
@@ -230,6 +237,8 @@ class Eye:
             aside=self.rays.aside,
             solid=surface[..., 1],
             fire_distance=self.rays.from_distance(far),
+            flame_distance=self._flame_distance,
+            before=np.clip(channels[flame_gaps.AOV][..., 0], 0.0, 1.0),
             rays=self.stage.scene.cycles.samples,
         )
 

@@ -7,6 +7,7 @@ sample depth. Other passes, of one ray per pixel, come from a second render.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -17,22 +18,22 @@ from numpy.typing import NDArray
 
 from ..blender import compat, nodes, owned
 from ..blender.owned import Stage
-from ..scene import flame_field
+from ..scene import flame_field, flame_gaps
 from ..scene.fire import build as fire
 from ..scene.fire import flame_volume
-from ..scene.smoke import shadow
+from ..scene.smoke import illumination, shadow
 from ..shot import passes
 from ..shot.fire import flame_map
 from ..shot.shot import Shot
 from ..smoke import sources
-from . import frame_cost, layers, motion_blur, surfaces, text_layer
+from . import composite, flame_distance, frame_cost, layers, motion_blur, rays, surfaces, text_layer
 from .eye import Eye
 from .picture import Picture
 
 MARCHED_PASSES = ("rgb", "thermal", "depth")
 """Passes that share one render, in the view layer of the first of them that is requested."""
 
-_AOVS = {nodes.SURFACE: "COLOR", nodes.FLAMES: "COLOR", nodes.WARMTH: "VALUE"}
+_AOVS = {flame_gaps.AOV: "VALUE", nodes.SURFACE: "COLOR", nodes.FLAMES: "COLOR", nodes.WARMTH: "VALUE"}
 _PICTURE = "integrated picture"
 _BLOOM = {"Threshold": 2.5, "Maximum": 20.0}  # radiance times 2^exposure; text, of 2, has no bloom
 _CLOSE, _HALF = 0.1, 0.5  # share of the distance to the camera's target; share of the picture
@@ -76,12 +77,16 @@ class IntegratedRenderer:
         self, pictures: dict[str, Picture], smoke: Sequence[volume.Bricks], part: Path
     ) -> None:
         first = next(iter(pictures))
+        flames = self._flames(pictures[first].frame)
+        distance = self._measure_flames(flames) if "rgb" in pictures else None
         with self.cost.part(frame_cost.SURFACES):
             rendered = surfaces.render(self.scene, [first], part)
             wanted = self.has_text and "rgb" in pictures
             text = text_layer.render(self.scene, part) if wanted else {}
-        flames = self._flames(pictures[first].frame)
-        eyes = [Eye(self.shot, self.stage, found[first], number, smoke, flames) for number, found in rendered]
+        eyes = [
+            Eye(self.shot, self.stage, found[first], number, smoke, flames, distance)
+            for number, found in rendered
+        ]
         if "rgb" in pictures:
             with self.cost.part(frame_cost.MARCH):
                 light = [self._blurred(eye, text.get(eye.number), pictures["rgb"].frame) for eye in eyes]
@@ -100,6 +105,28 @@ class IntegratedRenderer:
         (view,) = self.shot.paths
         with self.cost.part(frame_cost.MARCH):
             return flame_volume.build(self.shot, view, frame, fire.torching_crowns(self.stage))
+
+    def _measure_flames(self, flames: volume.FlameVolume | None) -> Array | None:
+        """Show surfaces the distance of flames in each cell, and return it; None if they cannot read it."""
+        render, camera = self.scene.render, self.stage.evaluated(self.scene.camera)
+        distance = None
+        if flames is not None and not render.use_multiview and camera.data.type == "PERSP":
+            (view,) = self.shot.paths
+            height, width = (
+                math.ceil(side / flame_distance.CELL) for side in (render.resolution_y, render.resolution_x)
+            )
+            with self.cost.part(frame_cost.MARCH):
+                distance = flame_distance.measure(
+                    flames,
+                    rays.pixel_rays(camera, self.scene, height, width, 0),
+                    illumination.light_without_smoke(self.stage),
+                    flame_map.FADE[1] * flame_map.reach(self.shot, view),
+                    2.0**-self.scene.view_settings.exposure,
+                )
+        # Rays at the edge of a cell read its neighbour: without flames there, nothing would be before them.
+        wide = None if distance is None else composite.greatest_near(distance)
+        flame_gaps.set_distance(self.stage, wide)
+        return distance
 
     def _blurred(self, eye: Eye, text: surfaces.Channels | None, frame: int) -> Array:
         """Compute the radiance (h, w, 3) of an eye, blurred by the camera's motion."""

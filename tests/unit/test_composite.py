@@ -24,6 +24,8 @@ def surfaces(shown, distance, **changes):
         "aside": none,
         "solid": (distance < 1e9).astype(np.float32),
         "fire_distance": none,
+        "flame_distance": none,
+        "before": none,
         "rays": 10**9,
     }
     return composite.Surfaces(**(given | changes))
@@ -132,6 +134,8 @@ def test_grain_of_flames_leaves_none_behind_smoke():
         aside=np.zeros(shape),
         solid=np.ones(shape),
         fire_distance=np.full(shape, 3000.0, np.float32),
+        flame_distance=np.zeros(shape, np.float32),
+        before=np.zeros(shape, np.float32),
         rays=3,
     )
     shown = picture(found, shine=0.0)[..., 0]
@@ -155,23 +159,29 @@ def test_infrared_radiance_of_the_sky_fills_what_is_not_solid():
     )
 
 
-def test_flames_in_a_gap_are_softened_and_smoke_is_not():
-    distance = np.full(SIZE, 100.0, np.float32)
-    distance[3, 4] = 4000.0
-    found = surfaces(0.0, distance, nearness=1000.0 / distance)
+def flames_behind_foliage(before):
+    """Foliage at 100 m before flames of radiance 8 at 300 m, and the light at taps beyond 250 m."""
+    known = np.full(SIZE, 300.0, np.float32)
+    found = surfaces(0.0, 100.0, flame_distance=known, before=np.full(SIZE, before, np.float32))
     at = composite.taps(found)
-    shine, clear = np.where(at > 1000.0, 8.0, 0.0)[..., None], np.ones((*at.shape, 1))
-    flames, smoke = (
-        np.concatenate([shine * colour, clear], axis=-1).astype(np.float32)
-        for colour in ((1, 0.4, 0), (1, 1, 1))
-    )
-    sharp, soft = composite.compose(found, at, flames), composite.compose(found, at, flames, 1.0)
-    assert sharp[3, 4, 0] == pytest.approx(8.0, rel=0.01)
-    assert 0.5 < soft[3, 4, 0] < 2.5
-    assert soft[3, 5, 0] > soft[2, 5, 0] > 0.0 == sharp[3, 5, 0]
-    assert soft.sum() == pytest.approx(sharp.sum(), rel=0.02)
-    grey = composite.compose(found, at, smoke)
-    assert composite.compose(found, at, smoke, 1.0) == pytest.approx(grey, abs=1e-5)
+    shine, clear = np.where(at > 250.0, 8.0, 0.0)[..., None], np.ones((*at.shape, 1))
+    return found, at, np.concatenate([shine * np.float32([1, 0.4, 0]), clear], axis=-1).astype(np.float32)
+
+
+@pytest.mark.parametrize("before", [0.0, 0.375, 1.0])
+def test_gaps_that_no_central_ray_meets_show_the_flames_behind(before):
+    shown = composite.compose(*flames_behind_foliage(before))
+    assert shown[3, 4] == pytest.approx((1.0 - before) * 8.0 * np.array([1, 0.4, 0]), rel=1e-4)
+
+
+def test_small_gaps_show_flames_less_bright_than_open_flames():
+    light = [composite.compose(*flames_behind_foliage(part), 1.0)[3, 4, 0] for part in (0.0, 0.5, 0.9)]
+    assert light[0] == pytest.approx(8.0, rel=0.01)
+    assert 0.5 < light[1] < 2.0
+    assert 0.05 < light[2] < 0.2
+    found, at, marched = flames_behind_foliage(0.5)
+    marched[..., :3] = marched[..., :1]  # smoke is grey, and as bright as it was
+    assert composite.compose(found, at, marched, 1.0)[3, 4] == pytest.approx([4.0, 4.0, 4.0], rel=1e-4)
 
 
 def test_a_gap_in_foliage_is_a_soft_spot_and_keeps_its_light():

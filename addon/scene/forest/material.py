@@ -14,7 +14,7 @@ from ...blender.owned import Stage
 from ...shot.fire import heat_release
 from ...shot.passes import masks
 from ...shot.shot import Shot
-from .. import flame_field, granite, haze, infrared, temperature
+from .. import flame_field, flame_gaps, granite, haze, infrared, temperature
 from ..glow import CLOSE, EMBER, FAR, FLAME, FLAMING_TIME, brightness
 from . import biomes
 
@@ -269,6 +269,7 @@ def _finish(
     flames, which are smaller than pixels from afar. The understorey counts as ground.
     """
     at_camera = infrared.radiance_at_camera(tree, shot, stage, warmth)
+    flame_gaps.write(tree, stage)
     shader = nodes.thermal_switch(tree, haze.apply(tree, shader, stage), at_camera)
     # Not "Fac", the mean of three equal components: it is rounded, and instance numbers need all 24 bits.
     number, _, _ = tree.separate(tree.attribute("number", "INSTANCER", "Vector"))

@@ -1,0 +1,55 @@
+"""Distance of flames along rays."""
+
+import numpy as np
+import pytest
+from firetwin.render import flame_distance
+from firetwin.render.rays import Rays
+from firetwin.scene.fire import flame_volume
+from firetwin_core import volume
+from march_light import NO_LIGHT
+
+LIGHT = volume.Illumination(**NO_LIGHT)
+
+
+def line(away, depth=8.0, length=6.0):
+    """Flames on level ground at y from `away` to `away` + `depth`, m."""
+    y = np.arange(-10.0, 90.0, 0.5)
+    lengths = np.where((y >= away) & (y <= away + depth), length, 0.0)[:, None] * np.ones(len(y))
+    light = volume.FlameLight(
+        visible=flame_volume.visible(1.0),
+        extinction=flame_volume.EXTINCTION,
+        soot=0.0,
+        soot_light=(0.0, 0.0, 0.0),
+        coolest=flame_volume.KELVIN[0],
+        hottest=flame_volume.KELVIN[1],
+        scales=flame_volume.SCALES,
+        infrared=flame_volume.INFRARED,
+        dim=0.0,
+    )
+    square = lengths.astype(np.float32), np.zeros(lengths.shape, np.float32), (-50.0, -10.0), 0.5
+    return volume.FlameVolume(
+        squares=[square],
+        spindles=np.empty((0, 6)),
+        shape=volume.FlameShape(wind=(0.0, 0.0)),
+        light=light,
+        pixel=0.0,
+        fade=(1e6, 2e6),
+        origin=(0.0, 0.0, 0.0),
+        time=3.0,
+    )
+
+
+@pytest.mark.parametrize("away", [15.0, 60.0])
+def test_half_of_the_light_is_emitted_within_the_depth_of_a_front(away):
+    ahead = np.zeros((1, 30, 3))
+    ahead[..., 0], ahead[..., 1] = np.linspace(-0.2, 0.2, 30), 1.0
+    ahead /= np.linalg.norm(ahead, axis=-1, keepdims=True)
+    rays = Rays(np.array([0.0, 0.0, 0.8]), ahead, np.zeros((1, 30)), None)
+    found = flame_distance.measure(line(away), rays, LIGHT, 200.0, 1.0) * ahead[..., 1]
+    assert np.all((found > 0.9 * away - 1.0) & (found < 1.1 * away + 8.0))
+    assert flame_distance.measure(line(away), rays, LIGHT, 200.0, 1.0e6).max() == 0.0
+
+
+def test_a_cell_is_repeated_for_the_pixels_of_an_odd_picture():
+    cells = np.arange(4, dtype=np.float32).reshape(2, 2)
+    assert flame_distance.of_pixels(cells, 3, 3).tolist() == [[0, 0, 1], [0, 0, 1], [2, 2, 3]]
