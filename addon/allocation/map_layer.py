@@ -14,14 +14,18 @@ from .suggestion import AllocationInput
 
 Array = NDArray[np.float64]
 
+_CATEGORY = {"control_line": "Planned Line", "division_break": "Division Break"}
+_NOT_HELD = "Line Not Held"
 _DIGITS = 5  # of degrees, 1 m
 
 
 def make(asked: AllocationInput, answer: Answer | None, found: dict[str, Any]) -> dict[str, Any]:
-    """Return a FeatureCollection; each feature has `kind` and the label of an exercise.
+    """Return a FeatureCollection; each feature has `kind`, `exercise` (the label) and `FeatureCategory`.
+
+    The category chooses a symbol of the NWCG standard on the sheets of `firetwin brief --context`.
 
     `control_line` (MultiLineString) has `division`, `hour`, `held`, `front_m` and `line_m`; `division_break`
-    (Point) has `between`, such as "A/B"; `resource` (LineString from station to division) has `name`, `type`,
+    (Point) has `name`, such as "A/B"; `resource` (LineString from station to division) has `name`, `type`,
     `station`, `division`, `arrival_min`, `line_m` and `held`.
     """
     parts = asked.divisions
@@ -57,7 +61,7 @@ def make(asked: AllocationInput, answer: Answer | None, found: dict[str, Any]) -
 
 
 def _nearest(lines: list[Array], place: Array) -> list[float]:
-    """Return the point of lines (n, 2) nearest to a place, degrees east and north; the place without lines."""
+    """Return the point of lines (n, 2) nearest to a place (degrees east, north); without lines the place."""
     points = np.concatenate(lines) if lines else place[None, :]
     away = (points - place) * (np.cos(np.radians(place[1])), 1.0)
     x, y = points[np.hypot(*away.T).argmin()].tolist()
@@ -82,14 +86,18 @@ def _breaks(asked: AllocationInput) -> list[dict[str, Any]]:
             latitude, longitude = parts.centre
             narrow = np.cos(np.radians(latitude))
             at = max(shared, key=lambda each: np.hypot((each[0] - longitude) * narrow, each[1] - latitude))
-            between = {"between": f"{parts.names[k]}/{parts.names[other]}"}
+            between = {"name": f"{parts.names[k]}/{parts.names[other]}"}
             features.append(_feature("division_break", "Point", np.round(at, _DIGITS).tolist(), between))
     return features
 
 
 def _feature(kind: str, shape: str, coordinates: Any, about: dict[str, Any]) -> dict[str, Any]:
+    category = _CATEGORY.get(kind, "")
+    if not about.get("held", True) and category:
+        category = _NOT_HELD
+    named = {"kind": kind, "FeatureCategory": category, "exercise": EXERCISE}
     return {
         "type": "Feature",
-        "properties": {"kind": kind, "label": EXERCISE} | about,
+        "properties": named | about,
         "geometry": {"type": shape, "coordinates": coordinates},
     }

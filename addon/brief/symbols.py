@@ -124,6 +124,7 @@ LINES = {
     "Completed Road as Line": LineStyle("#000", 0.35, mark="R"),
     "Completed Burnout": LineStyle("#000", 0.4, mark="tick"),
     "Planned Line": LineStyle("#000", 0.6, "2.5 1.8"),
+    "Line Not Held": LineStyle(_RED, 0.6, "0.8 1.2"),  # not of the standard
     "Escape Route": LineStyle(_GREEN, 0.6, "1 1"),
     "roads": LineStyle("#3b3b3b", 0.3, casing=False),
     "water": LineStyle("#1c6fb8", 0.35, casing=False),

@@ -33,7 +33,7 @@ def test_the_commands_of_the_page_run(tmp_path, monkeypatch, capsys):
     for line in commands():
         assert cli.main(shlex.split(line)[1:]) == 0, line
         ran.append(line.split()[1])
-    assert sorted(set(ran)) == ["allocate", "resources", "stations"]
+    assert sorted(set(ran)) == ["allocate", "brief", "resources", "stations"]
     said = capsys.readouterr().out
     assert "Exercise: not operational advice" in said
     assert "stations   3" in said
