@@ -158,7 +158,7 @@ def _has_driver() -> bool:
 
 
 def _browse(browser: str, page: Path, made: Path, *options: str) -> None:
-    """Run a browser without a window or a network, with a profile of its own."""
+    """Run a browser without a window or a network, and with an empty profile."""
     with tempfile.TemporaryDirectory() as profile:
         common = [
             "--headless",
