@@ -2,8 +2,8 @@
 
 It lists the frames whose visible picture and sidecar (see `shot.passes.pose`) are finished, with intrinsics
 and `transform_matrix`. `passes` lists every finished file of the frame. Cameras without a perspective
-projection have no index. `credits` of a frame name the sources of its tiles. The file is replaced atomically
-when a render ends.
+projection have no index. ``transforms.json`` of the output folder has the frames of all cameras. `credits`
+of a frame name the sources of its tiles. The file is replaced atomically when a render ends.
 """
 
 from __future__ import annotations
@@ -35,10 +35,21 @@ def write(store: Store) -> None:
         if shown and "pose" in passes and (frame := _frame(store.out / camera, shown, passes)):
             frames[camera].append(frame)
     for camera, listed in frames.items():
-        index = {"camera_model": "OPENCV", "classes": dict(enumerate(masks.NAMES)), "frames": listed}
-        text = json.dumps(index, indent=1) + "\n"
-        path = store.out / camera / NAME
-        files.write(path, functools.partial(_write_text, text))
+        _write_index(store.out / camera / NAME, listed)
+    merged = [_of_camera(camera, frame) for camera, listed in frames.items() for frame in listed]
+    if len(frames) > 1:
+        _write_index(store.out / NAME, merged)
+
+
+def _of_camera(camera: str, frame: dict[str, Any]) -> dict[str, Any]:
+    """Return an entry of a camera's index with paths relative to the output folder."""
+    passes = {kind: [f"{camera}/{path}" for path in paths] for kind, paths in frame["passes"].items()}
+    return frame | {"file_path": f"{camera}/{frame['file_path']}", "camera": camera, "passes": passes}
+
+
+def _write_index(path: Path, frames: list[dict[str, Any]]) -> None:
+    index = {"camera_model": "OPENCV", "classes": dict(enumerate(masks.NAMES)), "frames": frames}
+    files.write(path, functools.partial(_write_text, json.dumps(index, indent=1) + "\n"))
 
 
 def _write_text(text: str, part: Path) -> None:

@@ -71,9 +71,12 @@ def _smoke(shot, stage):
 
 def test_pixels_have_their_class_and_their_tree(shoot):
     scene, found = shoot("masks", "depth")
-    kind, clear, instance = np.moveaxis(found["masks"], -1, 0)
+    kind, clear, instance, surface = np.moveaxis(found["masks"], -1, 0)
     right = np.s_[:, 56:]
     assert np.array_equal(np.unique(kind[:, :40]), [masks.SMOKE])
+    assert masks.SMOKE not in surface  # thin smoke: the class behind it is known
+    assert (surface[:, :40] != masks.SKY).any()
+    assert np.array_equal(surface[right], kind[right])
     x, y = np.meshgrid((np.arange(40) + 0.5) / 48 - 1.0, (np.arange(54) + 0.5 - 27.0) / 48)
     slant = np.sqrt(1.0 + (18.0 / 28.0) ** 2 * (x**2 + y**2))
     assert clear[:, :40] == pytest.approx(np.exp(-slant), rel=0.01)

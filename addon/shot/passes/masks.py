@@ -12,13 +12,14 @@ fire     5     flames in the air, on the ground and in crowns, and firebrands
 building 6     blocks of footprints and of stations, burned or not; buildings in 3D Tiles are ground
 ======== ===== =================================================================================
 
-The EXR has `class`; `clear`, the transmittance 0..1 of smoke; and `instance`, the number of the tree or
-building (0: none). The number of a building is its position among the footprints, from 1. A tree has the same
-number in every frame, camera and film of a run with one `seed`: it depends on the identity of the tree (see
-`numbers`), not on its index among built trees. Tree numbers are 24-bit hashes: about n^2 / 2^25 colliding
-pairs are expected among n visible trees. The PNG shows each class in one colour. One ray goes through each
-pixel's centre without filtering, so numbers stay integers. Behind opaque smoke the instance is unknown: 0.
-EEVEE writes half floats, exact only for integers up to 2048, so `masks` rejects EEVEE.
+The EXR has `class`; `clear`, the transmittance 0..1 of smoke; `instance`, the number of the tree or
+building (0: none); and `surface`, the class behind smoke, which is 4 only behind opaque smoke. The number
+of a building is its position among the footprints, from 1. A tree has the same number in every frame,
+camera and film of a run with one `seed`: it depends on the identity of the tree (see `numbers`), not on its
+index among built trees. Tree numbers are 24-bit hashes: about n^2 / 2^25 colliding pairs are expected among
+n visible trees. The PNG shows each class in one colour. One ray goes through each pixel's centre without
+filtering, so numbers stay integers. Behind opaque smoke the instance is unknown: 0. EEVEE writes half
+floats, exact only for integers up to 2048, so `masks` rejects EEVEE.
 """
 
 from __future__ import annotations
