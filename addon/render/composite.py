@@ -73,8 +73,8 @@ class Surfaces:
 def taps(surfaces: Surfaces) -> Array:
     """Return sample distances of smoke (h, w, 3), m: near surface, far surface and flames."""
     near, far = _neighbourhood(surfaces.distance, np.minimum), _neighbourhood(surfaces.distance, np.maximum)
-    # Gaps that no central ray meets show the flames too.
-    far = np.where(_hides_flames(surfaces, near), np.maximum(far, _BEHIND * surfaces.flame_distance), far)
+    # Gaps that no central ray meets show the flames too. A farther tap would see flames behind the ground.
+    far = np.where(far < surfaces.flame_distance, _BEHIND * surfaces.flame_distance, far)
     return np.stack([near, far, surfaces.fire_distance], axis=-1)
 
 
