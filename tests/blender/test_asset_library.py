@@ -1,4 +1,4 @@
-"""The library in Blender's preferences: one entry of ours; entries of the user stay."""
+"""The library in Blender's preferences: the add-on adds one entry and leaves the user's alone."""
 
 import bpy
 import firetwin

@@ -33,7 +33,7 @@ def local(written, monkeypatch):
 
 
 def exists(folder, page):
-    """Whether a page of the manual, with its heading, exists."""
+    """Return whether the manual has a page with this heading."""
     name, _, heading = page.partition("#")
     text = (folder / name).read_text()
     return not heading or f'id="{heading}"' in text

@@ -207,7 +207,7 @@ def test_one_goes_to_places_names_and_moments(panel):
 
 
 def test_terms_of_tiles_may_forbid_other_gazetteers(panel, tmp_path):
-    """Coordinates and names of the run are found without place names of another source."""
+    """Find coordinates and names of the run without place names of another source."""
     (tmp_path / "places.csv").write_text("name,latitude,longitude\nStation 61,38.84,-120.55\n")
     panel.labels.file = str(tmp_path / "places.csv")
     scene = bpy.context.scene

@@ -202,7 +202,7 @@ def test_a_frame_is_completed_before_it_is_rendered(opened, capfd):
 
 @pytest.mark.parametrize("hide", ["object", "layers"])
 def test_smoke_that_is_not_rendered_is_not_written(opened, hide):
-    """As for the integrated renderer, and for passes that do not show smoke."""
+    """Skip smoke for the integrated renderer and for passes without smoke."""
     for obj in volume_files.volumes(opened):
         obj.hide_render = hide == "object"
     for layer in opened.scene.view_layers:
@@ -224,7 +224,7 @@ def test_a_render_that_cannot_have_its_smoke_says_why(opened, folder, capfd):
 
 
 def test_all_volumes_can_be_written_with_the_file(folder, tmp_path, monkeypatch):
-    """As `firetwin build --volumes` and `firetwin bake --volumes` do."""
+    """Write them through the job of `firetwin build --volumes` and `firetwin bake --volumes`."""
     monkeypatch.setattr(worker, "run", here)
     shutil.copy(folder / "scene.toml", tmp_path)
     choice, said = ShotSource(scene=str(tmp_path / "scene.toml")), []

@@ -441,9 +441,7 @@ class Bricks:
 class HotGas:
     """Excess temperature of the hot gases of a fire over the air, on cells that follow the terrain."""
 
-    def __init__(
-        self, excess: ArrayLike, heights: ArrayLike, first: Sequence[float], spacing: float
-    ) -> None:
+    def __init__(self, excess: ArrayLike, heights: ArrayLike, first: Sequence[float], spacing: float) -> None:
         """Set the cells.
 
         Parameters
@@ -631,7 +629,7 @@ def write_flames(
     *,
     metadata: Mapping[str, str] | None = None,
 ) -> VdbSummary:
-    """Write flames as an OpenVDB file with the grids `flames` (visible extinction, 1/m) and `temperature` (K).
+    """Write flames as an OpenVDB file with grids `flames` (visible extinction, 1/m) and `temperature` (K).
 
     The voxels have the values of `FlameVolume.sample` at their centres, in half precision, up to the distance
     at which the flames fade out. Memory: 76 bytes per block of 8^3 voxels with flames.
