@@ -116,6 +116,7 @@ ABOUT_ALL = {
     "ragged_spread",
     "touched",
     "documentation_artists",
+    "documented_commands",
     "documentation_glossary",
 }
 """Test files about the project rather than one module of it."""

@@ -173,11 +173,12 @@ def prepare(tools: Path) -> None:
 
 
 def disturb(root: Path, seconds: float, seed: int, mounts: bool) -> int:
-    """Disturb all jobs in turn, print what happened, and return the number of findings."""
+    """Disturb all jobs in turn, from one by chance, print what happened, and count the findings."""
     write_run(root / "run")
     prepare(root / "tools")
     os.environ["PYTHONPATH"] = before_others(root / "tools" / "this")
     jobs = shared_jobs.all_jobs(root / "run", root)
+    random.Random(seed).shuffle(jobs)
     small = disk.Disk(root / "disk") if mounts else None
     faults: Counter[str] = Counter()
     findings = compared = rounds = 0
