@@ -20,9 +20,12 @@ OPACITY = 0.62
 _LIGHTEST, _RANGE = 0.99, 0.32  # grey of the hill shading: light, so that lines and texts are legible
 _DOTS = 8.0  # pixels per mm, 200 dpi
 _MOST, _LEAST = 2400, 300  # columns
+_CHECKED = 200  # columns of the check for areas outside the run
 _PER_CELL = 3  # most pixels across a fuel cell
 _QUALITY = 85  # of the JPEG
-_OUTSIDE = 255  # grey beyond the grid of the run
+OUTSIDE, OUTSIDE_LINE = "#ffffff", "#c4c4c4"
+"""Colours of the hatching beyond the grid of the run."""
+_HATCH = 2.5  # mm between lines of the hatching
 
 Array = NDArray[np.float64]
 
@@ -36,22 +39,42 @@ def picture(run: Run, elevation: NDArray[np.floating], frame: MapFrame) -> bytes
         (fy, fx) on the fuel grid, m.
     """
     columns = min(round(frame.width * _DOTS), _MOST, max(_LEAST, _PER_CELL * _cells(run, frame)))
-    latitude, longitude = frame.pixels(columns)
-    middle = 0.5 * float(run.fuel_longitude[0] + run.fuel_longitude[-1])
-    longitude = areas.turned(longitude, middle)
-    row, column = _fractions(run.fuel_latitude, latitude), _fractions(run.fuel_longitude, longitude)
-    inside = (row >= -0.5) & (row <= len(run.fuel_latitude) - 0.5)
-    inside &= (column >= -0.5) & (column <= len(run.fuel_longitude) - 0.5)
+    row, column, inside = _locate(run, *frame.pixels(columns))
     row, column = (
         np.clip(at, 0.0, size - 1.0) for at, size in zip((row, column), elevation.shape, strict=True)
     )
     shade = bilinear(layers.shade(run, elevation), row, column)
     index = layers.arrival_index(run)[np.rint(row).astype(np.int64), np.rint(column).astype(np.int64)]
     pixels = _colours()[index, np.rint(255.0 * shade.clip(0.0, 1.0)).astype(np.uint8)]
-    pixels[~inside] = _OUTSIDE
+    if not inside.all():
+        pixels[~inside] = _hatching(inside.shape, columns / frame.width)[~inside]
     data = io.BytesIO()
     Image.fromarray(pixels).save(data, "JPEG", quality=_QUALITY)
     return data.getvalue()
+
+
+def reaches_outside(run: Run, frame: MapFrame) -> bool:
+    """Check whether the frame shows an area beyond the grid of the run."""
+    return not _locate(run, *frame.pixels(_CHECKED))[2].all()
+
+
+def _locate(run: Run, latitude: Array, longitude: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Compute fractional rows and columns of the fuel grid, and which places lie on the grid."""
+    middle = 0.5 * float(run.fuel_longitude[0] + run.fuel_longitude[-1])
+    longitude = areas.turned(longitude, middle)
+    row, column = _fractions(run.fuel_latitude, latitude), _fractions(run.fuel_longitude, longitude)
+    inside = (row >= -0.5) & (row <= len(run.fuel_latitude) - 0.5)
+    inside &= (column >= -0.5) & (column <= len(run.fuel_longitude) - 0.5)
+    return row, column, inside
+
+
+def _hatching(shape: tuple[int, ...], dots: float) -> NDArray[np.uint8]:
+    """Draw diagonal lines (rows, columns, 3) with `dots` pixels per mm."""
+    row, column = np.indices(shape)
+    every = max(round(_HATCH * dots), 4)
+    thick = max(round(0.12 * every), 1)
+    two = np.array([to_rgb(OUTSIDE), to_rgb(OUTSIDE_LINE)])
+    return np.rint(255.0 * two[((row + column) % every < thick).astype(np.int64)]).astype(np.uint8)
 
 
 def _cells(run: Run, frame: MapFrame) -> int:

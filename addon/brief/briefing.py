@@ -143,9 +143,16 @@ class Briefing:
         found = []
         if self.run.synthetic:
             found.append(("SYNTHETIC", "Not the output of a fire model, and not a forecast"))
-        if self.station_file is not None and self.station_file.exercise:
-            found.append(("EXERCISE", "Stations or resources are invented: not operational advice"))
+        if self.exercise:
+            words = "Stations, resources or lines are invented: not operational advice"
+            found.append(("EXERCISE", words))
         return found
+
+    @cached_property
+    def exercise(self) -> bool:
+        """True if rows of the stations or map features belong to an exercise."""
+        invented = self.station_file is not None and self.station_file.exercise
+        return invented or any(each.exercise for each in self.context)
 
     @property
     def marks(self) -> tuple[str, ...]:

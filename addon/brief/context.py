@@ -49,6 +49,11 @@ class Context:
         """Text in the legend."""
         return TITLES.get(self.name, self.name)
 
+    @property
+    def exercise(self) -> bool:
+        """True if a feature has the property "exercise" of `firetwin allocate`, or the origin "exercise"."""
+        return any(_is_exercise(feature) for feature in self.features)
+
 
 def read(named: Sequence[tuple[str, Path]]) -> list[Context]:
     """Read files in the order in which they are drawn.
@@ -105,6 +110,12 @@ def point_symbol(context: Context, feature: Feature) -> str:
 def line_style(context: Context, feature: Feature) -> str:
     """Choose the name of the style of a line or an outline."""
     return symbols.find(category(feature), symbols.LINES) or context.style
+
+
+def _is_exercise(feature: Feature) -> bool:
+    lower = {str(name).lower(): value for name, value in feature.properties.items()}
+    marked = str(lower.get("exercise") or "").strip().lower() not in ("", "0", "false", "no", "none", "null")
+    return marked or str(lower.get("origin") or "").strip().lower() == "exercise"
 
 
 def _property(feature: Feature, names: Sequence[str]) -> str:

@@ -99,8 +99,8 @@ def check_limit(limit: int) -> None:
 def notes(briefing: Briefing) -> list[str]:
     """List notes for the author of the page: invented, omitted and missing content."""
     invented = ["this run is synthetic; the page states it"] if briefing.run.synthetic else []
-    if briefing.station_file is not None and briefing.station_file.exercise:
-        invented.append(f'the page is marked "{EXERCISE}": rows of its stations are invented')
+    if briefing.exercise:
+        invented.append(f'the page is marked "{EXERCISE}": stations, resources or lines of it are invented')
     omitted = [f"omitted: {text}" for text in briefing.film.left_out] if briefing.film else []
     unscored = [f"no scores: {briefing.no_scores}"] if briefing.no_scores else []
     others = f"the page shows the first run only, without: {', '.join(briefing.others)}"

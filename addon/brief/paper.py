@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal
+
+import matplotlib
+from PIL import ImageFont
 
 Orientation = Literal["portrait", "landscape"]
 
@@ -14,6 +19,11 @@ SIZES = {"a4": (210.0, 297.0), "a3": (297.0, 420.0), "letter": (215.9, 279.4), "
 SIDE, HEAD = 10.0, 13.0
 """Margins at the sides, and at the top and bottom, which hold the running header and footer, mm."""
 _A4_AREA = 210.0 * 297.0
+_POINTS = 6.5  # size of the running header and footer
+_LETTER = _POINTS * 25.4 / 72.0  # mm
+_LINES = 3  # most lines of a margin box; they are 7.9 mm high
+_SHARE = {"left": 0.49, "right": 0.49, "center": 0.32}
+"""Most width of a margin box as a share of the sheet; a side with three boxes has thirds."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +58,8 @@ def style(paper: Paper, running: Mapping[str, str]) -> str:
     running
         Text of each margin box, such as "top-left". Page numbers are at the bottom right.
     """
-    boxes = "".join(f"@{name} {{ content: {_string(text)}; {_BOX} }}\n" for name, text in running.items())
+    width = paper.area[0]
+    boxes = "".join(_box(name, text, width * _share(name, running)) for name, text in running.items())
     width, height = paper.area
     return (
         f"@page {{ size: {paper.width:g}mm {paper.height:g}mm; margin: {HEAD:g}mm {SIDE:g}mm;\n{boxes}"
@@ -57,7 +68,55 @@ def style(paper: Paper, running: Mapping[str, str]) -> str:
     )
 
 
-_BOX = 'font: 6.5pt "DejaVu Sans", Arial, sans-serif; color: #000; white-space: pre;'
+_BOX = f'font: {_POINTS}pt/1.15 "DejaVu Sans", Arial, sans-serif; color: #000; white-space: pre;'
+
+
+def _share(name: str, running: Mapping[str, str]) -> float:
+    """Choose the share of a margin box so that the boxes of a side cannot overlap."""
+    side, place = name.split("-")
+    return _SHARE["center"] if f"{side}-center" in running else _SHARE[place]
+
+
+def _box(name: str, text: str, width: float) -> str:
+    return f"@{name} {{ content: {_string(chr(10).join(fit(text, width)))}; {_BOX} }}\n"
+
+
+def fit(text: str, width: float) -> list[str]:
+    """Wrap a text of the running header into lines of at most `width` mm; an ellipsis ends a longer one."""
+    lines: list[str] = [""]
+    for word in text.split():
+        longer = f"{lines[-1]} {word}".strip()
+        if measure(longer) <= width:
+            lines[-1] = longer
+        else:
+            lines += [word] if lines[-1] else []
+            lines[-1] = word
+    kept = lines[:_LINES]
+    if len(lines) > _LINES:
+        kept[-1] += "…"
+    return [_shorten(line, width) for line in kept]
+
+
+def measure(text: str) -> float:
+    """Measure the width of a text of the running header, mm, in DejaVu Sans, which is wider than Arial."""
+    return _font().getlength(text) / _MEASURED * _LETTER
+
+
+def _shorten(line: str, width: float) -> str:
+    if measure(line) <= width:
+        return line
+    short = line.removesuffix("…")
+    while short and measure(f"{short}…") > width:
+        short = short[:-1]
+    return f"{short.rstrip()}…"
+
+
+_MEASURED = 100  # pixels, size at which widths are measured
+
+
+@functools.cache
+def _font() -> ImageFont.FreeTypeFont:
+    return ImageFont.truetype(Path(matplotlib.get_data_path(), "fonts/ttf/DejaVuSans.ttf"), _MEASURED)
 
 
 def _string(text: str) -> str:

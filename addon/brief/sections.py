@@ -42,7 +42,7 @@ def _head(briefing: Briefing) -> Iterator[str]:
             "<b>This run is synthetic</b>, not the output of a fire model. "
             "It does not show where a fire burned or will burn."
         )
-    if briefing.station_file is not None and briefing.station_file.exercise:
+    if briefing.exercise:
         warnings.append(f"<b>{EXERCISE}.</b>")
     if warnings:
         yield f'<p class="warn">{"<br>".join(warnings)}</p>'

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..ellipsoid import metres_per_degree
 from ..run import times
-from . import context, symbols
+from . import base_map, context, symbols
 from .briefing import Briefing
 from .context import Context
 from .fronts import Front
@@ -115,6 +115,8 @@ class Content:
                 return
 
 
+OUTSIDE = "Outside the run: no data"
+"""Text of the legend for the hatching."""
 BURNED = "#ff9d8a"
 """Fill of a point that has burned by the end of the run."""
 
@@ -122,6 +124,8 @@ BURNED = "#ff9d8a"
 def draw(briefing: Briefing, frame: MapFrame, unit: float) -> Content:
     """Draw context, fronts, stations and places, lowest first."""
     made = Content(frame, unit)
+    if base_map.reaches_outside(briefing.run, frame):
+        made.legend[OUTSIDE] = _outside_key()
     for each in briefing.context:
         _outlines(made, each)
     _fronts(made, briefing)
@@ -129,6 +133,14 @@ def draw(briefing: Briefing, frame: MapFrame, unit: float) -> Content:
         _symbols(made, each)
     _places(made, briefing)
     return made
+
+
+def _outside_key() -> str:
+    lines = "".join(f"M{x:g},1.4l2.8,-2.8" for x in np.arange(-4.0, 1.5, 1.3))
+    return (
+        f'<rect x="-4" y="-1.4" width="8" height="2.8" fill="{base_map.OUTSIDE}" stroke="#888" '
+        f'stroke-width="0.15"/><path d="{lines}" stroke="{base_map.OUTSIDE_LINE}" stroke-width="0.3"/>'
+    )
 
 
 def extent(fronts: Sequence[Front], whole: Box) -> Box:

@@ -97,6 +97,28 @@ def test_a_synthetic_run_is_called_synthetic(own):
     assert "This run is synthetic, not the output of a fire model." in parts(own).text
 
 
+@pytest.mark.parametrize(
+    "about", [{"exercise": "Exercise: not operational advice"}, {"origin": "Exercise"}, {}]
+)
+def test_lines_of_an_exercise_mark_the_page_without_stations(own, tmp_path, about):
+    change(own, synthetic=True)
+    line = {"type": "LineString", "coordinates": [[-120.62, 38.9], [-120.58, 38.91]]}
+    feature = {"type": "Feature", "properties": about | {"division": "A"}, "geometry": line}
+    file = tmp_path / "allocation.geojson"
+    file.write_text(json.dumps({"type": "FeatureCollection", "features": [feature]}))
+    made = parts(own, context=[("allocation", file)])
+    marks = ["SYNTHETIC", "EXERCISE"] if about else ["SYNTHETIC"]
+    assert made.data["marks"] == marks  # on the map of the screen
+    assert [inside for each, inside in made.all("text", **{"class": "mark"})] == marks  # on the sheet
+    ((_, stamp),) = made.all("div", **{"class": "stamp"})  # on each printed page
+    assert stamp == "".join(marks)
+    styles = "".join(inside for _, inside in made.all("style"))
+    assert ("SYNTHETIC \\2f  EXERCISE" in styles) == bool(about)
+    assert ("Exercise: not operational advice" in made.text) == bool(about)
+    noted = "\n".join(page.notes(briefing.gather(briefing.Request(own, context=[("allocation", file)]))))
+    assert ("Exercise: not operational advice" in noted) == bool(about)
+
+
 def test_nothing_can_be_loaded_or_sent(folder, gpkg):
     made = parts(folder, stations=gpkg)
     ((policy, _),) = made.all("meta", **{"http-equiv": "Content-Security-Policy"})

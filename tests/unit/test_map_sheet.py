@@ -1,5 +1,6 @@
 """The map sheet: its nine standard elements, scale, grid, legend and warnings."""
 
+import io
 import re
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -9,12 +10,13 @@ import pyproj
 import pytest
 import small_stations
 import whole_run
-from firetwin.brief import base_map, briefing, map_sheet, paper, sheet_map, symbols
+from firetwin.brief import base_map, briefing, map_sheet, page, paper, sheet_map, symbols
 from firetwin.brief.map_frame import MapFrame, round_ratio
 from firetwin.brief.mercator import Box
 from firetwin.brief.paper import Paper
 from firetwin.brief.sheet_options import SheetOptions, Titles
 from page_parts import PageParts
+from PIL import Image
 
 PREPARED = datetime(2014, 9, 17, 12, tzinfo=UTC)
 
@@ -142,6 +144,39 @@ def test_header_and_footer_cannot_end_their_rule():
     assert "size: 279.4mm 215.9mm" in style
     assert "<" not in style
     assert r'content: "a\22 \3b  \7d  \3c \2f style' in style
+
+
+@pytest.mark.parametrize("size", ["a4", "letter"])
+@pytest.mark.parametrize("name", ["King", "North Complex " * 12, "W" * 120])
+def test_header_and_footer_fit_next_to_each_other(found, size, name):
+    period = (
+        "Wednesday, 17 September 2014 06:00 Pacific Daylight Time to 18 September 2014 06:00 Pacific Time"
+    )
+    titles = Titles(
+        name, "", period, "17 Sep 2014 04:00 PDT", "16 Sep 2014 22:00 PDT (start of the run)", "9 h"
+    )
+    sheet = Paper.named(size, "portrait")
+    style = paper.style(sheet, page._running(found, titles))
+    width = {}
+    for box, text in re.findall(r'@([a-z]+-[a-z]+) { content: "((?:[^"])*)"; ', style):
+        plain = re.sub(r"\\([0-9a-f]+) ", lambda each: chr(int(each[1], 16)), text)
+        lines = plain.split("\n")
+        assert len(lines) * 1.15 * 6.5 * 25.4 / 72.0 < paper.HEAD
+        width[box] = max(map(paper.measure, lines))
+    assert width["top-left"] + width["top-right"] < sheet.area[0]
+    side = 0.5 * (sheet.area[0] - width["bottom-center"])
+    assert max(width["bottom-left"], paper.measure("Page 100 of 100")) < side
+
+
+def test_what_lies_outside_the_run_is_in_the_legend(found):
+    middle = MapFrame.fitted(Box(38.895, -120.605, 38.905, -120.595), (0.0, 0.0, 100.0, 100.0))
+    beyond = MapFrame.fitted(Box(38.6, -120.8, 39.2, -120.4), (0.0, 0.0, 100.0, 100.0))
+    for frame, outside in ((middle, False), (beyond, True)):
+        assert base_map.reaches_outside(found.run, frame) == outside
+        assert (sheet_map.OUTSIDE in sheet_map.draw(found, frame, 1.0).legend) == outside
+    picture = Image.open(io.BytesIO(base_map.picture(found.run, found.elevation, beyond))).convert("L")
+    corner = np.asarray(picture)[:40, -40:]
+    assert corner.max() - corner.min() > 30  # hatched
 
 
 def test_the_age_of_a_forecast(found):
