@@ -22,14 +22,14 @@ from ..shot.terrain.elevation import Elevation
 from ..stations import reading
 from ..stations.records import Resource, Station
 from ..stations.station_file import StationFile
-from . import context, film, fronts, layers, reached
+from . import context, film, fronts, inputs, layers, reached
 from .arguments import LIMIT
 from .context import Context
 from .film import Film
 from .fronts import Front
 from .layers import Layer
 from .reached import Reached
-from .sheet_options import SheetOptions
+from .sheet_options import SheetOptions, Units
 
 
 @dataclass(frozen=True)
@@ -155,6 +155,11 @@ class Briefing:
         return invented or any(each.exercise for each in self.context)
 
     @property
+    def units(self) -> Units:
+        """Units that come first."""
+        return self.sheet.units
+
+    @property
     def marks(self) -> tuple[str, ...]:
         """Words in large letters on each map and sheet."""
         return tuple(word for word, _ in self.warnings)
@@ -206,7 +211,7 @@ def gather(request: Request) -> Briefing:
         layers=layers.draw(run, elevation.fuel, clock),
         fronts=lines,
         tolerance=tolerance,
-        points=_points(run, settings, station_file, clock, _arrival_error(scores)),
+        points=_points(run, settings, station_file, clock, _arrival_error(scores), request.sheet.units),
         station_file=station_file,
         film=shown,
         observed=[p for p in seen.perimeters if run.times[0] <= times.seconds(run, p.time) <= run.times[-1]],
@@ -214,7 +219,7 @@ def gather(request: Request) -> Briefing:
         no_scores=reason,
         others=[other.name for other in settings.runs] if settings else [],
         inputs=[
-            *_inputs(settings),
+            *inputs.find(settings),
             *(("Observations", name) for name in files),
             *((f"Context ({each.name})", each.file) for each in around),
         ],
@@ -233,14 +238,19 @@ def _hashes(run: Run) -> dict[str, str]:
 
 
 def _points(
-    run: Run, settings: Settings | None, station_file: StationFile | None, clock: str, error: float | None
+    run: Run,
+    settings: Settings | None,
+    station_file: StationFile | None,
+    clock: str,
+    error: float | None,
+    units: Units,
 ) -> list[Point]:
     """List stations, then named places within the grid, with the arrival of the fire at each."""
     file = settings.labels.file if settings else None
     towns = labels.read(file) if file else labels.known(run)
     by_name = sorted(station_file.stations, key=lambda each: (each.title, each.id)) if station_file else ()
     spots: list[Station | Label] = [*by_name, *towns]
-    found = reached.find(run, [s.latitude for s in spots], [s.longitude for s in spots], clock, error)
+    found = reached.find(run, [s.latitude for s in spots], [s.longitude for s in spots], clock, error, units)
     middle = 0.5 * float(run.longitude[0] + run.longitude[-1])
     return [
         Point(
@@ -286,21 +296,3 @@ def _scores(
         if asked:
             raise
         return None, str(error)
-
-
-def _inputs(settings: Settings | None) -> list[tuple[str, str]]:
-    """List the input files of a scene file: role and name."""
-    if settings is None:
-        return []
-    named = (
-        ("Elevation model", settings.terrain.elevation),
-        ("Orthophoto of the film", settings.terrain.photo),
-        ("Land use of the film", settings.terrain.land_use),
-        ("Buildings of the film", settings.terrain.buildings),
-        ("Picture of the Earth", settings.terrain.globe),
-        ("Named places", settings.labels.file),
-    )
-    found = [(what, path.name) for what, path in named if path]
-    if settings.terrain.photo_url:
-        found.append(("Orthophoto of the film", settings.terrain.photo_credit))
-    return found

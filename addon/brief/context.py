@@ -112,6 +112,12 @@ def line_style(context: Context, feature: Feature) -> str:
     return symbols.find(category(feature), symbols.LINES) or context.style
 
 
+def style_title(context: Context, style: str) -> str:
+    """Return the text of the legend for a style or a symbol of a file."""
+    plain = (*PRIORITY, "other", "Named place", "Value at risk")
+    return context.title if style in plain else style
+
+
 def _is_exercise(feature: Feature) -> bool:
     lower = {str(name).lower(): value for name, value in feature.properties.items()}
     marked = str(lower.get("exercise") or "").strip().lower() not in ("", "0", "false", "no", "none", "null")

@@ -13,6 +13,7 @@ import numpy as np
 from ..data.history import SQUARE_METRES_PER_ACRE
 from ..run import times
 from .fronts import Front
+from .sheet_options import Units
 from .text import quote
 
 WIDTH, HEIGHT = 900, 300  # of the drawing, which the page scales
@@ -20,6 +21,7 @@ LEFT, RIGHT, TOP, BOTTOM = 66, 58, 20, 52
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
 _HOURS = (1, 2, 3, 6, 12, 24, 48, 96, 240)
 _MOST_DATES = 7
+_UNITS = {"acres": SQUARE_METRES_PER_ACRE, "ha": 1e4}
 
 
 @dataclass(frozen=True)
@@ -47,19 +49,20 @@ def axes(fronts: Sequence[Front], reported: Sequence[dict[str, Any]]) -> Axes:
     return Axes(fronts[0].utc, fronts[-1].utc, max(*areas, 1.0) * 1.06)
 
 
-def svg(fronts: Sequence[Front], reported: Sequence[dict[str, Any]], zone: str) -> str:
-    """Draw the curve of the run and dots for reports; acres on the left axis, hectares on the right."""
+def svg(fronts: Sequence[Front], reported: Sequence[dict[str, Any]], zone: str, units: Units = "us") -> str:
+    """Draw the curve of the run and dots for reports; the axis of `units` is at the left, the other right."""
+    order = list(_UNITS) if units == "us" else list(_UNITS)[::-1]
     place = axes(fronts, reported)
     line = " ".join(f"{place.x(front.utc)},{place.y(front.area)}" for front in fronts)
     foot = HEIGHT - BOTTOM
     parts = [
-        *_scale(place, SQUARE_METRES_PER_ACRE, LEFT - 8, "end", "acres", True),
-        *_scale(place, 1e4, WIDTH - RIGHT + 8, "start", "ha", False),
+        *_scale(place, _UNITS[order[0]], LEFT - 8, "end", order[0], True),
+        *_scale(place, _UNITS[order[1]], WIDTH - RIGHT + 8, "start", order[1], False),
         *_dates(place, zone),
         f'<polygon class="area" points="{LEFT},{foot} {line} {WIDTH - RIGHT},{foot}"/>',
         f'<polyline class="run" points="{line}"/>',
         f'<line id="cursor" class="cursor" x1="{LEFT}" x2="{LEFT}" y1="{TOP}" y2="{foot}"/>',
-        *(_dot(place, row, zone) for row in _covered(reported)),
+        *(_dot(place, row, zone, order[0]) for row in _covered(reported)),
     ]
     label = "Burned area by time: run and reports; the table below has the numbers of the reports"
     return (
@@ -74,10 +77,10 @@ def _covered(reported: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     return [row for row in reported if row["run"] is not None]
 
 
-def _dot(place: Axes, row: dict[str, Any], zone: str) -> str:
+def _dot(place: Axes, row: dict[str, Any], zone: str, unit: str) -> str:
     when = datetime.fromisoformat(row["time"])
-    acres = f"{row['reported'] / SQUARE_METRES_PER_ACRE:,.0f} acres reported"
-    title = quote(f"{times.text(when, zone)}: {acres} ({row['source']})")
+    area = f"{row['reported'] / _UNITS[unit]:,.0f} {unit} reported"
+    title = quote(f"{times.text(when, zone)}: {area} ({row['source']})")
     spot = f'cx="{place.x(when)}" cy="{place.y(row["reported"])}"'
     return f'<circle class="reported" r="5" {spot}><title>{title}</title></circle>'
 

@@ -8,6 +8,8 @@ from datetime import datetime
 from ..run import times
 from ..stations.records import Availability, Resource, Type
 from ..stations.station_file import StationFile
+from . import units
+from .sheet_options import Units
 
 _OF_TYPE = {
     "tank_l": ("tank", "l"),
@@ -27,17 +29,21 @@ _OWN = {
 _COSTS = {"cost_mobilise": "to mobilise", "cost_hour": "per hour", "cost_day": "per day"}
 
 
-def facts(station_file: StationFile, resource: Resource) -> str:
-    """Describe one unit: ``tank at least 1,893 l, speed 60 km/h, cost 110 USD per hour, ...``."""
+def facts(station_file: StationFile, resource: Resource, order: Units = "us") -> str:
+    """Describe one unit: ``tank at least 500 gal (1,893 l), speed 37.3 mph (60 km/h), ...``."""
     type_ = station_file.type_of[resource.type]
-    return ", ".join((*_numbers(type_, _OF_TYPE, " at least"), *_numbers(resource, _OWN), *_words(resource)))
+    return ", ".join(
+        (*_numbers(type_, _OF_TYPE, order, " at least"), *_numbers(resource, _OWN, order), *_words(resource))
+    )
 
 
-def _numbers(of: Type | Resource, known: dict[str, tuple[str, str]], more: str = "") -> Iterator[str]:
+def _numbers(
+    of: Type | Resource, known: dict[str, tuple[str, str]], order: Units, more: str = ""
+) -> Iterator[str]:
     for key, (label, unit) in known.items():
         value = getattr(of, key)
         if value is not None:
-            yield f"{label}{more} {_number(value)} {unit}".strip()
+            yield f"{label}{more} {units.quantity(value, unit, order)}"
 
 
 def _words(resource: Resource) -> Iterator[str]:
@@ -48,10 +54,6 @@ def _words(resource: Resource) -> Iterator[str]:
     if resource.staffing:
         yield f"staffing {resource.staffing}"
     yield "works at night" if resource.night else "does not work at night"
-
-
-def _number(value: float) -> str:
-    return f"{value:,.0f}" if abs(value) >= 100.0 else f"{value:.3g}"
 
 
 def availability(

@@ -109,7 +109,7 @@ def _resource(briefing: Briefing, station_file: StationFile, station: Station, r
     source = station_file.source_of[resource.source].name if resource.source != station.source else ""
     return (
         f'<tr class="resource"><td>{quote(name)}</td>'
-        f'<td colspan="2">{quote(facts.facts(station_file, resource))}{small}</td>'
+        f'<td colspan="2">{quote(facts.facts(station_file, resource, briefing.units))}{small}</td>'
         f"<td>{_origin(resource.origin, source)}</td><td></td></tr>"
     )
 

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from . import symbols
+from . import context_layer, symbols
 from .briefing import Briefing
+from .context import Context
 from .fronts import Front
 from .layers import Layer, Legend
 from .mercator import Box
@@ -50,11 +51,21 @@ def switches(briefing: Briefing) -> str:
         colour = symbols.LINES["Observed Perimeter"].colour
         key = f'<i style="border:2px dashed {colour}"></i>latest perimeter up to this time'
         made.append(_drawn("observed", "Observed perimeters", key))
+    made += [
+        _drawn(context_layer.name(number), quote(each.title), _styles(each), quote(each.file))
+        for number, each in reversed(list(enumerate(briefing.context)))
+    ]
     made += [_switch(layer) for layer in reversed(briefing.layers)]
     return "\n".join(made)
 
 
-def _drawn(name: str, title: str, key: str) -> str:
+def _styles(each: Context) -> str:
+    """Build the rows of the legend of a context file."""
+    return "".join(f"<div>{drawn}{quote(text)}</div>" for text, drawn in context_layer.key(each))
+
+
+def _drawn(name: str, title: str, key: str, file: str = "") -> str:
+    title += f" <small>{file}</small>" if file else ""
     return (
         f'<div class="layer" data-layer="{name}"><label><input type="checkbox" checked>{title}</label>'
         f'<div class="legend note">{key}</div></div>'

@@ -27,6 +27,7 @@
     L.control.scale().addTo(made);
     made.fitBounds(data.view);
     made.setMaxBounds(L.latLngBounds(data.bounds).pad(0.5));
+    made.createPane("context").style.zIndex = 405;
     made.createPane("fronts").style.zIndex = 410;
     made.createPane("towns").style.zIndex = 420;
     addMarks();
@@ -58,7 +59,7 @@
         copy.classList.add(name === "hillshade" ? "shade" : "crisp");
         made[name] = L.imageOverlay(copy, own.bounds, { opacity: own.opacity, zIndex: own.order });
       } else {
-        made[name] = L.layerGroup();
+        made[name] = L.layerGroup(data.context[name] ? data.context[name].flatMap(shapes) : []);
       }
       const [check, range] = all("input", box);
       const show = () => {
@@ -69,6 +70,26 @@
       if (range) range.addEventListener("input", () => made[name].setOpacity(range.value / 100));
       show();
     }
+    return made;
+  }
+
+  function shapes(feature) {
+    const style = {
+      pane: "context", color: feature.colour, weight: feature.weight, dashArray: feature.dashes || null, lineCap: "butt",
+    };
+    const white = { ...style, color: "#fff", weight: feature.weight + 2, dashArray: null, opacity: 0.85, fill: false, interactive: false };
+    const fill = { fill: feature.fill > 0, fillColor: feature.colour, fillOpacity: feature.fill };
+    const symbol = () => L.divIcon({
+      className: "symbol", iconSize: [20, 20], html: `<svg viewBox="-1 -1 2 2" aria-hidden="true">${data.symbols[feature.symbol]}</svg>`,
+    });
+    const casing = (shape) => (feature.casing ? [shape(white)] : []);
+    const line = (points) => (more) => L.polyline(points, more);
+    const area = (rings) => (more) => L.polygon(rings, more);
+    const made = [...feature.lines.map(line), ...feature.polygons.map(area)].flatMap((shape) => [
+      ...casing(shape), shape({ ...style, ...(feature.polygons.length ? fill : {}) }),
+    ]);
+    made.push(...feature.points.map((at) => L.marker(at, { icon: symbol(), keyboard: false, pane: "context" })));
+    for (const each of made) if (each.options.interactive) each.bindTooltip(label(feature.text), { sticky: true });
     return made;
   }
 

@@ -17,7 +17,19 @@ import numpy as np
 from ..errors import UsageError
 from ..run import times
 from ..stations.records import EXERCISE
-from . import curve, fronts, lists, map_panel, map_sheet, paper, sections, symbols
+from . import (
+    context_layer,
+    curve,
+    division_table,
+    fronts,
+    lists,
+    map_panel,
+    map_sheet,
+    paper,
+    sections,
+    symbols,
+    units,
+)
 from .briefing import Briefing, Point
 from .map_panel import FRONT_EDGE, FRONT_FILL
 from .mercator import Box
@@ -63,6 +75,7 @@ def html(briefing: Briefing, limit: int) -> str:
         "last": str(len(briefing.fronts) - 1),
         "layers": map_panel.switches(briefing),
         "places": lists.section(briefing),
+        "divisions": division_table.section(briefing),
         "growth": sections.growth(briefing),
         "film": sections.film(briefing),
         "scores": sections.scores(briefing),
@@ -164,6 +177,8 @@ def _data(briefing: Briefing) -> dict[str, Any]:
             "fill": FRONT_FILL,
             "observed": symbols.LINES["Observed Perimeter"].colour,
         },
+        "context": context_layer.layers(briefing.context, whole),
+        "symbols": context_layer.drawings(briefing.context),
         "points": [_point(briefing, point) for point in briefing.points],
     }
 
@@ -184,7 +199,7 @@ def _times(briefing: Briefing) -> list[dict[str, Any]]:
             "utc": times.iso(front.utc),
             "utc_text": f"{front.utc:%d %b %H:%M} UTC",
             "local": local,
-            "area": sections.area(front.area),
+            "area": units.area(front.area, briefing.units),
             "x": place.x(front.utc),
         }
         for front, local in zip(briefing.fronts, briefing.moments, strict=True)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import math
+import functools
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -12,6 +13,8 @@ from numpy.typing import ArrayLike
 
 from ..stations import arrival_text, fire_arrival
 from ..stations.arrival_text import ArrivalText
+from . import units
+from .sheet_options import Units
 
 State = Literal["reached", "before", "not_reached", "outside"]
 _STATES: dict[int, State] = {
@@ -45,7 +48,12 @@ class Reached:
 
 
 def find(
-    run: Run, latitude: ArrayLike, longitude: ArrayLike, zone: str, error: float | None = None
+    run: Run,
+    latitude: ArrayLike,
+    longitude: ArrayLike,
+    zone: str,
+    error: float | None = None,
+    order: Units = "us",
 ) -> list[Reached]:
     """Find the arrival of the fire at places (n,), degrees north and east.
 
@@ -55,15 +63,25 @@ def find(
         Time zone of the texts.
     error
         Mean absolute error of arrival times against observations, s; None: unknown.
+    order
+        Units that come first in distances.
     """
+    distance = functools.partial(units.distance, units=order)
     latitude, longitude = (np.atleast_1d(np.asarray(each, np.float64)) for each in (latitude, longitude))
     if not latitude.size:
         return []
     found = fire_arrival.sample(run, latitude, longitude)
-    return [_reached(run, found, index, zone, error) for index in range(len(latitude))]
+    return [_reached(run, found, index, zone, error, distance) for index in range(len(latitude))]
 
 
-def _reached(run: Run, found: fire_arrival.Arrivals, index: int, zone: str, error: float | None) -> Reached:
+def _reached(
+    run: Run,
+    found: fire_arrival.Arrivals,
+    index: int,
+    zone: str,
+    error: float | None,
+    distance: Callable[[float], str],
+) -> Reached:
     state = _STATES[int(found.state[index])]
     away = 1000.0 * float(found.nearest_km[index])
     return Reached(
@@ -72,10 +90,3 @@ def _reached(run: Run, found: fire_arrival.Arrivals, index: int, zone: str, erro
         float(found.time[index]) if state == "reached" else None,
         away if state == "not_reached" and np.isfinite(away) else None,
     )
-
-
-def distance(metres: float) -> str:
-    """Format a distance in metric units and miles, with about two digits."""
-    miles = metres / 1609.344
-    digits = max(0, min(2, 1 - math.floor(math.log10(max(miles, 0.1)))))
-    return f"{arrival_text.format_distance(metres)} ({miles:.{digits}f} mi)"

@@ -9,22 +9,16 @@ from typing import Any
 
 import firetwin_core
 
-from ..data.history import SQUARE_METRES_PER_ACRE
 from ..run import times
 from ..run.score import report, used
 from ..stations.records import EXERCISE, Source
-from . import curve
+from . import curve, units
 from .briefing import Briefing
 from .film import CLIP, WIDTH, Film, Shown
 from .text import quote, size
 
 _LEAFLET = Path(__file__).parent / "leaflet"
 _NOT_KNOWN = "licence unknown to Firetwin; see the publisher"
-
-
-def area(square_metres: float) -> str:
-    """Format an area in acres and hectares."""
-    return f"{square_metres / SQUARE_METRES_PER_ACRE:,.0f} acres ({square_metres / 1e4:,.0f} ha)"
 
 
 def head(briefing: Briefing) -> str:
@@ -47,11 +41,14 @@ def _head(briefing: Briefing) -> Iterator[str]:
     if warnings:
         yield f'<p class="warn">{"<br>".join(warnings)}</p>'
     grid = briefing.facts["grid"]
+    order = briefing.units
+    extent = " x ".join(units.distance(side, order) for side in reversed(grid["extent"]))
+    named = ("acres", "miles", "hectares", "km") if order == "us" else ("hectares", "km", "acres", "miles")
     facts = (
-        ("Burned area at the start", area(first.area)),
-        ("Burned area at the end", area(last.area)),
-        ("Extent of the run", " x ".join(f"{side / 1e3:.1f}" for side in reversed(grid["extent"])) + " km"),
-        ("Units", f"acres and hectares, km, kg/m²; times are UTC and {briefing.zone}"),
+        ("Burned area at the start", units.area(first.area, order)),
+        ("Burned area at the end", units.area(last.area, order)),
+        ("Extent of the run", extent),
+        ("Units", f"{', '.join(named)}, kg/m²; times are UTC and {briefing.zone}"),
     )
     pairs = "".join(f"<div><dt>{name}</dt><dd>{quote(value)}</dd></div>" for name, value in facts)
     yield f'<dl class="facts">{pairs}</dl>'
@@ -68,21 +65,23 @@ def growth(briefing: Briefing) -> str:
     more = (
         f"<p class='soft'>{outside} other reports are from before or after this run.</p>" if outside else ""
     )
-    drawn = curve.svg(briefing.fronts, reported, briefing.zone)
-    table = _reports(rows, briefing.zone, briefing.run.synthetic) if rows else ""
+    drawn = curve.svg(briefing.fronts, reported, briefing.zone, briefing.units)
+    table = _reports(rows, briefing) if rows else ""
     return f'<div class="key">{key}</div><figure>{drawn}</figure>{table}{more}'
 
 
-def _reports(rows: Sequence[dict[str, Any]], zone: str, synthetic: bool) -> str:
+def _reports(rows: Sequence[dict[str, Any]], briefing: Briefing) -> str:
+    zone, synthetic = briefing.zone, briefing.run.synthetic
+    name, per = ("acres", units.acres(1.0)) if briefing.units == "us" else ("ha", 1e-4)
     lines = "".join(
         f"<tr><td>{quote(times.text(datetime.fromisoformat(row['time']), zone))}</td>"
-        f"<td>{row['run'] / SQUARE_METRES_PER_ACRE:,.0f}</td>"
-        f"<td>{row['reported'] / SQUARE_METRES_PER_ACRE:,.0f}</td>"
+        f"<td>{row['run'] * per:,.0f}</td>"
+        f"<td>{row['reported'] * per:,.0f}</td>"
         f"<td>{round(100 * row['difference'], 1) + 0.0:+.1f} %</td>"
         f'<td class="text">{quote(row["source"])}<small>{quote(row["note"])}</small></td></tr>\n'
         for row in rows
     )
-    titles = ("time", "run, acres", "reported, acres", "difference")
+    titles = ("time", f"run, {name}", f"reported, {name}", "difference")
     head = "".join(f'<th scope="col">{title}</th>' for title in titles)
     tuned = (
         '<p class="soft">The synthetic run was tuned to these reports; agreement does not validate it.</p>'

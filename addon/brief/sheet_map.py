@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..ellipsoid import metres_per_degree
 from ..run import times
-from . import base_map, context, symbols
+from . import base_map, context, line_labels, symbols, units
 from .briefing import Briefing
 from .context import Context
 from .fronts import Front
@@ -90,10 +90,10 @@ class Content:
         self.taken.append((x - radius, y - radius, x + radius, y + radius))
         self.label(x, y, radius, [each for each in label if each])
 
-    def label(self, x: float, y: float, radius: float, lines: Sequence[str]) -> None:
-        """Write a label at the side of a point, at the first place that is free."""
+    def label(self, x: float, y: float, radius: float, lines: Sequence[str]) -> bool:
+        """Write a label at the side of a point, at the first place that is free; True if there is one."""
         if not lines:
-            return
+            return False
         size = 2.5 * self.unit
         wide = 0.6 * size * max(len(lines[0]), *(0.8 * len(each) for each in lines))
         high = size * 1.15 * len(lines)
@@ -112,7 +112,8 @@ class Content:
             if inside and not any(_overlap(box, other) for other in self.taken):
                 self.taken.append(box)
                 self.labels += _texts(lines, left if right else left + wide, top, size, right)
-                return
+                return True
+        return False
 
 
 OUTSIDE = "Outside the run: no data"
@@ -132,6 +133,8 @@ def draw(briefing: Briefing, frame: MapFrame, unit: float) -> Content:
     for each in briefing.context:
         _symbols(made, each)
     _places(made, briefing)
+    for each in briefing.context:
+        line_labels.write(made, each)
     return made
 
 
@@ -193,7 +196,9 @@ def _fronts(made: Content, briefing: Briefing) -> None:
     edges = [line for line in kept if np.sign(_area(line)) == outer]
     islands = [line for line in kept if np.sign(_area(line)) != outer]
     for line in islands:
-        made.line("Unburned Island", line, True, f"Unburned island, over {least:,.0f} m")
+        made.line(
+            "Unburned Island", line, True, f"Unburned island, over {units.distance(least, briefing.units)}"
+        )
     for line in edges:
         made.line("Fire Edge", line, True, f"Simulated fire edge, {briefing.moments[-1]}")
 
@@ -213,23 +218,26 @@ def _area(line: Array) -> float:
 def _outlines(made: Content, each: Context) -> None:
     for feature in each.features:
         style = context.line_style(each, feature)
-        text = each.title if style in (*context.PRIORITY, "other") else style
+        text = context.style_title(each, style)
         for line in feature.lines:
             if len(line) > 1:
                 made.line(style, line, False, text)
-        fill = _ZONE_OPACITY if style in ("zones", "water", "values") else 0.0
         for polygon in feature.polygons:
             for number, ring in enumerate(polygon):
-                made.line(style, ring, True, text, 0.0 if number else fill)
+                made.line(style, ring, True, text, 0.0 if number else fill(style))
+
+
+def fill(style: str) -> float:
+    """Return the opacity of the area inside an outline."""
+    return _ZONE_OPACITY if style in ("zones", "water", "values") else 0.0
 
 
 def _symbols(made: Content, each: Context) -> None:
     """Draw points, and labels of zones at the middle of their box."""
     for feature in each.features:
         name, label = context.point_symbol(each, feature), context.label(feature)
-        plain = name in ("Named place", "Value at risk")
         for longitude, latitude in feature.points:
-            made.point(name, latitude, longitude, each.title if plain else name, [label])
+            made.point(name, latitude, longitude, context.style_title(each, name), [label])
         if each.name == "zones" and label and feature.polygons:
             ring = feature.polygons[0][0]
             x, y = (

@@ -10,8 +10,8 @@ from .sheet_map import Content
 from .sheet_options import SheetOptions, Titles
 from .sheet_text import Column
 from .text import quote
+from .units import MILE
 
-_MILE = 1609.344  # m
 _BAR = 0.72  # most of the width of a column
 _LENGTHS = (0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0)
 
@@ -91,7 +91,7 @@ class Margin:
     def _scale(self, column: Column) -> None:
         frame = self.content.frame
         column.heading(f"Scale 1:{frame.ratio:,.0f}")
-        us = (_MILE, "mi", f"1 in = {frame.ratio * 0.0254 / _MILE:.2f} mi")
+        us = (MILE, "mi", f"1 in = {frame.ratio * 0.0254 / MILE:.2f} mi")
         metric = (1000.0, "km", f"1 cm = {frame.ratio / 1e5:.2f} km")
         for metres, name, words in (us, metric) if self.options.units == "us" else (metric, us):
             self._bar(column, metres, name)

@@ -13,7 +13,20 @@ import pytest
 import small_stations
 import whole_run
 from firetwin import cli
-from firetwin.brief import arguments, briefing, curve, facts, film, page, reached, sections, text
+from firetwin.brief import (
+    arguments,
+    briefing,
+    curve,
+    facts,
+    film,
+    page,
+    reached,
+    sections,
+    symbols,
+    text,
+    units,
+)
+from firetwin.brief.sheet_options import SheetOptions
 from firetwin.data import history
 from firetwin.errors import InputError, UsageError
 from firetwin.render import manifest
@@ -117,6 +130,83 @@ def test_lines_of_an_exercise_mark_the_page_without_stations(own, tmp_path, abou
     assert ("Exercise: not operational advice" in made.text) == bool(about)
     noted = "\n".join(page.notes(briefing.gather(briefing.Request(own, context=[("allocation", file)]))))
     assert ("Exercise: not operational advice" in noted) == bool(about)
+
+
+@pytest.mark.parametrize(("order", "first", "second"), [("us", "acres", "ha"), ("metric", "ha", "acres")])
+def test_units_of_the_user_come_first(folder, gpkg, order, first, second):
+    made = parts(folder, stations=gpkg, sheet=SheetOptions(units=order))
+    assert re.search(rf"Burned area at the end [\d,]+ {first} \([\d,]+ {second}\)", made.text)
+    assert re.search(rf"^[\d,]+ {first} \(", made.data["times"][-1]["area"])
+    axes = [inside for _, inside in made.all("text", **{"class": "unit end"})]
+    assert axes == [first]
+    far = next(each["text"] for each in made.data["points"] if each["name"] == "Far")
+    pair = r"[\d,.]+ mi \([\d,.]+ km\)" if order == "us" else r"[\d,.]+ km \([\d,.]+ mi\)"
+    assert re.search(f"nearest fire {pair}", far)
+    assert ("tank at least 500 gal (1,893 l)" in made.text) == (order == "us")
+    assert ("tank at least 1,893 l (500 gal)" in made.text) == (order == "metric")
+
+
+LINE = [[-120.62, 38.9], [-120.58, 38.91]]
+ALLOCATED = [
+    ("LineString", LINE, {
+        "kind": "control_line", "division": "A", "hour": 3.0, "held": True, "front_m": 4023.4,
+        "line_m": 2011.7, "FeatureCategory": "Planned Line",
+    }),
+    ("LineString", LINE, {
+        "kind": "resource", "division": "A", "name": "E<b>31", "type": "engine3", "station": "Alpha",
+        "arrival_min": 42.4, "line_m": 1005.8,
+    }),
+    ("LineString", LINE, {
+        "kind": "control_line", "division": "B", "hour": 6.0, "held": False, "front_m": 804.7, "line_m": None,
+        "FeatureCategory": "Line Not Held",
+    }),
+    ("Point", LINE[0], {"kind": "division_break", "name": "A/B", "FeatureCategory": "Division Break"}),
+    ("Point", [-100.0, 38.9], {"name": "too far"}),
+]  # fmt: skip
+
+
+@pytest.fixture
+def allocated(tmp_path):
+    """A layer of `firetwin allocate`, and a point far outside of the run."""
+    features = [
+        {
+            "type": "Feature",
+            "properties": {"exercise": "Exercise: not operational advice"} | about,
+            "geometry": {"type": kind, "coordinates": where},
+        }
+        for kind, where, about in ALLOCATED
+    ]
+    file = tmp_path / "allocation.geojson"
+    file.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    return file
+
+
+def test_map_features_are_layers_of_the_interactive_map(folder, allocated):
+    made = parts(folder, context=[("allocation", allocated)])
+    assert made.all("div", **{"data-layer": "context-0"})
+    line, sent, lost, spot = made.data["context"]["context-0"]  # the fifth lies outside of the map
+    assert line["lines"] == [[[38.9, -120.62], [38.91, -120.58]]]
+    assert (line["text"], line["colour"]) == ("Planned Line", symbols.LINES["Planned Line"].colour)
+    assert line["dashes"] == "10 7"
+    assert lost["colour"] == symbols.FIRE_EDGE
+    assert sent["text"] == "allocation: E<b>31"
+    assert (spot["text"], spot["symbol"]) == ("Division Break: A/B", "Division Break")
+    assert made.data["symbols"] == {"Division Break": symbols.POINTS["Division Break"]} | {
+        "Named place": symbols.POINTS["Named place"]
+    }
+    ((_, legend),) = made.all("div", **{"data-layer": "context-0"})
+    assert "Planned Line" in legend
+    assert "Line Not Held" in legend
+
+
+def test_each_division_has_a_table(folder, allocated):
+    made = parts(folder, context=[("allocation", allocated)])
+    text = made.text
+    assert "Division A, contained at hour 3, line 100 chains (2,012 m) of 200 chains (4,023 m)" in text
+    assert "E<b>31 engine3 Alpha 42 min 50 chains (1,006 m)" in text
+    assert "Division B, cannot be held by hour 6, front 40 chains (805 m)" in text
+    assert len(made.all("table", **{"class": "resources division"})) == 2
+    assert "Divisions" not in parts(folder).text
 
 
 def test_nothing_can_be_loaded_or_sent(folder, gpkg):
@@ -277,8 +367,10 @@ def test_what_a_list_says_of_a_place(folder, gpkg):
     assert re.fullmatch(told, states["Alpha"][1])
     assert states["Far"][0] == "outside"
     assert states["Far"][1].startswith("outside the run, nearest fire ")
-    assert reached.distance(140.0) == "140 m (0.09 mi)"
-    assert reached.distance(14_000.0) == "14 km (8.7 mi)"
+    assert units.distance(140.0, "metric") == "140 m (0.09 mi)"
+    assert units.distance(14_000.0, "us") == "8.7 mi (14 km)"
+    assert units.distance(1610.0, "us") == "1.1 mi (1.7 km)"  # rounded up, as "within" says
+    assert units.length(2011.68, "us") == "100 chains (2,012 m)"
 
 
 def test_named_places_of_a_known_fire_come_without_a_file(make_run):
@@ -428,10 +520,12 @@ def test_a_file_that_is_none_of_places_is_one_clear_error(folder, tmp_path):
 def test_resources_say_what_is_known_of_them(gpkg):
     found = reading.read(gpkg)
     engine, crew = found.resources_of[1]
-    assert facts.facts(found, engine) == (
-        "tank at least 1,893 l, pump at least 568 l/min, people at least 3, speed 60 km/h, "
+    assert facts.facts(found, engine, "metric") == (
+        "tank at least 1,893 l (500 gal), pump at least 568 l/min (150 gal/min), people at least 3, "
+        "speed 60 km/h (37.3 mph), "
         "mobilises in 5 min, cost 210 USD per hour, mode attack, works at night"
     )
+    assert "tank at least 500 gal (1,893 l), pump" in facts.facts(found, engine, "us")
     assert "people at least 18" in facts.facts(found, crew)
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from firetwin.brief import context, sheet_map, symbols
+from firetwin.brief import context, line_labels, sheet_map, symbols
 from firetwin.brief.map_frame import MapFrame
 from firetwin.brief.mercator import Box
 from firetwin.errors import InputError, UsageError
@@ -84,6 +84,19 @@ def test_labels_do_not_overlap():
     boxes = made.taken
     labels = [box for box in boxes if box[2] - box[0] > 5.0]
     assert not any(sheet_map._overlap(a, b) for i, a in enumerate(labels) for b in labels[:i])
+
+
+def test_a_line_has_its_label_once_where_there_is_space(tmp_path):
+    road = ("LineString", [[-120.6, 38.8], [-120.4, 38.8]], {"name": "Wentworth Springs Road"})
+    short = ("LineString", [[-120.6, 38.8], [-120.59, 38.8]], {"name": "Wentworth Springs Road"})
+    (each,) = context.read([("roads", write(tmp_path / "a.geojson", road, short))])
+    made = content([each])
+    line_labels.write(made, each)
+    assert sum(">Wentworth Springs Road<" in part and "aria-hidden" not in part for part in made.labels) == 1
+    full = content([each])
+    full.taken.append((0.0, 0.0, 200.0, 150.0))  # no space
+    line_labels.write(full, each)
+    assert full.labels == []
 
 
 def test_a_hostile_label_stays_a_text(tmp_path):
