@@ -181,7 +181,7 @@ class Working:
         if isinstance(error, StoppedError):
             undo = "the scene is restored" if back else "undo restores the scene"
             kept = undo if work.touched else "finished work remains"
-            self._tell(work, Message(f"{work.name} stopped; {kept}", "WARNING"))
+            self._tell(work, Message(f"{work.name}: stopped; {kept}", "WARNING"))
         else:
             self._tell(work, Message(describe_error(error), "ERROR"))
         if back:

@@ -169,7 +169,7 @@ def test_a_stop_keeps_what_is_written_and_shows_it(opened, monkeypatch):
 
     monkeypatch.setattr(worker, "run", stopped)
     assert bpy.ops.firetwin.smoke_volumes(which="range") == {"CANCELLED"}
-    assert job.Job.last.messages[-1].text == "Smoke of frames stopped; finished work remains"
+    assert job.Job.last.messages[-1].text == "Write smoke of frames: stopped; finished work remains"
     assert volume_files.missing(opened) == [2, 3]
     assert has_grids(opened)
 

@@ -631,7 +631,7 @@ def test_esc_stops_work_only_with_the_pointer_over_the_sidebar(waiting):
     assert waiting.happens("ESC", x=900) == {"RUNNING_MODAL"}
     assert waiting.job.stop.asked
     assert waiting.goes_on() == {"CANCELLED"}
-    assert waiting.reports == [("WARNING", "Test stopped; finished work remains")]
+    assert waiting.reports == [("WARNING", "Test: stopped; finished work remains")]
     assert job.Job.current is None
 
 
@@ -654,7 +654,7 @@ def test_while_steps_are_taken_only_the_sidebar_and_the_view_can_be_used():
     assert work.happens("LEFTMOUSE") == work.happens("Z", x=900) == {"RUNNING_MODAL"}
     work.job.stop.now()
     assert work.goes_on() == {"FINISHED"}
-    assert work.reports == [("WARNING", "Test stopped; undo restores the scene")]
+    assert work.reports == [("WARNING", "Test: stopped; undo restores the scene")]
 
 
 def test_what_is_told_is_reported_and_stays_in_the_panel():

@@ -156,6 +156,7 @@ def test_a_preset_brings_back_all_but_the_run(opened, tmp_path, monkeypatch):
         return str(tmp_path / path)
 
     monkeypatch.setattr(bpy.utils, "user_resource", resource)
+    monkeypatch.setattr(quality.FIRETWIN_MT_presets, "bl_label", "Presets")  # becomes the preset's name
     opened.light.use_exposure, opened.light.exposure, opened.render.passes = True, 1.5, {"rgb", "thermal"}
     opened.time.start = "2014-09-17 21:06"
     assert bpy.ops.firetwin.preset(name="Mine") == {"FINISHED"}
