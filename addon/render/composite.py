@@ -199,7 +199,8 @@ def _coverage(surfaces: Surfaces, distances: Array) -> Array:
     near, far = (1000.0 / np.hypot(distances[..., k], surfaces.aside) for k in (0, 1))
     apart = near - far
     share = np.clip((surfaces.nearness - far) / np.where(apart > 0.0, apart, 1.0), 0.0, 1.0)
-    sure = surfaces.rays / (surfaces.rays + _SURE)
+    # Before the sky only the pixel's own rays count: its colour has the sky's in the same share.
+    sure = np.where(distances[..., 1] < SKY, surfaces.rays / (surfaces.rays + _SURE), 1.0)
     share = sure * share + (1.0 - sure) * _near_share(surfaces.distance, distances)
     # Materials of an artist do not write distance: only the depth of the centre ray is known.
     unknown = (surfaces.solid < 0.5) & (surfaces.distance < SKY)

@@ -73,7 +73,7 @@ def build(shot: Shot, identify: Identify, progress: Progress = silent) -> int:
     _mark_materials(identify)
     for group in filter(owned.is_ours, bpy.data.node_groups):
         _mark(group, identify(_KINDS[group.bl_idname]), _describe_group(group))
-    _picture_groups(trees.objects["Large Conifer 1"])
+    _picture_groups(trees.objects[0])
     for obj in (obj for obj in stage.root.all_objects if obj.type == "CAMERA"):
         _mark(obj, identify("Cameras"), "A camera of the shot, with its path")
     blocks = (bpy.data.objects, bpy.data.materials, bpy.data.node_groups)
