@@ -11,6 +11,8 @@ from pathlib import Path
 
 from firetwin_core.run import Run
 
+from ..run import burning
+from ..shot.fire import smoke_scale
 from ..shot.sections import Time
 from ..shot.settings import Settings
 from ..shot.shot import Shot
@@ -58,8 +60,12 @@ def fit(run: Run, settings: Settings) -> FittedScene:
     If they have the shot's start or end, cameras are fitted to that window, and no other is searched.
     """
     time, words = window.choose(run, settings.time)
+    smoke = settings.smoke
+    if not smoke_scale.resolves_plume(max(burning.fuel_cell(run))):
+        smoke, words = replace(smoke, enabled=False), f"{words}; no smoke, as the fuel cells resolve no plume"
     settings = replace(
         settings,
+        smoke=smoke,
         time=time,
         terrain=replace(settings.terrain, error=0.1),
         render=replace(settings.render, samples=3, passes=("rgb", "thermal")),
@@ -90,4 +96,5 @@ def fit_folder(folder: Path, path: Path, cache: Path, time: Time | None = None) 
 def _placed(moving: front.Front) -> list[PlacedCamera]:
     visible = Visible(moving)
     kinds = (overview, chase, flank, satellite) if moving.runs else (overview, satellite)
-    return [kind.place(moving, visible) for kind in kinds]
+    placed = (kind.place(moving, visible) for kind in kinds)
+    return [camera for camera in placed if camera is not None]

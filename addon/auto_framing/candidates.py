@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..run import sun
+from ..run import areas, sun
 from .front import Front
 from .visible_share import VisibleShare
 
@@ -30,6 +30,7 @@ HIDDEN = 0.2  # fraction of the front clear of smoke below which the description
 _SMOKY = 3.0  # weight of smoke before the front and near the camera (by eye)
 _BY_NIGHT = 0.7  # of the distance by day of a close camera, as flames are the light (by eye)
 _CELLS = 3.0  # fuel cells, least distance of a close camera to its target
+INSIDE = 0.95  # of the ground's extent, within which cameras are placed
 OVER_CROWNS = 60.0  # m, least height above ground among trees
 _SIDES = ("north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west")
 
@@ -70,8 +71,8 @@ def _rate(candidate: Tried) -> float:
     return candidate.liking - _SMOKY * (max(1.0 - seen.clear / CLEAR, 0.0) + max(seen.veil - VEILED, 0.0))
 
 
-def nearest_enough(near: float, tried: Callable[[float], list[Tried]]) -> Tried:
-    """Best close candidate; farther ones are tried while none shows enough.
+def nearest_enough(near: float, tried: Callable[[float], list[Tried]]) -> Tried | None:
+    """Best close candidate; farther ones are tried while none shows enough. None if none is over ground.
 
     Parameters
     ----------
@@ -85,7 +86,16 @@ def nearest_enough(near: float, tried: Callable[[float], list[Tried]]) -> Tried:
         candidates += tried(rounded(farther * near))
         if any(enough(candidate.seen) for candidate in candidates):
             break
-    return best(candidates)
+    return best(candidates) if candidates else None
+
+
+def is_over_ground(front: Front, view: Path) -> bool:
+    """Return whether a camera and its target stay over the run or the ground around it (`terrain.apron`)."""
+    places = np.concatenate([view.position, view.target])[:, :2]  # relative to the run's centre
+    reach = INSIDE * front.shot.settings.terrain.apron
+    latitude, longitude = front.shot.run.latitude, front.shot.run.longitude
+    half = 0.5 * np.array([len(longitude) - 1, len(latitude) - 1]) * areas.cell_size(latitude, longitude)
+    return bool(np.all((np.hypot(*places.T) <= reach) | np.all(np.abs(places) <= INSIDE * half, axis=1)))
 
 
 def away(view: Path) -> float:

@@ -21,17 +21,20 @@ _AIM = 0.12  # of the distance, height of the aim above ground: flames below the
 _LATER = 0.01  # penalty for each later side or height
 
 
-def place(front: Front, visible: Visible) -> PlacedCamera:
+def place(front: Front, visible: Visible) -> PlacedCamera | None:
     """Best candidate over sides and heights; farther ones while no near one shows enough.
 
     If smoke hides the head from every side, the camera stays and looks at a flank from twice the distance.
+    None if no candidate is over ground.
     """
     near = candidates.near(front, _PART, _DISTANCES, _OVER_CROWNS)
     best = candidates.nearest_enough(near, lambda distance: _tried(front, visible, distance))
+    if best is None:
+        return None
     text, of = "goes along with the head", "the head"
     if best.seen.clear < candidates.HIDDEN:
         aside = candidates.nearest_enough(2.0 * near, lambda distance: flank.tried(front, visible, distance))
-        if aside.seen.clear > best.seen.clear:
+        if aside is not None and aside.seen.clear > best.seen.clear:
             best, of = aside._replace(camera=replace(aside.camera, name="chase")), "its aim"
             text = "looks at a flank, as smoke hides the head from every side"
     view = candidates.path(front, best.camera)
@@ -53,6 +56,8 @@ def _tried(front: Front, visible: Visible, distance: float) -> list[Tried]:
         rig = Chase(distance=distance, side=side, height=above, target_height=aim, clearance=clearance)
         camera = Camera("chase", rig=rig)
         view = candidates.path(front, camera)
+        if not candidates.is_over_ground(front, view):
+            continue
         share = visible.seen(view, distance)
         likes = (
             candidates.liking(front, candidates.bearing(view)) + candidates.framed(share) - _LATER * number

@@ -80,9 +80,9 @@ class CoarseSmoke:
 
 
 def _draw(shot: Shot, frames: list[int]) -> dict[int, list[volume.Bricks]]:
-    """Solve and draw the smoke in frames from 0; empty without fire."""
+    """Solve and draw the smoke in frames from 0; empty without fire or without smoke."""
     around = domains.outer_box(shot)
-    if around is None:
+    if around is None or not shot.settings.smoke.enabled:
         return {}
     smoke = replace(shot.settings.smoke, spin_up=_SPIN_UP * shot.spin_up)
     coarse = shot.with_settings(replace(shot.settings, cameras=(), smoke=smoke))

@@ -23,10 +23,15 @@ _AIM = 0.08  # of the distance, height of the aim above ground: flames below the
 _STEEP = 0.1  # penalty for each higher step
 
 
-def place(front: Front, visible: Visible) -> PlacedCamera:
-    """Best candidate over points, directions and heights; farther ones while no near one shows enough."""
+def place(front: Front, visible: Visible) -> PlacedCamera | None:
+    """Best candidate over points, directions and heights; farther ones while no near one shows enough.
+
+    None if no candidate is over ground.
+    """
     near = candidates.near(front, _PART, _DISTANCES, _OVER_CROWNS)
     best = candidates.nearest_enough(near, lambda distance: tried(front, visible, distance))
+    if best is None:
+        return None
     view = candidates.path(front, best.camera)
     words = (
         f"close to a flank, {candidates.where(front, candidates.bearing(view))}: "
@@ -45,7 +50,10 @@ def tried(front: Front, visible: Visible, distance: float) -> list[Tried]:
         for number, height in enumerate(_HEIGHTS):
             for turn in _TURNS:
                 camera, bearing = _camera(front, int(at), distance, height, turn)
-                share = visible.seen(candidates.path(front, camera), distance)
+                view = candidates.path(front, camera)
+                if not candidates.is_over_ground(front, view):
+                    continue
+                share = visible.seen(view, distance)
                 likes = candidates.liking(front, bearing) + candidates.framed(share) - _STEEP * number
                 found.append(Tried(share, likes, camera))
     return found

@@ -125,7 +125,7 @@ def _middle(points: Array, side: Array) -> Array:
 
 def _room(front: Front, middle: Array, side: Array) -> float:
     """Largest distance (m) of a camera from the centre on a side, by the terrain's extent."""
-    reach = 0.95 * front.shot.settings.terrain.apron
+    reach = candidates.INSIDE * front.shot.settings.terrain.apron
     here = middle[:2]  # relative to the run's centre, the scene's origin
     along = float(here @ side[:2])
     beside = max(along**2 - float(here @ here) + reach**2, 0.0)

@@ -10,7 +10,8 @@ from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
 from ..progress import duration
-from ..run import areas, extent, times, zone
+from ..run import areas, burning, extent, times, zone
+from ..shot.fire import smoke_scale
 from ..shot.sections import Time
 
 FRAMES, FPS = 48, 12  # four seconds, as in the example
@@ -37,7 +38,9 @@ def choose(run: Run, asked: Time) -> tuple[Time, str]:
     row, column, fuel = _burned(run, arrival)
     if len(row) == 0:
         return whole, "all of the run, in which nothing burns"
-    came, seconds = arrival[row, column], length(_size(run, arrival <= last), last - first)
+    came, whole_run = arrival[row, column], last - first
+    seconds = length(_size(run, arrival <= last), whole_run)
+    seconds = max(seconds, min(_unresolved(run, arrival, row, column), whole_run))
     begin = most_active(came, fuel, first, last, seconds)
     start, end = (times.utc(run, time) for time in (begin, begin + seconds))
     part = float(fuel[(came >= begin) & (came <= begin + seconds)].sum() / fuel.sum())
@@ -61,7 +64,8 @@ def most_active(arrival: ArrayLike, fuel: ArrayLike, first: float, last: float, 
     """Start (s) of the window of `length` s in which the front reaches the most fuel.
 
     Candidates are windows within the run that begin every minute after `first`, or every `length` in whole
-    seconds if that is shorter, and the last one. The earliest of equal ones is chosen.
+    seconds if that is shorter, and the last one. The last of equal ones is chosen, in which flames
+    show from the beginning.
 
     Parameters
     ----------
@@ -77,7 +81,8 @@ def most_active(arrival: ArrayLike, fuel: ArrayLike, first: float, last: float, 
     begin = np.append(np.arange(first, last - length, step), max(np.floor(last - length), first))
     before = np.searchsorted(arrival[order], begin, "left")
     by = np.searchsorted(arrival[order], begin + length, "right")
-    return float(begin[np.argmax(total[by] - total[before])])
+    reached = total[by] - total[before]
+    return float(begin[np.flatnonzero(reached == reached.max())[-1]])
 
 
 def _burned(run: Run, arrival: Array) -> tuple[NDArray[np.int64], NDArray[np.int64], Array]:
@@ -93,6 +98,16 @@ def _burned(run: Run, arrival: Array) -> tuple[NDArray[np.int64], NDArray[np.int
     )
     fuel = surface + canopy
     return row, column, fuel if np.any(fuel > 0.0) else np.ones(len(row))
+
+
+def _unresolved(run: Run, arrival: Array, row: NDArray[np.int64], column: NDArray[np.int64]) -> float:
+    """Median time (s), up to an hour, in which the front crosses a fuel cell too wide for plumes; else 0.
+
+    The smoke of such cells is a layer that hardly changes in a minute: the film shows the fire's spread.
+    """
+    if smoke_scale.resolves_plume(max(burning.fuel_cell(run))):
+        return 0.0
+    return float(np.median(burning.crossing(arrival, row, column)))
 
 
 def _size(run: Run, burned: NDArray[np.bool_]) -> float:

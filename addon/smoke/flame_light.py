@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 def lights(fire: Fire, time: float, scale: Scale) -> tuple[Array, Array]:
     """Merge flames to lights in smoke: positions (n, 3), m, and luminous powers (n,), W."""
-    lights = heat_release.lights(fire.sources(time).luminous(), scale.length(_BLOCK), _COUNT)
+    lights = heat_release.lights(fire.luminous(fire.sources(time)), scale.length(_BLOCK), _COUNT)
     return lights.position + np.array([0.0, 0.0, scale.length(_FLAME_HEIGHT)]), lights.power
 
 

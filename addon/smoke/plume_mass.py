@@ -36,7 +36,7 @@ class PlumeMass:
     Attributes
     ----------
     made
-        Emitted PM2.5 from the first frame to the last, kg.
+        Emitted PM2.5 from the first frame to the last, kg; of a still, in the spin-up before it.
     deepest, wide, mean
         Vertical optical depth: maximum of a column of cells, maximum of the mean over a kilometre, and mean
         over the plume; None without snapshots.
@@ -51,7 +51,7 @@ class PlumeMass:
 def measure(shot: Shot) -> PlumeMass:
     """Measure the plume of a shot from existing snapshots of the flow."""
     frames = shot.frames
-    made = shot.fire.smoke_made(frames.first, frames.last)
+    made = shot.fire.smoke_made(_begin(shot), frames.last)
     looks = np.unique(
         np.linspace(1, frames.count, min(_MAX_SNAPSHOTS, frames.count)).round().astype(int)
     ).tolist()
@@ -74,7 +74,7 @@ def describe(shot: Shot) -> str:
         for kind, share in zip(emissions.KINDS, mix.shares, strict=True)
         if share >= 0.005
     ]
-    text = f"{_mass(plume.made)} of smoke in {_minutes(shot)}, from {', '.join(shares)}"
+    text = f"{_mass(plume.made)} of smoke in {_duration(shot)}, from {', '.join(shares)}"
     if plume.deepest is None:
         return text
     where, low, high, source = _PUBLISHED[bool(mix.dark > 0.75)]
@@ -106,5 +106,13 @@ def _mass(kilograms: float) -> str:
     return f"{kilograms / 1000.0:,.3g} t" if kilograms >= 1000.0 else f"{kilograms:,.3g} kg"
 
 
-def _minutes(shot: Shot) -> str:
-    return f"{(shot.frames.last - shot.frames.first) / 60.0:,.3g} min"
+def _begin(shot: Shot) -> float:
+    """Return the model time (s) from which smoke counts: the first frame, or a still's spin-up."""
+    first, last = shot.frames.first, shot.frames.last
+    return first if last > first else first - shot.spin_up
+
+
+def _duration(shot: Shot) -> str:
+    still = shot.frames.last == shot.frames.first
+    text = f"{(shot.frames.last - _begin(shot)) / 60.0:,.3g} min"
+    return f"the {text} before the picture" if still else text

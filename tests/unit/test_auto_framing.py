@@ -1,6 +1,7 @@
 """Settings that fit a run: the most active part of it, and cameras that show most of the front."""
 
 import zoneinfo
+from dataclasses import replace
 from datetime import timedelta
 from pathlib import Path
 
@@ -23,7 +24,7 @@ from firetwin.shot import run_checks
 from firetwin.shot.cameras import targets
 from firetwin.shot.cameras.rigs.chase import Chase
 from firetwin.shot.sections import Time
-from firetwin.shot.settings import Camera, scene_file
+from firetwin.shot.settings import Camera, Settings, scene_file
 from firetwin.shot.shot import Shot
 from small_run import small_fields
 
@@ -180,6 +181,46 @@ def test_a_camera_in_smoke_goes_farther():
     assert asked == [100.0, 200.0]
 
 
+@pytest.fixture
+def county(tmp_path):
+    """Write a shot of a run of 10 km cells, with the window that suits it."""
+    times = tuple(3600.0 * np.arange(25.0))
+    options = {"cell": 10_000.0, "cells": 10, "speed": 1.0, "lasts": 3600.0, "arrival": False}
+    run = readers.open(whole_run.write(tmp_path / "run", times=times, **options))
+    return Shot(Settings(path=tmp_path / "scene.toml", time=window.choose(run, Time())[0]), run)
+
+
+def test_in_smoke_on_vast_cells_cameras_still_stand_over_the_ground(county, monkeypatch):
+    """Smoke made the flank camera go 123 km away, where `render` refused it."""
+    monkeypatch.setattr(flank, "_PLACES", 1)
+    share = visible_share.VisibleShare(0.9, 0.05, 1.0, -0.2, 0.5)
+    monkeypatch.setattr(visible_share.Visible, "seen", lambda *given: share)
+    moving = front.find_front(county)
+    placed = [each.place(moving, visible_share.Visible(moving)).camera for each in (overview, flank)]
+    run_checks.check(replace(county.settings, cameras=tuple(placed)), county.run)
+    for camera in placed:
+        assert candidates.is_over_ground(moving, candidates.path(moving, camera))
+
+
+def test_a_camera_that_has_no_ground_below_it_anywhere_is_left_out(county, monkeypatch):
+    moving = front.find_front(county)
+    monkeypatch.setattr(candidates, "is_over_ground", lambda *given: False)
+    for kind in (chase, flank):
+        assert kind.place(moving, visible_share.Visible(moving)) is None
+
+
+def test_a_scene_of_vast_cells_has_no_smoke(county):
+    found = auto_framing.fit(county.run, county.settings)
+    assert not found.settings.smoke.enabled
+    assert found.window.endswith("no smoke, as the fuel cells resolve no plume")
+    assert "enabled = false" in found.text
+    run_checks.check(found.settings, county.run)
+
+
+def test_a_film_of_vast_cells_lasts_until_the_front_has_moved(county):
+    assert county.frames.last - county.frames.first == pytest.approx(3600.0, abs=1.0)
+
+
 def test_smoke_on_all_sides_is_said_plainly():
     assert "from every side" in candidates.shows(tried(clear=0.1).seen, "the front")
     assert "from every side" not in candidates.shows(tried(clear=0.7).seen, "the front")
@@ -286,6 +327,8 @@ def test_a_window_is_where_the_fuel_burns_not_where_the_area_grows():
     begin = window.most_active(arrival, fuel, 0.0, 7200.0, 600.0)
     assert begin <= 5000.0 <= begin + 600.0
     assert window.most_active(arrival, np.ones(60), 0.0, 7200.0, 600.0) == 0.0
+    at_once = window.most_active(np.full(5, 1000.0), np.ones(5), 0.0, 7200.0, 600.0)
+    assert at_once == 960.0, "the last window with the fire, which burns from its first minute"
 
 
 def test_a_film_is_at_most_15_times_real_time_and_slower_of_a_small_fire(fit_of):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import whole_run
-from firetwin.run import info, released, run_warnings
+from firetwin.run import burning, info, released, run_warnings
 from firetwin.shot.fire import long_burning, smoke_scale
 from firetwin.shot.fire.fire import Fire
 from firetwin_core import run as runs
@@ -69,3 +69,16 @@ def test_ground_stays_in_flames_where_flux_is_beyond_any_front(make):
 
 def test_no_ordinary_fire_burns_longer_than_its_fuel(make):
     assert long_burning.duration(make(16, [((8, 8), 2.9e5)])) is None
+
+
+def test_no_cell_shines_more_than_the_hottest_front(make):
+    """Light of 1e7 W/m2 on its smoke made a picture at noon as dark as by night."""
+    run = make(4, [((1, 1), 1e7), ((2, 2), 1e5)])
+    fire = Fire(run, 0.0, 3600.0)
+    sources = fire.sources(1800.0)
+    lit, all_light = fire.luminous(sources), sources.luminous()
+    area = fire.cell_area.reshape(4, 4)
+    assert lit.power[sources.cell == 5].sum() == pytest.approx(burning.CROWN_FIRE_FLUX * area[1, 1])
+    ordinary = sources.cell == 10
+    assert np.array_equal(lit.power[ordinary], all_light.power[ordinary])
+    assert sources.power[sources.cell == 5].sum() == pytest.approx(1e7 * area[1, 1])

@@ -78,7 +78,8 @@ def place_lamps(shot: Shot, nearest: tuple[float, float] = (0.0, 0.0), least: fl
     if not near:
         return none
     parts = [
-        _merge_sources(shot.fire.sources(float(t)).luminous(), near, shot.scale.length(_BLOCK)) for t in times
+        _merge_sources(shot.fire.luminous(shot.fire.sources(float(t))), near, shot.scale.length(_BLOCK))
+        for t in times
     ]
     position = np.concatenate([part.position for part in parts])
     power = np.concatenate([part.power for part in parts])

@@ -11,7 +11,7 @@ while the front crosses it and smoulders later.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -158,6 +158,19 @@ class Fire:
             np.concatenate([fuel.cell[lit], hot[alone]]),
             np.concatenate([fuel.fuel_cell[lit], np.full(len(alone), -1)]),
         )
+
+    def luminous(self, sources: Sources) -> Sources:
+        """Compute luminous power of `sources`; no model cell shines more than a front of `CROWN_FIRE_FLUX`.
+
+        A fiercer fire has larger flames, but not hotter ones: a flame at 1400 K emits at most 218 kW/m2.
+        """
+        lit = sources.luminous()
+        total = np.bincount(lit.cell, lit.power, len(self.cell_area))
+        most = burning.CROWN_FIRE_FLUX * self.cell_area
+        if not np.any(total > most):
+            return lit
+        part = np.minimum(most / np.maximum(total, most), 1.0)[lit.cell]
+        return replace(lit, power=part * lit.power, flaming=part * lit.flaming)
 
     def cells(self, first: float, last: float) -> Cells:
         """Fuel that ignites between `first` and `last` (s), in grid order."""

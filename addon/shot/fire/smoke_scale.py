@@ -95,9 +95,14 @@ def choose(extent: float, fuel_cell: float, budget: float = _BUDGET) -> Scale:
     )
 
 
+def resolves_plume(fuel_cell: float) -> bool:
+    """Return whether the coarsest cells of a flow are fine enough for a fuel cell (m)."""
+    return bool(fuel_cell <= _FUEL * _CELLS[-1] * 1.001)
+
+
 def warnings(scale: Scale, fuel_cell: float) -> list[str]:
     """Warn if a fuel cell (m) is wider than the coarsest cells of a flow can resolve."""
-    if fuel_cell <= _FUEL * scale.cell * 1.001:
+    if resolves_plume(fuel_cell):
         return []
     return [
         f"fuel cells of {fuel_cell / 1000.0:,.3g} km are too coarse for a plume: smoke is solved on cells of "

@@ -205,7 +205,7 @@ def _smoke(shot: Shot, time: float) -> SmokeParcels:
         sources = sources.take(np.empty(0, np.int64))
     block, ages = shot.scale.length(_BLOCK), shot.scale.time(1.0) * _TIMES
     fires = heat_release.lights(sources, block, _FIRES)
-    shine = heat_release.lights(sources.luminous(), block, _FIRES)
+    shine = heat_release.lights(shot.fire.luminous(sources), block, _FIRES)
     speed = max(float(np.hypot(*shot.wind)), 1.0)
     drift = np.array([*shot.wind, 0.0])[None, None] * ages[None, :, None]
     flux = (_BRIGGS[1] * fires.power[:, None]) ** (1.0 / 3.0)
