@@ -8,8 +8,8 @@ import numpy as np
 from firetwin_core.terrain import bilinear
 from numpy.typing import ArrayLike, NDArray
 
+from ..utm import Zone
 from .mercator import Box
-from .utm import Zone
 
 Array = NDArray[np.float64]
 

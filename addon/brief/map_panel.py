@@ -28,18 +28,37 @@ def bounds(layers: Sequence[Layer]) -> Box:
 
 def view(fronts: Sequence[Front], whole: Box) -> Box:
     """Choose the initial view: the fronts with a margin, at least an eighth of the box of the run."""
+    box = around(fronts, whole, margin=0.06, parts=8.0)
+    return Box(
+        max(box.south, whole.south),
+        max(box.west, whole.west),
+        min(box.north, whole.north),
+        min(box.east, whole.east),
+    )
+
+
+def around(fronts: Sequence[Front], whole: Box, margin: float, parts: float) -> Box:
+    """Return the box of the fronts with a margin; the whole box without fronts.
+
+    Parameters
+    ----------
+    margin
+        Width of the margin on each side, as a share of the fronts' size.
+    parts
+        The result is at least this part of the whole box: 8 is an eighth.
+    """
     lines = [line for front in fronts for line in front.lines]
     if not lines:
         return whole
     corners = np.concatenate(lines)
     (west, south), (east, north) = corners.min(axis=0), corners.max(axis=0)
     sides = []
-    for low, high, least, most in (
-        (south, north, whole.south, whole.north),
-        (west, east, whole.west, whole.east),
+    for low, high, size in (
+        (south, north, whole.north - whole.south),
+        (west, east, whole.east - whole.west),
     ):
-        margin = max(0.06 * (high - low), ((most - least) / 8.0 - (high - low)) / 2.0)
-        sides.append((max(float(low - margin), least), min(float(high + margin), most)))
+        wider = max(margin * (high - low), (size / parts - (high - low)) / 2.0)
+        sides.append((float(low - wider), float(high + wider)))
     return Box(sides[0][0], sides[1][0], sides[0][1], sides[1][1])
 
 

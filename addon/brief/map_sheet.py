@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from . import base_map, graticule, map_panel, sheet_map
 from .briefing import Briefing
 from .map_frame import MapFrame
+from .mercator import Box
 from .paper import SIZES, Orientation, Paper
 from .sheet_map import Content
 from .sheet_margin import Margin
@@ -73,13 +74,18 @@ def draw(briefing: Briefing, options: SheetOptions, titles: Titles) -> MapSheet:
 
 def orientation(briefing: Briefing, size: str) -> Orientation:
     """Choose the orientation in which the fire is larger."""
-    box = sheet_map.extent(briefing.fronts, map_panel.bounds(briefing.layers))
+    box = _extent(briefing)
     across, along = box.metres
     short, long = SIZES[size]
     panel = _PANEL * Paper(short, long).text_scale
     landscape = min((long - 20.0 - panel) / across, (short - 26.0) / along)
     portrait = min((short - 20.0) / across, (long - 26.0 - 1.3 * panel) / along)
     return "landscape" if landscape >= portrait else "portrait"
+
+
+def _extent(briefing: Briefing) -> Box:
+    """Choose the extent of the sheet: the burned area with a margin, at least a tenth of the run."""
+    return map_panel.around(briefing.fronts, map_panel.bounds(briefing.layers), margin=0.08, parts=10.0)
 
 
 def _layout(
@@ -89,7 +95,7 @@ def _layout(
     width, height = paper.area
     unit = paper.text_scale
     space = graticule.SPACE * unit if options.grid != "none" else 0.3
-    box = sheet_map.extent(briefing.fronts, map_panel.bounds(briefing.layers))
+    box = _extent(briefing)
     while True:
         if paper.width > paper.height:
             panel = _PANEL * unit

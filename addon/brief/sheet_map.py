@@ -16,7 +16,6 @@ from .briefing import Briefing
 from .context import Context
 from .fronts import Front
 from .map_frame import MapFrame
-from .mercator import Box
 from .text import quote
 
 _HOURS = (1, 2, 3, 6, 12, 24, 48, 96)
@@ -144,23 +143,6 @@ def _outside_key() -> str:
         f'<rect x="-4" y="-1.4" width="8" height="2.8" fill="{base_map.OUTSIDE}" stroke="#888" '
         f'stroke-width="0.15"/><path d="{lines}" stroke="{base_map.OUTSIDE_LINE}" stroke-width="0.3"/>'
     )
-
-
-def extent(fronts: Sequence[Front], whole: Box) -> Box:
-    """Choose the extent of the sheet: the burned area with a margin, at least a tenth of the run."""
-    lines = [line for front in fronts for line in front.lines]
-    if not lines:
-        return whole
-    corners = np.concatenate(lines)
-    (west, south), (east, north) = corners.min(axis=0), corners.max(axis=0)
-    sides = []
-    for low, high, size in (
-        (south, north, whole.north - whole.south),
-        (west, east, whole.east - whole.west),
-    ):
-        margin = max(0.08 * (high - low), (size / 10.0 - (high - low)) / 2.0)
-        sides.append((float(low - margin), float(high + margin)))
-    return Box(sides[0][0], sides[1][0], sides[0][1], sides[1][1])
 
 
 def regular(fronts: Sequence[Front], zone: str) -> tuple[list[Front], int]:

@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import bpy
+import firetwin
 import numpy as np
 import pytest
 from firetwin.auto_framing import chase, coarse_smoke, flank, overview
@@ -18,6 +19,15 @@ from small_scene import *  # noqa: F403
 def no_waiting_for_the_disk(monkeypatch):
     """No test cuts the power, so files need not be on the disk."""
     monkeypatch.setattr(os, "fsync", lambda descriptor: None)
+
+
+@pytest.fixture
+def registered(factory):
+    """Blender's factory settings with the add-on registered."""
+    bpy.ops.wm.read_factory_settings()
+    firetwin.register()
+    yield
+    firetwin.unregister()
 
 
 _aprons = {}

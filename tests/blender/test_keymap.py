@@ -6,7 +6,6 @@ from types import SimpleNamespace
 from unittest.mock import MagicMock
 
 import bpy
-import firetwin
 import pytest
 from firetwin.ui import fly, keymap
 
@@ -14,12 +13,7 @@ AROUND = ("3D View", "3D View Generic", "Object Mode", "Object Non-modal", "Fram
 """Key maps of Blender in which a key works in the 3D view in object mode."""
 
 
-@pytest.fixture(autouse=True)
-def _registered(factory):
-    bpy.ops.wm.read_factory_settings()
-    firetwin.register()
-    yield
-    firetwin.unregister()
+pytestmark = pytest.mark.usefixtures("registered")
 
 
 def of_blender():

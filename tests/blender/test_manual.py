@@ -10,14 +10,6 @@ import pytest
 from firetwin.ui import manual, manual_pages, sections, sidebar
 
 
-@pytest.fixture
-def registered(factory):
-    bpy.ops.wm.read_factory_settings()
-    firetwin.register()
-    yield
-    firetwin.unregister()
-
-
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
     """The manual as HTML; the folder."""

@@ -9,13 +9,7 @@ import operator_table
 import pytest
 from firetwin.ui import menus
 
-
-@pytest.fixture(autouse=True)
-def _registered(factory):
-    bpy.ops.wm.read_factory_settings()
-    firetwin.register()
-    yield
-    firetwin.unregister()
+pytestmark = pytest.mark.usefixtures("registered")
 
 
 def test_f3_finds_every_operator_by_a_full_name():

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from firetwin.render import flame_distance
 from firetwin.render.rays import Rays
-from firetwin.scene.fire import flame_volume
 from firetwin_core import volume
+from flame_field import flames
 from march_light import NO_LIGHT
 
 LIGHT = volume.Illumination(**NO_LIGHT)
@@ -15,28 +15,8 @@ def line(away, depth=8.0, length=6.0):
     """Flames on level ground at y from `away` to `away` + `depth`, m."""
     y = np.arange(-10.0, 90.0, 0.5)
     lengths = np.where((y >= away) & (y <= away + depth), length, 0.0)[:, None] * np.ones(len(y))
-    light = volume.FlameLight(
-        visible=flame_volume.visible(1.0),
-        extinction=flame_volume.EXTINCTION,
-        soot=0.0,
-        soot_light=(0.0, 0.0, 0.0),
-        coolest=flame_volume.KELVIN[0],
-        hottest=flame_volume.KELVIN[1],
-        scales=flame_volume.SCALES,
-        infrared=flame_volume.INFRARED,
-        dim=0.0,
-    )
     square = lengths.astype(np.float32), np.zeros(lengths.shape, np.float32), (-50.0, -10.0), 0.5
-    return volume.FlameVolume(
-        squares=[square],
-        spindles=np.empty((0, 6)),
-        shape=volume.FlameShape(wind=(0.0, 0.0)),
-        light=light,
-        pixel=0.0,
-        fade=(1e6, 2e6),
-        origin=(0.0, 0.0, 0.0),
-        time=3.0,
-    )
+    return flames([square])
 
 
 @pytest.mark.parametrize("away", [15.0, 60.0])

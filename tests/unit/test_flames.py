@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from firetwin.scene.fire import flame_volume
 from firetwin_core import sensor, volume
+from flame_field import flames
 from march_light import NO_LIGHT
 
 PLANCK = dict(coldest=180.0, kelvin_step=2.0)
@@ -32,30 +33,6 @@ def front(length, depth, cells=12, half=4.0, shift=0.0):
     )
     lengths = np.broadcast_to(length * full, (len(lines), len(lines)))
     return np.array(lengths, np.float32), np.zeros(lengths.shape, np.float32), (lines[0], lines[0]), cell
-
-
-def flames(squares, time=3.0, wind=(0.0, 0.0), pixel=0.0, spindles=None, origin=(0.0, 0.0, 0.0), **changes):
-    light = dict(
-        visible=flame_volume.visible(1.0),
-        extinction=flame_volume.EXTINCTION,
-        soot=0.0,
-        soot_light=(0.0, 0.0, 0.0),
-        coolest=flame_volume.KELVIN[0],
-        hottest=flame_volume.KELVIN[1],
-        scales=flame_volume.SCALES,
-        infrared=flame_volume.INFRARED,
-        dim=0.0,
-    )
-    return volume.FlameVolume(
-        squares=squares,
-        spindles=np.empty((0, 6)) if spindles is None else spindles,
-        shape=volume.FlameShape(wind=wind),
-        light=volume.FlameLight(**(light | changes)),
-        pixel=pixel,
-        fade=(1e6, 2e6),
-        origin=origin,
-        time=time,
-    )
 
 
 def look(length, away=4.0, wide=64, high=48, elevation=0.0):

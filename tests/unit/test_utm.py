@@ -3,8 +3,8 @@
 import numpy as np
 import pyproj
 import pytest
-from firetwin.brief import utm
-from firetwin.brief.utm import Zone
+from firetwin import utm
+from firetwin.utm import Zone
 
 
 @pytest.mark.parametrize(("number", "south"), [(10, False), (33, True), (60, False)])

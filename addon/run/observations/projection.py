@@ -12,8 +12,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ...ellipsoid import E2, A
+from ...ellipsoid import A
 from ...errors import input_error
+from ...utm import Zone
 
 Array = NDArray[np.float64]
 
@@ -42,7 +43,8 @@ def to_degrees(path: Path, system: str, points: Array) -> Array:
     if code in _WEB_MERCATOR:
         return _from_web_mercator(points)
     if zone := _utm_zone(code):
-        return _from_utm(points, *zone)
+        latitude, longitude = zone.inverse(*points.T)
+        return np.column_stack([longitude, latitude])
     if system in UNDEFINED:
         raise input_error(path, "has no reference system; save it in WGS84 (EPSG:4326)")
     try:
@@ -77,40 +79,12 @@ def _from_web_mercator(points: Array) -> Array:
     return np.degrees(np.column_stack([points[:, 0] / A, np.arcsin(np.tanh(points[:, 1] / A))]))
 
 
-def _utm_zone(code: str) -> tuple[int, bool] | None:
-    """Return UTM zone and True for north, for codes of WGS84 and of NAD83 in America; else None."""
+def _utm_zone(code: str) -> Zone | None:
+    """Return the UTM zone of a code of WGS84, or of NAD83 in America; else None."""
     match = re.fullmatch(r"EPSG:(326|327|269)(\d\d)", code)
-    if not match or not 1 <= (zone := int(match[2])) <= (23 if match[1] == "269" else 60):
+    if not match or not 1 <= (number := int(match[2])) <= (23 if match[1] == "269" else 60):
         return None
-    return zone, match[1] != "327"
-
-
-def _from_utm(points: Array, zone: int, north: bool) -> Array:
-    """Invert UTM by Krueger's series to the fourth order (Karney 2011, Journal of Geodesy 85, 475-485).
-
-    The series for the latitude from the conformal latitude is from Snyder 1987, USGS PP 1395, in powers of n.
-    """
-    f = 1.0 - np.sqrt(1.0 - E2)
-    n = f / (2.0 - f)
-    radius = 0.9996 * A / (1.0 + n) * (1.0 + n**2 / 4.0 + n**4 / 64.0)
-    beta = (
-        n / 2 - 2 * n**2 / 3 + 37 * n**3 / 96 - n**4 / 360,
-        n**2 / 48 + n**3 / 15 - 437 * n**4 / 1440,
-        17 * n**3 / 480 - 37 * n**4 / 840,
-        4397 * n**4 / 161280,
-    )
-    delta = (
-        2 * n - 2 * n**2 / 3 - 2 * n**3 + 116 * n**4 / 45,
-        7 * n**2 / 3 - 8 * n**3 / 5 - 227 * n**4 / 45,
-        56 * n**3 / 15 - 136 * n**4 / 35,
-        4279 * n**4 / 630,
-    )
-    plane = (points[:, 1] - (0.0 if north else 1e7)) / radius + 1j * (points[:, 0] - 5e5) / radius
-    plane = plane - sum(b * np.sin(2 * j * plane) for j, b in enumerate(beta, 1))
-    conformal = np.arcsin(np.sin(plane.real) / np.cosh(plane.imag))
-    latitude = conformal + sum(d * np.sin(2 * j * conformal) for j, d in enumerate(delta, 1))
-    longitude = np.arctan2(np.sinh(plane.imag), np.cos(plane.real))
-    return np.column_stack([np.degrees(longitude) + 6.0 * zone - 183.0, np.degrees(latitude)])
+    return Zone(number, south=match[1] == "327")
 
 
 def _is_plain(text: str) -> bool:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..ellipsoid import E2, A
+from .ellipsoid import E2, A
 
 Array = NDArray[np.float64]
 
