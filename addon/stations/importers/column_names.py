@@ -10,61 +10,28 @@ from ...errors import input_error
 from .. import import_rows
 
 _SPELLINGS = {
-    "name": (
-        *("name", "stationname", "facilityname", "facname", "stnname", "fsname", "station", "facility"),
-        *("title", "label", "featurename"),
-    ),
-    "latitude": ("latitude", "lat", "latdd", "declat", "latdec", "ylat", "latitudedd"),
-    "longitude": (
-        "longitude",
-        "lon",
-        "lng",
-        "long",
-        "londd",
-        "longdd",
-        "declon",
-        "declong",
-        "londec",
-        "xlon",
-    ),
-    "x": ("x", "xcoord", "pointx", "easting", "coordx", "xcoordinate", "east"),
-    "y": ("y", "ycoord", "pointy", "northing", "coordy", "ycoordinate", "north"),
-    "kind": ("kind", "type", "stationtype", "facilitytype", "factype", "typename"),
+    "name": ("name stationname facilityname facname stnname fsname station facility title label featurename"),
+    "latitude": "latitude lat latdd declat latdec ylat latitudedd",
+    "longitude": "longitude lon lng long londd longdd declon declong londec xlon",
+    "x": "x xcoord pointx easting coordx xcoordinate east",
+    "y": "y ycoord pointy northing coordy ycoordinate north",
+    "kind": "kind type stationtype facilitytype factype typename",
     "agency": (
-        *("agency", "operator", "department", "dept", "agencyname", "departmentname", "deptname"),
-        *("firedepartment", "firedistrict", "district", "jurisdiction", "organization"),
+        "agency operator department dept agencyname departmentname deptname firedepartment "
+        "firedistrict district jurisdiction organization"
     ),
-    "staffing": ("staffing", "staffingtype", "stafftype", "staffed", "staff", "careervolunteer"),
-    "address": ("address", "streetaddress", "fulladdress", "siteaddress", "address1", "addr"),
-    "city": ("city", "town", "municipality"),
-    "state": ("state", "stateabbr"),
-    "zip": ("zip", "zipcode", "postcode", "postalcode"),
+    "staffing": "staffing staffingtype stafftype staffed staff careervolunteer",
+    "address": "address streetaddress fulladdress siteaddress address1 addr",
+    "city": "city town municipality",
+    "state": "state stateabbr",
+    "zip": "zip zipcode postcode postalcode",
     "source_id": (
-        *(
-            "id",
-            "number",
-            "sourceid",
-            "ref",
-            "stationno",
-            "stationnumber",
-            "stationnum",
-            "stationid",
-            "stnno",
-        ),
-        *("facilityid", "objectid", "fid"),
+        "id number sourceid ref stationno stationnumber stationnum stationid stnno facilityid objectid fid"
     ),
-    "origin": ("origin",),
+    "origin": "origin",
     "date": (
-        *(
-            "editdate",
-            "lasteditdate",
-            "lastediteddate",
-            "lastupdate",
-            "lastupdated",
-            "dateupdated",
-            "updated",
-        ),
-        *("modified", "datemodified", "geodate", "loaddate"),
+        "editdate lasteditdate lastediteddate lastupdate lastupdated dateupdated updated "
+        "modified datemodified geodate loaddate"
     ),
 }
 """Usual spellings by meaning, in lower case without other characters than letters and digits; best first."""
@@ -93,7 +60,7 @@ def find_columns(path: Path, columns: Iterable[str], given: Mapping[str, str]) -
             plain.setdefault(_simplify(name), name)
     found = {}
     for meaning, spellings in _SPELLINGS.items():
-        spelling = next((each for each in spellings if each in plain), None)
+        spelling = next((each for each in spellings.split() if each in plain), None)
         if spelling is not None:
             found[meaning] = plain[spelling]
     if "name" not in found:
