@@ -14,7 +14,7 @@ from bpy_extras.io_utils import ExportHelper, ImportHelper
 from firetwin.farm import submission
 from firetwin.jobs import assets, convert, render, render_blend, sample
 from firetwin.jobs.tiles import bounding_boxes
-from firetwin.ui import navigation, queue, smoke_volumes, stations_panel, working
+from firetwin.ui import navigation, quality, queue, smoke_volumes, stations_panel, working
 from mathutils import Euler, Matrix
 from panel_scene import state
 
@@ -159,6 +159,7 @@ def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path
     monkeypatch.setattr(smoke_volumes, "_state", lambda scene: smoke_volumes._State(3, {1}))
     monkeypatch.setattr(bpy.utils, "user_resource", lambda *_, path="", **__: str(tmp_path / path))
     (tmp_path / "presets" / "firetwin").mkdir(parents=True)
+    monkeypatch.setattr(quality.FIRETWIN_MT_presets, "bl_label", "Presets")  # becomes the preset's name
     bpy.ops.ed.undo_push(message="opened")
     bpy.context.scene.firetwin.light.haze = 0.7
     for name, options in CHANGES.items():
