@@ -243,17 +243,70 @@ py::bytes encode_png(const py::object& pixels) {
   return {reinterpret_cast<const char*>(encoded.data()), encoded.size()};
 }
 
+template <std::size_t n> std::array<float, n> copied(const Array<float>& array) {
+  std::array<float, n> result{};
+  std::copy_n(array.data(), n, result.begin());
+  return result;
+}
+
+/// Converts a value of a header attribute; a fraction is anything with a numerator and denominator.
+sensor::Attribute attribute(const std::string& name, const py::handle& value) {
+  if (py::isinstance<py::str>(value)) {
+    return value.cast<std::string>();
+  }
+  if (py::isinstance<sensor::TimeCode>(value)) {
+    return value.cast<sensor::TimeCode>();
+  }
+  if (py::isinstance<py::int_>(value)) {
+    return value.cast<std::int32_t>();
+  }
+  if (py::isinstance<py::float_>(value)) {
+    return value.cast<float>();
+  }
+  if (py::hasattr(value, "numerator") && py::hasattr(value, "denominator")) {
+    return sensor::Rational{value.attr("numerator").cast<std::int32_t>(),
+                            value.attr("denominator").cast<std::uint32_t>()};
+  }
+  const auto array = to_array<float>(value, "metadata " + name);
+  if (array.ndim() == 0) { // such as numpy.float32
+    return *array.data();
+  }
+  if (array.ndim() == 1 && array.size() == 2) {
+    return copied<2>(array);
+  }
+  if (array.ndim() == 1 && array.size() == 3) {
+    return copied<3>(array);
+  }
+  if (array.ndim() == 2 && array.shape(0) == 4 && array.shape(1) == 4) {
+    return copied<16>(array);
+  }
+  wrong("metadata " + name, "must have shape (2,), (3,) or (4, 4), not " + shape_text(array));
+}
+
+sensor::TimeCode time_code(unsigned hours, unsigned minutes, unsigned seconds, unsigned frame,
+                           bool drop_frame, bool second_field) {
+  if (hours > 23 || minutes > 59 || seconds > 59 || frame > 29) {
+    throw py::value_error("a time code has at most 23 hours, 59 minutes, 59 seconds and frame 29");
+  }
+  return {hours, minutes, seconds, frame, drop_frame, second_field};
+}
+
 void write_image(const std::filesystem::path& path, const py::object& pixels,
-                 const std::optional<io::Metadata>& metadata,
-                 const std::optional<std::vector<std::string>>& channels) {
+                 const std::optional<py::dict>& metadata,
+                 const std::optional<std::vector<std::string>>& names, bool half, bool one_line) {
   const auto image = to_array<float>(pixels, "pixels");
   const auto [height, width, count] = image_size(image);
-  if (channels && channels->size() != count) {
-    wrong("channels", "must have one name per channel, " + std::to_string(count));
+  if (names && names->size() != count) {
+    wrong("names", "must have one name per channel, " + std::to_string(count));
+  }
+  sensor::Attributes attributes;
+  for (const auto& [key, value] : metadata.value_or(py::dict{})) {
+    const auto name = key.cast<std::string>();
+    attributes[name] = attribute(name, value);
   }
   const py::gil_scoped_release release;
-  sensor::write_image(path, view(image), height, width, count, metadata.value_or(io::Metadata{}),
-                      channels.value_or(std::vector<std::string>{}));
+  sensor::write_image(path, view(image), height, width, count, attributes,
+                      {names.value_or(std::vector<std::string>{}), half, one_line});
 }
 
 } // namespace
@@ -291,7 +344,12 @@ void init_sensor(Module module) {
   module.def("encode_png", &encode_png, py::arg("pixels"));
   module.def("read_channels", &read_channels, py::arg("path"));
   module.def("write_image", &write_image, py::arg("path"), py::arg("pixels"),
-             py::arg("metadata") = py::none(), py::arg("channels") = py::none());
+             py::arg("metadata") = py::none(), py::arg("names") = py::none(), py::kw_only(),
+             py::arg("half") = false, py::arg("one_line") = false);
+  Class<sensor::TimeCode>(module, "TimeCode")
+      .def(py::init(&time_code), py::arg("hours"), py::arg("minutes"), py::arg("seconds"),
+           py::arg("frame"), py::kw_only(), py::arg("drop_frame") = false,
+           py::arg("second_field") = false);
 }
 
 } // namespace firetwin::bindings

@@ -10,11 +10,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <mutex>
 #include <ostream>
 #include <stdexcept>
 #include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
 
 namespace firetwin::sensor {
 namespace {
@@ -77,28 +81,93 @@ void set_limits() {
   });
 }
 
-OIIO::ImageSpec make_spec(std::size_t height, std::size_t width, std::size_t channels, bool exr,
-                          const io::Metadata& metadata, const std::vector<std::string>& names) {
+constexpr float half_max = 65504.0F;
+
+/// OpenImageIO's names of attributes that it does not pass on by their names in OpenEXR.
+constexpr std::array<std::pair<std::string_view, const char*>, 5> oiio_names{{
+    {"capDate", "DateTime"},
+    {"comments", "ImageDescription"},
+    {"owner", "Copyright"},
+    {"timeCode", "smpte:TimeCode"},
+    {"worldToCamera", "worldtocamera"},
+}};
+
+/// Bits of OpenEXR's TV60 packing: binary-coded decimals, and flags.
+std::array<std::uint32_t, 2> pack(const TimeCode& code) {
+  const auto decimal = [](unsigned value) { return value / 10 * 16 + value % 10; };
+  return {decimal(code.frame) | (code.drop_frame ? 1U << 6U : 0U) | decimal(code.seconds) << 8U |
+              (code.second_field ? 1U << 15U : 0U) | decimal(code.minutes) << 16U |
+              decimal(code.hours) << 24U,
+          0U};
+}
+
+void set_attribute(OIIO::ImageSpec& spec, const std::string& key, const Attribute& value) {
+  using OIIO::TypeDesc;
+  const auto* const known = std::find_if(oiio_names.begin(), oiio_names.end(),
+                                         [&key](const auto& each) { return each.first == key; });
+  const std::string name = known != oiio_names.end() ? known->second : key;
+  const auto set = [&]<class T>(const T& typed) {
+    if constexpr (std::is_same_v<T, Rational>) {
+      const std::array<std::int32_t, 2> both{typed.numerator,
+                                             static_cast<std::int32_t>(typed.denominator)};
+      spec.attribute(name, OIIO::TypeRational, both.data());
+    } else if constexpr (std::is_same_v<T, TimeCode>) {
+      spec.attribute(name, OIIO::TypeTimeCode, pack(typed).data());
+    } else if constexpr (std::is_same_v<T, std::array<float, 2>>) {
+      spec.attribute(name, TypeDesc(TypeDesc::FLOAT, TypeDesc::VEC2), typed.data());
+    } else if constexpr (std::is_same_v<T, std::array<float, 3>>) {
+      spec.attribute(name, TypeDesc(TypeDesc::FLOAT, TypeDesc::VEC3), typed.data());
+    } else if constexpr (std::is_same_v<T, std::array<float, 16>>) {
+      spec.attribute(name, OIIO::TypeMatrix, typed.data());
+    } else {
+      spec.attribute(name, typed);
+    }
+  };
+  std::visit(set, value);
+}
+
+OIIO::ImageSpec make_spec(std::size_t height, std::size_t width, std::size_t channels,
+                          OIIO::TypeDesc format, const Attributes& attributes) {
   OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height),
-                       static_cast<int>(channels),
-                       exr ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
-  if (exr) {
-    spec.attribute("compression", "zip");
-    spec.attribute("DateTime",
-                   "1970:01:01 00:00:00"); // the default is the current time, which makes files of
-                                           // equal images differ
-  }
-  if (!exr) {
-    spec.attribute("png:compressionLevel", png_level);
-    spec.attribute("png:filter", png_filter);
-  }
-  if (exr && !names.empty()) {
-    spec.channelnames = names;
-  }
-  for (const auto& [key, value] : metadata) {
-    spec.attribute(key, value);
+                       static_cast<int>(channels), format);
+  for (const auto& [key, value] : attributes) {
+    set_attribute(spec, key, value);
   }
   return spec;
+}
+
+OIIO::ImageSpec exr_spec(std::size_t height, std::size_t width, std::size_t channels,
+                         const Attributes& attributes, const ExrStorage& storage) {
+  OIIO::ImageSpec spec = make_spec(height, width, channels,
+                                   storage.half ? OIIO::TypeHalf : OIIO::TypeFloat, attributes);
+  if (!attributes.contains("capDate")) {
+    // The default is the current time, which makes files of equal images differ.
+    spec.attribute("DateTime", "1970:01:01 00:00:00");
+  }
+  spec.attribute("compression", storage.one_line ? "zips" : "zip");
+  if (!storage.names.empty()) {
+    spec.channelnames = storage.names;
+  }
+  return spec;
+}
+
+OIIO::ImageSpec png_spec(std::size_t height, std::size_t width, std::size_t channels,
+                         const Attributes& attributes) {
+  OIIO::ImageSpec spec = make_spec(height, width, channels, OIIO::TypeUInt8, attributes);
+  spec.attribute("png:compressionLevel", png_level);
+  spec.attribute("png:filter", png_filter);
+  return spec;
+}
+
+/// Limits finite values to those of 16-bit floats, which would otherwise become infinite.
+std::vector<float> limited_to_half(std::span<const float> pixels) {
+  std::vector<float> limited(pixels.begin(), pixels.end());
+  for (float& value : limited) {
+    if (std::isfinite(value)) {
+      value = std::clamp(value, -half_max, half_max);
+    }
+  }
+  return limited;
 }
 
 void check_size(const std::string& name, std::size_t height, std::size_t width,
@@ -176,23 +245,29 @@ std::vector<unsigned char> encode_png(std::span<const float> pixels, std::size_t
                                       std::size_t width, std::size_t channels) {
   const std::string name = "PNG";
   check_size(name, height, width, channels);
-  return encode(name, pixels, make_spec(height, width, channels, false, {}, {}), false);
+  return encode(name, pixels, png_spec(height, width, channels, {}), false);
 }
 
 void write_image(const std::filesystem::path& path, std::span<const float> pixels,
                  std::size_t height, std::size_t width, std::size_t channels,
-                 const io::Metadata& metadata, const std::vector<std::string>& names) {
+                 const Attributes& attributes, const ExrStorage& storage) {
   const bool exr = path.extension() == ".exr";
   if (!exr && path.extension() != ".png") {
     io::fail(path, "an image file must end in .png or .exr");
   }
   check_size(io::utf8(path), height, width, channels);
-  if (!names.empty() && names.size() != channels) {
+  if (!storage.names.empty() && storage.names.size() != channels) {
     throw std::invalid_argument("names must have one entry per channel");
   }
+  const OIIO::ImageSpec spec = exr ? exr_spec(height, width, channels, attributes, storage)
+                                   : png_spec(height, width, channels, attributes);
+  std::vector<float> limited;
+  if (exr && storage.half) {
+    limited = limited_to_half(pixels);
+    pixels = limited;
+  }
   // Encoded in memory: OpenImageIO does not report a full disk while it writes the end of an EXR.
-  const std::vector<unsigned char> bytes =
-      encode(io::utf8(path), pixels, make_spec(height, width, channels, exr, metadata, names), exr);
+  const std::vector<unsigned char> bytes = encode(io::utf8(path), pixels, spec, exr);
   io::write_file(path, [&bytes](std::ostream& stream) {
     stream.write(reinterpret_cast<const char*>(bytes.data()),
                  static_cast<std::streamsize>(bytes.size()));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/metadata.hpp"
+#include "sensor/attribute.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -34,12 +34,19 @@ Image decode_image(std::span<const unsigned char> data, const std::string& name)
 std::vector<unsigned char> encode_png(std::span<const float> pixels, std::size_t height,
                                       std::size_t width, std::size_t channels);
 
-/// Writes .png (8 bit, values clamped to 0..1) or .exr (32-bit float, ZIP) atomically (see
+/// Storage of an EXR.
+struct ExrStorage {
+  std::vector<std::string> names; ///< of channels, one per channel; empty: R, G, B...
+  bool half = false;              ///< 16-bit floats, with values limited to +-65504; else 32-bit
+  bool one_line = false;          ///< ZIPS (blocks of one line), else ZIP (blocks of 16 lines)
+};
+
+/// Writes .png (8 bit, values clamped to 0..1) or .exr (scan lines, lossless) atomically (see
 /// io/new_file.hpp).
-/// @param names channel names of an EXR, one per channel; empty: R, G, B...
+/// @param attributes of the header; a PNG keeps texts only
 /// @throws InputError if the file cannot be written
 void write_image(const std::filesystem::path& path, std::span<const float> pixels,
                  std::size_t height, std::size_t width, std::size_t channels,
-                 const io::Metadata& metadata, const std::vector<std::string>& names = {});
+                 const Attributes& attributes, const ExrStorage& storage = {});
 
 } // namespace firetwin::sensor

@@ -1,5 +1,7 @@
 """Radiometry, detector model, thermal views and image files."""
 
+from collections.abc import Mapping, Sequence
+from numbers import Rational
 from os import PathLike
 
 import numpy as np
@@ -166,13 +168,48 @@ def encode_png(pixels: ArrayLike) -> bytes:
 def read_channels(path: str | PathLike[str]) -> dict[str, NDArray[np.float32]]:
     """Read an image file as one array (h, w) per channel name, including the layers of an EXR."""
 
+class TimeCode:
+    """SMPTE ST 12-1 time code of a frame."""
+
+    def __init__(
+        self,
+        hours: int,
+        minutes: int,
+        seconds: int,
+        frame: int,
+        *,
+        drop_frame: bool = False,
+        second_field: bool = False,
+    ) -> None:
+        """Make a time code.
+
+        Parameters
+        ----------
+        hours, minutes, seconds
+            At most 23, 59 and 59.
+        frame
+            At most 29. Rates above 30 frames per second count pairs of frames.
+        drop_frame
+            The count skips numbers, to follow the clock at 29.97 frames per second.
+        second_field
+            Second frame of a pair.
+
+        Raises
+        ------
+        ValueError
+            A number is out of range.
+        """
+
 def write_image(
     path: str | PathLike[str],
     pixels: ArrayLike,
-    metadata: dict[str, str] | None = None,
-    channels: list[str] | None = None,
+    metadata: Mapping[str, str | float | Rational | TimeCode | ArrayLike] | None = None,
+    names: Sequence[str] | None = None,
+    *,
+    half: bool = False,
+    one_line: bool = False,
 ) -> None:
-    """Write (h, w) or (h, w, c) pixels to a .png (8 bit, clamped to 0..1) or .exr (32-bit float, ZIP) file.
+    """Write (h, w) or (h, w, c) pixels to a .png (8 bit, clamped to 0..1) or .exr file (lossless).
 
     Writing is atomic: a temporary file is renamed after it has been flushed to the disk.
 
@@ -183,12 +220,20 @@ def write_image(
     pixels
         (h, w) or (h, w, c).
     metadata
-        Metadata by name.
-    channels
-        Channel names of an EXR. Default: R, G, B...
+        Attributes of the header by OpenEXR's names. The value determines the type: text, `int`, `float`,
+        `fractions.Fraction` (rational), `TimeCode`, arrays of 2 or 3 (v2f, v3f), and of 4 by 4 (m44f, for row
+        vectors). ``capDate`` is the start of 1970 unless given. A PNG keeps texts only.
+    names
+        Channel names of an EXR, up to 64. Default: R, G, B...
+    half
+        Write 16-bit floats to an EXR, with finite values limited to 65504; otherwise 32-bit floats.
+    one_line
+        Compress each line of an EXR separately (ZIPS); otherwise 16 lines together (ZIP).
 
     Raises
     ------
     InputError
         The file cannot be written, for example on a full disk. An existing file is not changed.
+    ValueError
+        An array in `metadata` has another shape, or `names` another length than the channels.
     """
