@@ -3,7 +3,9 @@
 It lists the frames whose visible picture and sidecar (see `shot.passes.pose`) are finished, with intrinsics
 and `transform_matrix`. `passes` lists every finished file of the frame. Cameras without a perspective
 projection have no index. ``transforms.json`` of the output folder has the frames of all cameras. `credits`
-of a frame name the sources of its tiles. The file is replaced atomically when a render ends.
+of a frame name the sources of its tiles. `depth_file_path` and `mask_path` are the files of the pass
+`nerfstudio`; as its data parser requires, all frames of an index have them, or none. The file is replaced
+atomically when a render ends.
 """
 
 from __future__ import annotations
@@ -48,8 +50,16 @@ def _of_camera(camera: str, frame: dict[str, Any]) -> dict[str, Any]:
 
 
 def _write_index(path: Path, frames: list[dict[str, Any]]) -> None:
+    if all("nerfstudio" in frame["passes"] for frame in frames):
+        frames = [frame | _training_files(frame["passes"]["nerfstudio"]) for frame in frames]
     index = {"camera_model": "OPENCV", "classes": dict(enumerate(masks.NAMES)), "frames": frames}
     files.write(path, functools.partial(_write_text, json.dumps(index, indent=1) + "\n"))
+
+
+def _training_files(paths: list[str]) -> dict[str, str]:
+    """Return the keys of the depth and mask files of a frame."""
+    named = {"depth_file_path": ".npy", "mask_path": ".png"}
+    return {key: path for key, suffix in named.items() for path in paths if path.endswith(suffix)}
 
 
 def _write_text(text: str, part: Path) -> None:

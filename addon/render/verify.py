@@ -6,6 +6,7 @@ import json
 import struct
 from pathlib import Path
 
+import numpy as np
 from firetwin_core import sensor
 
 from ..errors import Error, full_disk_error, input_error, is_nearly_full
@@ -14,7 +15,7 @@ _PNG_END = b"\0\0\0\0IEND\xaeB`\x82"
 
 
 def picture(path: Path, size: tuple[int, int]) -> None:
-    """Decode a picture of `size` (width, height), or parse a JSON file, completely.
+    """Decode a picture or array of `size` (width, height), or parse a JSON file, completely.
 
     Raises
     ------
@@ -24,9 +25,10 @@ def picture(path: Path, size: tuple[int, int]) -> None:
     if path.suffix == ".json":
         return _text(path)
     try:
-        height, width = sensor.read_image(path).shape[:2]
+        array = path.suffix == ".npy"
+        height, width = (np.load(path) if array else sensor.read_image(path)).shape[:2]
         complete = path.suffix != ".png" or _end(path, len(_PNG_END)) == _PNG_END
-    except (Error, OSError) as error:
+    except (Error, OSError, ValueError, EOFError) as error:
         raise _damage_error(path, getattr(error, "reason", str(error))) from None
     if not complete:
         raise _damage_error(path, "is cut off")

@@ -243,7 +243,7 @@ def test_a_picture_depends_on_the_settings_that_it_shows():
     assert changes(render=s.Render(resolution=(64, 36))) == everything
     assert changes(render=s.Render(samples=7)) == lit
     assert changes(light=sections.Light(haze=0.5)) == lit
-    assert changes(smoke=sections.SmokeSettings(max_age=9.0)) == lit | {"masks"}
+    assert changes(smoke=sections.SmokeSettings(max_age=9.0)) == lit | {"masks", "nerfstudio"}
     assert changes(render=s.Render(thermal_high=900.0)) == {"thermal", "overlay", "fused"}
     assert changes(render=s.Render(passes=("rgb",), video=False, device="cpu")) == {"pose"}
     # Built objects and their detail depend on the filmed frames.
@@ -387,7 +387,18 @@ def test_a_changed_source_changes_what_it_makes_and_no_more(tmp_path, monkeypatc
         after = keys()
         return {name for name in before if before[name] != after[name]}
 
-    shown = {"rgb", "thermal", "thermal_map", "edl", "overlay", "fused", "masks", "split", "difference"}
+    shown = {
+        "rgb",
+        "thermal",
+        "thermal_map",
+        "edl",
+        "overlay",
+        "fused",
+        "masks",
+        "nerfstudio",
+        "split",
+        "difference",
+    }
     assert changed("scene/smoke/material.py") == shown
     assert changed("scene/fire/flames.py") == shown
     assert {"rgb", "thermal", "masks", "depth"} <= changed("scene/stations/signs.py")

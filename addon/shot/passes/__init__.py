@@ -206,7 +206,8 @@ def compares(name: str) -> bool:
 
 def refused(each: Pass, camera: CameraSettings, engine: str) -> str:
     """Return the reason why a camera cannot record a pass with an engine; empty if it can."""
-    if records_masks(each) and engine == "eevee":
+    drawn = (each, *(known()[name] for name in each.made_from))
+    if engine == "eevee" and any(map(records_masks, drawn)):
         return (
             f'camera "{camera.name}" cannot record {each.name} with EEVEE, whose pixels have 11 bits, '
             "too few for tree numbers; render it with Cycles"
