@@ -50,7 +50,7 @@ def format_default(part: Field) -> str:
     """Format the default of a key as a scene file writes it."""
     if part.table:
         return "none"
-    found = plain(part.type, part.default)
+    found = part.default if isinstance(part.default, int) else plain(part.type, part.default)
     if found is None or found == "" or found == []:
         return "not set"
     if isinstance(found, bool):

@@ -9,6 +9,7 @@ import itertools
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -356,6 +357,11 @@ def typeface_path() -> str:
     """Return the path of Blender's typeface; empty if it is not installed."""
     path = os.path.join(bpy.utils.system_resource("DATAFILES", path="fonts"), "Inter.woff2")
     return path if os.path.isfile(path) else ""
+
+
+def set_frame_rate(render: bpy.types.RenderSettings, rate: Fraction) -> None:
+    """Set the frames per second of a scene; Blender's films have exactly this rate."""
+    render.fps, render.fps_base = round(rate), round(rate) / float(rate)
 
 
 def film_settings(render: bpy.types.RenderSettings) -> None:

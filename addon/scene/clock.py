@@ -24,7 +24,7 @@ def set_frame_range(shot: Shot, stage: Stage) -> None:
     if stage.is_own:
         scene = stage.scene
         scene.frame_start, scene.frame_end = 1, shot.frames.count
-        scene.render.fps, scene.render.fps_base = shot.settings.time.fps, 1.0
+        compat.set_frame_rate(scene.render, shot.settings.time.rate)
         scene.frame_set(1)
 
 

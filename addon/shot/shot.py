@@ -15,8 +15,9 @@ from firetwin_core import geo
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
+from .. import timecode
 from ..errors import UsageError
-from ..progress import Progress, count, duration, silent
+from ..progress import Progress, duration, silent
 from ..run import burning, content, run_warnings, times, zone
 from ..run.frame import local_frame
 from . import frames
@@ -121,7 +122,7 @@ class Shot:
     @property
     def speed(self) -> float:
         """Speed of the films, times real time; 0 for a still."""
-        return self.frames.step * self.settings.time.fps
+        return self.frames.step * float(self.settings.time.rate)
 
     def with_sub_frames(self, parts: int) -> Shot:
         """Return the shot with each frame interval divided into `parts`, for the flow of its smoke alone."""
@@ -136,10 +137,10 @@ class Shot:
 
     def describe_film(self) -> str:
         """Describe a film: ``5 frames at 12 frames per second show 5 s of the fire, 15 times real time``."""
-        shown, fps = self.frames, self.settings.time.fps
+        shown, rate = self.frames, self.settings.time.rate
         if shown.count == 1:
             return "1 frame, a still"
-        film = f"{shown.count} frames at {count(fps, 'frame')} per second"
+        film = f"{shown.count} frames at {timecode.format_rate(rate)} frame{'s' * (rate != 1)} per second"
         speed = float(f"{self.speed:.3g}")
         return f"{film} show {duration(shown.last - shown.first)} of the fire, {speed:,g} times real time"
 

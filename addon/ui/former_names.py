@@ -9,6 +9,7 @@ import contextlib
 import json
 import re
 from pathlib import Path
+from typing import Any
 
 import bpy
 
@@ -44,9 +45,16 @@ def migrate(*_: object) -> None:
             exact = json.loads(kept.get("exact") or "{}")  # see `keys`
             if former in exact:
                 kept["exact"] = json.dumps(exact | {name: exact.pop(former)})
+        _store_as_float(stored.get("time", {}), "fps")
     if renamed:
         names = "; ".join(dict.fromkeys(renamed))
         progress.say(f"{names}; save the file, because former names are read in this version only")
+
+
+def _store_as_float(kept: Any, name: str) -> None:
+    """Keep a whole number whose property is a float now; Blender drops values of another type."""
+    if isinstance(kept.get(name), int):
+        kept[name] = float(kept[name])
 
 
 def update_presets() -> None:

@@ -8,6 +8,7 @@ from datetime import UTC, datetime, timedelta
 
 import bpy
 
+from .. import timecode
 from ..run import times
 from ..shot.schema import fields
 from ..shot.sections import Time
@@ -210,14 +211,17 @@ def _draw_speed(
     layout: bpy.types.UILayout, time: bpy.types.PropertyGroup, first: datetime | None, last: datetime | None
 ) -> None:
     """Draw the speed of the films: as given, else by start and end."""
-    given = next(keys.take(time, part) for part in fields(Time) if part.name == "speed")
+    given, fps = (
+        next(keys.take(time, part) for part in fields(Time) if part.name == name) for name in ("speed", "fps")
+    )
+    rate = float(timecode.exact_rate(fps))
     if given is not None:
-        step = given / time.fps
+        step = given / rate
     elif first and last and time.frames > 1:
         step = (last - first).total_seconds() / (time.frames - 1)
     else:
         return
-    layout.label(text=f"{step:,.7g} s per frame, {step * time.fps:,.4g} times real time")
+    layout.label(text=f"{step:,.7g} s per frame, {step * rate:,.4g} times real time")
 
 
 def _draw_clock(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:

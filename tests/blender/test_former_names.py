@@ -23,6 +23,7 @@ def test_a_file_of_the_last_version_keeps_its_settings(panel, tmp_path, capsys):
         del stored[name]
     stored["render"] = {"skip": 0}
     stored["ground"]["stand"] = 1
+    stored["time"] = {"fps": 12}  # an integer property then
     stored["tiles"] = {"error": 3.0, "trees": 2, "exact": '{"error": 3.123456789}'}
     assert panel.terrain.error != pytest.approx(0.7)
     collection = owned.mark(bpy.data.collections.new("Firetwin Ground"), "Ground")
@@ -33,6 +34,7 @@ def test_a_file_of_the_last_version_keeps_its_settings(panel, tmp_path, capsys):
     found = bpy.context.scene.firetwin
     assert (found.terrain.error, found.labels.enabled, found.forest.budget) == (pytest.approx(0.7), True, 17)
     assert not found.render.cull
+    assert found.time.fps == 12.0
     assert (found.terrain.height_source, found.tiles.vegetation) == ("tiles", "scene_near_burn")
     assert found.tiles.max_screen_space_error == pytest.approx(3.0)
     assert found.tiles.exact == '{"max_screen_space_error": 3.123456789}'

@@ -4,6 +4,7 @@ import typing
 from datetime import UTC, datetime
 from pathlib import Path
 
+from firetwin import timecode
 from firetwin.shot import schema
 from firetwin.shot.schema.frame_list import FrameList
 from hypothesis import strategies as st
@@ -41,6 +42,8 @@ def any_value(part):
         known = list(key.names()) or ["a.3tz", "https://example.org/tileset.json", 'a "quoted" one']
         names = st.lists(st.sampled_from(known), unique=True, min_size=len(part.default) > 0)
         return names.map(tuple)
+    if key.check is timecode.invalid_rate:
+        return st.sampled_from([1, 12.0, 23.976, 25.0, 29.97, 59.94, 240.0])
     simple = {
         bool: st.booleans(),
         str: st.sampled_from(list(key.names()) or [""]),

@@ -8,7 +8,9 @@ import zoneinfo
 from collections.abc import Collection
 from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
+from fractions import Fraction
 
+from ... import timecode
 from ..schema import Where, key
 from ..schema.did_you_mean import suggestion
 
@@ -43,7 +45,14 @@ class Time:
         at_most=1_000_000,
         affects=(),
     )
-    fps: int = key(24, "frames per second of the films", at_least=1, at_most=240, affects=("film",))
+    fps: float = key(
+        24,
+        "frames per second of the films; whole, or 23.976, 29.97 or 59.94",
+        at_least=1,
+        at_most=240,
+        check=timecode.invalid_rate,
+        affects=("film",),
+    )
     shutter: float | None = key(
         None,
         "exposure of smoke, frame intervals; 0: none, default: 2 in films of over 30 times real time",
@@ -55,6 +64,11 @@ class Time:
         "", "time zone of the clock in the films; empty: the run's zone", check=_zone, affects=("film",)
     )
 
+    @property
+    def rate(self) -> Fraction:
+        """Exact frames per second."""
+        return timecode.exact_rate(self.fps)
+
     def validate(self) -> tuple[Where, str] | None:
         """Check that the end is after the start, and that the speed agrees with them."""
         if self.start and self.end and self.end <= self.start:
@@ -65,9 +79,10 @@ class Time:
             return ("speed",), "time.speed needs time.start or time.end; set one of them"
         if self.start and self.end and self.frames != (needed := self._frames_between()):
             seconds = (self.end - self.start).total_seconds()
+            speed = seconds * float(self.rate) / max(self.frames - 1, 1)
             return ("speed",), (
                 f"time.speed contradicts time.start, time.end and time.frames: {self.frames} frames show "
-                f"{seconds:,.7g} s at {seconds * self.fps / max(self.frames - 1, 1):,.4g} times real time; "
+                f"{seconds:,.7g} s at {speed:,.4g} times real time; "
                 f"leave one of the four out, or set time.frames = {needed}"
             )
         try:
@@ -86,7 +101,7 @@ class Time:
         """Replace the speed by the start or end that it determines."""
         if self.speed is None:
             return self
-        span = timedelta(seconds=self.speed * (self.frames - 1) / self.fps)
+        span = timedelta(seconds=self.speed * (self.frames - 1) / float(self.rate))
         start, end = self.start, self.end
         if start and not end and self.frames > 1:
             end = start + span
@@ -99,4 +114,4 @@ class Time:
         assert self.start
         assert self.end
         assert self.speed
-        return 1 + round((self.end - self.start).total_seconds() * self.fps / self.speed)
+        return 1 + round((self.end - self.start).total_seconds() * float(self.rate) / self.speed)

@@ -114,7 +114,7 @@ class _Writer:
         if ".".join((*section, part.name)) in self.asked:
             return True
         same = part.type is not Path and value == part.default
-        return not same and value is not None and self.value(part.type, value) != self.usual(part)
+        return not same and value is not None and self.of_key(part, value) != self.usual(part)
 
     def remark(self, section: tuple[str, ...], table: Any) -> list[Line]:
         """Comment lines above a table."""
@@ -128,7 +128,7 @@ class _Writer:
             return f'{key.tag} = "{kind_of(key, value)}"', f"{key.help}: {summary(type(value))}"
         if value is None:
             return f"# {part.name} = {_SAMPLES[part.type]}", self.once(key, _comment(key))
-        written, usual = self.value(part.type, value), self.usual(part)
+        written, usual = self.of_key(part, value), self.usual(part)
         with_default = usual not in ("", written) and not placed
         comment = _comment(key) + (f" (default {usual})" if with_default else "")
         return f"{part.name} = {written}", self.once(key, comment)
@@ -137,13 +137,18 @@ class _Writer:
         """Default in TOML; empty if there is none."""
         if part.default is None:
             return ""
-        return quoted(part.default.as_posix()) if part.type is Path else self.value(part.type, part.default)
+        return quoted(part.default.as_posix()) if part.type is Path else self.of_key(part, part.default)
 
     def once(self, key: Key, comment: str) -> str:
         """Return the comment at the key's first occurrence, else an empty text."""
         known = id(key) in self.explained
         self.explained.add(id(key))
         return "" if known else comment
+
+    def of_key(self, part: Field, value: Any) -> str:
+        """Value of a key in TOML; a whole number without decimals if its default is one."""
+        whole = part.type is float and isinstance(part.default, int) and float(value).is_integer()
+        return self.value(int if whole else part.type, int(value) if whole else value)
 
     def value(self, kind: Any, value: Any) -> str:
         """Value in TOML."""
