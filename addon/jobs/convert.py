@@ -142,5 +142,6 @@ def _convert(files: list[Path], out: Path, options: list, progress: Progress, te
 
 def _fingerprint(files: list[Path], options: list) -> str:
     """Hash that changes with the files or the options."""
-    stamps = [(str(path), path.stat().st_size, path.stat().st_mtime_ns) for path in files]
+    every = [each for path in files for each in (sorted(path.rglob("*")) if path.is_dir() else [path])]
+    stamps = [(str(path), path.stat().st_size, path.stat().st_mtime_ns) for path in every]
     return hashlib.sha256(repr((stamps, options)).encode()).hexdigest()

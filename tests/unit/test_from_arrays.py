@@ -146,9 +146,3 @@ def test_a_netcdf_of_masks_by_a_mapping(tmp_path, converted):
     run = converted([path, mapping])
     check(run)
     np.testing.assert_allclose(run.surface_fuel, 0.7, rtol=1e-6)
-
-
-def test_zarr_is_named(tmp_path, converted):
-    (tmp_path / "a.zarr").mkdir()
-    with pytest.raises(InputError, match=r"open_zarr.*to_netcdf"):
-        readers.gathered([tmp_path / "a.zarr"])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -48,6 +48,8 @@ class File:
         The file cannot be read.
     """
 
+    kind = "netCDF file"
+
     def __init__(self, path: Path) -> None:
         self.path = path
         library = optional_packages.package("netCDF4")
@@ -66,7 +68,7 @@ class File:
     def sense(self) -> Iterator[None]:
         """Send a heartbeat, and convert library errors to errors that name the file."""
         heartbeat.sign()
-        with reading(self.path, "netCDF file"):
+        with reading(self.path, self.kind):
             yield
 
     def error(self, reason: str) -> InputError:
@@ -138,14 +140,15 @@ def _keep_chunks(variable: Any) -> None:
 class Files:
     """Pool of files, few of which are open."""
 
-    def __init__(self) -> None:
+    def __init__(self, opener: Callable[[Path], File] = File) -> None:
         self.kept: dict[Path, File] = {}
+        self.opener = opener
 
     def __call__(self, path: Path) -> File:
         if path not in self.kept:
             if len(self.kept) >= _OPEN:
                 self.kept.pop(next(iter(self.kept))).close()
-            self.kept[path] = File(path)
+            self.kept[path] = self.opener(path)
         return self.kept[path]
 
     def close(self) -> None:

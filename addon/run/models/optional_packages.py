@@ -8,7 +8,7 @@ from types import ModuleType
 
 from ...errors import Error
 
-ALL = "netCDF4 pyproj pyshp rasterio"
+ALL = "netCDF4 pyproj pyshp rasterio zarr"
 
 
 def package(name: str) -> ModuleType:

@@ -66,6 +66,10 @@ def foreign(path: Path) -> bool:
     """Check by its first bytes whether a path looks like output of a fire model; nothing is parsed."""
     if not path.is_dir():
         return _one(path)
+    from ..models import zarr_store
+
+    if zarr_store.is_store(path):
+        return True
     return not folder.sniff(path) and any(_one(each) for each in path.iterdir() if each.is_file())
 
 
@@ -85,19 +89,25 @@ def gathered(paths: list[Path]) -> list[Path]:
     """
     files: list[Path] = []
     for path in paths:
-        if path.suffix.lower() == ".zarr" or (path / ".zgroup").exists() or (path / "zarr.json").exists():
-            remedy = f'xarray.open_zarr("{path.name}").to_netcdf("{path.stem}.nc")'
-            raise input_error(path, f"is zarr, which is not read; convert it in Python: {remedy}")
         if not path.exists():
             raise input_error(path, "there is no such file or folder; check the path")
         with reading(path):
-            inner = [path] if path.is_file() else [file for file in sorted(path.iterdir()) if file.is_file()]
+            inner = (
+                [path] if _is_input(path) else [each for each in sorted(path.iterdir()) if _is_input(each)]
+            )
         files += [file for file in inner if file not in files]
         if len(files) > _MANY:
             raise input_error(path, f"holds more than {_MANY:,} files; give the files of one run")
     if not files:
         raise input_error(paths[0], "is a folder without files; give the output folder of a model")
     return files
+
+
+def _is_input(path: Path) -> bool:
+    """Check whether an entry of a folder is a file or a zarr store."""
+    from ..models import zarr_store
+
+    return path.is_file() or zarr_store.is_store(path)
 
 
 def reader(paths: list[Path]) -> ModuleType:
@@ -155,5 +165,5 @@ def _why(paths: list[Path]) -> str:
         )
     return (
         "is output of no known fire model: WRF-SFIRE, CFBM, ForeFire, ELMFIRE, FARSITE, FlamMap, "
-        "pyretechnics or netCDF with latitude and longitude"
+        "pyretechnics, or netCDF or zarr with latitude and longitude"
     )

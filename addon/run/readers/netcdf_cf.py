@@ -1,4 +1,4 @@
-"""Reader of netCDF files with CF conventions, by a mapping in TOML from fields to variables.
+"""Reader of netCDF files and zarr stores with CF conventions, by a mapping in TOML from fields to variables.
 
 ``[fields]`` has a line per field: ``heat_flux = "hfx"``, or a table with `variable`, `scale` and `offset`
 (the field is scale x variable + offset). Variables with a field's own name need no line. Coordinates are
@@ -18,11 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import input_error
-from ..models import companion_rasters, from_arrival_time, masks, netcdf, optional_packages
+from ..models import companion_rasters, from_arrival_time, masks, netcdf, optional_packages, zarr_store
 from ..models.grid import Grid
 from ..models.model import Model, Options
 
-NAME = "netCDF with latitude, longitude and time"
+NAME = "netCDF or zarr with latitude, longitude and time"
 
 _MOVING = ("heat_flux", "burned_fraction", "temperature", "wind_east", "wind_north")
 _LEVELS = ("smoke_3d", "temperature_3d", "height_3d", "wind_east_3d", "wind_north_3d", "wind_up_3d")
@@ -30,16 +30,17 @@ _STILL = ("elevation", "surface_fuel", "canopy_fuel", "fuel_arrival_time", "fuel
 
 
 def sniff(path: Path) -> bool:
-    """Check whether a file is any netCDF file; this reader is tried last."""
-    return netcdf.is_netcdf(path)
+    """Check whether a file is any netCDF file or zarr store; this reader is tried last."""
+    return netcdf.is_netcdf(path) or zarr_store.is_store(path)
 
 
 def read(paths: list[Path], options: Options) -> Model:
     """Read the files' times as a model."""
     fields, axes = _mapping(options.mapping)
-    files = netcdf.Files()
+    files = netcdf.Files(_open)
     ours = sorted(path for path in paths if sniff(path))
     first = files(ours[0])
+    source = first.kind.split()[0]
     fields = {name: {"variable": name} for name in (*_MOVING, *_LEVELS, *_STILL) if name in first} | fields
     if not {"heat_flux", "fuel_arrival_time", "burned_fraction"} & set(fields):
         reason = (
@@ -74,7 +75,7 @@ def read(paths: list[Path], options: Options) -> Model:
 
     if "heat_flux" not in fields and "fuel_arrival_time" in fields:
         maps = maps_with(still("fuel_arrival_time").astype(np.float64))
-        return from_arrival_time.model(maps, grid, land, options, "netCDF", ours, notes)
+        return from_arrival_time.model(maps, grid, land, options, source, ours, notes)
 
     frames = sorted(
         ((moment, path, i) for path in ours for i, moment in enumerate(_moments(files(path), axes, options))),
@@ -91,14 +92,14 @@ def read(paths: list[Path], options: Options) -> Model:
             grid,
             land,
             begun,
-            "netCDF",
+            source,
             ours,
             notes,
             maps_with(np.empty(0)),
         )
     first = files(ours[0])  # it may have been closed to limit open files
     model = Model(
-        source="netCDF (CF)",
+        source=f"{source} (CF)",
         name=str(first.attribute("title", otherwise=ours[0].stem)),
         start=start,
         times=np.array([(moment - start).total_seconds() for moment, _, _ in frames]),
@@ -116,6 +117,10 @@ def read(paths: list[Path], options: Options) -> Model:
     land.complete(model.still, grid, grid, options.projection)
     model.assumptions = notes + land.assumptions
     return model
+
+
+def _open(path: Path) -> netcdf.File:
+    return zarr_store.File(path) if zarr_store.is_store(path) else netcdf.File(path)
 
 
 def _mapping(path: Path | None) -> tuple[dict[str, dict[str, Any]], dict[str, str]]:
