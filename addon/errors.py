@@ -154,11 +154,12 @@ def reading(path: str | PathLike[str], kind: str = "") -> Iterator[None]:
     Raises
     ------
     InputError
-        Replaces every other exception: of the system, of SQLite, of Python and of libraries.
+        Replaces other exceptions of the system, SQLite, Python and libraries. NameError and ImportError pass:
+        these are faults of the code.
     """
     try:
         yield
-    except (Error, UsageError):
+    except (Error, UsageError, NameError, ImportError):  # the last two are faults of the code
         raise
     except Exception as error:
         if disk_is_full(error):  # of temporary files

@@ -156,6 +156,12 @@ def test_what_a_reader_raises_becomes_one_line(reader, station_file, monkeypatch
         assert isinstance(caught.value, FullDiskError) == (getattr(planted, "errno", 0) == errno.ENOSPC)
 
 
+@pytest.mark.parametrize("fault", [NameError, UnboundLocalError, ImportError, ModuleNotFoundError])
+def test_faults_of_the_code_pass_a_reader(fault):
+    with pytest.raises(fault), errors.reading("a.gpkg"):
+        raise fault
+
+
 def test_an_interruption_passes_a_reader():
     with pytest.raises(KeyboardInterrupt), errors.reading("a.gpkg"):
         raise KeyboardInterrupt
