@@ -176,7 +176,12 @@ validates a scene file. Former names of sections and keys are read with a note; 
 PASSES = """\
 A pass is a kind of picture that a camera records. `[render] passes` lists the passes of all
 cameras; the `passes` of a camera override it. Each file in `addon/shot/passes/` defines one pass. EXR files
-have 32 bits per value; the EXR of `rgb` has 16 and is scene-linear.
+have 32 bits per value; the EXR of `rgb` has 16 and is scene-linear. [EXR files](delivery.md#exr-files) lists
+their attributes.
+
+AgX is Blender's view transform: it maps scene-linear radiance to the colours of a screen, and desaturates
+highlights as film does. The PNG and the films of `rgb` are AgX pictures with lens bloom. The EXR has neither,
+so that compositors grade the radiance itself. `[render] exr_space = "acescg"` writes it in ACEScg.
 
 `fused`, `split` and `difference` need matplotlib. `imager_short` (MWIR) and `imager_long` (LWIR) are ABI
 bands 7 and 14 (3.9 and 11.2 µm) for a geostationary satellite, otherwise VIIRS bands I4 and I5 (3.74 and

@@ -337,6 +337,11 @@ def volume_shift(cycles: bpy.types.PropertyGroup, voxel: float) -> float:
     return 0.0 if hasattr(cycles, "volume_biased") else -0.5 * voxel
 
 
+def working_space() -> str:
+    """Return the name of the scene-linear working space, which can be chosen from 5.0 on."""
+    return str(getattr(getattr(bpy.data, "colorspace", None), "working_space", "Linear Rec.709"))
+
+
 def still_settings(render: bpy.types.RenderSettings) -> None:
     """Set a render to write one PNG file per frame; from 5.0 on the media type must not be video."""
     if hasattr(render.image_settings, "media_type"):

@@ -13,6 +13,7 @@ import bpy
 from firetwin_core.run import Run
 
 from ..blender import compat, owned
+from ..errors import Error
 from ..shot.settings import Settings
 
 TRANSPARENT = 256
@@ -123,6 +124,21 @@ def long_steps(scene: bpy.types.Scene, wanted: bool = True) -> Iterator[None]:
         yield
     finally:
         scene.cycles.volume_step_rate = before
+
+
+def check_working_space() -> None:
+    """Check that Blender's working space is linear Rec.709, the space of our flame colours and skies.
+
+    Raises
+    ------
+    Error
+        It is another one.
+    """
+    space = compat.working_space()
+    if "709" not in space:
+        raise Error(
+            f"the file's working space is {space}; set it to Linear Rec.709 in the scene's properties"
+        )
 
 
 def set_metadata(run: Run, scene: bpy.types.Scene) -> None:

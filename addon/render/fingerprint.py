@@ -32,6 +32,7 @@ _RENDERING = (
     "imaging/credits.py",
     "render/credits.py",
     "render/engine.py",
+    "render/exr_tags.py",
     "render/layers.py",
     "render/pictures.py",
     "render/png.py",

@@ -26,7 +26,7 @@ from ..shot import passes
 from ..shot.fire import flame_map
 from ..shot.shot import Shot
 from ..smoke import sources
-from . import composite, flame_distance, frame_cost, layers, motion_blur, rays, surfaces, text_layer
+from . import composite, exr_tags, flame_distance, frame_cost, layers, motion_blur, rays, surfaces, text_layer
 from .eye import Eye
 from .picture import Picture
 
@@ -95,10 +95,10 @@ class IntegratedRenderer:
         if "thermal" in pictures:
             with self.cost.part(frame_cost.MARCH):
                 heat = [eye.radiance(pictures["thermal"].frame) for eye in eyes]
-            _write(part, pictures["thermal"], np.concatenate(heat))
+            self._write(part, pictures["thermal"], np.concatenate(heat))
         if "depth" in pictures:
             depth = [eye.channels["Depth"][..., 0] for eye in eyes]
-            _write(part, pictures["depth"], np.concatenate(depth))
+            self._write(part, pictures["depth"], np.concatenate(depth))
 
     def _flames(self, frame: int) -> volume.FlameVolume | None:
         """Return the flames of a frame that are drawn as a volume."""
@@ -173,32 +173,35 @@ class IntegratedRenderer:
                     flames = self._flames(picture.frame)
                     pixels = Eye(self.shot, self.stage, channels, number, smoke, flames).masks(pixels)
                 halves.append(pixels)
-            _write(part, picture, np.concatenate(halves))
+            self._write(part, picture, np.concatenate(halves))
 
     def _write_visible(self, eyes: list[Array], picture: Picture, part: Path) -> None:
         """Write the files of the visible picture from the radiance (h, w, 3) of each eye."""
-        files = {end: part / Path(picture.file(end)).name for end in ("png", "exr")}
-        written: dict[str, list[Array]] = {end: [] for end in files}
+        png, exr = (part / Path(picture.file(end)).name for end in ("png", "exr"))
+        shown = []
         two, self.scene.render.use_multiview = self.scene.render.use_multiview, False
         for light in eyes:
             self._composite(light, picture, part)
             if two:
-                for end, file in files.items():
-                    written[end].append(sensor.read_image(file)[..., :3])
+                shown.append(sensor.read_image(png)[..., :3])
         self.scene.render.use_multiview = two
-        note = {"Note": self.scene.render.stamp_note_text}
-        for end, halves in written.items():
-            if two:
-                sensor.write_image(files[end], np.concatenate(halves), note)
+        if two:
+            sensor.write_image(png, np.concatenate(shown), {"Note": self.scene.render.stamp_note_text})
+        exr_tags.write_radiance(exr, np.concatenate(eyes), self.shot, picture.camera, picture.frame)
+
+    def _write(self, part: Path, picture: Picture, pixels: Array) -> None:
+        """Write the EXR of a data pass."""
+        about = exr_tags.attributes(self.shot, picture.camera, picture.frame)
+        sensor.write_image(part / Path(picture.file("exr")).name, pixels, about)
 
     def _composite(self, light: Array, picture: Picture, part: Path) -> None:
-        """Replace Cycles' picture in the compositor by this radiance, and write the files."""
+        """Replace Cycles' picture in the compositor by this radiance, and write the PNG."""
         file = part / "light.exr"
         sensor.write_image(file, light)
         self.image.filepath = str(file)
         self.image.reload()
         _set_bloom(self.scene)
-        layers.write_exr(self.scene, str(part), [picture])
+        layers.write_exr(self.scene, str(part), [])
         self.scene.render.filepath = str(part / Path(picture.file("png")).name)
         bpy.ops.render.render(write_still=True, scene=self.scene.name)
         file.unlink()
@@ -275,7 +278,3 @@ def _set_bloom(scene: bpy.types.Scene) -> None:
             for name, value in _BLOOM.items():
                 socket = compat.find_socket(node.inputs, name)
                 socket.default_value = value * 2.0**-scene.view_settings.exposure
-
-
-def _write(part: Path, picture: Picture, pixels: Array) -> None:
-    sensor.write_image(part / Path(picture.file("exr")).name, pixels)

@@ -20,7 +20,7 @@ from ..shot.settings import Settings
 from . import groups
 from .picture import Picture
 
-SOURCE, _BETWEEN = "CompositorNodeRLayers", ("CompositorNodeGlare", "CompositorNodeSeparateColor")
+SOURCE, _SEPARATE = "CompositorNodeRLayers", "CompositorNodeSeparateColor"
 
 
 def build(settings: Settings, stage: Stage) -> None:
@@ -93,6 +93,11 @@ def repair(scene: bpy.types.Scene) -> None:
         each = rendered(node[owned.MARK].removeprefix("exr "))
         tree.nodes.remove(node)
         _file(tree, each, _image(tree, each))
+    for link in list(tree.links):
+        what, source = str(link.to_node.get(owned.MARK, "")), link.from_node
+        if what.startswith("exr ") and source.bl_idname == "CompositorNodeGlare" and owned.is_ours(source):
+            lit = compat.find_socket(source.inputs, "Image")  # files of 0.1 have bloom in the EXR too
+            tree.links.new(lit.links[0].from_socket, link.to_socket)
     for link in list(tree.links):
         if link.to_node.bl_idname == compat.END and owned.is_ours(link.from_node):
             owned.mark(link.to_node)
@@ -236,10 +241,9 @@ def _record(scene: bpy.types.Scene, tree: bpy.types.NodeTree, each: RenderedPass
     source.layer = find_layer(scene, each.name).name
     image = source.outputs[each.socket]
     if has_still(each):
-        image = compat.bloom(tree, image, Threshold=2.0, Maximum=20.0, Strength=0.25)
-        compat.composite(tree, image)
+        compat.composite(tree, compat.bloom(tree, image, Threshold=2.0, Maximum=20.0, Strength=0.25))
     if each.channels == "grey" and each.socket == "Image":
-        parts = tree.nodes.new("CompositorNodeSeparateColor")  # all channels are equal
+        parts = tree.nodes.new(_SEPARATE)  # all channels are equal
         tree.links.new(image, parts.inputs[0])
         image = parts.outputs[0]
     _file(tree, each, image)
@@ -258,6 +262,6 @@ def _image(tree: bpy.types.NodeTree, each: RenderedPass) -> bpy.types.NodeSocket
     source = next(node for node in ours if node.bl_idname == SOURCE and node.layer == each.name)
     image = source.outputs[each.socket]
     for link in tree.links:
-        if link.from_socket == image and owned.is_ours(link.to_node) and link.to_node.bl_idname in _BETWEEN:
+        if link.from_socket == image and owned.is_ours(link.to_node) and link.to_node.bl_idname == _SEPARATE:
             return link.to_node.outputs[0]
     return image

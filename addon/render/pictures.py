@@ -8,6 +8,7 @@ from pathlib import Path
 
 import bpy
 import numpy as np
+from firetwin_core import sensor
 
 from .. import files, memory
 from ..blender.owned import Stage
@@ -24,6 +25,7 @@ from . import (
     credits,
     cycles_status,
     engine,
+    exr_tags,
     frame_cost,
     integrated,
     layers,
@@ -68,6 +70,7 @@ def render(
     Number of frames that this render finished.
     """
     engine.set_metadata(shot.run, stage.scene)
+    engine.check_working_space()
     made, note = 0, ""
     marched = integrated.applies(shot, stage.scene) and bool(plan.rendered(shot, wanted))
     cost = frame_cost.FrameCost()
@@ -206,6 +209,19 @@ class _Frame:
             steps = engine.long_steps(self.scene, through_smoke)
             with steps, engine.pixel_centres(self.scene, centres), layers.black_materials(self.scene, names):
                 bpy.ops.render.render(write_still=still is not None, scene=self.scene.name)
+        for picture in pictures:
+            self._tag(picture)
+
+    def _tag(self, picture: Picture) -> None:
+        """Write the EXR of a pass that has no `finish` again, with our attributes."""
+        known, file = layers.rendered(picture.name), self.part / Path(picture.file("exr")).name
+        if known.finished:
+            return
+        pixels = sensor.read_image(file)[..., :3]
+        if known.shading == "light":
+            exr_tags.write_radiance(file, pixels, self.shot, self.camera, self.frame)
+        else:
+            sensor.write_image(file, pixels, exr_tags.attributes(self.shot, self.camera, self.frame))
 
     def files(self, picture: Picture, made: set[Picture]) -> dict[str, Path]:
         """Return a picture's files by suffix: temporary files for pictures in `made`, else published ones."""

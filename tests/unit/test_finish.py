@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from firetwin.imaging import colour_bar
+from firetwin.render import exr_tags
 from firetwin.render.finish import finisher
 from firetwin.render.finish import thermal as thermal_pass
 from firetwin.shot.cameras import pixel_rays
@@ -16,6 +17,12 @@ from firetwin.shot.settings import Camera, Render, Settings
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from firetwin_core import sensor
+
+
+@pytest.fixture(autouse=True)
+def no_tags(monkeypatch):
+    """Files without tags, whose camera and run most tests here do not have."""
+    monkeypatch.setattr(exr_tags, "attributes", lambda *_, **__: {})
 
 
 def thermal(path, radiance, **keys):

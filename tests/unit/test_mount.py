@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from firetwin.errors import InputError, UsageError
 from firetwin.imaging import sheet as _sheet
-from firetwin.render import dataset, fingerprint, plan, verify
+from firetwin.render import dataset, exr_tags, fingerprint, plan, verify
 from firetwin.render.finish import _map, finisher, pose
 from firetwin.render.finish import fused as fused_pass
 from firetwin.render.finish import masks as finish_masks
@@ -134,7 +134,8 @@ def test_numbers_of_trees_are_theirs_and_whole_in_32_bits():
     assert len(np.unique(masks.numbers(cell, 0 * cell).astype(np.float32))) == len(cell)
 
 
-def test_masks_are_written_by_name_and_in_one_colour_each(tmp_path):
+def test_masks_are_written_by_name_and_in_one_colour_each(tmp_path, monkeypatch):
+    monkeypatch.setattr(exr_tags, "attributes", lambda *_: {})
     files = {end: tmp_path / f"masks.{end}" for end in ("exr", "png")}
     kinds = np.arange(len(masks.NAMES))[None].repeat(2, 0)
     pixels = np.stack([np.full(kinds.shape, 7.0), np.ones(kinds.shape), kinds], axis=-1)

@@ -19,7 +19,7 @@ ROOT = Path(__file__).parents[2]
 DRONE, SATELLITE = kinds()["drone"], kinds()["satellite"]
 ASPECTS = {
     *("time", "terrain", "forest", "fire", "smoke", "light", "camera"),
-    *("picture", "grain", "thermal", "film", "passes"),
+    *("picture", "colour", "grain", "thermal", "film", "passes"),
 }
 
 SETTINGS = Settings(

@@ -9,6 +9,7 @@ from firetwin_core import sensor
 
 from ...shot.cameras import pixel_rays
 from ...shot.shot import Shot
+from .. import exr_tags
 from . import Files
 
 
@@ -18,5 +19,6 @@ def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, 
     both = np.stack(
         [planar, pixel_rays.ranges(pixel_rays.path_of(shot.paths, camera), frame, planar)], axis=-1
     )
-    about = {"Comment": "m; planar: along the camera's axis, range: along the line of sight"}
+    said = "m; planar: along the camera's axis, range: along the line of sight"
+    about = exr_tags.attributes(shot, camera, frame, said)
     sensor.write_image(files["exr"], both, about, ["planar", "range"])

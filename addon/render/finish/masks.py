@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ...shot.passes.masks import COLOURS, HIDES, NAMES, SMOKE
 from ...shot.shot import Shot
+from .. import exr_tags
 from . import Files
 
 _LEAST = 1.0e-4  # transmittance of smoke below which class numbers are inexact
@@ -31,11 +32,12 @@ def classes(pixels: NDArray) -> tuple[NDArray, NDArray, NDArray, NDArray]:
     return kind, low + 4096.0 * (code // 8), clear, surface
 
 
-def finish(files: Files, _needed: Mapping[str, Files], _shot: Shot, _camera: str, _frame: int) -> None:
+def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
     """Separate classes, instances and smoke, and paint the classes."""
     names = ["class", "clear", "instance", "surface"]  # as EXR files sort them
     kind, instance, clear, surface = classes(sensor.read_image(files["exr"]))
-    about = {"Comment": "class: " + ", ".join(f"{value} {name}" for value, name in enumerate(NAMES))}
+    said = "class: " + ", ".join(f"{value} {name}" for value, name in enumerate(NAMES))
+    about = exr_tags.attributes(shot, camera, frame, said)
     channels = np.stack([kind, np.clip(clear, 0.0, 1.0), instance, surface], axis=-1).astype(np.float32)
     sensor.write_image(files["exr"], channels, about, names)
     colours = np.array(COLOURS, np.float32) / 255.0

@@ -12,6 +12,7 @@ from ...imaging import colour_bar
 from ...shot.fire import air_temperature
 from ...shot.sections.thermal import BANDS
 from ...shot.shot import Shot
+from .. import exr_tags
 from . import Files
 
 _COLD = 45.0  # K below the coldest ground at which the palette ends, for the sky (by eye)
@@ -35,7 +36,8 @@ def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, 
     if counts is not None:
         channels["signal"] = counts.astype(np.float32)
     low_um, high_um = BANDS[settings.band]
-    about = {"Comment": f"kelvin: brightness temperature; radiance: W m-2 sr-1, {low_um:g} to {high_um:g} um"}
+    said = f"kelvin: brightness temperature; radiance: W m-2 sr-1, {low_um:g} to {high_um:g} um"
+    about = exr_tags.attributes(shot, camera, frame, said)
     sensor.write_image(files["exr"], np.stack(list(channels.values()), axis=-1), about, list(channels))
     low, high = scale(shot, frame)
     cold = cold_range(shot)

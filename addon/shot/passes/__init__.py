@@ -33,7 +33,7 @@ class Pass:
         Suffixes of its files.
     aspects
         Aspects of the settings on which its own work depends: names of sections, or "camera", "picture",
-        "grain", "thermal", "film" or "passes"; see `sections`. A name also means its folders
+        "colour", "grain", "thermal", "film" or "passes"; see `sections`. A name also means its folders
         ``NAME`` and ``scene/NAME`` in `code_fingerprint`.
     film
         Make a film of its PNG files.

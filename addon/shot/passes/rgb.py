@@ -1,4 +1,4 @@
-"""Visible picture with lens bloom, as display-referred PNG and scene-linear EXR."""
+"""Visible picture: display-referred PNG with lens bloom, and scene-linear EXR without it."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ PASS = RenderedPass(
             "time",
             "camera",
             "picture",
+            "colour",
             "terrain",
             "forest",
             "fire",

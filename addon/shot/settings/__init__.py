@@ -113,6 +113,12 @@ class Render:
         at_most=2,
         affects=("grain",),
     )
+    exr_space: str = key(
+        "rec709",
+        "linear colour space of the EXR of rgb, not of PNG and films",
+        choices={"rec709": "", "acescg": ""},
+        affects=("colour",),
+    )
     passes: tuple[str, ...] = key(
         ("rgb", "depth", "thermal"),
         "passes that cameras record",
