@@ -68,7 +68,7 @@ def _settings(shot: Shot, size: tuple[int, int], scene: bpy.types.Scene, path: P
     render = scene.render
     render.resolution_x, render.resolution_y = size
     render.resolution_percentage = 100
-    render.fps, render.fps_base = shot.settings.time.fps, 1.0
+    compat.set_frame_rate(render, shot.settings.time.rate)
     scene.frame_start, scene.frame_end = 1, count
     scene.display_settings.display_device = "sRGB"
     scene.view_settings.view_transform, scene.view_settings.look = "Standard", "None"
@@ -79,7 +79,7 @@ def _settings(shot: Shot, size: tuple[int, int], scene: bpy.types.Scene, path: P
     compat.film_settings(render)
     render.ffmpeg.format, render.ffmpeg.codec = "MPEG4", "H264"
     render.ffmpeg.constant_rate_factor, render.ffmpeg.ffmpeg_preset = "PERC_LOSSLESS", "GOOD"
-    render.ffmpeg.gopsize = shot.settings.time.fps
+    render.ffmpeg.gopsize = round(shot.settings.time.rate)
     render.ffmpeg.audio_codec = "NONE"
     render.use_file_extension = False
     render.filepath = str(path)
