@@ -81,7 +81,7 @@ def run(
         Shot of `choice`, if already resolved.
     """
     from ..errors import UsageError
-    from ..render import dataset, films, fingerprint, plan
+    from ..render import dataset, films, fingerprint, former_names, plan
     from ..render.store import Store
     from ..run.readers import folder
 
@@ -90,6 +90,8 @@ def run(
         raise UsageError(
             f"--out: {out} is a run folder, and pictures do not belong among its fields; choose another"
         )
+    if renamed := former_names.rename(out):
+        tell(f"renamed {count(renamed, 'file')}: @ in the names of views is now _at_")
     with notify_if_slow(READING):
         shot = shot or choice.shot()
         wanted = plan.pictures(shot, *asked.selection())

@@ -18,7 +18,7 @@ class Picture:
 
     def stem(self) -> str:
         """Return the file stem, such as ``drone_rgb_``; Blender appends the six digits of the frame."""
-        return f"{self.camera}_{self.name}_"
+        return f"{passes.file_stem(self.camera)}_{self.name}_"
 
     def files(self) -> tuple[str, ...]:
         """Return the paths of its files, relative to the output folder."""
@@ -32,4 +32,5 @@ class Picture:
 
 def film(camera: str, name: str) -> str:
     """Return the path of a camera's film, relative to the output folder."""
-    return str(PurePosixPath(camera, f"{camera}_{name}.mp4"))
+    stem = passes.file_stem(camera)
+    return str(PurePosixPath(stem, f"{stem}_{name}.mp4"))

@@ -61,16 +61,16 @@ def test_all_is_made_and_entered(film):
             "drone/rgb/drone_rgb_000001.exr",
             "drone/rgb/drone_rgb_000001.png",
             "drone/split/drone_split_000001.png",
-            "drone@late/depth/drone@late_depth_000001.exr",
-            "drone@late/rgb/drone@late_rgb_000001.exr",
-            "drone@late/rgb/drone@late_rgb_000001.png",
+            "drone_at_late/depth/drone_at_late_depth_000001.exr",
+            "drone_at_late/rgb/drone_at_late_rgb_000001.exr",
+            "drone_at_late/rgb/drone_at_late_rgb_000001.png",
         ]
     assert _read(out, "drone", "split", "png").shape[:2] == (36, 64)
 
 
 def test_the_same_pixels_show_the_same_ground_in_both_runs(film):
     _, out = film
-    here, there = (_read(out, camera, "depth", "exr")[..., 0] for camera in ("drone", "drone@late"))
+    here, there = (_read(out, camera, "depth", "exr")[..., 0] for camera in ("drone", "drone_at_late"))
     both = (here < 2.0e4) & (there < 2.0e4)
     assert both.mean() > 0.5
     apart = np.abs(here / there - 1.0)[both]

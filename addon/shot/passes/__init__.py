@@ -175,7 +175,16 @@ def helps() -> dict[str, str]:
 
 def file_of(camera: str, name: str, frame: int, suffix: str) -> str:
     """Return the file of a camera's frame in a pass, relative to the output folder."""
-    return f"{camera}/{name}/{camera}_{name}_{frame:06d}.{suffix}"
+    stem = file_stem(camera)
+    return f"{stem}/{name}/{stem}_{name}_{frame:06d}.{suffix}"
+
+
+def file_stem(view: str) -> str:
+    """Return the name of a view in paths: ``drone@slower`` is ``drone_at_slower``.
+
+    Readers of file sequences take ``@`` for a digit of the frame number.
+    """
+    return view.replace("@", "_at_")
 
 
 def view_of(camera: str, run: str) -> str:

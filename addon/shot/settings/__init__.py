@@ -202,6 +202,8 @@ class Settings(SceneSettings):
         if len(names) > MOST_RUNS:
             reason = f"runs has {len(names)} tables; use at most {MOST_RUNS}, in addition to the first run"
             return ("runs", MOST_RUNS), reason
+        if (same := self._same_files()) is not None:
+            return same
         for where, listed in (
             (("render", "passes"), self.render.passes),
             *((("cameras", i, "passes"), camera.passes) for i, camera in enumerate(self.cameras)),
@@ -212,6 +214,23 @@ class Settings(SceneSettings):
                     f'passes has "{comparing[0]}", which compares runs; add [[runs]] or leave it out',
                 )
         return None
+
+    def _same_files(self) -> tuple[Where, str] | None:
+        """Check that no view of a comparison run has the files of another view."""
+        views = [
+            (i, each.name, passes.view_of(each.name, run.name))
+            for i, run in enumerate(self.runs)
+            for each in self.cameras
+        ]
+        stems = [
+            passes.file_stem(name) for name in [each.name for each in self.cameras] + [v for *_, v in views]
+        ]
+        k = twice(stems)
+        if k is None:
+            return None
+        i, _, view = views[k - len(self.cameras)]
+        reason = f'"{view}" and another view would write the files "{stems[k]}"; rename the camera or the run'
+        return ("runs", i, "name"), reason
 
     def _impossible(self) -> tuple[Where, str] | None:
         """Check that cameras suit the engine and their resolution."""
