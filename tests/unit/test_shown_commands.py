@@ -1,7 +1,7 @@
-"""Code blocks of the pages: commands have options that exist, TOML is valid, other blocks say why neither is so.
+"""Code blocks of the pages: commands have options that exist, and TOML is valid.
 
-`tests/system/test_documented_commands.py` runs the commands of docs/stations.md; `test_from_arrays.py` runs the
-Python of docs/runs.md. A block that no test can check has the comment ``<!-- not checked: REASON -->`` above it.
+`tests/system/test_documented_commands.py` runs the commands of docs/stations.md; `test_from_arrays.py` runs
+the Python of docs/runs.md. A block that is not checked has ``<!-- not checked: REASON -->`` above it.
 """
 
 import re
