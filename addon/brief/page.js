@@ -13,6 +13,7 @@
   addKeys();
   addPrint();
   addPosters();
+  addScrolling();
 
   function drawMap() {
     document.documentElement.classList.add("js");
@@ -289,7 +290,7 @@
         } else if (at !== document.body) at.blur();
         return;
       }
-      if (at.matches("input:not([type=checkbox]), select, video") || find("map").contains(at)) return;
+      if (at.matches("input:not([type=checkbox]), select, video") || at.matches(".wide") || find("map").contains(at)) return;
       const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
       if (step) time.step(step);
       else if (event.key === "/" && search) {
@@ -306,6 +307,24 @@
       const frame = all(".gallery img").find((each) => each.dataset.view === clip.dataset.view);
       if (frame) clip.poster = frame.src;
     }
+  }
+
+  // Tables wider than the window scroll with the arrow keys, so they take the focus.
+  function addScrolling() {
+    const boxes = all(".wide");
+    const check = () => {
+      for (const box of boxes) {
+        const scrolls = box.scrollWidth > box.clientWidth;
+        for (const name of ["tabindex", "role", "aria-label"]) box.removeAttribute(name);
+        if (!scrolls) continue;
+        const title = box.querySelector("caption") || box.closest("section").querySelector("h2");
+        box.setAttribute("tabindex", "0");
+        box.setAttribute("role", "region");
+        box.setAttribute("aria-label", `Table: ${title.textContent}, ${boxes.indexOf(box) + 1}`);
+      }
+    };
+    addEventListener("resize", check);
+    check();
   }
 
   function addPrint() {

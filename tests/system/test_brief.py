@@ -1,17 +1,19 @@
-"""The briefing page in a real browser: time, search, keys, colours, print, and no request to elsewhere.
+"""The briefing page in a real browser: time, search, keys, colours, print, access, and no outside request.
 
-Needs selenium, and Debian's chromium and chromium-driver; skipped without them.
+Needs the extra `browser`, and Debian's chromium and chromium-driver; skipped without them.
 """
 
 from __future__ import annotations
 
 import base64
+import importlib.util
 import random
 import re
 import shutil
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 import small_stations
@@ -88,8 +90,10 @@ def opened(browser, page):
     assert browser.title.endswith(": briefing")
 
 
-def colours(browser, scheme, media=""):
+def colours(browser, scheme, media="", **more):
+    """Emulate colours of the system, a medium, and more features such as ``forced_colors="active"``."""
     features = [{"name": "prefers-color-scheme", "value": scheme}]
+    features += [{"name": name.replace("_", "-"), "value": value} for name, value in more.items()]
     browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": media, "features": features})
 
 
@@ -371,3 +375,80 @@ def test_without_scripts_the_page_is_whole(browser, page):
         assert browser.find_element(By.CSS_SELECTOR, "tbody[data-id]").is_displayed()
     finally:
         browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})
+
+
+PHONE = {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True}
+RULES = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]
+
+
+@pytest.fixture(scope="module")
+def axe():
+    """Source of axe-core; the package around it is not imported, as the tests do not use Playwright."""
+    found = importlib.util.find_spec("axe_playwright_python")
+    if found is None:
+        pytest.skip("axe-playwright-python is missing: pip install 'firetwin[browser]'")
+    return Path(found.origin).with_name("axe.min.js").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("phone", [False, True])
+@pytest.mark.parametrize(
+    ("scheme", "media", "more"),
+    [
+        ("light", "", {}),
+        ("dark", "", {}),
+        ("light", "print", {}),
+        ("dark", "", {"forced_colors": "active"}),
+    ],
+)
+def test_axe_finds_no_violation(opened, page, axe, scheme, media, more, phone):
+    if phone:
+        opened.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", PHONE)
+    try:
+        colours(opened, scheme, media, **more)
+        opened.get(page.as_uri())
+        opened.execute_script(axe)
+        script = "axe.run({runOnly: arguments[0]}).then(arguments[1])"
+        found = opened.execute_async_script(script, RULES)
+    finally:
+        opened.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+        colours(opened, "light")
+    assert [(each["id"], [node["html"] for node in each["nodes"]]) for each in found["violations"]] == []
+    assert len(found["passes"]) > 15
+
+
+def test_targets_are_at_least_24_pixels(opened):
+    script = """
+      const all = [...document.querySelectorAll("a, button, input, select, summary, video, [tabindex]")];
+      const seen = all.filter((e) => e.tabIndex >= 0 && e.checkVisibility() && !e.matches(".skip"));
+      const small = ({ width, height }) => width < 24 || height < 24;
+      return [seen.length, seen.filter((e) => small(e.getBoundingClientRect())).map((e) => e.outerHTML)];
+    """
+    opened.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", PHONE)
+    try:
+        count, small = opened.execute_script(script)
+    finally:
+        opened.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+    assert count > 20
+    assert small == []
+
+
+def test_reduced_motion_stops_animations(opened, page):
+    fading = "return document.getElementById('map').classList.contains('leaflet-fade-anim')"
+    assert opened.execute_script(fading)
+    colours(opened, "light", prefers_reduced_motion="reduce")
+    opened.get(page.as_uri())
+    assert not opened.execute_script(fading)
+    colours(opened, "light")
+
+
+def test_wide_tables_scroll_with_the_keyboard(opened):
+    opened.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", PHONE)
+    try:
+        wait(lambda: opened.find_elements(By.CSS_SELECTOR, ".wide[tabindex]"), 5.0)
+        table = opened.find_element(By.CSS_SELECTOR, ".wide[tabindex]")
+        opened.execute_script("arguments[0].focus()", table)
+        before = at(opened)
+        press(opened, Keys.ARROW_LEFT)
+        assert at(opened) == before  # the arrows are the table's
+    finally:
+        opened.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
