@@ -35,7 +35,8 @@ function(firetwin_quick_build target name)
   if(name STREQUAL "volume")
     set_source_files_properties(volume/archive.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON) # the only file with OpenVDB
     if(NOT MSVC)
-      set_source_files_properties(volume/archive.cpp PROPERTIES COMPILE_OPTIONS -O1)
+      # GCC 16 does not accept a precompiled header of another optimisation level.
+      set_source_files_properties(volume/archive.cpp PROPERTIES COMPILE_OPTIONS -O1 SKIP_PRECOMPILE_HEADERS ON)
     endif()
   endif()
 endfunction()

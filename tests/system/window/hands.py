@@ -97,6 +97,40 @@ def built() -> list[str]:
     return [thing.name for thing in bpy.context.scene.objects if thing.name.startswith("Firetwin")]
 
 
+def ready() -> Iterator[object]:
+    """Open and build the small scene, unless it is built; its camera can be keyed by hand."""
+    if built() and bpy.context.scene.camera is not None and "poses" in bpy.context.scene.camera.name:
+        return
+    view().spaces.active.show_region_ui = True
+    yield 1
+    tab()
+    if not built():
+        settings().scene_file = str(FOLDER / "scene.toml")
+        yield 1
+        yield idle
+        call(bpy.ops.firetwin.build)
+        yield 1
+        yield idle
+        yield 3
+    check("Firetwin Ground" in built(), "the scene is built")
+    view().spaces.active.region_3d.view_perspective = "PERSP"
+    call(bpy.ops.firetwin.camera_add, kind="poses")
+    yield 1
+    yield idle
+    yield 1
+
+
+def key_frames() -> list[int]:
+    """Return the frames in which the scene's camera has keys."""
+    thing = bpy.context.scene.camera
+    if thing is None or thing.animation_data is None or thing.animation_data.action is None:
+        return []
+    strips = [strip for layer in thing.animation_data.action.layers for strip in layer.strips]
+    bags = [bag for strip in strips if (bag := strip.channelbag(thing.animation_data.action_slot))]
+    points = (point for bag in bags for curve in bag.fcurves for point in curve.keyframe_points)
+    return sorted({round(point.co.x) for point in points})
+
+
 def soon(condition: Callable[[], bool], seconds: float = 300.0) -> Callable[[], bool]:
     """Yield a waiting time: a slow machine takes long to draw before it takes a key."""
     end = time.monotonic() + seconds
@@ -113,7 +147,7 @@ def opened(cls: type) -> type:
     own |= {"bl_idname": f"{cls.bl_idname}_open", "bl_options": set()}
     if "bl_parent_id" in own:
         own["bl_parent_id"] += "_open"
-    return type(own["bl_idname"], (bpy.types.Panel,), own)
+    return type(own["bl_idname"], cls.__bases__, own)
 
 
 def alone(top: str, take: Callable[[], None], *more: str) -> Iterator[object]:

@@ -44,6 +44,7 @@ if [[ ! -x $venv/bin/pip ]]; then
   "$venv/bin/pip" install --quiet --disable-pip-version-check "scikit-build-core==1.1.2" "pybind11==3.1.0"
 fi
 logged "building the core for $(python3 --version)" /tmp/wheel.log "$venv/bin/pip" wheel --no-deps --no-build-isolation \
-  --config-settings=build-dir="$PWD/build/window/core" --wheel-dir "$wheels" ./cpp
+  --config-settings=build-dir="$PWD/build/window/core" --config-settings=cmake.define.FIRETWIN_QUICK_BUILD=ON \
+  --wheel-dir "$wheels" ./cpp
 "$venv/bin/pip" download --quiet --disable-pip-version-check --no-deps --only-binary=:all: --require-hashes \
   --requirement cpp/portable/extension-wheels.txt --dest "$wheels"

@@ -18,6 +18,8 @@ from pathlib import Path
 import bpy
 
 sys.path.insert(0, str(Path(__file__).parent))
+import customized
+import found
 import inventory
 import page
 import shown
@@ -406,6 +408,8 @@ def leave(before: dict[str, list[str]]) -> Iterator[object]:
         if not name.startswith(("files", "search"))
     ]
     check(not remains, f"disabling leaves nothing registered {remains or ''}")
+    names = [each.name for each in bpy.context.preferences.filepaths.asset_libraries]
+    check("Firetwin" not in names, f"and leaves the asset libraries of the user: {names}")
     picture("16-disabled")
     bpy.ops.preferences.addon_enable(module=MODULE)
     yield 1
@@ -431,7 +435,9 @@ def session() -> Iterator[object]:
     yield from install()
     for step in (
         *(panel, quality, build, shown.sections, shown.dialogs, look, parts, scrub, render),
-        *(by_hand, undo, beside, file, shown.drop, tile_preview.tiles, page.page, shown.browser),
+        *(found.manual, found.pie, customized.shortcuts, customized.german, customized.preferences),
+        *(customized.assets, found.find),
+        *(by_hand, undo, beside, file, shown.drop, tile_preview.tiles, page.page),
     ):
         if step.__name__ in STEPS:
             yield from step()

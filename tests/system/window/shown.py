@@ -1,4 +1,4 @@
-"""Pictures of all that the add-on shows: panels, menus, dialogs, preferences, and its assets."""
+"""Pictures of all that the add-on shows: panels, menus, dialogs and preferences."""
 
 from __future__ import annotations
 
@@ -58,13 +58,13 @@ def dialogs() -> Iterator[object]:
     for name in ("open", "export"):
         call(getattr(bpy.ops.firetwin, name))
         yield 3
-        yield from _window(f"22-files-{name}", "File View", lambda: bpy.ops.file.cancel())
+        yield from window_picture(f"22-files-{name}", "File View", lambda: bpy.ops.file.cancel())
     bpy.ops.preferences.addon_show(module=MODULE)
     yield 3
-    yield from _window("22-preferences", "Preferences", bpy.ops.wm.window_close)
+    yield from window_picture("22-preferences", "Preferences", bpy.ops.wm.window_close)
 
 
-def _window(name: str, title: str, close: Callable[[], object]) -> Iterator[object]:
+def window_picture(name: str, title: str, close: Callable[[], object]) -> Iterator[object]:
     """A picture of the window that was opened last; then it goes."""
     window = bpy.context.window_manager.windows[-1]
     if len(bpy.context.window_manager.windows) > 1:
@@ -97,36 +97,3 @@ def drop() -> Iterator[object]:
     tab()
     yield 1
     picture("24-dropped")
-
-
-def browser() -> Iterator[object]:
-    """The asset library, written by the panel's operator and looked at in Blender's browser."""
-    folder = FOLDER / "library"
-    call(bpy.ops.firetwin.assets, directory=str(folder))
-    yield 0.5
-    yield idle
-    check((folder / "firetwin_assets.blend").exists(), "the asset library is written")
-    bpy.context.preferences.filepaths.asset_libraries.new(name="Firetwin", directory=str(folder))
-    area = view()
-    area.ui_type = "ASSETS"
-    yield 3
-    space = area.spaces.active
-    space.params.asset_library_reference = "Firetwin"
-    space.show_region_ui = False
-    for name in _catalogues(folder):
-        space.params.catalog_id = name[0]
-        yield 30  # pictures of trees come one after the other
-        picture(f"23-assets-{name[1].lower().replace(' ', '-')}")
-    libraries = bpy.context.preferences.filepaths.asset_libraries
-    libraries.remove(libraries["Firetwin"])
-    area.ui_type = "VIEW_3D"
-    yield 2
-    tab()
-    check(settings().run != "", "back in the 3D view")
-
-
-def _catalogues(folder: Path) -> list[tuple[str, str]]:
-    """Identifier and name of every catalogue of a library."""
-    lines = (folder / "blender_assets.cats.txt").read_text("utf-8").splitlines()
-    found = [line.split(":") for line in lines if line.count(":") == 2]
-    return [(each[0], each[1].rpartition("/")[2]) for each in found]
