@@ -37,6 +37,10 @@ WARMTH = "Firetwin Warmth"
 a solid surface add up, without mutual attenuation (Cycles 4.5)."""
 FIRE = "Firetwin Fire"
 """Light group of all objects that write the flames' AOVs."""
+SUN, FIRELIGHT = "Firetwin Sun", "Firetwin Firelight"
+"""Light groups of the sun, and of the lamps of the fire."""
+GLOW = "Firetwin Glow"
+"""AOV of the radiance that flames and embers on surfaces emit to the camera, dimmed by haze."""
 _SAME_SOCKETS = frozenset(
     f"ShaderNode{name}"
     for name in ("AddShader", "Attribute", "CombineXYZ", "Emission", "MixShader", "SeparateXYZ", "TexNoise")

@@ -55,6 +55,8 @@ class Surfaces:
         (h, w) share of rays that met a surface nearer than these flames.
     rays
         Rays (samples) per pixel.
+    sun, firelight
+        (h, w, 3) shares of `noisy` from the sun, and from flames on surfaces and embers; None: not rendered.
     """
 
     colour: Array
@@ -68,6 +70,8 @@ class Surfaces:
     flame_distance: Array
     before: Array
     rays: int
+    sun: Array | None = None
+    firelight: Array | None = None
 
 
 def taps(surfaces: Surfaces) -> Array:
@@ -78,20 +82,44 @@ def taps(surfaces: Surfaces) -> Array:
     return np.stack([near, far, surfaces.fire_distance], axis=-1)
 
 
-def compose(surfaces: Surfaces, distances: Array, marched: Array, white: float | None = None) -> Array:
-    """Composite surfaces and smoke to radiance (h, w, 3).
+@dataclass(frozen=True)
+class Layers:
+    """A picture, and layers that add up to it, (h, w, 3) radiance each.
+
+    Attributes
+    ----------
+    picture
+        The sum of all layers.
+    solid, fire
+        Surfaces and flames, dimmed by the smoke in front of them.
+    """
+
+    picture: Array
+    solid: Array
+    fire: Array
+
+    @property
+    def smoke(self) -> Array:
+        """Light of the smoke."""
+        return self.picture - self.solid - self.fire
+
+
+def compose(surfaces: Surfaces, distances: Array, marched: Array, white: float | None = None) -> Layers:
+    """Composite surfaces and smoke.
 
     Parameters
     ----------
     distances
         (h, w, 3) m, as `taps` returns them.
     marched
-        (h, w, 3, 4) at these distances, as `firetwin_core.volume.march` returns it.
+        (h, w, 3, 8) at these distances, as `firetwin_core.volume.march` returns it with `parts`. Without
+        (h, w, 3, 4), flames in the air count as smoke.
     white
         Radiance that is white in the picture, if the light of flames in gaps is to be softened.
     """
     share = _coverage(surfaces, distances)[..., None]
-    smoke, through = marched[..., :3], marched[..., 3:]
+    smoke, through = marched[..., :3], marched[..., 3:4]
+    flamelight = marched[..., 4:7] if marched.shape[-1] > 4 else np.zeros_like(smoke)
     near, far, flames = (through[:, :, k] for k in range(3))
     fire = _flame_light(surfaces)
     solid = surfaces.colour - fire
@@ -104,10 +132,39 @@ def compose(surfaces: Surfaces, distances: Array, marched: Array, white: float |
     behind = np.where(edge[..., None], split, behind)
     gaps = (1.0 - share) * (smoke[:, :, 1] - smoke[:, :, 0])
     light = smoke[:, :, 0] + gaps
+    burning = flamelight[:, :, 0] + (1.0 - share) * (flamelight[:, :, 1] - flamelight[:, :, 0])
     if white is not None:
         flaming = gaps * _share_of_flames(gaps)
-        light += _limited(flaming, share, _GAP * white) - flaming
-    return (np.maximum(behind + fire * flames, 0.0) + light).astype(np.float32)
+        limited = _limited(flaming, share, _GAP * white) - flaming
+        light += limited
+        burning = np.maximum(burning + limited, 0.0)
+    surface = np.maximum(behind + fire * flames, 0.0)
+    cards = np.minimum(fire * flames, surface)
+    found = surface + light, surface - cards, cards + burning
+    return Layers(*(each.astype(np.float32) for each in found))
+
+
+def smoke_opacity(surfaces: Surfaces, distances: Array, marched: Array) -> Array:
+    """Return 1 - transmittance (h, w) of smoke in front of the surfaces; arguments as in `compose`."""
+    share = _coverage(surfaces, distances)
+    near, far = marched[:, :, 0, 7], marched[:, :, 1, 7]
+    return (1.0 - (share * near + (1.0 - share) * far)).astype(np.float32)
+
+
+def solid_share(surfaces: Surfaces) -> Array:
+    """Return the share (h, w) of the pixel that surfaces cover, and not the sky."""
+    unknown = (surfaces.solid < 0.5) & (surfaces.distance < SKY)
+    return np.where(unknown, 1.0, np.clip(surfaces.solid, 0.0, 1.0)).astype(np.float32)
+
+
+def split_light(surfaces: Surfaces, solid: Array) -> tuple[Array, Array, Array]:
+    """Split the layer of solid surfaces into light of the sun, sky and fire, which add up to it."""
+    assert surfaces.sun is not None and surfaces.firelight is not None  # rendered for layers
+    noisy = np.maximum(blur(surfaces.noisy - surfaces.fire), 1.0e-6)
+    sun, fire = (np.clip(blur(each) / noisy, 0.0, 1.0) for each in (surfaces.sun, surfaces.firelight))
+    most = np.maximum(sun + fire, 1.0)
+    sun, fire = solid * sun / most, solid * fire / most
+    return sun, solid - sun - fire, fire
 
 
 def place_text(
@@ -152,15 +209,20 @@ def _limited(gaps: Array, share: Array, most: float) -> Array:
     return gaps * -np.expm1(-excess) / excess
 
 
-def soften_highlights(picture: Array, white: float) -> Array:
-    """Spread the light of a picture (h, w, 3) above a radiance over about 3 pixels, as lenses do.
+def soften_highlights(layers: Layers, white: float) -> Layers:
+    """Spread the light of a picture above a radiance over about 3 pixels, as lenses do.
 
     Flames are many times brighter than white. Without this, a pixel that shows a little of them between
     leaves is as bright as one full of them, and gaps look like square chips.
     """
-    brightest = picture.max(axis=-1, keepdims=True)
-    excess = picture * np.clip(1.0 - white / np.maximum(brightest, 1.0e-6), 0.0, 1.0)
-    return (picture - excess + blur(excess)).astype(np.float32)
+    brightest = layers.picture.max(axis=-1, keepdims=True)
+    part = np.clip(1.0 - white / np.maximum(brightest, 1.0e-6), 0.0, 1.0)
+
+    def spread(layer: Array) -> Array:
+        excess = layer * part
+        return (layer - excess + blur(excess)).astype(np.float32)
+
+    return Layers(spread(layers.picture), spread(layers.solid), spread(layers.fire))
 
 
 def infrared_radiance(surface: Array, flames: Array, warmth: Array, sky: Array | float) -> Array:

@@ -49,6 +49,8 @@ class Eye:
         Flames of the frame that are drawn as a volume; None if there are none.
     flame_distance
         Their distance in each cell of the picture (see `flame_distance`), m; None if surfaces do not know it.
+    parts
+        Compute the `layers` of the picture.
     """
 
     def __init__(
@@ -60,6 +62,7 @@ class Eye:
         smoke: Sequence[volume.Bricks],
         flames: volume.FlameVolume | None = None,
         flame_distance: Array | None = None,
+        parts: bool = False,
     ) -> None:
         self.shot, self.stage, self.channels = shot, stage, channels
         self.smoke, self.flames = smoke, flames
@@ -75,25 +78,30 @@ class Eye:
             self._flame_distance = flame_distances.of_pixels(flame_distance, height, width)
         self.clear = np.ones(self.shape, np.float32)
         """Transmittance (h, w) of smoke, once `picture` has computed it."""
+        self.parts = parts
+        self.layers: dict[str, Array] = {}
+        """Layers of the picture without text (see `shot.passes.comp`), once `picture` has computed them."""
 
     def picture(self, text: Channels | None = None) -> Array:
         """Compute the radiance (h, w, 3) of surfaces, smoke, flames and `text`, which was rendered alone."""
         rendered = self._surfaces()
         at = composite.taps(rendered)
-        marched = np.zeros((*at.shape, 4), np.float32)
-        marched[..., 3] = not (self.smoke or self.flames)
+        marched = np.zeros((*at.shape, 8 if self.parts else 4), np.float32)
+        marched[..., 3::4] = not (self.smoke or self.flames)
         if self.smoke or self.flames:
             ends = at.reshape(-1, 3)
             for weight, smoke, place in _marches(shutter.moments(self.smoke)):
                 lines = _lines(self._through(at=place))
-                found = self._march(smoke, *lines, ends)
+                found = self._march(smoke, *lines, ends, self.parts)
                 marched += np.float32(weight) * found.reshape(marched.shape)
         self.clear = marched[..., 3].mean(axis=-1)
         white = 2.0**-self.stage.scene.view_settings.exposure
         composed = composite.compose(rendered, at, marched, white if self.flames else None)
         if self.flames:
             composed = composite.soften_highlights(composed, _WHITE * white)
-        return composed if text is None else self._place_text(composed, rendered, at, text)
+        if self.parts:
+            self.layers = _layers(composed, rendered, composite.smoke_opacity(rendered, at, marched))
+        return composed.picture if text is None else self._place_text(composed.picture, rendered, at, text)
 
     def _march(
         self,
@@ -101,12 +109,11 @@ class Eye:
         origins: NDArray[np.float64],
         directions: NDArray[np.float64],
         ends: Array,
+        parts: bool = False,
     ) -> Array:
         """March rays through smoke and flames, with the detail that pixels resolve."""
-        pixel = self.rays.pixel
-        return volume.march(
-            smoke, origins, directions, ends, self._light, _STEP, pixel=pixel, **self._burning
-        )
+        pixel, more = self.rays.pixel, self._burning | ({"parts": True} if parts else {})
+        return volume.march(smoke, origins, directions, ends, self._light, _STEP, pixel=pixel, **more)
 
     def _place_text(self, picture: Array, rendered: composite.Surfaces, at: Array, text: Channels) -> Array:
         """Place text over a picture, with the smoke and flames in front of it."""
@@ -240,7 +247,25 @@ class Eye:
             flame_distance=self._flame_distance,
             before=np.clip(channels[flame_gaps.AOV][..., 0], 0.0, 1.0),
             rays=self.stage.scene.cycles.samples,
+            sun=channels[f"Combined_{nodes.SUN}"] if self.parts else None,
+            firelight=channels[f"Combined_{nodes.FIRELIGHT}"] + channels[nodes.GLOW] if self.parts else None,
         )
+
+
+def _layers(composed: composite.Layers, rendered: composite.Surfaces, opacity: Array) -> dict[str, Array]:
+    """Return the layers of a picture (h, w, 3), and the two alphas (h, w, 1), by their name in the file."""
+    sun, sky, fire = composite.split_light(rendered, composed.solid)
+    return {
+        "": composed.picture,
+        "A": composite.solid_share(rendered)[..., None],
+        "fire.": composed.fire,
+        "smoke.": composed.smoke,
+        "smoke.A": opacity[..., None],
+        "solid.": composed.solid,
+        "light_sun.": sun,
+        "light_sky.": sky,
+        "light_fire.": fire,
+    }
 
 
 def _marches(

@@ -8,7 +8,8 @@ sample depth. Other passes, of one ray per pixel, come from a second render.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 import bpy
@@ -36,6 +37,9 @@ MARCHED_PASSES = ("rgb", "thermal", "depth")
 _AOVS = {flame_gaps.AOV: "VALUE", nodes.SURFACE: "COLOR", nodes.FLAMES: "COLOR", nodes.WARMTH: "VALUE"}
 _PICTURE = "integrated picture"
 _BLOOM = {"Threshold": 2.5, "Maximum": 20.0}  # radiance times 2^exposure; text, of 2, has no bloom
+_LAYERS = (
+    "R, G, B = solid + fire + smoke; solid = light_sun + light_sky + light_fire; bloom is not in R, G, B"
+)
 _CLOSE, _HALF = 0.1, 0.5  # share of the distance to the camera's target; share of the picture
 
 Array = NDArray[np.float32]
@@ -64,9 +68,13 @@ class IntegratedRenderer:
         return lambda pictures: self._render({picture.name: picture for picture in pictures}, smoke, part)
 
     def _render(self, pictures: dict[str, Picture], smoke: Sequence[volume.Bricks], part: Path) -> None:
+        if "comp" in pictures:
+            _split_light(self.scene)
+            shown = pictures["comp"]
+            pictures.setdefault("rgb", Picture(shown.camera, shown.frame, "rgb"))
         if self.shadow and "rgb" in pictures:
             self.shadow.cast(self.stage, smoke)
-        marched = {name: pictures[name] for name in MARCHED_PASSES if name in pictures}
+        marched = {name: pictures[name] for name in (*MARCHED_PASSES, "comp") if name in pictures}
         if marched:
             self._render_marched_passes(marched, smoke, part)
         others = [picture for name, picture in pictures.items() if name not in marched]
@@ -84,14 +92,16 @@ class IntegratedRenderer:
             wanted = self.has_text and "rgb" in pictures
             text = text_layer.render(self.scene, part) if wanted else {}
         eyes = [
-            Eye(self.shot, self.stage, found[first], number, smoke, flames, distance)
+            Eye(self.shot, self.stage, found[first], number, smoke, flames, distance, "comp" in pictures)
             for number, found in rendered
         ]
         if "rgb" in pictures:
             with self.cost.part(frame_cost.MARCH):
                 light = [self._blurred(eye, text.get(eye.number), pictures["rgb"].frame) for eye in eyes]
-            self._write_visible(light, pictures["rgb"], part)
+            bloom = self._write_visible(light, pictures["rgb"], part, "comp" in pictures)
             self._check_view(eyes[0], pictures["rgb"].frame)
+            if "comp" in pictures:
+                self._write_layers(eyes, bloom, pictures["comp"], part)
         if "thermal" in pictures:
             with self.cost.part(frame_cost.MARCH):
                 heat = [eye.radiance(pictures["thermal"].frame) for eye in eyes]
@@ -130,7 +140,11 @@ class IntegratedRenderer:
 
     def _blurred(self, eye: Eye, text: surfaces.Channels | None, frame: int) -> Array:
         """Compute the radiance (h, w, 3) of an eye, blurred by the camera's motion."""
-        light, exposure = eye.picture(text), self.shot.settings.render.motion_blur
+        return self._blur(eye, eye.picture(text), frame)
+
+    def _blur(self, eye: Eye, light: Array, frame: int) -> Array:
+        """Blur values (h, w, n) of an eye by the camera's motion."""
+        exposure = self.shot.settings.render.motion_blur
         if exposure == 0.0:
             return light
         (view,) = self.shot.paths
@@ -175,19 +189,51 @@ class IntegratedRenderer:
                 halves.append(pixels)
             self._write(part, picture, np.concatenate(halves))
 
-    def _write_visible(self, eyes: list[Array], picture: Picture, part: Path) -> None:
-        """Write the files of the visible picture from the radiance (h, w, 3) of each eye."""
+    def _write_layers(self, eyes: list[Eye], bloom: list[Array], picture: Picture, part: Path) -> None:
+        """Write the layers of the visible picture."""
+        names, halves = [], []
+        for eye, glare in zip(eyes, bloom, strict=True):
+            named = eye.layers | {"bloom.": glare}
+            names = [
+                name + channel
+                for name, values in named.items()
+                for channel in ("RGB" if values.shape[-1] == 3 else [""])
+            ]
+            values = self._blur(eye, np.concatenate(list(eye.layers.values()), axis=-1), picture.frame)
+            halves.append(np.concatenate([values, glare], axis=-1))
+        pixels, space = np.concatenate(halves), self.shot.settings.render.exr_space
+        for red in (names.index(name) for name in names if name.endswith("R")):
+            pixels[..., red : red + 3] = exr_tags.to_exr_space(pixels[..., red : red + 3], space)
+        about = exr_tags.attributes(self.shot, picture.camera, picture.frame, _LAYERS, colour=True)
+        file = part / Path(picture.file("exr")).name
+        sensor.write_image(file, pixels, about, names, half=True, one_line=True)
+
+    def _write_visible(self, eyes: list[Array], picture: Picture, part: Path, bloom: bool) -> list[Array]:
+        """Write the files of the visible picture from the radiance (h, w, 3) of each eye.
+
+        Returns
+        -------
+        The light (h, w, 3) that bloom adds in each eye, if `bloom`.
+        """
+        glare = []
         png, exr = (part / Path(picture.file(end)).name for end in ("png", "exr"))
         shown = []
         two, self.scene.render.use_multiview = self.scene.render.use_multiview, False
         for light in eyes:
-            self._composite(light, picture, part)
+            if bloom:
+                with _bloomed(self.scene, part, picture.frame) as lit:
+                    self._composite(light, picture, part)
+                glare.append(sensor.read_image(lit)[..., :3] - light)
+                lit.unlink()
+            else:
+                self._composite(light, picture, part)
             if two:
                 shown.append(sensor.read_image(png)[..., :3])
         self.scene.render.use_multiview = two
         if two:
             sensor.write_image(png, np.concatenate(shown), {"Note": self.scene.render.stamp_note_text})
         exr_tags.write_radiance(exr, np.concatenate(eyes), self.shot, picture.camera, picture.frame)
+        return glare
 
     def _write(self, part: Path, picture: Picture, pixels: Array) -> None:
         """Write the EXR of a data pass."""
@@ -230,6 +276,31 @@ def _prepare(scene: bpy.types.Scene) -> None:
     groups = layers.find_layer(scene, "rgb").lightgroups
     if nodes.FIRE not in {group.name for group in groups}:
         groups.add(name=nodes.FIRE)
+
+
+def _split_light(scene: bpy.types.Scene) -> None:
+    """Add the light groups and the AOV of the layers of the visible picture."""
+    layer = layers.find_layer(scene, "rgb")
+    there = {group.name for group in layer.lightgroups}
+    for name in {nodes.SUN, nodes.FIRELIGHT} - there:
+        layer.lightgroups.add(name=name)
+    if nodes.GLOW not in {each.name for each in layer.aovs}:
+        made = layer.aovs.add()
+        made.name, made.type = nodes.GLOW, "COLOR"
+
+
+@contextmanager
+def _bloomed(scene: bpy.types.Scene, part: Path, frame: int) -> Iterator[Path]:
+    """Let the compositor write the picture with bloom during a `with` block, in 32 bits."""
+    tree = compat.compositor(scene)
+    assert tree is not None
+    end = next(link for link in tree.links if link.to_node.bl_idname == compat.END)
+    node = compat.exr_output(tree, "Firetwin Bloom", end.from_socket, False, 32)
+    compat.exr_output_path(node, str(part), "bloom_")
+    try:
+        yield part / f"bloom_{frame:06d}.exr"
+    finally:
+        tree.nodes.remove(node)
 
 
 def _shadow(shot: Shot, stage: Stage) -> shadow.Shadow | None:

@@ -12,7 +12,7 @@ from firetwin_core import sensor
 
 from .. import files, memory
 from ..blender.owned import Stage
-from ..errors import writing
+from ..errors import Error, writing
 from ..imaging.credits import Credits
 from ..progress import MessageCallback, Progress, no_message, silent
 from ..shot import passes
@@ -73,6 +73,8 @@ def render(
     engine.check_working_space()
     made, note = 0, ""
     marched = integrated.applies(shot, stage.scene) and bool(plan.rendered(shot, wanted))
+    if not marched:
+        _check_marched(wanted)
     cost = frame_cost.FrameCost()
     renderer = integrated.IntegratedRenderer(shot, stage, cost) if marched else None
     with (
@@ -95,6 +97,16 @@ def render(
     if made > 1:
         tell(cost.sentence())
     return made
+
+
+def _check_marched(wanted: list[Picture]) -> None:
+    """Check that no pass needs the integrated renderer."""
+    for name in sorted({picture.name for picture in wanted}):
+        if isinstance(passes.known()[name], passes.MarchedPass):
+            raise Error(
+                f"{name} needs smoke that is marched separately, which this scene does not have; "
+                f"leave {name} out of the passes, or render with Cycles and the default smoke.method"
+            )
 
 
 def _frame(
@@ -166,13 +178,7 @@ class _Frame:
         missing = {need for need in own - set(names) if plan.missing(store, [self.pictures[need]], made_with)}
         drawn = [known[name] for name in known if name in names or name in missing]
         made = {self.pictures[drawn_pass.name] for drawn_pass in drawn}
-        self.draw(
-            [
-                self.pictures[drawn_pass.name]
-                for drawn_pass in drawn
-                if isinstance(drawn_pass, passes.RenderedPass)
-            ]
-        )
+        self.draw([self.pictures[drawn_pass.name] for drawn_pass in drawn if passes.is_rendered(drawn_pass)])
         for drawn_pass in drawn:
             if drawn_pass.finished:
                 pairs = taken.get(drawn_pass.name, {})

@@ -110,7 +110,7 @@ def rendered(shot: Shot, wanted: list[Picture]) -> set[tuple[str, str]]:
     for camera, name in list(pairs):
         pairs |= set(mount.taken(shot.settings, shot.cameras, camera, passes.known()[name]).values())
     own = {picture.camera for picture in wanted}
-    rendered = {name for name, each in passes.known().items() if isinstance(each, passes.RenderedPass)}
+    rendered = {name for name, each in passes.known().items() if passes.is_rendered(each)}
     return {(camera, name) for camera, name in pairs if camera in own and name in rendered}
 
 

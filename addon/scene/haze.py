@@ -166,7 +166,10 @@ def before_sky(tree: nodes.Tree, stage: Stage, light: nodes.Value, up: nodes.Val
     return tree.mix_colour(part, light, colour)
 
 
-def apply(tree: nodes.Tree, shader: Any, stage: Stage) -> nodes.Value:
-    """Apply the haze between surface and camera to `shader`."""
+def apply(tree: nodes.Tree, shader: Any, stage: Stage, glow: nodes.Value | None = None) -> nodes.Value:
+    """Apply the haze between surface and camera to `shader`; `glow` is the part that it emits, for an AOV."""
     part, colour = fraction(tree, stage)
+    if glow is not None:
+        clear = 1.0 - part
+        tree.aov(nodes.GLOW, tree.vector("MULTIPLY", glow, tree.combine(clear, clear, clear)))
     return tree.mix_shader(part, shader, tree.emission(colour, 1.0))

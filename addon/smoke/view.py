@@ -72,4 +72,6 @@ def _shows_smoke(settings: Settings, camera: Camera) -> bool:
 def _sees_smoke(recorded: passes.Pass) -> bool:
     if isinstance(recorded, passes.RenderedPass):
         return "smoke" not in recorded.excludes
+    if isinstance(recorded, passes.MarchedPass):
+        return True
     return any(_sees_smoke(passes.known()[name]) for name in recorded.made_from)

@@ -89,15 +89,16 @@ using LayerList = std::vector<std::shared_ptr<Bricks>>;
 Array<float> march(const LayerList& layers, const py::object& origins, const py::object& directions,
                    const py::object& distances, const Illumination& light, double step,
                    double min_transmittance, const std::shared_ptr<FlameVolume>& flames,
-                   const std::array<double, 2>& pixel) {
+                   const std::array<double, 2>& pixel, bool parts) {
   const RayArrays given(layers, origins, directions);
   const auto taps = to_array<float>(distances, "distances", {given.size(), -1});
-  auto found = new_array<float>({given.size(), taps.shape(1), 4});
+  auto found = new_array<float>(
+      {given.size(), taps.shape(1), static_cast<py::ssize_t>(volume::march_values(parts))});
   const std::span<float> out = writable(found);
   const py::gil_scoped_release release;
   volume::march(given.layers(), flames.get(), given.rays(),
                 {view(taps), static_cast<std::size_t>(taps.shape(1))}, light,
-                {step, min_transmittance, pixel}, out);
+                {step, min_transmittance, pixel, parts}, out);
   return found;
 }
 
@@ -173,7 +174,7 @@ void init_march(Module module) {
   const volume::MarchSettings defaults;
   module.def("march", &march, "layers"_a, "origins"_a, "directions"_a, "distances"_a, "light"_a,
              "step"_a = defaults.step, "min_transmittance"_a = defaults.min_transmittance,
-             "flames"_a = nullptr, "pixel"_a = defaults.pixel);
+             "flames"_a = nullptr, "pixel"_a = defaults.pixel, "parts"_a = defaults.parts);
   module.def("march_infrared", &march_infrared, "layers"_a, "origins"_a, "directions"_a,
              "distances"_a, py::kw_only(), "kelvin"_a, "elevation"_a, "corner"_a, "spacing"_a,
              "lapse"_a, "radiance"_a, "coldest"_a, "kelvin_step"_a, "absorption"_a, "step"_a = 4.0,

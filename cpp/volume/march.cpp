@@ -55,6 +55,16 @@ struct ShadingConstants {
 struct RayState {
   Four radiance{0.0F, 0.0F, 0.0F, 0.0F};
   float transmittance = 1.0F;
+  Four flames{0.0F, 0.0F, 0.0F, 0.0F}; ///< share of flames in the radiance
+  float smoke_transmittance = 1.0F;    ///< without flames
+
+  /// Ends the ray: extrapolates its radiance to a transmittance of 0.
+  void end() {
+    const float rest = 1.0F / (1.0F - transmittance);
+    radiance *= rest;
+    flames *= rest;
+    transmittance = 0.0F;
+  }
 };
 
 /// Haze between the eye and a point on a ray.
@@ -200,6 +210,7 @@ void accumulate(const ActiveLayers& active, const Steps& steps, const ShadingCon
         const float step_transmittance = std::exp(-extinction * steps.length);
         state.radiance += layers[k].light[n] * (state.transmittance * (1.0F - step_transmittance));
         state.transmittance *= step_transmittance;
+        state.smoke_transmittance *= step_transmittance;
       }
     }
   }
@@ -238,7 +249,7 @@ public:
   Marcher(Layers layers, const FlameVolume* flames, const Taps& taps, const Illumination& light,
           const MarchSettings& settings)
       : traversal_(layers), flames_(flames), taps_(taps), light_(light), settings_(settings),
-        shading_(light), order_(taps.count) {}
+        values_(march_values(settings.parts)), shading_(light), order_(taps.count) {}
 
   void ray(const Vector& origin, const Vector& direction, std::size_t number, float* out);
 
@@ -261,6 +272,7 @@ private:
   Taps taps_;
   const Illumination& light_;
   MarchSettings settings_;
+  std::size_t values_; ///< of each tap in the result
   ShadingConstants shading_;
   ActiveLayers active_;
   RayState state_;
@@ -336,10 +348,10 @@ void Marcher::add(const FlameSlab& slab, const HazeState& haze) {
   const Four light{slab.radiance[0], slab.radiance[1], slab.radiance[2], 0.0F};
   const Four seen = light * (1.0F - haze.share) + haze.light * (1.0F - slab.transmittance);
   state_.radiance += seen * state_.transmittance;
+  state_.flames += seen * state_.transmittance;
   state_.transmittance *= slab.transmittance;
   if (state_.transmittance < opaque_flames) {
-    state_.radiance *= 1.0F / (1.0F - state_.transmittance);
-    state_.transmittance = 0.0F;
+    state_.end();
   }
 }
 
@@ -363,11 +375,17 @@ void Marcher::pass(float t, float until, const Haze& haze) {
 }
 
 void Marcher::record(float* out) {
-  float* mine = out + 4 * order_[next_++];
+  float* mine = out + values_ * order_[next_++];
   for (int channel = 0; channel < 3; ++channel) {
     mine[channel] = state_.radiance[channel];
   }
   mine[3] = state_.transmittance;
+  if (values_ == march_values(true)) {
+    for (int channel = 0; channel < 3; ++channel) {
+      mine[4 + channel] = state_.flames[channel];
+    }
+    mine[7] = state_.smoke_transmittance;
+  }
 }
 
 void Marcher::ray(const Vector& origin, const Vector& direction, std::size_t number, float* out) {
@@ -403,8 +421,7 @@ void Marcher::ray(const Vector& origin, const Vector& direction, std::size_t num
         pass(t, until, haze);
       }
       if (is_opaque()) {
-        state_.radiance *= 1.0F / (1.0F - state_.transmittance);
-        state_.transmittance = 0.0F;
+        state_.end();
       }
       t = std::max(t, until);
       while (next_ < taps_.count && ends_[next_] <= t) {
@@ -428,7 +445,8 @@ void march(Layers layers, const FlameVolume* flames, const Rays& rays, const Tap
   for_rays(
       rays.size(), [&] { return Marcher(layers, flames, taps, light, settings); },
       [&](Marcher& marcher, std::size_t ray) {
-        marcher.ray(rays.origin(ray), rays.direction(ray), ray, out.data() + 4 * taps.count * ray);
+        marcher.ray(rays.origin(ray), rays.direction(ray), ray,
+                    out.data() + march_values(settings.parts) * taps.count * ray);
       });
 }
 

@@ -4,6 +4,7 @@
 #include "volume/ray.hpp"
 
 #include <array>
+#include <cstddef>
 #include <span>
 
 namespace firetwin::volume {
@@ -42,10 +43,17 @@ struct MarchSettings {
   /// Width of a pixel at distance 0 (m), and its increase per m of distance. Outlines of smoke are
   /// as sharp as pixels show, and have noise below the voxel down to some pixels. Zeros: neither.
   std::array<double, 2> pixel{};
+  bool parts = false; ///< return the light of flames, and the transmittance of smoke alone, too
 };
 
+/// Returns the number of values of each tap.
+constexpr std::size_t march_values(bool parts) {
+  return parts ? 8 : 4;
+}
+
 /// Marches rays through sparse smoke and flames: radiance and transmittance of each ray up to each
-/// tap, (n, count, 4) red, green, blue and transmittance.
+/// tap, (n, count, 4) red, green, blue and transmittance. With `parts` (n, count, 8): the next four
+/// are the light of flames within the first three, and the transmittance without flames.
 ///
 /// Steps end at block faces and taps. Within a step of length h, layers are composited one after
 /// the other; each transmits exp(-extinction h). Single scattering follows Henyey and Greenstein.

@@ -140,3 +140,25 @@ def test_settings_decide_how_smoke_is_drawn(near_settings, run):
     for other in ({"draw": "volume"}, {"method": "puffs"}, {"lighting": "traced"}, {"engine": "eevee"}):
         assert not drawn(**other)
     assert integrated.MARCHED_PASSES == ("rgb", "thermal", "depth")
+
+
+def test_layers_of_the_picture_add_up(film, tmp_path):
+    made = film("rgb", "comp")
+    found = sensor.read_channels(tmp_path / "integrated_0_rgb_comp" / Picture("drone", 1, "comp").file("exr"))
+
+    def layer(name):
+        return np.stack([found[name + channel] for channel in "RGB"], axis=-1)
+
+    names = "", "solid.", "fire.", "smoke.", "light_sun.", "light_sky.", "light_fire.", "bloom."
+    assert set(found) == {name + channel for name in names for channel in "RGB"} | {"A", "smoke.A"}
+    picture, solid, fire, smoke, sun, sky, firelight, bloom = map(layer, names)
+    half = {"rel": 2e-3, "abs": 1e-4}
+    assert solid + fire + smoke == pytest.approx(picture, **half)
+    assert sun + sky + firelight == pytest.approx(solid, **half)
+    assert min(each.min() for each in (solid, fire, smoke, sun, firelight)) > -1e-3
+    assert bloom.min() > -0.01 * picture.max()
+    assert np.array_equal(film("rgb")["rgb"], made["rgb"]), "layers change nothing"
+    ground = (found["A"] > 0.99) & (found["smoke.A"] < 0.02)
+    assert sun[ground].mean() > sky[ground].mean() > 0.0
+    assert found["smoke.A"].max() > 0.9
+    assert fire[..., 0].max() > 1.0

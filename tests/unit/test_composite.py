@@ -1,5 +1,7 @@
 """Pictures of surfaces and marched smoke, against the definition of a pixel of several rays."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from firetwin.render import composite
@@ -39,7 +41,7 @@ def even_smoke(seen, extinction=1e-3, shine=2.0):
 
 def picture(found, **smoke):
     seen = composite.taps(found)
-    return composite.compose(found, seen, even_smoke(seen, **smoke))
+    return composite.compose(found, seen, even_smoke(seen, **smoke)).picture
 
 
 @given(st.floats(0.0, 50.0), st.floats(10.0, 1e4))
@@ -186,28 +188,36 @@ def flames_behind_foliage(before):
 
 @pytest.mark.parametrize("before", [0.0, 0.375, 1.0])
 def test_gaps_that_no_central_ray_meets_show_the_flames_behind(before):
-    shown = composite.compose(*flames_behind_foliage(before))
+    shown = composite.compose(*flames_behind_foliage(before)).picture
     assert shown[3, 4] == pytest.approx((1.0 - before) * 8.0 * np.array([1, 0.4, 0]), rel=1e-4)
 
 
 def test_small_gaps_show_flames_less_bright_than_open_flames():
-    light = [composite.compose(*flames_behind_foliage(part), 1.0)[3, 4, 0] for part in (0.0, 0.5, 0.9)]
+    light = [
+        composite.compose(*flames_behind_foliage(part), 1.0).picture[3, 4, 0] for part in (0.0, 0.5, 0.9)
+    ]
     assert light[0] == pytest.approx(8.0, rel=0.01)
     assert 0.5 < light[1] < 2.0
     assert 0.05 < light[2] < 0.2
     found, at, marched = flames_behind_foliage(0.5)
     marched[..., :3] = marched[..., :1]  # smoke is grey, and as bright as it was
-    assert composite.compose(found, at, marched, 1.0)[3, 4] == pytest.approx([4.0, 4.0, 4.0], rel=1e-4)
+    assert composite.compose(found, at, marched, 1.0).picture[3, 4] == pytest.approx(
+        [4.0, 4.0, 4.0], rel=1e-4
+    )
+
+
+def soften(light):
+    return composite.soften_highlights(composite.Layers(light, light, 0.0 * light), 1.0).picture
 
 
 def test_a_gap_in_foliage_is_a_soft_spot_and_keeps_its_light():
     light = np.full((*SIZE, 3), 0.1, np.float32)
     light[2:5, 3:6] = 6.0
-    soft = composite.soften_highlights(light, 1.0)
+    soft = soften(light)
     assert soft.sum() == pytest.approx(light.sum(), rel=0.02)
     assert soft[3, 4, 0] > 1.3 * soft[2, 3, 0] > 2.0 * soft[1, 2, 0]
     dark = np.minimum(light, 0.5)
-    assert np.array_equal(composite.soften_highlights(dark, 1.0), dark)
+    assert np.array_equal(soften(dark), dark)
 
 
 @pytest.mark.parametrize(("distance", "seen"), [(100.0, 1.0), (300.0, 0.0)])
@@ -242,3 +252,50 @@ def test_hot_spots_smaller_than_pixels_are_averaged_and_cold_ground_is_exact():
     assert (found[inner] - 155.0).std() < 0.6 * (radiance[inner] - 155.0).std()
     many = composite.average_hot(radiance, 10**9, 112.0)
     assert many == pytest.approx(radiance, rel=1e-5)
+
+
+@given(st.integers(0, 2**32 - 1), st.booleans())
+def test_layers_add_up_and_are_positive(seed, white):
+    random = np.random.default_rng(seed)
+    fire, sun, firelight, sky = random.exponential(1.0, (4, *SIZE, 3)).astype(np.float32)
+    noisy = fire + sun + firelight + sky
+    found = surfaces(
+        0.0,
+        random.choice([100.0, 900.0, FAR], SIZE),
+        colour=noisy * random.uniform(0.5, 2.0, (*SIZE, 1)).astype(np.float32),
+        noisy=noisy,
+        fire=fire,
+        fire_distance=np.full(SIZE, 200.0, np.float32),
+        sun=sun,
+        firelight=firelight,
+    )
+    at = composite.taps(found)
+    smoke = even_smoke(at)
+    flames = smoke[..., :3] * random.uniform(0.0, 1.0, (*SIZE, 1, 1)).astype(np.float32)
+    marched = np.concatenate([smoke, flames, smoke[..., 3:]], axis=-1)
+    made = composite.compose(found, at, marched, 1.0 if white else None)
+    made = composite.soften_highlights(made, 2.0) if white else made
+    lights = composite.split_light(found, made.solid)
+    assert made.solid + made.fire + made.smoke == pytest.approx(made.picture, rel=1e-5, abs=1e-5)
+    assert sum(lights) == pytest.approx(made.solid, rel=1e-5, abs=1e-5)
+    for layer in (made.solid, made.fire, made.smoke, *lights):
+        assert layer.min() > -1e-4
+    without = composite.compose(found, at, smoke, 1.0 if white else None)
+    without = composite.soften_highlights(without, 2.0) if white else without
+    assert np.array_equal(without.picture, made.picture)
+
+
+def test_lights_have_the_shares_of_their_groups():
+    groups = {"sun": 3.0, "firelight": 1.0, "fire": 2.0}
+    found = surfaces(12.0, 100.0, noisy=np.full((*SIZE, 3), 8.0, np.float32))
+    found = dataclasses.replace(found, **{k: np.full((*SIZE, 3), v, np.float32) for k, v in groups.items()})
+    sun, sky, fire = composite.split_light(found, np.full((*SIZE, 3), 12.0, np.float32))
+    assert [each.mean() for each in (sun, sky, fire)] == pytest.approx([6.0, 4.0, 2.0])
+
+
+def test_opacity_is_of_smoke_alone():
+    found = surfaces(1.0, 100.0)
+    at = composite.taps(found)
+    marched = np.zeros((*at.shape, 8), np.float32)
+    marched[..., 7] = 0.25  # behind opaque flames
+    assert composite.smoke_opacity(found, at, marched) == pytest.approx(np.full(SIZE, 0.75))

@@ -266,3 +266,14 @@ def test_a_crown_burns_upright_at_its_middle():
     assert abs((seen[rows] * across).sum() / seen[rows].sum()) < 2.0
     tops = np.flatnonzero(seen.max(axis=1) > 0.5)
     assert 18.0 < (tops.max() + 1) * pixel < 36.0  # the upper edge of the row
+
+
+def test_the_light_of_flames_is_apart_from_smoke():
+    origins, directions, _, _ = look(5.0)
+    ends = np.full((len(origins), 1), 40.0)
+    burning = flames([front(5.0, 4.0)], 3.0)
+    found = volume.march([], origins, directions, ends, LIGHT, flames=burning, parts=True)[:, 0]
+    assert found[:, 0].max() > 0.0
+    assert np.array_equal(found[:, 4:7], found[:, :3])
+    assert np.all(found[:, 7] == 1.0)
+    assert found[:, 3].min() < 1.0

@@ -220,3 +220,12 @@ def test_any_number_of_threads_gives_the_same():
         firetwin_core.set_threads(threads)
         found.append(volume.march(layers, [195.0, 195.0, 195.0], toward, np.full((500, 1), FAR), lit))
     assert np.array_equal(*found)
+
+
+def test_parts_are_the_same_march_without_flames():
+    lit = light(old=(0.5, 0.5, 0.5), sky=(2.0, 1.0, 4.0))
+    ends = np.float32([200.0, FAR])
+    found = volume.march([slab(0.005, sky=0.8)], *along_x([ends]), lit, parts=True)[0]
+    assert np.array_equal(found[:, :4], volume.march([slab(0.005, sky=0.8)], *along_x([ends]), lit)[0])
+    assert np.all(found[:, 4:7] == 0.0)
+    assert np.array_equal(found[:, 7], found[:, 3])

@@ -232,7 +232,7 @@ def test_a_picture_depends_on_the_settings_that_it_shows():
 
     everything = set(passes.known())
     compared = {"split", "difference"}
-    lit = {"rgb", "thermal", "thermal_map", "edl", "overlay", "fused"} | compared  # six are made from two
+    lit = {"rgb", "comp", "thermal", "thermal_map", "edl", "overlay", "fused"} | compared
     assert changes() == set()
     assert changes(seed=2) == everything
     assert changes(time=replace(SETTINGS.time, frames=5)) == everything
@@ -389,6 +389,7 @@ def test_a_changed_source_changes_what_it_makes_and_no_more(tmp_path, monkeypatc
 
     shown = {
         "rgb",
+        "comp",
         "thermal",
         "thermal_map",
         "edl",
@@ -403,7 +404,7 @@ def test_a_changed_source_changes_what_it_makes_and_no_more(tmp_path, monkeypatc
     assert changed("scene/fire/flames.py") == shown
     assert {"rgb", "thermal", "masks", "depth"} <= changed("scene/stations/signs.py")
     assert {"rgb", "thermal", "masks", "depth"} <= changed("stations/reading.py")
-    assert changed("imaging/colour_bar.py") == set(passes.known()) - {"rgb", "normal"}
+    assert changed("imaging/colour_bar.py") == set(passes.known()) - {"rgb", "comp", "normal"}
     assert changed("scene/terrain/build.py") == set(passes.known())
     assert changed("scene/haze.py") == set(passes.known())
     assert changed("shot/fire/fire.py") == set(passes.known())

@@ -67,6 +67,7 @@ def build(shot: Shot, grown: Stand | None, collection: bpy.types.Collection) -> 
 
 
 def _show_to_lighting_only(obj: bpy.types.Object) -> None:
+    obj.lightgroup = nodes.FIRELIGHT
     obj.visible_camera = obj.visible_glossy = obj.visible_shadow = obj.visible_volume_scatter = False
 
 

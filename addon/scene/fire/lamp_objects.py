@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ...blender import compat, owned
+from ...blender import compat, nodes, owned
 from ...shot.shot import Shot
 from . import flame_light, lamps
 
@@ -46,7 +46,7 @@ def _lamp(
     data.shadow_soft_size = float(radius)
     data.volume_factor = 0.0  # EEVEE
     obj = owned.add(collection, name, data)
-    obj.location = position
+    obj.location, obj.lightgroup = position, nodes.FIRELIGHT
     obj.visible_camera = obj.visible_glossy = obj.visible_volume_scatter = False
     if len(frames) > 1 and np.ptp(energy) > 0.0:
         compat.animate(data, "energy", 0, frames, energy)

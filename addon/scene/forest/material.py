@@ -232,12 +232,14 @@ def _leaves(
     flame = tree.input("Flame Colour", FLAME, "Light of a crown in flames", "Fire")
     bright = tree.input("Flame Brightness", brightness(shot), "Radiance of a crown in flames", "Fire")
     flame = tree.mix_colour(flaming.smoothstep(0.1, 0.8), ember, flame)
-    burning = tree.add_shader(leaf, tree.emission(flame, flaming * afar * bright))
+    power = flaming * afar * bright
+    burning = tree.add_shader(leaf, tree.emission(flame, power))
+    glow = tree.vector("MULTIPLY", flame, tree.combine(power, power, power))
     warmth = _warmth(tree, shot, stage, normal, age, 0.0)
     hot = flaming.ramp(0.0, 1.0, temperature.FLAME_LOW, temperature.FLAME_HIGH)
     hot = infrared.surface_radiance(tree, shot, stage, hot)
     warmth = tree.mix(flaming, warmth, hot)
-    _finish(tree, shot, stage, burning, warmth, alight)
+    _finish(tree, shot, stage, burning, warmth, alight, glow)
 
 
 def _warmth(
@@ -262,6 +264,7 @@ def _finish(
     shader: nodes.Value,
     warmth: nodes.Value,
     alight: nodes.Value | float = 0.0,
+    glow: nodes.Value | None = None,
 ) -> None:
     """Finish the surface: `shader` through the haze, its infrared radiance, or its class and instance number.
 
@@ -270,7 +273,7 @@ def _finish(
     """
     at_camera = infrared.radiance_at_camera(tree, shot, stage, warmth)
     flame_gaps.write(tree, stage)
-    shader = nodes.thermal_switch(tree, haze.apply(tree, shader, stage), at_camera)
+    shader = nodes.thermal_switch(tree, haze.apply(tree, shader, stage, glow), at_camera)
     # Not "Fac", the mean of three equal components: it is rounded, and instance numbers need all 24 bits.
     number, _, _ = tree.separate(tree.attribute("number", "INSTANCER", "Vector"))
     below = (_age(tree) > 0.0) * (masks.BURNED - masks.GROUND) + masks.GROUND

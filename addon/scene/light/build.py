@@ -64,6 +64,7 @@ def light_keyframes(shot: Shot) -> tuple[NDArray[np.float64], list[State]]:
 def _build_sun(collection: bpy.types.Collection, frames: NDArray[np.float64], states: list[State]) -> None:
     lamp = bpy.data.lights.new("Firetwin Sun", "SUN")
     obj = owned.add(collection, "Sun", lamp)
+    obj.lightgroup = nodes.SUN
     obj.rotation_mode = "QUATERNION"
     add_keyframes(obj, "rotation_quaternion", frames, np.array([_lamp_rotation(s.direction) for s in states]))
     add_keyframes(lamp, "energy", frames, np.array([s.power for s in states]))

@@ -156,8 +156,10 @@ def glowing_fraction(tree: nodes.Tree, place: Place) -> nodes.Value:
     return place.pixel.ramp(*_COALS, 1.0, _GLOWING)
 
 
-def fire_emission(tree: nodes.Tree, shot: Shot, stage: Stage, place: Place, fuel: nodes.Value) -> nodes.Value:
-    """Return the emission of flames and embers to the camera, scaled by the burned `fuel` (0..1)."""
+def fire_emission(
+    tree: nodes.Tree, shot: Shot, stage: Stage, place: Place, fuel: nodes.Value
+) -> tuple[nodes.Value, nodes.Value]:
+    """Return shader and radiance of flames and embers to the camera, scaled by the burned `fuel` (0..1)."""
     flaming, embers = front_coverage(tree, stage, place)
     flame = tree.input("Flame Colour", FLAME, "Light of the burning edge", "Fire")
     ember = tree.input("Ember Colour", EMBER, "Light of the spots that glow in the ash", "Fire")
@@ -175,4 +177,6 @@ def fire_emission(tree: nodes.Tree, shot: Shot, stage: Stage, place: Place, fuel
     bright = bright * place.woody.ramp(0.0, 1.0, _PALE, 1.0)
     power = flaming * bright * place.distance.ramp(*CLOSE, _DIMMED, 1.0) + embers * glowing
     shining = {0: fuel, 2: tree.emission(colour, power)}  # nodes are not evaluated without fuel
-    return tree.output("ShaderNodeMixShader", shining)
+    shown = power * fuel
+    glow = tree.vector("MULTIPLY", colour, tree.combine(shown, shown, shown))
+    return tree.output("ShaderNodeMixShader", shining), glow

@@ -109,14 +109,13 @@ def _visible_shader(
             shown = _matte_shader(tree, photo_reflectance(tree, colour), None)
             ground = tree.mix_shader(1.0 - here.burned, ground, shown)
     with tree.frame("Flames and embers"):
-        ground = tree.add_shader(
-            ground, burn_scar.fire_emission(tree, shot, stage, here, here.burned * (1.0 - bare))
-        )
+        burning, glow = burn_scar.fire_emission(tree, shot, stage, here, here.burned * (1.0 - bare))
+        ground = tree.add_shader(ground, burning)
     if globe is not None:
         with tree.frame("Globe"):
             ground = globe_material.blend_with_globe(tree, shot, stage, globe, GLOBE, ground, here.burned)
     with tree.frame("Air"):
-        ground = haze.apply(tree, ground, stage)
+        ground = haze.apply(tree, ground, stage, glow)
     with tree.frame("Light of other ground"):
         camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
         return tree.mix_shader(camera, _simple_ground(tree, known, biome), ground)

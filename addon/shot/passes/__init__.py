@@ -121,6 +121,11 @@ class RenderedPass(Pass):
 
 
 @dataclass(frozen=True, kw_only=True)
+class MarchedPass(Pass):
+    """Pass that the integrated renderer makes from the render of the visible picture."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class DerivedPass(Pass):
     """Pass made from files of other passes, without rendering.
 
@@ -208,6 +213,11 @@ def records_masks(each: Pass) -> bool:
     return isinstance(each, RenderedPass) and each.shading == "masks"
 
 
+def is_rendered(each: Pass) -> bool:
+    """Return True if Blender renders a pass: it is not made from files of other passes."""
+    return isinstance(each, RenderedPass | MarchedPass)
+
+
 def compares(name: str) -> bool:
     """Return True if a pass compares runs."""
     return isinstance(known()[name], ComparisonPass)
@@ -220,6 +230,11 @@ def refused(each: Pass, camera: CameraSettings, engine: str) -> str:
         return (
             f'camera "{camera.name}" cannot record {each.name} with EEVEE, whose pixels have 11 bits, '
             "too few for tree numbers; render it with Cycles"
+        )
+    if isinstance(each, MarchedPass) and engine == "eevee":
+        return (
+            f'camera "{camera.name}" cannot record {each.name} with EEVEE, which renders smoke and surfaces '
+            "together; render it with Cycles"
         )
     if each.single_view and camera.rig.around:
         return f'camera "{camera.name}" is a panorama and cannot record {each.name}'

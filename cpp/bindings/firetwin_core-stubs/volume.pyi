@@ -654,6 +654,7 @@ def march(
     min_transmittance: float = 1.0e-3,
     flames: FlameVolume | None = None,
     pixel: Sequence[float] = (0.0, 0.0),
+    parts: bool = False,
 ) -> NDArray[np.float32]:
     """March rays through smoke and flames: their radiance, and transmittance of the background.
 
@@ -676,10 +677,13 @@ def march(
     pixel
         Width of a pixel at distance 0 (m), and its increase per m of distance. Outlines of smoke are as sharp
         as pixels show, and have noise below the voxel down to four pixels. Zeros: neither.
+    parts
+        Return four more values.
 
     Returns
     -------
-    (n, taps, 4) radiance of red, green and blue, and transmittance.
+    (n, taps, 4) radiance of red, green and blue, and transmittance. With `parts` (n, taps, 8): also the
+    radiance of flames within the first three, and the transmittance of smoke alone.
 
     Notes
     -----

@@ -1,0 +1,27 @@
+"""Layers of the visible picture for compositors, scene-linear, without bloom, labels and signs.
+
+The EXR has 16-bit floats and no bloom in its picture. The layers add up, each as the camera sees it:
+
+- R, G, B = solid + fire + smoke
+- solid = light_sun + light_sky + light_fire
+- R, G, B + bloom is the picture to which the view transform is applied
+
+`solid` and `fire` are already dimmed by the smoke in front of them. `smoke.A` is 1 - transmittance of the
+smoke before the surface, and `A` is 1 - share of the sky. `light_fire` is the light of flames on surfaces,
+and embers; `light_sky` includes haze. The denoised surfaces are divided by the shares of the noisy light
+groups.
+"""
+
+from __future__ import annotations
+
+from . import MarchedPass
+from .rgb import PASS as RGB
+
+PASS = MarchedPass(
+    name="comp",
+    order=11,
+    help="Layers of the visible picture for compositors: flames, smoke, solid, lights and bloom, 16-bit EXR",
+    files=("exr",),
+    aspects=RGB.aspects,
+    code=("shot/passes/rgb.py",),
+)
