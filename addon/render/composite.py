@@ -159,7 +159,8 @@ def solid_share(surfaces: Surfaces) -> Array:
 
 def split_light(surfaces: Surfaces, solid: Array) -> tuple[Array, Array, Array]:
     """Split the layer of solid surfaces into light of the sun, sky and fire, which add up to it."""
-    assert surfaces.sun is not None and surfaces.firelight is not None  # rendered for layers
+    assert surfaces.sun is not None  # `comp` has its light groups rendered
+    assert surfaces.firelight is not None
     noisy = np.maximum(blur(surfaces.noisy - surfaces.fire), 1.0e-6)
     sun, fire = (np.clip(blur(each) / noisy, 0.0, 1.0) for each in (surfaces.sun, surfaces.firelight))
     most = np.maximum(sun + fire, 1.0)
