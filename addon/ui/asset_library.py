@@ -24,8 +24,10 @@ def add(folder: Path) -> None:
     libraries = bpy.context.preferences.filepaths.asset_libraries
     if not any(_is_same(each.path, str(folder)) for each in libraries):
         entry = libraries.new(name=NAME, directory=str(folder))
-        entry.import_method = "APPEND_REUSE"
         _store(str(folder))
+        methods = entry.bl_rna.properties["import_method"].enum_items.keys()
+        if "APPEND_REUSE" in methods:  # Blender 5.2 does not have it
+            entry.import_method = "APPEND_REUSE"
 
 
 def remove() -> None:

@@ -1,6 +1,6 @@
-"""The ways to an operator and its explanation: manual, search of menus (F3), and pie menu.
+"""The ways to an operator and its explanation: manual and pie menu.
 
-For search and pie, stand-ins replace the operators: they accept any context, do nothing, and record their
+For the pie menu, stand-ins replace the operators: they accept any context, do nothing, and record their
 names. Pages of the manual are recorded in place of a browser.
 """
 
@@ -16,18 +16,6 @@ from types import TracebackType
 
 import bpy
 from hands import MODULE, call, check, here, key_frames, keys, picture, ready, say, soon, tab, ui, view
-
-_INSIDE = {
-    "FIRETWIN_MT_parts": "build",
-    "FIRETWIN_MT_reset": "reset",
-    "FIRETWIN_MT_moments": "jump",
-    "FIRETWIN_MT_start": "window",
-    "FIRETWIN_MT_end": "window",
-    "FIRETWIN_MT_lenses": "camera_lens",
-    "FIRETWIN_MT_named": "camera_aim",
-    "FIRETWIN_MT_go": "go",
-}
-"""Operator of the first entry of a submenu; the submenu of presets may be empty."""
 
 
 class StandIns:
@@ -109,38 +97,6 @@ def _exists(url: str) -> bool:
 
 def _point(x: int, y: int) -> None:
     subprocess.run(["xdotool", "mousemove", str(x), str(y)], check=True)
-
-
-def find() -> Iterator[object]:
-    """Type the full name of every menu entry after F3, and press Return."""
-    yield from ready()
-    menus, failed, number = sys.modules[f"{MODULE}.ui.menus"], [], 0
-    with StandIns() as stand_ins:
-        for title, lines in menus.MENUS.items():
-            for line in lines:
-                own = isinstance(line, menus.Entry)
-                operator = line.operator if own else _INSIDE.get(line.name)
-                if operator is None:
-                    continue
-                words = f"firetwin {title} {menus.entry_text(line) if own else line.text}".lower()
-                stand_ins.called.clear()
-                bpy.context.window_manager.clipboard = words.rstrip(".")
-                keys("F3")
-                yield 0.7
-                keys("ctrl+v")
-                yield 0.7
-                if operator == "camera_key":
-                    picture("51-search")
-                keys("Return")
-                yield soon(lambda: bool(stand_ins.called), 3.0)
-                keys("Escape")
-                yield 0.2
-                number += 1
-                if stand_ins.called != [operator]:
-                    failed.append(f"{words}: {stand_ins.called}")
-    check(
-        not failed, f"F3 finds {number - len(failed)} of {number} entries by their full names {failed or ''}"
-    )
 
 
 def pie() -> Iterator[object]:

@@ -436,7 +436,7 @@ def session() -> Iterator[object]:
     for step in (
         *(panel, quality, build, shown.sections, shown.dialogs, look, parts, scrub, render),
         *(found.manual, found.pie, customized.shortcuts, customized.german, customized.preferences),
-        *(customized.assets, found.find),
+        customized.assets,
         *(by_hand, undo, beside, file, shown.drop, tile_preview.tiles, page.page),
     ):
         if step.__name__ in STEPS:

@@ -8,7 +8,7 @@ shift
 steps=("$@")
 if ((${#steps[@]} == 0)); then
   steps=(commands panel quality build sections dialogs look parts scrub render)
-  steps+=(manual pie shortcuts german preferences assets find by_hand undo beside file drop tiles page)
+  steps+=(manual pie shortcuts german preferences assets by_hand undo beside file drop tiles page)
 fi
 here=/firetwin/tests/system/window
 export LIBGL_ALWAYS_SOFTWARE=1 BLENDER_USER_RESOURCES=$PWD/user
