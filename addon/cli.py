@@ -299,6 +299,14 @@ def _parser() -> argparse.ArgumentParser:
     render.add_argument("--json", action="store_true", help="write JSON: files and memory")
     tiles.add_access(render)
 
+    if optional_features.is_installed("delivery"):
+        from .delivery import arguments as delivery
+
+        delivery.add(
+            command("deliver", "copy finished files into a version folder", delivery.DETAIL),
+            types.path,
+            types.count,
+        )
     if optional_features.is_installed("farm"):
         from .farm import arguments as farm
 

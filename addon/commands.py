@@ -126,6 +126,13 @@ def brief(arguments: argparse.Namespace) -> None:
     command.run(arguments)
 
 
+def deliver(arguments: argparse.Namespace) -> None:
+    """Deliver the finished files of a film."""
+    from .delivery import command
+
+    command.run(arguments)
+
+
 def imager(arguments: argparse.Namespace) -> None:
     """Write the simulated measurements of a satellite's imager."""
     from .errors import UsageError, input_error

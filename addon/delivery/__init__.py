@@ -1,0 +1,1 @@
+"""Deliveries: versions of a film's finished files, with chosen names and hashes, never overwritten."""

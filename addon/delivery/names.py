@@ -1,0 +1,151 @@
+"""Files of a delivery: finished pictures and films of a folder, and their names by a pattern."""
+
+from __future__ import annotations
+
+import re
+import string
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from ..errors import UsageError, input_error
+from ..progress import count
+from ..render import manifest
+from ..shot import passes
+
+_FIELDS = ("camera", "pass", "version", "frame", "ext")
+_FRAME = re.compile(r"[._-]?\{frame\}")  # films have no frame number
+_DIGITS = 4
+
+
+@dataclass(frozen=True)
+class File:
+    """A file of a delivery.
+
+    Attributes
+    ----------
+    source
+        Finished file.
+    pattern
+        Its path in the version; only `{version}` is open.
+    bytes, sha256
+        Size and hash, as the store of the film lists them.
+    facts
+        Camera, pass, frame, delivered frame number, time and credits.
+    """
+
+    source: Path
+    pattern: str
+    bytes: int
+    sha256: str
+    facts: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Selection:
+    """Files of a delivery, and messages on omitted files."""
+
+    files: list[File]
+    messages: list[str]
+
+
+def check(pattern: str) -> None:
+    """Check a pattern of file names.
+
+    Raises
+    ------
+    UsageError
+        It has unknown or missing fields, or leads out of the folder.
+    """
+    try:
+        fields = [name for _, name, form, change in string.Formatter().parse(pattern) if name is not None]
+        plain = string.Formatter().parse(pattern)
+        formatted = any(form or change for _, name, form, change in plain if name is not None)
+    except ValueError as error:
+        raise UsageError(f"--pattern: {error}; write fields as {{frame}}") from None
+    known = ", ".join(f"{{{name}}}" for name in _FIELDS)
+    for name in fields:
+        if name not in _FIELDS:
+            raise UsageError(f"--pattern: {{{name}}} is not one of {known}; replace it")
+    if formatted:
+        raise UsageError(f"--pattern: fields have no format; write them as {known}")
+    if missing := [name for name in ("frame", "ext") if name not in fields]:
+        raise UsageError(
+            f"--pattern: {{{missing[0]}}} is missing; use a pattern such as shot.{{frame}}.{{ext}}"
+        )
+    text = pattern.translate(str.maketrans("", "", "{}"))
+    parts = pattern.split("/")
+    if not re.fullmatch(r"[A-Za-z0-9_./-]+", text) or any(part in ("", ".", "..") for part in parts):
+        reason = "names files below a folder; use letters, digits, - _ . and / between folders"
+        raise UsageError(f"--pattern: {pattern} {reason}")
+
+
+def choose(out: Path, pattern: str, start: int) -> Selection:
+    """Choose the finished files of an output folder of `firetwin render`, and name them.
+
+    Parameters
+    ----------
+    start
+        Number of frame 1.
+
+    Raises
+    ------
+    InputError
+        The folder has no finished files.
+    UsageError
+        The pattern gives two files the same name.
+    """
+    found, missing = [], []
+    for path, entry in sorted(manifest.read(out)["files"].items()):
+        if not {"camera", "pass", "sha256", "bytes"} <= entry.keys():
+            continue
+        source = out / path
+        if not source.resolve().is_relative_to(out.resolve()) or not source.is_file():
+            missing.append(path)
+            continue
+        found.append(
+            File(
+                source,
+                _name(pattern, path, entry, start),
+                entry["bytes"],
+                entry["sha256"],
+                dict(_facts(path, entry, start)),
+            )
+        )
+    if not found:
+        raise input_error(out, "has no finished pictures or films; name a folder of firetwin render --out")
+    names: dict[str, File] = {}
+    for each in found:
+        if (other := names.setdefault(each.pattern.lower(), each)) is not each:
+            both = f"{other.source.name} and {each.source.name}"
+            raise UsageError(f"--pattern: {both} would both be {each.pattern}; add {{camera}} or {{pass}}")
+    messages = (
+        [f"{count(len(missing), 'file')} of the manifest missing, such as {missing[0]}"] if missing else []
+    )
+    return Selection(found, messages)
+
+
+def _name(pattern: str, path: str, entry: dict[str, Any], start: int) -> str:
+    if entry.get("frame") is None:
+        pattern = _FRAME.sub("", pattern)
+    values = {
+        "{camera}": passes.file_stem(entry["camera"]),
+        "{pass}": entry["pass"],
+        "{frame}": f"{_number(entry, start):0{_DIGITS}d}",
+        "{ext}": PurePosixPath(path).suffix[1:],
+    }
+    for field, value in values.items():
+        pattern = pattern.replace(field, value)
+    return pattern
+
+
+def _number(entry: dict[str, Any], start: int) -> int:
+    return start + (entry.get("frame") or 1) - 1
+
+
+def _facts(path: str, entry: dict[str, Any], start: int) -> Iterator[tuple[str, Any]]:
+    yield "source", path
+    yield from ((key, value) for key, value in entry.items() if key not in ("bytes", "sha256"))
+    if entry.get("frame") is not None:
+        yield "number", _number(entry, start)

@@ -1,0 +1,112 @@
+"""Version folder of a delivery: complete or missing, never overwritten, with hashes of its files."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import json
+import os
+import re
+import shutil
+import uuid
+from pathlib import Path
+
+from .. import files
+from ..errors import UsageError, input_error, writing
+from ..progress import Progress, silent
+from .names import File, Selection
+
+MANIFEST, SUMS, LATEST = "manifest.json", "SHA256SUMS", "latest"
+_FORMAT = 1
+_BLOCK = 1 << 22  # bytes
+
+
+def write(out: Path, chosen: Selection, number: int | None = None, progress: Progress = silent) -> Path:
+    """Copy files into a new version; return its folder.
+
+    The files are copied into a hidden folder, which gets its name at the end. Copies, not links: a later
+    render replaces finished files.
+
+    Parameters
+    ----------
+    number
+        Number of the version; None: the next.
+
+    Raises
+    ------
+    UsageError
+        The version exists.
+    InputError
+        A file changed since it was rendered, the disk is full, or the folder cannot be written.
+    """
+    number = max(_numbers(out), default=0) + 1 if number is None else number
+    path = out / _folder(number)
+    if path.exists():
+        raise UsageError(
+            f"--version: {path} exists, and a delivered version is never overwritten; omit --version"
+        )
+    part = out / f".{path.name}.{uuid.uuid4().hex[:12]}.part"
+    try:
+        with writing(path):
+            part.mkdir(parents=True)
+            delivered = {}
+            for done, each in enumerate(chosen.files):
+                progress(done, len(chosen.files), "copying")
+                delivered[_copy(each, part, path.name)] = each
+            progress(len(chosen.files), len(chosen.files), "copying")
+            _list(part, number, delivered)
+            part.rename(path)  # fails if another delivery has made the version
+    finally:
+        shutil.rmtree(part, ignore_errors=True)
+    with writing(out / LATEST):
+        _point(out, _folder(max(_numbers(out))))
+    return path
+
+
+def _copy(each: File, part: Path, version: str) -> str:
+    """Copy a file, compare its hash, and return its path in the version."""
+    name = each.pattern.replace("{version}", version)
+    path, digest = part / name, hashlib.sha256()
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with each.source.open("rb") as source, path.open("xb") as copy:
+        while block := source.read(_BLOCK):
+            digest.update(block)
+            copy.write(block)
+        copy.flush()
+        os.fsync(copy.fileno())
+    if digest.hexdigest() != each.sha256:
+        raise input_error(each.source, "changed since it was rendered; render it again with --resume")
+    return name
+
+
+def _list(part: Path, number: int, delivered: dict[str, File]) -> None:
+    """Write the manifest and the list of hashes."""
+    listed = {
+        name: {"bytes": each.bytes, "sha256": each.sha256, **each.facts}
+        for name, each in sorted(delivered.items())
+    }
+    content = {"format": _FORMAT, "version": number, "files": listed}
+    files.write_text(part / MANIFEST, json.dumps(content, indent=1) + "\n")
+    sums = "".join(f"{each.sha256}  {name}\n" for name, each in sorted(delivered.items()))
+    files.write_text(part / SUMS, sums, newline="\n")
+
+
+def _point(out: Path, version: str) -> None:
+    """Point the link `latest` to a version; a text file names it where links are not possible."""
+    link, part = out / LATEST, files.temporary_path(out / LATEST)
+    if link.is_symlink() or not link.exists():
+        with contextlib.suppress(OSError, NotImplementedError):
+            part.symlink_to(version, target_is_directory=True)
+            part.replace(link)
+            return
+    files.write_text(out / f"{LATEST}.txt", f"{version}\n")
+
+
+def _folder(number: int) -> str:
+    return f"v{number:03d}"
+
+
+def _numbers(out: Path) -> list[int]:
+    """List the numbers of the versions in a folder."""
+    found = (re.fullmatch(r"v(\d{3,})", path.name) for path in (out.iterdir() if out.is_dir() else ()))
+    return [int(match[1]) for match in found if match]

@@ -1,0 +1,131 @@
+"""Deliveries: names by a pattern, hashes, versions that are never overwritten."""
+
+import json
+import os
+import subprocess
+
+import fileseq
+import pytest
+from firetwin import cli
+from firetwin.delivery import names, version
+from firetwin.delivery.arguments import PATTERN
+from firetwin.errors import InputError, UsageError
+from firetwin.render import store
+from firetwin.render.picture import Picture, film
+from firetwin.render.store import Store
+
+VIEWS = ("drone", "drone@slower", "ir-2")
+
+
+@pytest.fixture
+def finished(tmp_path):
+    """Return a folder of finished files of three views, made up."""
+    out = tmp_path / "film"
+    with Store(out, create=True) as made:
+        for camera in VIEWS:
+            entries = {}
+            for frame in (1, 2, 3):
+                for path in Picture(camera, frame, "rgb").files():
+                    entries[path] = {"camera": camera, "pass": "rgb", "frame": frame}
+            entries[film(camera, "rgb")] = {"camera": camera, "pass": "rgb"}
+            for path in entries:
+                (out / path).parent.mkdir(parents=True, exist_ok=True)
+                (out / path).write_bytes(path.encode())
+                entries[path] |= store.describe(out / path)
+            made.add({"run": 1}, entries)
+        made.export()
+    return out
+
+
+def deliver(*words):
+    return cli.main(["deliver", *map(str, words)])
+
+
+def test_a_version_has_all_files_and_matches_its_hashes(finished, tmp_path, capsys):
+    out = tmp_path / "delivered"
+    assert deliver(finished, "--out", out) == 0
+    made = out / "v001"
+    assert capsys.readouterr().out.strip() == str(made)
+    assert (made / "drone/rgb/drone_rgb.1001.exr").read_bytes() == b"drone/rgb/drone_rgb_000001.exr"
+    assert (made / "drone_at_slower/rgb/drone_at_slower_rgb.mp4").is_file()
+    done = subprocess.run(
+        ["sha256sum", "-c", "SHA256SUMS"], cwd=out / "latest", capture_output=True, text=True
+    )
+    assert (done.returncode, done.stdout.count(": OK")) == (0, 3 * (3 * 2 + 1))
+    listed = json.loads((made / "manifest.json").read_text())["files"]
+    entry = listed["ir-2/rgb/ir-2_rgb.1003.png"]
+    assert (entry["frame"], entry["number"], entry["source"]) == (3, 1003, "ir-2/rgb/ir-2_rgb_000003.png")
+    sequence = fileseq.findSequencesOnDisk(str(made / "drone_at_slower/rgb"))
+    exr = next(each for each in sequence if each.extension() == ".exr")
+    assert (exr.start(), exr.end(), fileseq.FileSequence(str(exr)).basename()) == (
+        1001,
+        1003,
+        "drone_at_slower_rgb.",
+    )
+
+
+def test_versions_count_up_and_are_never_overwritten(finished, tmp_path, capsys):
+    out = tmp_path / "delivered"
+    assert deliver(finished, "--out", out, "--version", 7) == 0
+    assert (
+        deliver(finished, "--out", out, "--pattern", "{camera}_{pass}_{version}.{frame}.{ext}", "--start", 1)
+        == 0
+    )
+    assert (out / "v008/drone_rgb_v008.0001.exr").is_file()
+    before = (out / "v007/SHA256SUMS").read_bytes()
+    assert deliver(finished, "--out", out, "--version", 7) == 2
+    assert "v007 exists, and a delivered version is never overwritten" in capsys.readouterr().err
+    assert (out / "v007/SHA256SUMS").read_bytes() == before
+    assert deliver(finished, "--out", out, "--version", 2) == 0
+    assert os.readlink(out / "latest") == "v008"
+
+
+def test_an_interrupted_delivery_leaves_nothing(finished, tmp_path):
+    chosen, out = names.choose(finished, PATTERN, 1001), tmp_path / "delivered"
+
+    def stop(done, *_):
+        if done == 3:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        version.write(out, chosen, None, stop)
+    assert list(out.iterdir()) == []
+    assert version.write(out, chosen).name == "v001"
+
+
+def test_a_file_that_changed_is_not_delivered(finished, tmp_path):
+    (finished / "drone/drone_rgb.mp4").write_bytes(b"drone/drone_rgb.mp5")
+    with pytest.raises(InputError, match=r"drone_rgb.mp4: changed since it was rendered"):
+        version.write(tmp_path / "delivered", names.choose(finished, PATTERN, 1001))
+    assert not (tmp_path / "delivered/v001").exists()
+
+
+@pytest.mark.parametrize(
+    ("pattern", "words"),
+    [
+        ("{shot}.{frame}.{ext}", r"\{shot\} is not one of \{camera\}"),
+        ("shot.{ext}", r"\{frame\} is missing"),
+        ("shot.{frame:04d}.{ext}", "fields have no format"),
+        ("../{frame}.{ext}", "names files below a folder"),
+        ("/a/{frame}.{ext}", "names files below a folder"),
+        ("a b.{frame}.{ext}", "names files below a folder"),
+        ("shot.{frame.{ext}", "--pattern"),
+    ],
+)
+def test_bad_patterns_are_bad_usage(pattern, words):
+    with pytest.raises(UsageError, match=words):
+        names.check(pattern)
+
+
+def test_two_files_with_one_name_are_refused(finished):
+    with pytest.raises(UsageError, match=r"would both be shot\.mp4"):
+        names.choose(finished, "shot.{frame}.{ext}", 1001)
+
+
+def test_missing_files_are_named_and_an_empty_folder_is_refused(finished, tmp_path):
+    (finished / "ir-2/ir-2_rgb.mp4").unlink()
+    assert names.choose(finished, PATTERN, 1).messages == [
+        "1 file of the manifest missing, such as ir-2/ir-2_rgb.mp4"
+    ]
+    with pytest.raises(InputError, match="has no finished pictures or films"):
+        names.choose(tmp_path / "none", PATTERN, 1)
