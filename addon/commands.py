@@ -435,17 +435,18 @@ def _finished_files(out: Path) -> list[str]:
 def _list_output(out: Path) -> None:
     """List the output: a line per folder of pictures and per film."""
     from .render import manifest
+    from .render.picture import FILM_SUFFIXES
 
     files = _finished_files(out)
     folders: dict[str, int] = {}
     for name in files:
-        if not name.endswith(".mp4"):
+        if not name.endswith(FILM_SUFFIXES):
             kind = f"{Path(name).parent}/*{Path(name).suffix}"
             folders[kind] = folders.get(kind, 0) + 1
     for kind, number in folders.items():
         result(f"{out / kind}  {count(number, 'picture')}")
     for name in files:
-        if name.endswith(".mp4"):
+        if name.endswith(FILM_SUFFIXES):
             result(out / name)
     result(out / manifest.NAME)
 

@@ -16,7 +16,7 @@ _HOURS = 24  # timecode begins again after a day
 
 
 def exact_rate(fps: float) -> Fraction:
-    """Return the rate that a decimal number stands for: 29.97 -> 30000/1001; other numbers stay."""
+    """Convert a decimal number to its exact rate: 29.97 -> 30000/1001; other numbers stay."""
     for rate in _SLOWED:
         if abs(fps - rate / 1.001) < _NEAR:
             return Fraction(rate * 1000, 1001)

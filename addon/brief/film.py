@@ -72,7 +72,11 @@ def read(out: Path, hashes: Mapping[str, str], room: int) -> Film:
     entries = {path: entry for path, entry in content["files"].items() if _is_within(out, path)}
     _check_run(out, entries, content["settings"], hashes)
     pictures = _by_view((path, entry) for path, entry in entries.items() if path.endswith(".png"))
-    clips = [path for path in entries if path.endswith(".mp4") and (out / path).is_file()]
+    clips = [
+        path
+        for path, entry in entries.items()
+        if path.endswith(".mp4") and entry.get("film", "review") == "review" and (out / path).is_file()
+    ]
     if not pictures and not clips:
         raise input_error(out, "has no finished pictures; name a folder of firetwin render --out")
     each = max(1, min(EACH, MOST // max(len(pictures), 1)))

@@ -109,6 +109,8 @@ def run(
         tell(f"{finished} of {count(len(wanted), 'picture')} are finished and match")
     elif finished:
         tell(f"rendering {count(finished, 'picture')} again that match; --resume would keep them")
+    if asked.resume and not undone:
+        tell("encoding films that are missing, or whose pictures or settings changed; timecode is new")
     undone = undone if asked.resume else wanted
     if undone:
         views = list(dict.fromkeys(picture.camera for picture in undone))

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 from collections.abc import Iterator
 from typing import Any
 
+from .. import timecode
 from ..errors import Error
 from ..run.content import fingerprint, stamp
 from ..shot import passes
@@ -28,34 +30,58 @@ def missing(shot: Shot, store: Store, made_with: Fingerprints) -> Iterator[Film]
     if not shot.settings.render.video:
         return
     filmed = [known_pass.name for known_pass in passes.known().values() if known_pass.film]
-    for camera in scene_runs.views(shot.settings):
-        for name in filmed:
-            if (camera, name) not in made_with:
-                continue
-            key, path = fingerprint(made_with[camera, name]), film(camera, name)
-            state = _state(shot, store, camera, name, key)
-            if store.note(path) == state:
-                continue
-            frames = set(shot.frames_of(shot.camera(camera)))
-            hashes = store.pictures(camera, name, key, ".png")
-            made_from = _film_inputs(
-                shot, camera, name, [[frame, hashes[frame]] for frame in hashes if frame in frames]
-            )
-            if len(made_from["frames"]) > 1 and not store.is_intact(fingerprint(made_from), [path]):
-                yield camera, name, made_from
-            else:
-                with contextlib.suppress(Error):  # a read-only folder
-                    store.write_note(path, state)
+    for camera, name, kind in itertools.product(scene_runs.views(shot.settings), filmed, kinds(shot)):
+        if (camera, name) not in made_with:
+            continue
+        key, path = fingerprint(made_with[camera, name]), film(camera, name, kind, codec(shot, kind))
+        state = _state(shot, store, camera, name, kind, key)
+        if store.note(path) == state:
+            continue
+        frames = set(shot.frames_of(shot.camera(camera)))
+        hashes = store.pictures(camera, name, key, ".png")
+        made_from = _film_inputs(
+            shot, camera, name, kind, [[frame, hashes[frame]] for frame in hashes if frame in frames]
+        )
+        if len(made_from["frames"]) > 1 and not store.is_intact(fingerprint(made_from), [path]):
+            yield camera, name, made_from
+        else:
+            with contextlib.suppress(Error):  # a read-only folder
+                store.write_note(path, state)
 
 
-def _film_inputs(shot: Shot, camera: str, name: str, pictures: list[list[Any]]) -> dict[str, Any]:
+def kinds(shot: Shot) -> tuple[str, ...]:
+    """Return the kinds of films that a scene wants."""
+    wanted = shot.settings.render.film
+    return ("review", "clean") if wanted == "both" else (wanted,)
+
+
+def codec(shot: Shot, kind: str) -> str:
+    """Return the codec of a kind of film: browsers play every review film."""
+    return "h264" if kind == "review" else shot.settings.render.film_codec
+
+
+def path_of(film_inputs: dict[str, Any]) -> str:
+    """Return the path of a film, relative to the output folder."""
+    return film(*(film_inputs[key] for key in ("camera", "film", "kind", "codec")))
+
+
+def first_count(film_inputs: dict[str, Any], shot: Shot) -> int:
+    """Return the timecode of a film's first frame, as frames since 00:00:00:00."""
+    frame = film_inputs["frames"][0][0] if film_inputs["frames"] else 1
+    return timecode.count_of_frame(frame, shot.settings.time.rate)
+
+
+def _film_inputs(shot: Shot, camera: str, name: str, kind: str, pictures: list[list[Any]]) -> dict[str, Any]:
     """Collect the inputs of a film: its pictures (frame, hash), its frame rate and its captions."""
     time, frames = shot.settings.time, shot.frames
     return {
         "film": name,
         "camera": camera,
         "frames": pictures,
-        "fps": time.fps,
+        "fps": str(time.rate),
+        "kind": kind,
+        "codec": codec(shot, kind),
+        "timecode": timecode.of_frame(pictures[0][0] if pictures else 1, time.rate),
         "captions": [
             frames.first,
             frames.last,
@@ -66,18 +92,21 @@ def _film_inputs(shot: Shot, camera: str, name: str, pictures: list[list[Any]]) 
     }
 
 
-def _state(shot: Shot, store: Store, camera: str, name: str, key: str) -> str:
+def _state(shot: Shot, store: Store, camera: str, name: str, kind: str, key: str) -> str:
     """Hash the stamps of the film and of its pictures' folder, and the settings, as a cheap change detection.
 
     The cost does not depend on the number of pictures.
     """
     stamps = []
-    for path in (store.out / film(camera, name), (store.out / Picture(camera, 1, name).file("png")).parent):
+    for path in (
+        store.out / film(camera, name, kind, codec(shot, kind)),
+        (store.out / Picture(camera, 1, name).file("png")).parent,
+    ):
         try:
             stamps.append(list(stamp(path)))
         except OSError:
             stamps.append([])
     frames = shot.camera(camera).frames
     return fingerprint(
-        {"film": _film_inputs(shot, camera, name, []), "key": key, "of": frames, "stamps": stamps}
+        {"film": _film_inputs(shot, camera, name, kind, []), "key": key, "of": frames, "stamps": stamps}
     )

@@ -30,7 +30,11 @@ class Picture:
         return next(path for path in self.files() if path.endswith(suffix))
 
 
-def film(camera: str, name: str) -> str:
-    """Return the path of a camera's film, relative to the output folder."""
+FILM_SUFFIXES = (".mp4", ".mov")
+
+
+def film(camera: str, name: str, kind: str = "review", codec: str = "h264") -> str:
+    """Return the path of a camera's film of a kind, relative to the output folder."""
     stem = passes.file_stem(camera)
-    return str(PurePosixPath(stem, f"{stem}_{name}.mp4"))
+    file = f"{stem}_{name}" if kind == "review" else f"{stem}_{name}_{kind}"
+    return str(PurePosixPath(stem, file + (".mov" if codec == "prores" else ".mp4")))

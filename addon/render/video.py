@@ -16,7 +16,7 @@ from ..progress import Progress, silent
 from ..run import times
 from ..shot import passes
 from ..shot.shot import Shot
-from . import engine, films, manifest, picture, spherical, verify
+from . import engine, films, manifest, prores, spherical, timecode_track, verify
 from .picture import Picture
 from .sharing import RenderSession
 from .store import describe
@@ -25,13 +25,14 @@ from .store import describe
 def make(shot: Shot, session: RenderSession, progress: Progress = silent) -> None:
     """Encode the films of these cameras and passes that are missing or older than their pictures."""
     wanted = list(films.missing(shot, session.store, session.made_with))
-    for done, (camera, name, _) in enumerate(wanted, start=1):
-        path = picture.film(camera, name)
+    for done, (camera, name, inputs) in enumerate(wanted, start=1):
+        path = films.path_of(inputs)
         session.wait_for_lease(path)
         try:  # another render may have finished it meanwhile
             this = {(camera, name): session.made_with[camera, name]}
             for film in films.missing(shot, session.store, this):
-                _film(shot, session, *film)
+                if films.path_of(film[2]) == path:
+                    _film(shot, session, *film)
             any(films.missing(shot, session.store, this))  # records in the store that the film is up to date
         finally:
             session.leases.release(path)
@@ -40,31 +41,39 @@ def make(shot: Shot, session: RenderSession, progress: Progress = silent) -> Non
 
 def _film(shot: Shot, session: RenderSession, camera: str, name: str, made_from: dict[str, Any]) -> None:
     out = session.store.out
-    path = out / picture.film(camera, name)
+    kind, codec = made_from["kind"], made_from["codec"]
+    path = out / films.path_of(made_from)
     scene = bpy.data.scenes.new("Firetwin Film")
     try:
         with session.leases.part_folder() as part:
             made = part / path.name
             frames = [frame for frame, _ in made_from["frames"]]
             size = passes.known()[name].size(shot.resolution(shot.camera(camera)))
-            _settings(shot, size, scene, made, len(frames))
+            _settings(shot, size, scene, made, len(frames), codec)
             engine.set_metadata(shot.run_of(camera), scene)
             mine = session.made_with[camera, name]
-            _strips(shot, scene, out, camera, name, frames, manifest.read_credits(mine))
+            _strips(shot, scene, out, camera, name, frames, manifest.read_credits(mine), kind)
             with writing(path):
                 bpy.ops.render.render(animation=True, scene=scene.name)
-            if shot.camera(camera).rig.around:
+            if codec == "prores":
+                prores.tag_colours(made)
+            if shot.camera(camera).rig.around and codec == "h264":
                 spherical.film(made)
+            timecode_track.add(made, films.first_count(made_from, shot), shot.settings.time.rate)
             verify.film(made)
-            entry = describe(made) | {"camera": camera, "pass": name} | manifest.credit_entry(mine)
+            entry = (
+                describe(made) | {"camera": camera, "pass": name, "film": kind} | manifest.credit_entry(mine)
+            )
             files.publish(made, path)
-            session.store.add(made_from, {picture.film(camera, name): entry})
+            session.store.add(made_from, {films.path_of(made_from): entry})
     finally:
         bpy.data.scenes.remove(scene)
 
 
-def _settings(shot: Shot, size: tuple[int, int], scene: bpy.types.Scene, path: Path, count: int) -> None:
-    """Set H.264 in MP4; the view transform is Standard, as pictures are display-referred already."""
+def _settings(
+    shot: Shot, size: tuple[int, int], scene: bpy.types.Scene, path: Path, count: int, codec: str
+) -> None:
+    """Set codec and container; the view transform is Standard, as pictures are display-referred already."""
     render = scene.render
     render.resolution_x, render.resolution_y = size
     render.resolution_percentage = 100
@@ -77,7 +86,11 @@ def _settings(shot: Shot, size: tuple[int, int], scene: bpy.types.Scene, path: P
     render.use_sequencer, render.use_compositing = True, False
     render.dither_intensity = 0.0
     compat.film_settings(render)
-    render.ffmpeg.format, render.ffmpeg.codec = "MPEG4", "H264"
+    render.ffmpeg.format = "QUICKTIME" if codec == "prores" else "MPEG4"
+    render.ffmpeg.codec = codec.upper()
+    if codec == "prores":
+        render.ffmpeg.ffmpeg_prores_profile = "422_HQ"
+    render.image_settings.color_depth = "8" if codec == "h264" else "10"
     render.ffmpeg.constant_rate_factor, render.ffmpeg.ffmpeg_preset = "PERC_LOSSLESS", "GOOD"
     render.ffmpeg.gopsize = round(shot.settings.time.rate)
     render.ffmpeg.audio_codec = "NONE"
@@ -93,12 +106,14 @@ def _strips(
     name: str,
     numbers: list[int],
     words: Credits,
+    kind: str,
 ) -> None:
     """Add a strip for each picture, with its model time as a caption (one for each eye in stereo films).
 
     Captions are placed above the pictures' credits.
     """
     editor = scene.sequence_editor_create()
+    captions = kind == "review" and passes.known()[name].captions
     (width, height), around = shot.resolution(shot.camera(camera)), shot.camera(camera).rig.around
     above = 0.035 + (0.0 if around else credits.strip_height(words, width, height) / height)
     size, low = (height / 60, (0.17, 0.67)) if around else (height / 20, (above,))
@@ -106,12 +121,12 @@ def _strips(
     for position, number in enumerate(numbers, start=1):
         shown = str((out / Picture(camera, number, name).file("png")).resolve())
         editor.strips.new_image(f"picture {number}", shown, 1, position, fit_method="ORIGINAL")
-        if not passes.known()[name].captions:
+        if not captions:
             continue
         label = times.text(shot.utc(number), shot.settings.time.zone)
         for eye, up in enumerate(low):
             _text(editor, label, position, 1, 2 + eye, size, (left, up), "LEFT")
-    if shot.run_of(camera).synthetic and passes.known()[name].captions:
+    if shot.run_of(camera).synthetic and captions:
         for eye, up in enumerate(low):
             place = right, up - 0.03 * around
             _text(editor, "synthetic sample run", 1, len(numbers), 4 + eye, size / 1.5, place, "RIGHT")

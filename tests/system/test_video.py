@@ -155,3 +155,39 @@ def test_a_picture_that_was_deleted_leaves_no_hole(filmed, film, tmp_path):
     assert len(decoded) == 2
     for frame, shown in zip((1, 3), decoded, strict=True):
         assert (np.abs(shown - _picture(frame))[PLAIN] * 255).mean() < 2.0
+
+
+@pytest.mark.parametrize(
+    ("codec", "end", "probed"),
+    [
+        ("h265", "mp4", "hevc,yuv420p10le,tv,bt709,bt709,bt709,30000/1001,3"),
+        ("prores", "mov", "prores,yuv422p10le,tv,bt709,bt709,bt709,30000/1001,3"),
+    ],
+)
+def test_clean_films_have_no_captions_but_timecode_and_colour_tags(filmed, tmp_path, codec, end, probed):
+    shot, out = filmed
+    settings = shot.settings
+    render = replace(settings.render, film="both", film_codec=codec)
+    _make(
+        Shot(replace(settings, render=render, time=replace(settings.time, fps=29.97)), shot.run),
+        out,
+        MADE_WITH,
+    )
+    assert (out / "drone/drone_rgb.mp4").exists()  # for browsers
+    path = out / f"drone/drone_rgb_clean.{end}"
+    what = "codec_name,pix_fmt,color_range,color_space,color_transfer,color_primaries,r_frame_rate,nb_frames"
+    assert _probe(path, what) == probed
+    for film in (path, out / "drone/drone_rgb.mp4"):
+        command = [
+            "ffprobe",
+            "-v",
+            "error",
+            "-select_streams",
+            "v:0",
+            "-show_entries",
+            "stream_tags=timecode",
+        ]
+        found = subprocess.run([*command, "-of", "csv=p=0", film], check=True, capture_output=True, text=True)
+        assert found.stdout.strip() == "01:00:00;00"
+    for frame, shown in enumerate(_decode(path, tmp_path), start=1):
+        assert (np.abs(shown - _picture(frame)) * 255).mean() < 2.0  # where captions would be, too

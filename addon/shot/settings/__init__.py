@@ -126,7 +126,19 @@ class Render:
         check=_at_least_one,
         affects=("passes",),
     )
-    video: bool = key(True, "write videos (MP4) of cameras with more than one frame", affects=())
+    video: bool = key(True, "write films of cameras with more than one frame", affects=())
+    film: str = key(
+        "review",
+        "kind of the films",
+        choices={"review": "with captions, H.264", "clean": "without", "both": ""},
+        affects=(),
+    )
+    film_codec: str = key(
+        "h264",
+        "codec of clean films",
+        choices={"h264": "8 bits", "h265": "10 bits", "prores": "422 HQ, .mov"},
+        affects=(),
+    )
     seed: int = key(
         0, "random seed of the render noise", at_least=0, at_most=LARGEST_SEED, affects=("grain",)
     )
