@@ -6,6 +6,7 @@ are called Firetwin or have the same folder.
 
 from __future__ import annotations
 
+import contextlib
 from pathlib import Path
 
 import bpy
@@ -25,8 +26,7 @@ def add(folder: Path) -> None:
     if not any(_is_same(each.path, str(folder)) for each in libraries):
         entry = libraries.new(name=NAME, directory=str(folder))
         _store(str(folder))
-        methods = entry.bl_rna.properties["import_method"].enum_items.keys()
-        if "APPEND_REUSE" in methods:  # Blender 5.2 does not have it
+        with contextlib.suppress(TypeError):  # Blender 5.2 lists this method but does not accept it
             entry.import_method = "APPEND_REUSE"
 
 
