@@ -129,9 +129,10 @@ def choose(out: Path, pattern: str, start: int) -> Selection:
 def _name(pattern: str, path: str, entry: dict[str, Any], start: int) -> str:
     if entry.get("frame") is None:
         pattern = _FRAME.sub("", pattern)
+    kind = entry.get("film", "review")
     values = {
         "{camera}": passes.file_stem(entry["camera"]),
-        "{pass}": entry["pass"],
+        "{pass}": entry["pass"] if kind == "review" else f"{entry['pass']}_{kind}",
         "{frame}": f"{_number(entry, start):0{_DIGITS}d}",
         "{ext}": PurePosixPath(path).suffix[1:],
     }

@@ -27,7 +27,8 @@ def finished(tmp_path):
             for frame in (1, 2, 3):
                 for path in Picture(camera, frame, "rgb").files():
                     entries[path] = {"camera": camera, "pass": "rgb", "frame": frame}
-            entries[film(camera, "rgb")] = {"camera": camera, "pass": "rgb"}
+            for kind in ("review", "clean"):
+                entries[film(camera, "rgb", kind)] = {"camera": camera, "pass": "rgb", "film": kind}
             for path in entries:
                 (out / path).parent.mkdir(parents=True, exist_ok=True)
                 (out / path).write_bytes(path.encode())
@@ -51,7 +52,8 @@ def test_a_version_has_all_files_and_matches_its_hashes(finished, tmp_path, caps
     done = subprocess.run(
         ["sha256sum", "-c", "SHA256SUMS"], cwd=out / "latest", capture_output=True, text=True
     )
-    assert (done.returncode, done.stdout.count(": OK")) == (0, 3 * (3 * 2 + 1))
+    assert (done.returncode, done.stdout.count(": OK")) == (0, 3 * (3 * 2 + 2))
+    assert (made / "drone/rgb_clean/drone_rgb_clean.mp4").read_bytes() == b"drone/drone_rgb_clean.mp4"
     listed = json.loads((made / "manifest.json").read_text())["files"]
     entry = listed["ir-2/rgb/ir-2_rgb.1003.png"]
     assert (entry["frame"], entry["number"], entry["source"]) == (3, 1003, "ir-2/rgb/ir-2_rgb_000003.png")
