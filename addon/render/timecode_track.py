@@ -8,7 +8,7 @@ from pathlib import Path
 
 from .. import timecode
 from ..errors import Error, input_error
-from . import boxes
+from . import mp4_boxes
 
 _UNITY = struct.pack(">9i", 0x10000, 0, 0, 0, 0x10000, 0, 0, 0, 0x40000000)  # identity matrix
 
@@ -26,41 +26,41 @@ def add(path: Path, count: int, rate: Fraction) -> None:
     InputError
         The film has no video track.
     """
-    sample = boxes.make(b"mdat", struct.pack(">I", count))
+    sample = mp4_boxes.make(b"mdat", struct.pack(">I", count))
     place = path.stat().st_size + 8
     try:
-        boxes.rewrite(path, lambda moov: _with_track(moov, place, rate), sample)
+        mp4_boxes.rewrite(path, lambda moov: _with_track(moov, place, rate), sample)
     except (struct.error, Error) as error:
         raise input_error(path, f"cannot get a timecode track: {error}") from None
 
 
 def _with_track(moov: bytes, place: int, rate: Fraction) -> bytes:
     """Add the track to a `moov`, and a reference to it in the video track; the sample is at `place`."""
-    header = boxes.find(moov, b"mvhd")
+    header = mp4_boxes.find(moov, b"mvhd")
     if header is None or header[0] != 0:
         raise Error("no movie header of version 0")
     length = struct.unpack_from(">I", header, 16)[0]
     number = struct.unpack_from(">I", header, 96)[0]
     made, found = b"", False
-    for kind, body in boxes.split(moov):
+    for kind, body in mp4_boxes.split(moov):
         if kind == b"mvhd":
             body = body[:96] + struct.pack(">I", number + 1)
         elif kind == b"trak" and not found and _is_video(body):
             found = True
             frames = struct.unpack_from(
-                ">2I", boxes.find(body, b"mdia", b"minf", b"stbl", b"stsz") or b"", 4
+                ">2I", mp4_boxes.find(body, b"mdia", b"minf", b"stbl", b"stsz") or b"", 4
             )[1]
-            body += boxes.make(b"tref", boxes.make(b"tmcd", struct.pack(">I", number)))
-            made += boxes.make(kind, body)
+            body += mp4_boxes.make(b"tref", mp4_boxes.make(b"tmcd", struct.pack(">I", number)))
+            made += mp4_boxes.make(kind, body)
             kind, body = b"trak", _track(number, length, frames, place, rate)
-        made += boxes.make(kind, body)
+        made += mp4_boxes.make(kind, body)
     if not found:
         raise Error("no video track")
     return made
 
 
 def _is_video(track: bytes) -> bool:
-    handler = boxes.find(track, b"mdia", b"hdlr")
+    handler = mp4_boxes.find(track, b"mdia", b"hdlr")
     return handler is not None and handler[8:12] == b"vide"
 
 
@@ -71,24 +71,26 @@ def _track(number: int, length: int, frames: int, place: int, rate: Fraction) ->
     flags = timecode.is_drop_frame(rate) | 2  # 2: begins again after 24 hours
     entry = struct.pack(">6xHI", 1, 0) + struct.pack(">3IBx", flags, scale, step, timecode.nominal_rate(rate))
     tables = (
-        boxes.make(b"stsd", struct.pack(">2I", 0, 1) + boxes.make(b"tmcd", entry))
-        + boxes.make(b"stts", struct.pack(">4I", 0, 1, 1, frames * step))
-        + boxes.make(b"stsc", struct.pack(">5I", 0, 1, 1, 1, 1))
-        + boxes.make(b"stsz", struct.pack(">3I", 0, 4, 1))
-        + boxes.make(b"co64", struct.pack(">2IQ", 0, 1, place))
+        mp4_boxes.make(b"stsd", struct.pack(">2I", 0, 1) + mp4_boxes.make(b"tmcd", entry))
+        + mp4_boxes.make(b"stts", struct.pack(">4I", 0, 1, 1, frames * step))
+        + mp4_boxes.make(b"stsc", struct.pack(">5I", 0, 1, 1, 1, 1))
+        + mp4_boxes.make(b"stsz", struct.pack(">3I", 0, 4, 1))
+        + mp4_boxes.make(b"co64", struct.pack(">2IQ", 0, 1, place))
     )
     text = struct.pack(">I3H2x6H", 0, 0, 0, 12, 0, 0, 0, 0xFFFF, 0xFFFF, 0xFFFF) + b"\0"  # how to draw it
-    general = boxes.make(b"gmin", struct.pack(">I6H", 0, 0x40, 0x8000, 0x8000, 0x8000, 0, 0))
-    general += boxes.make(b"tmcd", boxes.make(b"tcmi", text))
-    data = boxes.make(b"dref", struct.pack(">2I", 0, 1) + boxes.make(b"url ", struct.pack(">I", 1)))
+    general = mp4_boxes.make(b"gmin", struct.pack(">I6H", 0, 0x40, 0x8000, 0x8000, 0x8000, 0, 0))
+    general += mp4_boxes.make(b"tmcd", mp4_boxes.make(b"tcmi", text))
+    data = mp4_boxes.make(b"dref", struct.pack(">2I", 0, 1) + mp4_boxes.make(b"url ", struct.pack(">I", 1)))
     media = (
-        boxes.make(b"mdhd", struct.pack(">5I2H", 0, 0, 0, scale, frames * step, 0x55C4, 0))
-        + boxes.make(b"hdlr", struct.pack(">2I4s12x", 0, 0, b"tmcd") + b"Firetwin\0")
-        + boxes.make(
+        mp4_boxes.make(b"mdhd", struct.pack(">5I2H", 0, 0, 0, scale, frames * step, 0x55C4, 0))
+        + mp4_boxes.make(b"hdlr", struct.pack(">2I4s12x", 0, 0, b"tmcd") + b"Firetwin\0")
+        + mp4_boxes.make(
             b"minf",
-            boxes.make(b"gmhd", general) + boxes.make(b"dinf", data) + boxes.make(b"stbl", tables),
+            mp4_boxes.make(b"gmhd", general)
+            + mp4_boxes.make(b"dinf", data)
+            + mp4_boxes.make(b"stbl", tables),
         )
     )
     header = struct.pack(">6I", 3, 0, 0, number, 0, length)  # 3: enabled, in the movie
     header += bytes(8) + bytes(8) + _UNITY + bytes(8)
-    return boxes.make(b"tkhd", header) + boxes.make(b"mdia", media)
+    return mp4_boxes.make(b"tkhd", header) + mp4_boxes.make(b"mdia", media)

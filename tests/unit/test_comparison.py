@@ -118,7 +118,7 @@ def test_a_run_without_the_shots_moments_is_named_with_its_line(scene):
     [
         ('name = "wide"\npath = "b"\n', 3 * 'name = "w{}"\n[[runs]]\n', "4 tables; .* at most 3"),
         ('path = "b"\n', 'path = "b"\n[[runs]]\nname = "wide"\n', 'a second run is named "wide"'),
-        ('name = "ir"', 'name = "Drone_at_wide"', '"drone@wide" and another view would write the files "drone_at'),
+        ('name = "ir"', 'name = "Drone_at_wide"', '"drone@wide" and another view would write the files'),
         ('passes = ["rgb"]\n[[runs]]\nname = "wide"\npath = "b"', 'passes = ["split"]', r"add \[\[runs"),
     ],
 )  # fmt: skip

@@ -115,6 +115,7 @@ ABOUT_ALL = {
     "processor_time",
     "prose",
     "ragged_spread",
+    "shown_commands",
     "touched",
     "documentation_artists",
     "documented_commands",

@@ -261,10 +261,8 @@ def test_comments_stand_in_a_column_and_name_the_default(load):
     lines = scene_file.text(load('run = "x"\n[time]\nfps = 12')).splitlines()
     assert lines[0] == 'run = "x"        # run folder, such as `firetwin sample` writes (default "sample")'
     assert lines[1] == 'cache = "cache"  # folder of smoke volumes, for reuse'
-    assert (
-        "fps = 12                        # frames per second of the films; whole, or 23.976, 29.97 or 59.94 (default 24)"
-        in lines
-    )
+    rates = "frames per second of the films; whole, or 23.976, 29.97 or 59.94 (default 24)"
+    assert f"fps = 12                        # {rates}" in lines
     assert (
         'zone = ""                       # time zone of the clock in the films; empty: the run\'s zone'
         in lines

@@ -86,7 +86,7 @@ def test_the_error_is_at_the_source_in_the_scene_file(scene):
 @pytest.mark.parametrize("name", passes.known())
 def test_passes_that_measure_tiles_are_refused_and_pictures_are_not(name):
     """Passes made from depth are rejected like depth."""
-    allowed = {"rgb", "thermal", "split", "overlay"}
+    allowed = {"rgb", "comp", "thermal", "split", "overlay"}
     assert bool(tile_terms.of_passes([name])) == (name not in allowed)
     if name == "fused":
         assert tile_terms.of_passes([name]) == [("analyse", 'the pass "fused", which is made from depth')]
