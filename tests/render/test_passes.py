@@ -9,7 +9,11 @@ from firetwin.shot import passes
 from firetwin.shot.passes import masks
 from firetwin_core import sensor
 
-NAMES = [name for name, each in passes.known().items() if not passes.compares(name)]
+NAMES = [
+    name
+    for name, each in passes.known().items()
+    if not passes.compares(name) and not isinstance(each, passes.MarchedPass)  # this scene's smoke is puffs
+]
 
 SCENE = """\
 run = "{run}"
