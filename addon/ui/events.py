@@ -3,20 +3,12 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import NamedTuple
 
 import bpy
 
-from ..run import times
+from ..stations import events
+from ..stations.events import Event
 from . import run, station_data
-
-
-class Event(NamedTuple):
-    """An event: its time, its text, and the name of its place (empty without one)."""
-
-    time: datetime
-    words: str
-    place: str = ""
 
 
 def list_events(panel: bpy.types.PropertyGroup) -> list[Event]:
@@ -39,9 +31,4 @@ def _station_arrivals(panel: bpy.types.PropertyGroup) -> list[Event]:
     loaded = station_data.get(key) if key else None
     if not isinstance(loaded, station_data.Loaded) or loaded.run is None or loaded.arrivals is None:
         return []
-    arrivals = loaded.arrivals
-    return [
-        Event(times.utc(loaded.run, float(time)), f"the fire reaches {station.name}", station.name)
-        for station, time in zip(loaded.station_file.stations, arrivals.time, strict=True)
-        if time == time  # NaN: the fire does not arrive
-    ]
+    return events.arrivals(loaded.run, loaded.station_file.stations, loaded.arrivals)

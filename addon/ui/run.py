@@ -107,6 +107,7 @@ def inspect_run(uid: int) -> Steps:
 def collect_facts(folder: Path) -> tuple[dict[str, Any], maps.Images]:
     """Collect facts of a run for the panel: name, rows, warnings, dated events, framing; and its maps."""
     from ..run import info, labels, thumbnails, zone
+    from ..stations import events
 
     run = readers.open(folder)
     report, unit = info.gather(run, zone.time_zone(run)), preferences.area_unit()
@@ -118,25 +119,12 @@ def collect_facts(folder: Path) -> tuple[dict[str, Any], maps.Images]:
         "first": report["times"]["first"],
         "last": report["times"]["last"],
         "zone": report["zone"],
-        "moments": _dated_events(report, unit),
+        "moments": events.reports(report, unit),
         "burned": _burned_areas(report, unit),
         "places": labels.known(run),
         "fits": auto_framing.frame_run(run),
     }
     return told, thumbnails.draw(run)
-
-
-def _dated_events(found: dict[str, Any], unit: str) -> list[tuple[str, str]]:
-    """Return dated events: start and end of the run, and reports in between."""
-    from ..run import info
-
-    reports = (
-        (each["time"], f"{info.format_area(each['reported'], unit)} {unit} reported")
-        for each in found["reported"]
-        if each["run"] is not None
-    )
-    times = found["times"]
-    return [(times["first"], "the run begins"), *reports, (times["last"], "the run ends")]
 
 
 def _burned_areas(found: dict[str, Any], unit: str) -> list[tuple[str, str, str]]:

@@ -1,0 +1,106 @@
+"""Dated events of a run: its start and end, reports, ignition, flare-ups, arrival of the fire at places."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from datetime import datetime
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+from firetwin_core.run import Run
+from numpy.typing import NDArray
+
+from ..run import burning, info, times
+from . import fire_arrival, ignition
+from .fire_arrival import Arrivals
+
+FLARE_UP = 2.0
+"""A flare-up exceeds this multiple of the mean heat release rate (by eye)."""
+
+
+class Event(NamedTuple):
+    """An event: its time, its text, and the name of its place (empty without one)."""
+
+    time: datetime
+    words: str
+    place: str = ""
+
+
+class Place(Protocol):
+    """A place with a name: a station or a label; degrees north and east."""
+
+    @property
+    def name(self) -> str:
+        """Name."""
+
+    @property
+    def latitude(self) -> float:
+        """Latitude, degrees."""
+
+    @property
+    def longitude(self) -> float:
+        """Longitude, degrees."""
+
+
+def reports(found: dict[str, Any], unit: str) -> list[tuple[str, str]]:
+    """Return time and text of the start and the end of a run, and of reported areas in between.
+
+    Parameters
+    ----------
+    found
+        Summary of the run (`info.gather`).
+    unit
+        Unit of areas.
+    """
+    reported = (
+        (each["time"], f"{info.format_area(each['reported'], unit)} {unit} reported")
+        for each in found["reported"]
+        if each["run"] is not None
+    )
+    at = found["times"]
+    return [(at["first"], "the run begins"), *reported, (at["last"], "the run ends")]
+
+
+def arrivals(run: Run, places: Iterable[Place], found: Arrivals) -> list[Event]:
+    """Return the arrival of the run's fire at places that it reaches."""
+    return [
+        Event(times.utc(run, float(time)), f"the fire reaches {place.name}", place.name)
+        for place, time in zip(places, found.time, strict=True)
+        if time == time  # NaN: the fire does not arrive
+    ]
+
+
+def arrivals_at(run: Run, places: Sequence[Place]) -> list[Event]:
+    """Compute the arrival of the run's fire at places."""
+    if not places:
+        return []
+    latitude, longitude = ([getattr(each, axis) for each in places] for axis in ("latitude", "longitude"))
+    return arrivals(run, places, fire_arrival.sample(run, latitude, longitude))
+
+
+def ignitions(run: Run) -> list[Event]:
+    """Return the time at which the ignition point, or the nearest cell that burns, begins to burn."""
+    found = ignition.find(run)
+    if found is None:
+        return []
+    (latitude, longitude), _ = found
+    time = float(fire_arrival.sample(run, [latitude], [longitude]).nearest_time[0])
+    return [Event(times.utc(run, time), "ignition")] if np.isfinite(time) else []
+
+
+def flare_ups(run: Run) -> list[Event]:
+    """Return flare-ups: times of the run at which its heat release rate peaks (see `peaks`)."""
+    area = burning.model_cell_areas(run)
+    rate = np.array([np.sum(np.maximum(run.heat_flux(k), 0.0) * area) for k in range(len(run.times))])
+    return [
+        Event(times.utc(run, float(run.times[k])), f"flare-up, {rate[k] / 1e9:.3g} GW") for k in peaks(rate)
+    ]
+
+
+def peaks(rate: NDArray[np.float64]) -> list[int]:
+    """Find local maxima of a rate (n,) above `FLARE_UP` times its mean; a plateau counts at its start."""
+    if not len(rate):
+        return []
+    before, after = np.append(-np.inf, rate[:-1]), np.append(rate[1:], -np.inf)
+    found = np.flatnonzero((rate > before) & (rate >= after) & (rate > FLARE_UP * np.mean(rate)))
+    return [int(k) for k in found]
