@@ -307,6 +307,12 @@ def _parser() -> argparse.ArgumentParser:
             types.path,
             types.count,
         )
+    if optional_features.is_installed("edit"):
+        from .edit import arguments as edit
+
+        editor = command("edit", "cut films into OTIO, Final Cut Pro XML and EDL files", edit.DETAIL)
+        _scene(editor)
+        edit.add(editor, types.path, types.name)
     if optional_features.is_installed("farm"):
         from .farm import arguments as farm
 

@@ -133,6 +133,13 @@ def deliver(arguments: argparse.Namespace) -> None:
     command.run(arguments)
 
 
+def edit(arguments: argparse.Namespace) -> None:
+    """Write the edit of a scene's films."""
+    from .edit import command
+
+    command.run(arguments, _find_source(arguments).shot())
+
+
 def imager(arguments: argparse.Namespace) -> None:
     """Write the simulated measurements of a satellite's imager."""
     from .errors import UsageError, input_error
