@@ -16,9 +16,9 @@ V1."""
 def add(parser: argparse.ArgumentParser, path: Callable[[str], Path], name: Callable[[str], str]) -> None:
     """Add the arguments after the scene; `path` and `name` are argument types."""
     parser.add_argument(
-        "--out", metavar="DIR", type=path, required=True, help="folder for the edit, such as that of render"
+        "--out", metavar="DIR", type=path, required=True, help="folder to write, usually of firetwin render"
     )
-    parser.add_argument("--film", metavar="DIR", type=path, help="folder of firetwin render (DIR of --out)")
+    parser.add_argument("--film", metavar="DIR", type=path, help="folder of firetwin render, if another")
     parser.add_argument(
         "--pass", dest="name", metavar="NAME", type=name, default="rgb", help="pass of the films (rgb)"
     )

@@ -42,7 +42,7 @@ def text(edit: Edit) -> str:
 
 
 def _track(name: str, clips: Sequence[Clip], rate: Fraction, enabled: bool) -> dict[str, Any]:
-    """Make a track, with gaps where it has no frames."""
+    """Make a track, with gaps for missing frames."""
     children, frame = [], 1
     for clip in clips:
         if clip.first > frame:
