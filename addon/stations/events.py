@@ -98,9 +98,7 @@ def flare_ups(run: Run) -> list[Event]:
 
 
 def peaks(rate: NDArray[np.float64]) -> list[int]:
-    """Find local maxima of a rate (n,) above `FLARE_UP` times its mean; a plateau counts at its start."""
-    if not len(rate):
-        return []
-    before, after = np.append(-np.inf, rate[:-1]), np.append(rate[1:], -np.inf)
-    found = np.flatnonzero((rate > before) & (rate >= after) & (rate > FLARE_UP * np.mean(rate)))
-    return [int(k) for k in found]
+    """Find the highest value (index) of each period in which a rate (n,) exceeds `FLARE_UP` times its mean."""
+    above = rate > FLARE_UP * np.mean(rate) if len(rate) else np.zeros(0, np.bool_)
+    edges = np.flatnonzero(np.diff(above.astype(np.int8), prepend=0, append=0))
+    return [int(start + np.argmax(rate[start:end])) for start, end in edges.reshape(-1, 2)]
