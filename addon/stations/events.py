@@ -98,7 +98,7 @@ def flare_ups(run: Run) -> list[Event]:
 
 
 def peaks(rate: NDArray[np.float64]) -> list[int]:
-    """Find the highest value (index) of each period in which a rate (n,) exceeds `FLARE_UP` times its mean."""
+    """Find the index of the maximum of each period in which a rate (n,) exceeds `FLARE_UP` times its mean."""
     above = rate > FLARE_UP * np.mean(rate) if len(rate) else np.zeros(0, np.bool_)
     edges = np.flatnonzero(np.diff(above.astype(np.int8), prepend=0, append=0))
     return [int(start + np.argmax(rate[start:end])) for start, end in edges.reshape(-1, 2)]
