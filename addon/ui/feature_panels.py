@@ -15,6 +15,10 @@ if optional_features.is_installed("farm"):
     from . import farm
 
     panels.append(farm)
+if optional_features.is_installed("allocation"):
+    from . import allocation
+
+    panels.append(allocation)
 
 classes = tuple(each for panel in panels for each in panel.classes)
 properties = tuple(panel.properties for panel in panels)

@@ -28,6 +28,7 @@ _PANELS = {
     "farm": "farm",
     "stations": "stations#in-blender",
     "station_map": "stations#in-blender",
+    "allocation": "stations#a-suggested-allocation",
     "tiles": "tiles#in-blenders-window",
     "report": "artists#next-steps",
 }
@@ -62,6 +63,7 @@ _OPERATORS = {
     "queue*": "artists#4-render-in-the-background",
     "farm_*": "farm",
     "station_*": "stations#in-blender",
+    "allocate": "stations#a-suggested-allocation",
     "tiles_*": "tiles#in-blenders-window",
 }
 

@@ -40,6 +40,7 @@ _FARM = (
     Entry("farm_resume", icon="PLAY"),
     Entry("farm_cancel", icon="CANCEL"),
 )
+_ALLOCATION = (Entry("allocate", icon="COMMUNITY"),)
 
 MENUS: dict[str, tuple[Line, ...]] = {
     "Run": (
@@ -64,6 +65,7 @@ MENUS: dict[str, tuple[Line, ...]] = {
         Entry("view", "View whole run", "WORLD_DATA", {"whole": True}),
         Entry("tiles_preview", icon="MESH_GRID"),
         Entry("tiles_clear", icon="TRASH"),
+        *(_ALLOCATION if is_installed("allocation") else ()),
         Entry("assets", icon="ASSET_MANAGER"),
         Entry("remove", icon="TRASH"),
     ),

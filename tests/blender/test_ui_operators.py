@@ -1,5 +1,6 @@
 """All operators: their texts, no traceback on failure, and undo."""
 
+import copy
 import shutil
 import webbrowser
 
@@ -11,6 +12,7 @@ import panel_scene
 import pytest
 from bl_operators.presets import AddPresetBase
 from bpy_extras.io_utils import ExportHelper, ImportHelper
+from firetwin.allocation import job as allocation_job
 from firetwin.farm import submission
 from firetwin.jobs import assets, convert, render, render_blend, sample
 from firetwin.jobs.tiles import bounding_boxes
@@ -109,6 +111,7 @@ CHANGES = {
     "run_remove": {},
     "vr_landmarks": {},
     "station_map": {},
+    "allocate": {},
     "tiles_preview": {"boxes": True},
     "tiles_clear": {},
 }
@@ -132,6 +135,7 @@ KEEPS = {
     "help": {"page": "farm"},
 }
 BOX = {"name": "set", "tiles": 1, "credits": [], "corners": np.arange(24.0).tolist()}
+ALLOCATION = {"divisions": [], "reasons": [], "left_out": [], "map": {"features": []}}
 LISTENS = {"queue_esc", "station_pick", "stop", "fly"}  # for Esc or a click, and while something goes on
 
 
@@ -152,6 +156,7 @@ def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path
     monkeypatch.setattr(render, "run", lambda *_, **__: render.RenderResult(1))
     monkeypatch.setattr(assets, "run", lambda *_, **__: 1)
     monkeypatch.setattr(webbrowser, "open", lambda url: True)
+    monkeypatch.setattr(allocation_job, "suggest", lambda *_, **__: copy.deepcopy(ALLOCATION))
     monkeypatch.setattr(bounding_boxes, "run", lambda *_, **__: [BOX])
     monkeypatch.setattr(render_blend, "run", lambda *_, **__: 1)
     monkeypatch.setattr(submission, "run_command", lambda *_, **__: None)
@@ -167,7 +172,7 @@ def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path
             bpy.context.scene.firetwin.runs.add().name = "other"
         if name == "solve":
             bpy.context.scene.firetwin.smoke.method = "puffs"
-        if name == "station_map":
+        if name in ("station_map", "allocate"):
             bpy.context.scene.firetwin.stations.file = str(
                 exercise_stations.write(tmp_path / "stations.gpkg")
             )
