@@ -7,7 +7,7 @@ has that symbol, whatever the name of its file; so has an export of the National
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..errors import UsageError, input_error
@@ -28,6 +28,8 @@ TITLES = {
 _CATEGORY = ("featurecategory", "category", "kind", "type")
 _LABEL = ("label", "name", "zone", "zone_id", "zone_name", "fullname", "ref")
 _LONGEST = 40  # characters of a label
+NUMBER = "number in the tables of divisions"
+"""Property of a resource that a layer of `firetwin allocate` sends to a division."""
 _SUFFIXES = (".gpkg", ".geojson", ".json", ".kml", ".kmz", ".shp")
 
 
@@ -73,7 +75,23 @@ def read(named: Sequence[tuple[str, Path]]) -> list[Context]:
         if isinstance(features, Detections) or not features:
             raise input_error(path, "has no features; export points, lines or polygons")
         found.append(Context(name, path.name, tuple(features)))
-    return found
+    return _number_resources(found)
+
+
+def _number_resources(found: Sequence[Context]) -> list[Context]:
+    """Add numbers to the resources of divisions, from 1 in the order of their tables."""
+    features = [feature for each in found for feature in each.features]
+    sent = [each for each in features if each.properties.get("kind") == "resource"]
+    sent = [each for each in sent if each.properties.get("division")]
+    sent.sort(key=lambda each: str(each.properties["division"]))
+    numbers = {id(each): number for number, each in enumerate(sent, 1)}
+
+    def numbered(feature: Feature) -> Feature:
+        if id(feature) not in numbers:
+            return feature
+        return replace(feature, properties={**feature.properties, NUMBER: numbers[id(feature)]})
+
+    return [replace(each, features=tuple(map(numbered, each.features))) for each in found]
 
 
 def parse(text: str) -> tuple[str, Path]:

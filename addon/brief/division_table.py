@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from typing import Any
 
 from ..stations.records import EXERCISE
-from . import units
+from . import context, units
 from .briefing import Briefing
 from .sheet_options import Units
 from .text import quote
 
-_HEAD = ("Resource", "Type", "Station", "Arrives after", "Line", "Leader, contact")
+_HEAD = ("Number", "Resource", "Type", "Station", "Arrives after", "Line", "Leader, contact")
 
 
 def section(briefing: Briefing) -> str:
@@ -59,7 +59,7 @@ def _state(row: Any, order: Units) -> Iterator[str]:
 
 def _row(row: Any, order: Units) -> str:
     cells = (
-        row.get("name", ""), row.get("type", ""), row.get("station", ""),
+        row.get(context.NUMBER, ""), row.get("name", ""), row.get("type", ""), row.get("station", ""),
         f"{_number(row, 'arrival_min'):.0f} min", units.length(_number(row, "line_m"), order), "",
     )  # fmt: skip
     return "<tr>" + "".join(f'<td class="text">{quote(cell)}</td>' for cell in cells) + "</tr>\n"

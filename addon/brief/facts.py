@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from datetime import datetime
+from zoneinfo import ZoneInfo
 
 from ..run import times
 from ..stations.records import Availability, Resource, Type
@@ -70,9 +71,28 @@ def windows(
     station_file: StationFile, resource: Resource, zone: str, span: tuple[datetime, datetime]
 ) -> list[str]:
     """Describe the windows that overlap a time span (UTC) in local time."""
+    return [_window(each, zone) for each in _overlapping(station_file, resource, span)]
+
+
+def short_windows(
+    station_file: StationFile, resource: Resource, zone: str, span: tuple[datetime, datetime]
+) -> list[str]:
+    """Describe these windows without year and zone: ``17 Sep 16:00-20:00 available``."""
+    found = []
+    for each in _overlapping(station_file, resource, span):
+        begins, ends = (when.astimezone(ZoneInfo(zone)) for when in (each.begins, each.ends))
+        last = f"-{ends:%H:%M}" if begins.date() == ends.date() else f" to {ends.day} {ends:%b %H:%M}"
+        words = ", ".join(filter(None, (each.status, each.area)))
+        found.append(f"{begins.day} {begins:%b %H:%M}{last} {words}")
+    return found
+
+
+def _overlapping(
+    station_file: StationFile, resource: Resource, span: tuple[datetime, datetime]
+) -> list[Availability]:
     first, last = span
     known = station_file.windows_of[resource.id]
-    return [_window(each, zone) for each in known if each.begins <= last and each.ends > first]
+    return [each for each in known if each.begins <= last and each.ends > first]
 
 
 def _window(window: Availability, zone: str) -> str:

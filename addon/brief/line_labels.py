@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,19 +15,47 @@ from .map_frame import MapFrame
 if TYPE_CHECKING:
     from .sheet_map import Content
 
+Array = NDArray[np.float64]
+
 _SHARES = (0.5, 0.33, 0.67, 0.15, 0.85)  # places along a line, best first
 
 
 def write(made: Content, each: Context) -> None:
-    """Label lines if there is space, each name of a file once."""
+    """Label lines if there is space, each name of a file once; routes of resources have numbers."""
     done: set[str] = set()
+    for label, line in (*_names(each), *_numbers(each)):
+        if label in done or not label or len(line) < 2:
+            continue
+        if any(made.label(x, y, 0.3, [label]) for x, y in _anchors(made.frame, line)):
+            done.add(label)
+
+
+def _names(each: Context) -> Iterator[tuple[str, Array]]:
     for feature in each.features:
-        label = context.label(feature)
-        for line in feature.lines:
-            if label in done or not label or len(line) < 2:
-                continue
-            if any(made.label(x, y, 0.3, [label]) for x, y in _anchors(made.frame, line)):
-                done.add(label)
+        if context.NUMBER not in feature.properties:
+            yield from ((context.label(feature), line) for line in feature.lines)
+
+
+def _numbers(each: Context) -> Iterator[tuple[str, Array]]:
+    """Return the numbers of each route, such as "3-7, 9": resources of a station share one."""
+    routes: dict[bytes, tuple[list[int], Array]] = {}
+    for feature in each.features:
+        if context.NUMBER in feature.properties:
+            for line in feature.lines:
+                shared, _ = routes.setdefault(line.tobytes(), ([], line))
+                shared.append(int(feature.properties[context.NUMBER]))
+    yield from ((_ranges(sorted(shared)), line) for shared, line in routes.values())
+
+
+def _ranges(numbers: Sequence[int]) -> str:
+    """Format ascending numbers as ranges."""
+    found: list[list[int]] = []
+    for number in numbers:
+        if found and number == found[-1][1] + 1:
+            found[-1][1] = number
+        else:
+            found.append([number, number])
+    return ", ".join(f"{first}" if first == last else f"{first}-{last}" for first, last in found)
 
 
 def _anchors(frame: MapFrame, line: NDArray[np.float64]) -> Iterator[tuple[float, float]]:

@@ -75,8 +75,26 @@ def _select(name: str, label: str, options: Iterable[tuple[str, str]]) -> str:
 
 def _stations(briefing: Briefing, points: Sequence[Point]) -> str:
     head = ("Station, resource", "Kind and details", "Fire arrival", "Origin and source", "Position")
-    inside = "\n".join(_station(briefing, point) for point in points)
-    return _table("Stations and resources", head, inside)
+    sources = _sources(briefing, points)
+    inside = "\n".join(_station(briefing, point, sources) for point in points)
+    return _table(f"Stations and resources{_source_key(sources)}", head, inside)
+
+
+def _sources(briefing: Briefing, points: Sequence[Point]) -> dict[str, str]:
+    """Return the text of each source in rows, by its name: a number, or nothing for a single source."""
+    station_file = briefing.station_file
+    assert station_file is not None
+    stations = [point.station for point in points if point.station is not None]
+    used = [station.source for station in stations]
+    used += [each.source for station in stations for each in briefing.resources(station)]
+    names = list(dict.fromkeys(station_file.source_of[each].name for each in used))
+    return {name: f"source {k}" if len(names) > 1 else "" for k, name in enumerate(names, 1)}
+
+
+def _source_key(sources: dict[str, str]) -> str:
+    """Name each source once, below the caption."""
+    texts = (quote(f"{number}: {name}" if number else f"source: {name}") for name, number in sources.items())
+    return f"<small>{'; '.join(texts)}</small>"
 
 
 def _table(caption: str, head: Iterable[str], inside: str, kind: str = "") -> str:
@@ -84,29 +102,36 @@ def _table(caption: str, head: Iterable[str], inside: str, kind: str = "") -> st
     return f"<table{kind}><caption>{caption}</caption><thead><tr>{top}</tr></thead>\n{inside}</table>"
 
 
-def _station(briefing: Briefing, point: Point) -> str:
+def _station(briefing: Briefing, point: Point, sources: dict[str, str]) -> str:
     station, station_file = point.station, briefing.station_file
     assert station is not None and station_file is not None  # noqa: PT018
-    resources, source = briefing.resources(station), station_file.source_of[station.source].name
+    resources, source = briefing.resources(station), sources[station_file.source_of[station.source].name]
     words = ", ".join(filter(None, (station.kind, station.agency)))
     types = "|".join(dict.fromkeys(resource.type for resource in resources))
     address = f"<small>{quote(station.address)}</small>" if station.address else ""
     rows = [
         f"<tr><td>{_button(point)}</td><td>{quote(words)}{address}</td><td>{_when(briefing, point)}</td>"
         f"<td>{_origin(station.origin, source)}</td><td>{_web_map(point)}</td></tr>",
-        *(_resource(briefing, station_file, station, resource) for resource in resources),
+        *(_resource(briefing, station_file, station, resource, sources) for resource in resources),
     ]
     data = _data(point, station.kind, "|".join(sorted(briefing.origins(station))), types)
     return f"<tbody {data}>{''.join(rows)}</tbody>"
 
 
-def _resource(briefing: Briefing, station_file: StationFile, station: Station, resource: Resource) -> str:
+def _resource(
+    briefing: Briefing,
+    station_file: StationFile,
+    station: Station,
+    resource: Resource,
+    sources: dict[str, str],
+) -> str:
     number = f"{resource.count:,} × " if resource.count > 1 else ""
     span = briefing.fronts[0].utc, briefing.fronts[-1].utc
     lines = [resource.note, *facts.availability(station_file, resource, briefing.zone, span)]
     small = "".join(f"<small>{quote(line)}</small>" for line in lines if line)
     name = f"{number}{resource.type}" + (f", {resource.name}" if resource.name else "")
-    source = station_file.source_of[resource.source].name if resource.source != station.source else ""
+    name_of = station_file.source_of[resource.source].name
+    source = sources[name_of] if resource.source != station.source else ""
     return (
         f'<tr class="resource"><td>{quote(name)}</td>'
         f'<td colspan="2">{quote(facts.facts(station_file, resource, briefing.units))}{small}</td>'

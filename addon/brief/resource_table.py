@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from zoneinfo import ZoneInfo
 
 from ..stations.records import Resource, Station
 from . import facts
@@ -19,8 +20,10 @@ def tables(briefing: Briefing) -> str:
     rows = [(station, each) for station in stations for each in briefing.resources(station)]
     if not rows:
         return ""
+    zone = ZoneInfo(briefing.zone)
     totals = _table("Resources by type", _TOTALS, _totals(briefing, rows))
-    lines = _table("Resources", _LINES, (_line(briefing, *row) for row in rows))
+    title = f"Resources; available in local time, {briefing.fronts[0].utc.astimezone(zone):%Y} ({zone.key})"
+    lines = _table(title, _LINES, (_line(briefing, *row) for row in rows))
     return f'<div class="print-only">{totals}{lines}</div>'
 
 
@@ -46,7 +49,7 @@ def _line(briefing: Briefing, station: Station, resource: Resource) -> tuple[obj
     file = briefing.station_file
     assert file is not None
     span = briefing.fronts[0].utc, briefing.fronts[-1].utc
-    available = "; ".join(facts.windows(file, resource, briefing.zone, span))
+    available = "; ".join(facts.short_windows(file, resource, briefing.zone, span))
     people = _people(briefing, resource)
     name = ", ".join(filter(None, (resource.type, resource.name)))
     return (

@@ -117,6 +117,7 @@ class Content:
 
 OUTSIDE = "Outside the run: no data"
 """Text of the legend for the hatching."""
+_ROUTE = "Resource, number as in the table Divisions"
 BURNED = "#ff9d8a"
 """Fill of a point that has burned by the end of the run."""
 
@@ -200,7 +201,7 @@ def _area(line: Array) -> float:
 def _outlines(made: Content, each: Context) -> None:
     for feature in each.features:
         style = context.line_style(each, feature)
-        text = context.style_title(each, style)
+        text = _ROUTE if context.NUMBER in feature.properties else context.style_title(each, style)
         for line in feature.lines:
             if len(line) > 1:
                 made.line(style, line, False, text)

@@ -203,7 +203,7 @@ def test_each_division_has_a_table(folder, allocated):
     made = parts(folder, context=[("allocation", allocated)])
     text = made.text
     assert "Division A, contained at hour 3, line 100 chains (2,012 m) of 200 chains (4,023 m)" in text
-    assert "E<b>31 engine3 Alpha 42 min 50 chains (1,006 m)" in text
+    assert "1 E<b>31 engine3 Alpha 42 min 50 chains (1,006 m)" in text
     assert "Division B, cannot be held by hour 6, front 40 chains (805 m)" in text
     assert len(made.all("table", **{"class": "resources division"})) == 2
     assert "Divisions" not in parts(folder).text
@@ -282,7 +282,9 @@ def test_each_exercise_row_says_exercise(folder, gpkg):
     assert len(rows) == 4
     assert len(groups) == 3
     assert all("exercise" in inside for inside in rows)
-    assert all("exercise" in inside and "Made up for tests" in inside for inside in groups)
+    assert all("exercise" in inside for inside in groups)
+    assert made.text.count("source: Made up for tests") == 1  # below the caption, not in each row
+    assert not any("Made up for tests" in inside for inside in groups)
     assert all(point["exercise"] for point in made.data["points"])
     assert "Made up for tests, data of 2026-01-01; licence: CC0-1.0" in made.text
 
@@ -300,6 +302,8 @@ def test_availability_is_that_of_the_runs_time(folder, gpkg):
     base.close()
     made = parts(folder, stations=gpkg)
     assert "16 Sep 2014 21:00 -08 to 16 Sep 2014 22:00 -08: committed, Local" in made.text
+    assert "16 Sep 21:00-22:00 committed, Local" in made.text  # in the printed table
+    assert "Resources; available in local time, 2014 (Etc/GMT+8)" in made.text
     assert "reserved, Local" not in made.text
     assert made.text.count("2 more periods before or after the run") == 1
 

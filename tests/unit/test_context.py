@@ -99,6 +99,26 @@ def test_a_line_has_its_label_once_where_there_is_space(tmp_path):
     assert full.labels == []
 
 
+def test_routes_have_the_numbers_of_the_tables_in_place_of_names(tmp_path):
+    def sent(division, name, north):
+        about = {"kind": "resource", "division": division, "name": name, "origin": "exercise"}
+        return "LineString", [[-120.6, north], [-120.4, north]], about
+
+    file = write(
+        tmp_path / "a.geojson",
+        *(sent("B", f"Long name {k}", 38.8) for k in range(3)),
+        sent("A", "First", 38.9),
+        sent("B", "Elsewhere", 38.85),
+        sent("B", "At the first station", 38.8),
+    )
+    found = context.read([("allocation", file)])
+    made = content(found)
+    line_labels.write(made, found[0])
+    shown = {part.partition(">")[2].partition("<")[0] for part in made.labels}
+    assert shown == {"1", "2-4, 6", "5"}
+    assert list(made.legend) == ["Resource, number as in the table Divisions"]
+
+
 def test_a_hostile_label_stays_a_text(tmp_path):
     file = write(tmp_path / "a.geojson", ("Point", [-120.5, 38.85], {"name": "<script>"}))
     made = content(context.read([("<b>", file)]))
