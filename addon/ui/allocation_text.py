@@ -81,7 +81,7 @@ def _plan(plan: dict[str, Any] | None, found: dict[str, Any]) -> Iterator[str]:
     yield f"by {_time(found, plan['hour'])}; {plan['missing']:,.0f} m are missing"
     hour = plan["hour_of_all"]
     contain = "would not contain it" if hour is None else f"would contain it by {_time(found, hour)}"
-    yield f"All resources of the file together {contain}"
+    yield f"All available resources together {contain}"
     yield from _resources(plan["resources"], found)
 
 

@@ -140,7 +140,7 @@ def test_the_result_names_resources_and_times_and_the_plan_for_what_cannot_be_he
     assert b.lines == (
         "Nearest feasible plan: 660 m of 1,000 m (66 %)",
         "by 17 Sep 2014 15:00 -08; 340 m are missing",
-        "All resources of the file together would contain it by 17 Sep 2014 15:00 -08",
+        "All available resources together would contain it by 17 Sep 2014 15:00 -08",
         "R12 (engine/3, Base Two): arrives 17 Sep 2014 14:30 -08",
     )
     assert left.title == "Resources left out: 1"
