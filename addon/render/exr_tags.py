@@ -17,6 +17,7 @@ import numpy as np
 from firetwin_core import sensor
 from numpy.typing import NDArray
 
+from .. import timecode
 from ..shot import picture_credits
 from ..shot.cameras import path, pixel_rays
 from ..shot.shot import Shot
@@ -33,7 +34,6 @@ AP1_FROM_REC709 = np.array(
 )
 """Linear Rec.709 (D65) to AP1 (D60) with Bradford adaptation, as in OpenColorIO's ACES configurations."""
 
-_FIRST_HOUR = 1  # of the film's time code
 _MOST_COUNTED = 30  # frames per second that a time code counts; faster films count pairs
 
 
@@ -72,28 +72,29 @@ def attributes(
         "altitude": altitude,
         "imageCounter": frame,
         **({"owner": owner} if owner else {}),
-        **film_time(shot.settings.time.fps, frame),
+        **film_time(shot.settings.time.rate, frame),
         **_lens(view, frame),
     }
 
 
-def film_time(fps: float, frame: int) -> dict[str, Any]:
-    """Compute frame rate and time code of a frame, from 1; the film begins at 01:00:00:00.
+def film_time(rate: Fraction, frame: int) -> dict[str, Any]:
+    """Compute frame rate and time code of a frame, from 1, as the timecode track of films has them.
 
-    Rates over 30 frames per second count pairs of frames, as SMPTE ST 12-1 does. Rates over 60 have no code.
+    A time code counts up to 30 frames in a second (SMPTE ST 12-1): at higher rates it counts pairs, and the
+    field mark is set in the second frame of a pair. Rates over 60 have no code.
     """
-    counted = round(fps)
-    rate = Fraction(counted) if fps == counted else Fraction(counted * 1000, 1001)
-    if counted > 2 * _MOST_COUNTED:
+    nominal = timecode.nominal_rate(rate)
+    if nominal > 2 * _MOST_COUNTED:
         return {"framesPerSecond": rate}
-    seconds, part = divmod(frame - 1, counted)
-    pairs = counted > _MOST_COUNTED
+    hours, minutes, seconds, number = timecode.components(timecode.count_of_frame(frame, rate), rate)
+    pairs = nominal > _MOST_COUNTED
     code = sensor.TimeCode(
-        (_FIRST_HOUR + seconds // 3600) % 24,
-        seconds // 60 % 60,
-        seconds % 60,
-        part // 2 if pairs else part,
-        second_field=pairs and part % 2 == 1,
+        hours,
+        minutes,
+        seconds,
+        number // 2 if pairs else number,
+        drop_frame=timecode.is_drop_frame(rate),
+        second_field=pairs and number % 2 == 1,
     )
     return {"framesPerSecond": rate, "timeCode": code}
 

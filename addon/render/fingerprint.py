@@ -30,6 +30,7 @@ Fingerprints = dict[tuple[str, str], dict[str, Any]]
 _RENDERING = (
     "blender/text.py",
     "imaging/credits.py",
+    "render/mp4_boxes.py",
     "render/credits.py",
     "render/engine.py",
     "render/exr_tags.py",
@@ -37,6 +38,7 @@ _RENDERING = (
     "render/pictures.py",
     "render/png.py",
     "render/spherical.py",
+    "timecode.py",
 )
 
 

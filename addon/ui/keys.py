@@ -26,6 +26,14 @@ USE = "use_"
 """Prefix of the property that enables an optional number."""
 
 _SHORT = {"cpu", "edl", "eevee", "fps", "gpu", "lwir", "mwir", "rgb"}  # names in capitals
+_SPELLED = {
+    "acescg": "ACEScg",
+    "exr_space": "EXR space",
+    "h264": "H.264",
+    "h265": "H.265",
+    "prores": "ProRes",
+    "rec709": "Rec.709",
+}
 _LARGEST = 2**31 - 1  # stored by Blender as an integer
 _NUMBERS = (int, float)
 _UNITS = {"m": "LENGTH", "s": "TIME_ABSOLUTE"}  # units that Blender displays
@@ -68,6 +76,8 @@ def items(key: Key) -> Items:
 
 def label(name: str) -> str:
     """Turn a key into a label: ``thermal_low`` -> ``Thermal low``, ``rgb`` -> ``RGB``."""
+    if name in _SPELLED:
+        return _SPELLED[name]
     return name.upper() if name in _SHORT else sentence(name.replace("_", " "))
 
 

@@ -4,9 +4,11 @@ from datetime import UTC, datetime, timedelta
 from fractions import Fraction
 from types import SimpleNamespace
 
+import made_up_film
 import numpy as np
 import pytest
-from firetwin.render import exr_tags
+from firetwin import timecode
+from firetwin.render import exr_tags, timecode_track
 from firetwin.shot import picture_credits
 from firetwin.shot.cameras import pixel_rays
 from firetwin.shot.cameras.path import Path
@@ -33,7 +35,8 @@ def shot(monkeypatch):
         paths=[view()],
         run=SimpleNamespace(name="King", synthetic=True),
         settings=SimpleNamespace(
-            render=Render(exr_space="acescg"), time=SimpleNamespace(zone="America/Los_Angeles", fps=24)
+            render=Render(exr_space="acescg"),
+            time=SimpleNamespace(zone="America/Los_Angeles", rate=Fraction(24)),
         ),
         local_frame=geo.LocalFrame(38.8, -120.6, 1000.0),
         utc=lambda frame: start + timedelta(seconds=60 * (frame - 1)),
@@ -90,23 +93,44 @@ def test_a_panorama_has_no_picture_plane():
 @pytest.mark.parametrize(
     ("fps", "frame", "rate", "numbers"),
     [
-        (24, 1, Fraction(24), (1, 0, 0, 0, 0)),
-        (24, 24 * 61 + 6, Fraction(24), (1, 1, 1, 5, 0)),
-        (23.976, 48, Fraction(24000, 1001), (1, 0, 1, 23, 0)),
-        (60, 64, Fraction(60), (1, 0, 1, 1, 1)),
+        (24, 1, Fraction(24), (1, 0, 0, 0, 0, 0)),
+        (24, 24 * 61 + 6, Fraction(24), (1, 1, 1, 5, 0, 0)),
+        (23.976, 48, Fraction(24000, 1001), (1, 0, 1, 23, 0, 0)),
+        (29.97, 1801, Fraction(30000, 1001), (1, 1, 0, 2, 0, 1)),
+        (60, 64, Fraction(60), (1, 0, 1, 1, 1, 0)),
+        (59.94, 3602, Fraction(60000, 1001), (1, 1, 0, 2, 1, 1)),
     ],
 )
 def test_film_time(tmp_path, fps, frame, rate, numbers):
     openexr = pytest.importorskip("OpenEXR")
-    sensor.write_image(tmp_path / "a.exr", np.zeros((2, 2)), exr_tags.film_time(fps, frame))
+    tags = exr_tags.film_time(timecode.exact_rate(fps), frame)
+    sensor.write_image(tmp_path / "a.exr", np.zeros((2, 2)), tags)
     found = openexr.File(str(tmp_path / "a.exr")).header()
     code = found["timeCode"]
     assert found["framesPerSecond"] == rate
-    assert (code.hours, code.minutes, code.seconds, code.frame, code.fieldPhase) == numbers
+    shown = (code.hours, code.minutes, code.seconds, code.frame, code.fieldPhase, code.dropFrame)
+    assert shown == numbers
+
+
+@pytest.mark.parametrize("fps", [24, 23.976, 29.97])
+@pytest.mark.parametrize("frame", [1, 1801, 17_983])
+def test_tags_agree_with_the_timecode_track_of_the_film(tmp_path, monkeypatch, fps, frame):
+    """The track is read by its fields in the QuickTime File Format Specification."""
+    rate, codes = timecode.exact_rate(fps), []
+    monkeypatch.setattr(sensor, "TimeCode", lambda *numbers, **marks: codes.append((numbers, marks)))
+    exr_tags.film_time(rate, frame)
+    ((numbers, marks),) = codes
+    film = tmp_path / "film.mp4"
+    made_up_film.write(film)
+    timecode_track.add(film, timecode.count_of_frame(frame, rate), rate)
+    first, flags, counted = made_up_film.read_timecode(film)
+    assert bool(flags & 1) == marks["drop_frame"]
+    assert counted == round(fps)
+    assert timecode.components(first, rate) == numbers
 
 
 def test_very_fast_films_have_no_time_code():
-    assert exr_tags.film_time(120, 5) == {"framesPerSecond": Fraction(120)}
+    assert exr_tags.film_time(Fraction(120), 5) == {"framesPerSecond": Fraction(120)}
 
 
 def test_the_matrix_follows_from_the_primaries():

@@ -3,19 +3,10 @@
 import struct
 from fractions import Fraction
 
+import made_up_film
 import pytest
 from firetwin.errors import InputError
 from firetwin.render import mp4_boxes, timecode_track
-
-
-def film(path, handler=b"vide"):
-    """Write a film of one track with five frames, 5 s long at 1000 units a second."""
-    tables = mp4_boxes.make(b"stsz", struct.pack(">3I", 0, 9, 5))
-    media = mp4_boxes.make(b"hdlr", struct.pack(">2I4s12x", 0, 0, handler) + b"\0")
-    media += mp4_boxes.make(b"minf", mp4_boxes.make(b"stbl", tables))
-    header = struct.pack(">5I", 0, 0, 0, 1000, 5000) + bytes(76) + struct.pack(">I", 2)
-    moov = mp4_boxes.make(b"mvhd", header) + mp4_boxes.make(b"trak", mp4_boxes.make(b"mdia", media))
-    path.write_bytes(mp4_boxes.make(b"mdat", b"frames") + mp4_boxes.make(b"moov", moov))
 
 
 @pytest.mark.parametrize(
@@ -24,7 +15,7 @@ def film(path, handler=b"vide"):
 )
 def test_the_track_has_the_count_rate_and_reference(tmp_path, rate, whole, drops):
     path = tmp_path / "film.mp4"
-    film(path)
+    made_up_film.write(path)
     timecode_track.add(path, 86400, rate)
     data = path.read_bytes()
     with path.open("rb") as opened:
@@ -44,7 +35,7 @@ def test_the_track_has_the_count_rate_and_reference(tmp_path, rate, whole, drops
 
 def test_a_film_without_pictures_is_refused_unchanged(tmp_path):
     path = tmp_path / "film.mp4"
-    film(path, b"soun")
+    made_up_film.write(path, b"soun")
     before = path.read_bytes()
     with pytest.raises(InputError, match="no video track"):
         timecode_track.add(path, 0, Fraction(24))
