@@ -81,7 +81,7 @@ def run(
         Shot of `choice`, if already resolved.
     """
     from ..errors import UsageError
-    from ..render import dataset, films, fingerprint, former_names, plan
+    from ..render import changes, dataset, films, fingerprint, former_names, plan
     from ..render.store import Store
     from ..run.readers import folder
 
@@ -101,7 +101,11 @@ def run(
         undone = plan.missing(store, wanted, made_with)
         finished = len(wanted) - len(undone)
         begun = store.latest_number()
-        if not undone and asked.resume and not (asked.films and any(films.missing(shot, store, made_with))):
+        differing = changes.of_pictures(store, undone, made_with) if asked.resume else []
+        if asked.films and (kept := films.left_over(shot, store, made_with)):
+            tell(f"films of other settings: {' and '.join(kept)}; delete them if you do not need them")
+        filming = films.changes_of(shot, store, made_with) if asked.films and not undone else []
+        if not undone and asked.resume and not filming:
             tell(f"{finished} of {count(len(wanted), 'picture')} are finished and match; nothing to render")
             store.export()
             return RenderResult(0)
@@ -109,8 +113,10 @@ def run(
         tell(f"{finished} of {count(len(wanted), 'picture')} are finished and match")
     elif finished:
         tell(f"rendering {count(finished, 'picture')} again that match; --resume would keep them")
-    if asked.resume and not undone:
-        tell("encoding films that are missing, or whose pictures or settings changed; timecode is new")
+    if differing:
+        tell(f"finished pictures are rendered again; they differ in {changes.join_names(differing)}")
+    if asked.resume and filming:
+        tell(changes.describe_films(filming))
     undone = undone if asked.resume else wanted
     if undone:
         views = list(dict.fromkeys(picture.camera for picture in undone))

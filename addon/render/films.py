@@ -9,10 +9,13 @@ from typing import Any
 
 from .. import timecode
 from ..errors import Error
+from ..progress import count
+from ..run import times
 from ..run.content import fingerprint, stamp
 from ..shot import passes
 from ..shot.runs import scene_runs
 from ..shot.shot import Shot
+from . import changes
 from .fingerprint import Fingerprints
 from .picture import Picture, film
 from .store import Store
@@ -60,20 +63,42 @@ def codec(shot: Shot, kind: str) -> str:
     return "h264" if kind == "review" else shot.settings.render.film_codec
 
 
+def changes_of(shot: Shot, store: Store, made_with: Fingerprints) -> list[tuple[str, list[str]]]:
+    """List the films to encode: path, and what changed since the last time."""
+    return [
+        (path_of(inputs), changes.of_film(store.inputs_of(path_of(inputs)), inputs))
+        for _, _, inputs in missing(shot, store, made_with)
+    ]
+
+
+def left_over(shot: Shot, store: Store, made_with: Fingerprints) -> list[str]:
+    """List earlier films of these cameras and passes whose kind or codec is not wanted any more."""
+    found = []
+    for camera, name in made_with:
+        every = {film(camera, name)} | {film(camera, name, "clean", each) for each in ("h264", "prores")}
+        wanted = {film(camera, name, kind, codec(shot, kind)) for kind in kinds(shot)}
+        found += [
+            path for path in sorted(every - wanted) if store.inputs_of(path) and (store.out / path).is_file()
+        ]
+    return found
+
+
 def path_of(film_inputs: dict[str, Any]) -> str:
     """Return the path of a film, relative to the output folder."""
     return film(*(film_inputs[key] for key in ("camera", "film", "kind", "codec")))
 
 
 def first_count(film_inputs: dict[str, Any], shot: Shot) -> int:
-    """Return the timecode of a film's first frame, as frames since 00:00:00:00."""
+    """Return the timecode of a film's first frame or slate, as frames since 00:00:00:00."""
     frame = film_inputs["frames"][0][0] if film_inputs["frames"] else 1
-    return timecode.count_of_frame(frame, shot.settings.time.rate)
+    return timecode.count_of_frame(frame, shot.settings.time.rate) - ("slate" in film_inputs)
 
 
 def _film_inputs(shot: Shot, camera: str, name: str, kind: str, pictures: list[list[Any]]) -> dict[str, Any]:
-    """Collect the inputs of a film: its pictures (frame, hash), its frame rate and its captions."""
+    """Collect the inputs of a film: its pictures (frame, hash), frame rate, captions and slate."""
     time, frames = shot.settings.time, shot.frames
+    wants_slate = kind == "review" and shot.settings.render.slate.strip()
+    rows = _slate(shot, camera, name, [frame for frame, _ in pictures]) if wants_slate else []
     return {
         "film": name,
         "camera": camera,
@@ -89,7 +114,23 @@ def _film_inputs(shot: Shot, camera: str, name: str, kind: str, pictures: list[l
             time.zone,
             shot.run_of(camera).synthetic,
         ],
-    }
+    } | ({"slate": rows} if rows else {})
+
+
+def _slate(shot: Shot, camera: str, name: str, frames: list[int]) -> list[list[str]]:
+    """List the rows of a film's slate: label and text; headlines have no label."""
+    time, run, first = shot.settings.time, shot.run_of(camera), frames[0] if frames else 1
+    shown = sorted({first, frames[-1] if frames else 1})
+    rate = timecode.format_rate(time.rate)
+    return [
+        ["", " ".join(shot.settings.render.slate.split())],
+        ["Shot", f"{camera}, {name}"],
+        ["Run", run.name],
+        ["Model time", " to ".join(times.text(shot.utc(frame), time.zone, seconds=True) for frame in shown)],
+        ["Frames", f"{' to '.join(map(str, shown))}; {count(len(frames), 'picture')}"],
+        ["Rate", f"{rate} frames per second, timecode {timecode.of_frame(first, time.rate)}"],
+        *([["", "SYNTHETIC"]] if run.synthetic else []),
+    ]
 
 
 def _state(shot: Shot, store: Store, camera: str, name: str, kind: str, key: str) -> str:

@@ -81,6 +81,13 @@ class Store:
                 return False
         return True
 
+    def inputs_of(self, path: str) -> dict[str, Any] | None:
+        """Return the inputs that a finished file was made with; None for a file without an entry."""
+        row = self.data.fetch_one(
+            "SELECT made FROM files JOIN settings ON settings.key = files.settings WHERE path = ?", path
+        )
+        return json.loads(row[0]) if row else None
+
     def made_with_other_settings(self, keys: Iterable[str], since: int) -> list[tuple[str, int, str]]:
         """List pictures (camera, frame, pass) entered after `since` with other fingerprints than `keys`."""
         return self.data.fetch_all(

@@ -6,11 +6,13 @@ from pathlib import Path
 from typing import Any
 
 import bpy
+import numpy as np
+from firetwin_core import sensor
 
 from .. import files
-from ..blender import compat
+from ..blender import compat, text
 from ..errors import writing
-from ..imaging import credits
+from ..imaging import credits, slate
 from ..imaging.credits import Credits
 from ..progress import Progress, silent
 from ..run import times
@@ -20,6 +22,8 @@ from . import engine, films, manifest, prores, spherical, timecode_track, verify
 from .picture import Picture
 from .sharing import RenderSession
 from .store import describe
+
+_PAPER, _INK = 0.08, 0.95  # grey levels of a slate
 
 
 def make(shot: Shot, session: RenderSession, progress: Progress = silent) -> None:
@@ -41,7 +45,7 @@ def make(shot: Shot, session: RenderSession, progress: Progress = silent) -> Non
 
 def _film(shot: Shot, session: RenderSession, camera: str, name: str, made_from: dict[str, Any]) -> None:
     out = session.store.out
-    kind, codec = made_from["kind"], made_from["codec"]
+    kind, codec, around = made_from["kind"], made_from["codec"], shot.camera(camera).rig.around
     path = out / films.path_of(made_from)
     scene = bpy.data.scenes.new("Firetwin Film")
     try:
@@ -49,25 +53,34 @@ def _film(shot: Shot, session: RenderSession, camera: str, name: str, made_from:
             made = part / path.name
             frames = [frame for frame, _ in made_from["frames"]]
             size = passes.known()[name].size(shot.resolution(shot.camera(camera)))
-            _settings(shot, size, scene, made, len(frames), codec)
+            board = _slate(part, made_from["slate"], size, around) if "slate" in made_from else None
+            _settings(shot, size, scene, made, len(frames) + bool(board), codec)
             engine.set_metadata(shot.run_of(camera), scene)
             mine = session.made_with[camera, name]
-            _strips(shot, scene, out, camera, name, frames, manifest.read_credits(mine), kind)
+            _strips(shot, scene, out, camera, name, frames, manifest.read_credits(mine), kind, board)
             with writing(path):
                 bpy.ops.render.render(animation=True, scene=scene.name)
             if codec == "prores":
                 prores.tag_colours(made)
-            if shot.camera(camera).rig.around and codec == "h264":
+            if around and codec == "h264":
                 spherical.film(made)
             timecode_track.add(made, films.first_count(made_from, shot), shot.settings.time.rate)
             verify.film(made)
-            entry = (
-                describe(made) | {"camera": camera, "pass": name, "film": kind} | manifest.credit_entry(mine)
-            )
+            entry = describe(made) | {"camera": camera, "pass": name, "film": kind}
+            entry |= manifest.credit_entry(mine) | ({"slate_frames": 1} if board else {})
             files.publish(made, path)
             session.store.add(made_from, {films.path_of(made_from): entry})
     finally:
         bpy.data.scenes.remove(scene)
+
+
+def _slate(folder: Path, rows: list[list[str]], size: tuple[int, int], around: bool) -> Path:
+    """Draw the slate of a film into a file."""
+    places = slate.lay_out(rows, *size, around, text.measure_width)
+    shown = text.draw_lines([text.Line(*place) for place in places], *size)[..., None]
+    path = folder / "slate.png"
+    sensor.write_image(path, _PAPER + (_INK - _PAPER) * np.repeat(shown, 3, axis=-1))
+    return path
 
 
 def _settings(
@@ -107,18 +120,21 @@ def _strips(
     numbers: list[int],
     words: Credits,
     kind: str,
+    board: Path | None,
 ) -> None:
     """Add a strip for each picture, with its model time as a caption (one for each eye in stereo films).
 
-    Captions are placed above the pictures' credits.
+    Captions are placed above the pictures' credits. A slate precedes the first picture.
     """
-    editor = scene.sequence_editor_create()
+    editor, first = scene.sequence_editor_create(), 2 if board else 1
+    if board:
+        editor.strips.new_image("slate", str(board.resolve()), 1, 1, fit_method="ORIGINAL")
     captions = kind == "review" and passes.known()[name].captions
     (width, height), around = shot.resolution(shot.camera(camera)), shot.camera(camera).rig.around
     above = 0.035 + (0.0 if around else credits.strip_height(words, width, height) / height)
     size, low = (height / 60, (0.17, 0.67)) if around else (height / 20, (above,))
     left, right = (0.44, 0.56) if around else (0.025, 0.975)
-    for position, number in enumerate(numbers, start=1):
+    for position, number in enumerate(numbers, start=first):
         shown = str((out / Picture(camera, number, name).file("png")).resolve())
         editor.strips.new_image(f"picture {number}", shown, 1, position, fit_method="ORIGINAL")
         if not captions:
@@ -129,12 +145,12 @@ def _strips(
     if shot.run_of(camera).synthetic and captions:
         for eye, up in enumerate(low):
             place = right, up - 0.03 * around
-            _text(editor, "synthetic sample run", 1, len(numbers), 4 + eye, size / 1.5, place, "RIGHT")
+            _text(editor, "synthetic sample run", first, len(numbers), 4 + eye, size / 1.5, place, "RIGHT")
 
 
 def _text(
     editor: bpy.types.SequenceEditor,
-    text: str,
+    words: str,
     start: int,
     length: int,
     channel: int,
@@ -142,8 +158,8 @@ def _text(
     place: tuple[float, float],
     side: str,
 ) -> None:
-    strip = compat.new_strip(editor, text, "TEXT", channel, start, length)
-    strip.text, strip.font_size, strip.font = text, size, compat.typeface()
+    strip = compat.new_strip(editor, words, "TEXT", channel, start, length)
+    strip.text, strip.font_size, strip.font = words, size, compat.typeface()
     strip.color, strip.location = (1.0, 1.0, 1.0, 1.0), place
     strip.anchor_x, strip.anchor_y, strip.alignment_x = side, "BOTTOM", side
     strip.use_shadow, strip.shadow_color = True, (0.0, 0.0, 0.0, 0.8)

@@ -94,12 +94,23 @@ GERMAN = {
 }
 """German names, by English names. Blender's own words (Szene, Rendern) as in its German interface."""
 
+SETTINGS = {
+    "EXR space": "EXR-Farbraum",
+    "Film": "Film",
+    "Film codec": "Film-Codec",
+    "Slate": "Klappe",
+    "Video": "Filme",
+}
+"""German labels of settings of films; labels of other settings stay English."""
+
 _CONTEXTS = ("*", "Operator")
 
 
 def table() -> dict[str, dict[tuple[str, str], str]]:
     """Return the translations in Blender's layout: by language, and by context and English text."""
-    return {"de_DE": {(context, text): own for text, own in GERMAN.items() for context in _CONTEXTS}}
+    return {
+        "de_DE": {(context, text): own for text, own in (GERMAN | SETTINGS).items() for context in _CONTEXTS}
+    }
 
 
 def register() -> None:

@@ -139,6 +139,29 @@ def test_a_film_is_made_again_only_when_it_must_be(filmed, film):
     assert _missing(shot, out, MADE_WITH) == []
 
 
+def test_a_slate_precedes_a_review_film(filmed, tmp_path):
+    """The first picture keeps its timecode, and a clean film has no slate."""
+    shot, out = filmed
+    settings = shot.settings
+    render = replace(settings.render, film="both", slate="King Fire v003")
+    _make(Shot(replace(settings, render=render), shot.run), out, MADE_WITH)
+    review, clean = out / "drone/drone_rgb.mp4", out / "drone/drone_rgb_clean.mp4"
+    assert _probe(review, "stream_tags=timecode") == "00:59:59:11"
+    assert _probe(clean, "stream_tags=timecode") == "01:00:00:00"
+    assert len(_decode(clean, tmp_path)) == 3
+    slate, *pictures = _decode(review, tmp_path)
+    assert len(pictures) == 3
+    assert np.median(slate) < 0.2
+    assert slate.max() > 0.6  # letters
+    for frame, shown in enumerate(pictures, start=1):
+        assert (np.abs(shown - _picture(frame))[PLAIN] * 255).mean() < 2.0
+    assert _missing(shot, out, MADE_WITH)[0][2].get("slate") is None  # without a slate: again
+    with Store(out) as store:
+        ((path, reasons),) = films.changes_of(shot, store, MADE_WITH)
+        assert (path, reasons) == ("drone/drone_rgb.mp4", ["had a slate"])
+        assert films.left_over(shot, store, MADE_WITH) == ["drone/drone_rgb_clean.mp4"]
+
+
 def test_one_picture_makes_no_film(filmed):
     shot, out = filmed
     settings = shot.settings
@@ -181,8 +204,8 @@ def test_clean_films_have_no_captions_but_timecode_and_colour_tags(filmed, tmp_p
     )
     assert (out / "drone/drone_rgb.mp4").exists()  # for browsers
     path = out / f"drone/drone_rgb_clean.{end}"
-    what = "stream=codec_name,pix_fmt,color_range,color_space,color_transfer,color_primaries,r_frame_rate,nb_frames"
-    assert _probe(path, what) == probed
+    what = "stream=codec_name,pix_fmt,color_range,color_space,color_transfer,color_primaries"
+    assert _probe(path, f"{what},r_frame_rate,nb_frames") == probed
     for film in (path, out / "drone/drone_rgb.mp4"):
         assert _probe(film, "stream_tags=timecode") == "01:00:00;00"
     for frame, shown in enumerate(_decode(path, tmp_path), start=1):

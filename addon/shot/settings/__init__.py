@@ -139,6 +139,7 @@ class Render:
         choices={"h264": "8 bits", "h265": "10 bits", "prores": "422 HQ, .mov"},
         affects=(),
     )
+    slate: str = key("", "slate before review films: show and version; empty: none", affects=())
     seed: int = key(
         0, "random seed of the render noise", at_least=0, at_most=LARGEST_SEED, affects=("grain",)
     )
