@@ -64,7 +64,7 @@ def codec(shot: Shot, kind: str) -> str:
 
 
 def changes_of(shot: Shot, store: Store, made_with: Fingerprints) -> list[tuple[str, list[str]]]:
-    """List the films to encode: path, and what changed since the last time."""
+    """List the films to encode: path, and reasons."""
     return [
         (path_of(inputs), changes.of_film(store.inputs_of(path_of(inputs)), inputs))
         for _, _, inputs in missing(shot, store, made_with)

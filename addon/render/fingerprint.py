@@ -30,7 +30,6 @@ Fingerprints = dict[tuple[str, str], dict[str, Any]]
 _RENDERING = (
     "blender/text.py",
     "imaging/credits.py",
-    "render/mp4_boxes.py",
     "render/credits.py",
     "render/engine.py",
     "render/exr_tags.py",
