@@ -397,6 +397,7 @@ def test_a_changed_source_changes_what_it_makes_and_no_more(tmp_path, monkeypatc
         "fused",
         "masks",
         "nerfstudio",
+        "data",
         "split",
         "difference",
     }

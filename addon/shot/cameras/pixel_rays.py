@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from .path import Path
 
 SKY = 1.0e9  # m; larger depths are sky
+_FARTHEST, _NEAREST = 1.0e8, 1.0e-3  # m; depth of the sky, and of points behind the camera, for motion
 
 
 def path_of(paths: Iterable[Path], camera: str) -> Path:
@@ -50,3 +51,25 @@ def points(view: Path, frame: int, planar: NDArray) -> NDArray[np.float64]:
     far = deep if view.perspective else 1.0
     local = np.stack([x * far, y * far, -deep], axis=-1)
     return view.position[frame - 1] + local @ view.rotation[frame - 1].T
+
+
+def motion(view: Path, frame: int, planar: NDArray, other: int) -> NDArray[np.float32]:
+    """Compute how far pixels (h, w) of a flat picture have moved in another frame, in a static scene.
+
+    Parameters
+    ----------
+    planar
+        (h, w) planar depth, m.
+
+    Returns
+    -------
+    (h, w, 2) pixels right and up.
+    """
+    height, width = planar.shape
+    x, y = plane(view, frame, height, width)
+    there = points(view, frame, np.minimum(planar, _FARTHEST))
+    local = (there - view.position[other - 1]) @ view.rotation[other - 1]
+    deep = np.maximum(-local[..., 2:], _NEAREST) if view.perspective else 1.0
+    now = np.stack([x, y], axis=-1) / view.halves[frame - 1]
+    then = local[..., :2] / deep / view.halves[other - 1]
+    return ((then - now) * (0.5 * width, 0.5 * height)).astype(np.float32)
