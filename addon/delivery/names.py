@@ -138,6 +138,9 @@ def _name(pattern: str, path: str, entry: dict[str, Any], start: int) -> str:
     }
     for field, value in values.items():
         pattern = pattern.replace(field, value)
+    each, file = passes.known().get(entry["pass"]), PurePosixPath(path)
+    if each and file.suffix[1:] in each.linked:
+        return str(PurePosixPath(pattern).with_name(file.name))
     return pattern
 
 

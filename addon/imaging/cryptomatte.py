@@ -36,7 +36,7 @@ def attributes(name: str, manifest: str, is_file: bool = False) -> dict[str, str
     name
         Name of the matte, without dots.
     manifest
-        Result of `manifest`, or the name of a file beside the EXR with this text.
+        Result of `manifest`, or the name of a file in the folder of the EXR with this text.
     is_file
         The manifest is a file name.
     """

@@ -131,3 +131,17 @@ def test_missing_files_are_named_and_an_empty_folder_is_refused(finished, tmp_pa
     ]
     with pytest.raises(InputError, match="has no finished pictures or films"):
         names.choose(tmp_path / "none", PATTERN, 1)
+
+
+def test_a_file_that_its_exr_names_keeps_its_name(tmp_path):
+    out = tmp_path / "film"
+    with Store(out, create=True) as made:
+        paths = Picture("drone", 1, "data").files()
+        (out / paths[0]).parent.mkdir(parents=True)
+        for path in paths:
+            (out / path).write_bytes(b"content")
+        facts = {"camera": "drone", "pass": "data", "frame": 1}
+        made.add({"run": 1}, {path: facts | store.describe(out / path) for path in paths})
+        made.export()
+    found = {each.pattern for each in names.choose(out, PATTERN, 1001).files}
+    assert found == {"drone/data/drone_data.1001.exr", "drone/data/drone_data_000001.json"}

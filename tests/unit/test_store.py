@@ -232,7 +232,7 @@ def test_a_picture_depends_on_the_settings_that_it_shows():
 
     everything = set(passes.known())
     compared = {"split", "difference"}
-    lit = {"rgb", "comp", "thermal", "thermal_map", "edl", "overlay", "fused"} | compared
+    lit = {"rgb", "comp", "thermal", "thermal_map", "edl", "overlay", "fused", "data"} | compared
     assert changes() == set()
     assert changes(seed=2) == everything
     assert changes(time=replace(SETTINGS.time, frames=5)) == everything
@@ -244,7 +244,7 @@ def test_a_picture_depends_on_the_settings_that_it_shows():
     assert changes(render=s.Render(samples=7)) == lit
     assert changes(light=sections.Light(haze=0.5)) == lit
     assert changes(smoke=sections.SmokeSettings(max_age=9.0)) == lit | {"masks", "nerfstudio"}
-    assert changes(render=s.Render(thermal_high=900.0)) == {"thermal", "overlay", "fused"}
+    assert changes(render=s.Render(thermal_high=900.0)) == {"thermal", "overlay", "fused", "data"}
     assert changes(render=s.Render(passes=("rgb",), video=False, device="cpu")) == {"pose"}
     # Built objects and their detail depend on the filmed frames.
     assert changes(cameras=(replace(CAMERAS[0], frames="1"), CAMERAS[1])) == everything

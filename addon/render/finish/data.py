@@ -34,13 +34,13 @@ Array = NDArray[np.float32]
 
 
 def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
-    """Collect the channels, and write the manifest of the trees beside them."""
+    """Collect the channels, and write the manifest of the trees."""
     view = pixel_rays.path_of(shot.paths, camera)
     planar = sensor.read_image(needed["depth"]["exr"])[..., 0]
     masks = sensor.read_channels(needed["masks"]["exr"])
     thermal = sensor.read_channels(needed["thermal"]["exr"])
     trees, numbers = mark_trees(masks["surface"], masks["instance"], masks["clear"])
-    values = [
+    values: list[NDArray] = [
         planar[..., None],
         sensor.read_image(needed["normal"]["exr"])[..., :3],
         np.nan_to_num(pixel_rays.points(view, frame, planar)),

@@ -46,6 +46,8 @@ class Pass:
     code
         Files and folders of the package that decide its files, in addition to its own module, the module that
         finishes it (`render.finish`) and what all passes depend on.
+    linked
+        Suffixes of files whose name its EXR contains, which therefore keep their names in deliveries.
     finished
         A module of `render.finish` makes its files, or completes the files that Blender renders.
     """
@@ -60,6 +62,7 @@ class Pass:
     single_view: bool = False
     min_rows: int = 0
     code: tuple[str, ...] = ()
+    linked: tuple[str, ...] = ()
     finished: bool = False
 
     @property

@@ -1,6 +1,6 @@
 """Data for compositors: depth, normals, positions, motion, Cryptomatte and temperatures in one EXR.
 
-It is made from the files of `depth`, `normal`, `masks` and `thermal`, without rays of its own.
+It is made from the files of `depth`, `normal`, `masks` and `thermal`; it adds no rays.
 
 ===================================== ==================================================================
 channels                              content
@@ -15,15 +15,15 @@ channels                              content
 `thermal.kelvin`, `thermal.radiance`  as in `thermal`
 ===================================== ==================================================================
 
-Motion is that of the camera before a static scene: smoke, flames and firebrands have none of their own. The
-first frame has no backward motion, and the last no forward motion.
+Motion is computed from the camera before a static scene: smoke, flames and firebrands have none. The first
+frame has no backward motion, and the last no forward motion.
 
 Cryptomatte has six ranks. One ray goes through each pixel's centre; coverage is the mean of the 3 x 3 nearest
-rays with weights 1, 2, 1. Edges are therefore soft, but not those of the `rgb` rays, and details smaller than
-a pixel are noisy. Smoke covers 1 - its transmittance and hides trees and ground by it; flames that hide more
-than half are fire, and others are not. Class coverages add up to 1. The JSON beside the EXR is the manifest
-of the trees in the frame (`manif_file`), so keep both files together and their names unchanged. The tree
-number is the instance number of `masks`.
+rays with weights 1, 2, 1. Edges are therefore soft, but not measured by the rays of `rgb`, and details
+smaller than a pixel are noisy. Smoke covers 1 - its transmittance, and the surface behind it the rest. Flames
+that hide more than half are fire, and others are not. Class coverages add up to 1. The JSON is the manifest
+of the trees in the frame; the EXR has its name (`manif_file`), so keep both files in one folder, and do not
+rename the JSON. The number of a tree is its instance number in `masks`.
 """
 
 from __future__ import annotations
@@ -38,5 +38,6 @@ PASS = DerivedPass(
     single_view=True,
     aspects=frozenset({"time", "camera", "picture"}),
     code=("render/composite.py",),
+    linked=("json",),
     needs=("depth", "normal", "masks", "thermal"),
 )
