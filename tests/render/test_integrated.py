@@ -7,12 +7,14 @@ import bpy
 import numpy as np
 import pytest
 from firetwin.blender import owned
+from firetwin.imaging import cryptomatte
 from firetwin.render import engine, integrated, layers, pictures
 from firetwin.render.picture import Picture
 from firetwin.render.sharing import open_session
 from firetwin.scene import build, infrared
 from firetwin.shot import passes
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
+from firetwin.shot.passes import masks as masks_pass
 from firetwin.shot.sections import Time
 from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
@@ -162,3 +164,30 @@ def test_layers_of_the_picture_add_up(film, tmp_path):
     assert sun[ground].mean() > sky[ground].mean() > 0.0
     assert found["smoke.A"].max() > 0.9
     assert fire[..., 0].max() > 1.0
+
+
+def test_data_agrees_with_the_passes_that_it_is_made_from(film, tmp_path):
+    film("masks", "data")
+    out = tmp_path / "integrated_0_masks_data"
+    found, masks = (
+        sensor.read_channels(out / Picture("drone", 1, name).file("exr")) for name in ("data", "masks")
+    )
+    known = dict(zip(masks_pass.NAMES, cryptomatte.identify(masks_pass.NAMES), strict=True))
+
+    def matte(name):
+        ranks = [(f"CryptoClass{layer:02d}.", pair) for layer in range(3) for pair in ("rg", "ba")]
+        return sum(
+            np.where(found[layer + pair[0]] == known[name], found[layer + pair[1]], 0.0)
+            for layer, pair in ranks
+        )
+
+    for name in ("ground", "tree", "smoke", "fire"):
+        here = masks["class"] == masks_pass.NAMES.index(name)
+        assert matte(name)[here].mean() > 0.5 > 4.0 * matte(name)[~here].mean()
+    assert sum(matte(name) for name in known) == pytest.approx(1.0, abs=1e-5)
+    trees = sum(found[f"CryptoTree{layer:02d}.{part}"] for layer in range(3) for part in "ga")
+    assert 0.0 < trees.max() <= 1.0 + 1e-5
+    solid = found["Z"] < 1.0e9
+    assert np.hypot(found["N.X"], np.hypot(found["N.Y"], found["N.Z"]))[solid] == pytest.approx(1.0, abs=1e-3)
+    assert not found["forward.u"].any(), "a film of one frame"
+    assert found["thermal.kelvin"].max() > 600.0
