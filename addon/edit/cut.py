@@ -54,6 +54,8 @@ class Take:
         Width and height, pixels.
     sequences
         EXR sequences of these frames, by the key of their media reference.
+    slate
+        Number of pictures of the film before these frames.
     """
 
     camera: str
@@ -61,6 +63,12 @@ class Take:
     frames: tuple[int, ...]
     size: tuple[int, int]
     sequences: Mapping[str, ImageSequence] = field(default_factory=dict)
+    slate: int = 0
+
+    @property
+    def length(self) -> int:
+        """Number of pictures of the film."""
+        return self.slate + len(self.frames)
 
     @property
     def stretches(self) -> list[Stretch]:

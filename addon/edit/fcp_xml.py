@@ -48,12 +48,13 @@ def _clip(item: ET.Element, clip: Clip, rate: Fraction, file: str, written: set[
     """Fill a clip; the first clip of a film describes the file, later ones refer to it."""
     _add(item, "name", clip.take.camera)
     _add(item, "enabled", "TRUE")
-    _add(item, "duration", len(clip.take.frames))
+    _add(item, "duration", clip.take.length)
     _rate(item, rate)
     _add(item, "start", clip.first - 1)
     _add(item, "end", clip.end - 1)
-    _add(item, "in", clip.position)
-    _add(item, "out", clip.position + clip.length)
+    start = clip.take.slate + clip.position
+    _add(item, "in", start)
+    _add(item, "out", start + clip.length)
     element = ET.SubElement(item, "file", id=file)
     if file not in written:
         written.add(file)
@@ -64,8 +65,8 @@ def _file(element: ET.Element, take: Take, rate: Fraction) -> None:
     _add(element, "name", take.camera)
     _add(element, "pathurl", take.url)
     _rate(element, rate)
-    _add(element, "duration", len(take.frames))
-    _timecode(element, take.frames[0], rate)
+    _add(element, "duration", take.length)
+    _timecode(element, take.frames[0] - take.slate, rate)
     _format(ET.SubElement(ET.SubElement(element, "media"), "video"), take, rate)
 
 

@@ -52,7 +52,8 @@ def takes(shot: Shot, name: str, film: Path, out: Path) -> list[Take]:
             for key in dict.fromkeys((name, COMPOSITING))
             if (each := _sequence(entries, camera.name, key, film, out))
         }
-        found.append(Take(camera.name, url(film / path, out), frames, size, sequences))
+        slate = entries[path].get("slate_frames", 0)
+        found.append(Take(camera.name, url(film / path, out), frames, size, sequences, slate))
     if not found:
         remedy = "run firetwin render with [render] video = true"
         raise input_error(film, f'has no film of the pass "{name}" of these cameras; {remedy}')

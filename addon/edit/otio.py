@@ -55,7 +55,7 @@ def _track(name: str, clips: Sequence[Clip], rate: Fraction, enabled: bool) -> d
 def _clip(clip: Clip, rate: Fraction) -> dict[str, Any]:
     take, stretch, start = clip.take, clip.stretch, clip.take.start(rate)
     film = _object("ExternalReference.1", "") | {
-        "available_range": _range(start, len(take.frames), rate),
+        "available_range": _range(start - take.slate, take.length, rate),
         "available_image_bounds": None,
         "target_url": take.url,
     }

@@ -1,5 +1,6 @@
 """Edits: one cut in OTIO, XML and EDL, whose frames exist; markers at the times of their events."""
 
+import xml.etree.ElementTree as ET
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
@@ -247,7 +248,10 @@ films = st.lists(st.sets(st.integers(1, 40), min_size=1), min_size=1, max_size=4
 
 
 def _takes(sets):
-    return [Take(f"c{k}", f"c{k}.mp4", tuple(sorted(each)), (64, 36)) for k, each in enumerate(sets)]
+    """Films of these frames; every second one begins with a slate."""
+    return [
+        Take(f"c{k}", f"c{k}.mp4", tuple(sorted(each)), (64, 36), slate=k % 2) for k, each in enumerate(sets)
+    ]
 
 
 @given(st.sets(st.integers(1, 200)))
@@ -278,6 +282,9 @@ def test_three_formats_agree(sets, rate):
     xml = otio.adapters.read_from_string(fcp_xml.text(edit), "fcp_xml")
     lines = otio.adapters.read_from_string(edl.text(edit), "cmx_3600", rate=float(exact))
     assert media(whole) == media(xml) == media(lines)
+    starts = [int(each.text) for each in ET.fromstring(fcp_xml.text(edit)).iterfind(".//clipitem/in")]
+    played = [clip for _, clips in edit.tracks for clip in clips]
+    assert starts == [clip.position + clip.take.slate for clip in played]  # from the file's first picture
     record = [line.split()[6] for line in edl.text(edit).splitlines() if line[0:1].isdigit()]
     assert record == [timecode.of_frame(clip.first, exact) for clip in edit.cut]
     assert edl.text(edit).count("* LOC: ") == 1
