@@ -54,7 +54,8 @@ def test_stills_and_films_say_what_they_are(run_folder, tmp_path):
     assert found.attrib[f"{pano}FullPanoWidthPixels"] == "64"
     assert float(found.attrib[f"{pano}PoseHeadingDegrees"]) == pytest.approx(90.0, abs=0.1)  # east
     film = tmp_path / "out" / "headset" / "headset_rgb.mp4"
-    probe = ["ffprobe", "-v", "error", "-count_frames", "-show_streams", "-of", "json", film]
+    probe = ["ffprobe", "-v", "error", "-select_streams", "v", "-count_frames", "-show_streams"]
+    probe += ["-of", "json", film]
     (stream,) = json.loads(subprocess.run(probe, capture_output=True, check=True).stdout)["streams"]
     assert stream["nb_read_frames"] == "2"
     sides = {side["side_data_type"]: side for side in stream["side_data_list"]}
