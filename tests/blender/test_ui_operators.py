@@ -107,11 +107,11 @@ CHANGES = {
     "camera_aim": {"target": "point"},
     "camera_path": {},
     "f12_files": {},
+    "allocate": {},  # before a run is added whose folder does not exist
     "run_add": {},
     "run_remove": {},
     "vr_landmarks": {},
     "station_map": {},
-    "allocate": {},
     "tiles_preview": {"boxes": True},
     "tiles_clear": {},
 }
