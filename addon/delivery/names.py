@@ -59,16 +59,15 @@ def check(pattern: str) -> None:
         It has unknown or missing fields, or leads out of the folder.
     """
     try:
-        fields = [name for _, name, form, change in string.Formatter().parse(pattern) if name is not None]
-        plain = string.Formatter().parse(pattern)
-        formatted = any(form or change for _, name, form, change in plain if name is not None)
+        parsed = [part[1:] for part in string.Formatter().parse(pattern) if part[1] is not None]
     except ValueError as error:
         raise UsageError(f"--pattern: {error}; write fields as {{frame}}") from None
+    fields = [name for name, _, _ in parsed]
     known = ", ".join(f"{{{name}}}" for name in _FIELDS)
     for name in fields:
         if name not in _FIELDS:
             raise UsageError(f"--pattern: {{{name}}} is not one of {known}; replace it")
-    if formatted:
+    if any(form or change for _, form, change in parsed):
         raise UsageError(f"--pattern: fields have no format; write them as {known}")
     if missing := [name for name in ("frame", "ext") if name not in fields]:
         raise UsageError(

@@ -20,9 +20,9 @@ COMPOSITING = "comp"
 
 
 def takes(shot: Shot, name: str, film: Path, out: Path) -> list[Take]:
-    """Find the films of a pass, by camera in the order of the scene; clean films come before review films.
+    """Find the film of each camera in a pass, in the order of the scene.
 
-    Panoramas and views of comparison runs are omitted.
+    A clean film replaces the review film. Panoramas and views of comparison runs are omitted.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ def takes(shot: Shot, name: str, film: Path, out: Path) -> list[Take]:
     Raises
     ------
     InputError
-        There is no film, or a film has another frame rate than the scene.
+        The folder has no films of these cameras, or a film's frame rate differs from the scene's.
     """
     content = manifest.read(film)
     entries = {path: entry for path, entry in content["files"].items() if _is_file(film, path)}

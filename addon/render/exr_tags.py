@@ -34,7 +34,7 @@ AP1_FROM_REC709 = np.array(
 )
 """Linear Rec.709 (D65) to AP1 (D60) with Bradford adaptation, as in OpenColorIO's ACES configurations."""
 
-_MOST_COUNTED = 30  # frames per second that a time code counts; faster films count pairs
+_MOST_COUNTED = 30  # frames per second that timecode counts; faster films count pairs
 
 
 def attributes(
@@ -78,10 +78,10 @@ def attributes(
 
 
 def film_time(rate: Fraction, frame: int) -> dict[str, Any]:
-    """Compute frame rate and time code of a frame, from 1, as the timecode track of films has them.
+    """Compute frame rate and timecode of a frame, from 1, as the timecode track of films has them.
 
-    A time code counts up to 30 frames in a second (SMPTE ST 12-1): at higher rates it counts pairs, and the
-    field mark is set in the second frame of a pair. Rates over 60 have no code.
+    Timecode counts up to 30 frames in a second (SMPTE ST 12-1): at higher rates it counts pairs, and the
+    field mark is set in the second frame of a pair. Rates over 60 have no timecode.
     """
     nominal = timecode.nominal_rate(rate)
     if nominal > 2 * _MOST_COUNTED:

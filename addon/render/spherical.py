@@ -81,7 +81,7 @@ def _edit(body: bytes) -> bytes:
 
 
 def _entry(body: bytes) -> bytes:
-    """Add our boxes to an `avc1`, after its `avcC` and before its optional mp4_boxes."""
+    """Add our boxes to an `avc1`, after its `avcC` and before its optional boxes."""
     inside = [(k, b) for k, b in mp4_boxes.split(body[_ENTRY:]) if k not in (b"st3d", b"sv3d")]
     return body[:_ENTRY] + b"".join(mp4_boxes.make(k, b) + _VR_BOXES * (k == b"avcC") for k, b in inside)
 

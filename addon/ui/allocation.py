@@ -103,10 +103,7 @@ class FIRETWIN_OT_allocate(Working, bpy.types.Operator):
         if not context.scene.firetwin.stations.file:
             cls.poll_message_set("Choose a station file in the panel Stations first")
             return False
-        if context.mode != "OBJECT":
-            cls.poll_message_set("Leave the edit mode first")
-            return False
-        return True
+        return working.is_object_mode(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Solve in a worker process, then store the result and draw the control line."""

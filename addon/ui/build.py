@@ -49,10 +49,7 @@ _CHOICES = (
 
 def _can_build(operator: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     """Return whether a scene can be built; otherwise set the poll message."""
-    if context.mode != "OBJECT":
-        operator.poll_message_set("Leave the edit mode first")
-        return False
-    return run.is_ready(operator, context)
+    return working.is_object_mode(operator, context) and run.is_ready(operator, context)
 
 
 class FIRETWIN_OT_build(Working, bpy.types.Operator):
@@ -206,10 +203,7 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
         if not owned.has_data(context.scene):
             cls.poll_message_set("Firetwin has built nothing in this scene")
             return False
-        if context.mode != "OBJECT":
-            cls.poll_message_set("Leave the edit mode first")
-            return False
-        return True
+        return working.is_object_mode(cls, context)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         return context.window_manager.invoke_confirm(

@@ -26,10 +26,7 @@ def _ready(operator: type[bpy.types.Operator], context: bpy.types.Context) -> bo
     if not context.scene.firetwin.tiles.sources:
         operator.poll_message_set(_NO_SOURCE)
         return False
-    if context.mode != "OBJECT":
-        operator.poll_message_set("Leave the edit mode first")
-        return False
-    return run.is_ready(operator, context)
+    return working.is_object_mode(operator, context) and run.is_ready(operator, context)
 
 
 class FIRETWIN_OT_tiles_preview(Working, bpy.types.Operator):

@@ -39,6 +39,14 @@ def is_editable(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bo
     return is_free(cls)
 
 
+def is_object_mode(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+    """Return whether Blender is in object mode; otherwise set the poll message."""
+    if context.mode != "OBJECT":
+        cls.poll_message_set("Leave the edit mode first")
+        return False
+    return True
+
+
 def report_errors(execute: Callable[..., set[str]]) -> Callable[..., set[str]]:
     """Turn errors of an operator's `execute` into reports (decorator)."""
 

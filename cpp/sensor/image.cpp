@@ -159,7 +159,7 @@ OIIO::ImageSpec png_spec(std::size_t height, std::size_t width, std::size_t chan
   return spec;
 }
 
-/// Limits finite values to those of 16-bit floats, which would otherwise become infinite.
+/// Clamps finite values to the range of 16-bit floats; larger ones would become infinite.
 std::vector<float> limited_to_half(std::span<const float> pixels) {
   std::vector<float> limited(pixels.begin(), pixels.end());
   for (float& value : limited) {

@@ -40,17 +40,18 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     masks = sensor.read_channels(needed["masks"]["exr"])
     thermal = sensor.read_channels(needed["thermal"]["exr"])
     trees, numbers = mark_trees(masks["surface"], masks["instance"], masks["clear"])
+    classes = cryptomatte.identify(NAMES)
     values: list[NDArray] = [
         planar[..., None],
         sensor.read_image(needed["normal"]["exr"])[..., :3],
         np.nan_to_num(pixel_rays.points(view, frame, planar)),
         *(move(view, frame, planar, frame + step) for step in (1, -1)),
-        cryptomatte.ranked(cryptomatte.identify(NAMES), cover_classes(masks["surface"], masks["clear"])),
+        cryptomatte.ranked(classes, cover_classes(masks["surface"], masks["clear"])),
         trees,
         *(thermal[name][..., None] for name in ("kelvin", "radiance")),
     ]
     files["json"].write_text(cryptomatte.manifest(numbers) + "\n", encoding="utf-8")
-    named = dict(zip(NAMES, cryptomatte.identify(NAMES), strict=True))
+    named = dict(zip(NAMES, classes, strict=True))
     about = exr_tags.attributes(shot, camera, frame, _SAID)
     about |= cryptomatte.attributes(CLASSES, cryptomatte.manifest(named))
     about |= cryptomatte.attributes(TREES, files["json"].name, is_file=True)
