@@ -208,7 +208,7 @@ def gather(request: Request) -> Briefing:
         zone=clock,
         elevation=elevation.fuel,
         facts=info.gather(run, clock),
-        layers=layers.draw(run, elevation.fuel, clock),
+        layers=layers.draw(run, elevation.fuel, clock, request.sheet.units),
         fronts=lines,
         tolerance=tolerance,
         points=_points(run, settings, station_file, clock, _arrival_error(scores), request.sheet.units),

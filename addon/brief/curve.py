@@ -10,8 +10,9 @@ from zoneinfo import ZoneInfo
 
 import numpy as np
 
-from ..data.history import SQUARE_METRES_PER_ACRE
 from ..run import times
+from ..run.score.measure import Measure
+from . import units as page_units
 from .fronts import Front
 from .sheet_options import Units
 from .text import quote
@@ -21,7 +22,6 @@ LEFT, RIGHT, TOP, BOTTOM = 66, 58, 20, 52
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
 _HOURS = (1, 2, 3, 6, 12, 24, 48, 96, 240)
 _MOST_DATES = 7
-_UNITS = {"acres": SQUARE_METRES_PER_ACRE, "ha": 1e4}
 
 
 @dataclass(frozen=True)
@@ -51,18 +51,19 @@ def axes(fronts: Sequence[Front], reported: Sequence[dict[str, Any]]) -> Axes:
 
 def svg(fronts: Sequence[Front], reported: Sequence[dict[str, Any]], zone: str, units: Units = "us") -> str:
     """Draw the curve of the run and dots for reports; the axis of `units` is at the left, the other right."""
-    order = list(_UNITS) if units == "us" else list(_UNITS)[::-1]
+    second: Units = "metric" if units == "us" else "us"
+    left, right = page_units.AREA[units], page_units.AREA[second]
     place = axes(fronts, reported)
     line = " ".join(f"{place.x(front.utc)},{place.y(front.area)}" for front in fronts)
     foot = HEIGHT - BOTTOM
     parts = [
-        *_scale(place, _UNITS[order[0]], LEFT - 8, "end", order[0], True),
-        *_scale(place, _UNITS[order[1]], WIDTH - RIGHT + 8, "start", order[1], False),
+        *_scale(place, left, LEFT - 8, "end", True),
+        *_scale(place, right, WIDTH - RIGHT + 8, "start", False),
         *_dates(place, zone),
         f'<polygon class="area" points="{LEFT},{foot} {line} {WIDTH - RIGHT},{foot}"/>',
         f'<polyline class="run" points="{line}"/>',
         f'<line id="cursor" class="cursor" x1="{LEFT}" x2="{LEFT}" y1="{TOP}" y2="{foot}"/>',
-        *(_dot(place, row, zone, order[0]) for row in _covered(reported)),
+        *(_dot(place, row, zone, left) for row in _covered(reported)),
     ]
     label = "Burned area by time: run and reports; the table below has the numbers of the reports"
     return (
@@ -77,25 +78,25 @@ def _covered(reported: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     return [row for row in reported if row["run"] is not None]
 
 
-def _dot(place: Axes, row: dict[str, Any], zone: str, unit: str) -> str:
+def _dot(place: Axes, row: dict[str, Any], zone: str, unit: Measure) -> str:
     when = datetime.fromisoformat(row["time"])
-    area = f"{row['reported'] / _UNITS[unit]:,.0f} {unit} reported"
+    area = f"{unit.format(row['reported'])} {unit.name} reported"
     title = quote(f"{times.text(when, zone)}: {area} ({row['source']})")
     spot = f'cx="{place.x(when)}" cy="{place.y(row["reported"])}"'
     return f'<circle class="reported" r="5" {spot}><title>{title}</title></circle>'
 
 
-def _scale(place: Axes, unit: float, x: float, anchor: str, name: str, lines: bool) -> Iterator[str]:
-    """Draw the ticks of an area axis in a unit (m2)."""
-    high = place.high / unit
+def _scale(place: Axes, unit: Measure, x: float, anchor: str, lines: bool) -> Iterator[str]:
+    """Draw the ticks of an area axis."""
+    high = place.high * unit.factor
     power = 10.0 ** np.floor(np.log10(high / 4.0))
     step = next(step * power for step in _STEPS if step * power >= high / 4.0 * 0.999)
     for value in np.arange(0.0, high, step):
-        y = place.y(float(value) * unit)
+        y = place.y(float(value) / unit.factor)
         if lines:
             yield f'<line class="grid" x1="{LEFT}" x2="{WIDTH - RIGHT}" y1="{y}" y2="{y}"/>'
         yield f'<text x="{x}" y="{y + 4}" text-anchor="{anchor}" class="{anchor}">{value:,g}</text>'
-    yield f'<text x="{x}" y="{TOP - 6}" text-anchor="{anchor}" class="unit {anchor}">{name}</text>'
+    yield f'<text x="{x}" y="{TOP - 6}" text-anchor="{anchor}" class="unit {anchor}">{unit.name}</text>'
 
 
 def _dates(place: Axes, zone: str) -> Iterator[str]:

@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from ..run import areas, thumbnails, times
-from . import mercator
+from . import mercator, units
 from .mercator import Box
+from .sheet_options import Units
 
 LONGEST = 1100  # maximum length of the longer side, pixels
 _LEAST = 600  # pixels, for smooth hill shading of coarse grids
@@ -59,7 +60,7 @@ class Layer:
     shown: bool
 
 
-def draw(run: Run, elevation: NDArray[np.floating], zone: str) -> list[Layer]:
+def draw(run: Run, elevation: NDArray[np.floating], zone: str, order: Units = "us") -> list[Layer]:
     """Draw all layers of a run, lowest first.
 
     Parameters
@@ -68,8 +69,10 @@ def draw(run: Run, elevation: NDArray[np.floating], zone: str) -> list[Layer]:
         (fy, fx) on the fuel grid, m; can come from a user's elevation model.
     zone
         Time zone of the legend.
+    order
+        Units of the legend.
     """
-    return [_hillshade(run, elevation), _fuel(run), _arrival(run, zone)]
+    return [_hillshade(run, elevation), _fuel(run, order), _arrival(run, zone)]
 
 
 def _hillshade(run: Run, elevation: NDArray[np.floating]) -> Layer:
@@ -94,9 +97,10 @@ def shade(run: Run, elevation: NDArray[np.floating]) -> NDArray[np.float64]:
     return shaded
 
 
-def _fuel(run: Run) -> Layer:
-    """Draw the sum of surface and canopy fuel, kg/m2; transparent without fuel."""
-    fuel = np.nan_to_num(run.surface_fuel) + np.nan_to_num(run.canopy_fuel)
+def _fuel(run: Run, order: Units) -> Layer:
+    """Draw the sum of surface and canopy fuel; transparent without fuel."""
+    unit = units.FUEL[order]
+    fuel = (np.nan_to_num(run.surface_fuel) + np.nan_to_num(run.canopy_fuel)) * unit.factor
     burnable = fuel[fuel > 0.0]
     high = _round_up(float(np.percentile(burnable, 99.5))) if burnable.size else 1.0
     index = np.where(fuel > 0.0, 1 + np.minimum(fuel / high * _LEVELS, _LEVELS - 1), 0).astype(np.uint8)
@@ -104,7 +108,7 @@ def _fuel(run: Run) -> Layer:
     colours = tuple(to_hex(colour) for colour in ramp.reshape(-1, 3))
     box, pixels = _sampled(run, index)
     ticks = [(share, f"{share * high:g}") for share in (0.0, 0.25, 0.5)]
-    legend = Legend("Fuel load, kg/m²", colours, (*ticks, (1.0, f"≥ {high:g}")))
+    legend = Legend(f"Fuel load, {unit.name}", colours, (*ticks, (1.0, f"≥ {high:g}")))
     return Layer("fuel", "Fuel load", box, _indexed(pixels, ["#000000", *colours]), legend, 0.75, False)
 
 

@@ -48,7 +48,7 @@ def _head(briefing: Briefing) -> Iterator[str]:
         ("Burned area at the start", units.area(first.area, order)),
         ("Burned area at the end", units.area(last.area, order)),
         ("Extent of the run", extent),
-        ("Units", f"{', '.join(named)}, kg/m²; times are UTC and {briefing.zone}"),
+        ("Units", f"{', '.join(named)}, {units.FUEL[order].name}; times are UTC and {briefing.zone}"),
     )
     pairs = "".join(f"<div><dt>{name}</dt><dd>{quote(value)}</dd></div>" for name, value in facts)
     yield f'<dl class="facts">{pairs}</dl>'
@@ -72,16 +72,16 @@ def growth(briefing: Briefing) -> str:
 
 def _reports(rows: Sequence[dict[str, Any]], briefing: Briefing) -> str:
     zone, synthetic = briefing.zone, briefing.run.synthetic
-    name, per = ("acres", units.acres(1.0)) if briefing.units == "us" else ("ha", 1e-4)
+    unit = units.AREA[briefing.units]
     lines = "".join(
         f"<tr><td>{quote(times.text(datetime.fromisoformat(row['time']), zone))}</td>"
-        f"<td>{row['run'] * per:,.0f}</td>"
-        f"<td>{row['reported'] * per:,.0f}</td>"
+        f"<td>{unit.format(row['run'])}</td>"
+        f"<td>{unit.format(row['reported'])}</td>"
         f"<td>{round(100 * row['difference'], 1) + 0.0:+.1f} %</td>"
         f'<td class="text">{quote(row["source"])}<small>{quote(row["note"])}</small></td></tr>\n'
         for row in rows
     )
-    titles = ("time", f"run, {name}", f"reported, {name}", "difference")
+    titles = ("time", f"run, {unit.name}", f"reported, {unit.name}", "difference")
     head = "".join(f'<th scope="col">{title}</th>' for title in titles)
     tuned = (
         '<p class="soft">The synthetic run was tuned to these reports; agreement does not validate it.</p>'
@@ -145,7 +145,8 @@ def scores(briefing: Briefing) -> str:
     if briefing.scores is None:
         inside = f'<p class="warn">Not computed: {quote(briefing.no_scores)}</p>'
     else:
-        inside = "".join(report.tables(briefing.scores))
+        area, separation = units.AREA[briefing.units], units.SEPARATION[briefing.units]
+        inside = "".join(report.tables(briefing.scores, area, separation))
         none = used.nothing(briefing.scores["uses"])
         if not none and briefing.run.synthetic:
             warning = "Scores of a synthetic run show that the tools work; they say nothing about a model."

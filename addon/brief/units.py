@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from ..data.history import SQUARE_METRES_PER_ACRE
+from ..run.score.measure import ACRES, METRES, Measure
 from ..stations.arrival_text import format_distance
 from .sheet_options import Units
 
@@ -20,16 +21,21 @@ _US = {
     "km": ("mi", 1000.0 / MILE),
 }
 """US unit and its number for one metric unit."""
+_TON = 2000.0 * _POUND  # short ton, kg
+
+AREA: dict[Units, Measure] = {"us": ACRES, "metric": Measure("ha", 1e-4)}
+SEPARATION: dict[Units, Measure] = {"us": Measure("mi", 1.0 / MILE, 2), "metric": METRES}
+FUEL: dict[Units, Measure] = {
+    "us": Measure("tons/acre", SQUARE_METRES_PER_ACRE / _TON),
+    "metric": Measure("kg/m²", 1.0),
+}
+"""Units of tables and legends with one unit: burned area, distance of perimeters, fuel load."""
 
 
 def area(square_metres: float, units: Units) -> str:
     """Format an area in acres and hectares."""
-    return _ordered(f"{acres(square_metres):,.0f} acres", f"{square_metres / 1e4:,.0f} ha", units)
-
-
-def acres(square_metres: float) -> float:
-    """Convert square metres to acres."""
-    return square_metres / SQUARE_METRES_PER_ACRE
+    us, metric = (f"{each.format(square_metres)} {each.name}" for each in (AREA["us"], AREA["metric"]))
+    return _ordered(us, metric, units)
 
 
 def distance(metres: float, units: Units) -> str:

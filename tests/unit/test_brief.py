@@ -31,6 +31,7 @@ from firetwin.data import history
 from firetwin.errors import InputError, UsageError
 from firetwin.render import manifest
 from firetwin.run import content
+from firetwin.run.score import report
 from firetwin.stations import fire_arrival, reading
 from firetwin_core import run as runs
 from page_parts import PageParts
@@ -144,6 +145,49 @@ def test_units_of_the_user_come_first(folder, gpkg, order, first, second):
     assert re.search(f"nearest fire {pair}", far)
     assert ("tank at least 500 gal (1,893 l)" in made.text) == (order == "us")
     assert ("tank at least 1,893 l (500 gal)" in made.text) == (order == "metric")
+
+
+def test_units_of_one_number_are_those_of_their_definition():
+    mile = 5280 * 12 * 0.0254  # m
+    assert units.AREA["us"].factor == pytest.approx(640.0 / mile**2)  # a square mile has 640 acres
+    assert units.AREA["metric"].format(123_456.0) == "12"
+    assert units.SEPARATION["us"].format(2.5 * mile) == "2.50"
+    ton = 2000 * 0.45359237  # kg
+    assert units.FUEL["us"].factor == pytest.approx(mile**2 / 640.0 / ton)
+    assert units.FUEL["us"].factor == pytest.approx(4.4609, abs=1e-4)  # 1 kg/m2
+
+
+@pytest.mark.parametrize(
+    ("order", "heads", "numbers"),
+    [
+        ("us", ["run, acres", "seen, acres", "apart, mi"], ["247", "494", "0.50", "1.25"]),
+        ("metric", ["run, ha", "seen, ha", "apart, m"], ["100", "200", "805", "2,012"]),
+    ],
+)
+def test_score_tables_have_the_units_of_the_user(order, heads, numbers):
+    names = ("sorensen", "jaccard", "kappa", "precision", "recall", "sdi", "adi")
+    polygons = dict.fromkeys(names, 0.5) | {"area": 1e6, "observed_area": 2e6}
+    found = {"polygons": polygons, "error": dict.fromkeys(polygons, 0.0)}
+    row = {
+        "time": "2014-09-17T04:00:00+00:00",
+        "all": found,
+        "distance": {"mean": 804.672, "hausdorff": 2011.68},
+    }
+    results = {
+        "uses": [],
+        "dates": [row],
+        "zone": "UTC",
+        "other_run": None,
+        "arrival": None,
+        "detections": [],
+    }
+    made = PageParts("".join(report.tables(results, units.AREA[order], units.SEPARATION[order])))
+    titles = [inside for _, inside in made.all("th")]
+    assert [titles[k] for k in (1, 2, -1)] == heads
+    cells = [inside for _, inside in made.all("td")]
+    assert [cells[1], cells[2], cells[-1]] == [
+        f"{numbers[0]}± 0", f"{numbers[1]}± 0", f"{numbers[2]}most {numbers[3]}",
+    ]  # fmt: skip
 
 
 LINE = [[-120.62, 38.9], [-120.58, 38.91]]

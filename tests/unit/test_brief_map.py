@@ -88,6 +88,18 @@ def test_each_pixel_shows_the_cell_that_holds_it(tmp_path, south_first, west_fir
     assert (alpha > 0).tolist() == (fuel[row, column] > 0.0).tolist()
 
 
+@pytest.mark.parametrize(("order", "name", "high"), [("us", "tons/acre", 10.0), ("metric", "kg/m²", 2.0)])
+def test_the_legend_of_fuel_has_the_units_of_the_user(tmp_path, order, name, high):
+    """2 kg/m2 are 8.9 tons/acre, which round up to 10."""
+    folder = whole_run.write(tmp_path / "run", cell=60.0, cells=10)
+    np.save(folder / "surface_fuel.npy", np.full((10, 10), 2.0, np.float32))
+    np.save(folder / "canopy_fuel.npy", np.zeros((10, 10), np.float32))
+    run = runs.open(folder)
+    legend = layers.draw(run, run.fuel_elevation, "UTC", order)[1].legend
+    assert legend.title == f"Fuel load, {name}"
+    assert [text for _, text in legend.ticks] == ["0", f"{high / 4:g}", f"{high / 2:g}", f"≥ {high:g}"]
+
+
 def test_hills_are_lit_from_the_north_west(tmp_path):
     cone = lambda x, y: 3000.0 - 0.6 * np.hypot(x, y)  # noqa: E731
     run = runs.open(whole_run.write(tmp_path / "run", cell=60.0, cells=60, height=cone))

@@ -9,15 +9,14 @@ from typing import Any
 
 from firetwin_core.run import Run
 
-from ...data import history
 from ...escaped import escaped
 from .. import times
 from . import plots, shapes, used
 from .grid import ScoreGrid
+from .measure import ACRES, METRES, Measure
 from .overlap import HELP
 from .page import arrival, local, said, theirs
 
-ACRE = history.SQUARE_METRES_PER_ACRE
 _HELP = HELP | {"apart": "mean distance of the two perimeters from each other, and the largest (Hausdorff)"}
 _SHOWN = ("sorensen", "jaccard", "kappa", "precision", "recall", "sdi", "adi")
 
@@ -81,9 +80,15 @@ def html(run: Run, results: dict[str, Any], seen: Any, other: Run | None = None)
     )
 
 
-def tables(results: dict[str, Any]) -> Iterator[str]:
-    """Build the tables of scores against observations for another page; headings are h3."""
-    for part in (_uses(results), _scores(results), _more(results)):
+def tables(results: dict[str, Any], area: Measure = ACRES, distance: Measure = METRES) -> Iterator[str]:
+    """Build the tables of scores against observations for another page; headings are h3.
+
+    Parameters
+    ----------
+    area, distance
+        Units of burned areas, and of the distance between perimeters.
+    """
+    for part in (_uses(results), _scores(results, area, distance), _more(results)):
         for text in part:
             yield text.replace("<h2>", "<h3>").replace("</h2>", "</h3>")
 
@@ -170,7 +175,7 @@ def _pair(
     raise KeyError(row["time"])
 
 
-def _scores(results: dict[str, Any]) -> Iterator[str]:
+def _scores(results: dict[str, Any], area: Measure = ACRES, distance: Measure = METRES) -> Iterator[str]:
     for key, title, text in (
         ("all", "Scores", "All that had burned by each date."),
         (
@@ -183,8 +188,9 @@ def _scores(results: dict[str, Any]) -> Iterator[str]:
         if not rows:
             continue
         yield f'<h2>{title}</h2><p class="soft">{text} Small: difference between polygons and cells.</p>'
-        head = ("date", "run, acres", f"{theirs(results)}, acres", *_SHOWN, "apart, m")
-        yield _table(head, (_score_row(row, row[key], results["zone"]) for row in rows))
+        sizes = f"run, {area.name}", f"{theirs(results)}, {area.name}"
+        head = ("date", *sizes, *_SHOWN, f"apart, {distance.name}")
+        yield _table(head, (_score_row(row, row[key], results["zone"], area, distance) for row in rows))
     if results["dates"] and results["other_run"]:
         yield (
             '<p class="soft">Hits burned in both, false alarms in this run alone, misses in the other alone: '
@@ -194,12 +200,14 @@ def _scores(results: dict[str, Any]) -> Iterator[str]:
         yield "<dl>" + "".join(f"<dt>{n}</dt><dd>{escape(text)}</dd>" for n, text in _HELP.items()) + "</dl>"
 
 
-def _score_row(row: dict[str, Any], scores: dict[str, Any], zone: str) -> list[str]:
+def _score_row(
+    row: dict[str, Any], scores: dict[str, Any], zone: str, area: Measure, distance: Measure
+) -> list[str]:
     polygons, error = scores["polygons"], scores["error"]
-    sizes = [_area(polygons[name], error[name]) for name in ("area", "observed_area")]
+    sizes = [_area(polygons[name], error[name], area) for name in ("area", "observed_area")]
     numbers = [f"{_number(polygons[name])}<small>&plusmn; {_number(error[name])}</small>" for name in _SHOWN]
     mean, most = (row["distance"][name] for name in ("mean", "hausdorff"))
-    apart = "-" if mean is None else f"{mean:,.0f}<small>most {most:,.0f}</small>"
+    apart = "-" if mean is None else f"{distance.format(mean)}<small>most {distance.format(most)}</small>"
     return [local(row["time"], zone), *sizes, *numbers, apart]
 
 
@@ -218,7 +226,7 @@ def _reported(run: Run, grid: ScoreGrid, results: dict[str, Any]) -> Iterator[st
             [
                 local(row["time"], results["zone"]),
                 _area(row["run"], abs(row["polygons"] - row["run"])),
-                f"{row['reported'] / ACRE:,.0f}",
+                ACRES.format(row["reported"]),
                 _signed(row["difference"]),
                 escape(row["source"]) + (f"<small>{escape(row['note'])}</small>" if row["note"] else ""),
             ]
@@ -284,8 +292,8 @@ def _key(*colours: tuple[str, str]) -> str:
     return f'<div class="key">{inside}</div>'
 
 
-def _area(value: float, error: float) -> str:
-    return f"{value / ACRE:,.0f}<small>&plusmn; {error / ACRE:,.0f}</small>"
+def _area(value: float, error: float, unit: Measure = ACRES) -> str:
+    return f"{unit.format(value)}<small>&plusmn; {unit.format(error)}</small>"
 
 
 def _number(value: float | None) -> str:
