@@ -72,6 +72,17 @@ def longitude(text: str) -> float:
     return value
 
 
+def undulation(text: str) -> float:
+    """Convert to a height of the geoid above the ellipsoid, m."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not -200.0 <= value <= 200.0:
+        raise argparse.ArgumentTypeError(f"must be a number of metres from -200 to 200, not {text!r}")
+    return value
+
+
 _UNITS = {"": 1, "B": 1, "KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
 
 

@@ -313,6 +313,12 @@ def _parser() -> argparse.ArgumentParser:
         editor = command("edit", "cut films into OTIO, Final Cut Pro XML and EDL files", edit.DETAIL)
         _scene(editor)
         edit.add(editor, types.path, types.name)
+    if optional_features.is_installed("export"):
+        from .export import arguments as export
+
+        exporter = command("export", "write a scene for other programs", export.DETAIL)
+        _scene(exporter)
+        export.add(exporter, types.path, types.undulation)
     if optional_features.is_installed("farm"):
         from .farm import arguments as farm
 

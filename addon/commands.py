@@ -140,6 +140,13 @@ def edit(arguments: argparse.Namespace) -> None:
     command.run(arguments, _find_source(arguments).shot())
 
 
+def export(arguments: argparse.Namespace) -> None:
+    """Write a scene for other programs."""
+    from .export import command
+
+    command.run(arguments, _find_source(arguments).shot())
+
+
 def imager(arguments: argparse.Namespace) -> None:
     """Write the simulated measurements of a satellite's imager."""
     from .errors import UsageError, input_error

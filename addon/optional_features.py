@@ -7,7 +7,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
-COMMANDS = {"allocate": "allocation", "brief": "brief", "deliver": "delivery", "edit": "edit", "farm": "farm"}
+COMMANDS = {
+    "allocate": "allocation",
+    "brief": "brief",
+    "deliver": "delivery",
+    "edit": "edit",
+    "export": "export",
+    "farm": "farm",
+}
 """Package of each command that needs an optional feature."""
 
 

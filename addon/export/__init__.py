@@ -1,0 +1,1 @@
+"""Exports: a scene in formats of other programs, placed on the Earth."""

@@ -1,0 +1,48 @@
+"""Formats of `firetwin export`: a module of this package each, with a function `write`."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .request import ExportRequest
+
+
+@dataclass(frozen=True)
+class Format:
+    """An export format.
+
+    Attributes
+    ----------
+    help
+        Content of the files, in one line.
+    needs_scene
+        True if the format reads the built Blender scene; others read the shot alone.
+    """
+
+    help: str
+    needs_scene: bool
+
+
+_FORMATS = {
+    "usd": Format("USD stage: terrain, forest, fire, smoke, cameras", needs_scene=True),
+    "gltf": Format("glTF scene with instanced trees, and a viewer page", needs_scene=True),
+    "gis": Format("GeoPackage of fronts, cameras, stations; GeoTIFFs; QGIS project", needs_scene=False),
+    "kmz": Format("Google Earth: fronts by time, camera tours, overlays", needs_scene=False),
+    "czml": Format("Cesium: clock, fronts, cameras, labels", needs_scene=False),
+}
+
+
+def known() -> dict[str, Format]:
+    """List the formats whose modules this installation has."""
+    folder = Path(__file__).parent
+    return {name: each for name, each in _FORMATS.items() if (folder / f"{name}.py").is_file()}
+
+
+def writer(name: str) -> Callable[[ExportRequest], list[Path]]:
+    """Return the function that writes a format into the folder of a request, and lists the main files."""
+    return importlib.import_module(f".{name}", __package__).write

@@ -1,0 +1,53 @@
+"""Atomic writes of an export: files get their names after all of them are on the disk."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import uuid
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from ..errors import writing
+
+
+@contextmanager
+def staging(out: Path) -> Iterator[Path]:
+    """Make a temporary folder next to `out`; without an error its files and folders then move to `out`.
+
+    A file or folder of the same name in `out` is replaced. A killed process leaves `out` as it was, and the
+    temporary folder, whose name ends in ``.part``.
+
+    Raises
+    ------
+    InputError
+        The disk is full, or the folder cannot be written.
+    """
+    out = out.absolute()
+    part = out.with_name(f".{out.name}.{uuid.uuid4().hex[:12]}.part")
+    try:
+        with writing(out):
+            part.mkdir(parents=True)
+            yield part
+            _sync(part)
+            out.mkdir(exist_ok=True)
+            for made in sorted(part.iterdir()):
+                _replace(made, out / made.name, part)
+    finally:
+        shutil.rmtree(part, ignore_errors=True)
+
+
+def _replace(made: Path, path: Path, part: Path) -> None:
+    """Rename a finished file or folder; an old folder goes to the temporary folder first."""
+    if path.is_dir() and not path.is_symlink():
+        path.rename(part / f"{made.name}.{uuid.uuid4().hex[:12]}.old")
+    made.replace(path)
+
+
+def _sync(folder: Path) -> None:
+    """Wait until the content of all files is on the disk."""
+    for path in sorted(folder.rglob("*")):
+        if path.is_file():
+            with path.open("r+b") as file:  # Windows cannot flush through a read-only handle
+                os.fsync(file.fileno())
