@@ -13,7 +13,8 @@ from firetwin_core.run import Run
 from numpy.typing import NDArray
 
 from ..errors import UsageError
-from ..run import areas, content, info, labels, observations, readers, score, times, zone
+from ..run import areas, content, fronts, info, labels, observations, readers, score, times, zone
+from ..run.fronts import Front
 from ..run.labels import Label
 from ..run.observations import Perimeter
 from ..shot.settings import Settings
@@ -22,11 +23,10 @@ from ..shot.terrain.elevation import Elevation
 from ..stations import reading
 from ..stations.records import Resource, Station
 from ..stations.station_file import StationFile
-from . import context, film, fronts, inputs, layers, reached
+from . import context, film, inputs, layers, reached
 from .arguments import LIMIT
 from .context import Context
 from .film import Film
-from .fronts import Front
 from .layers import Layer
 from .reached import Reached
 from .sheet_options import SheetOptions, Units

@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..errors import UsageError, input_error
+from ..imaging import map_symbols
 from ..run import observations
 from ..run.observations import Detections, Feature
-from . import symbols
 
 PRIORITY = ("water", "boundaries", "roads", "zones", "values")
 """Names with a known style, lowest first; others are drawn above roads."""
@@ -121,13 +121,13 @@ def label(feature: Feature) -> str:
 
 def point_symbol(context: Context, feature: Feature) -> str:
     """Choose the symbol of a point."""
-    named = symbols.find(category(feature), symbols.POINTS)
+    named = map_symbols.find(category(feature), map_symbols.POINTS)
     return named or ("Value at risk" if context.name == "values" else "Named place")
 
 
 def line_style(context: Context, feature: Feature) -> str:
     """Choose the name of the style of a line or an outline."""
-    return symbols.find(category(feature), symbols.LINES) or context.style
+    return map_symbols.find(category(feature), map_symbols.LINES) or context.style
 
 
 def style_title(context: Context, style: str) -> str:

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..imaging import map_symbols
 from ..run import areas
 from ..run.observations import Feature
-from . import context, sheet_map, symbols
+from . import context, sheet_map
 from .context import Context
 from .mercator import Box
 
@@ -37,7 +38,7 @@ def layers(found: Sequence[Context], around: Box) -> dict[str, list[dict[str, An
 def drawings(found: Sequence[Context]) -> dict[str, str]:
     """Return the drawings of the point symbols in use."""
     used = {context.point_symbol(each, one) for each in found for one in each.features if len(one.points)}
-    return {symbol: symbols.POINTS[symbol] for symbol in sorted(used)}
+    return {symbol: map_symbols.POINTS[symbol] for symbol in sorted(used)}
 
 
 def key(each: Context) -> Iterator[tuple[str, str]]:
@@ -47,10 +48,10 @@ def key(each: Context) -> Iterator[tuple[str, str]]:
         if feature.lines or feature.polygons:
             style = context.line_style(each, feature)
             ends = np.array([[-4.0, 0.0], [4.0, 0.0]])
-            seen[style] = "".join(symbols.line(symbols.LINES[style], ends, False, 1.0))
+            seen[style] = "".join(map_symbols.line(map_symbols.LINES[style], ends, False, 1.0))
         if len(feature.points):
             symbol = context.point_symbol(each, feature)
-            seen[symbol] = symbols.point(symbol, 0.0, 0.0, 1.6)
+            seen[symbol] = map_symbols.point(symbol, 0.0, 0.0, 1.6)
     for style, drawn in seen.items():
         svg = f'<svg viewBox="-4.5 -2.1 9 4.2" width="36" height="17" aria-hidden="true">{drawn}</svg>'
         yield context.style_title(each, style), svg
@@ -66,7 +67,7 @@ def _feature(each: Context, feature: Feature, around: Box) -> dict[str, Any] | N
         return None
     style, symbol = context.line_style(each, feature), context.point_symbol(each, feature)
     kind = symbol if len(points) else style
-    known = symbols.LINES[style]
+    known = map_symbols.LINES[style]
     return {
         "text": ": ".join(
             dict.fromkeys(filter(None, (context.style_title(each, kind), context.label(feature))))

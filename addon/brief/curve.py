@@ -11,9 +11,9 @@ from zoneinfo import ZoneInfo
 import numpy as np
 
 from ..run import times
+from ..run.fronts import Front
 from ..run.score.measure import Measure
 from . import units as page_units
-from .fronts import Front
 from .sheet_options import Units
 from .text import quote
 

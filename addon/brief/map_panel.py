@@ -6,15 +6,16 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from . import context_layer, symbols
+from ..imaging import map_symbols
+from ..run.fronts import Front
+from . import context_layer
 from .briefing import Briefing
 from .context import Context
-from .fronts import Front
 from .layers import Layer, Legend
 from .mercator import Box
 from .text import data_uri, quote
 
-FRONT_EDGE, FRONT_FILL = symbols.FIRE_EDGE, "#ff3b14"
+FRONT_EDGE, FRONT_FILL = map_symbols.FIRE_EDGE, "#ff3b14"
 """Colours of the front: on the map, on the sheet and in their legends."""
 
 
@@ -67,7 +68,7 @@ def switches(briefing: Briefing) -> str:
     filled = f'<i style="background:{FRONT_FILL}66;border:2px solid {FRONT_EDGE}"></i>burned by this time'
     made = [_drawn("front", "Front at this time", filled)]
     if briefing.observed:
-        colour = symbols.LINES["Observed Perimeter"].colour
+        colour = map_symbols.LINES["Observed Perimeter"].colour
         key = f'<i style="border:2px dashed {colour}"></i>latest perimeter up to this time'
         made.append(_drawn("observed", "Observed perimeters", key))
     made += [

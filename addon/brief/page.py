@@ -15,19 +15,19 @@ import firetwin_core
 import numpy as np
 
 from ..errors import UsageError
+from ..imaging import map_symbols
 from ..run import times
 from ..stations.records import EXERCISE
 from . import (
     context_layer,
     curve,
     division_table,
-    fronts,
+    front_geojson,
     lists,
     map_panel,
     map_sheet,
     paper,
     sections,
-    symbols,
     units,
 )
 from .briefing import Briefing, Point
@@ -165,8 +165,8 @@ def _data(briefing: Briefing) -> dict[str, Any]:
             layer.name: {"bounds": _corners(layer.box), "opacity": layer.opacity, "order": order}
             for order, layer in enumerate(briefing.layers, 1)
         },
-        "fronts": fronts.feature_collection(briefing.fronts, briefing.tolerance),
-        "observed": fronts.perimeter_collection(briefing.run, briefing.observed)
+        "fronts": front_geojson.feature_collection(briefing.fronts, briefing.tolerance),
+        "observed": front_geojson.perimeter_collection(briefing.run, briefing.observed)
         if briefing.observed
         else None,
         "times": _times(briefing),
@@ -175,7 +175,7 @@ def _data(briefing: Briefing) -> dict[str, Any]:
         "front": {
             "edge": FRONT_EDGE,
             "fill": FRONT_FILL,
-            "observed": symbols.LINES["Observed Perimeter"].colour,
+            "observed": map_symbols.LINES["Observed Perimeter"].colour,
         },
         "context": context_layer.layers(briefing.context, whole),
         "symbols": context_layer.drawings(briefing.context),

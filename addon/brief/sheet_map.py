@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..ellipsoid import metres_per_degree
+from ..imaging import map_symbols
 from ..run import times
-from . import base_map, context, line_labels, symbols, units
+from ..run.fronts import Front
+from . import base_map, context, line_labels, units
 from .briefing import Briefing
 from .context import Context
-from .fronts import Front
 from .map_frame import MapFrame
 from .text import quote
 
@@ -49,7 +50,7 @@ class Content:
 
     def line(self, style: str, points: Array, closed: bool, text: str, fill: float = 0.0) -> None:
         """Draw a line or an outline through degrees east and north (n, 2)."""
-        known = symbols.LINES[style]
+        known = map_symbols.LINES[style]
         x, y = self.frame.place(points[:, 1], points[:, 0])
         at = _thinned(np.column_stack([x, y]))
         low, high = at.min(axis=0), at.max(axis=0)
@@ -61,10 +62,12 @@ class Content:
         if fill:
             data = "M" + " ".join(f"{a:.2f},{b:.2f}" for a, b in at) + "Z"
             self.lines.append(f'<path d="{data}" fill="{known.colour}" fill-opacity="{fill}"/>')
-        self.lines += symbols.line(known, at, closed, self.unit)
+        self.lines += map_symbols.line(known, at, closed, self.unit)
         box = f'<rect x="-4" y="-1.4" width="8" height="2.8" fill="{known.colour}" fill-opacity="{fill}"/>'
         row = np.array([[-4.0, 0.0], [4.0, 0.0]])
-        self.legend.setdefault(text, (box if fill else "") + "".join(symbols.line(known, row, False, 1.0)))
+        self.legend.setdefault(
+            text, (box if fill else "") + "".join(map_symbols.line(known, row, False, 1.0))
+        )
 
     def point(
         self,
@@ -80,8 +83,8 @@ class Content:
         if not self.frame.contains(x, y):
             return
         radius = (1.5 if name != "Named place" else 1.2) * self.unit
-        drawn = symbols.point(name, x, y, radius)
-        key = symbols.point(name, 0.0, 0.0, 1.6 if name != "Named place" else 1.3)
+        drawn = map_symbols.point(name, x, y, radius)
+        key = map_symbols.point(name, 0.0, 0.0, 1.6 if name != "Named place" else 1.3)
         if burned:
             drawn, key = (each.replace('fill="#fff"', f'fill="{BURNED}"', 1) for each in (drawn, key))
         self.points.append(drawn)
@@ -261,5 +264,5 @@ def _texts(lines: Sequence[str], x: float, top: float, size: float, right: bool)
         weight = ' font-weight="600"' if number == 0 else ""
         y = top + size * (0.85 + 1.0 * number)
         at = f'x="{x:.2f}" y="{y:.2f}" font-size="{letters:.2f}" text-anchor="{anchor}"{weight}'
-        yield f'<text {at} {symbols.HALO} aria-hidden="true">{quote(text)}</text>'
+        yield f'<text {at} {map_symbols.HALO} aria-hidden="true">{quote(text)}</text>'
         yield f"<text {at}>{quote(text)}</text>"

@@ -30,8 +30,8 @@ from firetwin.allocation.control_line import LineOptions
 from firetwin.allocation.model import Options
 from firetwin.allocation.problem import Problem, Request, set_escape_loss
 from firetwin.allocation.resources import Unit
-from firetwin.brief import symbols
 from firetwin.errors import Error, InputError, UsageError
+from firetwin.imaging import map_symbols
 from firetwin.run import areas, readers
 from firetwin.stations import measures, reading
 from firetwin.stations.records import EXERCISE, Availability, Station
@@ -297,7 +297,7 @@ def test_what_cannot_be_held_is_said_with_the_nearest_plan(round_run, station_fi
     assert {each["properties"]["exercise"] for each in drawn} == {EXERCISE}
     categories = {each["properties"]["FeatureCategory"] for each in drawn} - {""}
     assert categories == {"Planned Line", "Line Not Held", "Division Break"}
-    assert categories <= {*symbols.LINES, *symbols.POINTS}
+    assert categories <= {*map_symbols.LINES, *map_symbols.POINTS}
 
 
 def test_the_rest_builds_as_much_line_as_any_assignment():

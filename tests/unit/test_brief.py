@@ -22,13 +22,13 @@ from firetwin.brief import (
     page,
     reached,
     sections,
-    symbols,
     text,
     units,
 )
 from firetwin.brief.sheet_options import SheetOptions
 from firetwin.data import history
 from firetwin.errors import InputError, UsageError
+from firetwin.imaging import map_symbols
 from firetwin.render import manifest
 from firetwin.run import content
 from firetwin.run.score import report
@@ -230,13 +230,13 @@ def test_map_features_are_layers_of_the_interactive_map(folder, allocated):
     assert made.all("div", **{"data-layer": "context-0"})
     line, sent, lost, spot = made.data["context"]["context-0"]  # the fifth lies outside of the map
     assert line["lines"] == [[[38.9, -120.62], [38.91, -120.58]]]
-    assert (line["text"], line["colour"]) == ("Planned Line", symbols.LINES["Planned Line"].colour)
+    assert (line["text"], line["colour"]) == ("Planned Line", map_symbols.LINES["Planned Line"].colour)
     assert line["dashes"] == "10 7"
-    assert lost["colour"] == symbols.FIRE_EDGE
+    assert lost["colour"] == map_symbols.FIRE_EDGE
     assert sent["text"] == "allocation: E<b>31"
     assert (spot["text"], spot["symbol"]) == ("Division Break: A/B", "Division Break")
-    assert made.data["symbols"] == {"Division Break": symbols.POINTS["Division Break"]} | {
-        "Named place": symbols.POINTS["Named place"]
+    assert made.data["symbols"] == {"Division Break": map_symbols.POINTS["Division Break"]} | {
+        "Named place": map_symbols.POINTS["Named place"]
     }
     ((_, legend),) = made.all("div", **{"data-layer": "context-0"})
     assert "Planned Line" in legend

@@ -7,9 +7,10 @@ import pyproj
 import pytest
 import shapely
 import whole_run
-from firetwin.brief import fronts, layers, map_panel, mercator
+from firetwin.brief import front_geojson, layers, map_panel, mercator
 from firetwin.brief.mercator import Box
 from firetwin.errors import InputError
+from firetwin.run import fronts
 from firetwin.run.front import reach
 from firetwin_core import run as runs
 from PIL import Image
@@ -157,7 +158,7 @@ def test_a_long_front_is_simplified_more_and_the_tolerance_told(run, monkeypatch
 def test_coordinates_have_the_digits_that_the_cells_need(tmp_path, cell):
     run = runs.open(whole_run.write(tmp_path / "run", cell=cell, cells=30, speed=cell / 400.0))
     found, tolerance = fronts.find(run, "UTC")
-    collection = fronts.feature_collection(found, tolerance)
+    collection = front_geojson.feature_collection(found, tolerance)
     for front, feature in zip(found, collection["features"], strict=True):
         for line, coordinates in zip(front.lines, feature["geometry"]["coordinates"], strict=True):
             moved = np.abs((np.array(coordinates) - line) * 111_320.0).max()
@@ -182,7 +183,7 @@ def test_simplified_lines_keep_their_corners_and_drop_what_lies_between():
 
 
 def test_geojson_has_lines_of_longitude_and_latitude(run):
-    collection = fronts.feature_collection(*fronts.find(run, "UTC"))
+    collection = front_geojson.feature_collection(*fronts.find(run, "UTC"))
     feature = collection["features"][-1]
     assert collection["type"] == "FeatureCollection"
     assert feature["geometry"]["type"] == "MultiLineString"

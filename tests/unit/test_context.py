@@ -1,14 +1,16 @@
 """Map features of the user on the map sheet: order, styles and symbols."""
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
-from firetwin.brief import context, line_labels, sheet_map, symbols
+from firetwin.brief import context, line_labels, sheet_map
 from firetwin.brief.map_frame import MapFrame
 from firetwin.brief.mercator import Box
 from firetwin.errors import InputError, UsageError
+from firetwin.imaging import map_symbols
 
 FRAME = MapFrame.fitted(Box(38.7, -120.7, 39.1, -120.2), (0.0, 0.0, 200.0, 150.0))
 
@@ -68,11 +70,9 @@ def test_categories_of_the_standard_choose_the_symbol(tmp_path):
     assert "Sep 13" in "".join(made.labels)
 
 
-@pytest.mark.parametrize("name", symbols.POINTS)
+@pytest.mark.parametrize("name", map_symbols.POINTS)
 def test_symbols_stay_in_their_box(name):
-    numbers = [
-        float(each) for each in __import__("re").findall(r'(?<=[ "ML,HVQ])-?\d+\.\d+', symbols.POINTS[name])
-    ]
+    numbers = [float(each) for each in re.findall(r'(?<=[ "ML,HVQ])-?\d+\.\d+', map_symbols.POINTS[name])]
     assert max(map(abs, numbers), default=0.0) <= 1.8
 
 

@@ -10,11 +10,12 @@ import pyproj
 import pytest
 import small_stations
 import whole_run
-from firetwin.brief import base_map, briefing, map_sheet, page, paper, sheet_map, symbols
+from firetwin.brief import base_map, briefing, map_sheet, page, paper, sheet_map
 from firetwin.brief.map_frame import MapFrame, round_ratio
 from firetwin.brief.mercator import Box
 from firetwin.brief.paper import Paper
 from firetwin.brief.sheet_options import SheetOptions, Titles
+from firetwin.imaging import map_symbols
 from page_parts import PageParts
 from PIL import Image
 
@@ -121,7 +122,7 @@ def test_the_legend_has_what_the_map_has_and_no_more(found):
     assert [text for text in content.legend if "Observed" in text or "Road" in text] == []
     edge = next(text for text in content.legend if text.startswith("Simulated fire edge, "))
     for each in (content.legend[edge], "".join(content.lines)):
-        assert symbols.FIRE_EDGE in each
+        assert map_symbols.FIRE_EDGE in each
     assert "Station, burned by the end" in content.legend
     assert all(
         sheet_map.BURNED in each for each in (content.legend["Station, burned by the end"], content.points[0])

@@ -1,11 +1,9 @@
-"""Fire fronts by time as GeoJSON lines, with the burned area at each time."""
+"""Fire fronts of a run by time: simplified closed lines, and the burned area at each time."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime
-from typing import Any
 from zoneinfo import ZoneInfo
 
 import numpy as np
@@ -13,9 +11,8 @@ from firetwin_core.run import Run
 from numpy.typing import NDArray
 
 from ..ellipsoid import metres_per_degree
-from ..run import areas, info, times
-from ..run.front import Reach, reach
-from ..run.observations import Perimeter
+from . import areas, info, times
+from .front import Reach, reach
 
 MOST = 48
 """Maximum number of times between the first and the last."""
@@ -94,7 +91,7 @@ def trace(fire: Reach, time: float) -> list[Line]:
 
 def _simplified(fronts: list[list[Line]], fire: Reach, tolerance: float) -> list[list[Line]]:
     """Simplify all lines; if the tolerance exceeds the cell tolerance, smaller islands are removed."""
-    scale = _scale(fire, tolerance)
+    scale = tolerances_per_degree(fire, tolerance)
     least = 0.0 if tolerance <= cell_tolerance(fire) else 2.0
     return [
         [simplify(line, scale) for line in lines if np.ptp(line * scale, 0).max() >= least]
@@ -107,7 +104,7 @@ def _is_long(lines: list[Line]) -> bool:
     return any(len(line) > 9 for line in lines)
 
 
-def _scale(fire: Reach, tolerance: float) -> NDArray[np.float64]:
+def tolerances_per_degree(fire: Reach, tolerance: float) -> NDArray[np.float64]:
     """Compute the number of tolerances (m) per degree east and north."""
     north, east = metres_per_degree(float(fire.latitude.mean()))
     return np.array([east, north]) / tolerance
@@ -137,35 +134,3 @@ def simplify(points: Line, scale: NDArray[np.float64]) -> Line:
             kept.add(middle)
             parts += [(first, middle), (middle, last)]
     return points[sorted(kept)] if len(kept) > 3 else points
-
-
-def feature_collection(fronts: list[Front], tolerance: float) -> dict[str, Any]:
-    """Convert all fronts to GeoJSON (RFC 7946) with time (UTC) and burned area (m2)."""
-    features = [
-        _feature({"time": times.iso(front.utc), "area": round(front.area)}, front.lines, tolerance)
-        for front in fronts
-    ]
-    return {"type": "FeatureCollection", "features": features}
-
-
-def perimeter_collection(run: Run, perimeters: Sequence[Perimeter]) -> dict[str, Any]:
-    """Convert observed perimeters, simplified by half a fuel cell, to GeoJSON with time (UTC) and file."""
-    fire, middle = reach(run), 0.5 * float(run.longitude[0] + run.longitude[-1])
-    tolerance = cell_tolerance(fire)
-    features = []
-    for perimeter in perimeters:
-        rings = [np.asarray(ring, np.float64) for polygon in perimeter.polygons for ring in polygon]
-        closed = [np.vstack([ring, ring[:1]]) for ring in rings]
-        turned = [np.column_stack([areas.turned(ring[:, 0], middle), ring[:, 1]]) for ring in closed]
-        lines = [simplify(ring, _scale(fire, tolerance)) for ring in turned]
-        properties = {"time": times.iso(perimeter.time), "source": perimeter.source}
-        features.append(_feature(properties, lines, tolerance))
-    return {"type": "FeatureCollection", "features": features}
-
-
-def _feature(properties: dict[str, Any], lines: list[Line], tolerance: float) -> dict[str, Any]:
-    """Round lines to a step of at most a third of the tolerance (m)."""
-    digits = int(np.ceil(-np.log10(tolerance / 3.0 / metres_per_degree(0.0)[0])))
-    coordinates = [np.round(line, digits).tolist() for line in lines]
-    geometry = {"type": "MultiLineString", "coordinates": coordinates}
-    return {"type": "Feature", "properties": properties, "geometry": geometry}
