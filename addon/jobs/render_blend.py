@@ -97,7 +97,7 @@ def in_blender(
     import bpy
 
     from ..blender import devices, owned
-    from ..render import engine, layers, sharing, video
+    from ..render import engine, layers, plan, sharing, video
     from ..render import pictures as renderer
     from ..render.picture import Picture
     from ..scene.smoke import volume_files
@@ -111,6 +111,7 @@ def in_blender(
     if shot.settings.smoke.enabled and not sources.is_integrated(shot):
         volume_files.set_folder(stage, bake.folder(shot))  # in which `prefetch` writes missing volumes
     todo = [Picture(*picture) for picture in pictures]
+    plan.check_marched(shot, todo)
     if stage.scene.render.engine == "CYCLES":
         devices.use(device.select(shot.settings, count_frames(todo), tell), stage.scene)
     known = {(camera, name): values for camera, name, values in made_with}

@@ -12,7 +12,7 @@ from firetwin_core import sensor
 
 from .. import files, memory
 from ..blender.owned import Stage
-from ..errors import Error, writing
+from ..errors import writing
 from ..imaging.credits import Credits
 from ..progress import MessageCallback, Progress, no_message, silent
 from ..shot import passes
@@ -73,8 +73,6 @@ def render(
     engine.check_working_space()
     made, note = 0, ""
     marched = integrated.applies(shot, stage.scene) and bool(plan.rendered(shot, wanted))
-    if not marched:
-        _check_marched(wanted)
     cost = frame_cost.FrameCost()
     renderer = integrated.IntegratedRenderer(shot, stage, cost) if marched else None
     with (
@@ -97,16 +95,6 @@ def render(
     if made > 1:
         tell(cost.sentence())
     return made
-
-
-def _check_marched(wanted: list[Picture]) -> None:
-    """Check that no pass needs the integrated renderer."""
-    for name in sorted({picture.name for picture in wanted}):
-        if isinstance(passes.known()[name], passes.MarchedPass):
-            raise Error(
-                f"{name} needs smoke that is marched separately, which this scene does not have; "
-                f"leave {name} out of the passes, or render with Cycles and the default smoke.method"
-            )
 
 
 def _frame(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Collection
 
-from ..errors import UsageError
+from ..errors import Error, UsageError
 from ..run.content import fingerprint
 from ..shot import passes
 from ..shot.runs import scene_runs
@@ -13,6 +13,7 @@ from ..shot.schema.did_you_mean import suggestion
 from ..shot.schema.frame_list import FrameList
 from ..shot.settings import Camera, mount
 from ..shot.shot import Shot
+from ..smoke import sources
 from .fingerprint import Fingerprints
 from .picture import Picture
 from .store import Store
@@ -63,7 +64,7 @@ def pictures(
     ]
     chosen = _passes(names) if names is not None else ()
     for name, view in itertools.product(chosen, views):
-        if reason := passes.refused(passes.known()[name], shot.camera(view), settings.render.engine):
+        if reason := passes.refused(passes.known()[name], shot.camera(view), settings):
             raise UsageError(f"--passes: {reason}")
     if chosen and not settings.runs and (alone := [name for name in chosen if passes.compares(name)]):
         raise UsageError(
@@ -82,7 +83,25 @@ def pictures(
         raise UsageError(
             f"--frames {frames}: {' and '.join(views)} has none of these frames; choose frames of the camera"
         )
+    check_marched(shot, drawn)
     return _with_inputs(shot, drawn) + compared
+
+
+def check_marched(shot: Shot, wanted: list[Picture]) -> None:
+    """Check that the smoke of a shot is ray-marched if a pass needs that; scene files cannot tell for a run.
+
+    Raises
+    ------
+    Error
+        It is not.
+    """
+    marched = (each.name for each in wanted if isinstance(passes.known()[each.name], passes.MarchedPass))
+    name = next(marched, None)
+    if name is not None and not sources.is_integrated(shot):
+        raise Error(
+            f"{name} needs smoke that is rendered apart from surfaces, and Cycles or EEVEE renders the smoke "
+            f"of this scene; leave {name} out of the passes"
+        )
 
 
 def _split_comparisons(asked: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:

@@ -13,6 +13,7 @@ from firetwin.render import dataset, verify
 from firetwin.render.finish import finisher
 from firetwin.shot import passes
 from firetwin.shot.passes import masks
+from firetwin.shot.settings import Render, Settings
 from firetwin_core import sensor
 
 LENS = {
@@ -133,5 +134,6 @@ def test_the_files_hold_millimetres_and_static_pixels(tmp_path):
 
 def test_masks_of_eevee_are_refused():
     camera = SimpleNamespace(name="drone", rig=SimpleNamespace(around=False))
-    assert "with EEVEE" in passes.refused(passes.known()["nerfstudio"], camera, "eevee")
-    assert not passes.refused(passes.known()["nerfstudio"], camera, "cycles")
+    eevee, cycles = (Settings(render=Render(engine=engine)) for engine in ("eevee", "cycles"))
+    assert "with EEVEE" in passes.refused(passes.known()["nerfstudio"], camera, eevee)
+    assert not passes.refused(passes.known()["nerfstudio"], camera, cycles)

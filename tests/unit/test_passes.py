@@ -6,6 +6,7 @@ import sys
 import pytest
 from firetwin.render import finish
 from firetwin.shot import passes
+from firetwin.shot.sections import SmokeSettings
 from firetwin.shot.settings import Camera, Render, Settings
 
 KNOWN = passes.known()
@@ -56,6 +57,24 @@ def test_passes_of_a_camera_come_in_order():
     assert [each.name for each in passes.of_camera(settings, camera)] == ["rgb", "thermal"]
     own = dataclasses.replace(camera, passes=("depth",))
     assert [each.name for each in passes.of_camera(settings, own)] == ["depth"]
+
+
+@pytest.mark.parametrize(
+    ("smoke", "words"),
+    [
+        ({}, ""),
+        ({"enabled": False, "draw": "volume"}, ""),
+        ({"draw": "volume"}, 'comp with smoke.draw = "volume"'),
+        ({"method": "puffs"}, 'comp with smoke.method = "puffs"'),
+        ({"lighting": "traced"}, 'comp with smoke.lighting = "traced"'),
+    ],
+)
+def test_layers_need_smoke_that_is_marched(smoke, words):
+    settings, camera = Settings(smoke=SmokeSettings(**smoke)), Camera()
+    found = passes.refused(KNOWN["comp"], camera, settings)
+    assert bool(found) == bool(words)
+    assert words in found
+    assert not passes.refused(KNOWN["rgb"], camera, settings)
 
 
 def test_a_pass_is_added_by_one_file(tmp_path, monkeypatch):

@@ -163,6 +163,8 @@ MISTAKES = [
     ('"two"', '"two', 19, 12, ["not valid TOML"]),
     ("[320, 180]", "[320, 180]\nthermal_low = 300\nthermal_high = 200", 11, 1, ["thermal_high"]),
     ("[320, 180]", '[320, 180]\nengine = "evee"', 10, 1, ['"eevee"']),
+    ('"depth"]', '"comp"]\nengine = "eevee"', 10, 1, ["comp with EEVEE"]),
+    ('"depth"]', '"comp"]\n[smoke]\ndraw = "volume"', 10, 1, ['comp with smoke.draw = "volume"']),
 ]
 
 

@@ -6,6 +6,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from firetwin.errors import Error
+from firetwin.render import plan
+from firetwin.render.picture import Picture
 from firetwin.run import burning
 from firetwin.shot.sections import SmokeSettings, Time
 from firetwin.shot.sections.smoke import SMOKE_METHODS
@@ -126,6 +129,9 @@ def test_a_source_that_a_run_brings_is_added_by_one_file(shot, soot):
     assert [path.name for path in place.glob("*.vdb")] == ["smoke_000001.vdb"]
     assert sources.select(made).cost() is None
     assert not sources.is_integrated(made)
+    plan.check_marched(made, [Picture("drone", 1, "rgb")])
+    with pytest.raises(Error, match="leave comp out of the passes"):
+        plan.check_marched(made, [Picture("drone", 1, "comp")])
 
 
 def test_a_source_that_is_chosen_is_added_by_one_file_and_its_line_in_the_settings(shot, soot, monkeypatch):

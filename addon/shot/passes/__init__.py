@@ -226,22 +226,32 @@ def compares(name: str) -> bool:
     return isinstance(known()[name], ComparisonPass)
 
 
-def refused(each: Pass, camera: CameraSettings, engine: str) -> str:
-    """Return the reason why a camera cannot record a pass with an engine; empty if it can."""
+def refused(each: Pass, camera: CameraSettings, settings: Any) -> str:
+    """Return the reason why a camera cannot record a pass with these settings; empty if it can."""
     drawn = (each, *(known()[name] for name in each.made_from))
-    if engine == "eevee" and any(map(records_masks, drawn)):
+    cannot = f'camera "{camera.name}" cannot record {each.name}'
+    eevee = settings.render.engine == "eevee"
+    if eevee and any(map(records_masks, drawn)):
         return (
-            f'camera "{camera.name}" cannot record {each.name} with EEVEE, whose pixels have 11 bits, '
-            "too few for tree numbers; render it with Cycles"
+            f"{cannot} with EEVEE, whose pixels have 11 bits, too few for tree numbers; render it with Cycles"
         )
-    if isinstance(each, MarchedPass) and engine == "eevee":
-        return (
-            f'camera "{camera.name}" cannot record {each.name} with EEVEE, which renders smoke and surfaces '
-            "together; render it with Cycles"
-        )
+    if isinstance(each, MarchedPass):
+        if eevee:
+            return f"{cannot} with EEVEE, which renders smoke and surfaces together; render it with Cycles"
+        if changed := _unmarched(settings.smoke):
+            return f"{cannot} with {changed}, because Cycles then renders smoke too; remove the key"
     if each.single_view and camera.rig.around:
         return f'camera "{camera.name}" is a panorama and cannot record {each.name}'
     return ""
+
+
+def _unmarched(smoke: Any) -> str:
+    """Return the first key of [smoke], with its value, by which smoke is not ray-marched; empty if it is."""
+    if not smoke.enabled:
+        return ""
+    wanted = {"draw": "integrated", "method": "flow", "lighting": "solved"}
+    values = ((name, getattr(smoke, name)) for name in wanted)
+    return next((f'smoke.{name} = "{value}"' for name, value in values if value != wanted[name]), "")
 
 
 def of_camera(settings: Any, camera: CameraSettings) -> tuple[Pass, ...]:

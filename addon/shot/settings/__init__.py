@@ -253,7 +253,7 @@ class Settings(SceneSettings):
                 reason = f'camera "{camera.name}" is a panorama, which EEVEE cannot render; use Cycles'
                 return ("cameras", i, "kind"), reason
             for each in passes.of_camera(self, camera):
-                if reason := passes.refused(each, camera, self.render.engine):
+                if reason := passes.refused(each, camera, self):
                     return ("cameras", i, "passes") if camera.passes else ("render", "passes"), reason
             if camera.rig.around and width != height:
                 reason = (
