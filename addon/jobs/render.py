@@ -81,7 +81,7 @@ def run(
         Shot of `choice`, if already resolved.
     """
     from ..errors import UsageError
-    from ..render import changes, dataset, films, fingerprint, former_names, plan
+    from ..render import changes, dataset, exr_clock, films, fingerprint, former_names, plan
     from ..render.store import Store
     from ..run.readers import folder
 
@@ -100,6 +100,8 @@ def run(
     with Store(out) as store:
         undone = plan.missing(store, wanted, made_with)
         finished = len(wanted) - len(undone)
+        if asked.resume and (text := exr_clock.update(shot, store, set(wanted) - set(undone), made_with)):
+            tell(text)
         begun = store.latest_number()
         differing = changes.of_pictures(store, undone, made_with) if asked.resume else []
         if asked.films and (kept := films.left_over(shot, store, made_with)):

@@ -40,7 +40,7 @@ def run(
     -------
     Number of pictures that were rendered.
     """
-    from ..render import plan
+    from ..render import exr_clock, plan
     from ..render.store import Store
     from ..shot import passes
 
@@ -56,6 +56,8 @@ def run(
     with Store(asked.out, create=True) as store:
         begun = store.latest_number()
         undone = plan.missing(store, wanted, made_with, 0 if asked.resume else begun)
+        if text := exr_clock.update(shot, store, set(wanted) - set(undone), made_with):
+            tell(text)
         task = {
             "choice": choice.plain(),
             "blend": str(blend),

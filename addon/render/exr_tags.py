@@ -34,6 +34,9 @@ AP1_FROM_REC709 = np.array(
 )
 """Linear Rec.709 (D65) to AP1 (D60) with Bradford adaptation, as in OpenColorIO's ACES configurations."""
 
+TIMES = ("capDate", "framesPerSecond", "timeCode", "utcOffset")
+"""Attributes that `times` returns."""
+
 _MOST_COUNTED = 30  # frames per second that timecode counts; faster films count pairs
 
 
@@ -53,9 +56,6 @@ def attributes(
     """
     view = pixel_rays.path_of(shot.paths, camera)
     run = f"Firetwin: {shot.run.name}" + (" (synthetic)" if shot.run.synthetic else "")
-    local = shot.utc(frame).astimezone(ZoneInfo(shot.settings.time.zone))
-    offset = local.utcoffset()
-    assert offset is not None  # it has a time zone
     latitude, longitude, altitude = (
         float(value[0]) for value in shot.local_frame.reverse(view.position[frame - 1][None])
     )
@@ -64,16 +64,26 @@ def attributes(
         "colorInteropID": COLOUR_IDS[shot.settings.render.exr_space] if colour else "data",
         "comments": f"{run}; {comments}" if comments else run,
         "Software": f"Firetwin {firetwin_core.__version__}",
-        "capDate": f"{local:%Y:%m:%d %H:%M:%S}",
-        "utcOffset": -offset.total_seconds(),  # OpenEXR: UTC == local time + utcOffset
         "cameraLabel": camera,
         "latitude": latitude,
         "longitude": longitude,
         "altitude": altitude,
         "imageCounter": frame,
         **({"owner": owner} if owner else {}),
-        **film_time(shot.settings.time.rate, frame),
+        **times(shot, frame),
         **_lens(view, frame),
+    }
+
+
+def times(shot: Shot, frame: int) -> dict[str, Any]:
+    """Collect the attributes with model time and film time, which depend on frame rate and time zone."""
+    local = shot.utc(frame).astimezone(ZoneInfo(shot.settings.time.zone))
+    offset = local.utcoffset()
+    assert offset is not None  # it has a time zone
+    return {
+        "capDate": f"{local:%Y:%m:%d %H:%M:%S}",
+        "utcOffset": -offset.total_seconds(),  # OpenEXR: UTC == local time + utcOffset
+        **film_time(shot.settings.time.rate, frame),
     }
 
 

@@ -25,6 +25,7 @@ from . import (
     credits,
     cycles_status,
     engine,
+    exr_clock,
     exr_tags,
     frame_cost,
     integrated,
@@ -258,6 +259,7 @@ def publish(
                 "pass": picture.name,
                 "frame": picture.frame,
                 "time": shot.utc(picture.frame).isoformat(timespec="seconds"),
+                **({exr_clock.KEY: exr_clock.value(shot)} if name.endswith(".exr") else {}),
                 **about,
             }
             files.publish(made[name], session.store.out / name)

@@ -109,6 +109,15 @@ class Store:
             if path.endswith(suffix) and self._is_unchanged(path, state, entry)
         }
 
+    def differing(self, key: str, value: str, suffix: str) -> dict[str, dict[str, Any]]:
+        """Return entries by path of pictures' files with a suffix whose `key` has another value or none."""
+        rows = self.data.fetch_all(
+            "SELECT path, entry FROM files WHERE frame IS NOT NULL AND path LIKE '%' || ? "
+            "AND json_extract(entry, '$.' || ?) IS NOT ?",
+            *(suffix, key, value),
+        )
+        return {path: json.loads(entry) for path, entry in rows}
+
     def latest_number(self) -> int:
         """Return the number of the latest entry; numbers increase with every entry."""
         (last,) = self.data.fetch_one("SELECT max(number) FROM files") or (None,)
