@@ -10,12 +10,12 @@ from zoneinfo import ZoneInfo
 
 import numpy as np
 
+from ..html_text import quote
 from ..run import times
 from ..run.fronts import Front
 from ..run.score.measure import Measure
 from . import units as page_units
 from .sheet_options import Units
-from .text import quote
 
 WIDTH, HEIGHT = 900, 300  # of the drawing, which the page scales
 LEFT, RIGHT, TOP, BOTTOM = 66, 58, 20, 52

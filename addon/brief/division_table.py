@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from ..html_text import quote
 from ..stations.records import EXERCISE
 from . import context, units
 from .briefing import Briefing
 from .sheet_options import Units
-from .text import quote
 
 _HEAD = ("Number", "Resource", "Type", "Station", "Arrives after", "Line", "Leader, contact")
 

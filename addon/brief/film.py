@@ -13,9 +13,9 @@ import numpy as np
 from PIL import Image, UnidentifiedImageError
 
 from ..errors import input_error
+from ..html_text import data_uri, size
 from ..progress import count
 from ..render import manifest
-from .text import data_uri, size
 
 WIDTH = 960  # maximum width of a frame, pixels
 EACH = 3  # frames per camera and pass

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
+from ..html_text import quote
 from ..stations.describe import degrees, web_map_address
 from ..stations.records import EXERCISE, Resource, Station
 from ..stations.station_file import StationFile
 from . import facts, resource_table
 from .briefing import Briefing, Point
-from .text import quote
 
 _FIRE = (
     ("", "any"),

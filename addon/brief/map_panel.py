@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..html_text import data_uri, quote
 from ..imaging import map_symbols
 from ..run.fronts import Front
 from . import context_layer
@@ -13,7 +14,6 @@ from .briefing import Briefing
 from .context import Context
 from .layers import Layer, Legend
 from .mercator import Box
-from .text import data_uri, quote
 
 FRONT_EDGE, FRONT_FILL = map_symbols.FIRE_EDGE, "#ff3b14"
 """Colours of the front: on the map, on the sheet and in their legends."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..html_text import data_uri, quote
 from . import base_map, graticule, map_panel, sheet_map
 from .briefing import Briefing
 from .map_frame import MapFrame
@@ -17,7 +18,6 @@ from .sheet_map import Content
 from .sheet_margin import Margin
 from .sheet_options import SheetOptions, Titles
 from .sheet_text import FONT, Column
-from .text import data_uri, quote
 
 _PANEL = 58.0  # width of the panel at the side in landscape, mm at A4
 _GAP = 3.5  # mm

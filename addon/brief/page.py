@@ -15,6 +15,7 @@ import firetwin_core
 import numpy as np
 
 from ..errors import UsageError
+from ..html_text import quote, script_json, size
 from ..imaging import map_symbols
 from ..run import times
 from ..stations.records import EXERCISE
@@ -34,7 +35,6 @@ from .briefing import Briefing, Point
 from .map_panel import FRONT_EDGE, FRONT_FILL
 from .mercator import Box
 from .sheet_options import Titles
-from .text import quote, script_json, size
 
 POLICY = (
     "default-src 'none'; img-src data:; media-src data:; style-src 'unsafe-inline'; "

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from zoneinfo import ZoneInfo
 
+from ..html_text import quote
 from ..stations.records import Resource, Station
 from . import facts
 from .briefing import Briefing
-from .text import quote
 
 _LINES = ("Resource", "Number", "People", "Leader, contact", "Station", "Available", "Origin")
 _TOTALS = ("Type", "Number", "People, at least", "Stations")

@@ -9,13 +9,13 @@ from typing import Any
 
 import firetwin_core
 
+from ..html_text import quote, size
 from ..run import times
 from ..run.score import report, used
 from ..stations.records import EXERCISE, Source
 from . import curve, units
 from .briefing import Briefing
 from .film import CLIP, WIDTH, Film, Shown
-from .text import quote, size
 
 _LEAFLET = Path(__file__).parent / "leaflet"
 _NOT_KNOWN = "licence unknown to Firetwin; see the publisher"

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..ellipsoid import metres_per_degree
+from ..html_text import quote
 from ..imaging import map_symbols
 from ..run import times
 from ..run.fronts import Front
@@ -17,7 +18,6 @@ from . import base_map, context, line_labels, units
 from .briefing import Briefing
 from .context import Context
 from .map_frame import MapFrame
-from .text import quote
 
 _HOURS = (1, 2, 3, 6, 12, 24, 48, 96)
 _MOST_FRONTS = 9

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..html_text import quote
 from . import base_map, graticule
 from .briefing import Briefing
 from .sheet_map import Content
 from .sheet_options import SheetOptions, Titles
 from .sheet_text import Column
-from .text import quote
 from .units import MILE
 
 _BAR = 0.72  # most of the width of a column

@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from dataclasses import dataclass, field
 
-from .text import quote
+from ..html_text import quote
 
 FONT = '"DejaVu Sans", Arial, Helvetica, sans-serif'
 _WIDE, _WIDE_BOLD = 0.58, 0.66  # mean width of a letter / font size

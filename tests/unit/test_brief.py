@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import small_stations
 import whole_run
-from firetwin import cli
+from firetwin import cli, html_text
 from firetwin.brief import (
     arguments,
     briefing,
@@ -22,7 +22,6 @@ from firetwin.brief import (
     page,
     reached,
     sections,
-    text,
     units,
 )
 from firetwin.brief.sheet_options import SheetOptions
@@ -311,11 +310,11 @@ def test_hostile_texts_of_files_stay_texts(own, tmp_path):
 
 def test_json_in_a_script_cannot_end_it():
     value = {"a": "</script><!-- &", "b": ["\u2028", 1.5, None]}
-    made = text.script_json(value)
+    made = html_text.script_json(value)
     assert not set("<>&\u2028") & set(made)
     assert json.loads(made) == value
     with pytest.raises(ValueError, match="JSON"):
-        text.script_json(float("nan"))
+        html_text.script_json(float("nan"))
 
 
 def test_each_exercise_row_says_exercise(folder, gpkg):
@@ -598,7 +597,7 @@ def test_the_page_says_its_size_and_has_a_limit(folder):
     found = briefing.gather(briefing.Request(folder))
     made = page.html(found, 10_000_000)
     assert len(made.encode()) < 1_000_000  # of a small run: Leaflet is 0.16 MB of it
-    told = f"This page is a single file of {text.size(len(made.encode()))} and loads no other files."
+    told = f"This page is a single file of {html_text.size(len(made.encode()))} and loads no other files."
     assert told in PageParts(made).text
     with pytest.raises(UsageError, match=r"the page has \d+ kB, above the limit of 100 kB; .* --limit"):
         page.html(found, 100_000)

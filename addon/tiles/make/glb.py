@@ -1,4 +1,7 @@
-"""Writer of binary glTF 2.0 with one mesh and one material (Khronos glTF 2.0 specification, section 4.4)."""
+"""Writer of binary glTF 2.0: its buffer and container, and a file with one mesh and one material.
+
+Source: Khronos glTF 2.0 specification, sections 3.6 and 4.4.
+"""
 
 from __future__ import annotations
 
@@ -13,9 +16,11 @@ from numpy.typing import NDArray
 
 from . import pictures
 
-_FLOAT, _SHORT, _INT = 5126, 5123, 5125  # component types; integers are unsigned
-_TYPES = {_FLOAT: "<f4", _SHORT: "<u2", _INT: "<u4"}
-_VERTICES, _INDICES = 34962, 34963
+FLOAT, SHORT, INT, SIGNED_SHORT = 5126, 5123, 5125, 5122
+"""Component types; integers are unsigned unless named otherwise."""
+VERTICES, INDICES = 34962, 34963
+"""Targets of buffer views."""
+_TYPES = {FLOAT: "<f4", SHORT: "<u2", INT: "<u4", SIGNED_SHORT: "<i2"}
 
 
 @dataclass(frozen=True)
@@ -55,15 +60,15 @@ def encode(mesh: Mesh, credit: str) -> bytes:
     credit
         asset.copyright; empty: none.
     """
-    buffer = _Buffer()
+    buffer = Buffer()
     attributes = {
-        "POSITION": buffer.accessor(_y_up(mesh.position), _FLOAT, "VEC3", _VERTICES, bounds=True),
-        "NORMAL": buffer.accessor(_y_up(mesh.normal), _FLOAT, "VEC3", _VERTICES),
+        "POSITION": buffer.accessor(y_up(mesh.position), FLOAT, "VEC3", VERTICES, bounds=True),
+        "NORMAL": buffer.accessor(y_up(mesh.normal), FLOAT, "VEC3", VERTICES),
     }
     if mesh.uv is not None:
-        attributes["TEXCOORD_0"] = buffer.accessor(mesh.uv, _FLOAT, "VEC2", _VERTICES)
-    kind = _SHORT if len(mesh.position) < 65536 else _INT
-    indices = buffer.accessor(mesh.triangles.reshape(-1, 1), kind, "SCALAR", _INDICES)
+        attributes["TEXCOORD_0"] = buffer.accessor(mesh.uv, FLOAT, "VEC2", VERTICES)
+    kind = SHORT if len(mesh.position) < 65536 else INT
+    indices = buffer.accessor(mesh.triangles.reshape(-1, 1), kind, "SCALAR", INDICES)
     surface: dict[str, Any] = {
         "baseColorFactor": mesh.colour,
         "metallicFactor": 0.0,
@@ -74,7 +79,7 @@ def encode(mesh: Mesh, credit: str) -> bytes:
         | ({"copyright": credit} if credit else {}),
         "scene": 0,
         "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0, "translation": _y_up(mesh.origin[None])[0].tolist()}],
+        "nodes": [{"mesh": 0, "translation": y_up(mesh.origin[None])[0].tolist()}],
         "meshes": [{"primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}],
         "materials": [{"pbrMetallicRoughness": surface}],
     }
@@ -83,15 +88,15 @@ def encode(mesh: Mesh, credit: str) -> bytes:
         about["images"] = [{"bufferView": buffer.view(mesh.picture), "mimeType": pictures.kind(mesh.picture)}]
         about["samplers"] = [{"magFilter": 9729, "minFilter": 9987, "wrapS": 33071, "wrapT": 33071}]
         about["textures"] = [{"source": 0, "sampler": 0}]
-    return _container(about | buffer.about(), bytes(buffer.data))
+    return container(about | buffer.about(), bytes(buffer.data))
 
 
-def _y_up(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+def y_up(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     """Rotate vectors (n, 3) with z up to glTF's y up; readers of tiles map (x, y, z) to (x, -z, y)."""
     return vectors[:, [0, 2, 1]] * (1.0, 1.0, -1.0)
 
 
-class _Buffer:
+class Buffer:
     """Buffer of a .glb with its views and accessors."""
 
     def __init__(self) -> None:
@@ -107,8 +112,28 @@ class _Buffer:
         self.data += data
         return len(self._views) - 1
 
-    def accessor(self, values: NDArray, kind: int, shape: str, target: int, bounds: bool = False) -> int:
-        """Append values (n, k); return the number of their accessor."""
+    def accessor(
+        self,
+        values: NDArray,
+        kind: int,
+        shape: str,
+        target: int = 0,
+        bounds: bool = False,
+        normalized: bool = False,
+    ) -> int:
+        """Append values (n, k); return the number of their accessor.
+
+        Parameters
+        ----------
+        kind, shape
+            Component type, and "SCALAR", "VEC2", "VEC3" or "VEC4".
+        bounds
+            Write the smallest and largest values, as POSITION and the times of animations need.
+        normalized
+            Store numbers in -1..1 (unsigned: 0..1) as fractions of the largest integer.
+        """
+        if normalized:
+            values = np.round(values * np.iinfo(_TYPES[kind]).max)
         stored = values.astype(_TYPES[kind])
         found = {
             "bufferView": self.view(stored.tobytes(), target),
@@ -118,6 +143,8 @@ class _Buffer:
         }
         if bounds:
             found |= {"min": stored.min(axis=0).tolist(), "max": stored.max(axis=0).tolist()}
+        if normalized:
+            found["normalized"] = True
         self._accessors.append(found)
         return len(self._accessors) - 1
 
@@ -130,7 +157,8 @@ class _Buffer:
         }
 
 
-def _container(about: dict[str, Any], data: bytes) -> bytes:
+def container(about: dict[str, Any], data: bytes) -> bytes:
+    """Join the JSON and the buffer to a .glb."""
     text = json.dumps(about, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
     data += b"\0" * (-len(data) % 4)

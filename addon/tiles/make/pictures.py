@@ -25,12 +25,14 @@ class Colours(Protocol):
 
 
 def draw(colours: Colours, latitude: Array, longitude: Array, pixels: int) -> bytes:
-    """Draw a JPEG of `pixels` x `pixels` between the ends of two axes, north up; a PNG without Pillow.
-
-    Blender's Python has no Pillow.
-    """
+    """Draw a JPEG or PNG of `pixels` x `pixels` between the ends of two axes, north up."""
     rows, columns = (_centres(axis[0], axis[-1], pixels) for axis in (latitude, longitude))
-    picture = np.ascontiguousarray(colours(rows, columns)[::-1])
+    return encode(colours(rows, columns)[::-1])
+
+
+def encode(picture: NDArray[np.uint8]) -> bytes:
+    """Encode a picture (h, w, 3) as JPEG, or as PNG without Pillow, which Blender's Python does not have."""
+    picture = np.ascontiguousarray(picture)
     try:
         from PIL import Image
     except ImportError:

@@ -1,4 +1,4 @@
-"""Text and data in HTML, escaped so that no text of a file becomes a tag, script or reference."""
+"""HTML text: text and data in pages, escaped so that no text of a file becomes a tag, script or reference."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import json
 import unicodedata
 from typing import Any
 
-from ..escaped import escaped
+from .escaped import escaped
 
 _IN_SCRIPT = {character: f"\\u{ord(character):04x}" for character in "<>&\u2028\u2029"}
 
