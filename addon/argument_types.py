@@ -61,6 +61,17 @@ def factor(text: str) -> float:
     return value
 
 
+def hours(text: str) -> float:
+    """Convert to a number of hours above 0, up to a year."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0.0 < value <= 8784.0:
+        raise argparse.ArgumentTypeError(f"must be a number of hours above 0, up to 8784, not {text!r}")
+    return value
+
+
 def longitude(text: str) -> float:
     """Convert to a longitude, degrees east."""
     try:

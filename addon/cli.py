@@ -140,7 +140,7 @@ def _parser() -> argparse.ArgumentParser:
 
     info = command("info", "list the content of a run", help_texts.INFO)
     info.add_argument(
-        "run", metavar="RUN", type=types.path, help="run folder, or a scene file for all its runs"
+        "run", metavar="RUN", type=types.path, help="run or ensemble folder, or a scene file for all its runs"
     )
     info.add_argument("--json", action="store_true", help="write JSON")
 
@@ -173,6 +173,18 @@ def _parser() -> argparse.ArgumentParser:
         help="time step of the fields if the model writes arrival times (fitted)",
     )
     made.add_argument("--name", default="", help="name of the run (name of the folder and model)")
+    made.add_argument(
+        "--members",
+        action="store_true",
+        help="convert all members of a forecast to an ensemble (a model's output, a folder or list of runs)",
+    )
+    made.add_argument(
+        "--horizon",
+        metavar="HOURS",
+        type=types.hours,
+        default=0,
+        help="length of the forecast of --members (of its longest member)",
+    )
     zone = "time zone of printed times, such as Europe/Paris (offset of --start, otherwise by longitude)"
     made.add_argument("--zone", default="", help=zone)
 

@@ -40,9 +40,13 @@ def sample(arguments: argparse.Namespace) -> None:
 def info(arguments: argparse.Namespace) -> None:
     """Show the contents of a run, or of all runs of a scene file."""
     from .run import info, zone
+    from .run.ensemble import ensemble, summary
     from .shot.source import ShotSource
 
-    if arguments.run.suffix == ".toml" and arguments.run.is_file():
+    if ensemble.sniff(arguments.run):
+        facts = summary.gather(ensemble.open(arguments.run))
+        page = summary.page(facts)
+    elif arguments.run.suffix == ".toml" and arguments.run.is_file():
         shot = ShotSource(scene=str(arguments.run)).shot()
         runs = _runs(shot)
         say(shot.describe_film())
@@ -176,6 +180,14 @@ def convert(arguments: argparse.Namespace) -> None:
     """Convert a fire model's own files to a run."""
     from .jobs import convert
 
+    if arguments.members:
+        options = arguments.start, arguments.at, arguments.projection, arguments.horizon * 3600.0
+        result(
+            convert.run_members(
+                arguments.paths, arguments.out, *options, tell=say, name=arguments.name, zone=arguments.zone
+            )
+        )
+        return
     reporter = Reporter("times")
     try:
         result(

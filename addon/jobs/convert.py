@@ -8,7 +8,7 @@ import os
 import tomllib
 from pathlib import Path
 
-from ..errors import Error, reading
+from ..errors import Error, input_error, reading
 from ..progress import MessageCallback, Progress, no_message, silent
 from . import worker
 
@@ -66,6 +66,83 @@ def run(
     except worker.EndedError as error:
         raise Error(f"{paths[0]}: reading it {error}; the file is most likely damaged") from None
     return out
+
+
+def run_members(
+    paths: list[Path],
+    out: Path,
+    start: str = "",
+    at: str = "",
+    projection: str = "",
+    horizon: float = 0.0,
+    progress: Progress = silent,
+    tell: MessageCallback = no_message,
+    stop: worker.Stop | None = None,
+    name: str = "",
+    zone: str = "",
+) -> Path:
+    """Convert the members of a forecast to an ensemble in the folder `out`, and return that folder.
+
+    Parameters
+    ----------
+    paths
+        A folder of run folders, a list of runs (``ensemble.toml``), or the files and folders of a model.
+    horizon
+        Length of the forecast, s; 0: from the files.
+
+    Raises
+    ------
+    InputError, Error, UsageError, StoppedError
+        As `run`.
+    """
+    from ..run.models import write
+    from ..run.models.model import Options
+
+    for path in paths:
+        if not path.exists():
+            raise input_error(path, "there is no such file or folder; check the path")
+    Options.of(start, at, projection, 0.0, [], name, zone)
+    write.check(out)
+    task = {
+        "paths": [str(path.absolute()) for path in paths],
+        "out": str(out.absolute()),
+        "options": [start, at, projection, horizon, name, zone],
+    }
+    try:
+        worker.run(
+            f"{__name__}:members_in_process", task, progress, stop=stop, tell=tell, blender=False,
+            patience=PATIENCE,
+        )  # fmt: skip
+    except worker.EndedError as error:
+        raise Error(f"{paths[0]}: reading it {error}; a file is most likely damaged") from None
+    return out
+
+
+def members_in_process(
+    paths: list[str], out: str, options: list, progress: Progress = silent, tell: MessageCallback = no_message
+) -> None:
+    """Worker side: gather runs, or select the reader, read and write."""
+    from ..run.ensemble import gather, member_set, readers
+    from ..run.models import heartbeat
+    from ..run.models.model import Options
+
+    start, at, projection, horizon, name, zone = options
+    files = [Path(path) for path in paths]
+    with heartbeat.to(lambda: worker.send_heartbeat()), reading(files[0]):
+        if len(files) == 1 and gather.sniff(files[0]):
+            made, notes = gather.convert(files[0], Path(out), horizon), []
+        else:
+            said = Options.of(start, at, projection, 0.0, [], name, zone)
+            found = readers.read(files, said, horizon)
+            made, notes = member_set.save(found, Path(out), files[0]), found.notes
+    total, issued = len(made.members) + len(made.left_out), ""
+    if made.issued:
+        issued = f" after {made.issued:%Y-%m-%d %H:%M} UTC"
+    tell(f"{len(made.members)} of {total} members, up to {made.horizon / 3600.0:.4g} h{issued}")
+    for each in made.left_out:
+        tell(f"left out: {each.name}: {each.reason}")
+    for text in notes:
+        tell(text)
 
 
 def default_output(

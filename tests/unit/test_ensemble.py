@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from firetwin.errors import Error, InputError
-from firetwin.run.ensemble import choice, ensemble, gather, manifest, statistics, write
+from firetwin.run.ensemble import choice, ensemble, gather, manifest, statistics, summary, write
 from firetwin.run.ensemble.manifest import LeftOut, Manifest, Member
 from hypothesis import given
 from hypothesis import strategies as st
@@ -107,6 +107,17 @@ def test_middle_of_nested_fires_is_deepest(tmp_path):
     assert chosen.typical not in others
 
 
+def test_summary_names_members_and_areas(tmp_path):
+    made = make(tmp_path, [[[1, NEVER, NEVER]], [[1, 1, NEVER]], [[1, 1, 1]]])
+    facts = summary.gather(made)
+    assert facts["choice"] == {"typical": "01", "smallest": "00", "largest": "02", "outlier": "00"}
+    area = made.areas[0]
+    assert [each["area"] for each in facts["members"]] == pytest.approx(list(area.cumsum()))
+    text = summary.page(facts)
+    assert "members     3 of 3" in text
+    assert f"burned      {area[0] / 1e4:,.4g} ha to {area.sum() / 1e4:,.4g} ha" in text
+
+
 def test_depth_by_hand(tmp_path):
     # areas {a}, {a, b}, {b, c}: inclusion of i in j is the common part of i
     made = make(tmp_path, [[[1, NEVER, NEVER]], [[1, 1, NEVER]], [[NEVER, 1, 1]]])
@@ -150,6 +161,7 @@ def test_bad_members_leave_nothing(tmp_path, values, reason):
         ("name = ", r"toml: is not TOML: Invalid value"),
         ("nmae = 'x'\n[[member]]\nname = 'a'", 'unknown key "nmae"'),
         ("name = 'a'\nx y", r"toml:2:3: is not TOML: Expected '='"),
+        ("kind = 'best'\n[[member]]\nname = 'a'", 'kind is "best"; write one of forecast, scenarios'),
         ("", "has 0 members; list 1 to 10,000"),
         ("[[member]]\nname = 'a'\n[[member]]\nname = 'a'", 'two members have the name "a"'),
         ("[[member]]\nname = 'a'\nweight = -1", "member 1: weight is not a number from 1e-09"),

@@ -11,13 +11,20 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from ...errors import Error, InputError, UsageError, input_error
+from ...errors import Error, InputError, input_error
 from .. import readers, times
 from ..arrival_grid import ArrivalGrid
 from . import manifest, write
 from .manifest import MANIFEST, Manifest, Member
 
 _TOLERANCE = 0.01  # of a cell: shift between grids that counts as the same grid
+
+
+def sniff(path: Path) -> bool:
+    """Check for a list of runs, or a folder of run folders."""
+    if path.is_file():
+        return path.suffix == ".toml"
+    return (path / MANIFEST).is_file() or any(readers.folder.sniff(each) for each in path.iterdir())
 
 
 def listed(path: Path) -> Manifest:
@@ -162,19 +169,3 @@ def _extended(axes: list[NDArray[np.float64]], names: list[str]) -> NDArray[np.f
         if len(under) != len(axis) or np.abs(under - axis).max() > _TOLERANCE * step:
             raise Error(f"{name} has other cells than {names[0]}")
     return result
-
-
-def check_horizon(text: str) -> float:
-    """Parse hours of the command line; return s.
-
-    Raises
-    ------
-    UsageError
-    """
-    try:
-        hours = float(text)
-    except ValueError:
-        hours = math.nan
-    if not 0.0 < hours <= 24.0 * 366.0:
-        raise UsageError(f"--horizon: {text!r} is not a number of hours above 0")
-    return hours * 3600.0

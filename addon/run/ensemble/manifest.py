@@ -6,6 +6,7 @@ import json
 import math
 import re
 import tomllib
+from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -18,7 +19,19 @@ from ..models.model import LONGEST
 MANIFEST = "ensemble.toml"
 MOST = 10_000  # members
 
-_HEAD = {"name", "model", "issued", "horizon_s", "perturbed", "not_perturbed", "synthetic", "zone", "source"}
+KINDS = {
+    "forecast": "simulations of one fire from one issue time",
+    "scenarios": "named cases, such as best and worst",
+    "ranked": "simulations that stand for ranks of fire size",
+    "ignitions": "simulations of fires with different ignitions",
+}
+"""Kinds of ensembles, by the relation of their members. Only shares of a `forecast` are a probability of
+burning by a time: in other kinds, shares depend on the choice of the members."""
+
+_HEAD = {
+    *("name", "kind", "model", "issued", "horizon_s", "perturbed", "not_perturbed", "synthetic", "zone"),
+    "source",
+}
 _MEMBER = {"name", "run", "weight", "end_s"}
 _LEFT_OUT = {"name", "reason"}
 
@@ -75,6 +88,8 @@ class Manifest:
         Time zone for people; "": by longitude.
     source
         Files and format of the members.
+    kind
+        Key of `KINDS`.
     """
 
     name: str
@@ -88,6 +103,7 @@ class Manifest:
     synthetic: bool = False
     zone: str = ""
     source: str = ""
+    kind: str = "forecast"
 
 
 def read(path: Path) -> Manifest:
@@ -128,6 +144,7 @@ def read(path: Path) -> Manifest:
         synthetic=table.flag("synthetic"),
         zone=table.text("zone"),
         source=table.text("source"),
+        kind=table.choice("kind", KINDS, "forecast"),
     )
 
 
@@ -135,6 +152,7 @@ def text(manifest: Manifest) -> str:
     """Format a manifest as TOML."""
     head = {
         "name": manifest.name,
+        "kind": manifest.kind,
         "model": manifest.model,
         "perturbed": manifest.perturbed,
         "not_perturbed": manifest.not_perturbed,
@@ -177,6 +195,13 @@ class _Table:
         if not isinstance(value, str):
             self._wrong(f"{key} is not a text; write it in quotes")
         return " ".join(value.split())
+
+    def choice(self, key: str, known: Iterable[str], default: str) -> str:
+        """Return one of the known words."""
+        value = self.text(key) or default
+        if value not in known:
+            self._wrong(f'{key} is "{value}"; write one of {", ".join(known)}')
+        return value
 
     def flag(self, key: str) -> bool:
         """Return true or false, by default False."""
