@@ -75,15 +75,24 @@ def windows(
 
 
 def short_windows(
-    station_file: StationFile, resource: Resource, zone: str, span: tuple[datetime, datetime]
+    station_file: StationFile,
+    resource: Resource,
+    zone: str,
+    span: tuple[datetime, datetime],
+    areas: bool = True,
 ) -> list[str]:
-    """Describe these windows without year and zone: ``17 Sep 16:00-20:00 available``."""
+    """Describe these windows without year, zone and the word available: ``17 Sep 16:00-20:00 committed``.
+
+    Windows of the status "unavailable" are omitted if there are others; areas of use, without `areas`.
+    """
+    windows = _overlapping(station_file, resource, span)
     found = []
-    for each in _overlapping(station_file, resource, span):
+    for each in [each for each in windows if each.status != "unavailable"] or windows:
         begins, ends = (when.astimezone(ZoneInfo(zone)) for when in (each.begins, each.ends))
         last = f"-{ends:%H:%M}" if begins.date() == ends.date() else f" to {ends.day} {ends:%b %H:%M}"
-        words = ", ".join(filter(None, (each.status, each.area)))
-        found.append(f"{begins.day} {begins:%b %H:%M}{last} {words}")
+        status = "" if each.status == "available" else each.status
+        area = f", area {each.area}" if areas and each.area else ""
+        found.append(f"{begins.day} {begins:%b %H:%M}{last} {status}".rstrip() + area)
     return found
 
 

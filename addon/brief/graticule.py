@@ -111,8 +111,8 @@ def _line(
     first, last = (frame.left, frame.left + frame.width) if upright else (frame.top, frame.top + frame.height)
     order = np.argsort(along)
     for edge, side in ((low, -1.0), (high, 1.0)):
-        at = float(np.interp(edge, along[order], across[order]))
-        if first + 1.0 <= at <= last - 1.0:
+        at, half = float(np.interp(edge, along[order], across[order])), 0.3 * size * len(label)
+        if first + half <= at <= last - half:  # no labels across a corner, where two would overlap
             yield _label(at, edge, side, label, size, upright)
 
 

@@ -34,7 +34,7 @@ def section(briefing: Briefing) -> str:
             '<div class="list" tabindex="0" role="region" aria-label="Places">',
             *([_stations(briefing, stations)] if stations else []),
             *([_towns(briefing, towns)] if towns else []),
-            f"</div>{resource_table.tables(briefing)}{_METHOD}</section>",
+            f"</div>{_METHOD}{resource_table.tables(briefing)}</section>",
         )
     )
 

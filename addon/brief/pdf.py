@@ -130,8 +130,10 @@ def georeference(picture: Path, sheet: MapSheet, title: str, author: str, path: 
         profile = {"driver": "GTiff", "count": 3, "dtype": "uint8", "width": columns, "height": rows}
         with rasterio.open(plain, "w", crs=f"EPSG:{frame.zone.epsg}", transform=transform, **profile) as made:
             made.write(np.moveaxis(pixels, -1, 0))
+            made.update_tags(
+                TITLE=title, AUTHOR=author, CREATOR="Firetwin"
+            )  # rasterio writes options in capitals
         options = {"dpi": round(columns / sheet.paper.area[0] * _INCH), "neatline": f"POLYGON(({ring}))"}
-        texts = {"title": title, "author": author, "creator": "Firetwin"}
 
         def put(part: Path) -> None:
             rasterio.shutil.copy(
@@ -141,7 +143,6 @@ def georeference(picture: Path, sheet: MapSheet, title: str, author: str, path: 
                 geo_encoding="ISO32000",
                 compress="DEFLATE",
                 **options,
-                **texts,
             )
 
         files.write(path, put)

@@ -1,4 +1,4 @@
-"""Printed tables of resources: a line each as in form ICS 204, and totals by type as in ICS 215."""
+"""Printed tables of resources: by station, a line each as in form ICS 204; totals by type as in ICS 215."""
 
 from __future__ import annotations
 
@@ -10,8 +10,10 @@ from ..stations.records import Resource, Station
 from . import facts
 from .briefing import Briefing
 
-_LINES = ("Resource", "Number", "People", "Leader, contact", "Station", "Available", "Origin")
+_LINES = ("Resource", "Number", "People", "Leader, contact", "Available", "Origin")
 _TOTALS = ("Type", "Number", "People, at least", "Stations")
+
+Row = tuple[object, ...]
 
 
 def tables(briefing: Briefing) -> str:
@@ -21,21 +23,37 @@ def tables(briefing: Briefing) -> str:
     if not rows:
         return ""
     zone = ZoneInfo(briefing.zone)
-    totals = _table("Resources by type", _TOTALS, _totals(briefing, rows))
-    title = f"Resources; available in local time, {briefing.fronts[0].utc.astimezone(zone):%Y} ({zone.key})"
-    lines = _table(title, _LINES, (_line(briefing, *row) for row in rows))
+    totals = _table("Resources by type", _TOTALS, [_body(_totals(briefing, rows))], "totals")
+    areas = _areas(briefing, rows)
+    common = f", area {areas.pop()}" if len(areas) == 1 and "" not in areas else ""
+    title = (
+        f"Resources by station; available in local time, {briefing.fronts[0].utc.astimezone(zone):%Y} "
+        f"({zone.key}){common}; times stated as unavailable are omitted"
+    )
+    groups = [
+        _body([_line(briefing, each, not common) for each in briefing.resources(station)], station.title)
+        for station in stations
+        if briefing.resources(station)
+    ]
+    lines = _table(title, _LINES, groups, "lines")
     return f'<div class="print-only">{totals}{lines}</div>'
 
 
-def _table(caption: str, head: Iterable[str], rows: Iterable[Iterable[object]]) -> str:
+def _table(caption: str, head: Iterable[str], bodies: Iterable[str], kind: str) -> str:
     top = "".join(f'<th scope="col">{name}</th>' for name in head)
+    return (
+        f'<table class="resources {kind}"><caption>{quote(caption)}</caption><thead><tr>{top}</tr></thead>'
+        f"{''.join(bodies)}</table>"
+    )
+
+
+def _body(rows: Iterable[Row], title: str = "") -> str:
+    """Build a group of rows, with a title above them."""
     inside = "".join(
         "<tr>" + "".join(f"<td>{quote(value)}</td>" for value in row) + "</tr>\n" for row in rows
     )
-    return (
-        f'<table class="resources"><caption>{caption}</caption><thead><tr>{top}</tr></thead>'
-        f"<tbody>{inside}</tbody></table>"
-    )
+    head = f'<tr><th scope="rowgroup" colspan="{len(_LINES)}">{quote(title)}</th></tr>\n' if title else ""
+    return f"<tbody>{head}{inside}</tbody>"
 
 
 def _people(briefing: Briefing, resource: Resource) -> int | None:
@@ -45,26 +63,25 @@ def _people(briefing: Briefing, resource: Resource) -> int | None:
     return None if people is None else int(people) * resource.count
 
 
-def _line(briefing: Briefing, station: Station, resource: Resource) -> tuple[object, ...]:
+def _areas(briefing: Briefing, rows: Iterable[tuple[Station, Resource]]) -> set[str]:
+    """Collect the areas of use of all windows of resources."""
+    file = briefing.station_file
+    assert file is not None
+    return {window.area for _, each in rows for window in file.windows_of[each.id]}
+
+
+def _line(briefing: Briefing, resource: Resource, areas: bool) -> Row:
     file = briefing.station_file
     assert file is not None
     span = briefing.fronts[0].utc, briefing.fronts[-1].utc
-    available = "; ".join(facts.short_windows(file, resource, briefing.zone, span))
+    available = "; ".join(facts.short_windows(file, resource, briefing.zone, span, areas))
     people = _people(briefing, resource)
     name = ", ".join(filter(None, (resource.type, resource.name)))
-    return (
-        name,
-        resource.count,
-        "" if people is None else people,
-        "",
-        station.title,
-        available,
-        resource.origin,
-    )
+    return name, resource.count, "" if people is None else people, "", available, resource.origin
 
 
-def _totals(briefing: Briefing, rows: list[tuple[Station, Resource]]) -> list[tuple[object, ...]]:
-    found: list[tuple[object, ...]] = []
+def _totals(briefing: Briefing, rows: list[tuple[Station, Resource]]) -> list[Row]:
+    found: list[Row] = []
     for code in sorted({resource.type for _, resource in rows}):
         own = [(station, each) for station, each in rows if each.type == code]
         people = [_people(briefing, each) for _, each in own]

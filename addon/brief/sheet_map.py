@@ -38,6 +38,8 @@ class Content:
         SVG elements, in the order of drawing.
     legend
         Drawing in a box of 9 x 4 mm by text, in the order of first use.
+    taken, stations
+        Boxes of symbols and labels; positions and names of drawn stations, mm.
     """
 
     frame: MapFrame
@@ -47,6 +49,7 @@ class Content:
     labels: list[str] = field(default_factory=list)
     legend: dict[str, str] = field(default_factory=dict)
     taken: list[tuple[float, float, float, float]] = field(default_factory=list)
+    stations: list[tuple[float, float, str]] = field(default_factory=list)
 
     def line(self, style: str, points: Array, closed: bool, text: str, fill: float = 0.0) -> None:
         """Draw a line or an outline through degrees east and north (n, 2)."""
@@ -80,7 +83,7 @@ class Content:
     ) -> None:
         """Draw a symbol, and its label (lines of text) if there is space."""
         x, y = (float(each) for each in self.frame.place(latitude, longitude))
-        if not self.frame.contains(x, y):
+        if not self.frame.contains(x, y) or (name == "Named place" and self._is_station(x, y, label)):
             return
         radius = (1.5 if name != "Named place" else 1.2) * self.unit
         drawn = map_symbols.point(name, x, y, radius)
@@ -90,30 +93,43 @@ class Content:
         self.points.append(drawn)
         self.legend.setdefault(text, key)
         self.taken.append((x - radius, y - radius, x + radius, y + radius))
-        self.label(x, y, radius, [each for each in label if each])
+        if name == "Station":
+            self.stations.append((x, y, label[0]))
+        lines = [each for each in label if each]
+        if not self.label(x, y, radius, lines):
+            self.label(x, y, radius, lines[:1])
+
+    def _is_station(self, x: float, y: float, label: Sequence[str]) -> bool:
+        """Check whether a station with the name of this place in its own covers it: Exercise base Camino."""
+        return any(
+            abs(x - east) + abs(y - south) < self.unit and name.endswith(label[0])
+            for east, south, name in self.stations
+        )
 
     def label(self, x: float, y: float, radius: float, lines: Sequence[str]) -> bool:
-        """Write a label at the side of a point, at the first place that is free; True if there is one."""
+        """Write a label near a point, at the first place that is free; True if there is one."""
         if not lines:
             return False
         size = 2.5 * self.unit
         wide = 0.6 * size * max(len(lines[0]), *(0.8 * len(each) for each in lines))
-        high = size * 1.15 * len(lines)
-        for right, down in (
-            (True, 0.0),
-            (False, 0.0),
-            (True, -0.8),
-            (True, 0.8),
-            (False, -0.8),
-            (False, 0.8),
+        high, away = size * 1.15 * len(lines), radius + 0.6
+        level = y - 0.6 * size
+        for anchor, left, top in (
+            ("start", x + away, level),
+            ("end", x - away - wide, level),
+            ("start", x + away, level - 0.8 * high),
+            ("start", x + away, level + 0.8 * high),
+            ("end", x - away - wide, level - 0.8 * high),
+            ("end", x - away - wide, level + 0.8 * high),
+            ("middle", x - 0.5 * wide, y - radius - 0.2 - high),
+            ("middle", x - 0.5 * wide, y + radius + 0.2),
         ):
-            left = x + radius + 0.6 if right else x - radius - 0.6 - wide
-            top = y - 0.6 * size + down * high
             box = (left, top, left + wide, top + high)
             inside = self.frame.contains(left, top, 0.5) and self.frame.contains(left + wide, top + high, 0.5)
             if inside and not any(_overlap(box, other) for other in self.taken):
                 self.taken.append(box)
-                self.labels += _texts(lines, left if right else left + wide, top, size, right)
+                at = left + {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor] * wide
+                self.labels += _texts(lines, at, top, size, anchor)
                 return True
         return False
 
@@ -257,8 +273,7 @@ def _overlap(a: Sequence[float], b: Sequence[float]) -> bool:
     return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
 
 
-def _texts(lines: Sequence[str], x: float, top: float, size: float, right: bool) -> Iterator[str]:
-    anchor = "start" if right else "end"
+def _texts(lines: Sequence[str], x: float, top: float, size: float, anchor: str) -> Iterator[str]:
     for number, text in enumerate(lines):
         letters = size if number == 0 else 0.8 * size
         weight = ' font-weight="600"' if number == 0 else ""

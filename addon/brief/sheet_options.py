@@ -6,6 +6,7 @@ from argparse import Namespace
 from dataclasses import dataclass, fields
 from datetime import UTC, datetime
 from typing import Literal
+from zoneinfo import ZoneInfo
 
 import firetwin_core
 from firetwin_core.run import Run
@@ -78,10 +79,20 @@ class Titles:
             options.incident or run.name,
             options.author or f"not stated (drawn by Firetwin {firetwin_core.__version__})",
             f"{times.text(begins, zone)} to {times.text(ends, zone)}",
-            times.text(prepared, zone),
-            times.text(issued, zone) + ("" if options.issued else " (start of the run)"),
+            _text(prepared, zone, (begins, ends)),
+            _text(issued, zone, (begins, ends)) + ("" if options.issued else " (start of the run)"),
             age((prepared - issued).total_seconds()),
         )
+
+
+def _text(when: datetime, zone: str, period: tuple[datetime, datetime]) -> str:
+    """Format a time in the local time of a period; in UTC if clocks have changed between the two.
+
+    So a sheet has one abbreviation of local time: PST does not appear next to PDT.
+    """
+    local = ZoneInfo(zone)
+    changed = all(each.astimezone(local).utcoffset() != when.astimezone(local).utcoffset() for each in period)
+    return times.text(when, "UTC" if changed else zone)
 
 
 def age(seconds: float) -> str:

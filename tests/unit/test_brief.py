@@ -345,10 +345,36 @@ def test_availability_is_that_of_the_runs_time(folder, gpkg):
     base.close()
     made = parts(folder, stations=gpkg)
     assert "16 Sep 2014 21:00 -08 to 16 Sep 2014 22:00 -08: committed, Local" in made.text
-    assert "16 Sep 21:00-22:00 committed, Local" in made.text  # in the printed table
-    assert "Resources; available in local time, 2014 (Etc/GMT+8)" in made.text
+    assert "16 Sep 21:00-22:00 committed" in made.text  # in the printed table
+    assert "Resources by station; available in local time, 2014 (Etc/GMT+8), area Local" in made.text
     assert "reserved, Local" not in made.text
     assert made.text.count("2 more periods before or after the run") == 1
+
+
+def test_printed_windows_fit_a_line(folder, gpkg):
+    """Times stated as unavailable and a common area of use are not repeated in each row."""
+    with sqlite3.connect(gpkg) as base:
+        base.execute("DELETE FROM availability")
+        for resource in (10, 11):
+            for begins, ends, status in (
+                ("01", "05", "unavailable"),
+                ("05", "07", "available"),
+                ("07", "23", "unavailable"),
+            ):
+                row = resource, f"2014-09-17T{begins}:00:00Z", f"2014-09-17T{ends}:00:00Z", status, "North"
+                if resource == 10 or status == "unavailable":
+                    columns = "resource, begins, ends, status, area"
+                    base.execute(f"INSERT INTO availability ({columns}) VALUES (?, ?, ?, ?, ?)", row)
+    base.close()
+    made = parts(folder, stations=gpkg)
+    ((_, table),) = made.all("table", **{"class": "resources lines"})
+    assert "(Etc/GMT+8), area North; times stated as unavailable are omitted" in table
+    assert "16 Sep 21:00-23:00exercise" in table
+    assert "16 Sep 17:00-21:00 unavailable; 16 Sep 23:00 to 17 Sep 15:00 unavailable" in table
+    assert table.count("North") == 1
+    assert table.count("unavailable") == 3
+    titles = [inside for attributes, inside in made.all("th") if attributes["scope"] == "rowgroup"]
+    assert titles == ["Alpha", "Far"]  # Bravo has no resources
 
 
 def test_facts_are_called_facts_beside_the_resources_of_an_exercise(folder, tmp_path):
@@ -647,7 +673,7 @@ def test_controls_and_tables_have_names_and_the_page_a_language(folder, gpkg):
             assert named, (tag, attributes)
     assert all(title in labelled for title in ("Front at this time", "Fire arrival time", "Fuel load"))
     assert all(attributes["alt"] for attributes, _ in made.all("img"))
-    assert all(attributes["scope"] == "col" for attributes, _ in made.all("th"))
+    assert all(attributes["scope"] in ("col", "rowgroup") for attributes, _ in made.all("th"))
     assert len(made.all("caption")) == len(made.all("table")) == 3
     ((_, title),) = made.all("h1")
     assert title

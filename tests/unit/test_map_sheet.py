@@ -180,6 +180,55 @@ def test_what_lies_outside_the_run_is_in_the_legend(found):
     assert corner.max() - corner.min() > 30  # hatched
 
 
+def test_a_sheet_has_one_abbreviation_of_local_time(found):
+    zone = "America/Los_Angeles"
+    november = Titles.of(found.run, SheetOptions(prepared=datetime(2026, 11, 27, 8, 53, tzinfo=UTC)), zone)
+    assert november.period == "16 Sep 2014 21:00 PDT to 17 Sep 2014 03:00 PDT"
+    assert november.prepared == "27 Nov 2026 08:53 UTC"  # 00:53 PST
+    assert november.issued == "16 Sep 2014 21:00 PDT (start of the run)"
+    june = Titles.of(found.run, SheetOptions(prepared=datetime(2026, 6, 27, 8, 53, tzinfo=UTC)), zone)
+    assert june.prepared == "27 Jun 2026 01:53 PDT"
+    night = datetime(2014, 11, 2, 6, tzinfo=UTC), datetime(2014, 11, 2, 12, tzinfo=UTC)
+    changed = Titles.of(found.run, SheetOptions(prepared=night[1], period=night), zone)
+    assert changed.period == "1 Nov 2014 23:00 PDT to 2 Nov 2014 04:00 PST"
+    assert changed.prepared == "2 Nov 2014 04:00 PST"
+
+
+def test_labels_of_the_grid_do_not_overlap_at_corners(found):
+    for grid in ("latlong", "usng"):
+        sheet = drawn(found, grid=grid)
+        frame, boxes = sheet.frame, []
+        for each, inside in PageParts(sheet.svg).all("text", **{"class": "graticule"}):
+            x, y, size = (float(each[name]) for name in ("x", "y", "font-size"))
+            half = 0.3 * size * len(inside)
+            low, high, at = (
+                (frame.top, frame.top + frame.height, y)
+                if "transform" in each
+                else (frame.left, frame.left + frame.width, x)
+            )
+            assert low <= at - half + 1e-6 <= at + half <= high + 1e-6
+            boxes.append(inside)
+        assert len(boxes) >= 4
+
+
+def test_a_town_at_its_station_is_drawn_once(found):
+    content = sheet_map.Content(drawn(found).frame, 1.0)
+    content.point("Station", 38.9, -120.6, "Station", ["Exercise base Camino", "not reached"])
+    content.point("Named place", 38.9, -120.6, "Named place", ["Camino", "not reached"])
+    assert len(content.points) == 1
+    assert "Named place" not in content.legend
+    content.point("Named place", 38.9, -120.6, "Named place", ["Pollock Pines", "not reached"])
+    assert len(content.points) == 2
+
+
+def test_a_point_has_its_name_if_there_is_no_space_for_more(found):
+    content = sheet_map.Content(drawn(found).frame, 1.0)
+    _, y = (float(each) for each in content.frame.place(38.9, -120.6))
+    content.taken += [(0.0, 0.0, 1e3, y - 3.0), (0.0, y + 2.0, 1e3, 1e3)]
+    content.point("Station", 38.9, -120.6, "Station", ["Alpha", "not reached, nearest fire 0.1 mi (160 m)"])
+    assert [re.sub("<[^>]+>", "", each) for each in content.labels] == ["Alpha", "Alpha"]  # halo and text
+
+
 def test_the_age_of_a_forecast(found):
     options = SheetOptions(prepared=PREPARED, issued=datetime(2014, 9, 17, 6, 30, tzinfo=UTC))
     assert Titles.of(found.run, options, "UTC").age == "5.5 h"
