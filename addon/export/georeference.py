@@ -36,17 +36,22 @@ class Georeference:
     frame
         Local frame of the scene, with the height of its origin in the heights of the run.
     geoid_m
-        Height of the geoid above the ellipsoid, m; 0 for a run of ellipsoidal heights.
+        Height of the geoid above the ellipsoid at the origin, m.
     source
         Source of `geoid_m`.
-    datum
-        Heights of the run, in words.
+    orthometric
+        True if heights of the run are above mean sea level, False if above the ellipsoid.
     """
 
     frame: geo.LocalFrame
     geoid_m: float
     source: str
-    datum: str
+    orthometric: bool = True
+
+    @property
+    def offset(self) -> float:
+        """Difference between heights above the ellipsoid and heights of the run, m."""
+        return self.geoid_m if self.orthometric else 0.0
 
     @property
     def latitude(self) -> float:
@@ -66,7 +71,7 @@ class Georeference:
     @property
     def height(self) -> float:
         """Height of the origin above the ellipsoid, m."""
-        return self.frame.height + self.geoid_m
+        return self.frame.height + self.offset
 
     @cached_property
     def matrix(self) -> Array:
@@ -80,12 +85,16 @@ class Georeference:
     def geodetic(self, local: ArrayLike) -> Array:
         """Convert local positions (n, 3) to latitude, longitude (degrees) and height above the ellipsoid."""
         latitude, longitude, height = self.frame.reverse(np.asarray(local, np.float64).reshape(-1, 3))
-        return np.column_stack([latitude, longitude, np.asarray(height) + self.geoid_m])
+        return np.column_stack([latitude, longitude, np.asarray(height) + self.offset])
 
     def local(self, geodetic: ArrayLike) -> Array:
         """Convert latitude, longitude (degrees) and height above the ellipsoid (n, 3) to local positions."""
         latitude, longitude, height = np.asarray(geodetic, np.float64).reshape(-1, 3).T
-        return self.frame.forward(latitude, longitude, height - self.geoid_m)
+        return self.frame.forward(latitude, longitude, height - self.offset)
+
+    def above_sea(self, height: ArrayLike) -> Array:
+        """Convert heights above the ellipsoid to heights above mean sea level, m."""
+        return np.asarray(height, np.float64) - self.geoid_m
 
     def ecef(self, local: ArrayLike) -> Array:
         """Convert local positions (n, 3) to Earth-centred metres by their geodetic positions."""
@@ -105,7 +114,7 @@ class Georeference:
             "model_height_m": self.model_height,
             "geoid_m": self.geoid_m,
             "geoid_source": self.source,
-            "model_datum": self.datum,
+            "model_datum": _ORTHOMETRIC if self.orthometric else _ELLIPSOIDAL,
             "axes": "x east, y north, z up, m",
             "local_to_ecef": self.matrix.tolist(),
             "wkt": self.wkt,
@@ -125,11 +134,9 @@ def resolve(shot: Shot, geoid_m: float | None = None) -> Georeference:
     geoid_m
         Height of the geoid, m; None: `tiles.geoid`, else EGM96 at the origin, else 0.
     """
-    frame = shot.local_frame
-    if shot.run.vertical != "orthometric":
-        return Georeference(frame, 0.0, "the run has ellipsoidal heights", _ELLIPSOIDAL)
-    value, source = _undulation(shot, geoid_m)
-    return Georeference(frame, value, source, _ORTHOMETRIC)
+    return Georeference(
+        shot.local_frame, *_undulation(shot, geoid_m), orthometric=shot.run.vertical == "orthometric"
+    )
 
 
 UNKNOWN = "unknown: 0 is assumed"

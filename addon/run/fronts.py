@@ -34,7 +34,12 @@ class Front:
 
 
 def find(run: Run, zone: str) -> tuple[list[Front], float]:
-    """Trace the fronts of a run at round local times, and at the first and the last time of the run.
+    """Trace the fronts of a run at round local times, and at its first and last time (see `at_times`)."""
+    return at_times(run, choose_times(run, zone))
+
+
+def at_times(run: Run, moments: list[float]) -> tuple[list[Front], float]:
+    """Trace the fronts of a run at model times (s).
 
     Returns
     -------
@@ -43,7 +48,6 @@ def find(run: Run, zone: str) -> tuple[list[Front], float]:
     float
         Maximum deviation of the lines, m: half a fuel cell, or more for long fronts.
     """
-    moments = choose_times(run, zone)
     fire = reach(run)
     whole = [trace(fire, time) for time in moments]
     tolerance = cell_tolerance(fire)

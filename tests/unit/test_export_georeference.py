@@ -16,7 +16,7 @@ ECEF = Transformer.from_crs(4979, 4978)
 
 @pytest.fixture(params=[0.0, -24.9, 48.0])
 def place(request):
-    return Georeference(geo.LocalFrame(38.77, -120.53, 0.0), request.param, "a test", "words")
+    return Georeference(geo.LocalFrame(38.77, -120.53, 0.0), request.param, "a test")
 
 
 def test_geodetic_positions_agree_with_proj_in_earth_centred_metres(place):
@@ -66,7 +66,8 @@ def test_the_geoid_is_that_of_the_command_line_then_of_the_scene_then_of_a_grid(
     assert (both.geoid_m, both.source) == (-22.0, "--geoid")
     assert georeference.resolve(FakeShot(geoid=-20.0)).geoid_m == -20.0
     assert georeference.resolve(FakeShot()).geoid_m == -24.0
-    assert georeference.resolve(FakeShot("ellipsoidal", -20.0), -22.0).geoid_m == 0.0
+    ellipsoidal = georeference.resolve(FakeShot("ellipsoidal", -20.0), -22.0)
+    assert (ellipsoidal.offset, ellipsoidal.height, ellipsoidal.above_sea(5.0)) == (0.0, 0.0, 27.0)
     monkeypatch.setattr(georeference.geoid, "find", lambda: None)
     unknown = georeference.resolve(FakeShot())
     assert (unknown.geoid_m, unknown.source) == (0.0, georeference.UNKNOWN)

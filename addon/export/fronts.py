@@ -1,0 +1,98 @@
+"""Fire fronts of an export: at round local times of the run, and at frames of the film."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import datetime
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..run import fronts
+from ..run.fronts import Line
+from .request import ExportRequest
+
+MOST_FRAMES = 24
+"""Maximum number of fronts at frames of the film."""
+
+_CORNERS = 64  # of a hole, which are tested
+
+Polygon = list[Line]
+
+
+@dataclass(frozen=True)
+class DatedFront:
+    """Front that is shown from a time until the next front.
+
+    Attributes
+    ----------
+    time
+        Model time, s.
+    begin, end
+        UTC; `end` is None for the last front.
+    lines
+        Closed lines (n, 2), degrees east and north; burned ground is on their left.
+    area
+        Burned area, m2.
+    """
+
+    time: float
+    begin: datetime
+    end: datetime | None
+    lines: list[Line]
+    area: float
+
+    @property
+    def polygons(self) -> list[Polygon]:
+        """Burned area as polygons: the outer ring, anticlockwise, then holes."""
+        return polygons(self.lines)
+
+
+def find(request: ExportRequest) -> list[DatedFront]:
+    """Find the fronts of a shot's run by time, without those before the fire."""
+    shot = request.shot
+    run = shot.run
+    zone = shot.settings.time.zone
+    every = -(-len(request.frames) // MOST_FRAMES)
+    film = [shot.frames.time(frame) for frame in request.frames[::every]]
+    low, high = shot.frames.span
+    moments = {*(each for each in fronts.choose_times(run, zone) if not low < each < high), *film}
+    found, _ = fronts.at_times(run, sorted(moments))
+    ends = [*(front.utc for front in found[1:]), None]
+    return [
+        DatedFront(front.time, front.utc, end, front.lines, front.area)
+        for front, end in zip(found, ends, strict=True)
+        if front.lines
+    ]
+
+
+def polygons(lines: list[Line]) -> list[Polygon]:
+    """Group closed lines into polygons: each hole (clockwise) belongs to the smallest ring around it."""
+    signed = [_signed_area(line) for line in lines]
+    outer = sorted((k for k, area in enumerate(signed) if area > 0.0), key=lambda k: signed[k])
+    found = {k: [lines[k]] for k in outer}
+    for k, area in enumerate(signed):
+        if area < 0.0:
+            owner = next((j for j in outer if signed[j] >= -area and _is_inside(lines[k], lines[j])), None)
+            if owner is not None:
+                found[owner].append(lines[k])
+    return [found[k] for k in sorted(outer)]
+
+
+def _signed_area(line: Line) -> float:
+    """Compute the area of a closed line in square degrees, positive if it is anticlockwise."""
+    x, y = (line - line[0]).T
+    return 0.5 * float(x[:-1] @ y[1:] - x[1:] @ y[:-1])
+
+
+def _is_inside(inner: Line, ring: Line) -> bool:
+    """Check whether most corners of a line are inside a ring, by the crossings to their east."""
+    x, y = inner[: -1 : -(-len(inner) // _CORNERS)].T
+    (x0, y0), (x1, y1) = ring[:-1].T[:, :, None], ring[1:].T[:, :, None]
+    if x.min() < x0.min() or x.max() > x0.max() or y.min() < y0.min() or y.max() > y0.max():
+        return False
+    spans = (y0 <= y) != (y1 <= y)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        at = x0 + (y - y0) / (y1 - y0) * (x1 - x0)
+    crossings: NDArray[np.int64] = np.sum(spans & (at > x), axis=0)
+    return bool(np.mean(crossings % 2) > 0.5)
