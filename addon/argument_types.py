@@ -8,6 +8,9 @@ import re
 from datetime import UTC, datetime
 from pathlib import Path
 
+OUTPUT_PRESETS = ("compositing", "editorial")
+"""Names of `shot.settings.output_presets`, known without its imports."""
+
 
 def name(text: str) -> str:
     """Accept a name that is not blank."""

@@ -308,6 +308,11 @@ def _parser() -> argparse.ArgumentParser:
         action="store_true",
         help="keep finished pictures whose settings and inputs have not changed",
     )
+    render.add_argument(
+        "--preset",
+        choices=types.OUTPUT_PRESETS,
+        help="settings of EXR files and films for post-production (those of the scene file)",
+    )
     render.add_argument("--json", action="store_true", help="write JSON: files and memory")
     tiles.add_access(render)
 

@@ -522,7 +522,11 @@ def _find_source(arguments: argparse.Namespace) -> ShotSource:
         scene = cache / f"{scene.absolute().name}-{hashlib.sha256(text.encode()).hexdigest()[:12]}.toml"
         files.write_text(scene, text)
         say(f"these settings are in {scene}; to edit them, run: firetwin new {arguments.scene} -o SCENE.toml")
-    return ShotSource(scene=str(scene), beside=getattr(arguments, "run", None) or "")
+    return ShotSource(
+        scene=str(scene),
+        beside=getattr(arguments, "run", None) or "",
+        preset=getattr(arguments, "preset", None) or "",
+    )
 
 
 def _fit_scene(

@@ -6,7 +6,9 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .settings import Settings, scene_file
+from ..errors import UsageError
+from . import schema
+from .settings import Settings, output_presets, scene_file
 
 if TYPE_CHECKING:
     from .shot import Shot
@@ -28,6 +30,8 @@ class ShotSource:
         Override of `smoke.method`.
     beside
         Name of a comparison run to show in place of the first run.
+    preset
+        Output preset to apply (see `settings.output_presets`).
     """
 
     scene: str = ""
@@ -37,14 +41,25 @@ class ShotSource:
     device: str = ""
     smoke: str = ""
     beside: str = ""
+    preset: str = ""
 
     def plain(self) -> dict[str, str]:
         """Plain form, which `ShotSource(**plain)` takes."""
         return asdict(self)
 
     def settings(self) -> Settings:
-        """Read the settings of the scene file and apply the overrides."""
+        """Read the settings of the scene file and apply the overrides.
+
+        Raises
+        ------
+        UsageError
+            The scene cannot be rendered with the preset.
+        """
         settings = scene_file.read(self.scene)
+        if self.preset:
+            settings = output_presets.apply(settings, self.preset)
+            if mistake := schema.validate(settings):
+                raise UsageError(f"--preset: {mistake[1]}")
         return replace(
             settings,
             run=Path(self.run) if self.run else settings.run,
@@ -67,7 +82,6 @@ class ShotSource:
         UsageError
             The scene file has no comparison run with the name.
         """
-        from ..errors import UsageError
         from ..run import readers
         from . import comparison, picture_credits, run_checks
         from .runs import scene_runs

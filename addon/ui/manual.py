@@ -57,6 +57,7 @@ _OPERATORS = {
     "vr_landmarks": "artists#next-steps",
     "assets": "artists#menus-keys-and-preferences",
     "help": "artists#menus-keys-and-preferences",
+    "output_preset": "artists#compositing-and-editing",
     "render": "pipelines#a-film-of-a-run",
     "render_background": "artists#4-render-in-the-background",
     "f12_files": "artists#4-render-in-the-background",

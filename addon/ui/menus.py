@@ -92,6 +92,7 @@ MENUS: dict[str, tuple[Line, ...]] = {
         Entry("station_pick", icon="EYEDROPPER"),
     ),
     "Render": (
+        Entry("output_preset", "Set output preset", choice="preset"),
         Entry("render", "Render pictures and films", "RENDER_STILL"),
         Entry("render_background", icon="RENDER_ANIMATION"),
         Entry("queue", "Pause background render", "PAUSE", {"what": "pause"}),

@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 
 from ..progress import count
-from . import choice, job, panel_order, run, scene_file, working
+from . import choice, job, output_presets, panel_order, run, scene_file, working
 from .job import InThread, Steps
 from .sidebar import SidebarPanel
 from .text import draw_paragraph
@@ -80,6 +80,7 @@ class FIRETWIN_PT_render(SidebarPanel, bpy.types.Panel):
         column.prop(settings, "cache", placeholder="In the output")
         column.prop(settings, "camera")
         column.prop(settings, "resume")
+        output_presets.draw(column)
         row = column.row(align=True)
         row.use_property_split = False
         row.prop(settings, "which", expand=True)
@@ -97,4 +98,4 @@ class FIRETWIN_PT_render(SidebarPanel, bpy.types.Panel):
         working.draw_messages(context, layout, FIRETWIN_OT_render)
 
 
-classes = (FIRETWIN_OT_render, FIRETWIN_PT_render)
+classes = (*output_presets.classes, FIRETWIN_OT_render, FIRETWIN_PT_render)

@@ -42,6 +42,7 @@ GERMAN = {
     "Save settings as preset": "Einstellungen als Vorlage sichern",
     "Set camera key": "Kameraschlüssel setzen",
     "Set lens and sensor": "Objektiv und Sensor einstellen",
+    "Set output preset": "Ausgabevorlage einstellen",
     "Set quality": "Qualität einstellen",
     "Set time of first or last frame": "Zeit des ersten oder letzten Bildes setzen",
     "Show station map": "Stationskarte zeigen",
@@ -96,6 +97,7 @@ GERMAN = {
 
 SETTINGS = {
     "EXR space": "EXR-Farbraum",
+    "FPS": "Bilder pro Sekunde",
     "Film": "Film",
     "Film codec": "Film-Codec",
     "Slate": "Klappe",
@@ -103,14 +105,22 @@ SETTINGS = {
 }
 """German labels of settings of films; labels of other settings stay English."""
 
+CHOICES = {
+    "Both": "Beide",
+    "Clean": "Ohne Text",
+    "Data": "Daten",
+    "Editorial": "Schnitt",
+    "Review": "Sichtung",
+}
+"""German names of choices of these settings, and of output presets."""
+
 _CONTEXTS = ("*", "Operator")
 
 
 def table() -> dict[str, dict[tuple[str, str], str]]:
     """Return the translations in Blender's layout: by language, and by context and English text."""
-    return {
-        "de_DE": {(context, text): own for text, own in (GERMAN | SETTINGS).items() for context in _CONTEXTS}
-    }
+    german = GERMAN | SETTINGS | CHOICES
+    return {"de_DE": {(context, text): own for text, own in german.items() for context in _CONTEXTS}}
 
 
 def register() -> None:

@@ -3,6 +3,7 @@
 import bpy
 import firetwin
 from firetwin.shot import schema
+from firetwin.shot.sections import Time
 from firetwin.shot.settings import Render
 from firetwin.ui import keys, translations
 
@@ -15,7 +16,7 @@ def test_every_name_has_a_translation_and_none_is_left_over():
 
 
 def test_translated_settings_exist():
-    labels = {keys.label(part.name) for part in schema.fields(Render)}
+    labels = {keys.label(part.name) for part in (*schema.fields(Render), *schema.fields(Time))}
     assert set(translations.SETTINGS) <= labels
 
 

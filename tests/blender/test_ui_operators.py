@@ -104,6 +104,7 @@ CHANGES = {
     "camera_remove": {},
     "camera_key": {},
     "camera_lens": {"preset": "thermal_hand"},
+    "output_preset": {"preset": "editorial"},
     "camera_aim": {"target": "point"},
     "camera_path": {},
     "f12_files": {},

@@ -115,8 +115,8 @@ class Render:
     )
     exr_space: str = key(
         "rec709",
-        "linear colour space of the EXR of rgb, not of PNG and films",
-        choices={"rec709": "", "acescg": ""},
+        "linear colour space of rgb and comp EXR",
+        choices={"rec709": "sRGB primaries", "acescg": "AP1"},
         affects=("colour",),
     )
     passes: tuple[str, ...] = key(
@@ -130,7 +130,7 @@ class Render:
     film: str = key(
         "review",
         "kind of the films",
-        choices={"review": "with captions, H.264", "clean": "without", "both": ""},
+        choices={"review": "with captions, H.264", "clean": "without", "both": "two"},
         affects=(),
     )
     film_codec: str = key(
