@@ -194,7 +194,8 @@ ray per pixel. The `[thermal]` section sets the band (long-wave infrared, LWIR, 
 infrared, MWIR, 3.4 to 4.1 µm), the palette and the flaws of the detector.
 
 Each built scene has compositor groups with the results of these passes, within 1e-5: *Firetwin Thermal
-Blend*, *Thermal Camera*, *Eye Dome* and *Overlay*.
+Blend*, *Thermal Camera*, *Eye Dome* and *Overlay*. *Firetwin Regrade* grades the
+layers of `comp` ([Regrading](delivery.md#regrading-in-blender)).
 """
 
 CAMERAS = """\

@@ -1,6 +1,7 @@
-"""Compositor node groups: thermal blend, thermal camera, eye-dome lighting and overlay, for artists.
+"""Compositor node groups for artists: thermal blend, thermal camera, eye-dome lighting, overlay and regrade.
 
-Every built scene has them (Add > Group in the compositor). They match `firetwin_core.sensor` within 1e-5.
+Every built scene has them (Add > Group in the compositor). They match `firetwin_core.sensor` within 1e-5;
+`regrade` has its own file.
 Colours are display-referred, 0..1, as in a PNG: Image nodes must read them as Non-Color, and the scene's view
 transform must be Raw. Depth and radiance come from the view layers "depth" and "thermal", or from their EXR
 files.
@@ -22,6 +23,7 @@ from ..blender.nodes import Tree, Value
 from ..blender.owned import Stage
 from ..shot.sections.thermal import BANDS
 from ..shot.settings import Settings
+from . import regrade
 from .finish import edl, overlay, thermal
 
 RANGE = 180.0, 1800.0  # K
@@ -38,6 +40,7 @@ def build(settings: Settings, stage: Stage) -> None:
         "Thermal Camera": thermal_camera_group,
         "Eye Dome": eye_dome_group,
         "Overlay": overlay_group,
+        "Regrade": regrade.group,
     }
     for name, make in makers.items():
         if stage.root.get(f"group {name}") is None:

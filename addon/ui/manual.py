@@ -61,6 +61,7 @@ _OPERATORS = {
     "render": "pipelines#a-film-of-a-run",
     "render_background": "artists#4-render-in-the-background",
     "f12_files": "artists#4-render-in-the-background",
+    "regrade": "delivery#regrading-in-blender",
     "queue*": "artists#4-render-in-the-background",
     "farm_*": "farm",
     "station_*": "stations#in-blender",

@@ -98,6 +98,7 @@ MENUS: dict[str, tuple[Line, ...]] = {
         Entry("queue", "Pause background render", "PAUSE", {"what": "pause"}),
         Entry("queue", "Resume background render", "PLAY", {"what": "go_on"}),
         Entry("queue", "Remove background render", "X", {"what": "remove"}),
+        Entry("regrade", "Add Firetwin Regrade to compositor...", "NODE_COMPOSITING"),
         Entry("f12_files", "Let F12 write files", "OUTPUT", {"on": True}),
         Entry("f12_files", "Stop F12 writing files", "OUTPUT", {"on": False}),
         *(_FARM if is_installed("farm") else ()),

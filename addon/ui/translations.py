@@ -10,6 +10,7 @@ import bpy
 GERMAN = {
     # operators
     "Add VR landmarks": "VR-Landmarken hinzufügen",
+    "Add Firetwin Regrade": "Firetwin Regrade hinzufügen",
     "Add camera from view": "Kamera aus Ansicht hinzufügen",
     "Add run to compare": "Vergleichslauf hinzufügen",
     "Build scene": "Szene bauen",

@@ -15,6 +15,7 @@ def test_groups_explain_their_inputs_and_are_made_once(stage, settings):
         "Firetwin Thermal Camera",
         "Firetwin Eye Dome",
         "Firetwin Overlay",
+        "Firetwin Regrade",
     ]
     for tree in made:
         sockets = [item for item in tree.interface.items_tree if item.item_type == "SOCKET"]

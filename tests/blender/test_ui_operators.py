@@ -5,6 +5,7 @@ import shutil
 import webbrowser
 
 import bpy
+import comp_film
 import exercise_stations
 import firetwin
 import numpy as np
@@ -108,6 +109,7 @@ CHANGES = {
     "camera_aim": {"target": "point"},
     "camera_path": {},
     "f12_files": {},
+    "regrade": {"filepath": "{folder}/drone_comp_000001.exr"},
     "allocate": {},  # before a run is added whose folder does not exist
     "run_add": {},
     "run_remove": {},
@@ -166,6 +168,7 @@ def test_undo_and_redo_go_round_every_operator(vr_viewer, panel, blend, tmp_path
     monkeypatch.setattr(bpy.utils, "user_resource", lambda *_, path="", **__: str(tmp_path / path))
     (tmp_path / "presets" / "firetwin").mkdir(parents=True)
     monkeypatch.setattr(quality.FIRETWIN_MT_presets, "bl_label", "Presets")  # becomes the preset's name
+    comp_film.write(blend.parent)
     bpy.ops.ed.undo_push(message="opened")
     bpy.context.scene.firetwin.light.haze = 0.7
     for name, options in CHANGES.items():
