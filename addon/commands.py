@@ -148,7 +148,7 @@ def export(arguments: argparse.Namespace) -> None:
     """Write a scene for other programs."""
     from .export import command
 
-    command.run(arguments, _find_source(arguments).shot())
+    command.run(arguments, _find_source(arguments))
 
 
 def imager(arguments: argparse.Namespace) -> None:

@@ -28,3 +28,4 @@ def add(
     parser.add_argument(
         "--geoid", metavar="M", type=undulation, help="height of the geoid above the WGS84 ellipsoid, m"
     )
+    parser.add_argument("--no-smoke", action="store_true", help="omit the smoke volumes (usd)")

@@ -7,13 +7,13 @@ import argparse
 from ..errors import UsageError
 from ..progress import Reporter, result, say
 from ..shot.schema.frame_list import FrameList
-from ..shot.shot import Shot
+from ..shot.source import ShotSource
 from . import formats, georeference
 from .request import ExportRequest
 from .staging import staging
 
 
-def run(arguments: argparse.Namespace, shot: Shot) -> None:
+def run(arguments: argparse.Namespace, source: ShotSource) -> None:
     """Write a scene in a format.
 
     Raises
@@ -21,6 +21,7 @@ def run(arguments: argparse.Namespace, shot: Shot) -> None:
     UsageError
         The list of frames is invalid.
     """
+    shot = source.shot()
     try:
         frames = FrameList(arguments.frames or "").frames(shot.frames.count)
     except ValueError as error:
@@ -30,7 +31,9 @@ def run(arguments: argparse.Namespace, shot: Shot) -> None:
     reporter = Reporter(arguments.to)
     try:
         with staging(arguments.out) as folder:
-            request = ExportRequest(shot, tuple(frames), place, folder, reporter)
+            request = ExportRequest(
+                source, shot, tuple(frames), place, folder, not arguments.no_smoke, reporter
+            )
             made = [*formats.writer(arguments.to)(request), place.write(folder)]
             names = [path.relative_to(folder) for path in made]
     finally:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ..progress import Progress, silent
 from ..shot.shot import Shot
+from ..shot.source import ShotSource
 from .georeference import Georeference
 
 
@@ -16,16 +17,22 @@ class ExportRequest:
 
     Attributes
     ----------
+    source
+        Source of the shot, from which other processes resolve it again.
     frames
         Exported frames of the film, ascending, from 1.
     folder
         Folder of the new files, which exists and is empty.
+    smoke
+        True if formats with volumes write the smoke.
     progress
         Function for the number of finished frames or files, and of all.
     """
 
+    source: ShotSource
     shot: Shot
     frames: tuple[int, ...]
     georeference: Georeference
     folder: Path
+    smoke: bool = True
     progress: Progress = silent

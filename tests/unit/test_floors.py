@@ -38,6 +38,13 @@ NEVER_BPY = (
 """Packages and modules that load without Blender; `run` to `smoke` never import it at all."""
 
 WITH_BPY = {
+    *(
+        f"firetwin.export.{name}"
+        for name in (
+            *("read_scene", "usd_cameras", "usd_fire", "usd_forest", "usd_geometry", "usd_georeference"),
+            *("usd_materials", "usd_smoke", "usd_terrain"),
+        )
+    ),
     "firetwin.jobs.device",
     "firetwin.jobs.worker_scene",
     "firetwin.data.spread",

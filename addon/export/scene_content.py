@@ -1,0 +1,224 @@
+"""Scene content of an export: the built scene as arrays, without Blender. `read_scene` fills it.
+
+Positions are in metres in the scene's local frame: x east, y north, z up. Colours are linear Rec. 709.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Floats = NDArray[np.float32]
+Numbers = NDArray[np.int64]
+
+LOOKS = ("foliage", "bark", "char", "rock", "grass")
+"""Kinds of surface of prototypes."""
+
+
+@dataclass(frozen=True)
+class Prototype:
+    """A plant model in one level of detail, one metre tall, with its foot at the origin.
+
+    Attributes
+    ----------
+    name
+        Unique name, such as ``large_00_living_level1``.
+    kind
+        Class of the model, such as "large" or "brush" (`scene.forest.models.KINDS`), or "grass".
+    state
+        "living" or "snag", which is burned.
+    level
+        Level of detail, 0 (near) to 3 (far).
+    points, triangles
+        (n, 3) m, and (m, 3) point indices, anticlockwise seen from outside.
+    colours
+        (m, 3) reflectance of each triangle.
+    looks
+        (m,) index in `LOOKS` of each triangle.
+    """
+
+    name: str
+    kind: str
+    state: str
+    level: int
+    points: Floats
+    triangles: Numbers
+    colours: Floats
+    looks: Numbers
+
+
+@dataclass(frozen=True)
+class Plants:
+    """Instances of prototypes, n of them: trees, the understorey or grass.
+
+    Attributes
+    ----------
+    name
+        "Trees", "Understorey" or "Grass".
+    position
+        (n, 3) m, foot of the plant.
+    rotation
+        (n, 4) unit quaternions w, x, y, z.
+    scale
+        (n, 3) factors on the prototype; the third is the height in m.
+    ids
+        (n,) tree numbers of the pass `masks`; None for plants without numbers. Two of n trees can have the
+        same number (about n^2 / 2^25 pairs).
+    prototype, burned_prototype
+        (n,) index in `SceneContent.prototypes` before and after the fire.
+    burned_from
+        (n,) model time (s) from which the burned prototype is shown; infinite without fire.
+    arrival
+        (n,) model time (s) at which the fire arrives; infinite without fire.
+    scorch, torched
+        (n,) scorch height over height, 0..1, and 1 for burning crowns.
+    """
+
+    name: str
+    position: Floats
+    rotation: Floats
+    scale: Floats
+    ids: Numbers | None
+    prototype: Numbers
+    burned_prototype: Numbers
+    burned_from: Floats
+    arrival: Floats
+    scorch: Floats
+    torched: Floats
+
+    @property
+    def height(self) -> Floats:
+        """Heights (n,), m."""
+        return self.scale[:, 2]
+
+    def prototype_at(self, time: float) -> Numbers:
+        """Return the prototype of each plant (n,) at a model time (s)."""
+        return np.where(self.burned_from <= time, self.burned_prototype, self.prototype)
+
+
+@dataclass(frozen=True)
+class TerrainMesh:
+    """Ground of the scene: (n, 3) points, m; (m, 3) triangles; (n, 3) normals; (n, 2) texture coordinates.
+
+    The first texture coordinate grows to the east, the second to the north.
+    """
+
+    points: Floats
+    triangles: Numbers
+    normals: Floats
+    uv: Floats
+
+
+@dataclass(frozen=True)
+class FlamePoints:
+    """Flames, n of them; a flame is lit while 0 <= t - arrival < residence.
+
+    Attributes
+    ----------
+    position
+        (n, 3) m, foot of the flame.
+    arrival, residence
+        (n,) s.
+    length, width
+        (n,) full size, m.
+    tilt
+        (n,) angle from the vertical, radians, towards `wind`.
+    kelvin
+        (n,) temperature.
+    intensity
+        (n,) fireline intensity, kW/m.
+    seed
+        (n,) 0..1.
+    wind
+        (2,) m/s east and north.
+    """
+
+    position: Floats
+    arrival: Floats
+    residence: Floats
+    length: Floats
+    width: Floats
+    tilt: Floats
+    kelvin: Floats
+    intensity: Floats
+    seed: Floats
+    wind: tuple[float, float]
+
+    def lit(self, time: float) -> Numbers:
+        """Return the indices of the flames that are lit at a model time (s)."""
+        age = time - self.arrival
+        return np.flatnonzero((age >= 0.0) & (age < self.residence))
+
+
+@dataclass(frozen=True)
+class CameraMove:
+    """Camera of a shot in f frames.
+
+    Attributes
+    ----------
+    name
+        Name in the scene file.
+    frames
+        (f,) frame numbers, from 1.
+    position
+        (f, 3) m.
+    rotation
+        (f, 3, 3) matrices; their columns are the camera's right, up and back.
+    focal_length
+        (f,) mm; 0 for an orthographic camera and for a panorama.
+    sensor
+        Width and height of the sensor, mm.
+    swath
+        Width and height (m) of an orthographic picture; 0 in perspective.
+    clip
+        (f, 2) near and far clip planes, m.
+    projection
+        "perspective", "orthographic" or "panorama".
+    """
+
+    name: str
+    frames: Numbers
+    position: Array
+    rotation: Array
+    focal_length: Array
+    sensor: tuple[float, float]
+    swath: tuple[float, float]
+    clip: Array
+    projection: str
+
+
+@dataclass(frozen=True)
+class SmokeLayer:
+    """Smoke volumes of one layer: its name, and the OpenVDB file of each frame."""
+
+    name: str
+    files: dict[int, Path] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class SceneContent:
+    """Everything that needs the built scene.
+
+    Attributes
+    ----------
+    frames
+        (f,) exported frames, from 1.
+    times
+        (f,) their model times, s.
+    rate
+        Frames per second of the film.
+    """
+
+    frames: Numbers
+    times: Array
+    rate: float
+    terrain: TerrainMesh | None
+    prototypes: list[Prototype]
+    plants: list[Plants]
+    flames: FlamePoints | None
+    cameras: list[CameraMove]
+    smoke: list[SmokeLayer]

@@ -1,0 +1,102 @@
+"""Scene job: builds a shot's scene in a worker process with Blender, and writes it in a format.
+
+A format that needs the scene has a function ``write_content(content, export)``, which runs in the worker.
+"""
+
+from __future__ import annotations
+
+import importlib
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..jobs import worker
+from ..jobs.tiles import imagery, selection
+from ..progress import MessageCallback, Progress, say
+from ..shot.shot import Shot
+from ..shot.source import ShotSource
+from . import georeference
+from .georeference import Georeference
+
+if TYPE_CHECKING:
+    from .request import ExportRequest
+    from .scene_content import SmokeLayer
+
+_TILES = ("export", "firetwin export")
+
+
+@dataclass(frozen=True)
+class SceneExport:
+    """Input of `write_content` in addition to the scene's content: see `request.ExportRequest`."""
+
+    shot: Shot
+    georeference: Georeference
+    folder: Path
+    progress: Progress
+
+
+def run(request: ExportRequest, writer: str) -> list[Path]:
+    """Build the scene of a request and write it with the module `writer` of this package.
+
+    Raises
+    ------
+    InputError
+        The terms of the scene's tiles or imagery do not allow their export, or a file cannot be written.
+    """
+    source, place = request.source, request.georeference
+    selection.prepare(source, (), request.progress, say, uses=[_TILES])
+    imagery.prepare(source, (), request.progress, say)
+    task = {
+        "choice": source.plain(),
+        "writer": writer,
+        "frames": list(request.frames),
+        "folder": str(request.folder),
+        "geoid": [place.geoid_m, place.source, place.datum],
+        "smoke": request.smoke,
+    }
+    names = worker.run(f"{__name__}:in_blender", task, request.progress, tell=say)
+    return [request.folder / name for name in names]
+
+
+def in_blender(
+    choice: dict[str, str],
+    writer: str,
+    frames: list[int],
+    folder: str,
+    geoid: list[Any],
+    smoke: bool,
+    progress: Progress,
+    tell: MessageCallback,
+) -> list[str]:
+    """Build the scene and write it; worker side. Returns names of the main files in the folder."""
+    from ..jobs import worker_scene
+    from . import read_scene
+
+    shot = ShotSource(**choice).shot()
+    for text in shot.warnings():
+        tell(text)
+    volumes = _volumes(shot, frames, progress) if smoke and shot.settings.smoke.enabled else []
+    place = georeference.Georeference(shot.local_frame, *geoid)
+    stage = worker_scene.build_scene(shot, progress, tell)
+    content = read_scene.read(shot, stage, frames, volumes)
+    export = SceneExport(shot, place, Path(folder), progress)
+    made = importlib.import_module(f".{writer}", __package__).write_content(content, export)
+    return [path.relative_to(folder).as_posix() for path in made]
+
+
+def _volumes(shot: Shot, frames: list[int], progress: Progress) -> list[SmokeLayer]:
+    """Write the missing smoke volumes of frames to the cache: all smoke, with its temperature."""
+    from ..smoke import bake, sources
+    from .scene_content import SmokeLayer
+
+    smoke = replace(shot.settings.smoke, complete=True)
+    every = shot.with_settings(replace(shot.settings, smoke=smoke))
+    place = bake.bake(every, progress, frames)
+    layers = sources.select(every).layers()
+    return [
+        SmokeLayer(
+            each.name,
+            {frame: each.file(place, frame) for frame in frames if each.file(place, frame).exists()},
+        )
+        for each in layers
+    ]

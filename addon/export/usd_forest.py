@@ -1,0 +1,147 @@
+"""USD forest: point instancers of trees, understorey and grass, and a layer for each prototype.
+
+The prototypes are in `prototypes/`, one layer for each model and level of detail, so that a user replaces a
+plant by replacing a file. Their materials are in `prototypes/looks.usda`.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pxr import Sdf, UsdGeom, UsdShade, Vt
+
+from . import usd_materials
+from .scene_content import LOOKS, Plants, Prototype, SceneContent
+from .usd_geometry import define_mesh, extent, half_quaternions, vectors
+from .usd_library import new_stage, set_kind
+
+FOLDER = "prototypes"
+MOMENTS = 5
+"""Number of frames, at most, at which burned plants change their prototype."""
+
+
+def write(content: SceneContent, out: Path) -> Path:
+    """Write `forest.usdc` and its prototypes; return the layer."""
+    (out / FOLDER).mkdir()
+    _write_looks(out / FOLDER / "looks.usda", content.rate)
+    for prototype in content.prototypes:
+        _write_prototype(prototype, out / FOLDER / f"{prototype.name}.usdc", content.rate)
+    path = out / "forest.usdc"
+    span = int(content.frames[0]), int(content.frames[-1])
+    stage = new_stage(path, content.rate, span)
+    set_kind(stage.GetDefaultPrim(), "assembly")
+    set_kind(UsdGeom.Xform.Define(stage, "/World/Forest").GetPrim(), "group")
+    frames = burning_frames(content)
+    for plants in content.plants:
+        _define_plants(stage, plants, content, frames)
+    stage.GetRootLayer().Save()
+    return path
+
+
+def burning_frames(content: SceneContent) -> list[int]:
+    """Choose the frames at which burned plants change: evenly spread, the first and the last included."""
+    count = len(content.frames)
+    chosen = np.unique(np.linspace(0, count - 1, min(count, MOMENTS)).round().astype(int))
+    return [int(frame) for frame in content.frames[chosen]]
+
+
+def _define_plants(stage: Any, plants: Plants, content: SceneContent, frames: list[int]) -> None:
+    path = f"/World/Forest/{plants.name}"
+    instancer = UsdGeom.PointInstancer.Define(stage, path)
+    set_kind(instancer.GetPrim(), "component")
+    used, first = np.unique(np.concatenate([plants.prototype, plants.burned_prototype]), return_inverse=True)
+    living, burned = np.split(first, 2)
+    targets = [_refer_to(stage, path, content.prototypes[k]) for k in used]
+    instancer.CreatePrototypesRel().SetTargets(targets)
+    instancer.CreatePositionsAttr(vectors(plants.position))
+    instancer.CreateOrientationsAttr(half_quaternions(plants.rotation))
+    instancer.CreateScalesAttr(vectors(plants.scale))
+    if plants.ids is not None:
+        instancer.CreateIdsAttr(Vt.Int64Array.FromNumpy(np.ascontiguousarray(plants.ids, np.int64)))
+    _set_prototypes(instancer, plants, content, frames, living, burned)
+    classes = [content.prototypes[k].kind for k in used]
+    primvars = UsdGeom.PrimvarsAPI(instancer)
+    tokens = Vt.TokenArray([classes[k] for k in living])
+    primvars.CreatePrimvar("class", Sdf.ValueTypeNames.TokenArray, "vertex").Set(tokens)
+    for name, values in (
+        ("height", plants.height),
+        ("arrival", plants.arrival),
+        ("scorch", plants.scorch),
+        ("torched", plants.torched),
+    ):
+        array = Vt.FloatArray.FromNumpy(np.ascontiguousarray(values, np.float32))
+        primvars.CreatePrimvar(name, Sdf.ValueTypeNames.FloatArray, "vertex").Set(array)
+    reach = max(float(np.abs(content.prototypes[k].points).max()) for k in used)
+    instancer.CreateExtentAttr(extent(plants.position, reach * plants.scale.max(axis=1, keepdims=True)))
+
+
+def _set_prototypes(
+    instancer: Any,
+    plants: Plants,
+    content: SceneContent,
+    frames: list[int],
+    living: np.ndarray,
+    burned: np.ndarray,
+) -> None:
+    """Set the prototype of each plant at some frames, and only where one changes."""
+    attribute = instancer.CreateProtoIndicesAttr()
+    times = dict(zip(content.frames.tolist(), content.times.tolist(), strict=True))
+    states = [np.where(plants.burned_from <= times[frame], burned, living) for frame in frames]
+    attribute.Set(Vt.IntArray.FromNumpy(states[0].astype(np.int32)))
+    if all(np.array_equal(states[0], state) for state in states):
+        return
+    last = None
+    for frame, state in zip(frames, states, strict=True):
+        if last is None or not np.array_equal(last, state):
+            attribute.Set(Vt.IntArray.FromNumpy(state.astype(np.int32)), frame)
+        last = state
+
+
+def _refer_to(stage: Any, path: str, prototype: Prototype) -> Any:
+    """Refer to the layer of a prototype below the instancer, and return its path."""
+    parent = f"{path}/Prototypes"
+    if not stage.GetPrimAtPath(parent):
+        UsdGeom.Scope.Define(stage, parent)
+    prim = stage.DefinePrim(f"{parent}/{prototype.name}")
+    prim.GetReferences().AddReference(f"./{FOLDER}/{prototype.name}.usdc")
+    set_kind(prim, "subcomponent")
+    return prim.GetPath()
+
+
+def _write_looks(path: Path, rate: float) -> None:
+    stage = new_stage(path, rate, root="Looks", scope=True)
+    for look in LOOKS:
+        usd_materials.from_primvar(stage, f"/Looks/{look.title()}")
+    stage.GetRootLayer().Save()
+
+
+def _write_prototype(prototype: Prototype, path: Path, rate: float) -> None:
+    """Write a layer with one mesh, a metre tall, and a subset of faces for each look."""
+    root = f"/{prototype.name}"
+    stage = new_stage(path, rate, root=prototype.name)
+    prim = stage.GetDefaultPrim()
+    set_kind(prim, "component")
+    prim.SetCustomDataByKey("firetwin:class", prototype.kind)
+    prim.SetCustomDataByKey("firetwin:state", prototype.state)
+    prim.SetCustomDataByKey("firetwin:level", prototype.level)
+    looks = UsdGeom.Scope.Define(stage, f"{root}/Looks").GetPrim()
+    looks.GetReferences().AddReference("./looks.usda")
+    mesh = define_mesh(stage, f"{root}/Plant", prototype.points, prototype.triangles)
+    mesh.CreateDoubleSidedAttr(True)
+    colour = mesh.CreateDisplayColorPrimvar("uniform")
+    colour.Set(Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(prototype.colours, np.float32)))
+    present = np.unique(prototype.looks)
+    for k in present:
+        material = UsdShade.Material.Get(stage, f"{root}/Looks/{LOOKS[k].title()}")
+        if len(present) == 1:
+            UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
+            break
+        faces = Vt.IntArray.FromNumpy(np.flatnonzero(prototype.looks == k).astype(np.int32))
+        binding = UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim())
+        subset = binding.CreateMaterialBindSubset(LOOKS[k].title(), faces)
+        UsdShade.MaterialBindingAPI.Apply(subset.GetPrim()).Bind(material)
+    if len(present) > 1:
+        UsdShade.MaterialBindingAPI(mesh.GetPrim()).SetMaterialBindSubsetsFamilyType("partition")
+    stage.GetRootLayer().Save()
