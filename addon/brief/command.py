@@ -19,15 +19,8 @@ def run(arguments: argparse.Namespace) -> None:
     """
     if arguments.out.suffix.lower() != ".html":
         raise UsageError(f"--out: {arguments.out} does not end in .html; name an .html file")
-    from . import (
-        briefing,
-        context,
-        map_sheet,
-        page,
-        pdf,
-        sheet_options,
-        text,
-    )  # imported after the quick check
+    from .. import html_text  # imported after the quick check
+    from . import briefing, context, map_sheet, page, pdf, sheet_options
 
     page.check_limit(arguments.limit)
     pdf.check(arguments.pdf, arguments.geopdf)
@@ -48,7 +41,7 @@ def run(arguments: argparse.Namespace) -> None:
         say(note)
     made = page.html(found, arguments.limit)
     files.write_text(arguments.out, made, newline="\n")
-    say(f"wrote one file of {text.size(len(made.encode()))}, which loads no other files")
+    say(f"wrote one file of {html_text.size(len(made.encode()))}, which loads no other files")
     result(arguments.out)
     if arguments.pdf:
         pdf.write(arguments.out, arguments.pdf)
