@@ -84,7 +84,7 @@ def _burned(shot: Shot, row: NDArray[np.float64], column: NDArray[np.float64]) -
     part = noise.uniform(
         np.rint(row).astype(np.int64), np.rint(column).astype(np.int64), shot.settings.seed + 951
     )[:, None]
-    return np.array(_CHAR) + part * (np.array(_ASH) - _CHAR)
+    return np.asarray(np.array(_CHAR) + part * (np.array(_ASH) - _CHAR), np.float64)
 
 
 def _with_photo(

@@ -51,7 +51,7 @@ def run(request: ExportRequest, writer: str) -> list[Path]:
         "writer": writer,
         "frames": list(request.frames),
         "folder": str(request.folder),
-        "geoid": [place.geoid_m, place.source, place.datum],
+        "geoid": [place.geoid_m, place.source, place.orthometric],
         "smoke": request.smoke,
     }
     names = worker.run(f"{__name__}:in_blender", task, request.progress, tell=say)

@@ -79,7 +79,9 @@ class Track:
         return np.degrees(heading) % 360.0, np.degrees(tilt), np.degrees(roll)
 
 
-_STRAIGHT = 1.0e-6  # sine of the angle to the vertical, below which heading is the direction of the picture's top
+_STRAIGHT = (
+    1.0e-6  # sine of the angle to the vertical, below which heading is the direction of the picture's top
+)
 
 
 def find(request: ExportRequest) -> list[Track]:

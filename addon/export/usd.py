@@ -12,7 +12,7 @@ from typing import Any
 import firetwin_core
 import numpy as np
 
-from . import ground_texture, scene_job, usd_library
+from . import ground_texture, places, scene_job, usd_library
 from .request import ExportRequest
 from .scene_content import SceneContent
 from .scene_job import SceneExport
@@ -34,7 +34,7 @@ def write_content(content: SceneContent, export: SceneExport) -> list[Path]:
         This Blender has no USD library.
     """
     usd_library.load()
-    from . import usd_cameras, usd_fire, usd_forest, usd_smoke, usd_terrain
+    from . import usd_cameras, usd_fire, usd_forest, usd_places, usd_smoke, usd_terrain
 
     out, layers = export.folder, list[Path]()
     if content.terrain is not None:
@@ -50,6 +50,8 @@ def write_content(content: SceneContent, export: SceneExport) -> list[Path]:
         layers.append(usd_smoke.write(content, out, export.shot))
     if content.cameras:
         layers.append(usd_cameras.write(content, out))
+    if found := places.find(export.shot):
+        layers.append(usd_places.write(content, out, export.shot, found))
     return [_write_scene(content, export, layers)]
 
 
@@ -81,7 +83,7 @@ def origin(export: SceneExport) -> dict[str, Any]:
         "scene_file": shot.settings.path.name,
         "first_frame_utc": shot.utc(1).isoformat(),
         "seconds_per_frame": shot.frames.step,
-        "heights": export.georeference.datum,
+        "heights": export.georeference.as_json()["model_datum"],
         "geoid_m": export.georeference.geoid_m,
         "credits": picture_credits.of_shot(shot).text(),
         "version": firetwin_core.__version__,

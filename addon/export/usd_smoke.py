@@ -80,7 +80,7 @@ def _define(stage: Any, layer: SmokeLayer) -> dict[str, str]:
     for name in (each for each in FIELDS if each in names):
         asset = UsdVol.OpenVDBAsset.Define(stage, f"{prim.GetPath()}/{name}")
         asset.CreateFieldNameAttr(name)
-        asset.CreateFieldDataTypeAttr(UsdVol.Tokens.float)
+        asset.CreateFieldDataTypeAttr("float")
         attribute = asset.CreateFilePathAttr()
         for frame, file in layer.files.items():
             attribute.Set(Sdf.AssetPath(f"./{FOLDER}/{file.name}"), frame)

@@ -42,7 +42,7 @@ WITH_BPY = {
         f"firetwin.export.{name}"
         for name in (
             *("read_scene", "usd_cameras", "usd_fire", "usd_forest", "usd_geometry", "usd_georeference"),
-            *("usd_materials", "usd_smoke", "usd_terrain"),
+            *("usd_materials", "usd_places", "usd_smoke", "usd_terrain"),
         )
     ),
     "firetwin.jobs.device",
