@@ -137,6 +137,12 @@ def _parser() -> argparse.ArgumentParser:
         default=1.0,
         help="factor of the rate of spread, for a what-if run (1)",
     )
+    sample.add_argument(
+        "--members", metavar="N", type=types.count, help="write a synthetic ensemble of N members instead"
+    )
+    sample.add_argument(
+        "--member", metavar="I", type=types.count, default=0, help="write the run of member I of it (0)"
+    )
 
     info = command("info", "list the content of a run", help_texts.INFO)
     info.add_argument(

@@ -30,10 +30,20 @@ _FRAME_SECONDS = 25.0  # processor s of a frame of 640 x 360 pixels, rgb and the
 def sample(arguments: argparse.Namespace) -> None:
     """Write the sample run."""
     from .data import sample
+    from .errors import UsageError
 
+    if arguments.members is not None:
+        from .run.ensemble import synthetic
+
+        if arguments.member or arguments.pace != 1.0 or arguments.frames is not None:
+            raise UsageError("--members: has arrival times alone; leave out --member, --pace and --frames")
+        synthetic.write(arguments.out, arguments.members, Reporter("members"))
+        result(arguments.out)
+        return
     say(f"writing the synthetic King-like run to {arguments.out}")
     report = Reporter("model times")
-    sample.write(arguments.out, arguments.frames, arguments.format, report, arguments.pace)
+    options = arguments.frames, arguments.format, report, arguments.pace, arguments.member
+    sample.write(arguments.out, *options)
     result(arguments.out)
 
 

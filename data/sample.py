@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import input_error, writing
-from . import air, release, runtext, stored, weather
+from . import air, members, release, runtext, stored, weather
 from .grid import (
     FUEL_CELL_SIZE,
     FUEL_CELLS,
@@ -32,6 +32,7 @@ def write(
     format: str = "npy",
     progress: Callable[[int, int], None] | None = None,
     pace: float = 1.0,
+    member: int = 0,
 ) -> None:
     """Write the sample run to the folder `out`.
 
@@ -47,6 +48,8 @@ def write(
         Called with the number of output times done and their total.
     pace
         Speed of the fire / speed in the sample, from the start on: an invented what-if for comparisons.
+    member
+        Number of the member of the synthetic ensemble (members.py); 0 is the sample's fire.
 
     Raises
     ------
@@ -59,7 +62,7 @@ def write(
         raise input_error(out, f"unknown format {format!r}; choose {' or '.join(FORMATS)}")
     minutes = _minutes(out, frames)
     with writing(out):
-        _write(out, minutes, format, progress, pace)
+        _write(out, minutes, format, progress, pace, member)
 
 
 def _write(
@@ -68,12 +71,13 @@ def _write(
     format: str,
     progress: Callable[[int, int], None] | None,
     pace: float,
+    member: int,
 ) -> None:
     out.parent.mkdir(parents=True, exist_ok=True)
     work = Path(tempfile.mkdtemp(prefix=f".{out.name}.", dir=out.parent))
     try:
         work.chmod(0o755)
-        sample = at_pace(stored.load(), pace)
+        sample = at_pace(members.sample_of(member), pace)
         writer = runtext.NpyWriter(work) if format == "npy" else runtext.TextWriter(work)
         for name, values in _static(sample).items():
             writer.field(name, values)
@@ -82,7 +86,7 @@ def _write(
                 put(done, values)
                 if progress:
                     progress(done + 1, len(minutes))
-        (work / "run.toml").write_text(_run_toml(minutes, pace), encoding="utf-8")
+        (work / "run.toml").write_text(_run_toml(minutes, pace, member), encoding="utf-8")
         if out.exists():
             shutil.rmtree(out)
         work.rename(out)
@@ -162,10 +166,11 @@ def at_pace(sample: stored.Sample, pace: float) -> stored.Sample:
     return sample._replace(arrival=arrival)
 
 
-def _run_toml(minutes: NDArray[np.int64], pace: float = 1.0) -> str:
+def _run_toml(minutes: NDArray[np.int64], pace: float = 1.0, member: int = 0) -> str:
     known = f'name = "{NAME}"\nsynthetic = true\nevent = "king_fire"'
-    if pace != 1.0:
-        known = f'name = "{NAME}, {pace:g} of its pace"\nsynthetic = true'
+    if pace != 1.0 or member:
+        which = [f"member {member:02}"] * bool(member) + [f"{pace:g} of its pace"] * (pace != 1.0)
+        known = f'name = "{", ".join([NAME, *which])}"\nsynthetic = true'
     if len(minutes) > 1 and np.ptp(np.diff(minutes)) == 0:
         times = f"interval_s = {(minutes[1] - minutes[0]) * INTERVAL:.1f}"
     else:

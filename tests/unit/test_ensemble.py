@@ -115,7 +115,7 @@ def test_summary_names_members_and_areas(tmp_path):
     assert [each["area"] for each in facts["members"]] == pytest.approx(list(area.cumsum()))
     text = summary.page(facts)
     assert "members     3 of 3" in text
-    assert f"burned      {area[0] / 1e4:,.4g} ha to {area.sum() / 1e4:,.4g} ha" in text
+    assert f"burned      {area[0] / 1e4:,.0f} ha to {area.sum() / 1e4:,.0f} ha" in text
 
 
 def test_depth_by_hand(tmp_path):

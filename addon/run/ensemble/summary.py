@@ -75,7 +75,7 @@ def page(facts: dict[str, Any]) -> str:
 
 
 def _hectares(area: float) -> str:
-    return f"{area / _HECTARE:,.4g} ha"
+    return f"{area / _HECTARE:,.0f} ha"
 
 
 def _number(value: float) -> float | None:
