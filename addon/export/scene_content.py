@@ -18,6 +18,8 @@ Numbers = NDArray[np.int64]
 LOOKS = ("foliage", "bark", "char", "rock", "grass")
 """Kinds of surface of prototypes."""
 
+_RISING, _OWN = (0.05, 0.04), 0.55  # rise of a crown's normals, and weight of a leaf's own normal
+
 
 @dataclass(frozen=True)
 class Prototype:
@@ -49,6 +51,23 @@ class Prototype:
     triangles: Numbers
     colours: Floats
     looks: Numbers
+
+    def shading_normals(self) -> Floats:
+        """Return unit normals (m, 3) of the triangles; those of foliage point away from the trunk.
+
+        Crowns then have a sunlit and a shaded side, as in `scene.forest.material`.
+        """
+        a, b, c = (self.points[self.triangles[:, corner]].astype(np.float64) for corner in range(3))
+        flat = _unit(np.cross(b - a, c - a))
+        middle = (a + b + c) / 3.0
+        outward = _unit(middle * (1.0, 1.0, _RISING[1]) + (0.0, 0.0, _RISING[0]))
+        rounded = _unit(outward + _OWN * flat)
+        return np.where((self.looks == 0)[:, None], rounded, flat).astype(np.float32)
+
+
+def _unit(vector: Array) -> Array:
+    length = np.linalg.norm(vector, axis=-1, keepdims=True)
+    return np.where(length > 0.0, vector / np.maximum(length, 1.0e-30), (0.0, 0.0, 1.0))
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from pxr import Sdf, UsdGeom, UsdShade, Vt
 
 from . import usd_materials
 from .scene_content import LOOKS, Plants, Prototype, SceneContent
-from .usd_geometry import define_mesh, extent, half_quaternions, vectors
+from .usd_geometry import define_mesh, extent, half_quaternions, set_indexed, vectors
 from .usd_library import new_stage, set_kind
 
 FOLDER = "prototypes"
@@ -61,10 +61,10 @@ def _define_plants(stage: Any, plants: Plants, content: SceneContent, frames: li
     if plants.ids is not None:
         instancer.CreateIdsAttr(Vt.Int64Array.FromNumpy(np.ascontiguousarray(plants.ids, np.int64)))
     _set_prototypes(instancer, plants, content, frames, living, burned)
-    classes = [content.prototypes[k].kind for k in used]
+    classes, number = np.unique([content.prototypes[k].kind for k in used], return_inverse=True)
     primvars = UsdGeom.PrimvarsAPI(instancer)
-    tokens = Vt.TokenArray([classes[k] for k in living])
-    primvars.CreatePrimvar("class", Sdf.ValueTypeNames.TokenArray, "vertex").Set(tokens)
+    kinds = primvars.CreatePrimvar("class", Sdf.ValueTypeNames.TokenArray, "vertex")
+    set_indexed(kinds, Vt.TokenArray(classes.tolist()), number[living])
     for name, values in (
         ("height", plants.height),
         ("arrival", plants.arrival),
@@ -128,10 +128,12 @@ def _write_prototype(prototype: Prototype, path: Path, rate: float) -> None:
     prim.SetCustomDataByKey("firetwin:level", prototype.level)
     looks = UsdGeom.Scope.Define(stage, f"{root}/Looks").GetPrim()
     looks.GetReferences().AddReference("./looks.usda")
-    mesh = define_mesh(stage, f"{root}/Plant", prototype.points, prototype.triangles)
+    mesh = define_mesh(
+        stage, f"{root}/Plant", prototype.points, prototype.triangles, prototype.shading_normals()
+    )
     mesh.CreateDoubleSidedAttr(True)
-    colour = mesh.CreateDisplayColorPrimvar("uniform")
-    colour.Set(Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(prototype.colours, np.float32)))
+    colours, number = np.unique(prototype.colours, axis=0, return_inverse=True)
+    set_indexed(mesh.CreateDisplayColorPrimvar("uniform"), vectors(colours), number.ravel())
     present = np.unique(prototype.looks)
     for k in present:
         material = UsdShade.Material.Get(stage, f"{root}/Looks/{LOOKS[k].title()}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,9 @@ from .usd_library import new_stage, set_kind
 
 FOLDER = "smoke"
 FIELDS = ("density", "temperature")
-"""Grids that volumes refer to, if the files have them."""
+"""Fields of a volume, as far as its files have them."""
+_EXTINCTION, _PER_DILUTION = "1/m", 0.04
+"""Unit of extinction, and extinction (1/m) of a dilution of 1e-5 kg/m3 (`scene.smoke.material`)."""
 ALBEDO, ANISOTROPY = (0.84, 0.81, 0.77), 0.1
 """Single-scattering albedo and anisotropy that suit the smoke in a path tracer (by eye)."""
 _README = """\
@@ -25,22 +28,32 @@ Axes: x east, y north, z up, metres, origin as in ../georeference.json.
 {layers}
 Grids:
 {grids}
-A path tracer needs density alone: extinction in 1/m, with the albedo {albedo} and the
-anisotropy {anisotropy}. If a program expects scattering and absorption, scattering is density times albedo.
+A path tracer needs {field} alone: {scale:g} times its value is the extinction in 1/m. Suitable
+values are an albedo of {albedo} and an anisotropy of {anisotropy}. If a program expects scattering and
+absorption, scattering is extinction times albedo.
 """
 _GRIDS = {
-    "density": "extinction of visible light, 1/m",
-    "temperature": "temperature of the air, K",
-    "flames": "extinction of the flames' soot, 1/m",
+    "density": "extinction of visible light, or with other units the depth inside the smoke",
+    "dilution": "concentration of the smoke",
+    "flame": "power of flames in the smoke, 1: 1 GW",
     "fresh": "1 for fresh smoke, 0 for aged smoke",
-    "sun": "fourth root of the sunlight that reaches the smoke, 0..1",
-    "sky": "skylight that reaches the smoke, 0..1",
-    "hidden": "1 for smoke that other smoke hides from all cameras",
     "glow": "light of the flames on the smoke, 1 among flames of 1 GW",
-    "shade": "thickness of the smoke for rays of light",
-    "dilution": "concentration of the smoke, relative to 10 mg/m3",
-    "size": "radius of the puffs, relative to 600 m",
+    "hidden": "1 for smoke that other smoke hides from all cameras",
+    "shade": "concentration of the smoke without detail, for rays of light",
+    "size": "radius of the puffs",
+    "sky": "skylight that reaches the smoke, 0..1",
+    "sun": "fourth root of the sunlight that reaches the smoke, 0..1",
+    "temperature": "temperature of the air",
 }
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A grid of a volume file: its unit, and its lowest and highest corner, m."""
+
+    unit: str
+    low: tuple[float, ...]
+    high: tuple[float, ...]
 
 
 def write(content: SceneContent, out: Path, shot: Shot) -> Path:
@@ -51,16 +64,19 @@ def write(content: SceneContent, out: Path, shot: Shot) -> Path:
     stage = new_stage(path, content.rate, (int(content.frames[0]), int(content.frames[-1])))
     set_kind(stage.GetDefaultPrim(), "assembly")
     set_kind(UsdGeom.Xform.Define(stage, "/World/Smoke").GetPrim(), "component")
-    found: dict[str, str] = {}
+    found: dict[str, Grid] = {}
     for layer in content.smoke:
         for file in layer.files.values():
             with writing(out):
                 shutil.copyfile(file, folder / file.name)
         found |= _define(stage, layer)
     stage.GetRootLayer().Save()
+    field, scale = thickness(found)
     text = _README.format(
         layers="".join(f"{layer.name}_*.vdb: {len(layer.files)} frames\n" for layer in content.smoke),
-        grids="\n".join(f"  {name:<12} {_GRIDS.get(name, '')}" for name in found),
+        grids="\n".join(f"  {name:<12} {_GRIDS.get(name, '')}, {each.unit}" for name, each in found.items()),
+        field=field,
+        scale=scale,
         albedo=ALBEDO,
         anisotropy=ANISOTROPY,
     )
@@ -68,45 +84,62 @@ def write(content: SceneContent, out: Path, shot: Shot) -> Path:
     return path
 
 
-def _define(stage: Any, layer: SmokeLayer) -> dict[str, str]:
+def thickness(found: dict[str, Grid]) -> tuple[str, float]:
+    """Return the grid that sets how thick smoke is, and the extinction (1/m) of its unit."""
+    if "dilution" in found and found["density"].unit != _EXTINCTION:
+        return "dilution", _PER_DILUTION
+    return "density", 1.0
+
+
+def _define(stage: Any, layer: SmokeLayer) -> dict[str, Grid]:
     """Define the volume of a layer, and return its grids."""
-    boxes = {frame: grids(file) for frame, file in layer.files.items()}
-    names = {name: "" for grid in boxes.values() for name in grid}
+    boxes = {frame: read_grids(file) for frame, file in layer.files.items()}
+    found = {name: grid for each in boxes.values() for name, grid in each.items()}
+    density, scale = thickness(found) if found else ("density", 1.0)
     volume = UsdVol.Volume.Define(stage, f"/World/Smoke/{layer.name.title()}")
     prim = volume.GetPrim()
     prim.SetCustomDataByKey("firetwin:scatterColor", Gf.Vec3f(*ALBEDO))
     prim.SetCustomDataByKey("firetwin:anisotropy", ANISOTROPY)
-    prim.SetCustomDataByKey("firetwin:densityUnit", "extinction, 1/m")
-    for name in (each for each in FIELDS if each in names):
-        asset = UsdVol.OpenVDBAsset.Define(stage, f"{prim.GetPath()}/{name}")
-        asset.CreateFieldNameAttr(name)
-        asset.CreateFieldDataTypeAttr("float")
-        attribute = asset.CreateFilePathAttr()
-        for frame, file in layer.files.items():
-            attribute.Set(Sdf.AssetPath(f"./{FOLDER}/{file.name}"), frame)
-        attribute.Set(Sdf.AssetPath(f"./{FOLDER}/{next(iter(layer.files.values())).name}"))
-        volume.CreateFieldRelationship(name, asset.GetPath())
+    prim.SetCustomDataByKey("firetwin:extinctionOfDensity", scale)
+    for name in FIELDS:
+        grid = density if name == "density" else name
+        if grid in found:
+            volume.CreateFieldRelationship(
+                name, _define_field(stage, f"{prim.GetPath()}/{name}", grid, layer)
+            )
     attribute = volume.CreateExtentAttr()
-    for frame, grid in boxes.items():
-        if grid:
-            low = [min(box[0][axis] for box in grid.values()) for axis in range(3)]
-            high = [max(box[1][axis] for box in grid.values()) for axis in range(3)]
+    for frame, grids in boxes.items():
+        if grids:
+            low = [min(grid.low[axis] for grid in grids.values()) for axis in range(3)]
+            high = [max(grid.high[axis] for grid in grids.values()) for axis in range(3)]
             attribute.Set(Vt.Vec3fArray([Gf.Vec3f(*low), Gf.Vec3f(*high)]), frame)
-    return names
+    return found
 
 
-def grids(file: Path) -> dict[str, tuple[tuple[float, ...], tuple[float, ...]]]:
-    """Read the grids of an OpenVDB file: name, and the lowest and the highest corner (m)."""
+def _define_field(stage: Any, path: str, grid: str, layer: SmokeLayer) -> Any:
+    """Define a field of all frames of a layer, and return its path."""
+    asset = UsdVol.OpenVDBAsset.Define(stage, path)
+    asset.CreateFieldNameAttr(grid)
+    asset.CreateFieldDataTypeAttr("float")
+    attribute = asset.CreateFilePathAttr()
+    files = {frame: Sdf.AssetPath(f"./{FOLDER}/{file.name}") for frame, file in layer.files.items()}
+    attribute.Set(next(iter(files.values())))
+    for frame, file in files.items():
+        attribute.Set(file, frame)
+    return asset.GetPath()
+
+
+def read_grids(file: Path) -> dict[str, Grid]:
+    """Read the grids of an OpenVDB file that have voxels."""
     import openvdb
 
     found = {}
     for grid in openvdb.readAllGridMetadata(str(file)):
         low, high = grid.metadata.get("file_bbox_min"), grid.metadata.get("file_bbox_max")
-        if low is None or any(a > b for a, b in zip(low, high, strict=True)):
-            continue  # without voxels
-        ends = [
-            grid.transform.indexToWorld(tuple(at + shift for at in corner))
-            for corner, shift in ((low, -0.5), (high, 0.5))
-        ]
-        found[grid.name] = (ends[0], ends[1])
+        if low is not None and all(a <= b for a, b in zip(low, high, strict=True)):
+            ends = [
+                grid.transform.indexToWorld(tuple(at + shift for at in corner))
+                for corner, shift in ((low, -0.5), (high, 0.5))
+            ]
+            found[grid.name] = Grid(grid.metadata.get("units", ""), *ends)
     return found

@@ -11,7 +11,7 @@ from pxr import Sdf, UsdGeom, UsdShade, Vt
 
 from . import usd_materials
 from .scene_content import SceneContent
-from .usd_geometry import define_mesh, vectors
+from .usd_geometry import define_mesh
 from .usd_library import new_stage, set_kind
 
 FOLDER = "textures"
@@ -37,9 +37,8 @@ def write(content: SceneContent, out: Path, pictures: dict[int, NDArray[np.uint8
     stage = new_stage(path, content.rate, span)
     set_kind(stage.GetDefaultPrim(), "assembly")
     set_kind(UsdGeom.Xform.Define(stage, "/World/Terrain").GetPrim(), "component")
-    mesh = define_mesh(stage, "/World/Terrain/Ground", content.terrain.points, content.terrain.triangles)
-    mesh.CreateNormalsAttr(vectors(content.terrain.normals))
-    mesh.SetNormalsInterpolation(UsdGeom.Tokens.vertex)
+    ground = content.terrain
+    mesh = define_mesh(stage, "/World/Terrain/Ground", ground.points, ground.triangles, ground.normals)
     uv = Vt.Vec2fArray.FromNumpy(np.ascontiguousarray(content.terrain.uv, np.float32))
     primvars = UsdGeom.PrimvarsAPI(mesh)
     primvars.CreatePrimvar("st", Sdf.ValueTypeNames.TexCoord2fArray, UsdGeom.Tokens.vertex).Set(uv)
