@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import input_error
-from ..imaging import map_symbols
 from ..run.observations import Detections, Feature, features
 from ..shot.shot import Shot
 from ..shot.stations import labels, station_signs
@@ -64,12 +63,6 @@ def divisions(shot: Shot) -> list[Feature]:
     if not settings.enabled or settings.routes_file is None:
         return []
     return _divisions(settings.routes_file)
-
-
-def line_style(feature: Feature) -> str:
-    """Choose the line style of a feature by its category; "other" without one that is known."""
-    category = str(feature.properties.get("FeatureCategory") or "")
-    return map_symbols.find(category, map_symbols.LINES) or "other"
 
 
 def _divisions(path: Path) -> list[Feature]:

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from ..errors import writing
+from ..errors import InputError, input_error, writing
 
 
 @contextmanager
@@ -34,6 +34,11 @@ def staging(out: Path) -> Iterator[Path]:
             out.mkdir(exist_ok=True)
             for made in sorted(part.iterdir()):
                 _replace(made, out / made.name, part)
+    except InputError as error:
+        path = Path(error.path)
+        if not path.is_relative_to(part):
+            raise
+        raise input_error(out / path.relative_to(part), error.reason, kind=type(error)) from error
     finally:
         shutil.rmtree(part, ignore_errors=True)
 
