@@ -13,7 +13,7 @@ from ....errors import InputError, input_error
 from ...models.model import Options
 from ..member_set import MemberSet
 
-READERS = ("cell2fire",)
+READERS = ("samples", "cell2fire", "elmfire")
 """Modules, in the order in which they are tried."""
 
 
