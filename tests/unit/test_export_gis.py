@@ -74,10 +74,11 @@ def request_(make_run, tmp_path):
     (tmp_path / "places.csv").write_text(
         'name,latitude,longitude\n"{}",38.903,-120.592\n'.format(HOSTILE.replace('"', '""'))
     )
-    shot = ShotSource(scene=str(tmp_path / "scene.toml")).shot()
+    source = ShotSource(scene=str(tmp_path / "scene.toml"))
+    shot = source.shot()
     folder = tmp_path / "made"
     folder.mkdir()
-    return ExportRequest(shot, (1, 2, 3, 4), georeference.resolve(shot), folder)
+    return ExportRequest(source, shot, (1, 2, 3, 4), georeference.resolve(shot), folder)
 
 
 @pytest.fixture
