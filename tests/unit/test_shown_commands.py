@@ -1,24 +1,20 @@
-"""Code blocks of the pages: commands have options that exist, and TOML is valid.
+"""Code blocks of the pages: commands have options that exist, TOML is valid, and all run or have a mark.
 
-`tests/system/test_documented_commands.py` runs the commands of docs/stations.md; `test_from_arrays.py` runs
-the Python of docs/runs.md. A block that is not checked has ``<!-- not checked: REASON -->`` above it.
+`tests/system/test_documented_commands.py` runs them; `test_from_arrays.py` runs the Python of docs/runs.md.
+`tests/helpers/shown_code.py` explains the marks.
 """
 
 import re
 import shlex
 import tomllib
-from pathlib import Path
 
 import pytest
 from firetwin import cli, errors
 from firetwin.farm.arguments import split_options
+from shown_code import PAGES, PROGRAM, ROOT, RUN, blocks
 
-ROOT = Path(__file__).parents[2]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-BLOCK = re.compile(r"(?:^<!-- not checked: (.+?) -->\n)?^```([^\n]*)\n(.*?)^```", re.M | re.S)
 SETUP = re.compile(r"python3 -m venv \w+$|[.\w]+/bin/pip install ")
 EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]["optional-dependencies"]
-PROGRAM = re.compile(r"(?:\.venv/bin/|firetwin/bin/|films/bin/)?firetwin ")
 
 
 def fault(line):
@@ -45,16 +41,16 @@ def fault(line):
 def faults(text):
     """Faults of the blocks of a page, each with its line."""
     found = []
-    for reason, kind, code in BLOCK.findall(text):
-        if reason or kind.strip() in ("mermaid", "text", "python"):
+    for block in blocks(text):
+        if block.mark == "not checked" or block.kind in ("mermaid", "text", "python"):
             continue
-        if kind.strip() == "toml":
+        if block.kind == "toml":
             try:
-                tomllib.loads(code)
+                tomllib.loads(block.code)
             except tomllib.TOMLDecodeError as error:
-                found.append(f"{code}: {error}")
+                found.append(f"{block.code}: {error}")
             continue
-        found += [f"{line}: {why}" for line in code.splitlines() if (why := fault(line))]
+        found += [f"{line}: {why}" for line in block.code.splitlines() if (why := fault(line))]
     return found
 
 
@@ -64,6 +60,25 @@ def test_shown_commands_have_valid_arguments_or_a_mark(page):
     assert not found, (
         f"{page.name}: correct these, or mark the block <!-- not checked: REASON -->:\n" + "\n".join(found)
     )
+
+
+@pytest.mark.parametrize(
+    "page", [each for each in PAGES if each.name not in {*RUN, "README.md"}], ids=lambda path: path.name
+)
+def test_commands_and_python_run_or_have_a_mark(page):
+    """README.md has no space for marks: docs/pipelines.md and docs/index.md have its commands with theirs."""
+    idle = [line for each in blocks(page.read_text("utf-8")) if each.is_code for line in each.lines()]
+    assert not idle, f"{page.name}: run these in test_documented_commands.py, or mark them: {idle}"
+
+
+def test_marks_exclude_blocks_and_lines():
+    text = (
+        "```sh\na\nb --x\n```\n<!-- not run: slow -->\n```\nc\n```\n"
+        "<!-- not run (--x): slow -->\n```\nd\ne --x\n```\n"
+    )
+    assert [list(each.lines()) for each in blocks(text)] == [["a", "b --x"], [], ["d"]]
+    assert [each.reason for each in blocks(text)] == ["", "slow", "slow"]
+    assert not faults("<!-- run by a.py -->\n```python\nx\n```\n")
 
 
 def test_a_wrong_option_and_a_block_without_a_mark_are_found(capsys):
