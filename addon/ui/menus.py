@@ -184,6 +184,22 @@ class FIRETWIN_MT_reset(bpy.types.Menu):
             self.layout.operator("firetwin.reset", text=text).section = section.name
 
 
+def _create_choice_menu(entry: Entry) -> type[bpy.types.Menu]:
+    def draw(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+        self.layout.operator_context = "INVOKE_REGION_WIN"
+        self.layout.operator_enum(f"firetwin.{entry.operator}", entry.choice)
+
+    name = f"FIRETWIN_MT_choice_{entry.operator}"
+    own = {"__doc__": entry.text, "bl_idname": name, "bl_label": entry.text, "draw": draw}
+    return type(name, (bpy.types.Menu,), own)
+
+
+_CHOICES = {
+    line.operator: _create_choice_menu(line) for line in PIE if isinstance(line, Entry) and line.choice
+}
+"""Menus of the pie's operators with a choice."""
+
+
 class FIRETWIN_MT_pie(bpy.types.Menu):
     """Firetwin's operators for work with cameras"""
 
@@ -193,7 +209,20 @@ class FIRETWIN_MT_pie(bpy.types.Menu):
     def draw(self, context: bpy.types.Context) -> None:
         pie = self.layout.menu_pie()
         pie.operator_context = "INVOKE_REGION_WIN"
-        _draw(pie, PIE)
+        for line in PIE:
+            name = pie_menu_name(line)
+            if name:  # a submenu of a pie opens neither by its number nor by a click
+                icon = line.icon if isinstance(line, Entry) else "NONE"
+                pie.operator("wm.call_menu", text=line.text, icon=icon).name = name
+            else:
+                _draw(pie, (line,))
+
+
+def pie_menu_name(line: Line) -> str:
+    """Return the name of the menu that a sector of the pie opens; empty: it calls an operator."""
+    if isinstance(line, Submenu):
+        return line.name
+    return _CHOICES[line.operator].bl_idname if line.choice else ""
 
 
 def _draw_header(self: bpy.types.Menu, context: bpy.types.Context) -> None:
@@ -221,4 +250,4 @@ def unregister() -> None:
         getattr(bpy.types, name).remove(draw)
 
 
-classes = (*_SUBMENUS, FIRETWIN_MT_main, FIRETWIN_MT_reset, FIRETWIN_MT_pie)
+classes = (*_SUBMENUS, *_CHOICES.values(), FIRETWIN_MT_main, FIRETWIN_MT_reset, FIRETWIN_MT_pie)

@@ -51,6 +51,18 @@ def test_the_pie_has_a_line_for_each_of_its_eight_sectors():
     assert len(menus.PIE) == 8
 
 
+def test_sectors_of_the_pie_are_operators():
+    """A submenu of a pie does not open by its number."""
+    layout = MagicMock()
+    menus.FIRETWIN_MT_pie.draw(SimpleNamespace(layout=layout), bpy.context)
+    pie = layout.menu_pie.return_value
+    assert [call.args[0] for call in pie.operator.call_args_list].count("wm.call_menu") == 3
+    assert len(pie.operator.call_args_list) == len(menus.PIE)
+    assert not pie.menu.called
+    assert not pie.operator_menu_enum.called
+    assert all(hasattr(bpy.types, name) for name in map(menus.pie_menu_name, menus.PIE) if name)
+
+
 def test_a_section_is_reset_from_the_menu():
     forest = bpy.context.scene.firetwin.forest
     usual = forest.draw_distance

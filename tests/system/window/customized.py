@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -72,6 +73,36 @@ def _walk(key: str, name: str) -> Iterator[object]:
     check(not wanted & _flying(), "Return ends it")
 
 
+def cache() -> Iterator[object]:
+    """The cache folder of the preferences: it gets the smoke of a new scene, and its limit removes old smoke."""
+    own, folder = bpy.context.preferences.addons[MODULE].preferences, FOLDER / "own_cache"
+    old = folder / ("0" * 16)
+    old.mkdir(parents=True)
+    (old / "smoke_000001.vdb").write_bytes(bytes(2000))
+    for path in (*old.iterdir(), old):
+        os.utime(path, (1.0e9, 1.0e9))
+    own.cache, own.cache_limit = str(folder), 1.0e-6
+    bpy.ops.wm.read_homefile()
+    yield 2
+    settings().run = str(FOLDER / "sample")
+    yield 1
+    yield idle
+    call(bpy.ops.firetwin.quality, level="preview")
+    settings().time.start, settings().time.end = "2014-09-17 16:00:00-07:00", "2014-09-17 16:24:00-07:00"
+    settings().time.frames, settings().smoke.voxel_size = 2, 320.0
+    settings().terrain.near_radius, settings().forest.budget = 2500.0, 2000
+    yield 1
+    call(bpy.ops.firetwin.build)
+    yield 1
+    yield idle
+    smoke = [path for path in folder.rglob("smoke_*.vdb") if old not in path.parents]
+    check(len(smoke) == 2, f"smoke volumes of a new scene in the cache folder: {len(smoke)}")
+    check(not old.exists(), "smoke of another time beyond the limit is removed")
+    own.cache, own.cache_limit = "", 0.0
+    bpy.ops.wm.read_homefile()
+    yield 2
+
+
 def preferences() -> Iterator[object]:
     """Set the unit and the cache folder; the next Blender has them too."""
     yield from ready()
@@ -107,6 +138,8 @@ def assets() -> Iterator[object]:
     catalogs = _catalogs(folder)
     check(len(catalogs) > 1, f"catalogs: {', '.join(name for _, name in catalogs)}")
     without = _without_preview(folder / "firetwin_assets.blend")
+    pictured = [name for name in without if not name.startswith("Firetwin")]
+    check(not pictured, f"trees and undergrowth have previews {pictured or ''}")
     say(f"assets without a preview: {without}")
     area = view()
     area.ui_type = "ASSETS"

@@ -1,7 +1,7 @@
-"""The ways to an operator and its explanation: manual and pie menu.
+"""The ways to an operator and its explanation: manual, search and pie menu.
 
-For the pie menu, stand-ins replace the operators: they accept any context, do nothing, and record their
-names. Pages of the manual are recorded in place of a browser.
+For search and pie menu, stand-ins replace the operators: they accept any context, do nothing, and record
+their names. Pages of the manual are recorded in place of a browser.
 """
 
 from __future__ import annotations
@@ -15,7 +15,38 @@ from pathlib import Path
 from types import TracebackType
 
 import bpy
-from hands import MODULE, call, check, here, key_frames, keys, picture, ready, say, soon, tab, ui, view
+from hands import (
+    FOLDER,
+    MODULE,
+    built,
+    call,
+    check,
+    here,
+    idle,
+    key_frames,
+    keys,
+    picture,
+    press,
+    ready,
+    say,
+    settings,
+    soon,
+    tab,
+    ui,
+    view,
+)
+
+_INSIDE = {
+    "FIRETWIN_MT_parts": "build",
+    "FIRETWIN_MT_reset": "reset",
+    "FIRETWIN_MT_moments": "jump",
+    "FIRETWIN_MT_start": "window",
+    "FIRETWIN_MT_end": "window",
+    "FIRETWIN_MT_named": "camera_aim",
+    "FIRETWIN_MT_lenses": "camera_lens",
+    "FIRETWIN_MT_go": "go",
+}
+"""Menus of other modules, and the operator of their lines; saved presets are Blender's operator."""
 
 
 class StandIns:
@@ -51,7 +82,7 @@ class StandIns:
 
 
 def manual() -> Iterator[object]:
-    """Open the manual's page of every panel and operator, and one by a click on a help button."""
+    """Open the manual's page of every panel and operator, by F1 over buttons, and by a help button."""
     pages, opened = sys.modules[f"{MODULE}.ui.manual"], []
     usual, webbrowser.open = webbrowser.open, lambda url, *_: opened.append(url) or True
     panels = [each for each in ui().classes if issubclass(each, bpy.types.Panel)]
@@ -71,6 +102,14 @@ def manual() -> Iterator[object]:
     yield 2
     sidebar = next(region for region in view().regions if region.type == "UI")
     top = bpy.context.window_manager.windows[0].height - sidebar.y - sidebar.height
+    opened.clear()
+    for down in range(30, 350, 40):
+        _point(sidebar.x + sidebar.width // 2, top + down)
+        yield 0.3
+        press("F1")
+        yield 0.5
+    ours = {url.rpartition("/")[2] for url in opened if url.startswith("file:") and _exists(url)}
+    check(bool(ours), f"F1 over the sidebar's buttons opens {', '.join(sorted(ours))}")
     opened.clear()
     for left in range(24, 72, 6):
         _point(sidebar.x + sidebar.width - left, top + 16)
@@ -99,29 +138,88 @@ def _point(x: int, y: int) -> None:
     subprocess.run(["xdotool", "mousemove", str(x), str(y)], check=True)
 
 
+def find() -> Iterator[object]:
+    """Type the full name of every menu entry after F3, and press Return."""
+    if not settings().run:
+        settings().run = str(FOLDER / "sample")
+        yield 1
+        yield idle
+    menus = sys.modules[f"{MODULE}.ui.menus"]
+    keys("F3")  # the pointer stays over the 3D view
+    yield 0.5
+    press("Escape")
+    yield 0.3
+    found, failed = set(), []
+    with StandIns() as stand_ins:
+        yield from _search(stand_ins, "firetwin cameras set camera quay")
+        check(not stand_ins.called, f"F3 finds no operator of another name {stand_ins.called or ''}")
+        for words, operator in _entries(menus):
+            yield from _search(stand_ins, words, "51-search" if operator == "camera_key" else "")
+            if stand_ins.called == [operator]:
+                found.add(operator)
+            else:
+                failed.append(f"{words}: {stand_ins.called}")
+    every = {each.bl_idname for each in ui().classes if issubclass(each, bpy.types.Operator)}
+    wanted = {each.removeprefix("firetwin.") for each in every} - set(menus.WITHOUT_ENTRY)
+    check(not failed, f"F3 finds every entry by its full name {failed or ''}")
+    check(found == wanted, f"F3 finds {len(found)} of {len(wanted)} operators {sorted(wanted - found) or ''}")
+
+
+def _entries(menus: object) -> Iterator[tuple[str, str]]:
+    """Yield the text to type after F3, and the operator, of every entry of the menu Firetwin."""
+    for title, lines in menus.MENUS.items():
+        for line in lines:
+            own = isinstance(line, menus.Entry)
+            operator = line.operator if own else _INSIDE.get(line.name)
+            if operator is not None:
+                text = menus.entry_text(line) if own else line.text
+                yield f"firetwin {title} {text}".lower().rstrip("."), operator
+
+
+def _search(stand_ins: StandIns, words: str, name: str = "") -> Iterator[object]:
+    """Search for a text, and choose the first result; take a picture of this name."""
+    stand_ins.called.clear()
+    bpy.context.window_manager.clipboard = words
+    press("F3")
+    yield 0.4
+    press("ctrl+v")
+    yield 0.3
+    if name:
+        picture(name)
+    press("Return")
+    yield soon(lambda: bool(stand_ins.called), 1.0)
+    press("Escape")
+    yield 0.1
+
+
 def pie() -> Iterator[object]:
     """Call the operators of the pie menu by their numbers; the one for camera keys sets a key."""
     yield from ready()
     menus, failed = sys.modules[f"{MODULE}.ui.menus"], []
+    for name in built():  # drawn slowly without a GPU
+        bpy.context.scene.objects[name].hide_set(True)
     with StandIns() as stand_ins:
         for line, number in zip(menus.PIE, "46287913", strict=True):
-            if isinstance(line, menus.Submenu) or line.choice:  # a number opens no menu
-                continue
+            menu = menus.pie_menu_name(line)
+            operator = line.operator if isinstance(line, menus.Entry) else _INSIDE[line.name]
             stand_ins.called.clear()
             keys("ctrl+alt+f")
             yield 1
             if number == "4":
-                picture("52-pie-opening")
-                yield 2
                 picture("52-pie")
-            keys(number)
-            yield 0.7
+            press(number)
+            yield 1
+            if menu:
+                picture(f"52-pie-{operator}")
+                press("Down", "Return")
             yield soon(lambda: bool(stand_ins.called), 3.0)
-            keys("Escape")
+            press("Escape")
             yield 0.3
-            if stand_ins.called != [line.operator]:
-                failed.append(f"{line.operator}: {stand_ins.called}")
-    check(not failed, f"the pie menu calls its operators {failed or ''}")
+            if stand_ins.called != [operator]:
+                failed.append(f"{operator}: {stand_ins.called}")
+    check(not failed, f"the pie menu calls its {len(menus.PIE)} operators {failed or ''}")
+    for name in built():
+        bpy.context.scene.objects[name].hide_set(False)
     call(bpy.ops.firetwin.view, whole=True)
     with bpy.context.temp_override(**here()):
         bpy.context.space_data.region_3d.view_perspective = "PERSP"

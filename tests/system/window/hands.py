@@ -18,6 +18,9 @@ PATIENCE = float(os.environ.get("FIRETWIN_PATIENCE", "1800"))  # s, for anything
 failures: list[str] = []
 began = time.monotonic()
 
+_KEYCODES = {f"F{number}": str(66 + number) for number in range(1, 11)}
+"""X keycodes: by their names, xdotool presses function keys with Alt."""
+
 
 def say(text: str) -> None:
     line = f"{time.monotonic() - began:7.1f} s  {text}"
@@ -42,6 +45,12 @@ def picture(name: str) -> None:
     say(f"picture {path.name}")
 
 
+def press(*names: str, pause: int = 100) -> None:
+    """Press keys at the pointer, with pauses (ms)."""
+    names = [_KEYCODES.get(name, name) for name in names]
+    subprocess.run(["xdotool", "key", "--delay", str(pause), *names], check=True)
+
+
 def keys(*names: str, over: str = "WINDOW") -> None:
     """Press keys with the mouse over the 3D view, or over its sidebar ("UI")."""
     place = next(region for region in view().regions if region.type == over)
@@ -50,7 +59,7 @@ def keys(*names: str, over: str = "WINDOW") -> None:
     y = height - place.y - place.height // 4  # not in the middle, where reports are
     subprocess.run(["xdotool", "mousemove", str(x), str(y)], check=True)
     time.sleep(0.3)
-    subprocess.run(["xdotool", "key", "--delay", "100", *names], check=True)
+    press(*names)
 
 
 def view() -> bpy.types.Area:
@@ -141,11 +150,13 @@ def ui() -> object:
     return sys.modules[f"{MODULE}.ui"]
 
 
-def opened(cls: type) -> type:
+def opened(cls: type, top: bool) -> type:
     """A panel like another one, but open: Blender keeps which are closed by their names."""
     own = {name: value for name, value in vars(cls).items() if name[:2] != "__" and name != "bl_rna"}
     own |= {"bl_idname": f"{cls.bl_idname}_open", "bl_options": set()}
-    if "bl_parent_id" in own:
+    if top:
+        own.pop("bl_parent_id", None)
+    elif "bl_parent_id" in own:
         own["bl_parent_id"] += "_open"
     return type(own["bl_idname"], cls.__bases__, own)
 
@@ -154,7 +165,11 @@ def alone(top: str, take: Callable[[], None], *more: str) -> Iterator[object]:
     """Take a picture of one panel and those in it, open, with these before it."""
     known = [each for each in ui().classes if issubclass(each, bpy.types.Panel)]
     names = {top, *more}
-    shown = [opened(each) for each in known if {each.bl_idname, getattr(each, "bl_parent_id", "")} & names]
+    shown = [
+        opened(each, each.bl_idname == top)
+        for each in known
+        if {each.bl_idname, getattr(each, "bl_parent_id", "")} & names
+    ]
     for each in reversed(known):
         bpy.utils.unregister_class(each)
     for each in shown:

@@ -8,6 +8,7 @@ packages=(
   blender libopenexr-3-4-33
   # Blender's own extensions need these, and Debian's package only half of them.
   python3-numpy python3-requests python3-cattr python3-zstandard
+  python3-scipy # for the suggested allocation
   # A screen, hands, eyes, and OpenGL by the CPU.
   xvfb xdotool python3-xlib imagemagick libgl1-mesa-dri libegl1
   g++ cmake ninja-build pkgconf python3-dev python3-venv

@@ -18,6 +18,7 @@ from pathlib import Path
 import bpy
 
 sys.path.insert(0, str(Path(__file__).parent))
+import allocating
 import customized
 import found
 import inventory
@@ -435,9 +436,10 @@ def session() -> Iterator[object]:
     yield from install()
     for step in (
         *(panel, quality, build, shown.sections, shown.dialogs, look, parts, scrub, render),
-        *(found.manual, found.pie, customized.shortcuts, customized.german, customized.preferences),
-        customized.assets,
+        *(found.manual, found.find, found.pie, customized.shortcuts, customized.german),
+        *(customized.preferences, customized.assets, allocating.allocate),
         *(by_hand, undo, beside, file, shown.drop, tile_preview.tiles, page.page),
+        customized.cache,
     ):
         if step.__name__ in STEPS:
             yield from step()

@@ -8,7 +8,8 @@ shift
 steps=("$@")
 if ((${#steps[@]} == 0)); then
   steps=(commands panel quality build sections dialogs look parts scrub render)
-  steps+=(manual pie shortcuts german preferences assets by_hand undo beside file drop tiles page)
+  steps+=(manual find pie shortcuts german preferences assets allocate
+    by_hand undo beside file drop tiles page cache)
 fi
 here=/firetwin/tests/system/window
 export LIBGL_ALWAYS_SOFTWARE=1 BLENDER_USER_RESOURCES=$PWD/user
@@ -32,6 +33,9 @@ prepare() {
   say "Blender's command line; all it says is in commands.log"
   blender --command extension install-file --repo user_default --enable firetwin.zip >commands.log 2>&1
   firetwin 0 sample sample --frames 61
+  if [[ " ${steps[*]} " == *" allocate "* ]]; then
+    firetwin 0 stations exercise sample --out exercise.gpkg
+  fi
   if [[ " ${steps[*]} " == *" tiles "* ]]; then
     firetwin 0 tiles make scene.toml --out tileset --levels 2 --geoid -24.9 --credit Sample
   fi
