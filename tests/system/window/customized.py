@@ -74,7 +74,7 @@ def _walk(key: str, name: str) -> Iterator[object]:
 
 
 def cache() -> Iterator[object]:
-    """The cache folder of the preferences: it gets the smoke of a new scene, and its limit removes old smoke."""
+    """The cache folder of the preferences gets the smoke of a new scene; its limit removes old smoke."""
     own, folder = bpy.context.preferences.addons[MODULE].preferences, FOLDER / "own_cache"
     old = folder / ("0" * 16)
     old.mkdir(parents=True)

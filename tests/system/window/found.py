@@ -140,6 +140,7 @@ def _point(x: int, y: int) -> None:
 
 def find() -> Iterator[object]:
     """Type the full name of every menu entry after F3, and press Return."""
+    view().spaces.active.show_region_ui = True
     if not settings().run:
         settings().run = str(FOLDER / "sample")
         yield 1
@@ -173,6 +174,8 @@ def _entries(menus: object) -> Iterator[tuple[str, str]]:
             operator = line.operator if own else _INSIDE.get(line.name)
             if operator is not None:
                 text = menus.entry_text(line) if own else line.text
+                if operator == "build" and not own:
+                    text += " rebuild"  # the menu also has Remove all parts
                 yield f"firetwin {title} {text}".lower().rstrip("."), operator
 
 
@@ -198,6 +201,7 @@ def pie() -> Iterator[object]:
     menus, failed = sys.modules[f"{MODULE}.ui.menus"], []
     for name in built():  # drawn slowly without a GPU
         bpy.context.scene.objects[name].hide_set(True)
+    bpy.context.preferences.view.pie_animation_timeout = 0
     with StandIns() as stand_ins:
         for line, number in zip(menus.PIE, "46287913", strict=True):
             menu = menus.pie_menu_name(line)

@@ -25,7 +25,7 @@ def take(folder: Path) -> dict[str, list[str]]:
     """Everything that an add-on can leave behind, by kind, as sorted texts; files are below `folder`."""
     found = {
         "classes": [name for name in dir(bpy.types) if isinstance(getattr(bpy.types, name, None), type)],
-        "properties": [f"{owner}.{name}" for owner in _OWNERS for name in dir(getattr(bpy.types, owner))],
+        "properties": [f"{owner}.{name}" for owner in _OWNERS for name in _properties(owner)],
         "handlers": list(_handlers()),
         "operators": [f"{group}.{name}" for group in dir(bpy.ops) for name in _operators(group)],
         "drawn in menus": list(_drawn()),
@@ -37,6 +37,11 @@ def take(folder: Path) -> dict[str, list[str]]:
         "files": [str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()],
     }
     return {kind: sorted(names) for kind, names in found.items()}
+
+
+def _properties(owner: str) -> list[str]:
+    # Python adds names such as __annotations_cache__ when something reads a class's annotations.
+    return [name for name in dir(getattr(bpy.types, owner)) if not name.startswith("__")]
 
 
 def _operators(group: str) -> list[str]:
