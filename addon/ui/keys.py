@@ -25,7 +25,7 @@ Items = tuple[tuple[str, str, str], ...]
 USE = "use_"
 """Prefix of the property that enables an optional number."""
 
-_SHORT = {"cpu", "edl", "eevee", "fps", "gpu", "lwir", "mwir", "rgb"}  # names in capitals
+_SHORT = {"cpu", "edl", "eevee", "fps", "gpu", "lwir", "mwir", "rgb", "vr"}  # names in capitals
 _SPELLED = {
     "acescg": "ACEScg",
     "exr_space": "EXR space",

@@ -17,7 +17,7 @@ from . import routes
 PART = "Allocation"
 _COLOURS = {True: (0.02, 0.02, 0.02), False: (1.0, 0.1, 0.6)}
 """Linear colours of lines that are held and not held, by eye: black as on maps, pink against fire."""
-_RADIUS = 12.0  # m, by eye: visible in a view of 20 km
+_RADIUS = 40.0  # m, by eye: a line of two pixels in a view of 40 km
 _ABOVE = 6.0  # m above the ground, assumed
 
 Array = NDArray[np.float64]
@@ -63,6 +63,7 @@ def _curve(
         spline.points.foreach_set("co", np.column_stack([raised, np.ones(len(line))]).ravel())
     data.materials.append(look)
     obj = owned.add(collection, f"Line {division}, {words}", data, f"line {division}")
+    obj.color = (*_COLOURS[held], 1.0)  # in the solid view
     obj.hide_render = True
     return obj
 
