@@ -20,8 +20,8 @@ class FIRETWIN_AP_preferences(bpy.types.AddonPreferences):
     device: keys.create_property(Render, "device", AS_FILE)
     cache: bpy.props.StringProperty(
         name="Cache folder",
-        description="Folder of smoke volumes for scenes without a cache folder; empty: in their "
-        "output folder",
+        description="Folder of smoke volumes for scenes without a cache folder, such as new ones; empty: "
+        "in their output folder. Scenes of a scene file have its cache folder",
         subtype="DIR_PATH",
     )
     cache_limit: bpy.props.FloatProperty(

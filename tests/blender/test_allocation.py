@@ -171,6 +171,7 @@ def test_two_suggestions_leave_one_line_of_each_division_and_remove_deletes_them
     assert sorted(obj.name for obj in lines()) == ["Firetwin Line A, Held", "Firetwin Line B, Not Held"]
     for obj in lines():
         assert obj.hide_render
+        assert tuple(obj.color) == pytest.approx(obj.active_material.diffuse_color)
         assert len(obj.data.splines) == 1
         first = obj.data.splines[0].points[0].co
         ground = ground_raycast.terrain_height(owned.stage(bpy.context.scene), first)

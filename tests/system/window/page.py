@@ -26,6 +26,7 @@ class Page:
 
     def __init__(self) -> None:
         text = PAGE.read_text(encoding="utf-8").partition("<!-- followed -->")[2]
+        text = text.partition("<!-- end of followed -->")[0]
         self._left = [bold or code for bold, code in re.findall(r"\*\*(.+?)\*\*|`(.+?)`", text)]
 
     def next(self, *words: str) -> None:
