@@ -63,8 +63,8 @@ def _define_plants(stage: Any, plants: Plants, content: SceneContent, frames: li
     _set_prototypes(instancer, plants, content, frames, living, burned)
     classes, number = np.unique([content.prototypes[k].kind for k in used], return_inverse=True)
     primvars = UsdGeom.PrimvarsAPI(instancer)
-    kinds = primvars.CreatePrimvar("class", Sdf.ValueTypeNames.TokenArray, "vertex")
-    set_indexed(kinds, Vt.TokenArray(classes.tolist()), number[living])
+    kinds = primvars.CreatePrimvar("class", Sdf.ValueTypeNames.StringArray, "vertex")
+    set_indexed(kinds, Vt.StringArray(classes.tolist()), number[living])
     for name, values in (
         ("height", plants.height),
         ("arrival", plants.arrival),

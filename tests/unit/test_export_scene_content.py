@@ -1,0 +1,39 @@
+"""Content of exports: burned plants, lit flames, and normals of crowns."""
+
+import numpy as np
+import pytest
+from firetwin.export.scene_content import FlamePoints, Plants, Prototype
+
+
+@pytest.fixture
+def prototype():
+    """Two leaves on opposite sides of a trunk, and a piece of its bark."""
+    leaf = np.array([(0.0, 0.0, 0.5), (0.0, 0.1, 0.5), (0.1, 0.0, 0.5)])
+    points = np.concatenate([leaf + [0.3, 0.0, 0.0], leaf - [0.4, 0.0, 0.0], leaf[:, [2, 0, 1]]])
+    triangles, looks = np.arange(9).reshape(3, 3), np.array([0, 0, 1])
+    return Prototype("x", "large", "living", 0, points, triangles, np.zeros((3, 3)), looks)
+
+
+def test_leaves_face_away_from_the_trunk_and_bark_does_not(prototype):
+    right, left, bark = prototype.shading_normals()
+    assert right[0] > 0.5
+    assert left[0] < -0.5
+    np.testing.assert_allclose(np.linalg.norm([right, left], axis=1), 1.0, rtol=1e-6)
+    assert sorted(np.abs(bark).tolist()) == [0.0, 0.0, 1.0]
+
+
+def test_a_plant_burns_from_its_time_on():
+    zero = np.zeros((3, 3), np.float32)
+    one = np.ones(3, np.float32)
+    from_then = np.array([100.0, 200.0, np.inf], np.float32)
+    living, burned = np.array([0, 1, 2]), np.array([7, 8, 9])
+    plants = Plants("Trees", zero, zero, zero, None, living, burned, from_then, from_then, one, one)
+    assert plants.prototype_at(99.0).tolist() == [0, 1, 2]
+    assert plants.prototype_at(100.0).tolist() == [7, 1, 2]
+    assert plants.prototype_at(1.0e9).tolist() == [7, 8, 2]
+
+
+def test_a_flame_is_lit_from_its_arrival_for_its_residence():
+    arrival, residence, zero = np.array([0.0, 10.0]), np.array([10.0, 5.0]), np.zeros(2)
+    flames = FlamePoints(np.zeros((2, 3)), arrival, residence, *[zero] * 6, wind=(1.0, 0.0))
+    assert [flames.lit(time).tolist() for time in (-1.0, 0.0, 9.9, 10.0, 15.0)] == [[], [0], [0], [1], []]
