@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import io
+import keyword
 import os
 import re
 import shlex
@@ -43,7 +44,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         from . import commands
 
-        return getattr(commands, arguments.command)(arguments) or 0
+        name = arguments.command + "_" * keyword.iskeyword(arguments.command)
+        return getattr(commands, name)(arguments) or 0
     except KeyboardInterrupt:
         print("\nfiretwin: stopped; finished files stay", file=sys.stderr)
         return 130
@@ -349,6 +351,15 @@ def _parser() -> argparse.ArgumentParser:
             command("farm", "plan a film for a render farm", farm.DETAIL),
             types.path,
             types.count,
+        )
+    if optional_features.is_installed("camera_import"):
+        from .camera_import import arguments as camera_import
+
+        camera_import.add(
+            command("import", "add cameras of USD, Alembic, KML and GPX files", camera_import.DETAIL),
+            types.path,
+            types.name,
+            types.undulation,
         )
     tiles.add(command("tiles", "read and make 3D tilesets", tiles.DETAIL), types.path, types.count)
     if optional_features.is_installed("allocation"):

@@ -161,6 +161,14 @@ def export(arguments: argparse.Namespace) -> None:
     command.run(arguments, _find_source(arguments))
 
 
+def import_(arguments: argparse.Namespace) -> None:
+    """Add the cameras of a file to a scene file."""
+    from .camera_import import command
+    from .shot.source import ShotSource
+
+    command.run(arguments, ShotSource(scene=str(arguments.out)))
+
+
 def imager(arguments: argparse.Namespace) -> None:
     """Write the simulated measurements of a satellite's imager."""
     from .errors import UsageError, input_error

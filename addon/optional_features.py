@@ -14,6 +14,7 @@ COMMANDS = {
     "edit": "edit",
     "export": "export",
     "farm": "farm",
+    "import": "camera_import",
 }
 """Package of each command that needs an optional feature."""
 

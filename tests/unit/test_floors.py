@@ -24,7 +24,7 @@ NEVER_BPY = (
     *("firetwin.run", "firetwin.stations", "firetwin.tiles"),
     *("firetwin.imaging", "firetwin.shot", "firetwin.smoke", "firetwin.auto_framing"),
     *("firetwin.jobs", "firetwin.farm", "firetwin.bench", "firetwin.brief", "firetwin.allocation"),
-    *("firetwin.delivery", "firetwin.edit", "firetwin.export"),
+    *("firetwin.camera_import", "firetwin.delivery", "firetwin.edit", "firetwin.export"),
     *(
         f"firetwin.render.{name}"
         for name in (

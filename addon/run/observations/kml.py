@@ -23,7 +23,7 @@ def read(path: Path) -> list[Feature]:
     InputError
         The file is not KML.
     """
-    text = _unpacked(path) if path.suffix.lower() == ".kmz" else path.read_bytes()
+    text = unpack_kmz(path) if path.suffix.lower() == ".kmz" else path.read_bytes()
     if b"<!ENTITY" in text:
         raise input_error(path, "defines entities, which no KML needs")
     try:
@@ -38,7 +38,14 @@ def read(path: Path) -> list[Feature]:
     return list(_placemarks(path, root, {}))
 
 
-def _unpacked(path: Path) -> bytes:
+def unpack_kmz(path: Path) -> bytes:
+    """Read the first KML of a KMZ.
+
+    Raises
+    ------
+    InputError
+        The file is not a KMZ, or its KML is too large.
+    """
     try:
         with zipfile.ZipFile(path) as archive:
             inside = [item for item in archive.infolist() if item.filename.lower().endswith(".kml")]

@@ -21,7 +21,9 @@ from .track_point import Point, moment, number
 _GROUND = {"clampToGround", "relativeToGround", "clampToSeaFloor", "relativeToSeaFloor"}
 
 
-class _Element(NamedTuple):
+class Element(NamedTuple):
+    """XML element by its local name, with the local name of its parent, and its line in the file."""
+
     name: str
     parent: str
     line: int
@@ -31,9 +33,9 @@ class _Element(NamedTuple):
 
 def gpx(path: Path) -> Iterator[Point]:
     """Read the points of a GPX file's tracks in order; of its routes if it has no track."""
-    elements = _elements(path, {"trkpt", "rtept", "ele", "time"})
+    elements = read_elements(path, {"trkpt", "rtept", "ele", "time"})
     wanted = "trkpt" if any(element.name == "trkpt" for element in elements) else "rtept"
-    inside: dict[str, _Element] = {}
+    inside: dict[str, Element] = {}
     for element in elements:
         if element.name in ("ele", "time"):
             inside |= {element.name: element} if element.parent == wanted else {}
@@ -54,16 +56,16 @@ def gpx(path: Path) -> Iterator[Point]:
 
 def kml(path: Path) -> Iterator[Point]:
     """Read the points of a KML file's tracks (gx:Track); of its lines if it has no track."""
-    elements = _elements(path, {"when", "coord", "Track", "altitudeMode", "coordinates", "LineString"})
+    elements = read_elements(path, {"when", "coord", "Track", "altitudeMode", "coordinates", "LineString"})
     if any(element.name == "Track" for element in elements):
         yield from _tracks(path, elements)
     else:
         yield from _lines(path, elements)
 
 
-def _tracks(path: Path, elements: list[_Element]) -> Iterator[Point]:
-    when: list[_Element] = []
-    coord: list[_Element] = []
+def _tracks(path: Path, elements: list[Element]) -> Iterator[Point]:
+    when: list[Element] = []
+    coord: list[Element] = []
     mode = "clampToGround"
     for element in elements:
         if element.name == "Track":
@@ -82,7 +84,7 @@ def _tracks(path: Path, elements: list[_Element]) -> Iterator[Point]:
             coord += [element] if element.name == "coord" else []
 
 
-def _lines(path: Path, elements: list[_Element]) -> Iterator[Point]:
+def _lines(path: Path, elements: list[Element]) -> Iterator[Point]:
     places, mode = None, "clampToGround"
     for element in elements:
         if element.name == "LineString":
@@ -107,10 +109,18 @@ def _kml_point(path: Path, line: int, parts: list[str], mode: str) -> Point:
     return Point(line, latitude, longitude, height, over_ground=mode in _GROUND)
 
 
-def _elements(path: Path, wanted: set[str]) -> list[_Element]:
-    """Elements of these local names, in the order of their end tags: inner elements come first."""
+def read_elements(path: Path, wanted: set[str], content: bytes | None = None) -> list[Element]:
+    """Elements of these local names, in the order of their end tags: inner elements come first.
+
+    `content` replaces the content of the file.
+
+    Raises
+    ------
+    InputError
+        The file is not XML, or has a document type.
+    """
     parser = expat.ParserCreate()
-    elements: list[_Element] = []
+    elements: list[Element] = []
     opened: list[tuple[str, int, dict[str, str], list[str]]] = []
 
     def start(name: str, attributes: dict[str, str]) -> None:
@@ -119,7 +129,7 @@ def _elements(path: Path, wanted: set[str]) -> list[_Element]:
     def end(_: str) -> None:
         name, line, attributes, text = opened.pop()
         if name in wanted:
-            elements.append(_Element(name, opened[-1][0] if opened else "", line, attributes, "".join(text)))
+            elements.append(Element(name, opened[-1][0] if opened else "", line, attributes, "".join(text)))
 
     def text(words: str) -> None:
         if opened[-1][0] in wanted:
@@ -132,8 +142,7 @@ def _elements(path: Path, wanted: set[str]) -> list[_Element]:
     parser.StartElementHandler, parser.EndElementHandler = start, end
     parser.CharacterDataHandler, parser.StartDoctypeDeclHandler = text, refuse
     try:
-        with path.open("rb") as file:
-            parser.ParseFile(file)
+        parser.Parse(path.read_bytes() if content is None else content, True)
     except expat.ExpatError as error:
         reason = f"is not whole XML ({expat.ErrorString(error.code)}); export the track again"
         raise input_error(path, reason, line=error.lineno, column=error.offset + 1) from None

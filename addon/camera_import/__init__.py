@@ -1,0 +1,1 @@
+"""Imported cameras: moves of other programs as cameras of a scene file."""

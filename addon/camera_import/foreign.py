@@ -1,0 +1,85 @@
+"""Cameras of foreign scenes, as a job in Blender returns them: plain values, for JSON.
+
+The axes of a scene are right-handed with z up, in metres. Cameras look along -z, with y up.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import input_error
+from ..jobs import worker
+from ..progress import Progress
+from .move import Move
+from .placing import Origin, moved
+
+Array = NDArray[np.float64]
+
+PATIENCE = 120.0
+"""Timeout, s without progress, after which the reading of a damaged file is ended."""
+MOST_FRAMES = 100_000
+"""Largest number of frames of a move."""
+
+
+@dataclass(frozen=True)
+class ForeignScene:
+    """Cameras of a file.
+
+    Attributes
+    ----------
+    rate
+        Frames per second.
+    origin
+        Latitude, longitude (degrees) and height above the ellipsoid (m) of its origin; None: not in the file.
+    cameras
+        For each perspective camera `name`, `frames` (n,), `matrix` (n, 4, 4, for columns), `half` (n,)
+        (tangent of half the horizontal angle of view) and `sensor` (mm).
+    omitted
+        Names of other cameras.
+    """
+
+    rate: float
+    origin: Origin | None
+    cameras: list[dict[str, Any]]
+    omitted: list[str]
+
+    def moves(self, path: Path, matrix: Array) -> list[Move]:
+        """Return the moves in a scene; `matrix` (4, 4) transforms to its metres."""
+        return [_move(path, camera, self.rate, matrix) for camera in self.cameras]
+
+
+def read(path: Path, job: str, progress: Progress, **options: Any) -> ForeignScene:
+    """Read a file by a job in a separate process, which a damaged file may crash.
+
+    Raises
+    ------
+    InputError, Error
+        The file cannot be read.
+    """
+    task = {"path": str(path.absolute()), **options}
+    found = worker.run(job, task, progress, patience=PATIENCE)
+    origin = found["origin"]
+    return ForeignScene(found["rate"], tuple(origin) if origin else None, found["cameras"], found["omitted"])
+
+
+def _move(path: Path, camera: dict[str, Any], rate: float, matrix: Array) -> Move:
+    poses = moved(matrix, np.array(camera["matrix"], np.float64).reshape(-1, 4, 4))
+    half = np.array(camera["half"], np.float64)
+    rotation = poses[:, :3, :3]
+    right, up = rotation[:, :, 0], rotation[:, :, 1]
+    if not (np.isfinite(poses).all() and np.isfinite(half).all() and (half > 0.0).all()):
+        raise input_error(path, f'camera "{camera["name"]}" has a position or a lens that is not a number')
+    with np.errstate(divide="ignore", invalid="ignore"):  # a scale of 0 is reported below
+        right = right / np.linalg.norm(right, axis=1, keepdims=True)
+        up = up - np.sum(up * right, axis=1, keepdims=True) * right
+        up = up / np.linalg.norm(up, axis=1, keepdims=True)
+    rotation = np.stack([right, up, np.cross(right, up)], axis=-1)
+    if not np.isfinite(rotation).all() or (np.sum(rotation[:, :, 2] * poses[:, :3, 2], axis=1) <= 0.0).any():
+        raise input_error(path, f'camera "{camera["name"]}" is mirrored or has a scale of 0; unscale it')
+    frames = np.array(camera["frames"], np.float64)
+    return Move(camera["name"], frames, poses[:, :3, 3], rotation, half, camera["sensor"], rate)

@@ -1,0 +1,96 @@
+"""Place of a foreign scene on the Earth, and the transform from its metres to the scene's."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..ellipsoid import ecef, enu_axes
+from ..errors import input_error, reading
+from ..shot.shot import Shot
+from ..tiles import geoid
+
+Array = NDArray[np.float64]
+Origin = tuple[float, float, float]
+
+SIDECAR = "georeference.json"
+_LARGEST = 1_000_000  # bytes of a sidecar
+
+
+def earth_matrix(latitude: float, longitude: float, height: float) -> Array:
+    """Compute the matrix (4, 4) from metres east, north and up of a place to Earth-centred metres.
+
+    Parameters
+    ----------
+    latitude, longitude, height
+        Degrees, and metres above the WGS84 ellipsoid.
+    """
+    place = np.radians(latitude), np.radians(longitude)
+    matrix = np.eye(4)
+    matrix[:3, :3] = enu_axes(*place).T
+    matrix[:3, 3] = ecef(*place, np.asarray(height))
+    return matrix
+
+
+def read_sidecar(path: Path) -> tuple[Origin, float | None] | None:
+    """Read the origin, and the height of the geoid, of the georeference.json next to a file, if there is one.
+
+    Raises
+    ------
+    InputError
+        It is not a file of `firetwin export`.
+    """
+    beside = path.with_name(SIDECAR)
+    if not beside.is_file():
+        return None
+    with reading(beside):
+        if beside.stat().st_size > _LARGEST:
+            raise input_error(beside, "is too large for a georeference; move it away")
+        try:
+            found = json.loads(beside.read_text("utf-8"))
+            keys = "latitude", "longitude", "ellipsoidal_height_m"
+            latitude, longitude, height = (float(found[key]) for key in keys)
+            undulation = found.get("geoid_m")
+            if not (abs(latitude) <= 90.0 and abs(longitude) <= 180.0 and abs(height) < 1.0e7):
+                raise ValueError
+            return (latitude, longitude, height), None if undulation is None else float(undulation)
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+            reason = "has no latitude, longitude and ellipsoidal_height_m; export it again, or move it away"
+            raise input_error(beside, reason) from None
+
+
+def find_geoid(shot: Shot, asked: float | None, sidecar: float | None = None) -> float | None:
+    """Find the height of the geoid at a scene, m; None: unknown.
+
+    Parameters
+    ----------
+    asked
+        Option of the command line, which has precedence; then `sidecar`, `tiles.geoid` and EGM96.
+    """
+    for value in (asked, sidecar, shot.settings.tiles.geoid):
+        if value is not None:
+            return value
+    grid = geoid.find()
+    return None if grid is None else float(grid.plane(shot.local_frame)[0])
+
+
+def scene_from(shot: Shot, origin: Origin, undulation: float) -> Array:
+    """Compute the matrix (4, 4) from metres at `origin` to the scene's metres, for columns.
+
+    Parameters
+    ----------
+    undulation
+        Height of the geoid, m.
+    """
+    frame = shot.local_frame
+    above = undulation if shot.run.vertical == "orthometric" else 0.0
+    scene = earth_matrix(frame.latitude, frame.longitude, frame.height + above)
+    return np.linalg.inv(scene) @ earth_matrix(*origin)
+
+
+def moved(matrix: ArrayLike, poses: ArrayLike) -> Array:
+    """Transform poses (n, 4, 4), matrices for columns."""
+    return np.asarray(matrix) @ np.asarray(poses, np.float64)

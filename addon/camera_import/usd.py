@@ -1,0 +1,95 @@
+"""Cameras of USD stages, by the USD library of Blender."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import input_error
+from ..progress import MessageCallback, Progress
+from . import foreign
+from .foreign import ForeignScene
+
+_Z_UP = np.array([[1.0, 0, 0, 0], [0, 0, -1.0, 0], [0, 1.0, 0, 0], [0, 0, 0, 1.0]])  # from y up
+_ORIGIN = tuple(f"cesium:georeferenceOrigin:{name}" for name in ("latitude", "longitude", "height"))
+_LEAST_UNIT = 1.0e-9  # m
+
+
+def read(path: Path, progress: Progress) -> ForeignScene:
+    """Read the cameras of a stage.
+
+    Raises
+    ------
+    InputError, Error
+        The stage cannot be read.
+    """
+    return foreign.read(path, f"{__name__}:in_blender", progress)
+
+
+def in_blender(path: str, progress: Progress, tell: MessageCallback) -> dict[str, Any]:
+    """Read a stage without its payloads (see `ForeignScene`)."""
+    import bpy
+
+    bpy.utils.expose_bundled_modules()
+    from pxr import Tf, Usd, UsdGeom
+
+    try:
+        stage = Usd.Stage.Open(path, Usd.Stage.LoadNone)
+    except Tf.ErrorException as error:
+        reason = str(error).strip().splitlines()[-1].strip()[:200]
+        raise input_error(Path(path), f"cannot be opened as a USD stage: {reason}") from None
+    unit, rate = UsdGeom.GetStageMetersPerUnit(stage), stage.GetTimeCodesPerSecond()
+    if not (_LEAST_UNIT < unit < 1.0 / _LEAST_UNIT and 0.0 < rate < 1.0e6):
+        raise input_error(Path(path), "has no valid metersPerUnit or timeCodesPerSecond")
+    upright = _Z_UP if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.y else np.eye(4)
+    found: dict[str, Any] = {"rate": rate, "origin": None, "cameras": [], "omitted": []}
+    for prim in stage.Traverse():
+        if prim.GetTypeName() == "CesiumGeoreferencePrim":
+            values = [prim.GetAttribute(name).Get() for name in _ORIGIN]
+            found["origin"] = None if None in values else list(map(float, values))
+        elif prim.IsA(UsdGeom.Camera):
+            camera = UsdGeom.Camera(prim)
+            if camera.GetProjectionAttr().Get() == UsdGeom.Tokens.orthographic:
+                found["omitted"].append(prim.GetName())
+            else:
+                found["cameras"].append(_sample(Path(path), prim, camera, unit, upright))
+                progress(len(found["cameras"]), 0)
+    return found
+
+
+def _sample(path: Path, prim: Any, camera: Any, unit: float, upright: np.ndarray) -> dict[str, Any]:
+    """Sample a camera in the frames between its first and last sample, and in its samples."""
+    from pxr import Usd, UsdGeom
+
+    aperture, focal = camera.GetHorizontalApertureAttr(), camera.GetFocalLengthAttr()
+    times = {*aperture.GetTimeSamples(), *focal.GetTimeSamples()}
+    above = prim
+    while above and not above.IsPseudoRoot():
+        if above.IsA(UsdGeom.Xformable):
+            times |= {*UsdGeom.Xformable(above).GetTimeSamples()}
+        above = above.GetParent()
+    if (times and max(times) - min(times) > foreign.MOST_FRAMES) or len(times) > foreign.MOST_FRAMES:
+        raise input_error(path, f'camera "{prim.GetName()}" has more than {foreign.MOST_FRAMES:,} frames')
+    if times:
+        times |= {*np.arange(np.ceil(min(times)), np.floor(max(times)) + 1.0).tolist()}
+    frames = sorted(times) or [1.0]
+    codes = [Usd.TimeCode(frame) for frame in frames] if times else [Usd.TimeCode.Default()]
+    cache, matrices = UsdGeom.XformCache(), []
+    for code in codes:
+        cache.SetTime(code)
+        matrix = np.array(cache.GetLocalToWorldTransform(prim)).T  # USD's matrices are for rows
+        matrix[:3, 3] *= unit
+        matrices.append((upright @ matrix).tolist())
+    widths = np.array([aperture.Get(code) or 0.0 for code in codes])
+    lenses = np.array([focal.Get(code) or 0.0 for code in codes])
+    if not (lenses > 0.0).all():
+        raise input_error(path, f'camera "{prim.GetName()}" has no focal length')
+    return {
+        "name": prim.GetName(),
+        "frames": frames,
+        "matrix": matrices,
+        "half": (0.5 * widths / lenses).tolist(),
+        "sensor": float(widths[0] * 100.0 * unit),  # apertures are in tenths of a unit
+    }
