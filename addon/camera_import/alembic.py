@@ -39,6 +39,8 @@ def in_blender(path: str, rate: tuple[int, int], progress: Progress, tell: Messa
         bpy.ops.wm.alembic_import(filepath=path, set_frame_range=True, as_background_job=False)
     except RuntimeError as error:
         raise input_error(Path(path), f"cannot be read as Alembic: {str(error).strip()[:200]}") from None
+    if not scene.objects:  # the importer finishes without an error
+        raise input_error(Path(path), "is empty or not an Alembic file; export it again")
     first, last = scene.frame_start, scene.frame_end
     if last - first > foreign.MOST_FRAMES:
         raise input_error(Path(path), f"has more than {foreign.MOST_FRAMES:,} frames")

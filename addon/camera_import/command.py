@@ -92,11 +92,11 @@ def _read(arguments: argparse.Namespace, shot: Shot) -> list[Move]:
 
 
 def _matrix(arguments: argparse.Namespace, shot: Shot, found: ForeignScene) -> np.ndarray:
-    """Compute the matrix (4, 4) from the metres of a file to those of the scene."""
+    """Compute the matrix (4, 4) from metres of a file to metres of the scene."""
     sidecar = placing.read_sidecar(arguments.file)
     origin = arguments.origin or found.origin or (sidecar[0] if sidecar else None)
     if origin is None:
-        say("the file has no place on the Earth; its origin and axes are taken as those of the scene")
+        say("the file has no place on the Earth; it is read with origin and axes of the scene")
         return np.eye(4)
     undulation = placing.find_geoid(shot, arguments.geoid, sidecar[1] if sidecar else None)
     return placing.scene_from(shot, origin, _known_geoid(undulation))

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import input_error
+from ..errors import Error, input_error
 from ..progress import MessageCallback, Progress
 from . import foreign
 from .foreign import ForeignScene
@@ -32,13 +32,19 @@ def in_blender(path: str, progress: Progress, tell: MessageCallback) -> dict[str
     """Read a stage without its payloads (see `ForeignScene`)."""
     import bpy
 
-    bpy.utils.expose_bundled_modules()
-    from pxr import Tf, Usd, UsdGeom
+    if hasattr(bpy.utils, "expose_bundled_modules"):
+        bpy.utils.expose_bundled_modules()
+    try:
+        from pxr import Tf, Usd, UsdGeom
+    except ImportError:
+        raise Error(
+            "this Blender has no USD library; use Blender from blender.org, or export Alembic"
+        ) from None
 
     try:
         stage = Usd.Stage.Open(path, Usd.Stage.LoadNone)
     except Tf.ErrorException as error:
-        reason = str(error).strip().splitlines()[-1].strip()[:200]
+        reason = str(error.args[0].commentary).replace(f"{path}:", "line ").partition("\n")[0][:300]
         raise input_error(Path(path), f"cannot be opened as a USD stage: {reason}") from None
     unit, rate = UsdGeom.GetStageMetersPerUnit(stage), stage.GetTimeCodesPerSecond()
     if not (_LEAST_UNIT < unit < 1.0 / _LEAST_UNIT and 0.0 < rate < 1.0e6):
@@ -51,12 +57,17 @@ def in_blender(path: str, progress: Progress, tell: MessageCallback) -> dict[str
             found["origin"] = None if None in values else list(map(float, values))
         elif prim.IsA(UsdGeom.Camera):
             camera = UsdGeom.Camera(prim)
-            if camera.GetProjectionAttr().Get() == UsdGeom.Tokens.orthographic:
-                found["omitted"].append(prim.GetName())
+            orthographic = camera.GetProjectionAttr().Get() == UsdGeom.Tokens.orthographic
+            if orthographic or prim.GetCustomDataByKey("firetwin:projection") == "panorama":
+                found["omitted"].append(_name(prim))
             else:
                 found["cameras"].append(_sample(Path(path), prim, camera, unit, upright))
                 progress(len(found["cameras"]), 0)
     return found
+
+
+def _name(prim: Any) -> str:
+    return prim.GetDisplayName() or prim.GetName()
 
 
 def _sample(path: Path, prim: Any, camera: Any, unit: float, upright: np.ndarray) -> dict[str, Any]:
@@ -71,7 +82,7 @@ def _sample(path: Path, prim: Any, camera: Any, unit: float, upright: np.ndarray
             times |= {*UsdGeom.Xformable(above).GetTimeSamples()}
         above = above.GetParent()
     if (times and max(times) - min(times) > foreign.MOST_FRAMES) or len(times) > foreign.MOST_FRAMES:
-        raise input_error(path, f'camera "{prim.GetName()}" has more than {foreign.MOST_FRAMES:,} frames')
+        raise input_error(path, f'camera "{_name(prim)}" has more than {foreign.MOST_FRAMES:,} frames')
     if times:
         times |= {*np.arange(np.ceil(min(times)), np.floor(max(times)) + 1.0).tolist()}
     frames = sorted(times) or [1.0]
@@ -85,9 +96,9 @@ def _sample(path: Path, prim: Any, camera: Any, unit: float, upright: np.ndarray
     widths = np.array([aperture.Get(code) or 0.0 for code in codes])
     lenses = np.array([focal.Get(code) or 0.0 for code in codes])
     if not (lenses > 0.0).all():
-        raise input_error(path, f'camera "{prim.GetName()}" has no focal length')
+        raise input_error(path, f'camera "{_name(prim)}" has no focal length')
     return {
-        "name": prim.GetName(),
+        "name": _name(prim),
         "frames": frames,
         "matrix": matrices,
         "half": (0.5 * widths / lenses).tolist(),

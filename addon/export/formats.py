@@ -31,6 +31,7 @@ class Format:
 _FORMATS = {
     "usd": Format("USD stage: terrain, forest, fire, smoke, cameras", needs_scene=True),
     "gltf": Format("glTF scene with instanced trees, and a viewer page", needs_scene=True),
+    "alembic": Format("Alembic: perspective cameras", needs_scene=False),
     "gis": Format("GeoPackage of fronts, cameras, stations; GeoTIFFs; QGIS project", needs_scene=False),
     "kmz": Format("Google Earth: fronts by time, camera tours, overlays", needs_scene=False),
     "czml": Format("Cesium: clock, fronts, cameras, labels", needs_scene=False),
