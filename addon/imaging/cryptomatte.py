@@ -69,23 +69,29 @@ def ranked(numbers: NDArray[np.float32], cover: NDArray[np.float32]) -> NDArray[
     Parameters
     ----------
     numbers
-        (..., k) identifiers.
+        (k, ...) identifiers, or (k,) different ones.
     cover
-        (..., k) coverages, 0 to 1; identifiers without coverage are ignored.
+        (k, ...) coverages, 0 to 1; identifiers without coverage are ignored.
     """
-    cover = cover.copy()
-    for late in range(1, cover.shape[-1]):
-        for early in range(late):
-            same = np.where(numbers[..., early] == numbers[..., late], cover[..., late], np.float32(0.0))
-            cover[..., early] += same
-            cover[..., late] -= same
-    order = np.argsort(-cover, axis=-1, kind="stable")[..., :RANKS]
-    cover = np.take_along_axis(cover, order, axis=-1)
-    numbers = np.take_along_axis(np.broadcast_to(numbers, (*cover.shape[:-1], numbers.shape[-1])), order, -1)
-    found = np.zeros((*cover.shape[:-1], 2 * RANKS), np.float32)
-    count = 2 * order.shape[-1]
-    found[..., 0:count:2] = np.where(cover > 0.0, numbers, np.float32(0.0))
-    found[..., 1:count:2] = cover
+    planes = list(cover.copy())
+    count = len(planes)
+    if numbers.ndim > 1:
+        for late in range(1, count):
+            for early in range(late):
+                same = np.where(numbers[early] == numbers[late], planes[late], np.float32(0.0))
+                planes[early] += same
+                planes[late] -= same
+    held = [np.broadcast_to(each, cover.shape[1:]) for each in numbers]
+    found = np.zeros((*cover.shape[1:], 2 * RANKS), np.float32)
+    for rank in range(min(RANKS, count)):
+        for k in range(count - 1, rank, -1):  # equal coverages keep their order
+            greater = planes[k] > planes[k - 1]
+            for values in (held, planes):
+                before, after = values[k - 1], values[k]
+                values[k - 1] = np.where(greater, after, before)
+                values[k] = np.where(greater, before, after)
+        found[..., 2 * rank] = np.where(planes[rank] > 0.0, held[rank], np.float32(0.0))
+        found[..., 2 * rank + 1] = planes[rank]
     return found
 
 

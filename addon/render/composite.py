@@ -137,7 +137,7 @@ def compose(surfaces: Surfaces, distances: Array, marched: Array, white: float |
         flaming = gaps * _share_of_flames(gaps)
         limited = _limited(flaming, share, _GAP * white) - flaming
         light += limited
-        burning = np.maximum(burning + limited, 0.0)
+        burning = np.maximum(burning + limited, np.minimum(burning, 0.0))  # blue of flames is negative
     surface = np.maximum(behind + fire * flames, 0.0)
     cards = np.minimum(fire * flames, surface)
     found = surface + light, surface - cards, cards + burning
@@ -168,10 +168,8 @@ def split_light(surfaces: Surfaces, solid: Array) -> tuple[Array, Array, Array]:
     return sun, solid - sun - fire, fire
 
 
-def place_text(
-    picture: Array, surfaces: Surfaces, distances: Array, text: tuple[Array, Array, Array], front: Array
-) -> Array:
-    """Place text over a picture (h, w, 3), behind the surfaces that are nearer.
+def text_layer(surfaces: Surfaces, distances: Array, text: tuple[Array, Array, Array], front: Array) -> Array:
+    """Compute the layer of text (h, w, 4): radiance times alpha, and alpha; nearer surfaces hide it.
 
     Parameters
     ----------
@@ -187,10 +185,13 @@ def place_text(
     near, far = (distance <= distances[..., k] * (1.0 + _TOUCHES) for k in (0, 1))
     seen = (share * near + (1.0 - share) * far)[..., None]
     over = light * front[..., 3:] + cover[..., None] * front[..., :3]
-    written = cover[..., None] > 0.0
-    return np.where(written, picture * (1.0 - cover[..., None] * seen) + over * seen, picture).astype(
-        np.float32
-    )
+    layer = np.concatenate([over * seen, cover[..., None] * seen], axis=-1)
+    return np.where(cover[..., None] > 0.0, layer, 0.0).astype(np.float32)
+
+
+def place_over(picture: Array, layer: Array) -> Array:
+    """Place a layer (h, w, 4) of radiance times alpha, and alpha, over a picture (h, w, 3)."""
+    return (picture * (1.0 - layer[..., 3:]) + layer[..., :3]).astype(np.float32)
 
 
 def _share_of_flames(light: Array) -> Array:

@@ -82,7 +82,7 @@ def times(shot: Shot, frame: int) -> dict[str, Any]:
     assert offset is not None  # it has a time zone
     return {
         "capDate": f"{local:%Y:%m:%d %H:%M:%S}",
-        "utcOffset": -offset.total_seconds(),  # OpenEXR: UTC == local time + utcOffset
+        "utcOffset": 0.0 - offset.total_seconds(),  # OpenEXR: UTC == local time + utcOffset
         **film_time(shot.settings.time.rate, frame),
     }
 

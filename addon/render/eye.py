@@ -80,7 +80,7 @@ class Eye:
         """Transmittance (h, w) of smoke, once `picture` has computed it."""
         self.parts = parts
         self.layers: dict[str, Array] = {}
-        """Layers of the picture without text (see `shot.passes.comp`), once `picture` has computed them."""
+        """Layers of the picture (see `shot.passes.comp`), once `picture` has computed them."""
 
     def picture(self, text: Channels | None = None) -> Array:
         """Compute the radiance (h, w, 3) of surfaces, smoke, flames and `text`, which was rendered alone."""
@@ -101,7 +101,12 @@ class Eye:
             composed = composite.soften_highlights(composed, _WHITE * white)
         if self.parts:
             self.layers = _layers(composed, rendered, composite.smoke_opacity(rendered, at, marched))
-        return composed.picture if text is None else self._place_text(composed.picture, rendered, at, text)
+        if text is None:
+            return composed.picture
+        written = self._text_layer(rendered, at, text)
+        if self.parts:
+            self.layers |= {"labels.": written[..., :3], "labels.A": written[..., 3:]}
+        return composite.place_over(composed.picture, written)
 
     def _march(
         self,
@@ -115,8 +120,8 @@ class Eye:
         pixel, more = self.rays.pixel, self._burning | ({"parts": True} if parts else {})
         return volume.march(smoke, origins, directions, ends, self._light, _STEP, pixel=pixel, **more)
 
-    def _place_text(self, picture: Array, rendered: composite.Surfaces, at: Array, text: Channels) -> Array:
-        """Place text over a picture, with the smoke and flames in front of it."""
+    def _text_layer(self, rendered: composite.Surfaces, at: Array, text: Channels) -> Array:
+        """Compute the layer (h, w, 4) of text, with the smoke and flames in front of it."""
         cover = np.clip(text[COVER][..., 0], 0.0, 1.0)
         weight, way, _ = np.moveaxis(text[nodes.FLAMES], -1, 0)
         known = weight > 0.0
@@ -132,7 +137,7 @@ class Eye:
                 found = self._march(smoke, origins, lines, ends)
                 marched += np.float32(weight) * found.reshape(-1, 4)
             front[written] = marched
-        return composite.place_text(picture, rendered, at, (text["Combined"], cover, distance), front)
+        return composite.text_layer(rendered, at, (text["Combined"], cover, distance), front)
 
     def radiance(self, frame: int) -> Array:
         """Compute the infrared radiance (h, w) of surfaces, air, smoke and flames, W m-2 sr-1."""

@@ -223,7 +223,8 @@ class IntegratedRenderer:
             if bloom:
                 with _bloomed(self.scene, part, picture.frame) as lit:
                     self._composite(light, picture, part)
-                glare.append(sensor.read_image(lit)[..., :3] - light)
+                # The compositor takes negative blue of flames as 0.
+                glare.append(sensor.read_image(lit)[..., :3] - np.maximum(light, 0.0))
                 lit.unlink()
             else:
                 self._composite(light, picture, part)

@@ -1,7 +1,7 @@
 """View layer of labels, signs and routes, rendered without the scene, in many samples and never denoised.
 
 A denoiser smears small letters. The integrated renderer takes labels out of the visible picture, renders them
-alone and places them over it by their distance (`composite.place_text`).
+alone and places them over it by their distance (`composite.text_layer`).
 """
 
 from __future__ import annotations

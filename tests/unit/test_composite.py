@@ -206,6 +206,16 @@ def test_small_gaps_show_flames_less_bright_than_open_flames():
     )
 
 
+@pytest.mark.parametrize("white", [None, 1.0])
+def test_negative_blue_of_flames_stays_in_their_layer(white):
+    found, at, marched = flames_behind_foliage(0.5)
+    marched[..., 2] = -0.08 * marched[..., 0]
+    parts = np.concatenate([marched, marched[..., :3], np.ones((*at.shape, 1))], axis=-1).astype(np.float32)
+    made = composite.compose(found, at, parts, white)
+    assert made.fire[3, 4, 2] < -0.01
+    assert made.smoke == pytest.approx(np.zeros_like(made.smoke), abs=1e-5)
+
+
 def soften(light):
     return composite.soften_highlights(composite.Layers(light, light, 0.0 * light), 1.0).picture
 
@@ -227,7 +237,9 @@ def test_text_is_in_front_of_what_is_farther_away(distance, seen):
     text = light, np.full(SIZE, 0.5, np.float32), np.full(SIZE, distance, np.float32)
     front = np.zeros((*SIZE, 4), np.float32)
     front[..., 3] = 1.0
-    shown = composite.place_text(found.colour, found, composite.taps(found), text, front)
+    shown = composite.place_over(
+        found.colour, composite.text_layer(found, composite.taps(found), text, front)
+    )
     assert shown == pytest.approx(seen * 5.0 + (1.0 - seen) * 3.0)
 
 
@@ -236,7 +248,9 @@ def test_smoke_in_front_dims_text_as_it_does_surfaces():
     text = np.full((*SIZE, 3), 7.0, np.float32), np.ones(SIZE, np.float32), np.full(SIZE, 100.0, np.float32)
     front = even_smoke(np.full(SIZE, 100.0))
     through = np.exp(-0.1)
-    shown = composite.place_text(found.colour, found, composite.taps(found), text, front)
+    shown = composite.place_over(
+        found.colour, composite.text_layer(found, composite.taps(found), text, front)
+    )
     assert shown == pytest.approx(7.0 * through + 2.0 * (1.0 - through), rel=1e-5)
 
 

@@ -30,13 +30,13 @@ def test_identifiers_are_finite_and_normal():
 
 def test_equal_names_add_up_and_the_greatest_coverage_comes_first():
     numbers = np.array([[5.0, 7.0, 5.0, 9.0]], np.float32)
-    found = cryptomatte.ranked(numbers, np.array([[0.25, 0.375, 0.25, 0.0]], np.float32))
+    found = cryptomatte.ranked(numbers.T, np.array([[0.25], [0.375], [0.25], [0.0]], np.float32))
     assert found[0].tolist() == [5.0, 0.5, 7.0, 0.375, *[0.0] * 8]
 
 
 def test_the_least_coverages_beyond_the_ranks_are_dropped():
     cover = np.arange(1, 9, dtype=np.float32) / 36
-    found = cryptomatte.ranked(np.arange(1, 9, dtype=np.float32), cover[None])
+    found = cryptomatte.ranked(np.arange(1, 9, dtype=np.float32), cover[:, None])
     assert found[0, ::2].tolist() == [8.0, 7.0, 6.0, 5.0, 4.0, 3.0]
     assert found[0, 1::2] == pytest.approx(cover[:1:-1])
 

@@ -1,10 +1,13 @@
 """Passes: their declarations, and pictures made from their files."""
 
 import dataclasses
+import itertools
 import sys
 
+import fileseq
 import pytest
 from firetwin.render import finish
+from firetwin.render.picture import Picture
 from firetwin.shot import passes
 from firetwin.shot.sections import SmokeSettings
 from firetwin.shot.settings import Camera, Render, Settings
@@ -57,6 +60,23 @@ def test_passes_of_a_camera_come_in_order():
     assert [each.name for each in passes.of_camera(settings, camera)] == ["rgb", "thermal"]
     own = dataclasses.replace(camera, passes=("depth",))
     assert [each.name for each in passes.of_camera(settings, own)] == ["depth"]
+
+
+@pytest.mark.parametrize("view", ["drone", "drone@slower", "ir-2"])
+def test_readers_of_sequences_find_the_frames(tmp_path, view):
+    for name, frame in itertools.product(("rgb", "data"), (1, 2, 3, 5)):
+        for path in (tmp_path / each for each in Picture(view, frame, name).files()):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.touch()
+    stem = passes.file_stem(view)
+    for name in ("rgb", "data"):
+        found = fileseq.findSequencesOnDisk(str(tmp_path / stem / name))
+        assert {each.extension() for each in found} == {f".{end}" for end in KNOWN[name].files}
+        for sequence in found:
+            assert list(sequence.frameSet()) == [1, 2, 3, 5]
+            assert (sequence.basename(), sequence.zfill()) == (f"{stem}_{name}_", 6)
+            again = fileseq.FileSequence(str(sequence))
+            assert list(again) == list(sequence), "what it prints can be read"
 
 
 @pytest.mark.parametrize(

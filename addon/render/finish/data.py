@@ -27,7 +27,7 @@ _NAMES = (
 _SAID = "Z, P: m; forward, backward: pixels right and up; thermal: K and W m-2 sr-1"
 _ROWS = 64  # of a picture whose trees are ranked together, to limit memory
 _NEAR = ((1, 1), (0, 1), (1, 0), (1, 2), (2, 1), (0, 0), (0, 2), (2, 0), (2, 2))
-_WEIGHTS = np.array([4, 2, 2, 2, 2, 1, 1, 1, 1], np.float32) / 16
+_WEIGHTS = np.array([4, 2, 2, 2, 2, 1, 1, 1, 1], np.float32)[:, None, None] / 16
 """Position of neighbours in a 3 x 3 block, and their weights, which `composite.blur` has too."""
 
 Array = NDArray[np.float32]
@@ -46,7 +46,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
         sensor.read_image(needed["normal"]["exr"])[..., :3],
         np.nan_to_num(pixel_rays.points(view, frame, planar)),
         *(move(view, frame, planar, frame + step) for step in (1, -1)),
-        cryptomatte.ranked(classes, cover_classes(masks["surface"], masks["clear"])),
+        cryptomatte.ranked(classes, np.moveaxis(cover_classes(masks["surface"], masks["clear"]), -1, 0)),
         trees,
         *(thermal[name][..., None] for name in ("kelvin", "radiance")),
     ]
@@ -103,7 +103,7 @@ def mark_trees(surface: Array, instance: Array, clear: Array) -> tuple[Array, di
     for top in range(0, height, _ROWS):
         rows = min(_ROWS, height - top)
         around = (
-            np.stack([each[top + j : top + j + rows, i : i + width] for j, i in _NEAR], axis=-1)
+            np.stack([each[top + j : top + j + rows, i : i + width] for j, i in _NEAR])
             for each in (held, cover)
         )
         numbers, shares = around
