@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..jobs import worker
-from ..progress import MessageCallback, Progress, say
+from ..progress import MessageCallback, Progress
 from . import tracks
 from .request import ExportRequest
 from .tracks import Track
@@ -25,7 +25,7 @@ def write(request: ExportRequest) -> list[Path]:
     """Write cameras.abc, in a worker process with Blender."""
     found = tracks.find(request)
     if omitted := [track.name for track in found if track.projection != "perspective"]:
-        say(f"omitted cameras that are not perspective: {', '.join(omitted)}")
+        request.tell(f"omitted cameras that are not perspective: {', '.join(omitted)}")
     path, rate = request.folder / NAME, request.shot.settings.time.rate
     task = {
         "path": str(path),
@@ -33,7 +33,7 @@ def write(request: ExportRequest) -> list[Path]:
         "span": [min(request.frames), max(request.frames)],
         "cameras": [_plain(track) for track in found if track.projection == "perspective"],
     }
-    worker.run(f"{__name__}:in_blender", task, request.progress)
+    worker.run(f"{__name__}:in_blender", task, request.progress, stop=request.stop)
     return [path]
 
 

@@ -18,23 +18,26 @@ class Format:
 
     Attributes
     ----------
+    title
+        Name for menus.
     help
         Content of the files, in one line.
     needs_scene
         True if the format reads the built Blender scene; others read the shot alone.
     """
 
+    title: str
     help: str
-    needs_scene: bool
+    needs_scene: bool = False
 
 
 _FORMATS = {
-    "usd": Format("USD stage: terrain, forest, fire, smoke, cameras", needs_scene=True),
-    "gltf": Format("glTF scene with instanced trees, and a viewer page", needs_scene=True),
-    "alembic": Format("Alembic: perspective cameras", needs_scene=False),
-    "gis": Format("GeoPackage of fronts, cameras, stations; GeoTIFFs; QGIS project", needs_scene=False),
-    "kmz": Format("Google Earth: fronts by time, camera tours, overlays", needs_scene=False),
-    "czml": Format("Cesium: clock, fronts, cameras, labels", needs_scene=False),
+    "usd": Format("USD", "USD stage: terrain, forest, fire, smoke, cameras", needs_scene=True),
+    "gltf": Format("glTF", "glTF scene with instanced trees, and a viewer page", needs_scene=True),
+    "alembic": Format("Alembic", "Alembic: perspective cameras"),
+    "gis": Format("GIS and QGIS", "GeoPackage of fronts, cameras, stations; GeoTIFFs; QGIS project"),
+    "kmz": Format("Google Earth (KMZ)", "Google Earth: fronts by time, camera tours, overlays"),
+    "czml": Format("Cesium (CZML)", "Cesium: clock, fronts, cameras, labels"),
 }
 
 

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from .. import files
 from ..imaging import map_symbols
-from ..progress import say
 from . import fronts, overlays, pictures, places, tracks
 from .fronts import DatedFront
 from .overlays import Overlay
@@ -66,7 +65,7 @@ def _document(request: ExportRequest, drawn: list[Overlay]) -> Iterator[str]:
     yield from _folder("Fire by time", map(_front, fronts.find(request)))
     found = tracks.find(request)
     if omitted := [track.name for track in found if track.projection != "perspective"]:
-        say(f"omitted, as KML has perspective cameras alone: {', '.join(omitted)}")
+        request.tell(f"omitted, as KML has perspective cameras alone: {', '.join(omitted)}")
     shown = [track for track in found if track.projection == "perspective"]
     yield from (part for track in shown for part in _tour(track, request))
     yield from _folder("Camera paths", (_path(track, request) for track in shown))

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..progress import Progress, silent
+from ..jobs.worker import Stop
+from ..progress import MessageCallback, Progress, no_message, silent
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
 from .georeference import Georeference
@@ -27,6 +28,10 @@ class ExportRequest:
         True if formats with volumes write the smoke.
     progress
         Function for the number of finished frames or files, and of all.
+    tell
+        Function for messages.
+    stop
+        Token that ends worker processes.
     """
 
     source: ShotSource
@@ -36,3 +41,5 @@ class ExportRequest:
     folder: Path
     smoke: bool = True
     progress: Progress = silent
+    tell: MessageCallback = no_message
+    stop: Stop | None = None

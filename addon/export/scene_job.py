@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..jobs import worker
 from ..jobs.tiles import imagery, selection
-from ..progress import MessageCallback, Progress, say
+from ..progress import MessageCallback, Progress
 from ..shot.shot import Shot
 from ..shot.source import ShotSource
 from . import georeference
@@ -44,8 +44,8 @@ def run(request: ExportRequest, writer: str) -> list[Path]:
         The terms of the scene's tiles or imagery do not allow their export, or a file cannot be written.
     """
     source, place = request.source, request.georeference
-    selection.prepare(source, (), request.progress, say, uses=[_TILES])
-    imagery.prepare(source, (), request.progress, say)
+    selection.prepare(source, (), request.progress, request.tell, request.stop, uses=[_TILES])
+    imagery.prepare(source, (), request.progress, request.tell, request.stop)
     task = {
         "choice": source.plain(),
         "writer": writer,
@@ -54,7 +54,7 @@ def run(request: ExportRequest, writer: str) -> list[Path]:
         "geoid": [place.geoid_m, place.source, place.orthometric],
         "smoke": request.smoke,
     }
-    names = worker.run(f"{__name__}:in_blender", task, request.progress, tell=say)
+    names = worker.run(f"{__name__}:in_blender", task, request.progress, stop=request.stop, tell=request.tell)
     return [request.folder / name for name in names]
 
 

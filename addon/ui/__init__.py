@@ -99,6 +99,7 @@ def register() -> None:
     smoke_volumes.register()
     stations_panel.register()
     tile_credits.register()
+    feature_panels.register()
     if bpy.app.module:
         atexit.register(unregister)
 

@@ -29,6 +29,7 @@ _PANELS = {
     "stations": "stations#in-blender",
     "station_map": "stations#in-blender",
     "allocation": "stations#a-suggested-allocation",
+    "export": "export",
     "tiles": "tiles#in-blenders-window",
     "report": "artists#next-steps",
 }
@@ -38,6 +39,7 @@ _OPERATORS = {
     "sample": "artists#1-open-a-fire",
     "inspect": "artists#1-open-a-fire",
     "export": "artists#6-keep-it",
+    "export_to": "export",
     "run_*": "pipelines#several-runs-of-one-fire",
     "build": "artists#2-choose-the-time-and-build",
     "remove": "artists#2-choose-the-time-and-build",

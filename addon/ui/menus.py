@@ -42,6 +42,8 @@ _FARM = (
 )
 _ALLOCATION = (Entry("allocate", icon="COMMUNITY"),)
 
+_EXPORT = (Entry("export_to", icon="EXPORT"),)
+
 MENUS: dict[str, tuple[Line, ...]] = {
     "Run": (
         Entry("open", "Open run...", "FILEBROWSER"),
@@ -102,6 +104,7 @@ MENUS: dict[str, tuple[Line, ...]] = {
         Entry("f12_files", "Let F12 write files", "OUTPUT", {"on": True}),
         Entry("f12_files", "Stop F12 writing files", "OUTPUT", {"on": False}),
         *(_FARM if is_installed("farm") else ()),
+        *(_EXPORT if is_installed("export") else ()),
         Entry("stop", icon="CANCEL"),
     ),
     "Help": (

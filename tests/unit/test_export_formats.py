@@ -8,7 +8,7 @@ from datetime import datetime
 import numpy as np
 import pytest
 from firetwin import cli
-from firetwin.export import command, czml, fronts, georeference, kmz, pictures, texts, tracks
+from firetwin.export import czml, fronts, georeference, kmz, pictures, texts, tracks
 from firetwin.export.request import ExportRequest
 from firetwin.run.front import reach
 from firetwin.shot.source import ShotSource
@@ -284,6 +284,6 @@ def test_the_command_lists_its_files(name, scene, tmp_path, capsys):
 
 def test_without_a_geoid_the_command_says_so_loudly(scene, tmp_path, capsys, monkeypatch):
     scene.write_text(SCENE.replace("geoid = -24.9", ""))
-    monkeypatch.setattr(command.georeference.geoid, "find", lambda: None)
+    monkeypatch.setattr(georeference.geoid, "find", lambda: None)
     assert cli.main(["export", str(scene), "--to", "czml", "--out", str(tmp_path / "out")]) == 0
     assert "warning: the height of the geoid is unknown" in capsys.readouterr().err
