@@ -8,8 +8,8 @@ from firetwin.export.scene_content import FlamePoints, Plants, Prototype
 @pytest.fixture
 def prototype():
     """Two leaves on opposite sides of a trunk, and a piece of its bark."""
-    leaf = np.array([(0.0, 0.0, 0.5), (0.0, 0.1, 0.5), (0.1, 0.0, 0.5)])
-    points = np.concatenate([leaf + [0.3, 0.0, 0.0], leaf - [0.4, 0.0, 0.0], leaf[:, [2, 0, 1]]])
+    leaf, east = np.array([(0.0, 0.0, 0.5), (0.0, 0.1, 0.5), (0.1, 0.0, 0.5)]), np.array((0.3, 0.0, 0.0))
+    points = np.concatenate([leaf + east, leaf - 1.5 * east, leaf[:, [2, 0, 1]]])
     triangles, looks = np.arange(9).reshape(3, 3), np.array([0, 0, 1])
     return Prototype("x", "large", "living", 0, points, triangles, np.zeros((3, 3)), looks)
 
