@@ -105,8 +105,12 @@ def score(arguments: argparse.Namespace) -> None:
     from .errors import Error, UsageError, input_error
     from .run import observations, zone
     from .run import score as scores
+    from .run.ensemble import ensemble
     from .run.score import page, used
 
+    if ensemble.sniff(arguments.run):
+        _score_members(arguments)
+        return
     if arguments.run.suffix == ".toml" and arguments.run.is_file():
         run, *others = _open_runs(arguments.run).values()
         named = arguments.against or [other.path for other in others]
@@ -131,6 +135,24 @@ def score(arguments: argparse.Namespace) -> None:
         say(f"wrote {arguments.report}")
     if not runs and (none := used.nothing(found["uses"])):
         raise Error(none)
+
+
+def _score_members(arguments: argparse.Namespace) -> None:
+    """Compare an ensemble with observed perimeters."""
+    from .errors import UsageError
+    from .run import observations, zone
+    from .run.ensemble import ensemble
+    from .run.score import members
+
+    found = ensemble.open(arguments.run)
+    named = arguments.against or observations.beside(arguments.run)
+    if arguments.report:
+        raise UsageError("--report: is of runs alone; use --json for the scores of an ensemble")
+    if not named or not all(observations.is_one(each) for each in named):
+        raise UsageError("--against: name files of observed perimeters")
+    place = float(found.longitude.mean())
+    results = members.score(found, observations.read(named), found.manifest.zone or zone.of_longitude(place))
+    result(json.dumps(results, indent=1) if arguments.json else members.page(results))
 
 
 def brief(arguments: argparse.Namespace) -> None:

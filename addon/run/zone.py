@@ -28,8 +28,7 @@ def time_zone(run: Run) -> str:
         return history.load(run.event).zone
     if run.offset:
         return of_offset(run.offset)
-    middle = 0.5 * float(run.longitude[0] + run.longitude[-1])
-    return of_hours(int(np.round(((middle + 180.0) % 360.0 - 180.0) / 15.0)))
+    return of_longitude(0.5 * float(run.longitude[0] + run.longitude[-1]))
 
 
 NOT_KNOWN = 'is not a time zone; give one such as "Europe/Paris", or "Etc/GMT-2" for two hours east of UTC'
@@ -42,6 +41,11 @@ def known(name: str) -> bool:
     except (zoneinfo.ZoneInfoNotFoundError, ValueError, OSError):
         return False
     return True
+
+
+def of_longitude(longitude: float) -> str:
+    """Return the time zone of a longitude (degrees east), in whole hours."""
+    return of_hours(int(np.round(((longitude + 180.0) % 360.0 - 180.0) / 15.0)))
 
 
 def of_offset(minutes: int) -> str:
