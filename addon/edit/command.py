@@ -29,7 +29,7 @@ def run(arguments: argparse.Namespace, shot: Shot) -> None:
     if arguments.name not in known:
         hint = suggestion(arguments.name, known)
         raise UsageError(f'--pass: "{arguments.name}" is not one of {", ".join(known)}{hint}')
-    found = media.takes(shot, arguments.name, arguments.film or arguments.out, arguments.out)
+    found = media.films(shot, arguments.name, arguments.film or arguments.out, arguments.out)
     made = cut.Edit(
         shot.settings.path.stem,
         shot.settings.time.rate,
@@ -37,7 +37,7 @@ def run(arguments: argparse.Namespace, shot: Shot) -> None:
         tuple(cut.cut(found)),
         tuple(markers.find(shot)),
     )
-    used = {take.camera for take in found}
+    used = {film.camera for film in found}
     if omitted := [view for view in scene_runs.views(shot.settings) if view not in used]:
         say(f"omitted panoramas, other runs' views and cameras without a film: {', '.join(omitted)}")
     clips, films = count(len(made.cut), "clip"), count(len(found), "film")

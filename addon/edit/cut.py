@@ -39,7 +39,7 @@ class Stretch:
 
 
 @dataclass(frozen=True)
-class Take:
+class CameraFilm:
     """Film of a camera.
 
     Attributes
@@ -94,7 +94,7 @@ class ImageSequence:
 class Clip:
     """Frames of a stretch on the timeline: `length` frames from number `first`."""
 
-    take: Take
+    film: CameraFilm
     stretch: Stretch
     first: int
     length: int
@@ -131,19 +131,19 @@ class Edit:
 
     name: str
     rate: Fraction
-    takes: tuple[Take, ...]
+    films: tuple[CameraFilm, ...]
     cut: tuple[Clip, ...]
     markers: tuple[Marker, ...]
 
     @property
     def tracks(self) -> list[tuple[str, Sequence[Clip]]]:
         """Name and clips of each track: V1, then one for each camera."""
-        return [("V1", self.cut), *((take.camera, clips(take)) for take in self.takes)]
+        return [("V1", self.cut), *((film.camera, clips(film)) for film in self.films)]
 
     @property
     def length(self) -> int:
         """Number of frames from frame 1 to the last one of any film."""
-        return max(take.frames[-1] for take in self.takes)
+        return max(film.frames[-1] for film in self.films)
 
 
 def stretches(frames: Iterable[int]) -> list[Stretch]:
@@ -157,28 +157,28 @@ def stretches(frames: Iterable[int]) -> list[Stretch]:
     return found
 
 
-def clips(take: Take) -> list[Clip]:
+def clips(film: CameraFilm) -> list[Clip]:
     """Return a clip for each stretch of a film."""
-    return [Clip(take, each, each.first, each.length) for each in take.stretches]
+    return [Clip(film, each, each.first, each.length) for each in film.stretches]
 
 
-def cut(takes: Sequence[Take]) -> list[Clip]:
+def cut(films: Sequence[CameraFilm]) -> list[Clip]:
     """Divide all frames evenly among the films, in order; each frame comes once.
 
     If a film misses a frame of its part, the next film that has the frame takes it; after the last film comes
     the first.
     """
-    having = [frozenset(take.frames) for take in takes]
-    known = [take.stretches for take in takes]
+    having = [frozenset(film.frames) for film in films]
+    known = [film.stretches for film in films]
     every = sorted(frozenset().union(*having))
     made: list[Clip] = []
     for k, frame in enumerate(every):
-        part = k * len(takes) // len(every)
-        order = [*range(part, len(takes)), *range(part)]
-        film = next(number for number in order if frame in having[number])
-        if made and made[-1].take is takes[film] and made[-1].end == frame:
+        part = k * len(films) // len(every)
+        order = [*range(part, len(films)), *range(part)]
+        chosen = next(number for number in order if frame in having[number])
+        if made and made[-1].film is films[chosen] and made[-1].end == frame:
             made[-1] = replace(made[-1], length=made[-1].length + 1)
         else:
-            at = bisect.bisect_right(known[film], frame, key=lambda each: each.first) - 1
-            made.append(Clip(takes[film], known[film][at], frame, 1))
+            at = bisect.bisect_right(known[chosen], frame, key=lambda each: each.first) - 1
+            made.append(Clip(films[chosen], known[chosen][at], frame, 1))
     return made

@@ -19,16 +19,16 @@ _RESERVED = frozenset({"AX", "BL", "BLACK", "BARS"})
 
 def text(edit: Edit) -> str:
     """Return the content of the file."""
-    names = reels(take.camera for take in edit.takes)
+    names = reels(film.camera for film in edit.films)
     mode = "DROP FRAME" if timecode.is_drop_frame(edit.rate) else "NON-DROP FRAME"
     lines = [f"TITLE: {edit.name}", f"FCM: {mode}", ""]
     for number, clip in enumerate(edit.cut, 1):
-        source = clip.take.frames[0] + clip.position
+        source = clip.film.frames[0] + clip.position
         spans = (source, source + clip.length, clip.first, clip.end)
         times = " ".join(timecode.of_frame(frame, edit.rate) for frame in spans)
-        lines.append(f"{number:03d}  {names[clip.take.camera]:<{_REEL}} V     C        {times}")
-        lines.append(f"* FROM CLIP NAME: {posixpath.basename(unquote(clip.take.url))}")
-        lines.append(f"* FROM FILE: {clip.take.url}")
+        lines.append(f"{number:03d}  {names[clip.film.camera]:<{_REEL}} V     C        {times}")
+        lines.append(f"* FROM CLIP NAME: {posixpath.basename(unquote(clip.film.url))}")
+        lines.append(f"* FROM FILE: {clip.film.url}")
         lines += [
             f"* LOC: {timecode.of_frame(each.frame, edit.rate)} {each.colour:<7} {each.words}"
             for each in _markers(edit, number - 1)

@@ -10,7 +10,7 @@ import xml.etree.ElementTree as ET
 from fractions import Fraction
 
 from .. import timecode
-from .cut import Clip, Edit, Take
+from .cut import CameraFilm, Clip, Edit
 
 _HEADER = '<?xml version="1.0" encoding="UTF-8"?>\n<!DOCTYPE xmeml>\n'
 
@@ -24,15 +24,15 @@ def text(edit: Edit) -> str:
     _rate(sequence, edit.rate)
     _timecode(sequence, 1, edit.rate)
     video = ET.SubElement(ET.SubElement(sequence, "media"), "video")
-    _format(ET.SubElement(video, "format"), edit.takes[0], edit.rate)
-    files = {take.camera: f"file-{number}" for number, take in enumerate(edit.takes, 1)}
+    _format(ET.SubElement(video, "format"), edit.films[0], edit.rate)
+    files = {film.camera: f"file-{number}" for number, film in enumerate(edit.films, 1)}
     written: set[str] = set()
     for position, (name, clips) in enumerate(edit.tracks):
         track = ET.SubElement(video, "track")
         _add(track, "name", name)
         for clip in clips:
             item = ET.SubElement(track, "clipitem", id=f"clipitem-{position + 1}-{clip.first}")
-            _clip(item, clip, edit.rate, files[clip.take.camera], written)
+            _clip(item, clip, edit.rate, files[clip.film.camera], written)
         _add(track, "enabled", "FALSE" if position else "TRUE")
         _add(track, "locked", "FALSE")
     for marker in edit.markers:
@@ -46,35 +46,35 @@ def text(edit: Edit) -> str:
 
 def _clip(item: ET.Element, clip: Clip, rate: Fraction, file: str, written: set[str]) -> None:
     """Fill a clip; the first clip of a film describes the file, later ones refer to it."""
-    _add(item, "name", clip.take.camera)
+    _add(item, "name", clip.film.camera)
     _add(item, "enabled", "TRUE")
-    _add(item, "duration", clip.take.length)
+    _add(item, "duration", clip.film.length)
     _rate(item, rate)
     _add(item, "start", clip.first - 1)
     _add(item, "end", clip.end - 1)
-    start = clip.take.slate + clip.position
+    start = clip.film.slate + clip.position
     _add(item, "in", start)
     _add(item, "out", start + clip.length)
     element = ET.SubElement(item, "file", id=file)
     if file not in written:
         written.add(file)
-        _file(element, clip.take, rate)
+        _file(element, clip.film, rate)
 
 
-def _file(element: ET.Element, take: Take, rate: Fraction) -> None:
-    _add(element, "name", take.camera)
-    _add(element, "pathurl", take.url)
+def _file(element: ET.Element, film: CameraFilm, rate: Fraction) -> None:
+    _add(element, "name", film.camera)
+    _add(element, "pathurl", film.url)
     _rate(element, rate)
-    _add(element, "duration", take.length)
-    _timecode(element, take.frames[0] - take.slate, rate)
-    _format(ET.SubElement(ET.SubElement(element, "media"), "video"), take, rate)
+    _add(element, "duration", film.length)
+    _timecode(element, film.frames[0] - film.slate, rate)
+    _format(ET.SubElement(ET.SubElement(element, "media"), "video"), film, rate)
 
 
-def _format(element: ET.Element, take: Take, rate: Fraction) -> None:
+def _format(element: ET.Element, film: CameraFilm, rate: Fraction) -> None:
     """Add the size of pictures."""
     sample = ET.SubElement(element, "samplecharacteristics")
     _rate(sample, rate)
-    for tag, value in zip(("width", "height"), take.size, strict=True):
+    for tag, value in zip(("width", "height"), film.size, strict=True):
         _add(sample, tag, value)
     _add(sample, "pixelaspectratio", "square")
     _add(sample, "fielddominance", "none")

@@ -13,13 +13,13 @@ from ..render import manifest
 from ..render.picture import FILM_SUFFIXES
 from ..shot import passes
 from ..shot.shot import Shot
-from .cut import ImageSequence, Take
+from .cut import CameraFilm, ImageSequence
 
 COMPOSITING = "comp"
 """Pass of layers for compositors."""
 
 
-def takes(shot: Shot, name: str, film: Path, out: Path) -> list[Take]:
+def films(shot: Shot, name: str, film: Path, out: Path) -> list[CameraFilm]:
     """Find the film of each camera in a pass, in the order of the scene.
 
     A clean film replaces the review film. Panoramas and views of comparison runs are omitted.
@@ -53,7 +53,7 @@ def takes(shot: Shot, name: str, film: Path, out: Path) -> list[Take]:
             if (each := _sequence(entries, camera.name, key, film, out))
         }
         slate = entries[path].get("slate_frames", 0)
-        found.append(Take(camera.name, url(film / path, out), frames, size, sequences, slate))
+        found.append(CameraFilm(camera.name, url(film / path, out), frames, size, sequences, slate))
     if not found:
         remedy = "run firetwin render with [render] video = true"
         raise input_error(film, f'has no film of the pass "{name}" of these cameras; {remedy}')

@@ -53,18 +53,18 @@ def _track(name: str, clips: Sequence[Clip], rate: Fraction, enabled: bool) -> d
 
 
 def _clip(clip: Clip, rate: Fraction) -> dict[str, Any]:
-    take, stretch, start = clip.take, clip.stretch, clip.take.start(rate)
+    source, stretch, start = clip.film, clip.stretch, clip.film.start(rate)
     film = _object("ExternalReference.1", "") | {
-        "available_range": _range(start - take.slate, take.length, rate),
+        "available_range": _range(start - source.slate, source.length, rate),
         "available_image_bounds": None,
-        "target_url": take.url,
+        "target_url": source.url,
     }
     sequences = {
         key: _sequence(each, stretch.first, _range(start + stretch.position, stretch.length, rate), rate)
-        for key, each in take.sequences.items()
+        for key, each in source.sequences.items()
         if each.frames.issuperset(range(stretch.first, stretch.last + 1))
     }
-    return _item("Clip.2", take.camera, _range(start + clip.position, clip.length, rate)) | {
+    return _item("Clip.2", source.camera, _range(start + clip.position, clip.length, rate)) | {
         "media_references": {FILM: film, **sequences},
         "active_media_reference_key": FILM,
     }

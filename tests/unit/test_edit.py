@@ -11,7 +11,7 @@ import pytest
 from firetwin import cli, timecode
 from firetwin.edit import cut, edl, fcp_xml
 from firetwin.edit import otio as otio_file
-from firetwin.edit.cut import Edit, Marker, Take
+from firetwin.edit.cut import CameraFilm, Edit, Marker
 from firetwin.render import store
 from firetwin.render.picture import Picture, film
 from firetwin.render.store import Store
@@ -247,10 +247,11 @@ def test_reels_are_short_unique_and_not_reserved():
 films = st.lists(st.sets(st.integers(1, 40), min_size=1), min_size=1, max_size=4)
 
 
-def _takes(sets):
+def _films(sets):
     """Films of these frames; every second one begins with a slate."""
     return [
-        Take(f"c{k}", f"c{k}.mp4", tuple(sorted(each)), (64, 36), slate=k % 2) for k, each in enumerate(sets)
+        CameraFilm(f"c{k}", f"c{k}.mp4", tuple(sorted(each)), (64, 36), slate=k % 2)
+        for k, each in enumerate(sets)
     ]
 
 
@@ -265,26 +266,26 @@ def test_stretches_cover_a_film_once(frames):
 
 @given(films)
 def test_a_cut_has_each_frame_once_and_from_a_film_that_has_it(sets):
-    takes = _takes(sets)
-    shown = [(f, c) for c in cut.cut(takes) for f in range(c.first, c.end)]
+    films = _films(sets)
+    shown = [(f, c) for c in cut.cut(films) for f in range(c.first, c.end)]
     assert [frame for frame, _ in shown] == sorted(set().union(*sets))
     for k, (frame, clip) in enumerate(shown):
-        assert clip.take.frames[clip.position + frame - clip.first] == frame
-        part = takes[k * len(takes) // len(shown)]
-        assert clip.take is part or frame not in part.frames
+        assert clip.film.frames[clip.position + frame - clip.first] == frame
+        part = films[k * len(films) // len(shown)]
+        assert clip.film is part or frame not in part.frames
 
 
 @given(films, st.sampled_from(("24", "25", "24000/1001", "30000/1001", "60000/1001")))
 def test_three_formats_agree(sets, rate):
-    exact, takes = Fraction(rate), tuple(_takes(sets))
-    edit = Edit("cut", exact, takes, tuple(cut.cut(takes)), (Marker(3, "flare-up", "RED"),))
+    exact, films = Fraction(rate), tuple(_films(sets))
+    edit = Edit("cut", exact, films, tuple(cut.cut(films)), (Marker(3, "flare-up", "RED"),))
     whole = otio.adapters.read_from_string(otio_file.text(edit), "otio_json")
     xml = otio.adapters.read_from_string(fcp_xml.text(edit), "fcp_xml")
     lines = otio.adapters.read_from_string(edl.text(edit), "cmx_3600", rate=float(exact))
     assert media(whole) == media(xml) == media(lines)
     starts = [int(each.text) for each in ET.fromstring(fcp_xml.text(edit)).iterfind(".//clipitem/in")]
     played = [clip for _, clips in edit.tracks for clip in clips]
-    assert starts == [clip.position + clip.take.slate for clip in played]  # from the file's first picture
+    assert starts == [clip.position + clip.film.slate for clip in played]  # from the file's first picture
     record = [line.split()[6] for line in edl.text(edit).splitlines() if line[0:1].isdigit()]
     assert record == [timecode.of_frame(clip.first, exact) for clip in edit.cut]
     assert edl.text(edit).count("* LOC: ") == 1
