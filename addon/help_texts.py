@@ -55,7 +55,7 @@ perimeters, with and without the area burned before the start of the run. Furthe
 times, and detections with their lag. Each score is computed on polygons and on cells; their difference
 estimates the numerical error of the score, not of the fire model. Observations outside the times or the grid
 of the run are counted and ignored. The exit status is 1 if none remains. Needs shapely and pyproj (pip
-install 'firetwin[score]'). RUN can be an ensemble (convert --members): CRPS, Brier score, reliability, FSS."""
+install 'firetwin[score]'). For an ensemble: CRPS, Brier score, reliability and FSS."""
 
 IMAGER = """\
 Brightness temperatures (K) at 3.9 and 11.2 um (3.74 and 11.45 for viirs), fire radiative power (W) and a
