@@ -1,6 +1,7 @@
 """Scene job: builds a shot's scene in a worker process with Blender, and writes it in a format.
 
-A format that needs the scene has a function ``write_content(content, export)``, which runs in the worker.
+A format that needs the scene has a function ``write_content(content, export)``, which runs in the worker, and
+can have ``check_blender()``, which raises an Error if this Blender cannot write it.
 """
 
 from __future__ import annotations
@@ -72,6 +73,9 @@ def in_blender(
     from ..jobs import worker_scene
     from . import read_scene
 
+    module = importlib.import_module(f".{writer}", __package__)
+    if hasattr(module, "check_blender"):
+        module.check_blender()
     shot = ShotSource(**choice).shot()
     for text in shot.warnings():
         tell(text)
@@ -80,7 +84,7 @@ def in_blender(
     stage = worker_scene.build_scene(shot, progress, tell)
     content = read_scene.read(shot, stage, frames, volumes)
     export = SceneExport(shot, place, Path(folder), progress)
-    made = importlib.import_module(f".{writer}", __package__).write_content(content, export)
+    made = module.write_content(content, export)
     return [path.relative_to(folder).as_posix() for path in made]
 
 

@@ -25,15 +25,20 @@ def write(request: ExportRequest) -> list[Path]:
     return scene_job.run(request, "usd")
 
 
-def write_content(content: SceneContent, export: SceneExport) -> list[Path]:
-    """Write the stage of a scene's content; return its main file.
+def check_blender() -> None:
+    """Check that this Blender has a USD library, before the scene is built.
 
     Raises
     ------
     Error
-        This Blender has no USD library.
+        It has none.
     """
     usd_library.load()
+
+
+def write_content(content: SceneContent, export: SceneExport) -> list[Path]:
+    """Write the stage of a scene's content, and return its main file."""
+    check_blender()
     from . import usd_cameras, usd_fire, usd_forest, usd_places, usd_smoke, usd_terrain
 
     out, layers = export.folder, list[Path]()

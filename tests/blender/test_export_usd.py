@@ -1,11 +1,14 @@
 """USD stages, read again by pxr: positions in Earth-centred metres, tree numbers, materials and volumes."""
 
+import sys
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import bpy
+import mathutils
 import numpy as np
 import pytest
+from firetwin.errors import Error
 from firetwin.export import georeference, read_scene, usd
 from firetwin.export.scene_content import SmokeLayer
 from firetwin.export.scene_job import SceneExport
@@ -234,3 +237,16 @@ def test_hostile_names_become_different_identifiers():
     made = [names.make(name) for name in ("a b", "a_b", "", "", "9", "火", "x" * 500, '"}{/..', "a b")]
     assert len(set(made)) == len(made)
     assert all(Tf.IsValidIdentifier(name) and name.isascii() for name in made)
+
+
+def test_turns_are_those_of_blender():
+    turns = np.random.default_rng(3).uniform(-3.0, 3.0, (3, 20))
+    for made, turn in zip(read_scene.euler_quaternions(*turns), turns.T, strict=True):
+        expected = mathutils.Euler(turn).to_quaternion()
+        assert abs(expected.dot(mathutils.Quaternion(made))) == pytest.approx(1.0, abs=1e-6)
+
+
+def test_a_blender_without_a_usd_library_is_an_error(monkeypatch):
+    monkeypatch.setitem(sys.modules, "pxr.UsdGeom", None)
+    with pytest.raises(Error, match=r"no USD library.*install"):
+        usd.check_blender()
