@@ -152,6 +152,10 @@ def _parser() -> argparse.ArgumentParser:
     )
     info.add_argument("--json", action="store_true", help="write JSON")
 
+    cite = command("cite", "list the sources to cite with a run or a film", help_texts.CITE)
+    cite.add_argument("run", metavar="RUN", type=types.path, help="run or ensemble folder, or a scene file")
+    cite.add_argument("--json", action="store_true", help="write JSON")
+
     made = command("convert", "convert a fire model's output to a run", help_texts.CONVERT)
     made.add_argument(
         "paths",

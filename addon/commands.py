@@ -155,6 +155,30 @@ def _score_members(arguments: argparse.Namespace) -> None:
     result(json.dumps(results, indent=1) if arguments.json else members.page(results))
 
 
+def cite(arguments: argparse.Namespace) -> None:
+    """List the sources that a work with a run, an ensemble or a film has to cite."""
+    from .run import citations
+    from .run.ensemble import ensemble
+    from .shot import picture_credits
+    from .shot.source import ShotSource
+
+    if ensemble.sniff(arguments.run):
+        rows = citations.of_ensemble(ensemble.open(arguments.run))
+    elif arguments.run.suffix == ".toml" and arguments.run.is_file():
+        shot = ShotSource(scene=str(arguments.run)).shot()
+        rows = [row for run in _runs(shot).values() for row in citations.of_run(run)]
+        credits = picture_credits.of_shot(shot)
+        rows += [{"kind": "pictures", "text": text} for text in (*credits.data, *credits.logo)]
+        rows = list({row["text"]: row for row in rows}.values())
+    else:
+        rows = citations.of_run(_open_run(arguments.run))
+    if arguments.json:
+        json.dump(rows, sys.stdout, indent=1)
+        print()
+    else:
+        result(citations.page(rows))
+
+
 def brief(arguments: argparse.Namespace) -> None:
     """Write the briefing page of a run."""
     from .brief import command

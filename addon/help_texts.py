@@ -26,6 +26,10 @@ INFO = """\
 Lists grid, extent, fuels, times, heat flux, energy, burned area and warnings, and reported acreages if the
 run depicts a known fire."""
 
+CITE = """\
+Lists software, algorithms, fire model, facts about the fire, and files of observations. For a scene file, it
+also lists the credits of terrain, imagery and tiles, which their licences require."""
+
 CONVERT = """\
 The format is detected from the content: WRF-SFIRE (wrfout*), NCAR's Community Fire Behavior Model
 (fire_output_*.nc), ForeFire (arrival times, fronts, landscape), ELMFIRE (GeoTIFF), FARSITE and FlamMap

@@ -36,10 +36,10 @@ def gather(run: Run, zone: str) -> dict[str, Any]:
     Results are cached in the run's folder.
     """
     facts = fact_cache.facts(run, zone, lambda: _find(run, zone))
-    return facts | {"path": run.path, "source": _source(Path(run.path))}
+    return facts | {"path": run.path, "source": source(Path(run.path))}
 
 
-def _source(folder: Path) -> dict[str, Any]:
+def source(folder: Path) -> dict[str, Any]:
     """Read the provenance from run.toml: model, version, projection, files and assumptions.
 
     Raises

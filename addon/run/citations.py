@@ -1,0 +1,74 @@
+"""Citations of a run or an ensemble: software, algorithms, fire model, facts and observations."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import firetwin_core
+from firetwin_core.run import Run
+
+from ..data import history
+from . import info, observations
+from .ensemble.ensemble import Ensemble
+
+PAPER = (
+    "Raha, M. H., Tavakkoli, A. R., Webb, C., Habibpour, M., Coen, J., Rowell, E., Afghah, F.: FIRETWIN: "
+    "Digital Twin Advancing Multi-Modal Sensing, Interactive Analytics for Tactical Wildfire Response"
+)
+
+
+def of_run(run: Run) -> list[dict[str, str]]:
+    """List the sources of a run, as rows of `kind` and `text`."""
+    return [*_software(), *_model(run), *_event(run), *_observations(Path(run.path))]
+
+
+def of_ensemble(found: Ensemble) -> list[dict[str, str]]:
+    """List the sources of an ensemble (see `of_run`)."""
+    told = found.manifest
+    text = f"{told.model or 'not named in ensemble.toml'}; {told.source or 'source not given'}"
+    rows = [*_software(), {"kind": "fire model", "text": text}]
+    if told.synthetic:
+        rows.append(_synthetic(told.name))
+    return rows
+
+
+def page(rows: list[dict[str, str]]) -> str:
+    """Format rows for people."""
+    return "\n".join(f"{row['kind']:<14}{row['text']}" for row in rows)
+
+
+def _software() -> list[dict[str, str]]:
+    version = firetwin_core.__version__
+    return [
+        {"kind": "software", "text": f"The Firetwin maintainers: Firetwin, version {version} (CITATION.cff)"},
+        {"kind": "algorithms", "text": PAPER},
+    ]
+
+
+def _model(run: Run) -> list[dict[str, str]]:
+    source = info.source(Path(run.path))
+    name, version = source.get("model"), source.get("version", "")
+    if run.synthetic:
+        return [_synthetic(run.name)]
+    if not name:
+        return [{"kind": "fire model", "text": "not named in run.toml; name the model and its version"}]
+    stated = "" if version in ("", "not said") else f", version {version}"
+    return [{"kind": "fire model", "text": f"{name}{stated}; run: {run.name}"}]
+
+
+def _synthetic(name: str) -> dict[str, str]:
+    return {"kind": "fire model", "text": f"none: {name} is synthetic"}
+
+
+def _event(run: Run) -> list[dict[str, str]]:
+    """List sources of the facts about the depicted fire."""
+    if run.event not in history.events():
+        return []
+    event = history.load(run.event)
+    sources = dict.fromkeys([each.source for each in (*event.ignitions, *event.acreages)])
+    return [{"kind": "facts", "text": f"{event.name}: {text}"} for text in sources]
+
+
+def _observations(folder: Path) -> list[dict[str, str]]:
+    files = [path.name for path in observations.beside(folder)]
+    return [{"kind": "observations", "text": f"{name}; cite the source of this file"} for name in files]
