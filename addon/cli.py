@@ -191,6 +191,9 @@ def _parser() -> argparse.ArgumentParser:
         help="convert all members of a forecast to an ensemble (a model's output, a folder or list of runs)",
     )
     made.add_argument(
+        "--member", metavar="NAME", default="", help="convert a member of the ensemble IN to a run"
+    )
+    made.add_argument(
         "--horizon",
         metavar="HOURS",
         type=types.hours,

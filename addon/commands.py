@@ -258,6 +258,7 @@ def convert(arguments: argparse.Namespace) -> None:
             convert.run(
                 arguments.paths, arguments.out, arguments.start, arguments.at, arguments.projection,
                 arguments.interval, reporter, say, name=arguments.name, zone=arguments.zone,
+                member=arguments.member,
             )
         )  # fmt: skip
     finally:

@@ -32,11 +32,12 @@ def run(
     stop: worker.Stop | None = None,
     name: str = "",
     zone: str = "",
+    member: str = "",
 ) -> Path:
     """Convert these files and folders to a run in the folder `out`, and return that folder.
 
-    A conversion that was stopped is resumed. `start`, `at`, `projection`, `interval`, `name` and `zone` are
-    the options of the command line.
+    A conversion that was stopped is resumed. `start`, `at`, `projection`, `interval`, `name`, `zone` and
+    `member` are the options of the command line.
 
     Raises
     ------
@@ -51,13 +52,14 @@ def run(
     from ..run.models.model import Options
     from ..run.readers import gathered
 
-    files = gathered(paths)
+    files = paths if member else gathered(paths)
     Options.of(start, at, projection, interval, files, name, zone)
     write.check(out)
     task = {
         "paths": [str(path.absolute()) for path in files],
         "out": str(out.absolute()),
         "options": [start, at, projection, interval, name, zone],
+        "member": member,
     }
     try:
         worker.run(
@@ -187,28 +189,40 @@ def _made_of(out: Path) -> str:
 
 
 def in_process(
-    paths: list[str], out: str, options: list, progress: Progress = silent, tell: MessageCallback = no_message
+    paths: list[str],
+    out: str,
+    options: list,
+    progress: Progress = silent,
+    tell: MessageCallback = no_message,
+    member: str = "",
 ) -> None:
     """Worker side: select the reader, read and write."""
     from ..run.models import heartbeat
 
     files = [Path(path) for path in paths]
     with heartbeat.to(lambda: worker.send_heartbeat()):
-        _convert(files, Path(out), options, progress, tell)
+        _convert(files, Path(out), options, progress, tell, member)
 
 
-def _convert(files: list[Path], out: Path, options: list, progress: Progress, tell: MessageCallback) -> None:
+def _convert(
+    files: list[Path], out: Path, options: list, progress: Progress, tell: MessageCallback, member: str
+) -> None:
     from ..run import readers
+    from ..run.ensemble import member_run
     from ..run.models import write
     from ..run.models.model import Options
 
     start, at, projection, interval, *more = options
     said = Options.of(start, at, projection, interval, files, *more)
     with reading(files[0]):
-        reader = readers.reader(files)
-        tell(f"{files[0].name} is {reader.NAME}")
-        model = reader.read(files, said)
-        model.name, model.zone = said.name or f"{out.name} ({model.name})", said.zone
+        if member:
+            model = member_run.read(files, said, member)
+        else:
+            reader = readers.reader(files)
+            tell(f"{files[0].name} is {reader.NAME}")
+            model = reader.read(files, said)
+            model.name, model.zone = f"{out.name} ({model.name})", said.zone
+        model.name = said.name or model.name
         try:
             write.write(model, out, _fingerprint(files, options), progress)
         finally:

@@ -6,6 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from firetwin.errors import Error, InputError
+from firetwin.jobs import convert
+from firetwin.run import readers
 from firetwin.run.ensemble import choice, ensemble, gather, manifest, statistics, summary, write
 from firetwin.run.ensemble.manifest import LeftOut, Manifest, Member
 from hypothesis import given
@@ -186,6 +188,23 @@ def test_manifest_survives_hostile_names(tmp_path):
     path = tmp_path / "ensemble.toml"
     path.write_text(manifest.text(made), encoding="utf-8")
     assert manifest.read(path) == made
+
+
+def test_a_member_becomes_a_run(tmp_path):
+    y, x = np.mgrid[:12, :14]
+    times = np.where(x < 10, 120.0 * x + 40.0 * y, NEVER)
+    made = make(tmp_path, [times, times * 2], horizon=3600.0)
+    options = ["", "", "", 300.0, "", ""]
+    convert.in_process([str(made.path)], str(tmp_path / "run"), options, member="01")
+    run = readers.open(tmp_path / "run")
+    arrival = np.asarray(run.fuel_arrival_time())
+    np.testing.assert_allclose(np.where(np.isnan(arrival), NEVER, arrival), made.arrival(1))
+    assert run.name == "test, member 01"
+    assert run.heat_flux(2).max() > 0.0
+    with pytest.raises(InputError, match='has no member "7"; choose one of 00, 01'):
+        convert.in_process([str(made.path)], str(tmp_path / "other"), options, member="7")
+    with pytest.raises(InputError, match="is not an ensemble; make one"):
+        convert.in_process([str(tmp_path)], str(tmp_path / "other"), options, member="01")
 
 
 def test_a_damaged_folder_is_one_error(tmp_path):
