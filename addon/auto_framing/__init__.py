@@ -90,7 +90,8 @@ def fit_folder(folder: Path, path: Path, cache: Path, time: Time | None = None) 
     """
     from ..run import readers
 
-    return fit(readers.open(folder), Settings(path=path, run=folder, cache=cache, time=time or Time()))
+    film = replace(time or Time(), frames=window.FRAMES, fps=window.FPS)
+    return fit(readers.open(folder), Settings(path=path, run=folder, cache=cache, time=film))
 
 
 def _placed(moving: front.Front) -> list[PlacedCamera]:

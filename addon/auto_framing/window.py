@@ -29,9 +29,10 @@ def choose(run: Run, asked: Time) -> tuple[Time, str]:
     there = zone.time_zone(run)
     whole = Time(frames=FRAMES, fps=FPS, zone=there)
     if asked.start or asked.end:
-        chosen = replace(whole, start=asked.start, end=asked.end)
+        chosen = replace(asked, zone=there)
         start, end = asked.start or times.utc(run, first), asked.end or times.utc(run, last)
-        return chosen, f"{_words(start, end, there)}, as asked; {_pace((end - start).total_seconds())}"
+        pace = _pace((end - start).total_seconds(), asked.frames, float(asked.rate))
+        return chosen, f"{_words(start, end, there)}, as asked; {pace}"
     if last <= first:
         return replace(whole, frames=1), "the one moment of the run"
     arrival = run.fuel_arrival_time()
@@ -123,7 +124,7 @@ def _words(start: datetime, end: datetime, zone: str) -> str:
     return f"{' '.join(first[:4])} to {' '.join(last[3:] if first[:3] == last[:3] else last)}"
 
 
-def _pace(seconds: float) -> str:
+def _pace(seconds: float, frames: int = FRAMES, fps: float = FPS) -> str:
     """Format the speed of a film of a window: ``48 frames, 15 times real time``."""
-    speed = float(f"{seconds * FPS / (FRAMES - 1):.3g}")
-    return f"{FRAMES} frames, {speed:,g} times real time"
+    speed = float(f"{seconds * fps / max(frames - 1, 1):.3g}")
+    return f"{frames} frames, {speed:,g} times real time"

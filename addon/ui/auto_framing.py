@@ -24,29 +24,28 @@ if TYPE_CHECKING:
 _WINDOW = ("start", "end")
 
 
-def frame_run(run: Run, start: datetime | None = None, end: datetime | None = None) -> dict[str, Any]:
+def frame_run(run: Run, time: Time | None = None) -> dict[str, Any]:
     """Return the framing of a run, as JSON: cameras, values of [time], and messages about both.
 
     Parameters
     ----------
-    start, end
-        Start and end of the shot; by default the run's most active period.
+    time
+        Time window of the shot; by default the run's most active period.
     """
     from ..run import content
 
-    return _frame_folder(
-        run.path, content.fingerprint({"files": content.stamps(run), "start": run.start}), start, end
-    )
+    stamps = content.fingerprint({"files": content.stamps(run), "start": run.start})
+    return _frame_folder(run.path, stamps, time or Time())
 
 
 @functools.lru_cache(maxsize=8)
-def _frame_folder(folder: str, stamps: str, start: datetime | None, end: datetime | None) -> dict[str, Any]:
+def _frame_folder(folder: str, stamps: str, time: Time) -> dict[str, Any]:
     """Return the framing of the run in a folder, in its current state."""
     from .. import auto_framing
     from ..run import readers
 
     run = readers.open(folder)
-    fits = auto_framing.fit(run, Settings(run=Path(folder), time=Time(start, end)))
+    fits = auto_framing.fit(run, Settings(run=Path(folder), time=time))
     values = {part.name: plain(part.type, getattr(fits.settings.time, part.name)) for part in fields(Time)}
     return {"cameras": camera_list.to_text(fits.settings.cameras), "time": values, "lines": fits.lines}
 
@@ -80,7 +79,7 @@ def reframe(uid: int) -> Steps:
     first, last = (times.utc(run, float(run.times[i])) for i in (0, -1))
     if time.validate() or any(moment and not first <= moment <= last for moment in (time.start, time.end)):
         return ""  # the next reader of the settings reports it
-    fits = yield InThread("placing the cameras", lambda **_: frame_run(run, time.start, time.end))
+    fits = yield InThread("placing the cameras", lambda **_: frame_run(run, time))
     panel = owned.scene(uid).firetwin
     camera_list.fill(panel, camera_list.from_text(fits["cameras"]))
     kept = {"cameras": fits["cameras"], "lines": fits["lines"], "placed_for": window}

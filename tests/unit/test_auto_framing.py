@@ -307,7 +307,9 @@ def test_cameras_are_placed_for_a_window_that_is_asked_for(fit_of):
     early = auto_framing.fit_folder(folder, path, found.settings.cache, Time(start, end))
     assert (early.settings.time.start, early.settings.time.end) == (start, end)
     assert early.settings.time.frames == found.settings.time.frames
-    assert "as asked" in early.window
+    assert "as asked; 48 frames, 76.6 times" in early.window
+    _, words = window.choose(run, Time(start, end, frames=25, fps=24.0))
+    assert words.endswith("as asked; 25 frames, 300 times real time")
     assert early.settings.cameras != found.settings.cameras
     assert min(early.shares.values()) >= candidates.LEAST
 

@@ -128,7 +128,7 @@ def _go(words: Page, place: str) -> Iterator[object]:
     settings().go_to = place
     call(bpy.ops.firetwin.go)
     region = view().spaces.active.region_3d
-    where = sys.modules[f"{ui().__name__}.go"].place(bpy.context.scene, place)
+    where = sys.modules[f"{ui().__name__}.go_to"].find_position(bpy.context.scene, place)
     yield soon(lambda: (region.view_location - where).length < 1.0)
     yield 1
     bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)  # the key has the view that was drawn last
