@@ -88,6 +88,8 @@ DOWNLOAD_HOST = _number(
 DOWNLOAD_JOB = _number(_D, "time for all requests of a job, concurrent ones added", 8 * 3600, "refused", "s")
 DOWNLOAD_ADDRESSES = _number(_D, "tried addresses of a host", 8, "not tried")
 
+FARM_FILES = _number("Farm jobs", "files of a tileset in a folder", 200_000, "refused")
+
 _E = "Scene files"
 KEY_PREFIX = "FIRETWIN_KEY_"
 """Environment variables that a scene file may send to a host of its choice begin with this."""
@@ -102,6 +104,9 @@ _BOUNDS = f"0, and {SMALLEST_NUMBER:.6f} to {LARGEST_NUMBER:,.0f}"
 LIMITS.append(Limit(_S, "numbers of a resource, such as its cost", _BOUNDS, "refused"))
 LABELS = _number(_S, "labels in a scene", 500, "refused")
 SIGNS = _number(_S, "station signs in a scene", 1000, "refused")
+ROUTES = _number(_S, "lines of routes in a scene", 1000, "refused")
+ROUTE_CORNERS = _number(_S, "corners of all routes", 500_000, "refused")
+ROUTE_KM = _number(_S, "length of all routes", 20_000, "refused", "km")
 CORNERS = _number("Footprints", "corners of a footprint", 5000, "left out and counted; refused for stations")
 FOOTPRINT_CORNERS = _number("Footprints", "corners of all footprints of a scene", 5_000_000, "refused")
 YEARS = 1900, 2200

@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import glob
+import itertools
+import re
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from ..errors import input_error
+from .. import limits
+from ..errors import InputError, input_error
 from ..run import content
 from ..shot.shot import Shot
 from ..shot.surface import observed, orthophoto
+from ..tiles.sources.local import relative
+
+_REFERENCE = re.compile(rb'"(?:uri|url)"\s*:\s*"([^"]+)"')
 
 
 def list_assets(shot: Shot) -> list[Path]:
@@ -38,9 +45,10 @@ def list_assets(shot: Shot) -> list[Path]:
     found += [path for path in optional if path is not None]
     found += [part for path in observed.files(settings) for part in _with_parts(path)]
     found += [path for camera in settings.cameras for path in camera.rig.input_files()]
-    found += [path for place in settings.tiles.sources for path in _tileset(settings.path.parent / place)]
-    if settings.tiles.root:
-        found += _tileset(settings.path.parent / settings.tiles.root)
+    above = settings.path.parent / settings.tiles.root if settings.tiles.root else None
+    found += [
+        path for place in settings.tiles.sources for path in _tileset(settings.path.parent / place, above)
+    ]
     every = sorted({path.absolute() for path in found})
     for path in every:
         if not path.is_file():
@@ -56,12 +64,68 @@ def _with_parts(path: Path) -> list[Path]:
     return [path, *companions]
 
 
-def _tileset(path: Path) -> list[Path]:
-    """List the files of a local tileset: an archive, or all files of a folder; none for a tile server."""
+def _tileset(path: Path, above: Path | None) -> list[Path]:
+    """List the files of a local tileset: an archive, or all files of a folder; none for a tile server.
+
+    Parameters
+    ----------
+    above
+        Folder within which the files of a tileset may refer to one another. Files in the same folders as the
+        files outside of the tileset to which its documents refer are listed, too.
+
+    Raises
+    ------
+    InputError
+        The files are too many.
+    """
     folder = path.parent if path.suffix.lower() == ".json" else path
-    if folder.is_dir():
-        return [each for each in folder.rglob("*") if each.is_file()]
-    return [path] if path.is_file() else []
+    if not folder.is_dir():
+        return [path] if path.is_file() else []
+    found: set[Path] = set()
+    waiting = _add(found, folder.rglob("*"), folder)
+    listed: set[tuple[Path, str]] = set()
+    while above is not None and waiting:
+        for place, pattern in {*_outside(waiting.pop(), folder, above)} - listed:
+            listed.add((place, pattern))
+            waiting += _add(found, place.glob(pattern), folder)
+    return sorted(found)
+
+
+def _add(found: set[Path], paths: Iterable[Path], folder: Path) -> list[Path]:
+    """Add files to those of the tileset in a folder; returns the new documents.
+
+    Raises
+    ------
+    InputError
+        The files are too many.
+    """
+    most = limits.FARM_FILES - len(found) + 1
+    new = list(itertools.islice((each for each in paths if each not in found and each.is_file()), most))
+    if len(new) == most:
+        reason = f"has or needs more than {limits.FARM_FILES:,} files; pack the tileset into a .3tz archive"
+        raise input_error(folder, reason)
+    found.update(new)
+    return [each for each in new if each.suffix.lower() == ".json"]
+
+
+def _outside(document: Path, folder: Path, above: Path) -> Iterator[tuple[Path, str]]:
+    """Return folder and pattern of the references of a document that leave a tileset's folder.
+
+    A reference of an implicit tiling has variables, such as ``../tiles/{level}/{x}.glb``: it means all files
+    below its part without variables.
+    """
+    above, folder = above.resolve(), folder.resolve()
+    if not document.resolve().is_relative_to(above):
+        return
+    base = document.resolve().relative_to(above).as_posix()
+    for each in _REFERENCE.findall(document.read_bytes()):
+        reference, variable, _ = each.decode("utf-8", "replace").replace("\\/", "/").partition("{")
+        try:
+            there = above / relative(base, f"{reference}x" if variable else reference, str(document))
+        except InputError:
+            continue  # the selection of tiles reports it
+        if not there.is_relative_to(folder):
+            yield there.parent, "**/*" if variable else "*"
 
 
 def outside_of(paths: list[Path], folder: Path) -> list[Path]:

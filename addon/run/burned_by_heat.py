@@ -22,6 +22,7 @@ from . import burning
 _FIRE = 1.0  # W/m2, least flux of a burning cell (cpp/run/scan.hpp)
 _CELLS = 8  # least number of completely burned cells for the line
 _SCATTER = 0.1  # largest relative standard deviation of their heat; noisier fluxes do not tell
+_KEPT = 1 << 28  # bytes of fluxes in memory; larger fields are read twice
 _REACH = 2  # cells around a cell whose heat it has, if it has not burned completely
 
 Array = NDArray[np.float64]
@@ -36,7 +37,8 @@ def areas(run: Run) -> Array | None:
     load = _load(run)
     heat, burns = np.zeros(load.shape), np.zeros(load.shape, bool)
     last, first = heat, np.asarray(run.heat_flux(0)) >= _FIRE
-    for released, flux, *_ in _course(run, times):
+    fluxes = _fluxes(run)
+    for released, flux, *_ in _course(run, times, fluxes):
         heat, last, burns = released, flux, burns | (flux >= _FIRE)
     if not (load[burns] > 0.0).all():
         load = np.ones_like(load)
@@ -50,14 +52,22 @@ def areas(run: Run) -> Array | None:
     total = np.where(inside, own, np.where(near > 0.0, near, typical) * load)
     weight = np.where(burns, burning.model_cell_areas(run), 0.0) / np.where(burns, total, 1.0)
     burned = []
-    for released, flux, latest, mean in _course(run, times):
+    for released, flux, latest, mean in _course(run, times, fluxes):
         growing = mean / np.log1p(mean / delay) if mean > 0.0 else delay
         left = np.maximum(delay * flux, growing * latest)
         burned.append(float(np.sum(weight * np.minimum(released + left, total))))
     return np.maximum.accumulate(burned)
 
 
-def _course(run: Run, times: Array) -> Iterator[tuple[Array, Array, Array, float]]:
+def _fluxes(run: Run) -> list[NDArray[np.float32]] | None:
+    """Read the fluxes of all model times once; None if they are too large for the memory."""
+    size = 4 * len(run.times) * run.elevation.size
+    return list(run.frames("heat_flux")) if size <= _KEPT else None
+
+
+def _course(
+    run: Run, times: Array, fluxes: list[NDArray[np.float32]] | None
+) -> Iterator[tuple[Array, Array, Array, float]]:
     """Yield the heat so far (J/m2) and the flux (W/m2) of each model time.
 
     Also yields the flux extrapolated to the end of its averaging period, and that period, s.
@@ -65,7 +75,7 @@ def _course(run: Run, times: Array) -> Iterator[tuple[Array, Array, Array, float
     with open(Path(run.path) / "run.toml", "rb") as file:
         period = tomllib.load(file).get("mean_s")
     heat, before = np.zeros(run.elevation.shape), None
-    for index, flux in enumerate(run.frames("heat_flux")):
+    for index, flux in enumerate(run.frames("heat_flux") if fluxes is None else fluxes):
         now = np.maximum(np.nan_to_num(flux.astype(np.float64), posinf=0.0, neginf=0.0), 0.0)
         step = float(times[index] - times[index - 1]) if index else float(times[1] - times[0])
         mean = step if period is None else min(float(period), step)

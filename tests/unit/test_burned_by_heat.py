@@ -77,3 +77,23 @@ def test_runs_with_arrival_times_count_by_them(tmp_path):
     run, _ = fire(tmp_path / "run", circle, arrival=True)
     expected = np.count_nonzero(run.fuel_arrival_time() <= 2000.0) * CELL**2
     assert info.burned(run, [2000.0])[0] == pytest.approx(expected, rel=1e-3)
+
+
+def test_fluxes_are_read_once_if_they_fit_into_the_memory(tmp_path, monkeypatch):
+    run, _ = fire(tmp_path / "run", circle)
+
+    class Counting:
+        read = 0
+
+        def __getattr__(self, name):
+            return getattr(run, name)
+
+        def frames(self, name):
+            self.read += 1
+            return run.frames(name)
+
+    once, twice = Counting(), Counting()
+    areas = burned_by_heat.areas(once)
+    monkeypatch.setattr(burned_by_heat, "_KEPT", 0)
+    assert burned_by_heat.areas(twice).tolist() == areas.tolist()
+    assert (once.read, twice.read) == (1, 2)

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from firetwin import cli
+from firetwin import cli, limits
 from firetwin.errors import (
     Error,
     FullDiskError,
@@ -184,8 +184,37 @@ def test_tilesets_of_this_machine_are_needed_too(make_shot, tmp_path):
     names = {path.relative_to(tmp_path).as_posix() for path in assets.list_assets(shot)}
     assert {"set/tileset.json", "set/1/a.glb", "other/tileset.json", "other/b.glb", "city.3tz"} < names
     assert not any("example" in name for name in names)
-    (tmp_path / "beside.glb").touch()
-    assert tmp_path / "beside.glb" in assets.list_assets(make_shot(more='\n[tiles]\nroot = "."\n'))
+
+
+def test_files_above_a_tileset_are_needed_if_it_refers_to_them(make_shot, tmp_path, monkeypatch):
+    """Of the folder `root`, which may be a drive, the folders that are named."""
+    texts = {
+        "all/set/tileset.json": '{"uri": "../glb/a.glb", "url": "..\\/more/tileset.json"}',
+        "all/set/b.glb": "",
+        "all/glb/a.glb": "",
+        "all/glb/a.png": "",
+        "all/glb/deep/no.glb": "",
+        "all/more/tileset.json": '{"content": {"uri": "../tiles/{level}/{x}.glb"}, '
+        '"a": {"uri": "../../no.glb"}}',
+        "all/tiles/1/2.glb": "",
+        "all/other/no.glb": "",
+        "no.glb": "",
+    }
+    for name, text in texts.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text)
+    shot = make_shot(more='\n[tiles]\nsources = ["all/set"]\nroot = "all"\n')
+    wanted = {name for name in texts if "no.glb" not in name}
+    assert {path.relative_to(tmp_path).as_posix() for path in assets.list_assets(shot)} & set(texts) == wanted
+    own = make_shot(more='\n[tiles]\nsources = ["all/set"]\n')
+    listed = {path.relative_to(tmp_path).as_posix() for path in assets.list_assets(own)}
+    assert listed & set(texts) == {"all/set/tileset.json", "all/set/b.glb"}
+    monkeypatch.setattr(limits, "FARM_FILES", 5)
+    with pytest.raises(
+        InputError, match=r"set: has or needs more than 5 files; pack the tileset into a \.3tz"
+    ):
+        assets.list_assets(shot)
+    assert assets.list_assets(own)
 
 
 def test_files_of_stations_are_needed_where_stations_are_on(make_shot, tmp_path):

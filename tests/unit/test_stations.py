@@ -114,6 +114,32 @@ def test_routes_are_straight_lines_or_the_users(shot_of, tmp_path):
     assert (len(route.line), route.origin) == (3, "exercise")
 
 
+def test_too_many_routes_are_refused_with_their_number(shot_of, tmp_path, monkeypatch):
+    path = tmp_path / "routes.geojson"
+    shot = shot_of()
+    own = replace(shot.settings, stations=replace(shot.settings.stations, routes_file=path))
+    line = [[-120.6, 38.9], [-120.6, 39.9]]
+    path.write_text(json.dumps({"type": "MultiLineString", "coordinates": [line, line, line]}))
+    routes = station_signs.make_routes(Shot(own, shot.run), [])
+    assert len(routes) == 3
+    for name, most, words in (
+        ("ROUTES", 2, "3 lines"),
+        ("ROUTE_CORNERS", 5, "6 corners"),
+        ("ROUTE_KM", 300, "33[1-4] km"),
+    ):
+        with monkeypatch.context() as few:
+            few.setattr(limits, name, most)
+            for call in (
+                station_signs.check,
+                lambda settings, run: station_signs.make_routes(Shot(settings, run), []),
+            ):
+                with pytest.raises(InputError, match=rf"routes.geojson: has {words}.*; at most {most} are"):
+                    call(own, shot.run)
+    path.write_text(json.dumps({"type": "Point", "coordinates": line[0]}))
+    with pytest.raises(InputError, match="has no lines; draw routes"):
+        station_signs.check(own, shot.run)
+
+
 def test_files_are_inputs_of_pictures_only_where_stations_are_on(shot_of):
     settings = shot_of().settings
     assert set(station_signs.inputs(settings)) == {"stations"}

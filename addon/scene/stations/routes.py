@@ -12,7 +12,7 @@ from ...blender import nodes, owned
 from ...blender.mesh import add_attribute, create_mesh
 from ...run import areas
 from ...shot.shot import Shot
-from ...shot.stations.station_signs import Route
+from ...shot.stations.drawn_routes import Route
 from ..labels import facing, lettering
 from ..labels.material import FADE
 from . import material

@@ -19,7 +19,6 @@ from ...ellipsoid import metres_per_degree
 from ...errors import input_error
 from ...run import areas
 from ...run.content import sha256
-from ...run.observations import Detections, Feature, features
 from ...stations import arrival_text, fire_arrival, measures, reading
 from ...stations.describe import count_types
 from ...stations.records import EXERCISE, ORIGINS, Resource, Station
@@ -28,6 +27,8 @@ from ..cameras import targets
 from ..schema import scene_text
 from ..settings import Settings
 from ..shot import Shot
+from . import drawn_routes
+from .drawn_routes import Route, read_features
 
 FACT, INVENTED, USER = ORIGINS
 
@@ -72,14 +73,6 @@ class Sign:
         return self.origin == INVENTED
 
 
-@dataclass(frozen=True)
-class Route:
-    """A line (n, 2), degrees east and north, and the origin of its data."""
-
-    line: Array
-    origin: str
-
-
 class MovingPoints(NamedTuple):
     """Scene positions, m: ignition (3,), or None, and head of the fire at each frame (frames, 3)."""
 
@@ -122,17 +115,13 @@ def make_routes(shot: Shot, shown: Iterable[Sign]) -> list[Route]:
     Raises
     ------
     InputError
-        The user's file cannot be read, or has no lines.
+        The user's file cannot be read, has no lines or too many.
     """
     settings = shot.settings.stations
     if not settings.enabled:
         return []
     if settings.routes_file is not None:
-        drawn = _features(settings.routes_file)
-        lines = [Route(line, _origin(each)) for each in drawn for line in each.lines if len(line) > 1]
-        if not lines:
-            raise input_error(settings.routes_file, "has no lines; draw routes as LineString features")
-        return lines
+        return drawn_routes.read(settings.routes_file)
     began = ignition_point(shot)
     if not settings.routes or began is None:
         return []
@@ -195,7 +184,7 @@ def check(settings: Settings, run: Run) -> None:
         _within(known.file, reading.read(known.file).stations, run.latitude, run.longitude)
     _outlines(settings)
     if known.routes_file is not None:
-        _features(known.routes_file)
+        drawn_routes.read(known.routes_file)
 
 
 def _minutes(shot: Shot, known: StationFile, here: Sequence[Station]) -> list[str]:
@@ -247,7 +236,7 @@ def _outlines(settings: Settings) -> list[Array]:
     path = settings.stations.footprints
     if path is None:
         return []
-    found = [rings[0] for each in _features(path) for rings in each.polygons]
+    found = [rings[0] for each in read_features(path) for rings in each.polygons]
     most = max(map(len, found), default=0)
     if most > limits.CORNERS:
         reason = f"has a footprint of {most:,} corners; simplify it to at most {limits.CORNERS:,}"
@@ -283,15 +272,3 @@ def nearest_outline(outlines: list[Array], boxes: Array, latitude: float, longit
         if far < best:
             best, found = far, ring
     return found
-
-
-def _features(path: Path) -> list[Feature]:
-    found = features(path)
-    if isinstance(found, Detections):
-        raise input_error(path, "has satellite detections; name a file of lines or polygons")
-    return found
-
-
-def _origin(feature: Feature) -> str:
-    given = str(feature.properties.get("origin", USER))
-    return given if given in ORIGINS else USER
