@@ -13,7 +13,7 @@ from ....errors import InputError, input_error
 from ...models.model import Options
 from ..member_set import MemberSet
 
-READERS = ("samples", "cell2fire", "elmfire")
+READERS = ("samples", "cell2fire", "elmfire", "wrf_sets", "folders")
 """Modules, in the order in which they are tried."""
 
 
