@@ -207,6 +207,27 @@ def test_a_member_becomes_a_run(tmp_path):
         convert.in_process([str(tmp_path)], str(tmp_path / "other"), options, member="01")
 
 
+@pytest.mark.parametrize(
+    ("name", "reason"),
+    [
+        ("times_burned_0012", "counts of ELMFIRE's cases that burned a cell"),
+        ("burn_probability_t120", "GridFire's share of simulations"),
+        ("fire_probability_3600", "PROPAGATOR's share of realisations"),
+        ("FSPro_7day", "FSPro's share of simulations of drawn weather"),
+        ("FSim_BP_CONUS", "a yearly probability, or one given an ignition somewhere"),
+        ("time-of-arrival_90", "one simulation that stands for a rank of fire size"),
+        ("burn_probability", "burn probabilities without the meaning"),
+    ],
+)
+def test_a_probability_is_no_fire(tmp_path, name, reason):
+    """Each of the six meanings: the map is refused in a sentence that says what it is."""
+    (tmp_path / f"{name}.tif").write_bytes(b"II*\0")
+    with pytest.raises(InputError, match=f"{reason}.*: no fire can burn from it; give "):
+        convert.members_in_process(
+            [str(tmp_path)], str(tmp_path / "out"), ["2024-01-01T00:00Z", "", "", 0, "", ""]
+        )
+
+
 def test_a_damaged_folder_is_one_error(tmp_path):
     made = make(tmp_path, [[[1.0]]])
     np.save(made.path / "arrival.npy", np.zeros((2, 1, 1), np.float32))

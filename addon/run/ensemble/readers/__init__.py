@@ -11,6 +11,7 @@ from pathlib import Path
 
 from ....errors import InputError, input_error
 from ...models.model import Options
+from .. import probability_maps
 from ..member_set import MemberSet
 
 READERS = ("samples", "cell2fire", "elmfire", "wrf_sets", "folders")
@@ -36,6 +37,10 @@ def read(paths: list[Path], options: Options, horizon: float) -> MemberSet:
     for module in modules:
         if module.sniff(paths):
             return module.read(paths, options, horizon)
+    for path in paths:
+        for each in sorted(path.iterdir()) if path.is_dir() else [path]:
+            if error := probability_maps.refusal(each):
+                raise error
     raise unknown(paths[0], [module.NAME for module in modules])
 
 

@@ -2,7 +2,7 @@
 
 - ``time_of_arrival_<case>_<seconds>.tif``: seconds, the last map of each case
 - ``toa_<band>_<case>.bin``: Fortran records of n, column, row, arrival time (s) and others; columns and rows
-  count from 1, rows from the south (elmfire_io.f90). Their grid is that of any raster of the inputs.
+  count from 1, rows from the south (elmfire_io.f90). Any raster of the inputs gives their grid.
 - ``fire_size_stats.csv``: a line for each case, with its weather band and ignition
 """
 

@@ -110,7 +110,7 @@ def _members(
         if said.quantity == "arrival":
             arrival = np.where(values >= 0.0, values * said.unit, np.where(np.isnan(values), np.inf, np.nan))
             if (values < 0.0).any():
-                yield Member(f"{index:02}"), "has negative arrival times; write NaN where it does not burn"
+                yield Member(f"{index:02}"), "has negative arrival times; write NaN in unburned cells"
                 continue
         else:
             burned = values >= said.threshold
