@@ -63,6 +63,7 @@ LIMITS.append(Limit(_X, "years of the times of a run", f"{RUN_YEARS[0]} to {RUN_
 TEXT_BYTES = _number(_X, "size of GeoJSON, KML, GPX and CSV, also within a KMZ", 1 << 28, "refused", "bytes")
 
 TEXT_VALUES = _number(_X, "numbers, lists and tags in such a file", 20_000_000, "refused")
+CAMERA_FRAMES = _number(_X, "frames of a camera of a USD stage or Alembic file", 100_000, "refused")
 
 _T = "3D tiles"
 TILE_BYTES = _number(_T, "size of a file, decompressed", 256 << 20, "refused", "bytes")

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import input_error
+from ..limits import CAMERA_FRAMES
 from ..progress import MessageCallback, Progress
 from . import foreign
 from .foreign import ForeignScene
@@ -42,8 +43,8 @@ def in_blender(path: str, rate: tuple[int, int], progress: Progress, tell: Messa
     if not scene.objects:  # the importer finishes without an error
         raise input_error(Path(path), "is empty or not an Alembic file; export it again")
     first, last = scene.frame_start, scene.frame_end
-    if last - first > foreign.MOST_FRAMES:
-        raise input_error(Path(path), f"has more than {foreign.MOST_FRAMES:,} frames")
+    if last - first > CAMERA_FRAMES:
+        raise input_error(Path(path), f"has more than {CAMERA_FRAMES:,} frames")
     cameras = [each for each in scene.objects if each.type == "CAMERA"]
     matrices: dict[str, list[Any]] = {each.name: [] for each in cameras}
     for frame in range(first, last + 1):

@@ -51,6 +51,8 @@ def run(arguments: argparse.Namespace, source: ShotSource) -> None:
         rigs = [(each.name, _fit(each, shot, arguments.times)) for each in moves]
     elif suffix in (".kml", ".gpx"):
         rigs = [(path.stem, _follow(path, shot, arguments.times))]
+    elif suffix == ".kmz":
+        raise input_error(path, "has no tour; save it as .kml to follow a track")
     else:
         raise input_error(path, "has no perspective camera; export one")
     if arguments.name and len(rigs) > 1:

@@ -22,8 +22,6 @@ Array = NDArray[np.float64]
 
 PATIENCE = 120.0
 """Timeout, s without progress, after which the reading of a damaged file is ended."""
-MOST_FRAMES = 100_000
-"""Largest number of frames of a move."""
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import Error, input_error
+from ..limits import CAMERA_FRAMES
 from ..progress import MessageCallback, Progress
 from . import foreign
 from .foreign import ForeignScene
@@ -62,7 +63,6 @@ def in_blender(path: str, progress: Progress, tell: MessageCallback) -> dict[str
                 found["omitted"].append(_name(prim))
             else:
                 found["cameras"].append(_sample(Path(path), prim, camera, unit, upright))
-                progress(len(found["cameras"]), 0)
     return found
 
 
@@ -81,8 +81,8 @@ def _sample(path: Path, prim: Any, camera: Any, unit: float, upright: np.ndarray
         if above.IsA(UsdGeom.Xformable):
             times |= {*UsdGeom.Xformable(above).GetTimeSamples()}
         above = above.GetParent()
-    if (times and max(times) - min(times) > foreign.MOST_FRAMES) or len(times) > foreign.MOST_FRAMES:
-        raise input_error(path, f'camera "{_name(prim)}" has more than {foreign.MOST_FRAMES:,} frames')
+    if (times and max(times) - min(times) > CAMERA_FRAMES) or len(times) > CAMERA_FRAMES:
+        raise input_error(path, f'camera "{_name(prim)}" has more than {CAMERA_FRAMES:,} frames')
     if times:
         times |= {*np.arange(np.ceil(min(times)), np.floor(max(times)) + 1.0).tolist()}
     frames = sorted(times) or [1.0]

@@ -7,9 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from firetwin import cli
-from firetwin.camera_import import alembic, foreign, usd
+from firetwin.camera_import import alembic, usd
 from firetwin.errors import InputError
 from firetwin.jobs import worker
+from firetwin.limits import CAMERA_FRAMES
 from firetwin.progress import silent
 from firetwin.shot.cameras import rotation
 from firetwin.shot.settings import scene_file
@@ -174,7 +175,7 @@ def test_damaged_files_are_explained(tmp_path):
 
 
 def test_a_move_has_a_largest_number_of_frames(tmp_path):
-    last = foreign.MOST_FRAMES + 2
+    last = CAMERA_FRAMES + 2
     text = f'#usda 1.0\ndef Camera "a" {{\nfloat focalLength.timeSamples = {{ 1: 1, {last}: 2 }}\n}}'
     (tmp_path / "long.usda").write_text(text)
     with pytest.raises(InputError, match="more than 100,000 frames"):
