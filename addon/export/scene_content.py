@@ -53,7 +53,7 @@ class Prototype:
     looks: Numbers
 
     def shading_normals(self) -> Floats:
-        """Return unit normals (m, 3) of the triangles; those of foliage point away from the trunk.
+        """Return unit normals (m, 3) of the triangles; in foliage they point away from the trunk.
 
         Crowns then have a sunlit and a shaded side, as in `scene.forest.material`.
         """
@@ -212,10 +212,21 @@ class CameraMove:
 
 @dataclass(frozen=True)
 class SmokeLayer:
-    """Smoke volumes of one layer: its name, and the OpenVDB file of each frame."""
+    """Smoke volumes of one layer.
+
+    Attributes
+    ----------
+    name
+        Name of the layer.
+    files
+        OpenVDB file of each frame.
+    temperature
+        OpenVDB file with the temperature of each frame, if `files` have none.
+    """
 
     name: str
     files: dict[int, Path] = field(default_factory=dict)
+    temperature: dict[int, Path] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

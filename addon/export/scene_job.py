@@ -1,7 +1,8 @@
 """Scene job: builds a shot's scene in a worker process with Blender, and writes it in a format.
 
-A format that needs the scene has a function ``write_content(content, export)``, which runs in the worker, and
-can have ``check_blender()``, which raises an Error if this Blender cannot write it.
+A format that needs the scene has a function ``write_content(content, export)``, which runs in the worker.
+It can have ``check_blender()``, which raises an Error if this Blender cannot write it, and
+``HAS_VOLUMES = True`` if it writes the smoke.
 """
 
 from __future__ import annotations
@@ -79,7 +80,8 @@ def in_blender(
     shot = ShotSource(**choice).shot()
     for text in shot.warnings():
         tell(text)
-    volumes = _volumes(shot, frames, progress) if smoke and shot.settings.smoke.enabled else []
+    wanted = smoke and shot.settings.smoke.enabled and getattr(module, "HAS_VOLUMES", False)
+    volumes = _write_volumes(shot, frames, Path(folder), progress) if wanted else []
     place = georeference.Georeference(shot.local_frame, *geoid)
     stage = worker_scene.build_scene(shot, progress, tell)
     content = read_scene.read(shot, stage, frames, volumes)
@@ -88,19 +90,23 @@ def in_blender(
     return [path.relative_to(folder).as_posix() for path in made]
 
 
-def _volumes(shot: Shot, frames: list[int], progress: Progress) -> list[SmokeLayer]:
-    """Write the missing smoke volumes of frames to the cache: all smoke, with its temperature."""
+def _write_volumes(shot: Shot, frames: list[int], folder: Path, progress: Progress) -> list[SmokeLayer]:
+    """Write the missing smoke volumes of frames to the cache, and the temperature of a flow to a folder.
+
+    All smoke is written, not only for the film's views.
+    """
     from ..smoke import bake, sources
+    from . import smoke_temperature
     from .scene_content import SmokeLayer
 
     smoke = replace(shot.settings.smoke, complete=True)
     every = shot.with_settings(replace(shot.settings, smoke=smoke))
     place = bake.bake(every, progress, frames)
-    layers = sources.select(every).layers()
-    return [
-        SmokeLayer(
-            each.name,
-            {frame: each.file(place, frame) for frame in frames if each.file(place, frame).exists()},
-        )
-        for each in layers
-    ]
+    source = sources.select(every)
+    layers = [SmokeLayer(each.name) for each in source.layers()]
+    for layer, drawn in zip(layers, source.layers(), strict=True):
+        files = {frame: drawn.file(place, frame) for frame in frames}
+        layer.files.update({frame: file for frame, file in files.items() if file.exists()})
+    if source.domains:
+        smoke_temperature.write(source, layers, folder / "smoke")
+    return layers

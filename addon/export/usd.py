@@ -18,6 +18,8 @@ from .scene_content import SceneContent
 from .scene_job import SceneExport
 
 NAME = "scene.usda"
+HAS_VOLUMES = True
+"""True: the smoke is part of this format."""
 
 
 def write(request: ExportRequest) -> list[Path]:

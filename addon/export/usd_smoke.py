@@ -22,7 +22,7 @@ _EXTINCTION, _PER_DILUTION = "1/m", 0.04
 ALBEDO, ANISOTROPY = (0.84, 0.81, 0.77), 0.1
 """Single-scattering albedo and anisotropy that suit the smoke in a path tracer (by eye)."""
 _README = """\
-OpenVDB files of the smoke, NAME_FRAME.vdb, one for each frame of the film.
+OpenVDB files of the smoke, NAME_FRAME.vdb, by frame of the film.
 
 Axes: x east, y north, z up, metres, origin as in ../georeference.json.
 {layers}
@@ -43,7 +43,7 @@ _GRIDS = {
     "size": "radius of the puffs",
     "sky": "skylight that reaches the smoke, 0..1",
     "sun": "fourth root of the sunlight that reaches the smoke, 0..1",
-    "temperature": "temperature of the air",
+    "temperature": "temperature; for a solved flow in the files temperature_*.vdb, 0 outside of warm air",
 }
 
 
@@ -59,7 +59,7 @@ class Grid:
 def write(content: SceneContent, out: Path, shot: Shot) -> Path:
     """Copy the volumes to `smoke/` and write `smoke.usda`; return the layer."""
     folder = out / FOLDER
-    folder.mkdir()
+    folder.mkdir(exist_ok=True)
     path = out / "smoke.usda"
     stage = new_stage(path, content.rate, (int(content.frames[0]), int(content.frames[-1])))
     set_kind(stage.GetDefaultPrim(), "assembly")
@@ -95,6 +95,10 @@ def _define(stage: Any, layer: SmokeLayer) -> dict[str, Grid]:
     """Define the volume of a layer, and return its grids."""
     boxes = {frame: read_grids(file) for frame, file in layer.files.items()}
     found = {name: grid for each in boxes.values() for name, grid in each.items()}
+    files = {name: layer.files for name in found}
+    for file in layer.temperature.values():
+        found |= read_grids(file)
+        files["temperature"] = layer.temperature
     density, scale = thickness(found) if found else ("density", 1.0)
     volume = UsdVol.Volume.Define(stage, f"/World/Smoke/{layer.name.title()}")
     prim = volume.GetPrim()
@@ -105,7 +109,7 @@ def _define(stage: Any, layer: SmokeLayer) -> dict[str, Grid]:
         grid = density if name == "density" else name
         if grid in found:
             volume.CreateFieldRelationship(
-                name, _define_field(stage, f"{prim.GetPath()}/{name}", grid, layer)
+                name, _define_field(stage, f"{prim.GetPath()}/{name}", grid, files[grid])
             )
     attribute = volume.CreateExtentAttr()
     for frame, grids in boxes.items():
@@ -116,16 +120,16 @@ def _define(stage: Any, layer: SmokeLayer) -> dict[str, Grid]:
     return found
 
 
-def _define_field(stage: Any, path: str, grid: str, layer: SmokeLayer) -> Any:
-    """Define a field of all frames of a layer, and return its path."""
+def _define_field(stage: Any, path: str, grid: str, files: dict[int, Path]) -> Any:
+    """Define a field with a file for each frame, and return its path."""
     asset = UsdVol.OpenVDBAsset.Define(stage, path)
     asset.CreateFieldNameAttr(grid)
     asset.CreateFieldDataTypeAttr("float")
     attribute = asset.CreateFilePathAttr()
-    files = {frame: Sdf.AssetPath(f"./{FOLDER}/{file.name}") for frame, file in layer.files.items()}
-    attribute.Set(next(iter(files.values())))
-    for frame, file in files.items():
-        attribute.Set(file, frame)
+    assets = {frame: Sdf.AssetPath(f"./{FOLDER}/{file.name}") for frame, file in files.items()}
+    attribute.Set(next(iter(assets.values())))
+    for frame, asset_path in assets.items():
+        attribute.Set(asset_path, frame)
     return asset.GetPath()
 
 

@@ -14,7 +14,7 @@ SCENE = """\
 run = "{run}"
 [time]
 start = 2014-09-17T21:30:00Z
-end = 2014-09-17T21:36:00Z
+end = 2014-09-17T21:30:20Z
 frames = 3
 [terrain]
 near_radius = 0.0
@@ -22,12 +22,21 @@ apron = 20000.0
 [forest]
 density = "paper"
 [smoke]
-method = "puffs"
-voxel_size = 200.0
+method = "flow"
+cell_budget = 0.1
+spin_up = 120.0
+voxel_size = 150.0
 [[cameras]]
 name = "drone"
 keys = [{{ latitude = 38.825, longitude = -120.56, height = 400.0, target = "head" }}]
 """
+
+
+def warm(path):
+    """Return the lowest and the highest temperature (K) of a volume."""
+    import openvdb
+
+    return openvdb.read(path, "temperature").evalMinMax()
 
 
 def test_the_command_writes_a_stage_with_its_smoke_or_nothing(run_folder, tmp_path):
@@ -40,10 +49,13 @@ def test_the_command_writes_a_stage_with_its_smoke_or_nothing(run_folder, tmp_pa
     layers, files, missing = UsdUtils.ComputeAllDependencies(str(out / "scene.usda"))
     assert missing == []
     assert {Path(layer.realPath).name for layer in layers} >= {"scene.usda", "smoke.usda", "forest.usdc"}
-    assert {Path(file).name for file in files} >= {"smoke_000001.vdb", "smoke_000003.vdb", "flame.png"}
+    names = {Path(file).name for file in files}
+    assert names >= {"smoke_000001.vdb", "temperature_smoke_000003.vdb", "flame.png"}
     stage = Usd.Stage.Open(str(out / "scene.usda"))
     assert (stage.GetStartTimeCode(), stage.GetEndTimeCode()) == (1.0, 3.0)
     asset = UsdVol.OpenVDBAsset(stage.GetPrimAtPath("/World/Smoke/Smoke/temperature"))
     assert asset.GetFilePathAttr().GetTimeSamples() == [1.0, 3.0]
+    low, high = warm(asset.GetFilePathAttr().Get(3.0).resolvedPath)
+    assert 250.0 < low < high < 1500.0
     assert "temperature" in (out / "smoke" / "README.txt").read_text()
     assert sorted(each for each in os.listdir(tmp_path) if each.endswith(".part")) == []
