@@ -17,6 +17,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import Error
 from . import owned
 
 Numbers = Sequence[float] | NDArray[np.int64] | NDArray[np.floating]
@@ -28,6 +29,18 @@ def eevee_id() -> str:
     """Return the identifier of the EEVEE engine: BLENDER_EEVEE_NEXT in 4.5, BLENDER_EEVEE from 5.0."""
     engines = bpy.types.RenderSettings.bl_rna.properties["engine"].enum_items
     return "BLENDER_EEVEE_NEXT" if "BLENDER_EEVEE_NEXT" in engines else "BLENDER_EEVEE"
+
+
+def require_alembic() -> None:
+    """Check that this Blender reads and writes Alembic; builds of Debian do not.
+
+    Raises
+    ------
+    Error
+        It does not.
+    """
+    if not bpy.app.build_options.alembic:
+        raise Error("this Blender has no Alembic; use Blender from blender.org, or a USD stage")
 
 
 def new_fcurve(datablock: bpy.types.ID, data_path: str, index: int = 0) -> bpy.types.FCurve:

@@ -33,6 +33,7 @@ def in_blender(path: str, rate: tuple[int, int], progress: Progress, tell: Messa
 
     from ..blender import compat
 
+    compat.require_alembic()
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     scene = bpy.context.scene
     compat.set_frame_rate(scene.render, Fraction(*rate))

@@ -3,12 +3,16 @@
 import importlib
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
+import bpy
 import numpy as np
 import pytest
 from firetwin import cli
+from firetwin.blender import compat
 from firetwin.camera_import import alembic, usd
-from firetwin.errors import InputError
+from firetwin.errors import Error, InputError
+from firetwin.export import alembic as exported
 from firetwin.jobs import worker
 from firetwin.limits import CAMERA_FRAMES
 from firetwin.progress import silent
@@ -17,6 +21,7 @@ from firetwin.shot.settings import scene_file
 from firetwin.shot.source import ShotSource
 
 FRAMES = 12
+needs_alembic = pytest.mark.skipif(not bpy.app.build_options.alembic, reason="needs Blender with Alembic")
 
 
 @pytest.fixture(autouse=True)
@@ -66,6 +71,15 @@ def check(made, shift=(0.0, 0.0, 0.0)):
     assert two.sensor == pytest.approx(one.sensor, rel=1e-6)
 
 
+def test_a_blender_without_alembic_says_so(monkeypatch):
+    without = SimpleNamespace(app=SimpleNamespace(build_options=SimpleNamespace(alembic=False)))
+    monkeypatch.setattr(compat, "bpy", without)
+    for job in (alembic.in_blender, exported.in_blender):
+        with pytest.raises(Error, match="this Blender has no Alembic"):
+            job(*[None] * (job.__code__.co_argcount - 2), progress=silent, tell=print)
+
+
+@needs_alembic
 def test_an_alembic_file_comes_back(path, tmp_path):
     assert cli.main(["export", str(path), "--to", "alembic", "--out", str(tmp_path / "out")]) == 0
     check(imported(path, tmp_path / "out/cameras.abc"))
@@ -160,6 +174,7 @@ def test_the_time_codes_of_another_rate(path, tmp_path):
     assert two.position[6:] == pytest.approx(np.tile(one.position[11], (6, 1)), abs=0.01)
 
 
+@needs_alembic
 def test_damaged_files_are_explained(tmp_path):
     for name, text, read in (
         ("a.usda", "#usda 1.0\ndef (", usd.in_blender),
