@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime
 
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..run import fronts
 from ..run.fronts import Line
+from ..shot.shot import Shot
 from .request import ExportRequest
 
 MOST_FRAMES = 24
@@ -49,12 +51,22 @@ class DatedFront:
 
 
 def find(request: ExportRequest) -> list[DatedFront]:
-    """Find the fronts of a shot's run by time, without those before the fire."""
-    shot = request.shot
+    """Find the fronts of a request: see `of_shot`."""
+    return of_shot(request.shot, request.frames)
+
+
+def of_shot(shot: Shot, frames: Sequence[int]) -> list[DatedFront]:
+    """Find the fronts of a shot's run by time, without those before the fire.
+
+    Parameters
+    ----------
+    frames
+        Frames of the film that have a front of their own, up to `MOST_FRAMES` of them.
+    """
     run = shot.run
     zone = shot.settings.time.zone
-    every = -(-len(request.frames) // MOST_FRAMES)
-    film = [shot.frames.time(frame) for frame in request.frames[::every]]
+    every = -(-len(frames) // MOST_FRAMES)
+    film = [shot.frames.time(frame) for frame in frames[::every]]
     low, high = shot.frames.span
     moments = {*(each for each in fronts.choose_times(run, zone) if not low < each < high), *film}
     found, _ = fronts.at_times(run, sorted(moments))

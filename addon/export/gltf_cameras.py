@@ -1,0 +1,74 @@
+"""glTF cameras: a node with a lens for each camera of the shot, and an animation for each that moves.
+
+An animation begins with the first exported frame at 0 s. glTF has no angle of view that changes: the lens
+is that of the first frame, and the node's extras have the angles of all frames (`yfov`).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..tiles.make import glb
+from .gltf_document import TO_Y_UP, Document, quaternions
+from .scene_content import Array, CameraMove, SceneContent
+
+_PANORAMA = 0.5 * np.pi  # angle of view that stands for a panorama, which glTF does not have
+
+
+def add(document: Document, content: SceneContent) -> None:
+    """Append all cameras."""
+    if not content.cameras:
+        return
+    parent = document.node("cameras")
+    for move in content.cameras:
+        _add(document, parent, move, content.rate)
+
+
+def _add(document: Document, parent: int, move: CameraMove, rate: float) -> None:
+    position, rotation = glb.y_up(move.position), quaternions(TO_Y_UP @ move.rotation)
+    yfov = angles(move)
+    extras: dict[str, Any] = {"projection": move.projection, "frames": move.frames.tolist()}
+    if yfov is not None and np.ptp(yfov) > 0.0:
+        extras["yfov"] = yfov.tolist()
+    node = document.node(
+        move.name,
+        parent,
+        camera=document.add("cameras", {"name": move.name} | _lens(move, yfov)),
+        translation=position[0].tolist(),
+        rotation=rotation[0].tolist(),
+        extras=extras,
+    )
+    if len(move.frames) > 1 and (np.ptp(position, axis=0).any() or np.ptp(rotation, axis=0).any()):
+        _animate(document, node, move, (position, rotation), rate)
+
+
+def _animate(document: Document, node: int, move: CameraMove, pose: tuple[Array, Array], rate: float) -> None:
+    times = document.scalars((move.frames - move.frames[0]) / rate, bounds=True)
+    samplers, channels = [], []
+    for path, values in zip(("translation", "rotation"), pose, strict=True):
+        output = document.buffer.accessor(values, glb.FLOAT, f"VEC{values.shape[1]}")
+        channels.append({"sampler": len(samplers), "target": {"node": node, "path": path}})
+        samplers.append({"input": times, "output": output, "interpolation": "LINEAR"})
+    document.add("animations", {"name": move.name, "channels": channels, "samplers": samplers})
+
+
+def angles(move: CameraMove) -> Array | None:
+    """Return the vertical angles of view (f,), radians; None for an orthographic camera."""
+    if move.projection == "orthographic":
+        return None
+    if move.projection == "panorama":
+        return np.full(len(move.frames), _PANORAMA)
+    return 2.0 * np.arctan(0.5 * move.sensor[1] / move.focal_length)
+
+
+def _lens(move: CameraMove, yfov: Array | None) -> dict[str, Any]:
+    near, far = (float(plane) for plane in move.clip[0])
+    if yfov is None:
+        width, height = move.swath
+        box = {"xmag": 0.5 * width, "ymag": 0.5 * height, "znear": near, "zfar": far}
+        return {"type": "orthographic", "orthographic": box}
+    aspect = 1.0 if move.projection == "panorama" else move.sensor[0] / move.sensor[1]
+    lens = {"aspectRatio": aspect, "yfov": float(yfov[0]), "znear": near, "zfar": far}
+    return {"type": "perspective", "perspective": lens}
