@@ -22,18 +22,18 @@ class Format:
         Name for menus.
     help
         Content of the files, in one line.
-    needs_scene
-        True if the format reads the built Blender scene; others read the shot alone.
+    has_smoke
+        True if the format has smoke volumes, which can be omitted.
     """
 
     title: str
     help: str
-    needs_scene: bool = False
+    has_smoke: bool = False
 
 
 _FORMATS = {
-    "usd": Format("USD", "USD stage: terrain, forest, fire, smoke, cameras", needs_scene=True),
-    "gltf": Format("glTF", "glTF scene with instanced trees, and a viewer page", needs_scene=True),
+    "usd": Format("USD", "USD stage: terrain, forest, fire, smoke, cameras", has_smoke=True),
+    "gltf": Format("glTF", "glTF scene with instanced trees, and a viewer page"),
     "alembic": Format("Alembic", "Alembic: perspective cameras"),
     "gis": Format("GIS and QGIS", "GeoPackage of fronts, cameras, stations; GeoTIFFs; QGIS project"),
     "kmz": Format("Google Earth (KMZ)", "Google Earth: fronts by time, camera tours, overlays"),

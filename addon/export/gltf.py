@@ -6,6 +6,7 @@ the credits. Trees and ground are as before the fire, with arrival times.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -32,7 +33,7 @@ _SYNTHETIC = "This scene is synthetic, not the output of a fire model."
 
 def write(request: ExportRequest) -> list[Path]:
     """Write the scene and its page into the folder of a request, in a worker process with Blender."""
-    return scene_job.run(request, "gltf")
+    return scene_job.run(replace(request, smoke=False), "gltf")
 
 
 def write_content(content: SceneContent, export: SceneExport) -> list[Path]:

@@ -1,7 +1,7 @@
 """glTF cameras: a node with a lens for each camera of the shot, and an animation for each that moves.
 
 An animation begins with the first exported frame at 0 s. glTF has no angle of view that changes: the lens
-is that of the first frame, and the node's extras have the angles of all frames (`yfov`).
+is the lens of the first frame, and the node's extras have the angles of all frames (`yfov`).
 """
 
 from __future__ import annotations
@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from ..shot.cameras.rotation import quaternions
 from ..tiles.make import glb
-from .gltf_document import TO_Y_UP, Document, quaternions
+from .gltf_document import TO_Y_UP, Document
 from .scene_content import Array, CameraMove, SceneContent
 
 _PANORAMA = 0.5 * np.pi  # angle of view that stands for a panorama, which glTF does not have
@@ -27,7 +28,8 @@ def add(document: Document, content: SceneContent) -> None:
 
 
 def _add(document: Document, parent: int, move: CameraMove, rate: float) -> None:
-    position, rotation = glb.y_up(move.position), quaternions(TO_Y_UP @ move.rotation)
+    position = glb.y_up(move.position)
+    rotation = np.roll(quaternions(TO_Y_UP @ move.rotation), -1, axis=1)  # x, y, z, w
     yfov = angles(move)
     extras: dict[str, Any] = {"projection": move.projection, "frames": move.frames.tolist()}
     if yfov is not None and np.ptp(yfov) > 0.0:
@@ -46,7 +48,8 @@ def _add(document: Document, parent: int, move: CameraMove, rate: float) -> None
 
 def _animate(document: Document, node: int, move: CameraMove, pose: tuple[Array, Array], rate: float) -> None:
     times = document.scalars((move.frames - move.frames[0]) / rate, bounds=True)
-    samplers, channels = [], []
+    samplers: list[dict[str, Any]] = []
+    channels: list[dict[str, Any]] = []
     for path, values in zip(("translation", "rotation"), pose, strict=True):
         output = document.buffer.accessor(values, glb.FLOAT, f"VEC{values.shape[1]}")
         channels.append({"sampler": len(samplers), "target": {"node": node, "path": path}})

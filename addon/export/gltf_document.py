@@ -16,8 +16,6 @@ from ..tiles.make import glb
 TO_Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 """Rotation (3, 3) from the scene's axes to glTF's."""
 
-Array = NDArray[np.float64]
-
 
 class Document:
     """A glTF file with one scene, whose root node is number 0.
@@ -46,7 +44,7 @@ class Document:
         return len(parts) - 1
 
     def node(self, name: str, parent: int = 0, **properties: Any) -> int:
-        """Append a node below another; return its number. `properties` are those of the format."""
+        """Append a node below another; return its number. `properties` are named as in the format."""
         number = self.add("nodes", {"name": name} | properties)
         self._parts["nodes"][parent].setdefault("children", []).append(number)
         return number
@@ -101,24 +99,3 @@ class Document:
             **({"extensionsUsed": sorted(self._extensions)} if self._extensions else {}),
         }
         return glb.container(about | self._parts | self.buffer.about(), bytes(self.buffer.data))
-
-
-def quaternions(matrices: Array) -> Array:
-    """Convert rotation matrices (n, 3, 3) to unit quaternions (n, 4), x y z w, without jumps of sign.
-
-    Bar-Itzhack, Journal of Guidance, Control, and Dynamics 23(6) (2000): the eigenvector of the largest
-    eigenvalue.
-    """
-    (a, b, c), (d, e, f), (g, h, i) = np.moveaxis(matrices, 0, -1)
-    symmetric = np.stack(
-        [
-            np.stack([a - e - i, b + d, c + g, h - f]),
-            np.stack([b + d, e - a - i, f + h, c - g]),
-            np.stack([c + g, f + h, i - a - e, d - b]),
-            np.stack([h - f, c - g, d - b, a + e + i]),
-        ]
-    )
-    found = np.linalg.eigh(np.moveaxis(symmetric, -1, 0))[1][:, :, 3]
-    flips = np.sum(found[1:] * found[:-1], axis=1) < 0.0
-    signs = np.where(np.concatenate([[found[0, 3] < 0.0], flips]), -1.0, 1.0)
-    return found * np.cumprod(signs)[:, None]

@@ -62,7 +62,12 @@ def _mesh(shot: Shot) -> TerrainMesh:
     points = ground.point(*ground.places(row, column))
     rows, columns = ground.shape
     uv = np.column_stack([(column + 0.5) / columns, (row + 0.5) / rows])
-    return TerrainMesh(points, triangles.astype(np.int64), normals(points, triangles), uv)
+    return TerrainMesh(
+        points.astype(np.float32),
+        triangles.astype(np.int64),
+        normals(points, triangles).astype(np.float32),
+        uv.astype(np.float32),
+    )
 
 
 def normals(points: Array, triangles: NDArray) -> Array:

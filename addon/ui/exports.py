@@ -79,7 +79,7 @@ class FIRETWIN_PT_export(SidebarPanel, bpy.types.Panel):
         column.enabled = job.Job.current is None
         column.prop(panel, "export_to")
         column.prop(panel, "export_frames")
-        if formats.known()[panel.export_to].needs_scene:
+        if formats.known()[panel.export_to].has_smoke:
             column.prop(panel, "export_smoke")
         working.draw_button(layout.row(align=True), FIRETWIN_OT_export_to, "EXPORT")
         working.draw_messages(context, layout, FIRETWIN_OT_export_to)

@@ -38,4 +38,4 @@ def test_every_format_is_an_entry_of_the_menu_and_of_the_panel(panel):
         layout = MagicMock()
         exports.FIRETWIN_PT_export.draw(SimpleNamespace(layout=layout), bpy.context)
         shown = {call.args[1] for call in layout.column().prop.call_args_list}
-        assert ("export_smoke" in shown) == each.needs_scene
+        assert ("export_smoke" in shown) == each.has_smoke

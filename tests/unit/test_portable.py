@@ -83,4 +83,4 @@ def test_manifest_names_the_holders_of_copyright():
         re.fullmatch(r"\d{4}(?:-\d{4})? [^()]+?(?: \(([\w-]+)\))?", holder)[1]
         for holder in manifest["copyright"]
     ]
-    assert {*libraries, "leaflet", "pybind11"} == {*named} - {None}
+    assert {*libraries, "leaflet", "three", "pybind11"} == {*named} - {None}
