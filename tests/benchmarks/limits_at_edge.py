@@ -76,6 +76,17 @@ def signs(folder: Path, run: Path, count: int) -> list[str]:
     return scene(folder, run, '[stations]\nenabled = true\nfile = "stations.gpkg"\n')
 
 
+def routes(folder: Path, run: Path, length: int) -> list[str]:
+    """Length of all routes, km, in as many lines as there may be, back and forth within the run."""
+    count, parts = limits.ROUTES, limits.ROUTE_CORNERS // limits.ROUTES
+    north = (
+        length / (count * (parts - 1)) / 111.32
+    )  # degrees; a degree has 111.32 km on the sphere of the limit
+    lines = [[[x, y + north * (k % 2)] for k in range(parts)] for y, x in places(run, count).tolist()]
+    (folder / "routes.geojson").write_text(json.dumps({"type": "MultiLineString", "coordinates": lines}))
+    return scene(folder, run, '[stations]\nenabled = true\nroutes_file = "routes.geojson"\n')
+
+
 def rings(folder: Path, run: Path, corners: int, count: int) -> Path:
     """Write footprints with so many corners each."""
     angle = np.linspace(0.0, 2.0 * np.pi, corners + 1)[:-1, None]
@@ -123,6 +134,7 @@ CASES = {
     "scene without them": Case(lambda folder, run, _: scene(folder, run), 0, 0),
     "labels": Case(labels, limits.LABELS, limits.LABELS + 1),
     "station signs": Case(signs, limits.SIGNS, limits.SIGNS + 1),
+    "length of routes": Case(routes, int(0.99 * limits.ROUTE_KM), int(1.01 * limits.ROUTE_KM)),
     "corners of a footprint": Case(corners, limits.CORNERS, limits.CORNERS + 1),
     "footprints of most corners": Case(
         all_corners,
